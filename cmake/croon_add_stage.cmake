@@ -1,0 +1,23 @@
+# croon_add_stage(<kind> <name> [SOURCE <file>] [NEEDS <target>...])
+#
+# Adds the stage that <kind>/<name>.cpp (or <file>) defines: compiles the file and adds one call of
+# croon::stages::<kind>::<name>() to the registry's list. Where a target that it needs does not exist
+# (an option turned its library off), the stage is left out and the configuration says so.
+function(croon_add_stage kind name)
+  cmake_parse_arguments(PARSE_ARGV 2 stage "" "SOURCE" "NEEDS")
+  foreach(target IN LISTS stage_NEEDS)
+    if(NOT TARGET ${target})
+      message(STATUS "croon: stage ${kind}/${name} is left out (no ${target})")
+      return()
+    endif()
+  endforeach()
+  if(NOT stage_SOURCE)
+    set(stage_SOURCE "${kind}/${name}.cpp")
+  endif()
+  set(library croon_stage_${kind}_${name})
+  add_library(${library} OBJECT "${stage_SOURCE}")
+  target_link_libraries(${library} PRIVATE croon_framework croon_warnings ${stage_NEEDS})
+  set_property(GLOBAL APPEND PROPERTY CROON_STAGES "${kind}/${name}")
+  set_property(GLOBAL APPEND PROPERTY CROON_STAGE_LIBRARIES ${library})
+  set_property(GLOBAL APPEND PROPERTY CROON_STAGE_NEEDS ${stage_NEEDS})
+endfunction()

@@ -1,0 +1,22 @@
+# Every library that croon uses; docs/design.md says what each is for.
+find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(nlohmann_json REQUIRED)
+find_package(TBB REQUIRED)
+find_package(nanoflann REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(SQLite3 REQUIRED)
+
+# Only FindOpenVDB.cmake exists, and not on the default module path.
+file(GLOB openvdb_modules /usr/lib/*/cmake/OpenVDB)
+list(APPEND CMAKE_MODULE_PATH ${openvdb_modules})
+find_package(OpenVDB REQUIRED)
+
+find_library(LZF_LIBRARY NAMES lzf liblzf REQUIRED)
+find_library(MD_LIBRARY NAMES md REQUIRED)
+
+# Where CGAL is off, the target does not exist and the stages that need it are left out.
+if(CROON_WITH_CGAL)
+  find_package(CGAL REQUIRED)
+  add_library(croon_cgal INTERFACE)
+  target_link_libraries(croon_cgal INTERFACE CGAL::CGAL)
+endif()

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/geometry/pose_error.hpp"
+#include "framework/pipeline/pipeline.hpp"
+
+namespace croon::experiments {
+
+/// Which trial: one start of one variant on one sensor of one scene.
+struct TrialId {
+  std::string variant;
+  std::string scene;
+  std::string sensor;
+  int trial = 0;
+};
+
+/// How a trial ended.
+enum class Status {
+  success,     ///< Finished within the success bounds (where there is no truth: finished).
+  inaccurate,  ///< Finished outside them.
+  rejected,    ///< The program itself says not to trust the pose.
+  failed       ///< A stage could not go on.
+};
+
+/// What became of a trial: everything but wall times, and the same bits whenever it is run again.
+struct TrialRecord {
+  TrialId id;
+  Status status = Status::failed;
+  std::string reason;                 ///< Why it is rejected or failed; else empty.
+  std::optional<PoseError> error;     ///< Where there is truth and the trial finished.
+  std::optional<RigidTransform> T_reference_sensor;  ///< Where it finished.
+  std::vector<StepRecord> steps;      ///< Figures of each step (its seconds go to timings.csv alone).
+};
+
+/// One row of timings.csv.
+struct TimingRow {
+  TrialId id;  ///< Trial -1 and no variant for what was done once per scene.
+  std::string step;
+  double seconds = 0.0;
+};
+
+}  // namespace croon::experiments

@@ -1,0 +1,33 @@
+#include "framework/base/error.hpp"
+
+#include <utility>
+
+namespace croon {
+namespace {
+
+std::string joined_lines(const std::vector<Fault>& faults) {
+  std::string text;
+  for (const Fault& fault : faults) {
+    if (!text.empty()) text += '\n';
+    text += fault.line();
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string Fault::line() const {
+  std::string text;
+  if (!file.empty()) text += file + ": ";
+  if (!where.empty()) text += where + ": ";
+  return text + message;
+}
+
+InputError::InputError(std::vector<Fault> faults)
+    : std::runtime_error(joined_lines(faults)), faults_(std::move(faults)) {}
+
+InputError::InputError(std::string file, std::string where, std::string message)
+    : InputError(
+          std::vector<Fault>{Fault{std::move(file), std::move(where), std::move(message)}}) {}
+
+}  // namespace croon

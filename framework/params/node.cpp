@@ -1,0 +1,127 @@
+#include "framework/params/node.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "framework/base/nearest_name.hpp"
+
+namespace croon::params {
+namespace {
+
+/// RFC 6901: `~` and `/` inside a key.
+std::string escaped(const std::string& key) {
+  std::string text;
+  for (const char c : key) {
+    if (c == '~') {
+      text += "~0";
+    } else if (c == '/') {
+      text += "~1";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+/// The value as the user wrote it, cut where it is long.
+std::string shown(const nlohmann::json& value) {
+  constexpr std::size_t kLongest = 60;
+  const std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+}
+
+}  // namespace
+
+Node::Node(const nlohmann::json& value, std::string file, std::vector<Fault>& faults)
+    : value_(&value), file_(std::move(file)), faults_(&faults) {}
+
+Node Node::member(const std::string& key) const {
+  Node node = *this;
+  node.value_ = &value_->at(key);
+  node.pointer_ += "/" + escaped(key);
+  return node;
+}
+
+Node Node::element(std::size_t index) const {
+  Node node = *this;
+  node.value_ = &value_->at(index);
+  node.pointer_ += "/" + std::to_string(index);
+  return node;
+}
+
+bool Node::has(const std::string& key) const { return value_->is_object() && value_->contains(key); }
+
+void Node::fault(const std::string& message) const {
+  faults_->push_back({file_, pointer_.empty() ? "/" : pointer_, message});
+}
+
+void Node::expected(const std::string& what) const {
+  fault("expected " + what + ", found " + shown(*value_));
+}
+
+bool Node::is_object() const {
+  if (value_->is_object()) return true;
+  expected("an object");
+  return false;
+}
+
+bool Node::is_array() const {
+  if (value_->is_array()) return true;
+  expected("a list");
+  return false;
+}
+
+void Node::refuse_unknown_keys(const std::vector<std::string>& known) const {
+  for (const auto& [key, value] : value_->items()) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    member(key).fault("unknown key \"" + key + "\"" + name_hint(key, known));
+  }
+}
+
+bool Node::require(const std::string& key) const {
+  if (has(key)) return true;
+  fault("the key \"" + key + "\" is missing");
+  return false;
+}
+
+bool Node::read(bool& out) const {
+  if (!value_->is_boolean()) {
+    expected("true or false");
+    return false;
+  }
+  out = value_->get<bool>();
+  return true;
+}
+
+bool Node::read(double& out) const {
+  if (!value_->is_number() || !std::isfinite(value_->get<double>())) {
+    expected("a number");
+    return false;
+  }
+  out = value_->get<double>();
+  return true;
+}
+
+bool Node::read(int& out) const {
+  const double number = value_->is_number() ? value_->get<double>() : 0.5;
+  if (std::floor(number) != number || std::abs(number) > std::numeric_limits<int>::max()) {
+    expected("a whole number");
+    return false;
+  }
+  out = static_cast<int>(number);
+  return true;
+}
+
+bool Node::read(std::string& out) const {
+  if (!value_->is_string()) {
+    expected("a string");
+    return false;
+  }
+  out = value_->get<std::string>();
+  return true;
+}
+
+}  // namespace croon::params

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "framework/base/error.hpp"
+
+namespace croon::params {
+
+/// A value in a JSON file that knows where it stands, so that whoever reads it can say what is wrong with it.
+/// Faults are collected, not thrown: the user sees all of them at once. Cheap to copy; the JSON value and the
+/// list of faults must outlive it.
+class Node {
+ public:
+  Node(const nlohmann::json& value, std::string file, std::vector<Fault>& faults);
+
+  const nlohmann::json& value() const { return *value_; }
+  const std::string& file() const { return file_; }
+  /// RFC 6901 pointer of this value, empty at the root.
+  const std::string& pointer() const { return pointer_; }
+
+  /// The member `key` of an object, which must be there.
+  Node member(const std::string& key) const;
+  /// The element `index` of an array.
+  Node element(std::size_t index) const;
+  bool has(const std::string& key) const;
+
+  /// Notes that this value is wrong.
+  void fault(const std::string& message) const;
+  /// Notes `expected WHAT, found VALUE`.
+  void expected(const std::string& what) const;
+
+  /// How many faults were noted so far, here and elsewhere.
+  std::size_t fault_count() const { return faults_->size(); }
+
+  /// True for an object; else notes a fault.
+  bool is_object() const;
+  /// True for an array; else notes a fault.
+  bool is_array() const;
+  /// Notes a fault for each key of this object that is not in `known`, with the nearest known one.
+  void refuse_unknown_keys(const std::vector<std::string>& known) const;
+  /// Notes a fault where the member `key` is missing.
+  bool require(const std::string& key) const;
+
+  /// Reads into `out` and returns true, or notes a fault.
+  bool read(bool& out) const;
+  bool read(double& out) const;
+  bool read(int& out) const;
+  bool read(std::string& out) const;
+
+ private:
+  const nlohmann::json* value_;
+  std::string file_;
+  std::string pointer_;
+  std::vector<Fault>* faults_;
+};
+
+}  // namespace croon::params

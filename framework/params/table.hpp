@@ -1,0 +1,169 @@
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/params/parameter.hpp"
+#include "framework/params/slot.hpp"
+#include "framework/params/values.hpp"
+
+namespace croon::params {
+
+/// One row of a Table: what the parameter is, and how it gets into the struct `P` and out again.
+template <class P>
+struct Parameter {
+  ParameterDoc doc;
+  std::function<void(P&, const Node&, const StageBuilder&)> read;
+  std::function<std::string(const P&)> json;  ///< JSON text of the value.
+  bool is_slot = false;                       ///< Its default must be built, not copied.
+};
+
+/// The parameters of a stage, each declared once: its JSON key, the member of the struct `P` that holds it,
+/// its bounds and a sentence. Defaults are the initialisers of `P`.
+template <class P>
+class Table {
+ public:
+  Table() = default;
+  Table(std::initializer_list<Parameter<P>> parameters) : parameters_(parameters) {}
+
+  /// Adds a condition on the parameters together; `message` says what must hold.
+  Table& require(std::function<bool(const P&)> holds, std::string message) {
+    conditions_.push_back({std::move(holds), std::move(message)});
+    return *this;
+  }
+
+  /// Reads `node`, an object whose key `name_key` ("type" or "step") was dealt with by the caller. Notes all
+  /// faults in the node.
+  P read(const Node& node, const std::vector<std::string>& other_keys,
+         const StageBuilder& builder) const;
+
+  /// `"key":value` for each parameter, comma-separated, for the resolved JSON.
+  std::string members_json(const P& params) const;
+
+  std::vector<ParameterDoc> docs() const {
+    std::vector<ParameterDoc> docs;
+    for (const Parameter<P>& parameter : parameters_) docs.push_back(parameter.doc);
+    return docs;
+  }
+
+ private:
+  std::vector<Parameter<P>> parameters_;
+  std::vector<std::pair<std::function<bool(const P&)>, std::string>> conditions_;
+};
+
+template <class P>
+P Table<P>::read(const Node& node, const std::vector<std::string>& other_keys,
+                 const StageBuilder& builder) const {
+  std::vector<std::string> known = other_keys;
+  for (const Parameter<P>& parameter : parameters_) known.push_back(parameter.doc.key);
+  node.refuse_unknown_keys(known);
+  P params;
+  for (const Parameter<P>& parameter : parameters_) {
+    if (node.has(parameter.doc.key)) {
+      parameter.read(params, node.member(parameter.doc.key), builder);
+    } else if (parameter.is_slot) {
+      read_default(parameter.doc, node, [&](const Node& default_node) {
+        parameter.read(params, default_node, builder);
+      });
+    }
+  }
+  for (const auto& [holds, message] : conditions_) {
+    if (!holds(params)) node.fault(message);
+  }
+  return params;
+}
+
+template <class P>
+std::string Table<P>::members_json(const P& params) const {
+  std::string text;
+  for (const Parameter<P>& parameter : parameters_) {
+    text += (text.empty() ? "\"" : ",\"") + parameter.doc.key + "\":" + parameter.json(params);
+  }
+  return text;
+}
+
+/// A row for any value that `read_value` and `value_json` know.
+template <class P, class T>
+Parameter<P> value_parameter(ParameterDoc doc, T P::*member) {
+  doc.default_json = value_json(P{}.*member);
+  const auto read = [doc, member](P& params, const Node& node, const StageBuilder&) {
+    read_value(node, doc, params.*member);
+  };
+  return {doc, read, [member](const P& params) { return value_json(params.*member); }, false};
+}
+
+template <class P>
+Parameter<P> boolean(const std::string& key, bool P::*member, const std::string& sentence) {
+  return value_parameter<P>({key, ParameterType::boolean, "", {}, {}, "", sentence}, member);
+}
+
+template <class P>
+Parameter<P> integer(const std::string& key, int P::*member, Range range,
+                     const std::string& sentence) {
+  return value_parameter<P>({key, ParameterType::integer, "", range, {}, "", sentence}, member);
+}
+
+template <class P>
+Parameter<P> number(const std::string& key, double P::*member, Range range,
+                    const std::string& sentence) {
+  return value_parameter<P>({key, ParameterType::number, "", range, {}, "", sentence}, member);
+}
+
+/// A list of numbers, not empty.
+template <class P>
+Parameter<P> numbers(const std::string& key, std::vector<double> P::*member, Range range,
+                     const std::string& sentence) {
+  return value_parameter<P>({key, ParameterType::numbers, "", range, {}, "", sentence}, member);
+}
+
+/// One of a few words.
+template <class P>
+Parameter<P> choice(const std::string& key, std::string P::*member,
+                    const std::vector<std::string>& choices, const std::string& sentence) {
+  return value_parameter<P>({key, ParameterType::choice, "", {}, choices, "", sentence}, member);
+}
+
+/// A list of different words out of a few, not empty.
+template <class P>
+Parameter<P> choices(const std::string& key, std::vector<std::string> P::*member,
+                     const std::vector<std::string>& choices, const std::string& sentence) {
+  return value_parameter<P>({key, ParameterType::choices, "", {}, choices, "", sentence}, member);
+}
+
+/// A stage of the kind `Kind`; `default_json` describes the one that is built where the key is missing.
+template <class Kind, class P>
+Parameter<P> slot(const std::string& key, Slot<Kind> P::*member, const std::string& default_json,
+                  const std::string& sentence) {
+  return {{key, ParameterType::stage, default_json, {}, {}, Kind::kKind, sentence},
+          [member](P& params, const Node& node, const StageBuilder& builder) {
+            params.*member = Slot<Kind>(builder.build(Kind::kKind, node));
+          },
+          [member](const P& params) { return (params.*member).resolved(); },
+          true};
+}
+
+/// A list of stages of the kind `Kind`, empty where the key is missing.
+template <class Kind, class P>
+Parameter<P> slots(const std::string& key, std::vector<Slot<Kind>> P::*member,
+                   const std::string& sentence) {
+  return {{key, ParameterType::stages, "[]", {}, {}, Kind::kKind, sentence},
+          [member](P& params, const Node& node, const StageBuilder& builder) {
+            if (!node.is_array()) return;
+            for_each_element(node, [&](const Node& element) {
+              (params.*member).push_back(Slot<Kind>(builder.build(Kind::kKind, element)));
+            });
+          },
+          [member](const P& params) {
+            std::string text;
+            for (const Slot<Kind>& slot : params.*member) {
+              text += (text.empty() ? "" : ",") + slot.resolved();
+            }
+            return "[" + text + "]";
+          },
+          false};
+}
+
+}  // namespace croon::params

@@ -1,0 +1,130 @@
+#include "framework/params/values.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "framework/base/nearest_name.hpp"
+
+namespace croon::params {
+namespace {
+
+using nlohmann::json;
+
+bool in_range(double value, const Range& range) {
+  return value >= range.minimum && value <= range.maximum;
+}
+
+bool read_choice(const Node& node, const ParameterDoc& doc, std::string& out) {
+  std::string word;
+  if (!node.read(word)) return false;
+  if (std::find(doc.choices.begin(), doc.choices.end(), word) == doc.choices.end()) {
+    std::string known;
+    for (const std::string& choice : doc.choices) known += (known.empty() ? "" : ", ") + choice;
+    const std::string near = nearest_name(word, doc.choices);
+    node.fault("expected one of " + known + ", found \"" + word + "\"" +
+               (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+    return false;
+  }
+  out = word;
+  return true;
+}
+
+}  // namespace
+
+std::string range_words(const std::string& what, const Range& range) {
+  const bool has_minimum = std::isfinite(range.minimum);
+  const bool has_maximum = std::isfinite(range.maximum);
+  if (has_minimum && has_maximum) {
+    return what + " from " + value_json(range.minimum) + " to " + value_json(range.maximum);
+  }
+  if (has_minimum) return what + " of at least " + value_json(range.minimum);
+  if (has_maximum) return what + " of at most " + value_json(range.maximum);
+  return what;
+}
+
+void read_value(const Node& node, const ParameterDoc&, bool& out) { node.read(out); }
+
+void read_value(const Node& node, const ParameterDoc& doc, int& out) {
+  int value = 0;
+  if (!node.read(value)) return;
+  if (in_range(value, doc.range)) {
+    out = value;
+  } else {
+    node.expected(range_words("a whole number", doc.range));
+  }
+}
+
+void read_value(const Node& node, const ParameterDoc& doc, double& out) {
+  double value = 0.0;
+  if (!node.read(value)) return;
+  if (in_range(value, doc.range)) {
+    out = value;
+  } else {
+    node.expected(range_words("a number", doc.range));
+  }
+}
+
+void read_value(const Node& node, const ParameterDoc& doc, std::string& out) {
+  read_choice(node, doc, out);
+}
+
+void read_value(const Node& node, const ParameterDoc& doc, std::vector<double>& out) {
+  if (!node.is_array()) return;
+  if (node.value().empty()) return node.expected("a list of at least one number");
+  std::vector<double> values;
+  for_each_element(node, [&](const Node& element) {
+    double value = out.empty() ? 0.0 : out.front();
+    read_value(element, doc, value);
+    values.push_back(value);
+  });
+  out = values;
+}
+
+void read_value(const Node& node, const ParameterDoc& doc, std::vector<std::string>& out) {
+  if (!node.is_array()) return;
+  if (node.value().empty()) return node.expected("a list of at least one word");
+  std::vector<std::string> words;
+  for_each_element(node, [&](const Node& element) {
+    std::string word;
+    if (!read_choice(element, doc, word)) return;
+    if (std::find(words.begin(), words.end(), word) != words.end()) {
+      element.fault("\"" + word + "\" stands in this list twice");
+    } else {
+      words.push_back(word);
+    }
+  });
+  out = words;
+}
+
+std::string value_json(bool value) { return value ? "true" : "false"; }
+std::string value_json(int value) { return std::to_string(value); }
+std::string value_json(double value) {
+  // A whole number is written as one: "10", not "10.0".
+  const bool is_whole = std::floor(value) == value && std::abs(value) < 1e15;
+  return is_whole ? std::to_string(static_cast<long long>(value)) : json(value).dump();
+}
+std::string value_json(const std::string& value) { return json(value).dump(); }
+std::string value_json(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ",") + value_json(value);
+  return "[" + text + "]";
+}
+std::string value_json(const std::vector<std::string>& words) { return json(words).dump(); }
+
+void read_default(const ParameterDoc& doc, const Node& node,
+                  const std::function<void(const Node&)>& use) {
+  const json value = json::parse(doc.default_json);
+  std::vector<Fault> faults;
+  use(Node(value, node.file(), faults));
+  for (const Fault& fault : faults) {
+    node.fault("the default of \"" + doc.key + "\": " + fault.message);
+  }
+}
+
+void for_each_element(const Node& node, const std::function<void(const Node&)>& use) {
+  for (std::size_t i = 0; i < node.value().size(); ++i) use(node.element(i));
+}
+
+}  // namespace croon::params

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "framework/params/node.hpp"
+#include "framework/params/parameter.hpp"
+
+namespace croon::params {
+
+/// Reads the value of `node` into `out` and checks it against `doc`; notes a fault and leaves `out` where it
+/// does not fit.
+void read_value(const Node& node, const ParameterDoc& doc, bool& out);
+void read_value(const Node& node, const ParameterDoc& doc, int& out);
+void read_value(const Node& node, const ParameterDoc& doc, double& out);
+void read_value(const Node& node, const ParameterDoc& doc, std::string& out);
+void read_value(const Node& node, const ParameterDoc& doc, std::vector<double>& out);
+void read_value(const Node& node, const ParameterDoc& doc, std::vector<std::string>& out);
+
+/// The JSON text of a value.
+std::string value_json(bool value);
+std::string value_json(int value);
+std::string value_json(double value);
+std::string value_json(const std::string& value);
+std::string value_json(const std::vector<double>& value);
+std::string value_json(const std::vector<std::string>& value);
+
+/// Calls `use` with the parameter's default as a node; a fault in it is noted at `node`.
+void read_default(const ParameterDoc& doc, const Node& node,
+                  const std::function<void(const Node&)>& use);
+
+/// Calls `use` with each element of the array `node`.
+void for_each_element(const Node& node, const std::function<void(const Node&)>& use);
+
+/// "a number from 0 to 10", "a number of at least 0": the range in words.
+std::string range_words(const std::string& what, const Range& range);
+
+}  // namespace croon::params

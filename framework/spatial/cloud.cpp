@@ -1,0 +1,19 @@
+#include "framework/spatial/cloud.hpp"
+
+namespace croon {
+
+const KdTree& Cloud::kd_tree() const {
+  return *once<KdTree>("kd_tree", [this] { return std::make_shared<const KdTree>(points_); });
+}
+
+const Normals& Cloud::normals(int neighbours) const {
+  return *once<Normals>("normals/" + std::to_string(neighbours), [this, neighbours] {
+    return std::make_shared<const Normals>(points_, kd_tree(), neighbours);
+  });
+}
+
+std::shared_ptr<const Cloud> Cloud::derived(PointCloud points, const std::string& purpose) const {
+  return std::shared_ptr<const Cloud>(new Cloud(std::move(points), key_.with(purpose), log_));
+}
+
+}  // namespace croon

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/base/rng.hpp"
+#include "framework/geometry/point_cloud.hpp"
+#include "framework/spatial/kd_tree.hpp"
+#include "framework/spatial/normals.hpp"
+#include "framework/spatial/once_table.hpp"
+
+namespace croon {
+
+/// One sensor's cloud, which is never changed, with all that is computed from it alone: kd-tree, normals,
+/// ground, a bound scorer, cropped and filtered clouds. Each is made once, when first asked for, and is shared
+/// by all starts, variants and sensors until the scene is done. Thread-safe.
+class Cloud {
+ public:
+  /// `key` names the streams of whatever draws random numbers for this cloud alone.
+  Cloud(PointCloud points, const StreamKey& key)
+      : Cloud(std::move(points), key, std::make_shared<OnceLog>()) {}
+  Cloud(const Cloud&) = delete;
+  Cloud& operator=(const Cloud&) = delete;
+
+  const PointCloud& points() const { return points_; }
+  bool empty() const { return points_.empty(); }
+
+  /// The kd-tree over points().
+  const KdTree& kd_tree() const;
+  /// Normals from the `neighbours` nearest points, see Normals.
+  const Normals& normals(int neighbours) const;
+
+  /// Anything else, made once and called `key`: a stage's name and its parameters.
+  template <class T>
+  std::shared_ptr<const T> once(const std::string& key,
+                                const std::function<std::shared_ptr<const T>()>& make) const {
+    return once_.get<T>(key, make);
+  }
+
+  /// A cloud that was made of this one for `purpose`: cropped, thinned, without its ground. Its timings go
+  /// to the same log.
+  std::shared_ptr<const Cloud> derived(PointCloud points, const std::string& purpose) const;
+
+  /// A generator for a computation on this cloud alone; the same for every trial.
+  Rng rng(const std::string& purpose) const { return Rng(key_.with(purpose)); }
+
+  /// What was made once so far, for this cloud and those derived from it.
+  std::vector<OnceTiming> timings() const { return log_->timings(); }
+
+ private:
+  Cloud(PointCloud points, const StreamKey& key, std::shared_ptr<OnceLog> log)
+      : points_(std::move(points)), key_(key), log_(std::move(log)), once_(log_) {}
+
+  PointCloud points_;
+  StreamKey key_;
+  std::shared_ptr<OnceLog> log_;
+  OnceTable once_;
+};
+
+}  // namespace croon

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "framework/geometry/point_cloud.hpp"
+
+namespace croon {
+
+/// One neighbour: the index of the point in its cloud and its squared distance in m^2.
+struct Neighbour {
+  int index = -1;  ///< -1 where there is none.
+  float squared_distance_m2 = 0.0F;
+  explicit operator bool() const { return index >= 0; }
+};
+
+/// Nearest neighbours in a fixed cloud (nanoflann's kd-tree). The cloud must outlive the tree. Queries may
+/// run on many threads at once and give the same answer every time.
+class KdTree {
+ public:
+  explicit KdTree(const PointCloud& points);
+  ~KdTree();
+  KdTree(const KdTree&) = delete;
+  KdTree& operator=(const KdTree&) = delete;
+
+  /// The nearest point within `max_distance_m` of `query`.
+  Neighbour nearest(const Eigen::Vector3f& query, float max_distance_m) const;
+  /// The nearest point, however far.
+  Neighbour nearest(const Eigen::Vector3f& query) const;
+  /// The `count` nearest points (fewer in a smaller cloud), nearest first, written to `neighbours`.
+  void nearest(const Eigen::Vector3f& query, int count, std::vector<Neighbour>& neighbours) const;
+
+ private:
+  struct Index;
+  std::unique_ptr<Index> index_;
+};
+
+}  // namespace croon

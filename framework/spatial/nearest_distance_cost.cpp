@@ -1,0 +1,30 @@
+#include "framework/spatial/nearest_distance_cost.hpp"
+
+#include <algorithm>
+
+namespace croon {
+
+NearestDistanceCost::NearestDistanceCost(std::shared_ptr<const Cloud> target, const Cloud& source,
+                                         int max_points, double max_distance_m)
+    : target_(std::move(target)),
+      tree_(target_->kd_tree()),
+      max_distance_m_(static_cast<float>(max_distance_m)) {
+  const std::size_t size = source.points().size();
+  const std::size_t count = std::min(size, static_cast<std::size_t>(max_points));
+  points_.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) points_.push_back(source.points()[i * size / count]);
+}
+
+double NearestDistanceCost::operator()(const RigidTransform& T_target_source) const {
+  const Eigen::Matrix3f R = T_target_source.rotation.cast<float>();
+  const Eigen::Vector3f t = T_target_source.translation.cast<float>();
+  const double farthest = static_cast<double>(max_distance_m_) * max_distance_m_;
+  double sum = 0.0;
+  for (const Eigen::Vector3f& point : points_) {
+    const Neighbour nearest = tree_.nearest(R * point + t, max_distance_m_);
+    sum += nearest ? static_cast<double>(nearest.squared_distance_m2) : farthest;
+  }
+  return points_.empty() ? 0.0 : sum / static_cast<double>(points_.size());
+}
+
+}  // namespace croon

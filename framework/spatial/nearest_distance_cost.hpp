@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "framework/geometry/rigid_transform.hpp"
+#include "framework/spatial/cloud.hpp"
+
+namespace croon {
+
+/// The paper's cost of the rough calibration (section III-A, eq. 5 and 6): the summed squared distances from
+/// the source's points to their nearest neighbours in the target. A distance counts for at most
+/// `max_distance_m`, because a point that the target does not see says nothing about the pose.
+class NearestDistanceCost {
+ public:
+  /// At most `max_points` of the source are looked at, evenly spaced through the cloud.
+  NearestDistanceCost(std::shared_ptr<const Cloud> target, const Cloud& source, int max_points,
+                      double max_distance_m);
+
+  /// The mean over the points, m^2 (the sum over a constant, so that costs compare between clouds).
+  double operator()(const RigidTransform& T_target_source) const;
+
+ private:
+  std::shared_ptr<const Cloud> target_;
+  const KdTree& tree_;
+  std::vector<Eigen::Vector3f> points_;
+  float max_distance_m_;
+};
+
+}  // namespace croon

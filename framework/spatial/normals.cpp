@@ -1,0 +1,63 @@
+#include "framework/spatial/normals.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace croon {
+namespace {
+
+/// Mean and covariance of the neighbours, relative to `centre` so that no digits are lost far from the
+/// sensor.
+Eigen::Matrix3d covariance(const PointCloud& points, const Eigen::Vector3f& centre,
+                           const std::vector<Neighbour>& neighbours) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  for (const Neighbour& neighbour : neighbours) {
+    const Eigen::Vector3d offset = (points[neighbour.index] - centre).cast<double>();
+    sum += offset;
+    products.noalias() += offset * offset.transpose();
+  }
+  const double count = static_cast<double>(neighbours.size());
+  return products / count - (sum / count) * (sum / count).transpose();
+}
+
+}  // namespace
+
+Normals::Normals(const PointCloud& points, const KdTree& tree, int neighbours)
+    : points_(points),
+      tree_(tree),
+      neighbours_(neighbours),
+      states_(new std::atomic<unsigned char>[points.size()]),
+      shapes_(points.size()) {
+  for (std::size_t i = 0; i < points.size(); ++i) states_[i].store(kEmpty, std::memory_order_relaxed);
+}
+
+LocalShape Normals::at(int index) const {
+  std::atomic<unsigned char>& state = states_[index];
+  if (state.load(std::memory_order_acquire) == kReady) return shapes_[index];
+  const LocalShape shape = computed(index);
+  unsigned char expected = kEmpty;
+  if (state.compare_exchange_strong(expected, kBeingWritten, std::memory_order_acq_rel)) {
+    shapes_[index] = shape;
+    state.store(kReady, std::memory_order_release);
+  }
+  return shape;
+}
+
+LocalShape Normals::computed(int index) const {
+  thread_local std::vector<Neighbour> neighbours;
+  const Eigen::Vector3f& point = points_[index];
+  tree_.nearest(point, neighbours_, neighbours);
+  LocalShape shape;
+  if (neighbours.size() < 3) return shape;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(covariance(points_, point, neighbours));
+  const Eigen::Vector3d variances = solver.eigenvalues().cwiseMax(0.0);
+  // Neighbours on one line have no normal.
+  if (!(variances(1) > 1e-9 * variances(2))) return shape;
+  const Eigen::Vector3f normal = solver.eigenvectors().col(0).normalized().cast<float>();
+  shape.normal = normal.dot(point) > 0.0F ? Eigen::Vector3f(-normal) : normal;
+  shape.surface_variation = static_cast<float>(variances(0) / variances.sum());
+  return shape;
+}
+
+}  // namespace croon

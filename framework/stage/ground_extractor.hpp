@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "framework/base/rng.hpp"
+#include "framework/geometry/plane.hpp"
+#include "framework/geometry/point_cloud.hpp"
+
+namespace croon {
+
+/// The ground of a cloud: its plane in the sensor's frame, and for each point whether it lies on it.
+struct Ground {
+  Plane plane;
+  std::vector<std::uint8_t> is_ground;  ///< One per point of the cloud.
+};
+
+/// Finds the ground of one cloud (paper, section III-A, eq. 1: the plane with the most points).
+class GroundExtractor {
+ public:
+  using Kind = GroundExtractor;
+  static constexpr const char* kKind = "ground_extractor";
+  virtual ~GroundExtractor() = default;
+
+  /// The ground; its normal's sign is arbitrary. Draws only from `rng`. Throws StageError where no plane is
+  /// found.
+  virtual Ground extract(const PointCloud& cloud, Rng& rng) const = 0;
+};
+
+}  // namespace croon

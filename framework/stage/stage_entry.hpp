@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framework/params/table.hpp"
+
+namespace croon {
+
+/// What the registry knows of one stage: where it stands, what it is for, its parameters, how to build it.
+struct StageEntry {
+  std::string kind;     ///< "ground_extractor", "icp", ...
+  std::string name;     ///< The JSON "type" ("step" for a step), the file's name.
+  std::string summary;  ///< One sentence.
+  std::string source;   ///< Where it comes from: the paper and section, or "croon".
+  std::vector<params::ParameterDoc> parameters;
+  std::function<params::BuiltStage(const params::Node&, const params::StageBuilder&)> build;
+};
+
+/// The JSON key that names a stage of `kind`: "step" for steps, else "type".
+inline std::string name_key(const std::string& kind) { return kind == "step" ? "step" : "type"; }
+
+/// The keys of a stage's JSON object that are not its parameters: its name, and for a step the optional
+/// "name" that variants and timings call it by.
+inline std::vector<std::string> reserved_keys(const std::string& kind) {
+  return kind == "step" ? std::vector<std::string>{"step", "name"}
+                        : std::vector<std::string>{"type"};
+}
+
+/// The entry of the stage class `Stage`, whose constructor takes the struct `P` that `table` reads.
+template <class Stage, class P>
+StageEntry stage_entry(const std::string& name, const std::string& summary,
+                       const std::string& source, const params::Table<P>& table) {
+  using Kind = typename Stage::Kind;
+  StageEntry entry{Kind::kKind, name, summary, source, table.docs(), {}};
+  entry.build = [name, table](const params::Node& node, const params::StageBuilder& builder) {
+    const P params = table.read(node, reserved_keys(Kind::kKind), builder);
+    if (node.fault_count() > 0) return params::BuiltStage{};
+    const std::shared_ptr<const Kind> stage = std::make_shared<const Stage>(params);
+    const std::string members = table.members_json(params);
+    const std::string head = "{\"" + name_key(Kind::kKind) + "\":\"" + name + "\"";
+    return params::BuiltStage{stage, head + (members.empty() ? "" : "," + members) + "}"};
+  };
+  return entry;
+}
+
+}  // namespace croon

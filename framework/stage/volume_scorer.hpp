@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "framework/geometry/rigid_transform.hpp"
+#include "framework/spatial/cloud.hpp"
+
+namespace croon {
+
+/// Space that two clouds occupy together: leaves that hold a point of either.
+struct OccupiedVolume {
+  std::int64_t leaves = 0;
+  double leaf_size_m = 0.0;
+  double m3() const {
+    return static_cast<double>(leaves) * (leaf_size_m * leaf_size_m * leaf_size_m);
+  }
+};
+
+/// The volume that the target and the source at `T_target_source` occupy in the target's frame. Thread-safe.
+using VolumeFunction = std::function<OccupiedVolume(const RigidTransform& T_target_source)>;
+
+/// Measures how well two clouds lie on each other by the space they occupy (paper, section III-B, eq. 9:
+/// aligned clouds occupy the least).
+class VolumeScorer {
+ public:
+  using Kind = VolumeScorer;
+  static constexpr const char* kKind = "volume_scorer";
+  virtual ~VolumeScorer() = default;
+
+  /// The volume as a function of pose. What depends on the target alone is made once (`Cloud::once`). Leaves
+  /// are those of LeafGrid in the target's frame: all scorers count the same.
+  virtual VolumeFunction bind(std::shared_ptr<const Cloud> target,
+                              std::shared_ptr<const Cloud> source) const = 0;
+};
+
+}  // namespace croon

@@ -1,0 +1,62 @@
+#include "framework/stage/preprocessor.hpp"
+#include "framework/stage/stage_entry.hpp"
+#include "framework/stage/step.hpp"
+
+namespace croon::stages::step {
+namespace {
+
+struct Params {
+  std::vector<params::Slot<Preprocessor>> reference;
+  std::vector<params::Slot<Preprocessor>> sensor;
+};
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table = {
+      params::slots("reference", &Params::reference,
+                    "What is done, in this order, to the reference's cloud."),
+      params::slots("sensor", &Params::sensor,
+                    "What is done, in this order, to the cloud of each sensor."),
+  };
+  return table;
+}
+
+/// The cloud after `preprocessors`, made once for all starts.
+std::shared_ptr<const Cloud> preprocessed(
+    std::shared_ptr<const Cloud> cloud,
+    const std::vector<params::Slot<Preprocessor>>& preprocessors) {
+  for (const params::Slot<Preprocessor>& preprocessor : preprocessors) {
+    const std::string key = "preprocessed/" + preprocessor.resolved();
+    cloud = cloud->once<Cloud>(
+        key, [&] { return cloud->derived(preprocessor->apply(cloud->points()), key); });
+  }
+  return cloud;
+}
+
+class Preprocessing final : public Step {
+ public:
+  explicit Preprocessing(Params params) : params_(std::move(params)) {}
+
+  Estimate advance(Estimate estimate, Rng&) const override {
+    estimate.target = preprocessed(estimate.target, params_.reference);
+    estimate.source = preprocessed(estimate.source, params_.sensor);
+    // What was known of the ground belongs to the clouds before.
+    estimate.target_ground = nullptr;
+    estimate.source_ground = nullptr;
+    estimate.figures = {{"target_points", static_cast<double>(estimate.target->points().size())},
+                        {"source_points", static_cast<double>(estimate.source->points().size())}};
+    return estimate;
+  }
+
+ private:
+  Params params_;
+};
+
+}  // namespace
+
+StageEntry preprocessing() {
+  return stage_entry<Preprocessing>(
+      "preprocessing", "Crops or thins the clouds for the steps that follow.",
+      "CROON's public code (lidar2lidar, commit c0e1e2b)", table());
+}
+
+}  // namespace croon::stages::step

@@ -1,0 +1,60 @@
+#include "framework/base/error.hpp"
+#include "framework/pipeline/point_selection.hpp"
+#include "framework/stage/icp.hpp"
+#include "framework/stage/stage_entry.hpp"
+#include "framework/stage/step.hpp"
+
+namespace croon::stages::step {
+namespace {
+
+struct Params {
+  params::Slot<Icp> icp;
+  std::string points = "all";
+  double min_inlier_ratio = 0.0;
+};
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table = {
+      params::slot("icp", &Params::icp, R"({"type": "icpn"})", "Registers the two clouds."),
+      params::choice("points", &Params::points, kPointChoices, "Which points are registered."),
+      params::number("min_inlier_ratio", &Params::min_inlier_ratio, {0.0, 1.0},
+                     "The pose is rejected where fewer of the sensor's points find a correspondence."),
+  };
+  return table;
+}
+
+class RegistrationStep final : public Step {
+ public:
+  explicit RegistrationStep(Params params) : params_(std::move(params)) {}
+
+  Estimate advance(Estimate estimate, Rng&) const override {
+    const SelectedClouds clouds = selected_clouds(estimate, params_.points);
+    const Registration result =
+        params_.icp->align(*clouds.target, *clouds.source, estimate.T_target_source);
+    estimate.T_target_source = result.T_target_source;
+    estimate.information = result.information;
+    if (result.inlier_ratio < params_.min_inlier_ratio) {
+      estimate.rejection = "inlier ratio " + std::to_string(result.inlier_ratio) + " is below " +
+                           std::to_string(params_.min_inlier_ratio);
+    }
+    estimate.figures = {{"rmse_m", result.rmse_m},
+                        {"inlier_ratio", result.inlier_ratio},
+                        {"correspondences", static_cast<double>(result.correspondences)},
+                        {"iterations", static_cast<double>(result.iterations)},
+                        {"converged", result.converged ? 1.0 : 0.0}};
+    return estimate;
+  }
+
+ private:
+  Params params_;
+};
+
+}  // namespace
+
+StageEntry registration() {
+  return stage_entry<RegistrationStep>(
+      "registration", "Registers the sensor's cloud to the reference's from the pose so far.",
+      "CROON (arXiv 2203.03182), section III-B, equations 7 and 8", table());
+}
+
+}  // namespace croon::stages::step
