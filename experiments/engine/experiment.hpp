@@ -17,9 +17,9 @@ enum class StartCentre { truth, nominal, initial };
 /// How starts are drawn: (R, t) moved to (R_d R, t + d), see DESIGN.md section 4.
 struct StartRule {
   StartCentre around = StartCentre::truth;
-  double rotation_deg = 45.0;   ///< Half range of each of R_d = Rz Ry Rx; 180 is uniform on SO(3).
-  double translation_m = 0.1;   ///< Half range of each of d, in reference axes.
-  int trials = 50;              ///< Per variant, scene and sensor.
+  double rotation_deg = 45.0;  ///< Half range of each of R_d = Rz Ry Rx; 180 is uniform on SO(3).
+  double translation_m = 0.1;  ///< Half range of each of d, in reference axes.
+  int trials = 50;             ///< Per variant, scene and sensor.
 };
 
 /// How near the truth a trial must end to count as `success`.
@@ -30,7 +30,7 @@ struct SuccessBounds {
 
 /// One pipeline of an experiment.
 struct Variant {
-  std::string name;      ///< "base" for the base pipeline.
+  std::string name;  ///< "base" for the base pipeline.
   Pipeline pipeline;
   std::string resolved;  ///< Canonical JSON of the pipeline with all its parameters.
 };

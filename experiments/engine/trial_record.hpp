@@ -29,10 +29,10 @@ enum class Status {
 struct TrialRecord {
   TrialId id;
   Status status = Status::failed;
-  std::string reason;                 ///< Why it is rejected or failed; else empty.
-  std::optional<PoseError> error;     ///< Where there is truth and the trial finished.
+  std::string reason;              ///< Why it is rejected or failed; else empty.
+  std::optional<PoseError> error;  ///< Where there is truth and the trial finished.
   std::optional<RigidTransform> T_reference_sensor;  ///< Where it finished.
-  std::vector<StepRecord> steps;      ///< Figures of each step (its seconds go to timings.csv alone).
+  std::vector<StepRecord> steps;  ///< Figures of each step (its seconds go to timings.csv alone).
 };
 
 /// One row of timings.csv.

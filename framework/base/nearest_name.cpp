@@ -26,7 +26,8 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known) {
   std::string best;
-  std::size_t least = name.size() / 2 + 1;
+  // Two letters changed places in a short word, or up to half of a long one is off.
+  std::size_t least = std::min(name.size(), std::max<std::size_t>(2, name.size() / 2) + 1);
   for (const std::string& candidate : known) {
     const std::size_t distance = edit_distance(name, candidate);
     if (distance < least) {

@@ -24,4 +24,7 @@ struct Plane {
 /// the direction of their least variance. Needs three points that are not on one line; throws StageError.
 Plane fit_plane(const PointCloud& cloud, const std::vector<int>& indices);
 
+/// The indices of the points of `cloud` within `distance_m` of the plane, in order.
+std::vector<int> points_within(const PointCloud& cloud, const Plane& plane, double distance_m);
+
 }  // namespace croon

@@ -21,13 +21,32 @@ struct Parameter {
   bool is_slot = false;                       ///< Its default must be built, not copied.
 };
 
-/// The parameters of a stage, each declared once: its JSON key, the member of the struct `P` that holds it,
-/// its bounds and a sentence. Defaults are the initialisers of `P`.
+/// The parameters of a stage, each declared once: its JSON key, the member of the struct `P` that
+/// holds it, its bounds and a sentence. Defaults are the initialisers of `P`.
 template <class P>
 class Table {
  public:
   Table() = default;
   Table(std::initializer_list<Parameter<P>> parameters) : parameters_(parameters) {}
+
+  /// Adds the rows of a base of `P`: parameters that several stages share. `P` may give them
+  /// defaults of its own.
+  template <class Base>
+  Table& inherit(const Table<Base>& base) {
+    for (const Parameter<Base>& row : base.rows()) {
+      ParameterDoc doc = row.doc;
+      if (!row.is_slot) doc.default_json = row.json(P{});
+      parameters_.push_back(
+          {doc,
+           [read = row.read](P& params, const Node& node, const StageBuilder& builder) {
+             read(params, node, builder);
+           },
+           [json = row.json](const P& params) { return json(params); }, row.is_slot});
+    }
+    return *this;
+  }
+
+  const std::vector<Parameter<P>>& rows() const { return parameters_; }
 
   /// Adds a condition on the parameters together; `message` says what must hold.
   Table& require(std::function<bool(const P&)> holds, std::string message) {
@@ -35,8 +54,8 @@ class Table {
     return *this;
   }
 
-  /// Reads `node`, an object whose key `name_key` ("type" or "step") was dealt with by the caller. Notes all
-  /// faults in the node.
+  /// Reads `node`, an object whose key `name_key` ("type" or "step") was dealt with by the caller.
+  /// Notes all faults in the node.
   P read(const Node& node, const std::vector<std::string>& other_keys,
          const StageBuilder& builder) const;
 
@@ -68,6 +87,8 @@ P Table<P>::read(const Node& node, const std::vector<std::string>& other_keys,
       read_default(parameter.doc, node, [&](const Node& default_node) {
         parameter.read(params, default_node, builder);
       });
+    } else if (parameter.doc.is_required) {
+      node.require(parameter.doc.key);
     }
   }
   for (const auto& [holds, message] : conditions_) {
@@ -112,6 +133,15 @@ Parameter<P> number(const std::string& key, double P::*member, Range range,
   return value_parameter<P>({key, ParameterType::number, "", range, {}, "", sentence}, member);
 }
 
+/// Any words but none: a path, a name. Where the struct's own value is empty, the key must be
+/// there.
+template <class P>
+Parameter<P> text(const std::string& key, std::string P::*member, const std::string& sentence) {
+  const bool is_required = (P{}.*member).empty();
+  return value_parameter<P>({key, ParameterType::text, "", {}, {}, "", sentence, is_required},
+                            member);
+}
+
 /// A list of numbers, not empty.
 template <class P>
 Parameter<P> numbers(const std::string& key, std::vector<double> P::*member, Range range,
@@ -133,7 +163,8 @@ Parameter<P> choices(const std::string& key, std::vector<std::string> P::*member
   return value_parameter<P>({key, ParameterType::choices, "", {}, choices, "", sentence}, member);
 }
 
-/// A stage of the kind `Kind`; `default_json` describes the one that is built where the key is missing.
+/// A stage of the kind `Kind`; `default_json` describes the one that is built where the key is
+/// missing.
 template <class Kind, class P>
 Parameter<P> slot(const std::string& key, Slot<Kind> P::*member, const std::string& default_json,
                   const std::string& sentence) {

@@ -16,6 +16,13 @@ bool in_range(double value, const Range& range) {
   return value >= range.minimum && value <= range.maximum;
 }
 
+void read_text(const Node& node, std::string& out) {
+  std::string text;
+  if (!node.read(text)) return;
+  if (text.empty()) return node.expected("a string that is not empty");
+  out = text;
+}
+
 bool read_choice(const Node& node, const ParameterDoc& doc, std::string& out) {
   std::string word;
   if (!node.read(word)) return false;
@@ -67,7 +74,11 @@ void read_value(const Node& node, const ParameterDoc& doc, double& out) {
 }
 
 void read_value(const Node& node, const ParameterDoc& doc, std::string& out) {
-  read_choice(node, doc, out);
+  if (doc.type == ParameterType::text) {
+    read_text(node, out);
+  } else {
+    read_choice(node, doc, out);
+  }
 }
 
 void read_value(const Node& node, const ParameterDoc& doc, std::vector<double>& out) {

@@ -1,8 +1,7 @@
 #include "framework/pipeline/pipeline.hpp"
 
 #include <chrono>
-
-#include "framework/base/error.hpp"
+#include <stdexcept>
 
 namespace croon {
 namespace {
@@ -31,7 +30,9 @@ PipelineResult run_pipeline(const Pipeline& pipeline, std::shared_ptr<const Clou
     result.estimate.figures.clear();
     try {
       result.estimate = pipeline[i].step->advance(result.estimate, rng);
-    } catch (const StageError& error) {
+    } catch (const std::logic_error&) {
+      throw;
+    } catch (const std::exception& error) {
       result.failure = pipeline[i].name + ": " + error.what();
     }
     result.records.push_back(

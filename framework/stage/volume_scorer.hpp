@@ -18,19 +18,22 @@ struct OccupiedVolume {
   }
 };
 
-/// The volume that the target and the source at `T_target_source` occupy in the target's frame. Thread-safe.
+/// The volume that the target and the source at `T_target_source` occupy in the target's frame.
+/// Thread-safe.
 using VolumeFunction = std::function<OccupiedVolume(const RigidTransform& T_target_source)>;
 
-/// Measures how well two clouds lie on each other by the space they occupy (paper, section III-B, eq. 9:
-/// aligned clouds occupy the least).
+/// Measures how well two clouds lie on each other by the space they occupy (paper, section III-B,
+/// eq. 9: aligned clouds occupy the least).
 class VolumeScorer {
  public:
   using Kind = VolumeScorer;
   static constexpr const char* kKind = "volume_scorer";
   virtual ~VolumeScorer() = default;
 
-  /// The volume as a function of pose. What depends on the target alone is made once (`Cloud::once`). Leaves
-  /// are those of LeafGrid in the target's frame: all scorers count the same.
+  /// The volume as a function of pose. What depends on the target alone is made once
+  /// (`Cloud::once`). Leaves are those of LeafGrid in the target's frame: all scorers count the
+  /// same. A cloud without points occupies nothing; a point outside of the grid throws StageError,
+  /// the target's here, the source's at its pose.
   virtual VolumeFunction bind(std::shared_ptr<const Cloud> target,
                               std::shared_ptr<const Cloud> source) const = 0;
 };

@@ -51,7 +51,8 @@ TEST(RigidTransform, RotationBetweenTurnsOneIntoTheOther) {
 
 TEST(RigidTransform, AngleOfTheSmallestRotations) {
   for (const double angle : {1e-12, 1e-8, 1e-3, 1.0, 3.1}) {
-    EXPECT_NEAR(rotation_angle(rotation_exp(angle * Eigen::Vector3d::UnitY())), angle, 1e-14 + 1e-12 * angle);
+    EXPECT_NEAR(rotation_angle(rotation_exp(angle * Eigen::Vector3d::UnitY())), angle,
+                1e-14 + 1e-12 * angle);
   }
 }
 

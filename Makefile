@@ -1,0 +1,49 @@
+# The commands of the house. `demo` and `test` install what is missing, configure, build and run.
+SHELL := /bin/bash
+PRESET_BUILD = cmake --preset $(1) && cmake --build --preset $(1)
+CLANG_FORMAT ?= $(shell command -v clang-format-14 || echo clang-format)
+RUN_CLANG_TIDY ?= $(shell command -v run-clang-tidy-14 || echo run-clang-tidy)
+SOURCES = git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp'
+TRIALS ?= 3
+
+.PHONY: help packages release demo test benchmark docs format lint clean
+
+help:
+	@echo 'make demo       the paper on the sample scenes, a few starts each'
+	@echo 'make test       build and run all tests'
+	@echo 'make benchmark  build and run the benchmarks'
+	@echo 'make docs       write docs/stages and docs/schema again'
+	@echo 'make format     clang-format all sources'
+	@echo 'make lint       clang-tidy over all sources'
+	@echo 'make clean      remove the build folder'
+
+packages:
+	@.ci/install_packages
+
+release: packages
+	$(call PRESET_BUILD,release)
+
+demo: release
+	.ci/demo build/release/bin/croon --trials $(TRIALS)
+
+test: packages
+	$(call PRESET_BUILD,test)
+	ctest --test-dir build/test --output-on-failure --parallel 2
+
+benchmark: packages
+	$(call PRESET_BUILD,test)
+	set -e; for program in build/test/bin/benchmark_*; do "$$program"; done
+
+docs: release
+	.ci/generate_docs build/release/bin/croon docs
+
+format:
+	$(SOURCES) | xargs $(CLANG_FORMAT) -i
+
+lint: packages
+	.ci/install_packages clang-tidy
+	cmake --preset test
+	$(RUN_CLANG_TIDY) -quiet -p build/test '/(framework|stages|registry|experiments)/'
+
+clean:
+	rm -rf build

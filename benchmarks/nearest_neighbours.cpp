@@ -1,0 +1,145 @@
+// What does a nearest neighbour cost, and what do our result set and bound save over nanoflann as
+// it comes?
+
+#include <nanoflann.hpp>
+#include <stdexcept>
+
+#include "benchmarks/support/clouds.hpp"
+#include "benchmarks/support/run.hpp"
+
+namespace croon::benchmarks {
+namespace {
+
+constexpr int kNormalNeighbours = 40;
+constexpr float kUnbounded = 1e9F;
+
+struct Points {
+  const PointCloud& points;
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  float kdtree_get_pt(std::size_t index, std::size_t axis) const {
+    return points[index][static_cast<Eigen::Index>(axis)];
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+/// nanoflann with its own result set, as its examples use it.
+class Peer {
+ public:
+  explicit Peer(const PointCloud& points) : points_{points}, tree_(3, points_) {
+    tree_.buildIndex();
+  }
+  Neighbour nearest(const Eigen::Vector3f& query, float max_distance_m) const {
+    std::uint32_t index = 0;
+    float squared_distance = 0.0F;
+    const bool any = tree_.knnSearch(query.data(), 1, &index, &squared_distance) > 0;
+    if (!any || squared_distance > max_distance_m * max_distance_m) return {};
+    return {static_cast<int>(index), squared_distance};
+  }
+  void nearest(const Eigen::Vector3f& query, int count, std::vector<Neighbour>& neighbours) const {
+    std::vector<std::uint32_t> indices(static_cast<std::size_t>(count));
+    std::vector<float> squared_distances(indices.size());
+    indices.resize(
+        tree_.knnSearch(query.data(), indices.size(), indices.data(), squared_distances.data()));
+    neighbours.clear();
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      neighbours.push_back({static_cast<int>(indices[i]), squared_distances[i]});
+    }
+  }
+
+ private:
+  Points points_;
+  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 3,
+                                      std::uint32_t>
+      tree_;
+};
+
+/// Throws where a search gives another distance than the peer's.
+void check_equal_distances(const PointCloud& points, const PointCloud& queries) {
+  const KdTree tree(points);
+  const Peer peer(points);
+  std::vector<Neighbour> ours, theirs;
+  bool equal = true;
+  for (const Eigen::Vector3f& query : queries) {
+    for (const float bound_m : {0.3F, 2.0F, kUnbounded}) {
+      const Neighbour a = tree.nearest(query, bound_m), b = peer.nearest(query, bound_m);
+      const bool both = static_cast<bool>(a) && static_cast<bool>(b);
+      const bool neither = !a && !b;
+      equal = equal && (neither || (both && a.squared_distance_m2 == b.squared_distance_m2));
+    }
+    tree.nearest(query, kNormalNeighbours, ours);
+    peer.nearest(query, kNormalNeighbours, theirs);
+    equal = equal && ours.size() == theirs.size();
+    for (std::size_t i = 0; equal && i < ours.size(); ++i) {
+      equal = ours[i].squared_distance_m2 == theirs[i].squared_distance_m2;
+    }
+  }
+  if (!equal) throw std::runtime_error("KdTree and nanoflann find different neighbours");
+}
+
+template <class Tree>
+void add_build(const std::string& name, const PointCloud& points) {
+  add(name, benchmark::kMillisecond, [points](benchmark::State& state) {
+    for (auto _ : state) {
+      const Tree tree(points);
+      benchmark::DoNotOptimize(&tree);
+    }
+  });
+}
+
+/// One query per iteration, in the order of the queries.
+template <class Tree, class Search>
+void add_queries(const std::string& name, const PointCloud& points, const PointCloud& queries,
+                 const Search& search) {
+  add(name, benchmark::kNanosecond, [=](benchmark::State& state) {
+    const Tree tree(points);
+    std::size_t next = 0;
+    for (auto _ : state) {
+      search(tree, queries[next]);
+      next = next + 1 == queries.size() ? 0 : next + 1;
+    }
+  });
+}
+
+template <class Tree>
+void add_tree(const std::string& name, const CloudPair& pair) {
+  const std::string place = pair.name + "/";
+  // As registrations ask (near the truth) and as the rough calibration asks (up to 45 degrees off).
+  const PointCloud near = transformed(pair.source, poses_near(pair, 1, 0.5, 0.05)[0]);
+  const PointCloud off = transformed(pair.source, poses_near(pair, 1, 45.0, 0.1)[0]);
+  const auto within = [](float bound_m) {
+    return [bound_m](const Tree& tree, const Eigen::Vector3f& query) {
+      benchmark::DoNotOptimize(tree.nearest(query, bound_m));
+    };
+  };
+  add_build<Tree>(place + "build/" + name, pair.target);
+  add_queries<Tree>(place + "near/" + name, pair.target, near, within(kUnbounded));
+  add_queries<Tree>(place + "near_within_0.3m/" + name, pair.target, near, within(0.3F));
+  add_queries<Tree>(place + "off/" + name, pair.target, off, within(kUnbounded));
+  add_queries<Tree>(place + "off_within_2m/" + name, pair.target, off, within(2.0F));
+  add_queries<Tree>(place + "40_of_its_own/" + name, pair.target, pair.target,
+                    [](const Tree& tree, const Eigen::Vector3f& query) {
+                      thread_local std::vector<Neighbour> neighbours;
+                      tree.nearest(query, kNormalNeighbours, neighbours);
+                      benchmark::DoNotOptimize(neighbours.data());
+                    });
+}
+
+void check_and_add() {
+  std::vector<CloudPair> pairs = {street(100000, 20000)};
+  for (CloudPair& pair : samples()) pairs.push_back(std::move(pair));
+  for (const CloudPair& pair : pairs) {
+    check_equal_distances(pair.target, transformed(pair.source, pair.T_target_source));
+    add_tree<KdTree>("croon", pair);
+    add_tree<Peer>("nanoflann", pair);
+  }
+}
+
+}  // namespace
+}  // namespace croon::benchmarks
+
+int main(int argc, char** argv) {
+  return croon::benchmarks::run(argc, argv, croon::benchmarks::check_and_add);
+}

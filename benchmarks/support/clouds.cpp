@@ -1,0 +1,76 @@
+#include "benchmarks/support/clouds.hpp"
+
+#include <cstdlib>
+
+#include "framework/stage/dataset.hpp"
+#include "framework/stage/ground_extractor.hpp"
+#include "test/support/random_geometry.hpp"
+#include "test/support/stages.hpp"
+
+namespace croon::benchmarks {
+namespace {
+
+CloudPair sample(const std::string& data_root, const std::string& scene_folder) {
+  const auto dataset =
+      test::stage<Dataset>(R"({"type": "opencalib", "path": ")" + scene_folder + R"("})");
+  const Scene scene = dataset->scenes(data_root).at(0);
+  const SensorScan& sensor = scene.sensors.at(0);
+  CloudPair pair;
+  pair.name = scene_folder.substr(scene_folder.find('/') + 1) + "/" + sensor.sensor;
+  pair.target = scene.reference.load();
+  pair.source = sensor.load();
+  pair.T_target_source = sensor.truth ? *sensor.truth : sensor.nominal.value();
+  return pair;
+}
+
+PointCloud without_ground(const PointCloud& cloud) {
+  Rng rng(StreamKey(1).with("ground"));
+  const Ground ground = test::stage<GroundExtractor>(R"({"type": "ransac"})")->extract(cloud, rng);
+  PointCloud left;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (ground.is_ground[i] == 0) left.push_back(cloud[i]);
+  }
+  return left;
+}
+
+}  // namespace
+
+CloudPair street(int target_count, int source_count) {
+  Rng rng(StreamKey(1).with("street pair"));
+  // Askew, as a sensor sees a street: walls along the axes would be a special case.
+  const RigidTransform T_target_street = test::random_pose(rng, 0.5);
+  CloudPair pair;
+  pair.name = "street_" + std::to_string(source_count);
+  pair.T_target_source = test::random_pose(rng, 1.0);
+  pair.target = transformed(test::random_street(rng, 1, target_count, 0.01), T_target_street);
+  pair.source = transformed(test::random_street(rng, 1, source_count, 0.01),
+                            pair.T_target_source.inverse() * T_target_street);
+  return pair;
+}
+
+std::vector<CloudPair> samples() {
+  const char* data_root = std::getenv("CROON_DATA");
+  if (data_root == nullptr) return {};
+  return {sample(data_root, "opencalib/carla/004069"), sample(data_root, "opencalib/real/0001")};
+}
+
+CloudPair non_ground(const CloudPair& pair) {
+  return {pair.name, without_ground(pair.target), without_ground(pair.source),
+          pair.T_target_source};
+}
+
+std::shared_ptr<const Cloud> fresh(const PointCloud& points) {
+  return std::make_shared<const Cloud>(points, StreamKey(1));
+}
+
+std::vector<RigidTransform> poses_near(const CloudPair& pair, int count, double rotation_deg,
+                                       double translation_m) {
+  Rng rng(StreamKey(1).with("poses"));
+  std::vector<RigidTransform> poses;
+  for (int i = 0; i < count; ++i) {
+    poses.push_back(test::pose_near(rng, pair.T_target_source, rotation_deg, translation_m));
+  }
+  return poses;
+}
+
+}  // namespace croon::benchmarks

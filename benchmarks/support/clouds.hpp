@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/geometry/rigid_transform.hpp"
+#include "framework/spatial/cloud.hpp"
+
+namespace croon::benchmarks {
+
+/// Two clouds of one place, each in its sensor's frame, and how they lie to each other.
+struct CloudPair {
+  std::string name;
+  PointCloud target;
+  PointCloud source;
+  RigidTransform T_target_source;  ///< The truth; for a recording without one the drawing's pose.
+};
+
+/// A street (test/support), `target_count` points for the target and `source_count` for the source.
+CloudPair street(int target_count, int source_count);
+
+/// The first sensor of one CARLA and one real sample below the folder CROON_DATA; none where it is
+/// not set.
+std::vector<CloudPair> samples();
+
+/// The pair without its ground, as the stage `ransac` finds it.
+CloudPair non_ground(const CloudPair& pair);
+
+/// A new cloud that has computed nothing yet.
+std::shared_ptr<const Cloud> fresh(const PointCloud& points);
+
+/// `count` poses within +-`rotation_deg` and +-`translation_m` per axis of the pair's; the same
+/// every time.
+std::vector<RigidTransform> poses_near(const CloudPair& pair, int count, double rotation_deg,
+                                       double translation_m);
+
+}  // namespace croon::benchmarks

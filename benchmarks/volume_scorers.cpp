@@ -1,0 +1,96 @@
+// What does the occupied volume cost: to bind a scorer to two clouds, and then per pose?
+
+#include <stdexcept>
+
+#include "benchmarks/support/clouds.hpp"
+#include "benchmarks/support/run.hpp"
+#include "framework/params/values.hpp"
+#include "framework/stage/volume_scorer.hpp"
+#include "test/support/stages.hpp"
+
+namespace croon::benchmarks {
+namespace {
+
+using Scorer = params::Slot<VolumeScorer>;
+
+constexpr int kPoses = 32;
+const std::vector<double> kLeafSizes = {0.02, 0.05, 0.1, 0.2};
+
+Scorer scorer(const std::string& name, double leaf_size_m) {
+  return test::stage<VolumeScorer>(R"({"type": ")" + name + R"(", "leaf_size_m": )" +
+                                   params::value_json(leaf_size_m) + "}");
+}
+
+std::vector<std::int64_t> counts(const Scorer& scorer, const CloudPair& pair) {
+  const VolumeFunction volume = scorer->bind(fresh(pair.target), fresh(pair.source));
+  std::vector<std::int64_t> counts;
+  for (const RigidTransform& pose : poses_near(pair, kPoses, 1.0, 0.1)) {
+    counts.push_back(volume(pose).leaves);
+  }
+  return counts;
+}
+
+/// Times mean nothing where the answers differ.
+void check_equal_counts(const std::vector<std::string>& names, const CloudPair& pair,
+                        double leaf_size_m) {
+  const std::vector<std::int64_t> expected = counts(scorer(names.at(0), leaf_size_m), pair);
+  for (const std::string& name : names) {
+    if (counts(scorer(name, leaf_size_m), pair) != expected) {
+      throw std::runtime_error(name + " and " + names[0] + " count differently on " + pair.name +
+                               " at " + params::value_json(leaf_size_m) + " m");
+    }
+  }
+}
+
+/// Both clouds are new in every iteration: what a scorer makes of the target once is part of the
+/// price.
+void measure_bind(benchmark::State& state, const Scorer& scorer, const CloudPair& pair) {
+  std::shared_ptr<const Cloud> target, source;
+  VolumeFunction volume;
+  for (auto _ : state) {
+    state.PauseTiming();
+    volume = nullptr;
+    target = fresh(pair.target);
+    source = fresh(pair.source);
+    state.ResumeTiming();
+    volume = scorer->bind(target, source);
+  }
+  state.counters["target_points"] = static_cast<double>(pair.target.size());
+}
+
+void measure_pose(benchmark::State& state, const Scorer& scorer, const CloudPair& pair) {
+  const VolumeFunction volume = scorer->bind(fresh(pair.target), fresh(pair.source));
+  const std::vector<RigidTransform> poses = poses_near(pair, kPoses, 1.0, 0.1);
+  std::size_t next = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(volume(poses[next++ % poses.size()]));
+  state.counters["source_points"] = static_cast<double>(pair.source.size());
+  state.counters["leaves"] = static_cast<double>(volume(pair.T_target_source).leaves);
+}
+
+void check_and_add() {
+  std::vector<CloudPair> pairs;
+  for (const int count : {2000, 5000, 20000, 100000}) pairs.push_back(street(count, count));
+  for (const CloudPair& pair : samples()) pairs.push_back(non_ground(pair));
+  const std::vector<std::string> names = registry().names(VolumeScorer::kKind);
+  for (const CloudPair& pair : pairs) {
+    for (const double leaf_size_m : kLeafSizes) {
+      check_equal_counts(names, pair, leaf_size_m);
+      for (const std::string& name : names) {
+        const Scorer subject = scorer(name, leaf_size_m);
+        const std::string place =
+            pair.name + "/leaf_size_m:" + params::value_json(leaf_size_m) + "/" + name;
+        add("bind/" + place, benchmark::kMillisecond,
+            [=](benchmark::State& state) { measure_bind(state, subject, pair); });
+        add("pose/" + place, benchmark::kMillisecond,
+            [=](benchmark::State& state) { measure_pose(state, subject, pair); });
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace croon::benchmarks
+
+int main(int argc, char** argv) {
+  return croon::benchmarks::run(argc, argv, croon::benchmarks::check_and_add);
+}

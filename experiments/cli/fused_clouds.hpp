@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "experiments/engine/experiment.hpp"
+#include "experiments/engine/trial_record.hpp"
+
+namespace croon::experiments {
+
+/// Writes, for each variant and scene, the clouds of the rig in the reference's frame, each sensor
+/// at the estimate of its first trial that finished: `folder/<variant>/<scene>.ply`, coloured by
+/// sensor, and
+/// `<scene>.vdb`, the leaves of 0.05 m that they occupy. `records` are in report order.
+void write_fused_clouds(const Experiment& experiment, const std::vector<Scene>& scenes,
+                        const std::vector<TrialRecord>& records,
+                        const std::filesystem::path& folder);
+
+}  // namespace croon::experiments

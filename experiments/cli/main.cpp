@@ -1,0 +1,130 @@
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+
+#include "experiments/cli/fault_lines.hpp"
+#include "experiments/cli/run_command.hpp"
+#include "experiments/cli/validate_command.hpp"
+#include "experiments/engine/version.hpp"
+#include "framework/base/nearest_name.hpp"
+#include "registry/help.hpp"
+#include "registry/registry.hpp"
+#include "registry/schema.hpp"
+
+namespace croon::experiments {
+namespace {
+
+constexpr int kRequestIsWrong = 2;
+
+/// What the command line asks for.
+struct CommandLine {
+  RunOptions run;
+  std::vector<std::filesystem::path> to_validate;
+  std::string stages;
+  bool as_json = false;
+  bool as_markdown = false;
+};
+
+void add_run(CLI::App& app, RunOptions& options) {
+  CLI::App* run = app.add_subcommand("run", "Run an experiment, or what of it is missing.");
+  run->add_option("EXPERIMENT", options.experiment, "The experiment, a JSON file.")->required();
+  run->add_option("--out", options.out, "Folder to write to; default results/<name>.");
+  run->add_option("--data", options.data, "The data root; default $CROON_DATA, else data.");
+  run->add_option("--jobs", options.jobs, "Threads; default all cores.")
+      ->check(CLI::Range(1, 4096));
+  run->add_option("--trials", options.trials, "Starts per variant, scene and sensor.")
+      ->check(CLI::Range(1, 1000000000));
+  run->add_option("--only", options.only, "Run these variants alone.");
+  run->add_option("--shard", options.shard, "Run part K of N of the trials, K/N.");
+  run->add_flag("--fresh", options.fresh, "Delete what is in the folder and start over.");
+  run->add_flag("--quiet", options.quiet, "Do not show progress.");
+  run->add_flag("--clouds", options.clouds, "Write the rig's clouds, fused by the estimates.");
+}
+
+void add_others(CLI::App& app, CommandLine& line) {
+  CLI::App* validate =
+      app.add_subcommand("validate", "Check experiment files; the data need not be there.");
+  validate->add_option("PATH", line.to_validate, "Files, or folders of *.json.")->required();
+  CLI::App* stages = app.add_subcommand("stages", "Tell what stages there are.");
+  stages->add_option("KIND/NAME", line.stages,
+                     "A kind of stage, or one stage with its parameters.");
+  CLI::Option* json = stages->add_flag("--json", line.as_json, "As JSON.");
+  stages->add_flag("--markdown", line.as_markdown, "As Markdown.")->excludes(json);
+  app.add_subcommand("schema", "Print the JSON Schema of experiment files.");
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+/// Throws InputError for the words that no option or command took.
+void refuse_leftovers(const CLI::App& app) {
+  const std::vector<CLI::App*> commands = app.get_subcommands();
+  const CLI::App& command = commands.empty() ? app : *commands.front();
+  for (const std::string& word : app.remaining(true)) {
+    if (word.compare(0, 1, "-") == 0) {
+      throw InputError("", "",
+                       "unknown option \"" + word + "\"" + name_hint(word, option_names(command)));
+    }
+    if (!commands.empty()) throw InputError("", "", "unexpected \"" + word + "\"");
+    std::vector<std::string> names;
+    for (const CLI::App* known : app.get_subcommands({})) names.push_back(known->get_name());
+    throw InputError("", "", "unknown command \"" + word + "\"" + name_hint(word, names));
+  }
+}
+
+int run_chosen(const CLI::App& app, const CommandLine& line) {
+  refuse_leftovers(app);
+  if (app.got_subcommand("run")) {
+    return run_command(line.run, registry(), std::cout, std::cerr);
+  }
+  if (app.got_subcommand("validate")) {
+    return validate_command(line.to_validate, registry(), std::cout, std::cerr);
+  }
+  if (app.got_subcommand("schema")) {
+    std::cout << experiment_schema(registry());
+  } else if (app.got_subcommand("stages")) {
+    const HelpFormat plain = line.as_json ? HelpFormat::json : HelpFormat::text;
+    std::cout << stages_help(registry(), line.stages,
+                             line.as_markdown ? HelpFormat::markdown : plain);
+  } else {
+    std::cout << app.help();
+  }
+  return 0;
+}
+
+int croon_main(int argc, char** argv) {
+  CLI::App app("A bench for target-less multi-LiDAR calibration.", "croon");
+  CommandLine line;
+  app.set_version_flag("--version", std::string("croon ") + croon_version());
+  app.allow_extras();
+  add_run(app, line.run);
+  add_others(app, line);
+  try {
+    app.parse(argc, argv);
+    return run_chosen(app, line);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    std::cerr << "croon: " << error.what() << "\n";
+  } catch (const InputError& error) {
+    print_faults(error, std::cerr);
+  }
+  return kRequestIsWrong;
+}
+
+}  // namespace
+}  // namespace croon::experiments
+
+int main(int argc, char** argv) {
+  try {
+    return croon::experiments::croon_main(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "croon: this is a bug: " << error.what() << "\n";
+    return 1;
+  }
+}

@@ -1,0 +1,48 @@
+#include "experiments/cli/output_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "experiments/engine/store.hpp"
+#include "framework/base/error.hpp"
+
+namespace croon::experiments {
+
+OutputFolder::OutputFolder(const std::filesystem::path& path) : path_(path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error || !std::filesystem::is_directory(path, error)) {
+    throw InputError(path.string(), "", "expected a folder to write to: " + error.message());
+  }
+  if (::access(path.c_str(), W_OK | X_OK) != 0) {
+    throw InputError(path.string(), "", "expected a folder that may be written to");
+  }
+  lock_ = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  // A file system that cannot lock folders is no fault: SQLite locks the store besides.
+  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(lock_);
+    throw InputError(path.string(), "", "another croon is working in this folder");
+  }
+}
+
+OutputFolder::~OutputFolder() {
+  if (lock_ >= 0) ::close(lock_);
+}
+
+void OutputFolder::clear() const {
+  std::vector<std::filesystem::path> old = store_files(store());
+  for (const char* name : {"trials.csv", "timings.csv", "summary.csv", "summary.json",
+                           "box_plots.svg", "manifest.json", "clouds"}) {
+    old.push_back(file(name));
+  }
+  for (const std::filesystem::path& path : old) {
+    std::error_code error;
+    std::filesystem::remove_all(path, error);
+    if (error) throw InputError(path.string(), "", "cannot be deleted: " + error.message());
+  }
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,143 @@
+#include "experiments/cli/run_command.hpp"
+
+#include <tbb/info.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+
+#include "experiments/cli/fused_clouds.hpp"
+#include "experiments/cli/output_folder.hpp"
+#include "experiments/cli/timings_file.hpp"
+#include "experiments/engine/experiment_loader.hpp"
+#include "experiments/engine/manifest.hpp"
+#include "experiments/engine/provenance.hpp"
+#include "experiments/engine/runner.hpp"
+#include "experiments/engine/starts.hpp"
+#include "experiments/engine/store.hpp"
+#include "experiments/report/box_plots.hpp"
+#include "experiments/report/csv_files.hpp"
+#include "experiments/report/progress.hpp"
+#include "experiments/report/summary.hpp"
+#include "experiments/report/table.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
+
+namespace croon::experiments {
+namespace {
+
+/// A run of which everything was checked that can be before anything is written.
+struct CheckedRun {
+  Experiment experiment;
+  Selection selection;
+  std::filesystem::path data_root;
+  std::vector<Scene> scenes;
+  std::filesystem::path out;
+  int jobs = 1;
+};
+
+std::filesystem::path data_root(const RunOptions& options) {
+  if (!options.data.empty()) return options.data;
+  const char* set = std::getenv("CROON_DATA");
+  return set != nullptr && *set != '\0' ? set : "data";
+}
+
+CheckedRun check(const RunOptions& options, const Catalogue& catalogue) {
+  CheckedRun run;
+  run.experiment = load_experiment(options.experiment, catalogue);
+  if (options.trials > 0) run.experiment.starts.trials = options.trials;
+  run.selection.variants = select_variants(run.experiment, options.only);
+  if (!options.shard.empty()) run.selection.shard = read_shard(options.shard);
+  run.data_root = data_root(options);
+  run.scenes = run.experiment.dataset->scenes(run.data_root);
+  check_centres(run.experiment, run.scenes);
+  run.out = options.out;
+  if (run.out.empty()) run.out = std::filesystem::path("results") / run.experiment.name;
+  run.jobs = options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();
+  return run;
+}
+
+/// The trials of `plan` that the store lacks.
+std::vector<PlannedTrial> missing_trials(const CheckedRun& run,
+                                         const std::vector<PlannedTrial>& plan,
+                                         const Store& store) {
+  const std::set<TrialKey> keys = store.keys();
+  std::vector<PlannedTrial> missing;
+  for (const PlannedTrial& planned : plan) {
+    const TrialId id = trial_id(run.experiment, run.scenes, planned);
+    if (keys.count(trial_key(id)) == 0) missing.push_back(planned);
+  }
+  return missing;
+}
+
+/// Runs what is missing and returns all the records of the store, in report order.
+std::vector<TrialRecord> fill_store(const CheckedRun& run, const OutputFolder& folder, Store& store,
+                                    Progress& progress, const std::vector<PlannedTrial>& plan) {
+  const std::vector<PlannedTrial> missing = missing_trials(run, plan, store);
+  progress.skip(plan.size() - missing.size());
+  TimingsFile timings(folder.timings());
+  RunListener listener;
+  listener.on_scene = [&](const std::string& scene) { progress.set_scene(scene); };
+  listener.on_trial = [&](const TrialRecord& record, const std::vector<TimingRow>& rows) {
+    store.add(record);
+    timings.add(rows);
+    progress.advance();
+  };
+  listener.on_scene_timings = [&](const std::vector<TimingRow>& rows) { timings.add(rows); };
+  run_trials(run.experiment, run.scenes, missing, run.jobs, listener);
+  progress.finish();
+  return in_report_order(store.records(), run.experiment, run.scenes);
+}
+
+void add_once(std::vector<std::string>& names, const std::string& name) {
+  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+ReportOrder report_order(const CheckedRun& run) {
+  ReportOrder order;
+  for (const Variant& variant : run.experiment.variants) order.variants.push_back(variant.name);
+  for (const Scene& scene : run.scenes) {
+    order.scenes.push_back(scene.name);
+    for (const SensorScan& scan : scene.sensors) add_once(order.sensors, scan.sensor);
+  }
+  return order;
+}
+
+void write_reports(const OutputFolder& folder, const std::vector<TrialRecord>& records,
+                   const Summary& summary, const std::string& manifest) {
+  write_whole_file(folder.file("trials.csv"), trials_csv(records));
+  write_whole_file(folder.file("summary.csv"), summary_csv(summary));
+  write_whole_file(folder.file("summary.json"), summary_json(summary));
+  write_whole_file(folder.file("box_plots.svg"), box_plots_svg(summary));
+  write_whole_file(folder.file("manifest.json"), manifest);
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostream& out,
+                std::ostream& progress_out) {
+  const CheckedRun run = check(options, catalogue);
+  const std::vector<InputFile> inputs = input_files(run.scenes, run.data_root, run.jobs);
+  const std::string manifest = manifest_json(run.experiment, inputs, run.data_root, run.jobs);
+  const std::vector<PlannedTrial> plan = plan_trials(run.experiment, run.scenes, run.selection);
+  const OutputFolder folder(run.out);
+  if (options.fresh) folder.clear();
+  std::vector<TrialRecord> records;
+  {
+    Store store(folder.store(), provenance_of(run.experiment, run.scenes, inputs));
+    Progress progress(progress_out, progress_style_of_stderr(options.quiet), plan.size());
+    records = fill_store(run, folder, store, progress, plan);
+  }
+  rewrite_in_order(folder.store());
+  const Summary summary = summarise(records, run.experiment.success, report_order(run));
+  write_reports(folder, records, summary, manifest);
+  if (options.clouds) write_fused_clouds(run.experiment, run.scenes, records, folder.clouds());
+  TableStyle style;
+  style.colours = &out == &std::cout && ::isatty(STDOUT_FILENO) != 0;
+  out << summary_table(summary, style) << "Results are in " << run.out.string() << "\n";
+  const auto is_failed = [](const TrialRecord& r) { return r.status == Status::failed; };
+  return std::any_of(records.begin(), records.end(), is_failed) ? 3 : 0;
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "framework/stage/catalogue.hpp"
+
+namespace croon::experiments {
+
+/// What `croon run` is asked for.
+struct RunOptions {
+  std::filesystem::path experiment;
+  std::filesystem::path out;   ///< Empty: results/<name>.
+  std::filesystem::path data;  ///< Empty: CROON_DATA, else data/.
+  int jobs = 0;                ///< 0: all cores.
+  int trials = 0;              ///< 0: as in the experiment.
+  std::vector<std::string> only;
+  std::string shard;    ///< "K/N"; empty: all.
+  bool fresh = false;   ///< Delete what is there and start over.
+  bool quiet = false;   ///< No progress.
+  bool clouds = false;  ///< Write fused clouds.
+};
+
+/// Runs the experiment, or what of it is missing, and writes the results: the table to `out`,
+/// progress to `progress`. Returns the exit code: 0, or 3 where a trial failed. Throws InputError,
+/// before anything is written where the request is wrong.
+int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostream& out,
+                std::ostream& progress);
+
+}  // namespace croon::experiments

@@ -1,0 +1,32 @@
+#include "experiments/cli/timings_file.hpp"
+
+#include "experiments/report/csv_files.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
+
+namespace croon::experiments {
+namespace {
+
+/// Makes the file end after its last whole line, or hold the header alone.
+void repair(const std::filesystem::path& path) {
+  const std::string header = timings_csv({});
+  std::string bytes;
+  if (std::filesystem::exists(path)) bytes = read_whole_file(path);
+  if (bytes.compare(0, header.size(), header) != 0) return write_whole_file(path, header);
+  if (bytes.back() != '\n') write_whole_file(path, bytes.substr(0, bytes.rfind('\n') + 1));
+}
+
+}  // namespace
+
+TimingsFile::TimingsFile(const std::filesystem::path& path) : path_(path) {
+  repair(path);
+  stream_.open(path, std::ios::binary | std::ios::app);
+  if (!stream_) throw InputError(path.string(), "", "cannot be written");
+}
+
+void TimingsFile::add(const std::vector<TimingRow>& rows) {
+  stream_ << timings_csv(rows).substr(timings_csv({}).size()) << std::flush;
+  if (!stream_) throw InputError(path_.string(), "", "cannot be written");
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,54 @@
+#include "experiments/cli/validate_command.hpp"
+
+#include <algorithm>
+
+#include "experiments/cli/fault_lines.hpp"
+#include "experiments/engine/experiment_loader.hpp"
+
+namespace croon::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The JSON files below `folder`, by path.
+std::vector<fs::path> json_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file() && entry.path().extension() == ".json") files.push_back(entry);
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty()) throw InputError(folder.string(), "", "expected a folder with *.json files");
+  return files;
+}
+
+std::vector<fs::path> all_files(const std::vector<fs::path>& paths) {
+  std::vector<fs::path> files;
+  for (const fs::path& path : paths) {
+    if (fs::is_directory(path)) {
+      const std::vector<fs::path> below = json_files(path);
+      files.insert(files.end(), below.begin(), below.end());
+    } else {
+      files.push_back(path);
+    }
+  }
+  return files;
+}
+
+}  // namespace
+
+int validate_command(const std::vector<fs::path>& paths, const Catalogue& catalogue,
+                     std::ostream& out, std::ostream& err) {
+  int code = 0;
+  for (const fs::path& file : all_files(paths)) {
+    try {
+      load_experiment(file, catalogue);
+      out << file.string() << ": ok\n";
+    } catch (const InputError& error) {
+      print_faults(error, err);
+      code = 2;
+    }
+  }
+  return code;
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace croon::experiments {
+
+/// A prepared SQL statement. Parameters and columns count from 0.
+class Statement {
+ public:
+  Statement(sqlite3* database, const std::string& file, const std::string& sql);
+
+  void bind(int place, const std::string& text);
+  void bind(int place, std::int64_t number);
+  void bind(int place, double number);
+  void bind_null(int place);
+
+  /// Runs to the next row; false where there is none any more.
+  bool next();
+  /// Makes the statement ready to be run again; parameters become null.
+  void reset();
+
+  bool is_null(int column) const;
+  std::string text(int column) const;
+  std::int64_t integer(int column) const;
+  double real(int column) const;
+
+ private:
+  struct Finalise {
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  void check(int code);
+
+  sqlite3* database_;
+  std::string file_;
+  std::unique_ptr<sqlite3_stmt, Finalise> statement_;
+};
+
+/// An SQLite file. What SQLite cannot do (no space, no permission, not a database, in use by
+/// another process) is an InputError with the file's name.
+class Database {
+ public:
+  /// Opens `path` or makes it.
+  explicit Database(const std::filesystem::path& path);
+
+  /// Runs statements that return nothing.
+  void run(const std::string& sql);
+  Statement prepare(const std::string& sql) const;
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const;
+  };
+  std::string file_;
+  std::unique_ptr<sqlite3, Close> database_;
+};
+
+}  // namespace croon::experiments

@@ -1,0 +1,96 @@
+#include "experiments/engine/manifest.hpp"
+
+#include <sys/utsname.h>
+
+#include <chrono>
+#include <ctime>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "experiments/engine/experiment_loader.hpp"
+#include "experiments/engine/version.hpp"
+#include "framework/io/digest.hpp"
+
+namespace croon::experiments {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json experiment_json(const Experiment& experiment) {
+  Json json;
+  json["name"] = experiment.name;
+  json["description"] = experiment.description;
+  json["dataset"] = Json::parse(experiment.dataset.resolved());
+  json["starts"] = Json::parse(start_rule_json(experiment.starts));
+  json["starts"]["trials"] = experiment.starts.trials;
+  json["seed"] = experiment.seed;
+  json["success"] = Json::parse(success_json(experiment.success));
+  json["variants"] = Json::array();
+  for (const Variant& variant : experiment.variants) {
+    json["variants"].push_back(
+        {{"name", variant.name}, {"pipeline", Json::parse(variant.resolved)}});
+  }
+  return json;
+}
+
+Json libraries_json() {
+  Json json = Json::object();
+  for (const auto& [library, version] : library_versions()) json[library] = version;
+  return json;
+}
+
+Json inputs_json(const std::vector<InputFile>& inputs) {
+  Json json = Json::array();
+  for (const InputFile& input : inputs) {
+    json.push_back({{"path", input.path}, {"sha256", input.sha256}});
+  }
+  return json;
+}
+
+std::string cpu_model() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.compare(0, 10, "model name") == 0) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
+
+/// Now, "2024-05-01T12:00:00Z".
+std::string utc_time() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+Json host_json(const std::filesystem::path& data_root, int jobs) {
+  utsname system{};
+  uname(&system);
+  return {{"hostname", system.nodename},
+          {"os", std::string(system.sysname) + " " + system.release + " " + system.machine},
+          {"cpu", cpu_model()},
+          {"cores", std::thread::hardware_concurrency()},
+          {"jobs", jobs},
+          {"data_root", data_root.string()},
+          {"started", utc_time()}};
+}
+
+}  // namespace
+
+std::string manifest_json(const Experiment& experiment, const std::vector<InputFile>& inputs,
+                          const std::filesystem::path& data_root, int jobs) {
+  Json manifest;
+  manifest["experiment"] = experiment_json(experiment);
+  manifest["croon"] = {{"version", croon_version()},
+                       {"commit", croon_commit()},
+                       {"program_sha256", sha256_of_file("/proc/self/exe")}};
+  manifest["libraries"] = libraries_json();
+  manifest["inputs"] = inputs_json(inputs);
+  manifest["host"] = host_json(data_root, jobs);
+  return manifest.dump(2) + "\n";
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/engine/experiment.hpp"
+#include "experiments/engine/store.hpp"
+
+namespace croon::experiments {
+
+/// A file that results depend on.
+struct InputFile {
+  std::string path;  ///< Relative to the data root where it lies below it.
+  std::string sha256;
+};
+
+/// The files that the clouds of `scenes` are in, in order, each once; read on `jobs` threads.
+/// Throws InputError where one cannot be read.
+std::vector<InputFile> input_files(const std::vector<Scene>& scenes,
+                                   const std::filesystem::path& data_root, int jobs);
+
+/// JSON text of the rule without the number of trials: what decides a start.
+std::string start_rule_json(const StartRule& rule);
+
+/// JSON text of the bounds.
+std::string success_json(const SuccessBounds& bounds);
+
+/// All that decides the result of a trial: resolved pipelines, dataset, inputs (files and the rig's
+/// poses), starts (but not how many), seed, success bounds, and the program itself.
+Provenance provenance_of(const Experiment& experiment, const std::vector<Scene>& scenes,
+                         const std::vector<InputFile>& inputs);
+
+}  // namespace croon::experiments

@@ -1,0 +1,138 @@
+#include "experiments/report/box_plots.hpp"
+
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "experiments/report/box_groups.hpp"
+#include "experiments/report/box_layout.hpp"
+#include "experiments/report/svg.hpp"
+#include "experiments/report/text.hpp"
+
+namespace croon::experiments {
+
+namespace {
+
+constexpr double kBoxWidth = 13.0;  // Pixels.
+constexpr std::size_t kMaxScenes = 12;
+
+// Colours that colour-blind readers can tell apart (Okabe and Ito 2008); they show on white and on
+// black.
+constexpr const char* kStyleSheet =
+    R"css(text { font: 12px sans-serif; fill: #222; }
+.title { font-size: 14px; font-weight: bold; }
+.small { font-size: 11px; fill: #555; }
+.page { fill: #fff; }
+.grid { stroke: #e2e2e2; }
+.zero { stroke: #888; }
+.box { fill-opacity: 0.35; stroke-width: 1.2; }
+.line { stroke-width: 1.2; }
+.median { stroke-width: 2.4; }
+.dot { stroke: none; fill-opacity: 0.6; }
+.c0 { stroke: #0072b2; fill: #0072b2; }
+.c1 { stroke: #d55e00; fill: #d55e00; }
+.c2 { stroke: #009e73; fill: #009e73; }
+.c3 { stroke: #cc79a7; fill: #cc79a7; }
+.c4 { stroke: #e69f00; fill: #e69f00; }
+.c5 { stroke: #56b4e9; fill: #56b4e9; }
+.c6 { stroke: #8c7a00; fill: #8c7a00; }
+.c7 { stroke: #808080; fill: #808080; }
+@media (prefers-color-scheme: dark) {
+  text { fill: #ddd; }
+  .small { fill: #aaa; }
+  .page { fill: #16181c; }
+  .grid { stroke: #33373d; }
+  .zero { stroke: #8a8f98; }
+  .c0 { stroke: #4aa8e0; fill: #4aa8e0; }
+}
+)css";
+constexpr std::size_t kColours = 8;
+
+void draw_frame(Svg& svg, const BoxPanel& panel, const Measure& measure) {
+  for (const double tick : panel.axis.ticks) {
+    const double y = panel.y(tick);
+    svg.line(panel.left, y, panel.left + panel.width, y, tick == 0.0 ? "zero" : "grid");
+    svg.text(panel.left - 6.0, y + 4.0, fixed_number(tick, panel.axis.decimals), Anchor::end,
+             "small");
+  }
+  svg.text(panel.left, panel.top - 10.0, std::string(measure.name) + ", " + measure.unit,
+           Anchor::start, "title");
+}
+
+void draw_box(Svg& svg, const BoxPanel& panel, double x, const BoxSeries& series,
+              std::size_t measure) {
+  std::vector<double> values;
+  for (const Measures& deviation : series.deviations) values.push_back(deviation[measure]);
+  const BoxPlot box = box_plot(std::move(values));
+  const std::string colour = " c" + std::to_string(series.colour % kColours);
+  const double left = x - kBoxWidth / 2.0;
+  const double right = x + kBoxWidth / 2.0;
+  const double top = panel.y(box.upper_quartile);
+  const double bottom = panel.y(box.lower_quartile);
+  svg.line(x, panel.y(box.upper_whisker), x, top, "line" + colour);
+  svg.line(x, bottom, x, panel.y(box.lower_whisker), "line" + colour);
+  for (const double end : {box.lower_whisker, box.upper_whisker}) {
+    svg.line(left + 3.0, panel.y(end), right - 3.0, panel.y(end), "line" + colour);
+  }
+  svg.rectangle(left, top, kBoxWidth, bottom - top, "box" + colour);
+  svg.line(left, panel.y(box.median), right, panel.y(box.median), "median" + colour);
+  // Of dots that cannot be told apart one is enough, or a long run makes a file of many megabytes.
+  std::set<double> rows;
+  for (const double outlier : box.outliers) rows.insert(std::round(2.0 * panel.y(outlier)) / 2.0);
+  for (const double y : rows) svg.dot(x, y, 1.8, "dot" + colour);
+}
+
+void draw_panel(Svg& svg, const BoxLayout& layout, const std::vector<BoxGroup>& groups,
+                std::size_t place) {
+  const std::size_t measure = kPaperOrder[place];
+  const BoxPanel panel = panel_of(layout, groups, place, measure);
+  draw_frame(svg, panel, kMeasures[measure]);
+  double used = 0.0;
+  for (const BoxGroup& group : groups) used += group_width(group);
+  // What width is left over goes between the groups.
+  const double gap = (layout.plot_width - used) / static_cast<double>(groups.size());
+  const double below = panel.top + kPlotHeight + 8.0;
+  double left = panel.left + gap / 2.0;
+  for (const BoxGroup& group : groups) {
+    const double width = group_width(group);
+    const double boxes = kBoxPitch * static_cast<double>(group.boxes.size());
+    double x = left + (width - boxes) / 2.0 + kBoxPitch / 2.0;
+    for (const BoxSeries& box : group.boxes) {
+      draw_box(svg, panel, x, box, measure);
+      svg.text(x + 4.0, below, cut_to_columns(box.label, kLabelColumns), Anchor::end, "small",
+               -90.0);
+      x += kBoxPitch;
+    }
+    svg.text(left + width / 2.0, below + layout.label_height + 10.0, group.sensor, Anchor::middle,
+             "sensor");
+    left += width + gap;
+  }
+}
+
+std::string title_of(const Summary& summary) {
+  int counted = 0;
+  int trials = 0;
+  bool has_truth = false;
+  for (const SummaryRow& row : summary.rows) {
+    counted += row.counted;
+    trials += row.outcomes.trials;
+    has_truth = has_truth || row.reference == Reference::truth;
+  }
+  const std::string which = std::to_string(counted) + " of " + std::to_string(trials) + " trials";
+  return has_truth ? "Error of the successful trials against the truth (" + which + ")"
+                   : "Deviation from what all scenes agree on (" + which + ")";
+}
+
+}  // namespace
+
+std::string box_plots_svg(const Summary& summary) {
+  const std::vector<BoxGroup> groups = box_groups(summary, kMaxScenes);
+  const BoxLayout layout = layout_of(groups);
+  Svg svg(layout.width(), layout.height(), kStyleSheet);
+  svg.rectangle(0.0, 0.0, layout.width(), layout.height(), "page");
+  svg.text(kMargin, kTitleHeight - 18.0, title_of(summary), Anchor::start, "title");
+  for (std::size_t place = 0; place < kDofs; ++place) draw_panel(svg, layout, groups, place);
+  return svg.bytes();
+}
+
+}  // namespace croon::experiments

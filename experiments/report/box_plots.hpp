@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "experiments/report/summary.hpp"
+
+namespace croon::experiments {
+
+/// The bytes of box_plots.svg, the paper's figure of its real experiment: a panel per DOF, a box
+/// per sensor and scene (with several variants: per sensor and variant). Boxes are quartiles with
+/// the median, whiskers reach the last value within 1.5 interquartile ranges (Tukey 1977), values
+/// beyond are dots. Readable on light and on dark pages; needs no font or script.
+std::string box_plots_svg(const Summary& summary);
+
+}  // namespace croon::experiments

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/engine/trial_record.hpp"
+
+namespace croon::experiments {
+
+/// The bytes of trials.csv: a header and a row per record in the order given. Error columns are
+/// empty where there is no truth, pose columns where the trial did not finish; quaternions have qw
+/// >= 0.
+std::string trials_csv(const std::vector<TrialRecord>& records);
+
+/// The bytes of timings.csv: a header and a row per timing in the order given.
+std::string timings_csv(const std::vector<TimingRow>& rows);
+
+/// The word for a status in files and tables: "success", "inaccurate", "rejected" or "failed".
+const char* status_name(Status status);
+
+}  // namespace croon::experiments

@@ -1,0 +1,59 @@
+#include "experiments/report/row_table.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "experiments/report/text.hpp"
+
+namespace croon::experiments {
+
+namespace {
+
+constexpr std::size_t kLongName = 16;
+
+void append(std::vector<std::string>& to, const std::vector<std::string>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+}  // namespace
+
+RowTable::RowTable(const Summary& summary, std::vector<std::string> names,
+                   const std::vector<std::string>& columns) {
+  std::set<std::string> variants;
+  std::size_t longest = 0;
+  for (const SummaryRow& row : summary.rows) {
+    variants.insert(row.variant);
+    longest = std::max(longest, text_columns(row.variant));
+  }
+  if (variants.size() > 1) {
+    place_ = longest > kLongName ? VariantPlace::heading : VariantPlace::column;
+  }
+  if (place_ == VariantPlace::column) names.insert(names.begin(), "variant");
+  const std::size_t name_count = names.size();
+  append(names, columns);
+  table_.emplace(std::move(names), name_count);
+}
+
+void RowTable::add(const std::string& variant, std::vector<std::string> names,
+                   const std::vector<std::string>& cells) {
+  if (place_ == VariantPlace::column) names.insert(names.begin(), variant);
+  if (place_ == VariantPlace::heading && last_variant_ != variant) table_->add_heading(variant);
+  last_variant_ = variant;
+  append(names, cells);
+  table_->add(std::move(names));
+}
+
+const Share& main_share(const SummaryRow& row) {
+  return row.reference == Reference::consensus ? row.agreement : row.success;
+}
+
+const Share& main_share(const SummaryRow& row, const SceneSummary& scene) {
+  return row.reference == Reference::consensus ? scene.agreement : scene.success;
+}
+
+std::string share_text(const Share& share) {
+  return std::to_string(share.count) + "/" + std::to_string(share.trials);
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/report/summary.hpp"
+#include "experiments/report/table.hpp"
+#include "experiments/report/text_table.hpp"
+
+namespace croon::experiments {
+
+/// A text table whose rows belong to variants: a column names them; where a name is long, a line
+/// above its rows; where there is one variant alone, nothing does.
+class RowTable {
+ public:
+  /// `names` are columns of text, `columns` are columns of numbers.
+  RowTable(const Summary& summary, std::vector<std::string> names,
+           const std::vector<std::string>& columns);
+
+  void add(const std::string& variant, std::vector<std::string> names,
+           const std::vector<std::string>& cells);
+  std::string text(const TableStyle& style) const { return table_->text(style.colours); }
+
+ private:
+  enum class VariantPlace { nowhere, column, heading };
+
+  VariantPlace place_ = VariantPlace::nowhere;
+  std::optional<std::string> last_variant_;
+  std::optional<TextTable> table_;
+};
+
+/// The share that counts as success in tables: with truth of trials near it, else of those that
+/// agree.
+const Share& main_share(const SummaryRow& row);
+const Share& main_share(const SummaryRow& row, const SceneSummary& scene);
+
+/// "248/250".
+std::string share_text(const Share& share);
+
+/// Success per variant, scene (rows) and sensor (columns). Of more than `style.max_scenes` rows the
+/// worst are shown, in their order.
+std::string scene_table(const Summary& summary, const TableStyle& style);
+
+}  // namespace croon::experiments

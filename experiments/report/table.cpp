@@ -1,0 +1,161 @@
+#include "experiments/report/table.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "experiments/report/csv_files.hpp"
+#include "experiments/report/csv_row.hpp"
+#include "experiments/report/row_table.hpp"
+#include "experiments/report/text.hpp"
+
+namespace croon::experiments {
+
+namespace {
+
+/// Millimetres and thousandths of a degree are what the methods differ by; the paper's tables show
+/// as many.
+int decimals_of(const Measure& measure) { return std::string(measure.unit) == "m" ? 4 : 3; }
+
+std::string percent(double ratio) { return fixed_number(100.0 * ratio, 1); }
+
+std::string interval_text(const Share& share) {
+  return "[" + percent(share.interval.low) + ", " + percent(share.interval.high) + "]";
+}
+
+std::vector<std::string> dof_columns() {
+  std::vector<std::string> names;
+  for (const std::size_t k : kPaperOrder) {
+    names.push_back(std::string(kMeasures[k].name) + " " + kMeasures[k].unit);
+  }
+  return names;
+}
+
+/// A table with a row for each row of the summary, named by variant and sensor.
+std::string row_table(const Summary& summary, const TableStyle& style,
+                      const std::vector<std::string>& columns,
+                      std::vector<std::string> (*cells_of)(const SummaryRow&)) {
+  RowTable table(summary, {"sensor"}, columns);
+  for (const SummaryRow& row : summary.rows) table.add(row.variant, {row.sensor}, cells_of(row));
+  return table.text(style);
+}
+
+std::vector<std::string> outcome_cells(const SummaryRow& row) {
+  const Share& share = main_share(row);
+  std::vector<std::string> cells = {share_text(share), percent(share.ratio), interval_text(share)};
+  for (const int count : {row.outcomes.inaccurate, row.outcomes.rejected, row.outcomes.failed}) {
+    cells.push_back(std::to_string(count));
+  }
+  for (std::size_t k = kDofs; k < kMeasures.size(); ++k) {
+    const auto text = [&](double MeasureStatistics::*value) {
+      return fixed_number((*row.statistics)[k].*value, decimals_of(kMeasures[k]));
+    };
+    cells.push_back(row.statistics
+                        ? text(&MeasureStatistics::median) + ", " + text(&MeasureStatistics::p95)
+                        : "-");
+  }
+  return cells;
+}
+
+std::vector<std::string> deviation_cells(const SummaryRow& row) {
+  std::vector<std::string> cells;
+  for (const std::size_t k : kPaperOrder) {
+    if (!row.statistics) {
+      cells.push_back("-");
+      continue;
+    }
+    const MeasureStatistics& statistics = (*row.statistics)[k];
+    const int decimals = decimals_of(kMeasures[k]);
+    cells.push_back(fixed_number(statistics.mean, decimals) + " ±" +
+                    fixed_number(statistics.std, decimals));
+  }
+  return cells;
+}
+
+std::vector<std::string> spread_cells(const SummaryRow& row) {
+  std::vector<std::string> cells;
+  for (const std::size_t k : kPaperOrder) {
+    const int decimals = decimals_of(kMeasures[k]);
+    const auto text = [&](const std::optional<std::array<double, kDofs>>& spread) {
+      return spread ? fixed_number((*spread)[k], decimals) : "-";
+    };
+    cells.push_back(text(row.within_scene_std) + " / " + text(row.across_scenes_std));
+  }
+  return cells;
+}
+
+std::string bounds_text(const SuccessBounds& bounds) {
+  return shortest_number(bounds.rotation_deg) + " deg and " +
+         shortest_number(bounds.translation_m) + " m of ";
+}
+
+/// One sentence on what the numbers mean.
+std::string explanation(const Summary& summary) {
+  const auto uses = [&](Reference reference) {
+    return std::any_of(summary.rows.begin(), summary.rows.end(),
+                       [&](const SummaryRow& row) { return row.reference == reference; });
+  };
+  std::string text;
+  if (uses(Reference::truth)) {
+    text +=
+        "success: within " + bounds_text(summary.bounds) + "the truth; errors of those trials\n";
+  }
+  if (uses(Reference::consensus)) {
+    text += "success (no truth): within " + bounds_text(summary.bounds) +
+            "what the trials of the scene agree on;\n  deviations of those trials from what all "
+            "scenes agree on\n";
+  }
+  return text + "rotation, translation: median, 95th percentile\n";
+}
+
+/// "1 trial", "2 trials".
+std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+std::string reasons_text(const Summary& summary, const TableStyle& style) {
+  if (summary.reasons.empty()) return "";
+  RowTable table(summary, {"status", "reason"}, {"trials"});
+  std::size_t shown = 0;
+  int trials_left = 0;
+  for (const ReasonCount& reason : summary.reasons) {
+    if (shown == style.max_reasons) {
+      trials_left += reason.count;
+      continue;
+    }
+    ++shown;
+    table.add(reason.variant, {status_name(reason.status), cut_to_columns(reason.reason, 80)},
+              {std::to_string(reason.count)});
+  }
+  std::string text = "\n" + table.text(style);
+  if (trials_left > 0) {
+    text += "and " + counted(summary.reasons.size() - shown, "other reason") + " of " +
+            counted(static_cast<std::size_t>(trials_left), "trial") + "\n";
+  }
+  return text;
+}
+
+bool has_several_scenes(const Summary& summary) {
+  return std::any_of(summary.rows.begin(), summary.rows.end(),
+                     [](const SummaryRow& row) { return row.scenes.size() > 1; });
+}
+
+}  // namespace
+
+std::string summary_table(const Summary& summary, const TableStyle& style) {
+  if (summary.rows.empty()) return "no trials\n";
+  const bool is_split = has_several_scenes(summary);
+  std::string text = explanation(summary) + "\n";
+  text += row_table(summary, style,
+                    {"success", "%", "95 % interval", "inaccurate", "rejected", "failed",
+                     "rotation deg", "translation m"},
+                    outcome_cells);
+  text += "\nmean ± std\n" + row_table(summary, style, dof_columns(), deviation_cells);
+  if (is_split) {
+    text += "\nstd within scenes / across scenes\n";
+    text += row_table(summary, style, dof_columns(), spread_cells);
+    text += "\nsuccess per scene\n" + scene_table(summary, style);
+  }
+  return text + reasons_text(summary, style);
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,66 @@
+#include "experiments/report/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace croon::experiments {
+
+namespace {
+
+/// Whether a byte begins a UTF-8 code point.
+bool begins_code_point(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }
+
+std::string padding(const std::string& text, std::size_t columns) {
+  const std::size_t taken = text_columns(text);
+  return std::string(taken < columns ? columns - taken : 0, ' ');
+}
+
+std::string two_digits(long long number) {
+  return (number < 10 ? "0" : "") + std::to_string(number);
+}
+
+}  // namespace
+
+std::size_t text_columns(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_code_point));
+}
+
+std::string cut_to_columns(const std::string& text, std::size_t columns) {
+  if (text_columns(text) <= columns) return text;
+  if (columns == 0) return "";
+  std::size_t begun = 0;
+  std::size_t end = 0;
+  while (!(begins_code_point(text[end]) && ++begun == columns)) ++end;
+  return text.substr(0, end) + "…";
+}
+
+std::string right_aligned(const std::string& text, std::size_t columns) {
+  return padding(text, columns) + text;
+}
+
+std::string left_aligned(const std::string& text, std::size_t columns) {
+  return text + padding(text, columns);
+}
+
+std::string fixed_number(double value, int decimals) {
+  if (!std::isfinite(value)) return std::isnan(value) ? "nan" : value < 0.0 ? "-inf" : "inf";
+  std::array<char, 400> digits;  // The largest double has 309 digits before the point.
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                 std::chars_format::fixed, decimals)
+                       .ptr;
+  const std::string text(digits.data(), end);
+  return text.find_first_not_of("-0.") == std::string::npos && text[0] == '-' ? text.substr(1)
+                                                                              : text;
+}
+
+std::string clock_text(double seconds) {
+  const auto whole = static_cast<long long>(std::lround(std::min(seconds, 1e9)));
+  const long long hours = whole / 3600;
+  const long long minutes = whole / 60 % 60;
+  return (hours > 0 ? std::to_string(hours) + ":" + two_digits(minutes) : std::to_string(minutes)) +
+         ":" + two_digits(whole % 60);
+}
+
+}  // namespace croon::experiments

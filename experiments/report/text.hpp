@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace croon::experiments {
+
+/// How many columns UTF-8 text takes: its code points.
+std::size_t text_columns(const std::string& text);
+
+/// The first `columns` columns of UTF-8 text; where something is cut off, the last of them is "…".
+std::string cut_to_columns(const std::string& text, std::size_t columns);
+
+/// `text` with spaces before it, to fill `columns`.
+std::string right_aligned(const std::string& text, std::size_t columns);
+
+/// `text` with spaces behind it, to fill `columns`.
+std::string left_aligned(const std::string& text, std::size_t columns);
+
+/// `value` with so many decimals, the same in every locale; what rounds to zero has no sign.
+std::string fixed_number(double value, int decimals);
+
+/// Hours, minutes and seconds: "3:07", "1:02:03".
+std::string clock_text(double seconds);
+
+}  // namespace croon::experiments

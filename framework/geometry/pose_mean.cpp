@@ -1,0 +1,103 @@
+#include "framework/geometry/pose_mean.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+#include "framework/base/statistics.hpp"
+#include "framework/geometry/pose_error.hpp"
+
+namespace croon {
+
+namespace {
+
+void require_poses(const std::vector<RigidTransform>& poses) {
+  if (poses.empty()) throw std::logic_error("a mean of no poses");
+}
+
+/// A fixed order, so that sums do not depend on the order that the poses came in.
+std::vector<RigidTransform> in_fixed_order(std::vector<RigidTransform> poses) {
+  std::sort(poses.begin(), poses.end(), [](const RigidTransform& a, const RigidTransform& b) {
+    if (a.translation != b.translation) {
+      return std::lexicographical_compare(a.translation.data(), a.translation.data() + 3,
+                                          b.translation.data(), b.translation.data() + 3);
+    }
+    return std::lexicographical_compare(a.rotation.data(), a.rotation.data() + 9, b.rotation.data(),
+                                        b.rotation.data() + 9);
+  });
+  return poses;
+}
+
+/// `length` as a multiple of `bound`, which may be zero.
+double multiple(double length, double bound) { return length == 0.0 ? 0.0 : length / bound; }
+
+/// The larger of rotation and translation between two poses, each as a multiple of its bound.
+double distance_in_bounds(const RigidTransform& a, const RigidTransform& b,
+                          const PoseBounds& bounds) {
+  const PoseError error = pose_error(a, b);
+  return std::max(multiple(error.rotation_rad, bounds.rotation_rad),
+                  multiple(error.translation_m, bounds.translation_m));
+}
+
+/// The place of the pose with the most others near it; see `consensus_pose`.
+std::size_t medoid(const std::vector<RigidTransform>& poses, const PoseBounds& bounds) {
+  std::vector<std::pair<double, double>> cost(poses.size(), {0.0, 0.0});
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double distance = distance_in_bounds(poses[i], poses[j], bounds);
+      for (const std::size_t k : {i, j}) {
+        cost[k].first += std::min(1.0, distance);
+        cost[k].second += distance;
+      }
+    }
+  }
+  return static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
+}
+
+/// `mean_pose` of poses that are in their fixed order.
+RigidTransform mean_of_ordered(const std::vector<RigidTransform>& poses) {
+  Eigen::Matrix4d M = Eigen::Matrix4d::Zero();
+  std::array<std::vector<double>, 3> coordinates;
+  for (const RigidTransform& pose : poses) {
+    const Eigen::Vector4d q = Eigen::Quaterniond(pose.rotation).coeffs();
+    M += q * q.transpose();
+    for (int k = 0; k < 3; ++k)
+      coordinates[static_cast<std::size_t>(k)].push_back(pose.translation(k));
+  }
+  // Eigenvalues come in increasing order.
+  const Eigen::Vector4d q = Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(M).eigenvectors().col(3);
+  return {Eigen::Quaterniond(q).normalized().toRotationMatrix(),
+          {mean(coordinates[0]), mean(coordinates[1]), mean(coordinates[2])}};
+}
+
+}  // namespace
+
+bool agree(const RigidTransform& a, const RigidTransform& b, const PoseBounds& bounds) {
+  const PoseError error = pose_error(a, b);
+  return error.rotation_rad <= bounds.rotation_rad && error.translation_m <= bounds.translation_m;
+}
+
+Eigen::Matrix3d mean_rotation(const std::vector<RigidTransform>& poses) {
+  return mean_pose(poses).rotation;
+}
+
+RigidTransform mean_pose(const std::vector<RigidTransform>& poses) {
+  require_poses(poses);
+  return mean_of_ordered(in_fixed_order(poses));
+}
+
+RigidTransform consensus_pose(const std::vector<RigidTransform>& poses, const PoseBounds& bounds) {
+  require_poses(poses);
+  const std::vector<RigidTransform> ordered = in_fixed_order(poses);
+  const std::size_t centre = medoid(ordered, bounds);
+  std::vector<RigidTransform> near;
+  for (std::size_t i = 0; i < ordered.size(); ++i) {
+    // Rounding may put a pose a hair off itself, and bounds may be zero.
+    if (i == centre || agree(ordered[i], ordered[centre], bounds)) near.push_back(ordered[i]);
+  }
+  return mean_of_ordered(near);
+}
+
+}  // namespace croon

@@ -1,0 +1,164 @@
+#include "framework/io/opencalib_files.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
+#include "framework/io/text_scan.hpp"
+
+namespace croon {
+namespace {
+
+constexpr const char* kDeviceKey = "device_id";
+
+/// The two lines that belong together: a device and what is said of it.
+struct Record {
+  int device_id = 0;
+  std::string value;
+  std::string place;  ///< Of the value.
+};
+
+/// A key as it is compared: without blanks, in small letters.
+std::string plain_key(std::string_view text) {
+  std::string key;
+  for (const char c : text) {
+    if (c != ' ' && c != '\t')
+      key += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return key;
+}
+
+/// Puts the lines of a file together to records, and notes what is wrong with them.
+class RecordReader {
+ public:
+  /// `key` is the name of the line that is not `device_id`.
+  RecordReader(const std::filesystem::path& path, std::string key)
+      : file_(path.string()), key_(std::move(key)) {}
+
+  std::vector<Record> read() {
+    const std::string text = read_whole_file(file_);
+    LineReader reader(text);
+    while (reader.next()) {
+      std::string_view line = trimmed(reader.line());
+      if (reader.number() == 1 && line.substr(0, 3) == "\xEF\xBB\xBF") line.remove_prefix(3);
+      if (!line.empty()) take(line, reader.place());
+    }
+    close_record();
+    if (records_.empty() && faults.empty()) fault("", "expected at least one device, found none");
+    return records_;
+  }
+
+  void fault(const std::string& place, const std::string& message) {
+    faults.push_back({file_, place, message});
+  }
+
+  std::vector<Fault> faults;
+
+ private:
+  void take(std::string_view line, const std::string& place) {
+    const std::size_t colon = line.find(':');
+    const std::string key = colon == std::string_view::npos ? "" : plain_key(line.substr(0, colon));
+    const bool is_device = key == kDeviceKey;
+    if (!is_device && key != plain_key(key_)) {
+      return fault(place, "expected \"" + std::string(kDeviceKey) + ": NUMBER\" or \"" + key_ +
+                              ": ...\", found " + in_quotes(line));
+    }
+    std::optional<Part>& part = is_device ? device_ : value_;
+    if (part) close_record();
+    part = Part{std::string(trimmed(line.substr(colon + 1))), place};
+    if (device_ && value_) close_record();
+  }
+
+  /// Ends the record that has begun, if any.
+  void close_record() {
+    if (device_ && value_) {
+      const std::optional<std::uint64_t> id = count_from(device_->text);
+      if (id && *id <= std::numeric_limits<int>::max()) {
+        add({static_cast<int>(*id), value_->text, value_->place});
+      } else {
+        fault(device_->place, "expected a device's number, found " + in_quotes(device_->text));
+      }
+    } else if (device_) {
+      fault(device_->place, "the device has no line \"" + key_ + "\"");
+    } else if (value_) {
+      fault(value_->place, "the line has no device_id beside it");
+    }
+    device_.reset();
+    value_.reset();
+  }
+
+  void add(const Record& record) {
+    const auto is_same = [&](const Record& r) { return r.device_id == record.device_id; };
+    if (std::any_of(records_.begin(), records_.end(), is_same)) {
+      return fault(record.place,
+                   "device " + std::to_string(record.device_id) + " stands here twice");
+    }
+    records_.push_back(record);
+  }
+
+  struct Part {
+    std::string text;
+    std::string place;
+  };
+
+  std::string file_;
+  std::string key_;
+  std::optional<Part> device_;
+  std::optional<Part> value_;
+  std::vector<Record> records_;
+};
+
+std::optional<RigidTransform> pose_of(std::string text) {
+  std::replace(text.begin(), text.end(), ',', ' ');
+  const std::vector<std::string_view> words = words_of(text);
+  if (words.size() != 6) return std::nullopt;
+  Eigen::Matrix<double, 6, 1> values;
+  for (int i = 0; i < 6; ++i) {
+    const std::optional<double> value = number_from(words[static_cast<std::size_t>(i)]);
+    if (!value || !std::isfinite(*value)) return std::nullopt;
+    values(i) = *value;
+  }
+  return RigidTransform{rotation_from_rpy(values.head<3>() * rad_from_deg(1.0)), values.tail<3>()};
+}
+
+/// The records by device; throws what was wrong.
+template <class Listed>
+std::vector<Listed> sorted(std::vector<Listed> listed, const RecordReader& reader) {
+  if (!reader.faults.empty()) throw InputError(reader.faults);
+  std::sort(listed.begin(), listed.end(),
+            [](const Listed& a, const Listed& b) { return a.device_id < b.device_id; });
+  return listed;
+}
+
+}  // namespace
+
+std::vector<ListedCloud> read_cloud_list(const std::filesystem::path& file) {
+  RecordReader reader(file, "path");
+  std::vector<ListedCloud> clouds;
+  for (const Record& record : reader.read()) {
+    if (record.value.empty()) reader.fault(record.place, "expected a file's path, found none");
+    clouds.push_back({record.device_id, record.value, record.place});
+  }
+  return sorted(std::move(clouds), reader);
+}
+
+std::vector<ListedPose> read_pose_list(const std::filesystem::path& file) {
+  RecordReader reader(file, "(Roll,Pitch,Yaw,tx,ty,tz)");
+  std::vector<ListedPose> poses;
+  for (const Record& record : reader.read()) {
+    const std::optional<RigidTransform> pose = pose_of(record.value);
+    if (!pose) {
+      reader.fault(record.place, "expected six numbers, found " + in_quotes(record.value));
+    }
+    poses.push_back({record.device_id, pose.value_or(RigidTransform{}), record.place});
+  }
+  return sorted(std::move(poses), reader);
+}
+
+}  // namespace croon

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "framework/io/scalar_type.hpp"
+
+namespace croon {
+
+/// One property of a PLY element: a number, or a list of them where `list_count` has the type of
+/// its length.
+struct PlyProperty {
+  std::string name;
+  ScalarType type;
+  std::optional<ScalarType> list_count;
+};
+
+/// One element of a PLY file: "vertex", "face", ...
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+};
+
+enum class PlyEncoding { ascii, binary_little_endian, binary_big_endian };
+
+/// What the header of a PLY file says, checked to be whole and consistent in itself.
+struct PlyHeader {
+  PlyEncoding encoding = PlyEncoding::ascii;
+  std::vector<PlyElement> elements;
+  std::size_t vertex = 0;            ///< Index of the element "vertex".
+  std::array<std::size_t, 3> xyz{};  ///< Indices of its properties x, y, z.
+  std::size_t body_offset = 0;       ///< Bytes before the elements.
+  int lines = 0;                     ///< Lines before the elements.
+};
+
+/// Reads the header at the start of `bytes`; `file` is the name in errors. Throws InputError with
+/// the line and what is wrong with it.
+PlyHeader parse_ply_header(std::string_view bytes, const std::string& file);
+
+/// Throws InputError where a file of `file_bytes` bytes cannot hold the elements that its header
+/// promises.
+void check_ply_size(const PlyHeader& header, std::uint64_t file_bytes, const std::string& file);
+
+}  // namespace croon

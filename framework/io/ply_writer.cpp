@@ -1,0 +1,76 @@
+#include "framework/io/ply_writer.hpp"
+
+#include <array>
+#include <cstring>
+
+#include "framework/base/whole_file.hpp"
+
+namespace croon {
+namespace {
+
+void append_float(std::string& bytes, float value) {
+  std::uint32_t bits = 0;
+  static_assert(sizeof(bits) == sizeof(value), "PLY's float has 4 bytes");
+  std::memcpy(&bits, &value, sizeof(bits));
+  for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(bits >> shift & 0xff);
+}
+
+void append_point(std::string& bytes, const Eigen::Vector3f& point) {
+  for (int axis = 0; axis < 3; ++axis) append_float(bytes, point(axis));
+}
+
+std::string header(const std::string& comments, std::size_t vertices, const std::string& colours) {
+  return "ply\nformat binary_little_endian 1.0\n" + comments + "element vertex " +
+         std::to_string(vertices) + "\nproperty float x\nproperty float y\nproperty float z\n" +
+         colours + "end_header\n";
+}
+
+/// A sensor's name in one line, whatever its file was called.
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20) c = '?';
+  }
+  return text;
+}
+
+}  // namespace
+
+Colour sensor_colour(std::size_t index) {
+  static const std::array<Colour, 8> colours = {{{153, 153, 153},
+                                                 {230, 159, 0},
+                                                 {86, 180, 233},
+                                                 {0, 158, 115},
+                                                 {240, 228, 66},
+                                                 {0, 114, 178},
+                                                 {213, 94, 0},
+                                                 {204, 121, 167}}};
+  return colours[index % colours.size()];
+}
+
+void write_ply(const std::filesystem::path& path, const PointCloud& cloud) {
+  std::string bytes = header("", cloud.size(), "");
+  for (const Eigen::Vector3f& point : cloud) append_point(bytes, point);
+  write_whole_file(path, bytes);
+}
+
+void write_fused_ply(const std::filesystem::path& path, const std::vector<ColouredCloud>& clouds) {
+  std::string comments, body;
+  std::size_t vertices = 0;
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    const Colour colour = sensor_colour(i);
+    comments += "comment " + one_line(clouds[i].sensor) + " is " + std::to_string(colour.red) +
+                " " + std::to_string(colour.green) + " " + std::to_string(colour.blue) + "\n";
+    vertices += clouds[i].points.size();
+    for (const Eigen::Vector3f& point :
+         transformed(clouds[i].points, clouds[i].T_reference_sensor)) {
+      append_point(body, point);
+      for (const std::uint8_t channel : {colour.red, colour.green, colour.blue}) {
+        body += static_cast<char>(channel);
+      }
+    }
+  }
+  const char* const colours = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  write_whole_file(path, header(comments, vertices, colours) + body);
+}
+
+}  // namespace croon

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "framework/geometry/dof.hpp"
+
+namespace croon {
+
+/// One pair of points that a registration pulls together, at the current pose.
+struct Correspondence {
+  Eigen::Vector3d arm;  ///< `R s`: the source point turned into the target's axes.
+  Eigen::Vector3d
+      offset;  ///< `R s + t - p`: from the target point to the source point, target frame.
+  Eigen::Vector3d target_normal;  ///< Unit; zero where there is none or it was not asked for.
+  Eigen::Vector3d source_normal;  ///< `R n`, in the target's axes; zero likewise.
+  float target_variation = 0.0F;  ///< LocalShape::surface_variation.
+  float source_variation = 0.0F;
+};
+
+/// The Jacobian of `R s + t` by the six degrees of freedom of `moved`: `[-[R s]x, I]`.
+Eigen::Matrix<double, 3, 6> point_jacobian(const Eigen::Vector3d& arm);
+
+/// The sums of one Gauss-Newton step: `information = sum w J^T Omega J`, `gradient = sum w J^T
+/// Omega r`.
+struct NormalEquations {
+  Matrix6d information = Matrix6d::Zero();
+  Vector6d gradient = Vector6d::Zero();
+  double weighted_square_sum = 0.0;  ///< `sum w r^T Omega r`.
+  double weight_sum = 0.0;
+
+  /// Adds the scalar residual `r` with the Jacobian row `J` and the weight `w`.
+  void add(const Vector6d& J, double r, double w) {
+    information.selfadjointView<Eigen::Lower>().rankUpdate(J, w);
+    gradient += (w * r) * J;
+    weighted_square_sum += w * r * r;
+    weight_sum += w;
+  }
+  /// Adds the residual vector `r` with information `Omega` and the weight `w`.
+  void add(const Eigen::Matrix<double, 3, 6>& J, const Eigen::Vector3d& r,
+           const Eigen::Matrix3d& Omega, double w);
+
+  /// Both triangles of `information`.
+  Matrix6d full_information() const {
+    return Matrix6d(information.selfadjointView<Eigen::Lower>());
+  }
+  /// The step that makes the linearised cost least, `-information^-1 gradient`. Directions that the
+  /// scene leaves open (an eigenvalue below 1e-9 of the greatest) do not move.
+  Vector6d step() const;
+};
+
+}  // namespace croon

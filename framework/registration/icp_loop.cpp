@@ -1,0 +1,157 @@
+#include "framework/registration/icp_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
+
+namespace croon {
+namespace {
+
+/// Finds the correspondences of source points at a pose.
+class Matcher {
+ public:
+  Matcher(const Cloud& target, const Cloud& source, const CorrespondenceRule& rule)
+      : target_(target),
+        source_(source),
+        rule_(rule),
+        tree_(target.kd_tree()),
+        target_normals_(rule.target_normals > 0 ? &target.normals(rule.target_normals) : nullptr),
+        source_normals_(rule.source_normals > 0 ? &source.normals(rule.source_normals) : nullptr) {}
+
+  /// The correspondence of source point `index`; false where it has none.
+  bool match(int index, const RigidTransform& T, float max_distance_m, Correspondence& pair) const {
+    pair.arm = T.rotation * source_.points()[index].cast<double>();
+    const Eigen::Vector3d point = pair.arm + T.translation;
+    const Neighbour nearest = tree_.nearest(point.cast<float>(), max_distance_m);
+    if (!nearest) return false;
+    pair.offset = point - target_.points()[nearest.index].cast<double>();
+    if (target_normals_ != nullptr) {
+      const LocalShape shape = target_normals_->at(nearest.index);
+      if (shape.normal.isZero()) return false;
+      pair.target_normal = shape.normal.cast<double>();
+      pair.target_variation = shape.surface_variation;
+    }
+    if (source_normals_ != nullptr) {
+      const LocalShape shape = source_normals_->at(index);
+      if (shape.normal.isZero()) return false;
+      pair.source_normal = T.rotation * shape.normal.cast<double>();
+      pair.source_variation = shape.surface_variation;
+    }
+    const bool both = target_normals_ != nullptr && source_normals_ != nullptr;
+    return !both || pair.target_normal.dot(pair.source_normal) >= rule_.min_normal_cosine;
+  }
+
+ private:
+  const Cloud& target_;
+  const Cloud& source_;
+  const CorrespondenceRule& rule_;
+  const KdTree& tree_;
+  const Normals* target_normals_;
+  const Normals* source_normals_;
+};
+
+/// The sums over evenly spaced source points at one pose.
+struct Linearised {
+  NormalEquations equations;
+  int points = 0;
+  int correspondences = 0;
+};
+
+class Loop {
+ public:
+  Loop(const Cloud& target, const Cloud& source, const IcpOptions& options,
+       const CorrespondenceRule& rule, const Linearise& linearise)
+      : options_(options),
+        matcher_(target, source, rule),
+        linearise_(linearise),
+        kernel_(options.kernel, options.kernel_width_m),
+        source_size_(static_cast<int>(source.points().size())) {}
+
+  /// Converges at one distance with at most `max_points` of the source.
+  void run(Registration& outcome, double max_distance_m, int max_points) const {
+    outcome.converged = false;
+    for (int i = 0; i < options_.max_iterations && !outcome.converged; ++i) {
+      const Linearised sums = linearised(outcome.T_target_source, max_distance_m, max_points);
+      const Vector6d step = sums.equations.step();
+      outcome.T_target_source = stepped(outcome.T_target_source, step);
+      outcome.converged = step.head<3>().norm() <= rad_from_deg(options_.rotation_tolerance_deg) &&
+                          step.tail<3>().norm() <= options_.translation_tolerance_m;
+      ++outcome.iterations;
+      note(sums, outcome);
+    }
+  }
+
+ private:
+  Linearised linearised(const RigidTransform& T, double max_distance_m, int max_points) const {
+    Linearised sums;
+    sums.points = std::min(max_points, source_size_);
+    Correspondence pair;
+    for (std::int64_t i = 0; i < sums.points; ++i) {
+      const int index = static_cast<int>(i * source_size_ / sums.points);
+      if (!matcher_.match(index, T, static_cast<float>(max_distance_m), pair)) continue;
+      linearise_(pair, kernel_, sums.equations);
+      ++sums.correspondences;
+    }
+    if (sums.correspondences < options_.min_correspondences) {
+      throw StageError("only " + std::to_string(sums.correspondences) + " of " +
+                       std::to_string(sums.points) + " points have a correspondence within " +
+                       params::value_json(max_distance_m) + " m");
+    }
+    return sums;
+  }
+
+  /// (R, t) moved to (exp(w) R, t + d). Far from the solution a step is cut to half a radian: the
+  /// linearisation says nothing beyond.
+  static RigidTransform stepped(const RigidTransform& T, const Vector6d& step) {
+    const double angle = step.head<3>().norm();
+    const double share = angle > 0.5 ? 0.5 / angle : 1.0;
+    return {nearest_rotation(rotation_exp(share * step.head<3>()) * T.rotation),
+            T.translation + share * step.tail<3>()};
+  }
+
+  static void note(const Linearised& sums, Registration& outcome) {
+    const NormalEquations& equations = sums.equations;
+    outcome.information = equations.full_information();
+    outcome.correspondences = sums.correspondences;
+    outcome.inlier_ratio = static_cast<double>(sums.correspondences) / sums.points;
+    outcome.rmse_m =
+        equations.weight_sum > 0.0
+            ? std::sqrt(std::max(0.0, equations.weighted_square_sum) / equations.weight_sum)
+            : 0.0;
+  }
+
+  const IcpOptions& options_;
+  Matcher matcher_;
+  const Linearise& linearise_;
+  RobustKernel kernel_;
+  int source_size_;
+};
+
+}  // namespace
+
+void linearise_point_to_plane(const Correspondence& pair, const RobustKernel& kernel,
+                              NormalEquations& equations) {
+  const double residual = pair.target_normal.dot(pair.offset);
+  Vector6d J;
+  J << pair.arm.cross(pair.target_normal), pair.target_normal;
+  equations.add(J, residual, kernel.weight(residual * residual));
+}
+
+Registration iterate_icp(const Cloud& target, const Cloud& source, const RigidTransform& start,
+                         const IcpOptions& options, const CorrespondenceRule& rule,
+                         const Linearise& linearise) {
+  if (target.empty() || source.empty()) throw StageError("a cloud to be registered is empty");
+  const Loop loop(target, source, options, rule, linearise);
+  Registration outcome;
+  outcome.T_target_source = start;
+  const int all = static_cast<int>(source.points().size());
+  for (std::size_t i = 0; i < options.max_distances_m.size(); ++i) {
+    const bool is_last = i + 1 == options.max_distances_m.size();
+    loop.run(outcome, options.max_distances_m[i], is_last ? all : options.coarse_points);
+  }
+  return outcome;
+}
+
+}  // namespace croon

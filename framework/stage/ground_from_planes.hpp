@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "framework/stage/ground_extractor.hpp"
+
+namespace croon {
+
+/// What makes a plane the ground; the same for every extractor, so that their non-ground points
+/// compare.
+struct GroundRule {
+  /// A point is ground within this distance of the plane.
+  double threshold_m = 0.2;
+  /// The plane is fitted to the points within this distance of it. Less than `threshold_m`, because
+  /// kerbs, wheels and the feet of walls stand in the wider slab and on one side of the ground
+  /// only.
+  double refit_threshold_m = 0.05;
+  /// The ground holds at least this share of the points.
+  double min_inlier_ratio = 0.05;
+};
+
+/// The ground of `cloud`, given planes that some search found in it: the one with the most points
+/// (paper, section III-A, eq. 1), and within its slab the narrower one with the most points, fitted
+/// to them by least squares. Throws StageError where no plane holds enough points.
+Ground ground_from_planes(const PointCloud& cloud, const std::vector<Plane>& planes,
+                          const GroundRule& rule, Rng& rng);
+
+}  // namespace croon

@@ -1,0 +1,68 @@
+#include "registry/help.hpp"
+
+#include "framework/base/error.hpp"
+#include "framework/base/nearest_name.hpp"
+#include "registry/help_formats.hpp"
+#include "registry/words.hpp"
+
+namespace croon {
+namespace {
+
+/// What the caller asked for: everything where both are empty, a kind, or one stage of it.
+struct Selection {
+  std::string kind;
+  std::string name;
+};
+
+bool is_kind(const std::string& word) {
+  for (const std::string& kind : stage_kinds()) {
+    if (kind == word) return true;
+  }
+  return false;
+}
+
+Selection selection_from(const Catalogue& catalogue, const std::string& which) {
+  const std::size_t slash = which.find('/');
+  Selection selection{which.substr(0, slash), ""};
+  if (!which.empty() && !is_kind(selection.kind)) {
+    throw InputError("", "",
+                     "expected a kind of stage, found \"" + selection.kind + "\"" +
+                         name_hint(selection.kind, stage_kinds()));
+  }
+  if (slash == std::string::npos) return selection;
+  selection.name = which.substr(slash + 1);
+  if (catalogue.find(selection.kind, selection.name) == nullptr) {
+    throw InputError("", "",
+                     "expected " + kind_phrase(selection.kind) + ", found \"" + selection.name +
+                         "\"" + name_hint(selection.name, catalogue.names(selection.kind)));
+  }
+  return selection;
+}
+
+StageList selected(const Catalogue& catalogue, const Selection& selection) {
+  StageList stages;
+  for (const StageEntry& entry : catalogue.entries()) {
+    if (!selection.kind.empty() && entry.kind != selection.kind) continue;
+    if (!selection.name.empty() && entry.name != selection.name) continue;
+    stages.push_back(&entry);
+  }
+  return stages;
+}
+
+std::string markdown(const Selection& selection, const StageList& stages) {
+  if (selection.kind.empty()) return markdown_index(stages);
+  if (selection.name.empty()) return markdown_page(selection.kind, stages);
+  return markdown_section(*stages.front());
+}
+
+}  // namespace
+
+std::string stages_help(const Catalogue& catalogue, const std::string& which, HelpFormat format) {
+  const Selection selection = selection_from(catalogue, which);
+  const StageList stages = selected(catalogue, selection);
+  if (format == HelpFormat::json) return json_list(stages);
+  if (format == HelpFormat::markdown) return markdown(selection, stages);
+  return selection.name.empty() ? text_table(stages) : text_page(*stages.front());
+}
+
+}  // namespace croon

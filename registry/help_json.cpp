@@ -1,0 +1,68 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "registry/help_formats.hpp"
+
+namespace croon {
+namespace {
+
+using nlohmann::ordered_json;
+using params::ParameterDoc;
+using params::ParameterType;
+
+const char* type_name(ParameterType type) {
+  switch (type) {
+    case ParameterType::boolean:
+      return "boolean";
+    case ParameterType::integer:
+      return "integer";
+    case ParameterType::number:
+      return "number";
+    case ParameterType::text:
+      return "text";
+    case ParameterType::choice:
+      return "choice";
+    case ParameterType::numbers:
+      return "numbers";
+    case ParameterType::choices:
+      return "choices";
+    case ParameterType::stage:
+      return "stage";
+    case ParameterType::stages:
+      return "stages";
+  }
+  throw std::logic_error("a parameter type without a name");
+}
+
+ordered_json parameter_json(const ParameterDoc& parameter) {
+  ordered_json value = {{"key", parameter.key}, {"type", type_name(parameter.type)}};
+  if (std::isfinite(parameter.range.minimum)) value["minimum"] = parameter.range.minimum;
+  if (std::isfinite(parameter.range.maximum)) value["maximum"] = parameter.range.maximum;
+  if (!parameter.choices.empty()) value["choices"] = parameter.choices;
+  if (!parameter.stage_kind.empty()) value["kind"] = parameter.stage_kind;
+  value["required"] = parameter.is_required;
+  if (!parameter.is_required) value["default"] = ordered_json::parse(parameter.default_json);
+  value["sentence"] = parameter.sentence;
+  return value;
+}
+
+}  // namespace
+
+std::string json_list(const StageList& stages) {
+  ordered_json list = ordered_json::array();
+  for (const StageEntry* stage : stages) {
+    ordered_json parameters = ordered_json::array();
+    for (const ParameterDoc& parameter : stage->parameters) {
+      parameters.push_back(parameter_json(parameter));
+    }
+    list.push_back({{"kind", stage->kind},
+                    {"name", stage->name},
+                    {"summary", stage->summary},
+                    {"source", stage->source},
+                    {"parameters", parameters}});
+  }
+  return list.dump(2) + "\n";
+}
+
+}  // namespace croon

@@ -1,0 +1,59 @@
+#include "registry/help_formats.hpp"
+#include "registry/words.hpp"
+
+namespace croon {
+namespace {
+
+const char* const kGenerated =
+    "<!-- Written by `croon stages --markdown`; `make docs` writes it again. -->\n\n";
+
+std::string code(const std::string& text) { return "`" + text + "`"; }
+
+std::string linked_kind(const std::string& kind) { return "[" + code(kind) + "](" + kind + ".md)"; }
+
+/// Words as code, kinds as links to their pages.
+std::string parameter_type(const params::ParameterDoc& parameter) {
+  return type_words(parameter, parameter.stage_kind.empty() ? code : linked_kind);
+}
+
+/// The least JSON that names the stage.
+std::string example(const StageEntry& stage) {
+  return "{\"" + name_key(stage.kind) + "\": \"" + stage.name + "\"}";
+}
+
+}  // namespace
+
+std::string markdown_section(const StageEntry& stage) {
+  std::string text = "## " + code(stage.name) + "\n\n" + stage.summary +
+                     "\n\nSource: " + stage.source + ". In JSON: " + code(example(stage)) + "\n";
+  if (stage.parameters.empty()) return text + "\nIt has no parameters.\n";
+  text += "\n| parameter | takes | default | what it does |\n|---|---|---|---|\n";
+  for (const params::ParameterDoc& parameter : stage.parameters) {
+    const std::string standard =
+        parameter.is_required ? "required" : code(default_words(parameter));
+    text += "| " + code(parameter.key) + " | " + parameter_type(parameter) + " | " + standard +
+            " | " + parameter.sentence + " |\n";
+  }
+  return text;
+}
+
+std::string markdown_page(const std::string& kind, const StageList& stages) {
+  std::string text = kGenerated + ("# " + code(kind)) + "\n\n" + kind_summary(kind) + "\n";
+  for (const StageEntry* stage : stages) text += "\n" + markdown_section(*stage);
+  return text;
+}
+
+std::string markdown_index(const StageList& stages) {
+  std::string text = kGenerated + std::string("# Stages\n");
+  for (const std::string& kind : stage_kinds()) {
+    text += "\n## " + linked_kind(kind) + "\n\n" + kind_summary(kind) + "\n\n";
+    for (const StageEntry* stage : stages) {
+      if (stage->kind != kind) continue;
+      text += "- [" + code(stage->name) + "](" + kind + ".md#" + stage->name +
+              "): " + stage->summary + "\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace croon

@@ -1,0 +1,75 @@
+#include "registry/words.hpp"
+
+#include <map>
+#include <stdexcept>
+
+#include "framework/params/values.hpp"
+
+namespace croon {
+namespace {
+
+using params::ParameterDoc;
+using params::ParameterType;
+using Mark = std::function<std::string(const std::string&)>;
+
+std::string marked_list(const std::vector<std::string>& words, const Mark& mark) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + mark(word);
+  return text;
+}
+
+std::string with_article(const std::string& kind, const std::string& marked) {
+  const bool has_vowel = std::string("aeiou").find(kind.front()) != std::string::npos;
+  return (has_vowel ? "an " : "a ") + marked + " stage";
+}
+
+}  // namespace
+
+std::string kind_summary(const std::string& kind) {
+  static const std::map<std::string, std::string> summaries = {
+      {"dataset", "The scenes of a rig: named clouds, with truth and starts where they are known."},
+      {"preprocessor", "Makes another cloud of a cloud: crops it or thins it."},
+      {"ground_extractor",
+       "Finds the plane of the ground in a cloud and the points that lie on it."},
+      {"yaw_search", "Finds the least of a function of yaw."},
+      {"icp", "Registers a source cloud to a target cloud from a start."},
+      {"volume_scorer",
+       "Measures the volume that two clouds occupy together, as a function of pose."},
+      {"pose_search", "Finds the least of a function of pose near a start."},
+      {"step", "An element of the pipeline: takes an estimate and returns a better one."}};
+  const auto found = summaries.find(kind);
+  if (found == summaries.end()) throw std::logic_error("no summary of the kind " + kind);
+  return found->second;
+}
+
+std::string kind_phrase(const std::string& kind) { return with_article(kind, kind); }
+
+std::string type_words(const ParameterDoc& doc, const Mark& mark) {
+  switch (doc.type) {
+    case ParameterType::boolean:
+      return mark("true") + " or " + mark("false");
+    case ParameterType::integer:
+      return params::range_words("a whole number", doc.range);
+    case ParameterType::number:
+      return params::range_words("a number", doc.range);
+    case ParameterType::text:
+      return "a string";
+    case ParameterType::choice:
+      return "one of " + marked_list(doc.choices, mark);
+    case ParameterType::numbers:
+      return "a list, each " + params::range_words("a number", doc.range);
+    case ParameterType::choices:
+      return "a list of different words out of " + marked_list(doc.choices, mark);
+    case ParameterType::stage:
+      return with_article(doc.stage_kind, mark(doc.stage_kind));
+    case ParameterType::stages:
+      return "a list, each " + with_article(doc.stage_kind, mark(doc.stage_kind));
+  }
+  throw std::logic_error("a parameter type without words");
+}
+
+std::string default_words(const ParameterDoc& doc) {
+  return doc.is_required ? "required" : doc.default_json;
+}
+
+}  // namespace croon

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "framework/stage/catalogue.hpp"
+
+namespace croon {
+
+/// What a kind of stage is for; one sentence. An unknown kind is a std::logic_error.
+std::string kind_summary(const std::string& kind);
+
+/// "an icp stage", "a yaw_search stage".
+std::string kind_phrase(const std::string& kind);
+
+/// What a parameter takes: "a number from 0 to 10", "one of all, non_ground", "an icp stage". Each
+/// stage kind and each choice goes through `mark` first.
+std::string type_words(const params::ParameterDoc& doc,
+                       const std::function<std::string(const std::string&)>& mark);
+
+/// The default as JSON text, or "required".
+std::string default_words(const params::ParameterDoc& doc);
+
+}  // namespace croon

@@ -1,0 +1,135 @@
+#include <CGAL/Random.h>
+#include <CGAL/Shape_detection/Efficient_RANSAC.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/property_map.h>
+
+#include <cmath>
+#include <utility>
+
+#include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
+#include "framework/spatial/oriented_sample.hpp"
+#include "framework/stage/ground_from_planes.hpp"
+#include "framework/stage/stage_entry.hpp"
+
+namespace croon::stages::ground_extractor {
+namespace {
+
+struct Params {
+  double threshold_m = 0.2;
+  double refit_threshold_m = 0.05;
+  double min_inlier_ratio = 0.05;
+  double leaf_size_m = 0.2;
+  int neighbours = 20;
+  double max_angle_deg = 25.0;
+  double cluster_distance_m = 2.0;
+  double miss_probability = 0.01;
+  double min_region_ratio = 0.02;
+};
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table = [] {
+    params::Table<Params> rows = {
+        params::number("threshold_m", &Params::threshold_m, {1e-4, 10.0},
+                       "A point within this distance of the plane is ground; the authors' 0.2."),
+        params::number(
+            "refit_threshold_m", &Params::refit_threshold_m, {1e-4, 10.0},
+            "The plane is last fitted to the points within this distance, which kerbs and "
+            "wheels are not."),
+        params::number("min_inlier_ratio", &Params::min_inlier_ratio, {0.0, 1.0},
+                       "The stage fails where no plane holds this share of the points."),
+        params::number("leaf_size_m", &Params::leaf_size_m, {1e-3, 10.0},
+                       "Planes are searched for among one point of each cube of this size."),
+        params::integer("neighbours", &Params::neighbours, {3, 1000},
+                        "A normal comes from this many nearest points."),
+        params::number("max_angle_deg", &Params::max_angle_deg, {0.0, 90.0},
+                       "The normals of a plane's points differ from the plane's by at most this."),
+        params::number("cluster_distance_m", &Params::cluster_distance_m, {1e-3, 1000.0},
+                       "A plane's points hang together over gaps of about this size."),
+        params::number(
+            "miss_probability", &Params::miss_probability, {1e-9, 0.999},
+            "The search ends where the probability of having missed a plane is below this."),
+        params::number("min_region_ratio", &Params::min_region_ratio, {0.0, 1.0},
+                       "Planes of less than this share of the points are not searched for."),
+    };
+    return rows.require([](const Params& p) { return p.refit_threshold_m <= p.threshold_m; },
+                        "refit_threshold_m must not be greater than threshold_m");
+  }();
+  return table;
+}
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using PointWithNormal = std::pair<Kernel::Point_3, Kernel::Vector_3>;
+using Points = std::vector<PointWithNormal>;
+using Traits = CGAL::Shape_detection::Efficient_RANSAC_traits<
+    Kernel, Points, CGAL::First_of_pair_property_map<PointWithNormal>,
+    CGAL::Second_of_pair_property_map<PointWithNormal>>;
+using Search = CGAL::Shape_detection::Efficient_RANSAC<Traits>;
+
+Points cgal_points(const OrientedPoints& oriented) {
+  Points points;
+  points.reserve(oriented.points.size());
+  for (std::size_t i = 0; i < oriented.points.size(); ++i) {
+    const Eigen::Vector3d p = oriented.points[i].cast<double>();
+    const Eigen::Vector3d n = oriented.normals[i].cast<double>();
+    points.emplace_back(Kernel::Point_3(p.x(), p.y(), p.z()),
+                        Kernel::Vector_3(n.x(), n.y(), n.z()));
+  }
+  return points;
+}
+
+/// CGAL's Efficient RANSAC (Schnabel, Wahl, Klein 2007) for planes.
+class CgalEfficientRansac final : public GroundExtractor {
+ public:
+  explicit CgalEfficientRansac(const Params& params) : params_(params) {}
+
+  Ground extract(const PointCloud& cloud, Rng& rng) const override {
+    const OrientedPoints oriented = oriented_sample(cloud, params_.leaf_size_m, params_.neighbours);
+    return ground_from_planes(
+        cloud, planes(oriented, rng),
+        {params_.threshold_m, params_.refit_threshold_m, params_.min_inlier_ratio}, rng);
+  }
+
+ private:
+  std::vector<Plane> planes(const OrientedPoints& oriented, Rng& rng) const {
+    // CGAL permutes the points it is given, and draws from this thread's default generator, whose
+    // state is whatever the calls before left.
+    Points points = cgal_points(oriented);
+    CGAL::get_default_random() = CGAL::Random(static_cast<unsigned int>(rng.bits() >> 32));
+    Search search;
+    search.set_input(points);
+    search.add_shape_factory<CGAL::Shape_detection::Plane<Traits>>();
+    search.detect(options(points.size()));
+    std::vector<Plane> found;
+    for (const auto& shape : search.planes()) {
+      const Kernel::Vector_3 n = shape->plane_normal();
+      const double length = std::sqrt(n.squared_length());
+      found.push_back({Eigen::Vector3d(n.x(), n.y(), n.z()) / length, shape->d() / length});
+    }
+    return found;
+  }
+
+  Search::Parameters options(std::size_t point_count) const {
+    Search::Parameters options;
+    options.probability = params_.miss_probability;
+    options.min_points = static_cast<std::size_t>(
+        std::ceil(params_.min_region_ratio * static_cast<double>(point_count)));
+    options.epsilon = params_.threshold_m;
+    options.cluster_epsilon = params_.cluster_distance_m;
+    options.normal_threshold = std::cos(rad_from_deg(params_.max_angle_deg));
+    return options;
+  }
+
+  Params params_;
+};
+
+}  // namespace
+
+StageEntry cgal_efficient_ransac() {
+  return stage_entry<CgalEfficientRansac>(
+      "cgal_efficient_ransac",
+      "Finds planes among points with normals by CGAL's Efficient RANSAC and takes the fullest.",
+      "Schnabel, Wahl and Klein 2007, in CGAL (GPL)", table());
+}
+
+}  // namespace croon::stages::ground_extractor

@@ -1,0 +1,168 @@
+#include <CGAL/Point_set_3.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/version.h>
+
+// CGAL 5.6 gave region growing a new interface.
+#define CROON_CGAL_REGIONS_OF_5_6 (CGAL_VERSION_NR >= 1050600900)
+
+#include <CGAL/Shape_detection/Region_growing/Region_growing.h>
+#if CROON_CGAL_REGIONS_OF_5_6
+#include <CGAL/Shape_detection/Region_growing/Point_set.h>
+#else
+#include <CGAL/Shape_detection/Region_growing/Region_growing_on_point_set.h>
+#endif
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+
+#include "framework/base/error.hpp"
+#include "framework/spatial/oriented_sample.hpp"
+#include "framework/stage/ground_from_planes.hpp"
+#include "framework/stage/stage_entry.hpp"
+
+namespace croon::stages::ground_extractor {
+namespace {
+
+struct Params {
+  double threshold_m = 0.2;
+  double refit_threshold_m = 0.05;
+  double min_inlier_ratio = 0.05;
+  double leaf_size_m = 0.2;
+  int neighbours = 20;
+  double max_angle_deg = 25.0;
+  double min_region_ratio = 0.02;
+};
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table = [] {
+    params::Table<Params> rows = {
+        params::number("threshold_m", &Params::threshold_m, {1e-4, 10.0},
+                       "A point within this distance of the plane is ground; the authors' 0.2."),
+        params::number(
+            "refit_threshold_m", &Params::refit_threshold_m, {1e-4, 10.0},
+            "The plane is last fitted to the points within this distance, which kerbs and "
+            "wheels are not."),
+        params::number("min_inlier_ratio", &Params::min_inlier_ratio, {0.0, 1.0},
+                       "The stage fails where no plane holds this share of the points."),
+        params::number("leaf_size_m", &Params::leaf_size_m, {1e-3, 10.0},
+                       "Regions are grown over one point of each cube of this size."),
+        params::integer("neighbours", &Params::neighbours, {3, 1000},
+                        "Regions grow to this many nearest points; normals come from as many."),
+        params::number("max_angle_deg", &Params::max_angle_deg, {0.0, 90.0},
+                       "The normals of a region's points differ from its plane's by at most this."),
+        params::number("min_region_ratio", &Params::min_region_ratio, {0.0, 1.0},
+                       "Regions of less than this share of the points are not looked at."),
+    };
+    return rows.require([](const Params& p) { return p.refit_threshold_m <= p.threshold_m; },
+                        "refit_threshold_m must not be greater than threshold_m");
+  }();
+  return table;
+}
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using PointSet = CGAL::Point_set_3<Kernel::Point_3, Kernel::Vector_3>;
+using Region = std::vector<int>;
+
+PointSet cgal_points(const OrientedPoints& oriented) {
+  PointSet points(true);
+  for (std::size_t i = 0; i < oriented.points.size(); ++i) {
+    const Eigen::Vector3d p = oriented.points[i].cast<double>();
+    const Eigen::Vector3d n = oriented.normals[i].cast<double>();
+    points.insert(Kernel::Point_3(p.x(), p.y(), p.z()), Kernel::Vector_3(n.x(), n.y(), n.z()));
+  }
+  return points;
+}
+
+/// The regions of all sizes. None is too small for CGAL: it grows a region that it then finds too
+/// small from each of its points again, which takes minutes where the limit is high.
+#if CROON_CGAL_REGIONS_OF_5_6
+std::vector<Region> grown_regions(const PointSet& points, const Params& params) {
+  namespace on_points = CGAL::Shape_detection::Point_set;
+  using Neighbours = on_points::K_neighbor_query_for_point_set<PointSet>;
+  using PlaneRegion = on_points::Least_squares_plane_fit_region_for_point_set<PointSet>;
+  using Growing = CGAL::Shape_detection::Region_growing<Neighbours, PlaneRegion>;
+  Neighbours neighbours = on_points::make_k_neighbor_query(
+      points, CGAL::parameters::k_neighbors(static_cast<std::size_t>(params.neighbours)));
+  PlaneRegion plane_region = on_points::make_least_squares_plane_fit_region(
+      points, CGAL::parameters::maximum_distance(params.threshold_m)
+                  .maximum_angle(params.max_angle_deg)
+                  .minimum_region_size(std::size_t{1}));
+  Growing growing(points, neighbours, plane_region);
+  std::vector<Growing::Primitive_and_region> grown;
+  growing.detect(std::back_inserter(grown));
+  std::vector<Region> regions;
+  for (const auto& primitive_and_region : grown) {
+    Region region;
+    for (const PointSet::Index index : primitive_and_region.second) {
+      region.push_back(static_cast<int>(static_cast<std::size_t>(index)));
+    }
+    regions.push_back(std::move(region));
+  }
+  return regions;
+}
+#else
+std::vector<Region> grown_regions(const PointSet& points, const Params& params) {
+  namespace on_points = CGAL::Shape_detection::Point_set;
+  using Neighbours = on_points::K_neighbor_query<Kernel, PointSet, PointSet::Point_map>;
+  using PlaneRegion =
+      on_points::Least_squares_plane_fit_region<Kernel, PointSet, PointSet::Point_map,
+                                                PointSet::Vector_map>;
+  using Growing = CGAL::Shape_detection::Region_growing<PointSet, Neighbours, PlaneRegion>;
+  Neighbours neighbours(points, static_cast<std::size_t>(params.neighbours), points.point_map());
+  PlaneRegion plane_region(points, params.threshold_m, params.max_angle_deg, 1, points.point_map(),
+                           points.normal_map());
+  Growing growing(points, neighbours, plane_region);
+  std::vector<std::vector<std::size_t> > grown;
+  growing.detect(std::back_inserter(grown));
+  std::vector<Region> regions;
+  for (const std::vector<std::size_t>& indices : grown) {
+    regions.emplace_back(indices.begin(), indices.end());
+  }
+  return regions;
+}
+#endif
+
+/// CGAL's region growing over points, with planes: a region takes in neighbours that lie on the
+/// plane fitted to it so far.
+class CgalRegionGrowing final : public GroundExtractor {
+ public:
+  explicit CgalRegionGrowing(const Params& params) : params_(params) {}
+
+  Ground extract(const PointCloud& cloud, Rng& rng) const override {
+    const OrientedPoints oriented = oriented_sample(cloud, params_.leaf_size_m, params_.neighbours);
+    return ground_from_planes(
+        cloud, planes(oriented),
+        {params_.threshold_m, params_.refit_threshold_m, params_.min_inlier_ratio}, rng);
+  }
+
+ private:
+  std::vector<Plane> planes(const OrientedPoints& oriented) const {
+    std::vector<Plane> planes;
+    if (oriented.points.empty()) return planes;
+    const double smallest =
+        std::max(3.0, params_.min_region_ratio * static_cast<double>(oriented.points.size()));
+    for (const Region& region : grown_regions(cgal_points(oriented), params_)) {
+      if (static_cast<double>(region.size()) < smallest) continue;
+      try {
+        planes.push_back(fit_plane(oriented.points, region));
+      } catch (const StageError&) {
+        // A region on one line has no plane; the next may.
+      }
+    }
+    return planes;
+  }
+
+  Params params_;
+};
+
+}  // namespace
+
+StageEntry cgal_region_growing() {
+  return stage_entry<CgalRegionGrowing>(
+      "cgal_region_growing",
+      "Grows planar regions from neighbour to neighbour with CGAL and takes the fullest plane.",
+      "Lafarge and Mallet 2012, in CGAL (GPL)", table());
+}
+
+}  // namespace croon::stages::ground_extractor

@@ -1,0 +1,75 @@
+#include "framework/geometry/plane_ransac.hpp"
+#include "framework/stage/ground_from_planes.hpp"
+#include "framework/stage/stage_entry.hpp"
+
+namespace croon::stages::ground_extractor {
+namespace {
+
+struct Params {
+  double threshold_m = 0.2;
+  double refit_threshold_m = 0.05;
+  double min_inlier_ratio = 0.05;
+  double confidence = 0.9999;
+  int max_iterations = 10000;
+  int local_rounds = 4;
+  int sample_points = 5000;
+};
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table = [] {
+    params::Table<Params> rows = {
+        params::number("threshold_m", &Params::threshold_m, {1e-4, 10.0},
+                       "A point within this distance of the plane is ground; the authors' 0.2."),
+        params::number(
+            "refit_threshold_m", &Params::refit_threshold_m, {1e-4, 10.0},
+            "The plane is last fitted to the points within this distance, which kerbs and "
+            "wheels are not."),
+        params::number("min_inlier_ratio", &Params::min_inlier_ratio, {0.0, 1.0},
+                       "The stage fails where no plane holds this share of the points."),
+        params::number("confidence", &Params::confidence, {0.0, 0.999999999},
+                       "Planes are drawn until one of ground points alone was among them with this "
+                       "probability."),
+        params::integer("max_iterations", &Params::max_iterations, {1, 10000000},
+                        "At most so many planes are drawn."),
+        params::integer("local_rounds", &Params::local_rounds, {0, 100},
+                        "How often a plane that is the best so far is fitted again to its points."),
+        params::integer(
+            "sample_points", &Params::sample_points, {3, 1e9},
+            "Planes are drawn from, and counted on, at most so many points of the cloud."),
+    };
+    return rows.require([](const Params& p) { return p.refit_threshold_m <= p.threshold_m; },
+                        "refit_threshold_m must not be greater than threshold_m");
+  }();
+  return table;
+}
+
+/// Local optimisation (Chum, Matas and Kittler 2003) is on by default; `local_rounds` 0 is plain
+/// RANSAC.
+class Ransac final : public GroundExtractor {
+ public:
+  explicit Ransac(const Params& params) : params_(params) {}
+
+  Ground extract(const PointCloud& cloud, Rng& rng) const override {
+    const Plane plane =
+        plane_ransac(cloud,
+                     {params_.threshold_m, params_.confidence, params_.max_iterations,
+                      params_.local_rounds, params_.sample_points},
+                     rng);
+    return ground_from_planes(
+        cloud, {plane}, {params_.threshold_m, params_.refit_threshold_m, params_.min_inlier_ratio},
+        rng);
+  }
+
+ private:
+  Params params_;
+};
+
+}  // namespace
+
+StageEntry ransac() {
+  return stage_entry<Ransac>(
+      "ransac", "Draws planes through three points and takes the one that holds the most.",
+      "CROON (arXiv 2203.03182), section III-A, equation 1; Fischler and Bolles 1981", table());
+}
+
+}  // namespace croon::stages::ground_extractor

@@ -1,0 +1,54 @@
+#include <cmath>
+
+#include "framework/base/angles.hpp"
+#include "framework/registration/icp_loop.hpp"
+#include "framework/stage/icp.hpp"
+#include "framework/stage/stage_entry.hpp"
+
+namespace croon::stages::icp {
+namespace {
+
+struct Params : IcpOptions {
+  int normal_neighbours = 40;
+  double max_normal_angle_deg = 60.0;
+};
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table =
+      params::Table<Params>{
+          params::integer("normal_neighbours", &Params::normal_neighbours, {3, 1000},
+                          "Neighbours that a normal is made of; the paper takes 40."),
+          params::number("max_normal_angle_deg", &Params::max_normal_angle_deg, {0.0, 180.0},
+                         "Points correspond where their normals differ by at most this."),
+      }
+          .inherit(icp_table());
+  return table;
+}
+
+class Icpn final : public Icp {
+ public:
+  explicit Icpn(Params params) : params_(std::move(params)) {}
+
+  Registration align(const Cloud& target, const Cloud& source,
+                     const RigidTransform& start) const override {
+    CorrespondenceRule rule;
+    rule.target_normals = params_.normal_neighbours;
+    rule.source_normals = params_.normal_neighbours;
+    rule.min_normal_cosine = std::cos(rad_from_deg(params_.max_normal_angle_deg));
+    return iterate_icp(target, source, start, params_, rule, linearise_point_to_plane);
+  }
+
+ private:
+  Params params_;
+};
+
+}  // namespace
+
+StageEntry icpn() {
+  return stage_entry<Icpn>("icpn",
+                           "Point-to-plane between points whose normals, each from 40 neighbours, "
+                           "agree: the paper's ICP.",
+                           "CROON (arXiv 2203.03182), section III-B, equations 7 and 8", table());
+}
+
+}  // namespace croon::stages::icp

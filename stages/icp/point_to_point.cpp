@@ -1,0 +1,46 @@
+#include "framework/registration/icp_loop.hpp"
+#include "framework/stage/icp.hpp"
+#include "framework/stage/stage_entry.hpp"
+
+namespace croon::stages::icp {
+namespace {
+
+struct Params : IcpOptions {
+  Params() { max_iterations = 50; }
+};
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table = params::Table<Params>().inherit(icp_table());
+  return table;
+}
+
+/// Residual `R s + t - p`.
+void linearise(const Correspondence& pair, const RobustKernel& kernel, NormalEquations& equations) {
+  equations.add(point_jacobian(pair.arm), pair.offset, Eigen::Matrix3d::Identity(),
+                kernel.weight(pair.offset.squaredNorm()));
+}
+
+class PointToPoint final : public Icp {
+ public:
+  explicit PointToPoint(Params params) : params_(std::move(params)) {}
+
+  Registration align(const Cloud& target, const Cloud& source,
+                     const RigidTransform& start) const override {
+    return iterate_icp(target, source, start, params_, {}, linearise);
+  }
+
+ private:
+  Params params_;
+};
+
+}  // namespace
+
+StageEntry point_to_point() {
+  return stage_entry<PointToPoint>(
+      "point_to_point",
+      "Pulls each point to its nearest neighbour; slides along surfaces that were sampled at other "
+      "points.",
+      "Besl, McKay: A method for registration of 3-D shapes, PAMI 1992", table());
+}
+
+}  // namespace croon::stages::icp

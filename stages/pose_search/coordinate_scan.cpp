@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "framework/base/angles.hpp"
+#include "framework/geometry/dof.hpp"
+#include "framework/stage/pose_search.hpp"
+#include "framework/stage/stage_entry.hpp"
+
+namespace croon::stages::pose_search {
+namespace {
+
+struct Params {
+  std::vector<std::string> dofs = {"x", "y"};
+  double translation_step_m = 0.02;
+  double rotation_step_deg = 0.1;
+  int max_steps = 9;
+  double min_decrease_ratio = 1e-4;
+  std::string stop = "first_rise";
+  int sweeps = 1;
+  int halvings = 0;
+};
+
+const params::Table<Params>& table() {
+  static const std::vector<std::string> dof_names(kDofNames.begin(), kDofNames.end());
+  static const params::Table<Params> table = {
+      params::choices("dofs", &Params::dofs, dof_names,
+                      "The degrees of freedom that are scanned, in this order."),
+      params::number("translation_step_m", &Params::translation_step_m, {1e-6, 100.0},
+                     "Step along x, y and z."),
+      params::number("rotation_step_deg", &Params::rotation_step_deg, {1e-6, 180.0},
+                     "Step of roll, pitch and yaw."),
+      params::integer("max_steps", &Params::max_steps, {1, 10000},
+                      "At most so many steps to each side in one scan."),
+      params::number(
+          "min_decrease_ratio", &Params::min_decrease_ratio, {0.0, 1.0},
+          "A step is taken only where it lowers the cost by more than this share of it."),
+      params::choice(
+          "stop", &Params::stop, {"first_rise", "never"},
+          "first_rise: a scan ends at the first step that does not lower the cost, and looks to "
+          "the other side only where the first did not lower it; never: both sides are looked "
+          "at as far as max_steps and the best is taken."),
+      params::integer("sweeps", &Params::sweeps, {1, 1000},
+                      "How often the list is gone through; a sweep that changes nothing ends it."),
+      params::integer("halvings", &Params::halvings, {0, 30},
+                      "How often the steps are halved and the sweeps repeated."),
+  };
+  return table;
+}
+
+/// One search: the best pose so far and how it is made better.
+class Scan {
+ public:
+  Scan(const Params& params, const PoseCost& cost, const RigidTransform& start)
+      : params_(params), cost_(cost), best_{start, cost(start), 1} {}
+
+  const PoseMinimum& best() const { return best_; }
+
+  /// Scans every degree of freedom once; true where one of them lowered the cost.
+  bool sweep(double step_scale) {
+    bool lower = false;
+    for (const Dof dof : dofs_from_names(params_.dofs)) {
+      const double step = step_scale * (is_rotation(dof) ? rad_from_deg(params_.rotation_step_deg)
+                                                         : params_.translation_step_m);
+      const bool lower_here = params_.stop == "never" ? scan_range(dof, step)
+                                                      : descend(dof, step) || descend(dof, -step);
+      lower = lower_here || lower;
+    }
+    return lower;
+  }
+
+ private:
+  /// `pose` moved by `count` steps along `dof`.
+  static RigidTransform stepped(const RigidTransform& pose, Dof dof, int count, double step) {
+    Vector6d offset = Vector6d::Zero();
+    offset(static_cast<Eigen::Index>(dof)) = count * step;
+    return moved(pose, offset);
+  }
+
+  /// Goes one way as long as each step lowers the cost.
+  bool descend(Dof dof, double step) {
+    const RigidTransform origin = best_.pose;
+    for (int i = 1; i <= params_.max_steps; ++i) {
+      if (!take_if_lower(stepped(origin, dof, i, step))) return i > 1;
+    }
+    return true;
+  }
+
+  /// Looks at the whole range, the nearest first, and takes the best.
+  bool scan_range(Dof dof, double step) {
+    const RigidTransform origin = best_.pose;
+    bool lower = false;
+    for (int i = 1; i <= params_.max_steps; ++i) {
+      lower = take_if_lower(stepped(origin, dof, i, step)) || lower;
+      lower = take_if_lower(stepped(origin, dof, -i, step)) || lower;
+    }
+    return lower;
+  }
+
+  bool take_if_lower(const RigidTransform& pose) {
+    const double pose_cost = cost_(pose);
+    ++best_.evaluations;
+    const bool lower = best_.cost - pose_cost > params_.min_decrease_ratio * std::abs(best_.cost);
+    if (lower) {
+      best_.pose = pose;
+      best_.cost = pose_cost;
+    }
+    return lower;
+  }
+
+  const Params& params_;
+  const PoseCost& cost_;
+  PoseMinimum best_;
+};
+
+/// Scans one degree of freedom after the other. With its defaults this is the volume search of the
+/// authors' code: x, then y, each to the plus side while the cost falls, else to the minus side.
+class CoordinateScan final : public PoseSearch {
+ public:
+  explicit CoordinateScan(Params params) : params_(std::move(params)) {}
+
+  PoseMinimum minimise(const PoseCost& cost, const RigidTransform& start) const override {
+    Scan scan(params_, cost, start);
+    for (int halving = 0; halving <= params_.halvings; ++halving) {
+      const double step_scale = std::ldexp(1.0, -halving);
+      for (int i = 0; i < params_.sweeps && scan.sweep(step_scale); ++i) {
+      }
+    }
+    return scan.best();
+  }
+
+ private:
+  Params params_;
+};
+
+}  // namespace
+
+StageEntry coordinate_scan() {
+  return stage_entry<CoordinateScan>(
+      "coordinate_scan", "Steps along one degree of freedom after the other while the cost falls.",
+      "CROON (arXiv 2203.03182), section III-B; steps and limits are those of its public code "
+      "(lidar2lidar, commit c0e1e2b)",
+      table());
+}
+
+}  // namespace croon::stages::pose_search

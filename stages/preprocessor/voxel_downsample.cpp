@@ -1,0 +1,82 @@
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+
+#include "framework/spatial/leaf_grid.hpp"
+#include "framework/stage/preprocessor.hpp"
+#include "framework/stage/stage_entry.hpp"
+
+namespace croon::stages::preprocessor {
+namespace {
+
+struct Params {
+  double leaf_size_m = 0.1;
+};
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table = {
+      params::number("leaf_size_m", &Params::leaf_size_m, {1e-4, 1e4},
+                     "The edge of the cubes that keep one point each."),
+  };
+  return table;
+}
+
+/// The points of one leaf.
+struct LeafSum {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int points = 0;
+};
+
+struct LeafHash {
+  std::size_t operator()(const std::array<int, 3>& leaf) const {
+    std::uint64_t hash = 0;
+    for (const int index : leaf) {
+      hash = (hash ^ static_cast<std::uint32_t>(index)) * 0x9e3779b97f4a7c15ULL;
+      hash ^= hash >> 32;
+    }
+    return static_cast<std::size_t>(hash);
+  }
+};
+
+class VoxelDownsample final : public Preprocessor {
+ public:
+  explicit VoxelDownsample(const Params& params) : grid_(params.leaf_size_m) {}
+
+  PointCloud apply(const PointCloud& cloud) const override {
+    std::unordered_map<std::array<int, 3>, std::size_t, LeafHash> places;
+    std::vector<LeafSum> leaves;  // In the order in which the cloud comes to them.
+    for (const Eigen::Vector3f& p : cloud) {
+      const Eigen::Vector3d point = p.cast<double>();
+      const auto [place, is_new] = places.try_emplace(leaf_of(point), leaves.size());
+      if (is_new) leaves.emplace_back();
+      LeafSum& leaf = leaves[place->second];
+      leaf.sum += point;
+      ++leaf.points;
+    }
+    PointCloud thinned;
+    thinned.reserve(leaves.size());
+    for (const LeafSum& leaf : leaves) {
+      thinned.push_back((leaf.sum / static_cast<double>(leaf.points)).cast<float>());
+    }
+    return thinned;
+  }
+
+ private:
+  std::array<int, 3> leaf_of(const Eigen::Vector3d& point) const {
+    const Eigen::Vector3i leaf = grid_.leaf_of(point);
+    return {leaf.x(), leaf.y(), leaf.z()};
+  }
+
+  LeafGrid grid_;
+};
+
+}  // namespace
+
+StageEntry voxel_downsample() {
+  return stage_entry<VoxelDownsample>(
+      "voxel_downsample",
+      "Puts in place of the points of each leaf their mean, in the cloud's order.", "croon",
+      table());
+}
+
+}  // namespace croon::stages::preprocessor

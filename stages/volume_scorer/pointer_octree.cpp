@@ -1,0 +1,155 @@
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "framework/params/values.hpp"
+#include "framework/spatial/leaf_grid.hpp"
+#include "framework/stage/stage_entry.hpp"
+#include "framework/stage/volume_scorer.hpp"
+
+namespace croon::stages::volume_scorer {
+namespace {
+
+struct Params {
+  double leaf_size_m = 0.05;
+};
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table = {
+      params::number("leaf_size_m", &Params::leaf_size_m, {1e-3, 1e3},
+                     "Edge of the smallest cubes, those that are counted."),
+  };
+  return table;
+}
+
+/// The paper's octree (section III-B): a cube that holds points is cut into eight until its side is
+/// that of a leaf. The root's side is 2^depth leaves; it doubles towards a leaf that it does not
+/// cover.
+class Octree {
+ public:
+  std::int64_t leaves() const { return leaves_; }
+
+  bool contains(const Eigen::Vector3i& leaf) const {
+    if (!covers(leaf)) return false;
+    const Vector3l place = leaf.cast<std::int64_t>() - corner_;
+    std::uint32_t node = kRoot;
+    for (int level = depth_ - 1; level >= 0; --level) {
+      node = nodes_[node][octant(place, level)];
+      if (node == kNone) return false;
+    }
+    return true;
+  }
+
+  /// True where the leaf was not there before.
+  bool insert(const Eigen::Vector3i& leaf) {
+    if (leaves_ == 0) corner_ = leaf.cast<std::int64_t>();
+    while (!covers(leaf)) grow_towards(leaf);
+    const Vector3l place = leaf.cast<std::int64_t>() - corner_;
+    std::uint32_t node = kRoot;
+    for (int level = depth_ - 1; level > 0; --level) node = child(node, octant(place, level));
+    std::uint32_t& occupied = nodes_[node][octant(place, 0)];
+    if (occupied == kLeaf) return false;
+    occupied = kLeaf;
+    ++leaves_;
+    return true;
+  }
+
+  /// Empties the tree and keeps its memory.
+  void clear() {
+    nodes_.assign(1, Node{});
+    depth_ = 1;
+    leaves_ = 0;
+  }
+
+ private:
+  /// The eight children of a cube: indices into nodes_, or kNone; at the lowest level kLeaf or
+  /// kNone.
+  using Node = std::array<std::uint32_t, 8>;
+  using Vector3l = Eigen::Matrix<std::int64_t, 3, 1>;
+  static constexpr std::uint32_t kRoot = 0;
+  static constexpr std::uint32_t kNone = 0;
+  static constexpr std::uint32_t kLeaf = 1;
+
+  /// Which child of a cube of side 2^(level + 1) leaves holds the leaf `place` (from the root's
+  /// corner).
+  static std::size_t octant(const Vector3l& place, int level) {
+    return static_cast<std::size_t>((place.x() >> level & 1) | (place.y() >> level & 1) << 1 |
+                                    (place.z() >> level & 1) << 2);
+  }
+
+  bool covers(const Eigen::Vector3i& leaf) const {
+    const Vector3l place = leaf.cast<std::int64_t>() - corner_;
+    // A negative place has high bits too.
+    return (place.x() | place.y() | place.z()) >> depth_ == 0;
+  }
+
+  std::uint32_t child(std::uint32_t node, std::size_t octant) {
+    if (nodes_[node][octant] == kNone) {
+      nodes_[node][octant] = static_cast<std::uint32_t>(nodes_.size());
+      nodes_.emplace_back();
+    }
+    return nodes_[node][octant];
+  }
+
+  /// Makes the root one child of a root of twice the side.
+  void grow_towards(const Eigen::Vector3i& leaf) {
+    Vector3l old_place = Vector3l::Zero();
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      if (leaf(axis) < corner_(axis)) old_place(axis) = std::int64_t{1} << depth_;
+    }
+    corner_ -= old_place;
+    if (leaves_ > 0) {
+      const Node old_root = nodes_[kRoot];
+      nodes_[kRoot] = Node{};
+      nodes_[child(kRoot, octant(old_place, depth_))] = old_root;
+    }
+    ++depth_;
+  }
+
+  std::vector<Node> nodes_ = std::vector<Node>(1);
+  Vector3l corner_ = Vector3l::Zero();  ///< The root's lowest leaf.
+  int depth_ = 1;
+  std::int64_t leaves_ = 0;
+};
+
+class PointerOctree final : public VolumeScorer {
+ public:
+  explicit PointerOctree(const Params& params) : leaf_size_m_(params.leaf_size_m) {}
+
+  VolumeFunction bind(std::shared_ptr<const Cloud> target,
+                      std::shared_ptr<const Cloud> source) const override {
+    const LeafGrid grid(leaf_size_m_);
+    const std::string key = "volume_scorer/pointer_octree/" + params::value_json(leaf_size_m_);
+    const auto target_tree = target->once<Octree>(key, [&] {
+      const auto tree = std::make_shared<Octree>();
+      for (const Eigen::Vector3f& point : target->points()) {
+        tree->insert(grid.leaf_of(point.cast<double>()));
+      }
+      return tree;
+    });
+    return [grid, target_tree, source](const RigidTransform& T_target_source) {
+      // One per thread, because what takes time is the memory.
+      thread_local Octree added;
+      added.clear();
+      for (const Eigen::Vector3f& point : source->points()) {
+        const Eigen::Vector3i leaf = grid.leaf_of(T_target_source * point.cast<double>());
+        if (!target_tree->contains(leaf)) added.insert(leaf);
+      }
+      return OccupiedVolume{target_tree->leaves() + added.leaves(), grid.leaf_size_m()};
+    };
+  }
+
+ private:
+  double leaf_size_m_;
+};
+
+}  // namespace
+
+StageEntry pointer_octree() {
+  return stage_entry<PointerOctree>(
+      "pointer_octree",
+      "Cuts every cube that holds points into eight down to the leaf size and counts the leaves.",
+      "CROON (arXiv 2203.03182), section III-B, equation 9", table());
+}
+
+}  // namespace croon::stages::volume_scorer

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "framework/stage/stage_entry.hpp"
+
+namespace croon::test {
+
+/// The least JSON object that builds the stage: its name, and the keys that must be there.
+std::string minimal_json(const StageEntry& entry);
+
+/// The stages of the registry but those of the kinds `left_out`.
+std::vector<StageEntry> every_stage(const std::vector<std::string>& left_out = {});
+
+/// The stages of one kind.
+std::vector<StageEntry> every_stage_of(const std::string& kind);
+
+/// What gtest calls the case of one stage: "icp_icpn".
+std::string stage_case_name(const testing::TestParamInfo<StageEntry>& info);
+
+/// A suite that runs over stages; its cases come from the registry, so a new stage is tested
+/// unasked.
+class EveryStage : public testing::TestWithParam<StageEntry> {
+ protected:
+  const StageEntry& entry() const { return GetParam(); }
+};
+
+}  // namespace croon::test
+
+namespace croon {
+
+/// How gtest prints a case.
+inline void PrintTo(const StageEntry& entry, std::ostream* out) {
+  *out << entry.kind << "/" << entry.name;
+}
+
+}  // namespace croon

@@ -1,0 +1,160 @@
+#include "test/contract/outcome.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <map>
+
+#include "framework/base/error.hpp"
+#include "framework/pipeline/pipeline.hpp"
+#include "framework/stage/ground_extractor.hpp"
+#include "framework/stage/icp.hpp"
+#include "framework/stage/pose_search.hpp"
+#include "framework/stage/preprocessor.hpp"
+#include "framework/stage/volume_scorer.hpp"
+#include "framework/stage/yaw_search.hpp"
+#include "test/support/random_geometry.hpp"
+#include "test/support/stages.hpp"
+
+namespace croon::test {
+namespace {
+
+using Numbers = std::vector<double>;
+
+void add_points(Numbers& numbers, const PointCloud& cloud) {
+  for (const Eigen::Vector3f& point : cloud) {
+    for (int i = 0; i < 3; ++i) numbers.push_back(point(i));
+  }
+}
+
+void add_pose(Numbers& numbers, const RigidTransform& pose) {
+  for (int i = 0; i < 9; ++i) numbers.push_back(pose.rotation(i / 3, i % 3));
+  for (int i = 0; i < 3; ++i) numbers.push_back(pose.translation(i));
+}
+
+RigidTransform start() {
+  Rng rng = test_rng(77);
+  return pose_near(rng, {}, 1.0, 0.05);
+}
+
+Numbers preprocessed(const std::string& json, const CloudPair& clouds) {
+  Numbers numbers;
+  add_points(numbers, stage<Preprocessor>(json)->apply(clouds.source->points()));
+  return numbers;
+}
+
+Numbers extracted(const std::string& json, const CloudPair& clouds) {
+  Rng rng = test_rng();
+  const Ground ground = stage<GroundExtractor>(json)->extract(clouds.source->points(), rng);
+  Numbers numbers = {ground.plane.normal.x(), ground.plane.normal.y(), ground.plane.normal.z(),
+                     ground.plane.offset_m};
+  numbers.insert(numbers.end(), ground.is_ground.begin(), ground.is_ground.end());
+  return numbers;
+}
+
+Numbers registered(const std::string& json, const CloudPair& clouds) {
+  const Registration result = stage<Icp>(json)->align(*clouds.target, *clouds.source, start());
+  Numbers numbers = {result.rmse_m, result.inlier_ratio,
+                     static_cast<double>(result.correspondences),
+                     static_cast<double>(result.iterations), result.converged ? 1.0 : 0.0};
+  add_pose(numbers, result.T_target_source);
+  for (int i = 0; i < 36; ++i) numbers.push_back(result.information(i / 6, i % 6));
+  return numbers;
+}
+
+Numbers scored(const std::string& json, const CloudPair& clouds) {
+  const VolumeFunction volume = stage<VolumeScorer>(json)->bind(clouds.target, clouds.source);
+  Rng rng = test_rng(78);
+  Numbers numbers;
+  for (int i = 0; i < 3; ++i) numbers.push_back(volume(pose_near(rng, {}, 45.0, 1.0)).m3());
+  return numbers;
+}
+
+Numbers searched_yaw(const std::string& json, const CloudPair&) {
+  Numbers numbers;
+  const auto search = stage<YawSearch>(json);
+  const std::vector<YawCost> costs = {[](double yaw_rad) { return -std::cos(yaw_rad - 0.2); },
+                                      [](double) { return 1.0; }};
+  for (const YawCost& cost : costs) {
+    const YawMinimum minimum = search->minimise(cost);
+    numbers.insert(numbers.end(),
+                   {minimum.yaw_rad, minimum.cost, static_cast<double>(minimum.evaluations)});
+  }
+  return numbers;
+}
+
+Numbers searched_pose(const std::string& json, const CloudPair&) {
+  Numbers numbers;
+  const auto search = stage<PoseSearch>(json);
+  const std::vector<PoseCost> costs = {[](const RigidTransform& pose) {
+                                         return pose.translation.squaredNorm() +
+                                                rotation_angle(pose.rotation);
+                                       },
+                                       [](const RigidTransform&) { return 1.0; }};
+  for (const PoseCost& cost : costs) {
+    const PoseMinimum minimum = search->minimise(cost, start());
+    if (minimum.cost > cost(start())) throw std::logic_error("the search went uphill");
+    numbers.insert(numbers.end(), {minimum.cost, static_cast<double>(minimum.evaluations)});
+    add_pose(numbers, minimum.pose);
+  }
+  return numbers;
+}
+
+Numbers advanced(const std::string& json, const CloudPair& clouds) {
+  const NamedStep ground{"ground", stage<Step>(R"({"step": "ground_alignment"})")};
+  const NamedStep tested{"tested", stage<Step>(json)};
+  const StreamKey key(5);
+  const bool has_ground =
+      run_pipeline({ground}, clouds.target, clouds.source, start(), key).failure.empty();
+  const Pipeline pipeline = has_ground ? Pipeline{ground, tested} : Pipeline{tested};
+  const PipelineResult result = run_pipeline(pipeline, clouds.target, clouds.source, start(), key);
+  if (!result.failure.empty()) throw StageError(result.failure);
+  Numbers numbers;
+  add_pose(numbers, result.estimate.T_target_source);
+  for (const StepFigure& figure : result.estimate.figures) numbers.push_back(figure.second);
+  return numbers;
+}
+
+using Run = std::function<Numbers(const std::string&, const CloudPair&)>;
+
+const std::map<std::string, Run>& runs() {
+  static const std::map<std::string, Run> runs = {{"preprocessor", preprocessed},
+                                                  {"ground_extractor", extracted},
+                                                  {"icp", registered},
+                                                  {"volume_scorer", scored},
+                                                  {"yaw_search", searched_yaw},
+                                                  {"pose_search", searched_pose},
+                                                  {"step", advanced}};
+  return runs;
+}
+
+}  // namespace
+
+std::string Outcome::bits() const {
+  std::string text(numbers.size() * sizeof(double), '\0');
+  if (!numbers.empty()) std::memcpy(text.data(), numbers.data(), text.size());
+  return text + stage_error;
+}
+
+bool Outcome::is_finite() const {
+  for (const double number : numbers) {
+    if (!std::isfinite(number)) return false;
+  }
+  return true;
+}
+
+CloudPair cloud_pair(const PointCloud& target, const PointCloud& source) {
+  const StreamKey key(3);
+  return {std::make_shared<const Cloud>(target, key.with("target")),
+          std::make_shared<const Cloud>(source, key.with("source"))};
+}
+
+Outcome outcome_of(const std::string& kind, const std::string& json, const CloudPair& clouds) {
+  try {
+    return {runs().at(kind)(json, clouds), ""};
+  } catch (const StageError& error) {
+    return {{}, std::string("StageError: ") + error.what()};
+  }
+}
+
+}  // namespace croon::test

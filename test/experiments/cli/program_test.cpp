@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <string>
+
+#include "test/experiments/support/fake_stages.hpp"
+
+namespace croon::experiments {
+namespace {
+
+/// What the program answers: its exit code, and both of its outputs.
+struct Answer {
+  int code = -1;
+  std::string text;
+};
+
+Answer croon(const std::string& arguments) {
+  const std::string command =
+      std::string("\"") + CROON_BINARY_DIR + "/bin/croon\" " + arguments + " 2>&1";
+  Answer answer;
+  std::FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return answer;
+  std::array<char, 4096> buffer{};
+  for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
+    answer.text.append(buffer.data(), n);
+  }
+  const int status = pclose(pipe);
+  if (WIFEXITED(status)) answer.code = WEXITSTATUS(status);
+  return answer;
+}
+
+TEST(Program, AnswersAWrongCommandLineWithOneLine) {
+  const auto expect_line = [](const std::string& arguments, const std::string& line) {
+    const Answer answer = croon(arguments);
+    EXPECT_EQ(answer.code, 2) << arguments;
+    EXPECT_EQ(answer.text, line + "\n");
+  };
+  expect_line("rnu x.json", "croon: unknown command \"rnu\"; did you mean \"run\"?");
+  expect_line("run x.json --jbos 2", "croon: unknown option \"--jbos\"; did you mean \"--jobs\"?");
+  expect_line("--versoin", "croon: unknown option \"--versoin\"; did you mean \"--version\"?");
+  expect_line("validate none.json", "croon: none.json: expected a readable JSON file, found none");
+  for (const char* arguments :
+       {"run", "run x.json --jobs two", "run x.json --jobs 0", "run x.json --trials -1",
+        "run x.json --shard", "stages --json --markdown", "schema more", "stages no_such_kind",
+        "run x.json y.json"}) {
+    const Answer answer = croon(arguments);
+    EXPECT_EQ(answer.code, 2) << arguments;
+    EXPECT_EQ(answer.text.rfind("croon: ", 0), 0U) << answer.text;
+    EXPECT_EQ(answer.text.find('\n') + 1, answer.text.size()) << answer.text;
+  }
+}
+
+TEST(Program, ValidatesFilesAndFolders) {
+  const test::TestFolder folder;
+  const std::string path = folder.path().string();
+  folder.write("good.json", R"({"name": "x", "dataset": {"type": "opencalib", "path": "nowhere"},
+                                "pipeline": [{"step": "identity"}]})");
+  EXPECT_EQ(croon("validate " + path).text, path + "/good.json: ok\n");
+  EXPECT_EQ(croon("validate " + path).code, 0);
+  folder.write("bad.json", R"({"name": "x", "dataset": {"type": "opencalib", "path": "nowhere"},
+                               "pipeline": [{"step": "identiy"}], "seed": -1})");
+  const Answer answer = croon("validate " + path);
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_NE(answer.text.find(path + "/good.json: ok\n"), std::string::npos);
+  EXPECT_NE(answer.text.find("croon: " + path + "/bad.json: /seed: expected"), std::string::npos);
+  EXPECT_NE(answer.text.find("croon: " + path +
+                             "/bad.json: /pipeline/0/step: expected a step, found "
+                             "\"identiy\"; did you mean \"identity\"?\n"),
+            std::string::npos);
+}
+
+TEST(Program, TellsItsVersionStagesAndSchema) {
+  EXPECT_EQ(croon("--version").text.rfind("croon ", 0), 0U);
+  EXPECT_EQ(croon("--version").code, 0);
+  EXPECT_NE(croon("stages").text.find("yaw_alignment"), std::string::npos);
+  EXPECT_NE(croon("stages step/yaw_alignment").text.find("max_points"), std::string::npos);
+  EXPECT_NE(croon("stages --json").text.find("\"yaw_alignment\""), std::string::npos);
+  EXPECT_NE(croon("schema").text.find("\"$schema\""), std::string::npos);
+  EXPECT_EQ(croon("--help").code, 0);
+}
+
+}  // namespace
+}  // namespace croon::experiments

@@ -1,0 +1,239 @@
+#include "experiments/cli/run_command.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "experiments/engine/experiment_loader.hpp"
+#include "experiments/engine/provenance.hpp"
+#include "experiments/engine/store.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
+#include "test/experiments/support/fake_stages.hpp"
+
+namespace croon::experiments {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+json drifting() {
+  return json::parse(R"({"name": "x", "dataset": {"type": "fake"}, "starts": {"trials": 6},
+                         "pipeline": [{"step": "drift"}, {"step": "behave"}],
+                         "variants": [{"name": "far", "replace": {"drift.size_m": 2}}]})");
+}
+
+/// An experiment in a folder, and runs of it.
+class Bench {
+ public:
+  explicit Bench(const json& experiment = drifting())
+      : experiment_(folder_.write("x.json", experiment.dump())) {}
+
+  RunOptions options(const std::string& out) const {
+    RunOptions options;
+    options.experiment = experiment_;
+    options.out = folder_.path() / out;
+    options.quiet = true;
+    return options;
+  }
+
+  int run(const RunOptions& options) const {
+    std::ostringstream out, progress;
+    return run_command(options, test::fake_catalogue(), out, progress);
+  }
+
+  /// The first line of the InputError that the run ends with.
+  std::string fault(const RunOptions& options) const {
+    try {
+      run(options);
+      return "";
+    } catch (const InputError& error) {
+      return error.faults().front().line();
+    }
+  }
+
+  const test::TestFolder& folder() const { return folder_; }
+  const fs::path& experiment() const { return experiment_; }
+
+  /// The bytes of every file but timings.csv, and of the manifest without its host.
+  std::map<std::string, std::string> bytes(const std::string& out) const {
+    std::map<std::string, std::string> files;
+    for (const fs::directory_entry& entry :
+         fs::recursive_directory_iterator(folder_.path() / out)) {
+      if (!entry.is_regular_file() || entry.path().filename() == "timings.csv") continue;
+      std::string text = read_whole_file(entry.path());
+      if (entry.path().filename() == "manifest.json") {
+        json manifest = json::parse(text);
+        EXPECT_EQ(manifest.erase("host"), 1U);
+        text = manifest.dump();
+      }
+      files[fs::relative(entry.path(), folder_.path() / out).string()] = text;
+    }
+    return files;
+  }
+
+ private:
+  test::TestFolder folder_;
+  fs::path experiment_;
+};
+
+/// The rows of timings.csv, sorted, without their seconds.
+std::vector<std::string> timed(const fs::path& file) {
+  std::istringstream stream(read_whole_file(file));
+  std::vector<std::string> rows;
+  for (std::string line; std::getline(stream, line);)
+    rows.push_back(line.substr(0, line.rfind(',')));
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+TEST(RunCommand, SameBytesForAnyNumberOfJobs) {
+  const Bench bench;
+  for (const int jobs : {1, 2, 4}) {
+    RunOptions options = bench.options(std::to_string(jobs));
+    options.jobs = jobs;
+    options.clouds = true;
+    EXPECT_EQ(bench.run(options), 0);
+  }
+  const auto one = bench.bytes("1");
+  for (const char* name : {"store.sqlite", "trials.csv", "summary.csv", "summary.json",
+                           "manifest.json", "clouds/base/scene1.ply", "clouds/far/scene2.vdb"}) {
+    EXPECT_EQ(one.count(name), 1U) << name;
+  }
+  EXPECT_EQ(one.count("store.sqlite-wal"), 0U);
+  EXPECT_TRUE(one == bench.bytes("2"));
+  EXPECT_TRUE(one == bench.bytes("4"));
+  EXPECT_EQ(timed(bench.folder().path() / "1/timings.csv"),
+            timed(bench.folder().path() / "4/timings.csv"));
+}
+
+TEST(RunCommand, ShardsTogetherAreTheWhole) {
+  const Bench bench;
+  bench.run(bench.options("whole"));
+  RunOptions part = bench.options("parts");
+  part.shard = "2/2";
+  bench.run(part);
+  EXPECT_FALSE(bench.bytes("parts") == bench.bytes("whole"));
+  part.shard = "1/2";
+  bench.run(part);
+  EXPECT_TRUE(bench.bytes("parts") == bench.bytes("whole"));
+}
+
+TEST(RunCommand, VariantsAndTrialsExtendAStore) {
+  const Bench bench;
+  bench.run(bench.options("whole"));
+  RunOptions part = bench.options("parts");
+  part.only = {"far"};
+  part.trials = 2;
+  bench.run(part);
+  part.only.clear();
+  bench.run(part);
+  part.trials = 0;
+  bench.run(part);
+  EXPECT_TRUE(bench.bytes("parts") == bench.bytes("whole"));
+  bench.run(part);
+  EXPECT_TRUE(bench.bytes("parts") == bench.bytes("whole"));
+}
+
+/// A folder as a kill leaves it: the store open, half of the trials in it, a line of timings cut
+/// off.
+void leave_killed_run(const Bench& bench, const std::string& out) {
+  const fs::path folder = bench.folder().path();
+  const Experiment experiment = load_experiment(bench.experiment(), test::fake_catalogue());
+  const std::vector<Scene> scenes = experiment.dataset->scenes("");
+  std::vector<TrialRecord> records;
+  const Provenance provenance = provenance_of(experiment, scenes, {});
+  {
+    fs::copy_file(folder / "whole/store.sqlite", folder / "all.sqlite");
+    records = Store(folder / "all.sqlite", provenance).records();
+  }
+  fs::create_directory(folder / "open");
+  fs::create_directory(folder / out);
+  Store open(folder / "open/store.sqlite", provenance);
+  for (std::size_t i = 0; i < records.size(); i += 2) open.add(records[i]);
+  for (const char* name : {"store.sqlite", "store.sqlite-wal"}) {
+    fs::copy_file(folder / "open" / name, folder / out / name);
+  }
+  bench.folder().write(out + "/store.sqlite.new", "half a file");
+  bench.folder().write(
+      out + "/timings.csv",
+      "variant,scene,sensor,trial,step,seconds\nbase,scene1,s0,0,drift,0.5\nbase,sce");
+}
+
+TEST(RunCommand, ResumesAfterAKill) {
+  const Bench bench;
+  bench.run(bench.options("whole"));
+  leave_killed_run(bench, "killed");
+  const fs::path timings = bench.folder().path() / "killed/timings.csv";
+  EXPECT_EQ(bench.run(bench.options("killed")), 0);
+  EXPECT_TRUE(bench.bytes("killed") == bench.bytes("whole"));
+  const std::string text = read_whole_file(timings);
+  EXPECT_EQ(text.find("base,sce\n"), std::string::npos);
+  EXPECT_EQ(text.rfind("variant,scene,sensor,trial,step,seconds\nbase,scene1,s0,0,drift,0.5\n", 0),
+            0U);
+  const auto steps = [](const std::vector<std::string>& rows) {
+    return std::count_if(rows.begin(), rows.end(), [](const std::string& row) {
+      return row.rfind("base,", 0) == 0 || row.rfind("far,", 0) == 0;
+    });
+  };
+  // Half of the 2 x 2 x 2 x 6 trials were there; each of the others has two steps; one row was
+  // there.
+  EXPECT_EQ(steps(timed(timings)), 24 * 2 + 1);
+}
+
+TEST(RunCommand, RefusesToMixResultsAndStartsOverWhenTold) {
+  const Bench bench;
+  bench.run(bench.options("out"));
+  json other = drifting();
+  other["seed"] = 2;
+  bench.folder().write("x.json", other.dump());
+  const auto before = bench.bytes("out");
+  const std::string fault = bench.fault(bench.options("out"));
+  EXPECT_NE(fault.find("different seed"), std::string::npos) << fault;
+  EXPECT_TRUE(bench.bytes("out").at("store.sqlite") == before.at("store.sqlite"));
+  RunOptions fresh = bench.options("out");
+  fresh.fresh = true;
+  bench.folder().write("out/notes.txt", "mine");
+  EXPECT_EQ(bench.run(fresh), 0);
+  bench.run(bench.options("other"));
+  auto after = bench.bytes("out");
+  EXPECT_EQ(after.erase("notes.txt"), 1U);
+  EXPECT_TRUE(after == bench.bytes("other"));
+}
+
+TEST(RunCommand, SaysWithItsCodeThatATrialFailed) {
+  json experiment = drifting();
+  experiment["pipeline"][1]["how"] = "defeat";
+  const Bench bench(experiment);
+  EXPECT_EQ(bench.run(bench.options("out")), 3);
+}
+
+TEST(RunCommand, WritesNothingWhereTheRequestIsWrong) {
+  json experiment = drifting();
+  experiment["dataset"]["truth"] = false;
+  const Bench bench(experiment);
+  EXPECT_NE(bench.fault(bench.options("out")).find("has no truth pose"), std::string::npos);
+  RunOptions options = bench.options("out");
+  options.only = {"fra"};
+  EXPECT_NE(bench.fault(options).find("did you mean \"far\"?"), std::string::npos);
+  options = bench.options("out");
+  options.shard = "3/2";
+  EXPECT_NE(bench.fault(options).find("expected K/N"), std::string::npos);
+  options = bench.options("out");
+  options.experiment = bench.folder().path() / "none.json";
+  EXPECT_NE(bench.fault(options), "");
+  EXPECT_FALSE(fs::exists(bench.folder().path() / "out"));
+}
+
+TEST(RunCommand, NeedsAFolderThatItMayWriteTo) {
+  const Bench bench;
+  bench.folder().write("file", "");
+  EXPECT_NE(bench.fault(bench.options("file")).find("expected a folder"), std::string::npos);
+  EXPECT_NE(bench.fault(bench.options("file/below")).find("expected a folder"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace croon::experiments

@@ -1,0 +1,211 @@
+#include "experiments/engine/runner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "experiments/engine/experiment_loader.hpp"
+#include "experiments/engine/store.hpp"
+#include "test/experiments/support/fake_stages.hpp"
+
+namespace croon::experiments {
+namespace {
+
+using nlohmann::json;
+
+struct Ran {
+  std::vector<TrialRecord> records;  ///< In report order.
+  std::vector<TimingRow> timings;
+};
+
+json drifting(int trials = 3) {
+  json experiment = json::parse(R"({"name": "x", "dataset": {"type": "fake"}, "starts": {},
+                                    "pipeline": [{"step": "drift"}, {"step": "behave"}]})");
+  experiment["starts"]["trials"] = trials;
+  return experiment;
+}
+
+Ran run(const json& description, int jobs = 2) {
+  const test::TestFolder folder;
+  const Experiment experiment =
+      load_experiment(folder.write("x.json", description.dump()), test::fake_catalogue());
+  const std::vector<Scene> scenes = experiment.dataset->scenes("");
+  const Selection selection{select_variants(experiment, {}), {}};
+  Ran ran;
+  RunListener listener;
+  const auto add_timings = [&](const std::vector<TimingRow>& rows) {
+    ran.timings.insert(ran.timings.end(), rows.begin(), rows.end());
+  };
+  listener.on_scene = [](const std::string&) {};
+  listener.on_trial = [&](const TrialRecord& record, const std::vector<TimingRow>& rows) {
+    ran.records.push_back(record);
+    add_timings(rows);
+  };
+  listener.on_scene_timings = add_timings;
+  run_trials(experiment, scenes, plan_trials(experiment, scenes, selection), jobs, listener);
+  ran.records = in_report_order(ran.records, experiment, scenes);
+  return ran;
+}
+
+/// The bits of where a trial ended.
+std::string bits(const TrialRecord& record) {
+  const RigidTransform T = record.T_reference_sensor.value_or(RigidTransform{});
+  std::string bytes(12 * sizeof(double), '\0');
+  std::memcpy(bytes.data(), T.rotation.data(), 9 * sizeof(double));
+  std::memcpy(bytes.data() + 9 * sizeof(double), T.translation.data(), 3 * sizeof(double));
+  return bytes;
+}
+
+void expect_same(const TrialRecord& a, const TrialRecord& b) {
+  EXPECT_EQ(trial_key(a.id), trial_key(b.id));
+  EXPECT_EQ(bits(a), bits(b));
+  EXPECT_EQ(a.status, b.status);
+  ASSERT_EQ(a.steps.size(), b.steps.size());
+  for (std::size_t i = 0; i < a.steps.size(); ++i)
+    EXPECT_EQ(a.steps[i].figures, b.steps[i].figures);
+}
+
+TEST(Runner, SameBitsOnAnyNumberOfThreads) {
+  const Ran one = run(drifting(20), 1);
+  ASSERT_EQ(one.records.size(), 2U * 2U * 20U);
+  for (const int jobs : {2, 4, 7}) {
+    const Ran other = run(drifting(20), jobs);
+    ASSERT_EQ(other.records.size(), one.records.size());
+    for (std::size_t i = 0; i < one.records.size(); ++i)
+      expect_same(one.records[i], other.records[i]);
+  }
+}
+
+TEST(Runner, AddingAVariantASceneOrASensorChangesNoNumber) {
+  const Ran few = run(drifting());
+  json more = drifting(5);
+  more["variants"] = json::parse(R"([{"name": "more", "replace": {"drift.size_m": 1}}])");
+  more["dataset"]["sensors"] = 3;
+  const Ran many = run(more);
+  std::size_t found = 0;
+  for (const TrialRecord& record : few.records) {
+    for (const TrialRecord& other : many.records) {
+      if (trial_key(other.id) != trial_key(record.id)) continue;
+      ++found;
+      // The fake truth of a sensor depends on how many there are; draws do not.
+      EXPECT_EQ(record.steps[0].figures[1], other.steps[0].figures[1]);
+    }
+  }
+  EXPECT_EQ(found, few.records.size());
+}
+
+TEST(Runner, TrialsOfVariantsArePaired) {
+  json two = drifting();
+  two["variants"] =
+      json::parse(R"([{"name": "same", "replace": {"drift.search": {"type": "fine"}}}])");
+  const Ran both = run(two);
+  const std::size_t half = both.records.size() / 2;
+  for (std::size_t i = 0; i < half; ++i)
+    EXPECT_EQ(bits(both.records[i]), bits(both.records[half + i]));
+  EXPECT_NE(bits(both.records[0]), bits(both.records[1]));
+}
+
+TEST(Runner, SaysHowATrialEnded) {
+  struct Case {
+    const char* how;
+    Status status;
+    const char* reason;
+    bool has_pose;
+  };
+  for (const Case& c : {Case{"pass", Status::inaccurate, "", true},
+                        Case{"reject", Status::rejected, "too few points", true},
+                        Case{"defeat", Status::failed, "behave: no ground", false},
+                        Case{"memory", Status::failed, "behave: std::bad_alloc", false},
+                        Case{"nan", Status::failed, "the pose is not finite", false}}) {
+    json experiment = drifting();
+    experiment["pipeline"][1]["how"] = c.how;
+    for (const TrialRecord& record : run(experiment).records) {
+      EXPECT_EQ(record.status, c.status) << c.how;
+      EXPECT_EQ(record.reason, c.reason);
+      EXPECT_EQ(record.T_reference_sensor.has_value(), c.has_pose);
+      EXPECT_EQ(record.error.has_value(), c.has_pose);
+      EXPECT_EQ(record.steps.size(), 2U);
+    }
+  }
+}
+
+TEST(Runner, ABugEndsTheRun) {
+  json experiment = drifting();
+  experiment["pipeline"][1]["how"] = "bug";
+  EXPECT_THROW(run(experiment), std::logic_error);
+}
+
+TEST(Runner, SuccessIsWithinTheBounds) {
+  json experiment = drifting();
+  experiment["starts"] = {{"rotation_deg", 0}, {"translation_m", 0}, {"trials", 30}};
+  experiment["success"] = {{"rotation_deg", 0.0001}, {"translation_m", 0.015}};
+  int successes = 0;
+  for (const TrialRecord& record : run(experiment).records) {
+    const bool is_within = record.error->translation_m <= 0.015;
+    EXPECT_EQ(record.status, is_within ? Status::success : Status::inaccurate);
+    successes += is_within;
+  }
+  EXPECT_GT(successes, 0);
+  EXPECT_LT(successes, 120);
+}
+
+TEST(Runner, WithoutTruthFinishedIsSuccess) {
+  json experiment = drifting();
+  experiment["dataset"]["truth"] = false;
+  experiment["starts"]["around"] = "nominal";
+  for (const TrialRecord& record : run(experiment).records) {
+    EXPECT_EQ(record.status, Status::success);
+    EXPECT_FALSE(record.error.has_value());
+    EXPECT_TRUE(record.T_reference_sensor.has_value());
+  }
+}
+
+TEST(Runner, AnUnreadableCloudFailsItsTrialsAlone) {
+  json experiment = drifting();
+  experiment["dataset"]["unreadable"] = 1;  // s0
+  for (const TrialRecord& record : run(experiment).records) {
+    const bool is_bad = record.id.sensor == "s0";
+    EXPECT_EQ(record.status == Status::failed, is_bad);
+    EXPECT_EQ(record.reason, is_bad ? "the cloud of s0: byte 7: expected points" : "");
+  }
+}
+
+TEST(Runner, AnUnreadableReferenceFailsTheScene) {
+  json experiment = drifting();
+  experiment["dataset"]["unreadable"] = -2;
+  for (const TrialRecord& record : run(experiment).records) {
+    EXPECT_EQ(record.status, Status::failed);
+    EXPECT_EQ(record.reason, "the cloud of top: byte 7: expected points");
+  }
+}
+
+TEST(Runner, AnEmptyCloudFails) {
+  json experiment = drifting();
+  experiment["dataset"]["points"] = 0;
+  for (const TrialRecord& record : run(experiment).records) {
+    EXPECT_EQ(record.reason, "the cloud of top: it has no points");
+  }
+}
+
+TEST(Runner, TimesStepsPerTrialAndSharedWorkPerScene) {
+  const Ran timed = run(drifting());
+  int steps = 0, readings = 0, shared = 0;
+  for (const TimingRow& row : timed.timings) {
+    EXPECT_EQ(row.id.variant.empty(), row.id.trial == -1);
+    if (row.id.trial >= 0) {
+      ++steps;
+    } else if (row.step == "reading") {
+      ++readings;
+    } else {
+      ++shared;
+      EXPECT_EQ(row.step, "drift");
+    }
+  }
+  EXPECT_EQ(steps, 2 * 2 * 3 * 2);
+  EXPECT_EQ(readings, 2 * 3);
+  EXPECT_EQ(shared, 2 * 2);
+}
+
+}  // namespace
+}  // namespace croon::experiments

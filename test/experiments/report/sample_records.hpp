@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/engine/trial_record.hpp"
+#include "test/support/random_geometry.hpp"
+
+namespace croon::experiments::test {
+
+/// A trial of (variant, scene, sensor) that ended at `truth` moved by `offset`, with a known truth.
+TrialRecord finished(const TrialId& id, Status status, const RigidTransform& truth,
+                     const Vector6d& offset);
+
+/// The same where there is no truth.
+TrialRecord finished_without_truth(const TrialId& id, const RigidTransform& pose);
+
+/// A trial that did not finish.
+TrialRecord unfinished(const TrialId& id, Status status, const std::string& reason);
+
+/// An offset: degrees and metres in, as `moved` wants it out.
+Vector6d offset_of(double roll_deg, double pitch_deg, double yaw_deg, double x_m, double y_m,
+                   double z_m);
+
+/// Uniform within +-`rotation_deg` and +-`translation_m` per DOF.
+Vector6d random_offset(Rng& rng, double rotation_deg, double translation_m);
+
+/// A few trials of two variants, two sensors and two scenes, of every status, with truth.
+std::vector<TrialRecord> few_records();
+
+/// The records in another order.
+std::vector<TrialRecord> shuffled(Rng& rng, std::vector<TrialRecord> records);
+
+}  // namespace croon::experiments::test

@@ -1,0 +1,57 @@
+#include "experiments/report/text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "experiments/report/text_table.hpp"
+
+namespace croon::experiments {
+namespace {
+
+TEST(Text, ColumnsAreCodePoints) {
+  EXPECT_EQ(text_columns("±1"), 2U);
+  EXPECT_EQ(right_aligned("±1", 4), "  ±1");
+  EXPECT_EQ(left_aligned("±1", 4), "±1  ");
+  EXPECT_EQ(left_aligned("long", 2), "long");
+  EXPECT_EQ(cut_to_columns("straße", 6), "straße");
+  EXPECT_EQ(cut_to_columns("straße", 5), "stra…");
+  EXPECT_EQ(cut_to_columns("ßßß", 2), "ß…");
+  EXPECT_EQ(cut_to_columns("abc", 0), "");
+}
+
+TEST(Text, FixedNumbers) {
+  EXPECT_EQ(fixed_number(1.0 / 3.0, 3), "0.333");
+  EXPECT_EQ(fixed_number(-1.25, 1), "-1.2");
+  EXPECT_EQ(fixed_number(-0.0004, 3), "0.000");
+  EXPECT_EQ(fixed_number(-0.0006, 3), "-0.001");
+  EXPECT_EQ(fixed_number(-0.0, 0), "0");
+  EXPECT_EQ(fixed_number(-std::numeric_limits<double>::infinity(), 2), "-inf");
+  EXPECT_EQ(fixed_number(std::numeric_limits<double>::quiet_NaN(), 2), "nan");
+}
+
+TEST(Text, Clock) {
+  EXPECT_EQ(clock_text(0.4), "0:00");
+  EXPECT_EQ(clock_text(59.6), "1:00");
+  EXPECT_EQ(clock_text(3723.0), "1:02:03");
+  EXPECT_EQ(clock_text(std::numeric_limits<double>::infinity()), "277777:46:40");
+}
+
+TEST(TextTable, AlignsNamesLeftAndNumbersRight) {
+  TextTable table({"sensor", "mean ±", "n"}, 1);
+  table.add({"front", "±0.5", "100"});
+  table.add_heading("a longer line than any row");
+  table.add({"left-hand", "-", "7"});
+  EXPECT_EQ(table.text(false),
+            "sensor     mean ±    n\n"
+            "---------  ------  ---\n"
+            "front        ±0.5  100\n"
+            "a longer line than any row\n"
+            "left-hand       -    7\n");
+  EXPECT_EQ(table.text(true).substr(0, 30), "\033[1msensor     mean ±    n\033[0");
+  EXPECT_THROW(table.add({"too", "short"}), std::logic_error);
+}
+
+}  // namespace
+}  // namespace croon::experiments

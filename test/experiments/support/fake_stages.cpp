@@ -1,0 +1,171 @@
+#include "test/experiments/support/fake_stages.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <new>
+
+#include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
+#include "framework/stage/dataset.hpp"
+#include "framework/stage/step.hpp"
+#include "framework/stage/yaw_search.hpp"
+#include "test/support/random_geometry.hpp"
+
+namespace croon::test {
+namespace {
+
+struct FakeDatasetParams {
+  int scenes = 2;
+  int sensors = 2;
+  bool truth = true;
+  int points = 50;
+  int unreadable = -1;
+};
+
+class FakeDataset final : public Dataset {
+ public:
+  explicit FakeDataset(FakeDatasetParams params) : params_(params) {}
+
+  std::vector<Scene> scenes(const std::filesystem::path&) const override {
+    std::vector<Scene> scenes;
+    for (int i = 0; i < params_.scenes; ++i) {
+      // Not in the order of words: "scene10" would come before "scene2".
+      Scene scene{"scene" + std::to_string(params_.scenes - i), scan("top", i, -2), {}};
+      for (int k = 0; k < params_.sensors; ++k) {
+        scene.sensors.push_back(scan("s" + std::to_string(params_.sensors - 1 - k), i, k));
+      }
+      scenes.push_back(scene);
+    }
+    return scenes;
+  }
+
+ private:
+  SensorScan scan(const std::string& sensor, int scene, int index) const {
+    const std::uint64_t seed = static_cast<std::uint64_t>(100 * scene + index + 2);
+    Rng rng = test_rng(seed);
+    SensorScan scan;
+    scan.sensor = sensor;
+    scan.nominal = random_pose(rng, 2.0);
+    if (params_.truth) scan.truth = random_pose(rng, 2.0);
+    const bool is_readable = index != params_.unreadable;
+    scan.load = [seed, is_readable, count = params_.points] {
+      if (!is_readable) throw InputError("/data/fake.pcd", "byte 7", "expected points");
+      Rng points = test_rng(seed);
+      return random_cloud(points, count, 10.0);
+    };
+    return scan;
+  }
+
+  FakeDatasetParams params_;
+};
+
+struct CoarseParams {
+  double step_deg = 5.0;
+};
+
+struct FineParams {
+  int levels = 3;
+};
+
+/// A yaw search that looks nowhere; only its parameters matter.
+template <class Params>
+class FakeSearch final : public YawSearch {
+ public:
+  explicit FakeSearch(const Params&) {}
+  YawMinimum minimise(const YawCost&) const override { return {}; }
+};
+
+struct DriftParams {
+  double size_m = 0.01;
+  params::Slot<YawSearch> search;
+};
+
+class Drift final : public Step {
+ public:
+  explicit Drift(DriftParams params) : params_(std::move(params)) {}
+
+  Estimate advance(Estimate estimate, Rng& rng) const override {
+    Rng once = estimate.source->rng("drift");
+    const double shared = *estimate.source->once<double>("drift", [&] {
+      return std::make_shared<const double>(once.uniform() / estimate.source->points().size());
+    });
+    for (int i = 0; i < 3; ++i) {
+      estimate.T_target_source.translation(i) += params_.size_m * (rng.normal() + shared);
+    }
+    estimate.figures = {{"shared", shared}, {"draw", rng.uniform()}};
+    return estimate;
+  }
+
+ private:
+  DriftParams params_;
+};
+
+struct BehaveParams {
+  std::string how = "pass";
+};
+
+class Behave final : public Step {
+ public:
+  explicit Behave(BehaveParams params) : params_(std::move(params)) {}
+
+  Estimate advance(Estimate estimate, Rng&) const override {
+    if (params_.how == "reject") estimate.rejection = "too few points";
+    if (params_.how == "defeat") throw StageError("no ground");
+    if (params_.how == "memory") throw std::bad_alloc();
+    if (params_.how == "bug") throw std::logic_error("a bug");
+    if (params_.how == "nan") {
+      estimate.T_target_source.translation.x() = std::numeric_limits<double>::quiet_NaN();
+    }
+    return estimate;
+  }
+
+ private:
+  BehaveParams params_;
+};
+
+}  // namespace
+
+Catalogue fake_catalogue() {
+  using namespace params;
+  Catalogue catalogue;
+  catalogue.add(stage_entry<FakeDataset, FakeDatasetParams>(
+      "fake", "Random clouds.", "croon",
+      {integer("scenes", &FakeDatasetParams::scenes, {1, 100}, "How many scenes."),
+       integer("sensors", &FakeDatasetParams::sensors, {1, 10}, "How many sensors."),
+       boolean("truth", &FakeDatasetParams::truth, "Whether there is truth."),
+       integer("points", &FakeDatasetParams::points, {0, 1e6}, "Points per cloud."),
+       integer("unreadable", &FakeDatasetParams::unreadable, {-2, 10}, "The unreadable cloud.")}));
+  catalogue.add(stage_entry<FakeSearch<CoarseParams>, CoarseParams>(
+      "coarse", "Looks nowhere.", "croon",
+      {number("step_deg", &CoarseParams::step_deg, {0.1, 90}, "Its step.")}));
+  catalogue.add(stage_entry<FakeSearch<FineParams>, FineParams>(
+      "fine", "Looks nowhere.", "croon",
+      {integer("levels", &FineParams::levels, {1, 9}, "Its levels.")}));
+  catalogue.add(stage_entry<Drift, DriftParams>(
+      "drift", "Moves the pose.", "croon",
+      {number("size_m", &DriftParams::size_m, {0, 10}, "How far."),
+       slot("search", &DriftParams::search, R"({"type": "coarse"})", "A stage in a stage.")}));
+  catalogue.add(stage_entry<Behave, BehaveParams>(
+      "behave", "Behaves as it is told to.", "croon",
+      {choice("how", &BehaveParams::how, {"pass", "reject", "defeat", "memory", "bug", "nan"},
+              "What it does.")}));
+  return catalogue;
+}
+
+TestFolder::TestFolder() {
+  const testing::TestInfo* info = testing::UnitTest::GetInstance()->current_test_info();
+  path_ = std::filesystem::path(CROON_BINARY_DIR) / "test_folders" /
+          (std::string(info->test_suite_name()) + "." + info->name());
+  std::filesystem::remove_all(path_);
+  std::filesystem::create_directories(path_);
+}
+
+TestFolder::~TestFolder() { std::filesystem::remove_all(path_); }
+
+std::filesystem::path TestFolder::write(const std::string& name, const std::string& text) const {
+  write_whole_file(path_ / name, text);
+  return path_ / name;
+}
+
+}  // namespace croon::test

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "framework/stage/catalogue.hpp"
+
+namespace croon::test {
+
+/// A few small stages, so that tests of the engine depend on no real one:
+/// - dataset `fake` {scenes, sensors, truth, points, unreadable}: random clouds; sensors s0, s1,
+/// ...; the cloud
+///   of sensor `unreadable` cannot be read (-2: the reference's, -1: none);
+/// - yaw_search `coarse` {step_deg}, `fine` {levels};
+/// - step `drift` {size_m, search}: moves the pose by random numbers and by how many points the
+/// clouds have;
+/// - step `behave` {how}: nothing, rejects, fails, ..., see fake_stages.cpp.
+Catalogue fake_catalogue();
+
+/// A folder of its own for the running test, empty; gone when this object goes.
+class TestFolder {
+ public:
+  TestFolder();
+  ~TestFolder();
+  TestFolder(const TestFolder&) = delete;
+  TestFolder& operator=(const TestFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  /// Writes a file in it and returns its path.
+  std::filesystem::path write(const std::string& name, const std::string& text) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace croon::test

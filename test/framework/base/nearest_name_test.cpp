@@ -1,0 +1,25 @@
+#include "framework/base/nearest_name.hpp"
+
+#include <gtest/gtest.h>
+
+namespace croon {
+namespace {
+
+const std::vector<std::string> kKnown = {"ransac", "cgal_efficient_ransac", "cgal_region_growing"};
+
+TEST(NearestName, FindsTheMisspelt) {
+  EXPECT_EQ(nearest_name("ransak", kKnown), "ransac");
+  EXPECT_EQ(nearest_name("cgal_region_growig", kKnown), "cgal_region_growing");
+  EXPECT_EQ(nearest_name("ransac", kKnown), "ransac");
+}
+
+TEST(NearestName, KnowsWhenNothingIsNear) {
+  EXPECT_EQ(nearest_name("octree", kKnown), "");
+  EXPECT_EQ(nearest_name("x", {}), "");
+  EXPECT_EQ(name_hint("octree", {"a", "b"}), "; known: a, b");
+  EXPECT_EQ(name_hint("ransak", kKnown), "; did you mean \"ransac\"?");
+  EXPECT_EQ(name_hint("ransak", {}), "");
+}
+
+}  // namespace
+}  // namespace croon

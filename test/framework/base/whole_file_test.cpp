@@ -1,0 +1,51 @@
+#include "framework/base/whole_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "test/support/temp_folder.hpp"
+
+namespace croon {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::size_t files_in(const std::filesystem::path& folder) {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) count += entry.exists();
+  return count;
+}
+
+TEST(WholeFile, ReadsWhatItWroteAndLeavesNothingElse) {
+  const test::TempFolder folder;
+  const std::filesystem::path path = folder.path() / "a";
+  for (const std::string& bytes :
+       {std::string("first"), std::string("\0\r\n\xff", 4), std::string()}) {
+    write_whole_file(path, bytes);
+    EXPECT_EQ(read_whole_file(path), bytes);
+    EXPECT_EQ(files_in(folder.path()), 1u);
+  }
+}
+
+TEST(WholeFile, GoesOnBesideAPartThatACrashLeft) {
+  const test::TempFolder folder;
+  folder.write("a.part0", "left over");
+  write_whole_file(folder.path() / "a", "new");
+  EXPECT_EQ(read_whole_file(folder.path() / "a"), "new");
+  EXPECT_EQ(read_whole_file(folder.path() / "a.part0"), "left over");
+}
+
+TEST(WholeFile, RefusesWhatIsNoFile) {
+  const test::TempFolder folder;
+  const std::filesystem::path missing = folder.path() / "none" / "a";
+  EXPECT_THAT(test::input_error([&] { write_whole_file(missing, "x"); }),
+              HasSubstr(missing.string()));
+  EXPECT_THAT(test::input_error([&] { write_whole_file(folder.path(), "x"); }),
+              HasSubstr("something else"));
+  EXPECT_THAT(test::input_error([&] { read_whole_file(missing); }), HasSubstr("found none"));
+  EXPECT_THAT(test::input_error([&] { read_whole_file(folder.path()); }), HasSubstr("found none"));
+  EXPECT_EQ(files_in(folder.path()), 0u);
+}
+
+}  // namespace
+}  // namespace croon

@@ -1,0 +1,195 @@
+#include "framework/geometry/pose_mean.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "framework/base/angles.hpp"
+#include "framework/geometry/pose_error.hpp"
+#include "test/support/random_geometry.hpp"
+
+namespace croon {
+namespace {
+
+constexpr PoseBounds kBounds = {0.01, 0.1};
+
+std::vector<RigidTransform> poses_near(Rng& rng, const RigidTransform& pose, int count) {
+  std::vector<RigidTransform> poses;
+  for (int i = 0; i < count; ++i) poses.push_back(test::pose_near(rng, pose, 0.2, 0.03));
+  return poses;
+}
+
+/// `good` poses near a random one, then `bad` ones anywhere.
+std::vector<RigidTransform> poses_with_outliers(Rng& rng, int good, int bad) {
+  std::vector<RigidTransform> poses = poses_near(rng, test::random_pose(rng, 3.0), good);
+  for (int i = 0; i < bad; ++i) poses.push_back(test::random_pose(rng, 3.0));
+  return poses;
+}
+
+std::vector<RigidTransform> shuffled(Rng& rng, std::vector<RigidTransform> poses) {
+  for (std::size_t i = poses.size(); i > 1; --i) std::swap(poses[i - 1], poses[rng.below(i)]);
+  return poses;
+}
+
+std::vector<RigidTransform> moved_from_left(const RigidTransform& T,
+                                            std::vector<RigidTransform> poses) {
+  for (RigidTransform& pose : poses) pose = T * pose;
+  return poses;
+}
+
+void expect_near(const RigidTransform& a, const RigidTransform& b, double tolerance) {
+  const PoseError error = pose_error(a, b);
+  EXPECT_LT(error.rotation_rad, tolerance);
+  EXPECT_LT(error.translation_m, tolerance);
+}
+
+TEST(MeanPose, OfEqualPosesIsThePose) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 200; ++i) {
+    const RigidTransform pose = test::random_pose(rng, 10.0);
+    expect_near(mean_pose({pose}), pose, 1e-12);
+    expect_near(mean_pose({pose, pose, pose}), pose, 1e-12);
+  }
+}
+
+TEST(MeanPose, LiesBetweenTwoThatDifferByATurn) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 200; ++i) {
+    const RigidTransform middle = test::random_pose(rng, 10.0);
+    const Eigen::Vector3d axis = test::random_pose(rng, 1.0).rotation.col(0);
+    const Eigen::Matrix3d turn = rotation_exp(rng.uniform(0.0, 1.5) * axis);
+    const Eigen::Vector3d shift = rng.uniform(0.0, 2.0) * axis;
+    const RigidTransform one = {turn * middle.rotation, middle.translation + shift};
+    const RigidTransform other = {turn.transpose() * middle.rotation, middle.translation - shift};
+    expect_near(mean_pose({one, other}), middle, 1e-12);
+  }
+}
+
+TEST(MeanPose, CommutesWithAMotionFromTheLeft) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 200; ++i) {
+    const auto poses = poses_near(rng, test::random_pose(rng, 3.0), 20);
+    const RigidTransform T = test::random_pose(rng, 3.0);
+    expect_near(mean_pose(moved_from_left(T, poses)), T * mean_pose(poses), 1e-12);
+  }
+}
+
+TEST(MeanPose, RotationCommutesWithATurnFromTheRight) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 200; ++i) {
+    std::vector<RigidTransform> poses = poses_near(rng, test::random_pose(rng, 3.0), 20);
+    const Eigen::Matrix3d mean = mean_rotation(poses);
+    const Eigen::Matrix3d R = test::random_pose(rng, 3.0).rotation;
+    for (RigidTransform& pose : poses) pose.rotation = pose.rotation * R;
+    EXPECT_LT(rotation_angle(mean_rotation(poses).transpose() * (mean * R)), 1e-12);
+  }
+}
+
+TEST(MeanPose, HasTheSameBitsInAnyOrder) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 100; ++i) {
+    const auto poses = poses_with_outliers(rng, 12, 8);
+    const RigidTransform mean = mean_pose(poses);
+    const RigidTransform other = mean_pose(shuffled(rng, poses));
+    EXPECT_EQ(mean.rotation, other.rotation);
+    EXPECT_EQ(mean.translation, other.translation);
+  }
+}
+
+TEST(MeanPose, OfNothingIsAMistakeOfOurs) {
+  EXPECT_THROW(mean_pose({}), std::logic_error);
+  EXPECT_THROW(mean_rotation({}), std::logic_error);
+  EXPECT_THROW(consensus_pose({}, kBounds), std::logic_error);
+}
+
+TEST(ConsensusPose, IsTheMeanWhereAllAgree) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 100; ++i) {
+    std::vector<RigidTransform> poses;
+    const RigidTransform centre = test::random_pose(rng, 3.0);
+    for (int k = 0; k < 30; ++k) poses.push_back(test::pose_near(rng, centre, 0.1, 0.02));
+    expect_near(consensus_pose(poses, kBounds), mean_pose(poses), 1e-12);
+  }
+}
+
+TEST(ConsensusPose, IgnoresHoweverManyThatAgreeWithNobody) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 50; ++i) {
+    const RigidTransform centre = test::random_pose(rng, 3.0);
+    std::vector<RigidTransform> poses;
+    for (int k = 0; k < 10; ++k) poses.push_back(test::pose_near(rng, centre, 0.1, 0.02));
+    const RigidTransform without = consensus_pose(poses, kBounds);
+    for (int k = 0; k < 30; ++k) poses.push_back(test::random_pose(rng, 3.0));
+    expect_near(consensus_pose(shuffled(rng, poses), kBounds), without, 1e-12);
+  }
+}
+
+TEST(ConsensusPose, IgnoresThoseThatLieOnOneSideButApartFromEachOther) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 50; ++i) {
+    const RigidTransform centre = test::random_pose(rng, 3.0);
+    std::vector<RigidTransform> poses = poses_near(rng, centre, 10);
+    for (int k = 0; k < 30; ++k) {
+      const Eigen::Vector3d aside(5.0 + 0.3 * k, 0.0, 0.0);
+      poses.push_back({centre.rotation, centre.translation + aside});
+    }
+    EXPECT_TRUE(agree(consensus_pose(shuffled(rng, poses), kBounds), centre, kBounds));
+  }
+}
+
+TEST(ConsensusPose, IgnoresAMinorityThatAgreesOnSomethingElse) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 50; ++i) {
+    const RigidTransform centre = test::random_pose(rng, 3.0);
+    // As where a street looks the same both ways.
+    const RigidTransform wrong = {rotation_exp(kPi * Eigen::Vector3d::UnitZ()) * centre.rotation,
+                                  centre.translation};
+    std::vector<RigidTransform> poses = poses_near(rng, centre, 60);
+    const auto minority = poses_near(rng, wrong, 40);
+    poses.insert(poses.end(), minority.begin(), minority.end());
+    EXPECT_TRUE(agree(consensus_pose(poses, kBounds), centre, {0.003, 0.02}));
+  }
+}
+
+TEST(ConsensusPose, CommutesWithAMotionFromTheLeft) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 100; ++i) {
+    const auto poses = poses_with_outliers(rng, 12, 8);
+    const RigidTransform T = test::random_pose(rng, 3.0);
+    expect_near(consensus_pose(moved_from_left(T, poses), kBounds),
+                T * consensus_pose(poses, kBounds), 1e-12);
+  }
+}
+
+TEST(ConsensusPose, HasTheSameBitsInAnyOrder) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 100; ++i) {
+    const auto poses = poses_with_outliers(rng, i % 3, 5);
+    const RigidTransform consensus = consensus_pose(poses, kBounds);
+    const RigidTransform other = consensus_pose(shuffled(rng, poses), kBounds);
+    EXPECT_EQ(consensus.rotation, other.rotation);
+    EXPECT_EQ(consensus.translation, other.translation);
+  }
+}
+
+TEST(ConsensusPose, BoundsOfZeroLeaveThePoseThatIsMetMostOften) {
+  Rng rng = test::test_rng();
+  const RigidTransform often = test::random_pose(rng, 3.0);
+  const RigidTransform seldom = test::random_pose(rng, 3.0);
+  expect_near(consensus_pose({seldom, often, often}, {0.0, 0.0}), often, 1e-12);
+}
+
+TEST(Agree, CountsTheBoundItselfAndIsSymmetric) {
+  const RigidTransform a;
+  const RigidTransform b = {Eigen::Matrix3d::Identity(), {0.1, 0.0, 0.0}};
+  EXPECT_TRUE(agree(a, b, {0.01, 0.1}));
+  EXPECT_TRUE(agree(b, a, {0.01, 0.1}));
+  EXPECT_FALSE(agree(a, b, {0.01, 0.0999}));
+  const RigidTransform turned = {rotation_exp({0.0, 0.02, 0.0}), {0.0, 0.0, 0.0}};
+  EXPECT_FALSE(agree(a, turned, {0.0199, 0.1}));
+  EXPECT_TRUE(agree(a, turned, {0.0201, 0.1}));
+}
+
+}  // namespace
+}  // namespace croon

@@ -1,0 +1,49 @@
+#include "framework/params/json_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "framework/base/error.hpp"
+
+namespace croon::params {
+namespace {
+
+std::vector<Fault> faults_of(const std::string& text) {
+  try {
+    parse_json(text, "f.json");
+  } catch (const InputError& error) {
+    return error.faults();
+  }
+  return {};
+}
+
+TEST(ParseJson, FindsEveryDuplicateKeyAndItsPlace) {
+  const auto faults =
+      faults_of(R"({"a": 1, "b": [{"x": 1}, {"c/d": 1, "y": [], "c/d": 2}], "a": {"a": 1}})");
+  ASSERT_EQ(faults.size(), 2u);
+  EXPECT_EQ(faults[0].where, "/b/1/c~1d");
+  EXPECT_EQ(faults[1].where, "/a");
+  EXPECT_EQ(faults[1].file, "f.json");
+}
+
+TEST(ParseJson, LetsEqualKeysOfDifferentObjectsPass) {
+  EXPECT_TRUE(
+      faults_of(R"({"a": {"a": 1}, "b": [{"a": 1}, {"a": 2}, [], [[1]], {"a": 3}]})").empty());
+}
+
+TEST(ParseJson, SaysWhereItIsNotJson) {
+  const auto faults = faults_of("{\"a\": 1,\n  oops}");
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_NE(faults[0].message.find("line 2, column 3"), std::string::npos) << faults[0].message;
+  EXPECT_EQ(faults_of("").size(), 1u);
+  EXPECT_EQ(faults_of("{} {}").size(), 1u);
+}
+
+TEST(ReadJsonFile, RefusesWhatIsNotAFile) {
+  EXPECT_THROW(read_json_file("/no/such/file.json"), InputError);
+  EXPECT_THROW(read_json_file("/"), InputError);
+}
+
+}  // namespace
+}  // namespace croon::params

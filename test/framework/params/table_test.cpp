@@ -1,0 +1,105 @@
+#include "framework/params/table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "framework/params/json_file.hpp"
+
+namespace croon::params {
+namespace {
+
+struct Base {
+  int count = 3;
+};
+
+struct Sample : Base {
+  double size_m = 0.5;
+  bool flag = false;
+  std::string word = "one";
+  std::vector<double> steps = {1.0, 0.5};
+  std::vector<std::string> words = {"x"};
+};
+
+const Table<Sample>& table() {
+  static const Table<Sample> table =
+      Table<Sample>{
+          number("size_m", &Sample::size_m, {0.0, 10.0}, "Size."),
+          boolean("flag", &Sample::flag, "Flag."),
+          choice("word", &Sample::word, {"one", "two"}, "Word."),
+          numbers("steps", &Sample::steps, {0.1, 2.0}, "Steps."),
+          choices("words", &Sample::words, {"x", "y", "z"}, "Words."),
+      }
+          .inherit(Table<Base>{integer("count", &Base::count, {1, 9}, "Count.")})
+          .require([](const Sample& s) { return s.count * s.size_m < 20.0; }, "too much");
+  return table;
+}
+
+class NoStages final : public StageBuilder {
+ public:
+  BuiltStage build(const std::string&, const Node&) const override { return {}; }
+};
+
+/// Reads `text`, returns the parameters and puts the faults' lines into `lines`.
+Sample read(const std::string& text, std::vector<std::string>& lines) {
+  const nlohmann::json value = parse_json(text, "f");
+  std::vector<Fault> faults;
+  const Sample sample = table().read(Node(value, "f", faults), {"type"}, NoStages());
+  lines.clear();
+  for (const Fault& fault : faults) lines.push_back(fault.line());
+  return sample;
+}
+
+TEST(Table, GivesDefaultsWhereNothingIsSaid) {
+  std::vector<std::string> lines;
+  const Sample sample = read(R"({"type": "t"})", lines);
+  EXPECT_TRUE(lines.empty());
+  EXPECT_EQ(table().members_json(sample),
+            R"("size_m":0.5,"flag":false,"word":"one","steps":[1,0.5],"words":["x"],"count":3)");
+}
+
+TEST(Table, ReadsEveryType) {
+  std::vector<std::string> lines;
+  const Sample sample = read(
+      R"({"size_m": 2, "flag": true, "word": "two", "steps": [0.3], "words": ["z", "x"], "count": 4})",
+      lines);
+  EXPECT_TRUE(lines.empty());
+  EXPECT_EQ(table().members_json(sample),
+            R"("size_m":2,"flag":true,"word":"two","steps":[0.3],"words":["z","x"],"count":4)");
+}
+
+TEST(Table, NotesEveryFaultWithItsPlace) {
+  std::vector<std::string> lines;
+  read(
+      R"({"size": 2, "flag": 1, "word": "tow", "steps": [0.3, 5], "words": ["x", "x"], "count": 1.5})",
+      lines);
+  const std::vector<std::string> expected = {
+      "f: /size: unknown key \"size\"; did you mean \"size_m\"?",
+      "f: /flag: expected true or false, found 1",
+      "f: /word: expected one of one, two, found \"tow\"; did you mean \"two\"?",
+      "f: /steps/1: expected a number from 0.1 to 2, found 5",
+      "f: /words/1: \"x\" stands in this list twice",
+      "f: /count: expected a whole number, found 1.5",
+  };
+  EXPECT_EQ(lines, expected);
+}
+
+TEST(Table, RefusesEmptyListsAndBrokenConditions) {
+  std::vector<std::string> lines;
+  read(R"({"steps": [], "words": "x", "count": 9, "size_m": 10})", lines);
+  const std::vector<std::string> expected = {
+      "f: /steps: expected a list of at least one number, found []",
+      "f: /words: expected a list, found \"x\"",
+      "f: /: too much",
+  };
+  EXPECT_EQ(lines, expected);
+}
+
+TEST(RangeWords, SayTheBounds) {
+  EXPECT_EQ(range_words("a number", {0, 10}), "a number from 0 to 10");
+  EXPECT_EQ(range_words("a number", {1}), "a number of at least 1");
+  EXPECT_EQ(range_words("a number", {}), "a number");
+}
+
+}  // namespace
+}  // namespace croon::params

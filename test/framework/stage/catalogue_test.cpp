@@ -1,0 +1,101 @@
+#include "framework/stage/catalogue.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "framework/params/json_file.hpp"
+#include "framework/stage/preprocessor.hpp"
+#include "framework/stage/step.hpp"
+
+namespace croon {
+namespace {
+
+struct KeepParams {
+  int count = 2;
+};
+
+class Keep final : public Preprocessor {
+ public:
+  explicit Keep(KeepParams params) : params_(params) {}
+  PointCloud apply(const PointCloud& cloud) const override {
+    return {cloud.begin(), cloud.begin() + params_.count};
+  }
+
+ private:
+  KeepParams params_;
+};
+
+struct HolderParams {
+  params::Slot<Preprocessor> one;
+  std::vector<params::Slot<Preprocessor>> many;
+};
+
+class Holder final : public Step {
+ public:
+  explicit Holder(HolderParams) {}
+  Estimate advance(Estimate estimate, Rng&) const override { return estimate; }
+};
+
+Catalogue catalogue() {
+  Catalogue all;
+  all.add(stage_entry<Holder>(
+      "holder", "Holds.", "test",
+      params::Table<HolderParams>{
+          params::slot("one", &HolderParams::one, R"({"type": "keep", "count": 5})", "One."),
+          params::slots("many", &HolderParams::many, "Many."),
+      }));
+  all.add(stage_entry<Keep>("keep", "Keeps.", "test",
+                            params::Table<KeepParams>{params::integer("count", &KeepParams::count,
+                                                                      {1, 9}, "How many.")}));
+  return all;
+}
+
+/// The resolved JSON of a step, and its faults.
+std::string resolved(const std::string& text, std::vector<std::string>& lines) {
+  const nlohmann::json value = params::parse_json(text, "f");
+  std::vector<Fault> faults;
+  const std::string json = catalogue().build("step", params::Node(value, "f", faults)).resolved;
+  for (const Fault& fault : faults) lines.push_back(fault.line());
+  return json;
+}
+
+TEST(Catalogue, BuildsNestedStagesAndSaysThemInFull) {
+  std::vector<std::string> lines;
+  EXPECT_EQ(
+      resolved(R"({"step": "holder", "many": [{"type": "keep"}]})", lines),
+      R"({"step":"holder","one":{"type":"keep","count":5},"many":[{"type":"keep","count":2}]})");
+  EXPECT_TRUE(lines.empty());
+}
+
+TEST(Catalogue, ResolvedJsonResolvesToItself) {
+  std::vector<std::string> lines;
+  const std::string once = resolved(R"({"step": "holder", "name": "h"})", lines);
+  EXPECT_EQ(resolved(once, lines), once);
+  EXPECT_TRUE(lines.empty());
+}
+
+TEST(Catalogue, NotesFaultsAtTheirPlace) {
+  std::vector<std::string> lines;
+  resolved(
+      R"({"step": "holder", "one": {"type": "kepe"}, "many": [{"type": "keep", "count": 0}, 3, {}]})",
+      lines);
+  const std::vector<std::string> expected = {
+      "f: /one/type: expected a preprocessor, found \"kepe\"; did you mean \"keep\"?",
+      "f: /many/0/count: expected a whole number from 1 to 9, found 0",
+      "f: /many/1: expected an object, found 3",
+      "f: /many/2: the key \"type\" is missing",
+  };
+  EXPECT_EQ(lines, expected);
+}
+
+TEST(Catalogue, RefusesTwoStagesOfOneName) {
+  Catalogue all = catalogue();
+  StageEntry twin = *all.find("step", "holder");
+  EXPECT_THROW(all.add(twin), std::logic_error);
+  twin.kind = "stpe";
+  EXPECT_THROW(all.add(twin), std::logic_error);
+}
+
+}  // namespace
+}  // namespace croon

@@ -1,0 +1,114 @@
+// What the pages show works: every command of a `sh` block is run here, page by page in a folder of
+// its own that looks like the checkout, with `croon` on the path. Two marks after `sh` say
+// otherwise: `setup` for what needs the network, root or minutes, which .ci/run runs instead, and
+// `samples` for what needs the authors' recordings.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "experiments/engine/experiment_loader.hpp"
+#include "framework/base/error.hpp"
+#include "registry/registry.hpp"
+#include "test/house/fenced_block.hpp"
+#include "test/house/script.hpp"
+#include "test/house/tree.hpp"
+#include "test/support/data_root.hpp"
+#include "test/support/temp_folder.hpp"
+
+namespace croon::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What `setup` blocks may hold.
+const std::set<std::string> kSetUpCommands = {
+    "make demo",
+    "make test",
+    "make docs",
+    "cmake --preset no_cgal && cmake --build --preset no_cgal",
+};
+
+/// Makes `folder` look like the checkout to what runs in it.
+void link_tree(const fs::path& folder) {
+  for (const char* linked : {"docs", "experiments"}) {
+    fs::create_directory_symlink(source_root() / linked, folder / linked);
+  }
+}
+
+/// The page's name as a word: "docs_tutorial_md".
+std::string page_name(const testing::TestParamInfo<std::string>& info) {
+  return std::regex_replace(info.param, std::regex("[^A-Za-z0-9]"), "_");
+}
+
+class Docs : public testing::TestWithParam<std::string> {};
+
+TEST_P(Docs, CommandsWork) {
+  std::string script;
+  bool wants_samples = false;
+  for (const FencedBlock& block : fenced_blocks(GetParam(), "sh")) {
+    if (block.mark == "setup") continue;
+    EXPECT_TRUE(block.mark.empty() || block.mark == "samples") << block.place();
+    wants_samples = wants_samples || block.mark == "samples";
+    if (block.mark == "samples" && data_root().empty()) continue;
+    script += block.text();
+  }
+  if (script.empty() && wants_samples) GTEST_SKIP() << "the authors' samples are not here";
+  const TempFolder folder;
+  link_tree(folder.path());
+  const Finished finished = run_script(script, folder.path());
+  EXPECT_EQ(finished.status, 0) << script << "\n--- gave\n" << finished.output;
+}
+
+TEST_P(Docs, SetUpCommandsAreRunByTheContinuousIntegration) {
+  std::ostringstream run;
+  run << std::ifstream(source_root() / ".ci" / "run").rdbuf();
+  for (const FencedBlock& block : fenced_blocks(GetParam(), "sh")) {
+    if (block.mark != "setup") continue;
+    for (const std::string& command : block.lines) {
+      EXPECT_EQ(kSetUpCommands.count(command), 1U) << block.place() << ": " << command;
+      EXPECT_NE(run.str().find(command), std::string::npos)
+          << block.place() << ": .ci/run does not run " << command;
+    }
+  }
+}
+
+TEST_P(Docs, ExperimentsAreValid) {
+  const TempFolder folder;
+  for (const FencedBlock& block : fenced_blocks(GetParam(), "json")) {
+    if (block.text().find("\"pipeline\"") == std::string::npos) continue;
+    const fs::path file = folder.write("experiment.json", block.text());
+    EXPECT_NO_THROW(experiments::load_experiment(file, registry())) << block.place();
+  }
+}
+
+/// Links to files of the tree, `[words](path)` or `[words](path#place)`, lead somewhere.
+TEST_P(Docs, LinksLeadSomewhere) {
+  static const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
+  const fs::path folder = (source_root() / GetParam()).parent_path();
+  for (const Line& line : lines_of(GetParam())) {
+    for (auto it = std::sregex_iterator(line.text.begin(), line.text.end(), link);
+         it != std::sregex_iterator(); ++it) {
+      EXPECT_TRUE(fs::exists(folder / (*it)[1].str())) << line.place() << ": " << (*it)[1];
+    }
+  }
+}
+
+/// A path of the tree in backquotes, `framework/base/rng.hpp`, is there.
+TEST_P(Docs, NamedFilesExist) {
+  static const std::regex path(
+      R"(`((framework|stages|registry|experiments|benchmarks|test|docs|cmake|\.ci)/[\w./]+)`)");
+  for (const Line& line : lines_of(GetParam())) {
+    for (auto it = std::sregex_iterator(line.text.begin(), line.text.end(), path);
+         it != std::sregex_iterator(); ++it) {
+      EXPECT_TRUE(fs::exists(source_root() / (*it)[1].str())) << line.place() << ": " << (*it)[1];
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Pages, Docs, testing::ValuesIn(written_pages()), page_name);
+
+}  // namespace
+}  // namespace croon::test

@@ -1,0 +1,106 @@
+// Who may include whom, and where heavy headers stay out.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "test/house/tree.hpp"
+
+namespace croon::test {
+namespace {
+
+using Layers = std::map<std::string, std::set<std::string>>;
+
+/// What each layer may include; a layer may always include itself.
+const Layers& layers() {
+  static const Layers layers = {
+      {"framework/base", {}},
+      {"framework/geometry", {"framework/base"}},
+      {"framework/spatial", {"framework/base", "framework/geometry"}},
+      {"framework/io", {"framework/base", "framework/geometry", "framework/spatial"}},
+      {"framework/registration",
+       {"framework/base", "framework/geometry", "framework/spatial", "framework/params"}},
+      {"framework/params", {"framework/base"}},
+      {"framework/stage",
+       {"framework/base", "framework/geometry", "framework/spatial", "framework/registration",
+        "framework/params"}},
+      {"framework/pipeline",
+       {"framework/base", "framework/geometry", "framework/spatial", "framework/registration",
+        "framework/params", "framework/stage"}},
+      {"stages", {"framework"}},
+      {"registry", {"framework"}},
+      {"experiments", {"framework", "registry"}},
+      {"benchmarks", {"framework", "registry", "experiments", "test/support"}},
+      {"test", {"framework", "registry", "experiments", "benchmarks"}},
+      {"docs", {"framework"}},
+  };
+  return layers;
+}
+
+bool is_below(const std::string& path, const std::string& folder) {
+  return starts_with(path, folder + "/");
+}
+
+/// The layer that a file belongs to; empty where it is in none.
+std::string layer_of(const std::string& file) {
+  for (const auto& [layer, others] : layers()) {
+    if (is_below(file, layer)) return layer;
+  }
+  return "";
+}
+
+bool is_allowed(const std::string& layer, const std::string& path) {
+  // A stage is one file: it includes no other stage, so not even its own layer.
+  if (layer != "stages" && is_below(path, layer)) return true;
+  for (const std::string& other : layers().at(layer)) {
+    if (is_below(path, other)) return true;
+  }
+  return false;
+}
+
+TEST(Includes, FollowTheLayers) {
+  for (const Include& include : tree_includes()) {
+    if (!include.is_quoted) continue;
+    const std::string layer = layer_of(include.line.file);
+    ASSERT_NE(layer, "") << include.line.place() << ": the file is in no layer";
+    EXPECT_TRUE(is_allowed(layer, include.path))
+        << include.line.place() << ": " << layer << " may not include " << include.path;
+  }
+}
+
+TEST(Includes, AreWrittenFromTheRoot) {
+  for (const Include& include : tree_includes()) {
+    if (!include.is_quoted) continue;
+    EXPECT_TRUE(std::filesystem::is_regular_file(source_root() / include.path))
+        << include.line.place() << ": no such file from the root: " << include.path;
+  }
+}
+
+TEST(Includes, KeepHeavyHeadersOutOfHeaders) {
+  for (const Include& include : tree_includes()) {
+    if (!ends_with(include.line.file, ".hpp")) continue;
+    for (const char* heavy : {"CGAL/", "openvdb/", "nlohmann/json.hpp", "CLI/"}) {
+      EXPECT_FALSE(starts_with(include.path, heavy))
+          << include.line.place() << ": " << include.path << " belongs into a .cpp file";
+    }
+  }
+}
+
+TEST(Includes, ReadTheCommandLineInOneFile) {
+  std::set<std::string> files;
+  for (const Include& include : tree_includes()) {
+    if (starts_with(include.path, "CLI/")) files.insert(include.line.file);
+  }
+  EXPECT_LE(files.size(), 1U) << *files.begin() << " and " << *files.rbegin();
+}
+
+TEST(Headers, StartWithPragmaOnce) {
+  for (const std::string& file : tree_files("", ".hpp")) {
+    const std::vector<Line> lines = lines_of(file);
+    ASSERT_FALSE(lines.empty()) << file;
+    EXPECT_EQ(lines.front().text, "#pragma once") << file;
+  }
+}
+
+}  // namespace
+}  // namespace croon::test

@@ -1,0 +1,90 @@
+// What holds for the files of the tree.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <regex>
+
+#include "test/house/tree.hpp"
+
+namespace croon::test {
+namespace {
+
+/// The stages that stages/CMakeLists.txt adds, "icp/icpn", in its order.
+std::vector<std::string> added_stages() {
+  static const std::regex pattern(R"(^croon_add_stage\((\w+) (\w+)[ )])");
+  std::vector<std::string> stages;
+  for (const Line& line : lines_of("stages/CMakeLists.txt")) {
+    std::smatch match;
+    if (std::regex_search(line.text, match, pattern)) {
+      stages.push_back(match[1].str() + "/" + match[2].str());
+    }
+  }
+  return stages;
+}
+
+TEST(Stages, EachFileHasItsLine) {
+  const std::vector<std::string> added = added_stages();
+  EXPECT_TRUE(std::is_sorted(added.begin(), added.end())) << "sort stages/CMakeLists.txt";
+  EXPECT_EQ(std::adjacent_find(added.begin(), added.end()), added.end()) << "a line stands twice";
+  std::vector<std::string> written;
+  for (const std::string& file : tree_files("stages/", ".cpp")) {
+    written.push_back(file.substr(7, file.size() - 7 - 4));
+  }
+  std::sort(written.begin(), written.end());
+  EXPECT_EQ(added, written);
+}
+
+TEST(Stages, AreSourceFilesWithoutHeaders) {
+  for (const std::string& file : tree_files("stages/", "")) {
+    EXPECT_TRUE(ends_with(file, ".cpp") || file == "stages/CMakeLists.txt") << file;
+  }
+}
+
+TEST(Files, NameNoMachineAndNoPackageRegistry) {
+  // Put together here, or this file would find itself.
+  const std::vector<std::string> words = {
+      std::string("/wo") + "rk/",      std::string("/ro") + "ot/",
+      std::string("pypi") + ".org",    std::string("npm") + "js.org",
+      std::string("arti") + "factory", std::string("deb.de") + "bian."};
+  for (const std::string& file : tree_files()) {
+    for (const Line& line : lines_of(file)) {
+      for (const std::string& word : words) {
+        EXPECT_EQ(line.text.find(word), std::string::npos) << line.place() << ": " << word;
+      }
+    }
+  }
+}
+
+TEST(Files, HaveNoUnfinishedWork) {
+  const std::vector<std::string> words = {std::string("TO") + "DO", std::string("FIX") + "ME",
+                                          std::string("for ") + "now"};
+  for (const char* ending : {".cpp", ".hpp", ".txt", ".cmake", ".md", "Makefile"}) {
+    for (const std::string& file : tree_files("", ending)) {
+      for (const Line& line : lines_of(file)) {
+        for (const std::string& word : words) {
+          EXPECT_EQ(line.text.find(word), std::string::npos) << line.place() << ": " << word;
+        }
+      }
+    }
+  }
+}
+
+TEST(Files, AreShort) {
+  for (const char* ending : {".cpp", ".hpp"}) {
+    for (const std::string& file : tree_files("", ending)) {
+      EXPECT_LT(lines_of(file).size(), 450U) << file << " is two files";
+    }
+  }
+}
+
+TEST(Files, AreSnakeCase) {
+  static const std::regex name(R"([a-z0-9_]+\.(cpp|hpp))");
+  for (const char* ending : {".cpp", ".hpp"}) {
+    for (const std::string& file : tree_files("", ending)) {
+      EXPECT_TRUE(std::regex_match(file.substr(file.rfind('/') + 1), name)) << file;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace croon::test

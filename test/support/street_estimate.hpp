@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+
+#include "framework/stage/step.hpp"
+
+namespace croon::test {
+
+/// Two sensors in one street, as the pipeline sees them before its first step.
+struct StreetEstimate {
+  RigidTransform truth;  ///< T_target_source.
+  Estimate estimate;     ///< At the truth; move its T_target_source to where a test starts.
+};
+
+/// The target stands level 2 m above the street, the source is pitched, rolled and turned beside
+/// it; other points of the same surfaces, 1 cm of noise.
+StreetEstimate street_estimate(std::uint64_t seed);
+
+}  // namespace croon::test
