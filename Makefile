@@ -32,7 +32,7 @@ test: packages
 
 benchmark: packages
 	$(call PRESET_BUILD,test)
-	set -e; for program in build/test/bin/benchmark_*; do "$$program"; done
+	set -e; for program in build/test/bin/bench_*; do "$$program"; done
 
 docs: release
 	.ci/generate_docs build/release/bin/croon docs

@@ -1,5 +1,8 @@
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 
 #include "experiments/cli/fault_lines.hpp"
@@ -80,7 +83,9 @@ void refuse_leftovers(const CLI::App& app) {
 int run_chosen(const CLI::App& app, const CommandLine& line) {
   refuse_leftovers(app);
   if (app.got_subcommand("run")) {
-    return run_command(line.run, registry(), std::cout, std::cerr);
+    RunOptions options = line.run;
+    options.colours = ::isatty(STDOUT_FILENO) != 0;
+    return run_command(options, registry(), std::cout, std::cerr);
   }
   if (app.got_subcommand("validate")) {
     return validate_command(line.to_validate, registry(), std::cout, std::cerr);
@@ -113,6 +118,8 @@ int croon_main(int argc, char** argv) {
     std::cerr << "croon: " << error.what() << "\n";
   } catch (const InputError& error) {
     print_faults(error, std::cerr);
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::cerr << "croon: " << error.path1().string() << ": " << error.code().message() << "\n";
   }
   return kRequestIsWrong;
 }

@@ -1,11 +1,9 @@
 #include "experiments/cli/run_command.hpp"
 
 #include <tbb/info.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <iostream>
 
 #include "experiments/cli/fused_clouds.hpp"
 #include "experiments/cli/output_folder.hpp"
@@ -134,7 +132,7 @@ int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostr
   write_reports(folder, records, summary, manifest);
   if (options.clouds) write_fused_clouds(run.experiment, run.scenes, records, folder.clouds());
   TableStyle style;
-  style.colours = &out == &std::cout && ::isatty(STDOUT_FILENO) != 0;
+  style.colours = options.colours;
   out << summary_table(summary, style) << "Results are in " << run.out.string() << "\n";
   const auto is_failed = [](const TrialRecord& r) { return r.status == Status::failed; };
   return std::any_of(records.begin(), records.end(), is_failed) ? 3 : 0;

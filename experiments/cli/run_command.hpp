@@ -17,10 +17,11 @@ struct RunOptions {
   int jobs = 0;                ///< 0: all cores.
   int trials = 0;              ///< 0: as in the experiment.
   std::vector<std::string> only;
-  std::string shard;    ///< "K/N"; empty: all.
-  bool fresh = false;   ///< Delete what is there and start over.
-  bool quiet = false;   ///< No progress.
-  bool clouds = false;  ///< Write fused clouds.
+  std::string shard;     ///< "K/N"; empty: all.
+  bool fresh = false;    ///< Delete what is there and start over.
+  bool quiet = false;    ///< No progress.
+  bool colours = false;  ///< Colours in the table.
+  bool clouds = false;   ///< Write fused clouds.
 };
 
 /// Runs the experiment, or what of it is missing, and writes the results: the table to `out`,

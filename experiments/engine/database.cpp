@@ -80,9 +80,11 @@ std::int64_t Statement::integer(int column) const {
 
 double Statement::real(int column) const { return sqlite3_column_double(statement_.get(), column); }
 
-Database::Database(const std::filesystem::path& path) : file_(path.string()) {
+Database::Database(const std::filesystem::path& path, Access access) : file_(path.string()) {
   sqlite3* database = nullptr;
-  const int code = sqlite3_open(file_.c_str(), &database);
+  const int flags =
+      access == Access::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  const int code = sqlite3_open_v2(file_.c_str(), &database, flags, nullptr);
   database_.reset(database);
   if (code != SQLITE_OK) fail(database, file_);
 }

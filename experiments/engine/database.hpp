@@ -41,12 +41,15 @@ class Statement {
   std::unique_ptr<sqlite3_stmt, Finalise> statement_;
 };
 
+/// What a Database may do with its file.
+enum class Access { read, write };
+
 /// An SQLite file. What SQLite cannot do (no space, no permission, not a database, in use by
 /// another process) is an InputError with the file's name.
 class Database {
  public:
-  /// Opens `path` or makes it.
-  explicit Database(const std::filesystem::path& path);
+  /// Opens `path`; makes it where it is missing and may be written to.
+  Database(const std::filesystem::path& path, Access access);
 
   /// Runs statements that return nothing.
   void run(const std::string& sql);

@@ -90,7 +90,8 @@ std::string manifest_json(const Experiment& experiment, const std::vector<InputF
   manifest["libraries"] = libraries_json();
   manifest["inputs"] = inputs_json(inputs);
   manifest["host"] = host_json(data_root, jobs);
-  return manifest.dump(2) + "\n";
+  // A path may hold bytes that are not UTF-8.
+  return manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace croon::experiments

@@ -1,12 +1,9 @@
 #include "experiments/engine/provenance.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 
 #include "experiments/engine/experiment_loader.hpp"
+#include "experiments/engine/threads.hpp"
 #include "framework/io/digest.hpp"
 #include "framework/params/values.hpp"
 
@@ -70,9 +67,8 @@ std::vector<InputFile> input_files(const std::vector<Scene>& scenes, const fs::p
     for (const SensorScan& scan : scene.sensors) add_file(files, scan.file);
   }
   std::vector<InputFile> inputs(files.size());
-  tbb::task_arena arena(jobs);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {
+  on_threads(jobs, [&] {
+    for_each_in_parallel(files.size(), [&](std::size_t i) {
       inputs[i] = {relative_path(files[i], data_root), sha256_of_file(files[i])};
     });
   });

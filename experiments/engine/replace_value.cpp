@@ -58,7 +58,7 @@ std::string replace_inside(PatchedStep& step, const std::vector<std::string>& ke
     if (!is_last && doc->type != params::ParameterType::stage) {
       return "\"" + keys[i] + "\" is not a stage: nothing below it can be replaced";
     }
-    if (!at->contains(keys[i])) (*at)[keys[i]] = json::parse(doc->default_json);
+    if (!is_last && !at->contains(keys[i])) (*at)[keys[i]] = json::parse(doc->default_json);
     at = &(*at)[keys[i]];
     kind = doc->stage_kind;
   }

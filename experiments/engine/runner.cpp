@@ -1,12 +1,9 @@
 #include "experiments/engine/runner.hpp"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <mutex>
 
+#include "experiments/engine/threads.hpp"
 #include "experiments/engine/trial.hpp"
 
 namespace croon::experiments {
@@ -24,17 +21,6 @@ struct LoadedScene {
   LoadedScan target;
   std::vector<LoadedScan> sources;
 };
-
-/// Calls `use(i)` for each i below `count`, each as a task of its own.
-template <class Use>
-void for_each_in_parallel(std::size_t count, const Use& use) {
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, count, 1),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) use(i);
-      },
-      tbb::simple_partitioner());
-}
 
 LoadedScene load_scene(const Scene& scene, const ScenePlan& plan, std::uint64_t seed) {
   std::vector<bool> is_wanted(scene.sensors.size(), false);
@@ -104,10 +90,7 @@ void run_scene(const Experiment& experiment, const std::vector<Scene>& scenes,
 
 void run_trials(const Experiment& experiment, const std::vector<Scene>& scenes,
                 const std::vector<PlannedTrial>& plan, int jobs, const RunListener& listener) {
-  const auto threads = static_cast<std::size_t>(jobs);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-  tbb::task_arena arena(jobs);
-  arena.execute([&] {
+  on_threads(jobs, [&] {
     const PlannedTrial* const end = plan.data() + plan.size();
     for (const PlannedTrial* begin = plan.data(); begin != end;) {
       const auto is_other = [&](const PlannedTrial& planned) {

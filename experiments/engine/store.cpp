@@ -18,7 +18,7 @@ std::string make_tables() {
 
 /// Opens `path` for this process alone and makes the tables where they are missing.
 Database open_store(const std::filesystem::path& path) {
-  Database database(path);
+  Database database(path, Access::write);
   database.run(
       "PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;"
       "BEGIN EXCLUSIVE;" +
@@ -56,16 +56,29 @@ std::string differences(const Provenance& a, const Provenance& b) {
   return names;
 }
 
-void check_meta(Database& database, const std::string& file, Provenance expected) {
-  expected["format"] = kFormat;
+/// Throws where the store that is at `path` was made from something else. Looks before Store opens
+/// the file: a store that is refused keeps its bytes.
+void check_meta(const std::filesystem::path& path, const Provenance& expected) {
+  if (!std::filesystem::exists(path)) return;
+  const Database database(path, Access::read);
+  // A kill before the first commit leaves a store without tables.
+  if (!database.prepare("SELECT 1 FROM sqlite_master WHERE name = 'meta'").next()) return;
   const Provenance found = read_meta(database);
-  if (found.empty()) return write_meta(database, expected);
-  const std::string names = differences(expected, found);
+  const std::string names = found.empty() ? "" : differences(expected, found);
   if (!names.empty()) {
-    throw InputError(file, "",
+    throw InputError(path.string(), "",
                      "its trials were made with different " + names +
                          "; --fresh deletes them and starts over, --out writes elsewhere");
   }
+}
+
+/// Opens `path`, whose meta is `provenance` or not there yet.
+Database checked_store(const std::filesystem::path& path, Provenance provenance) {
+  provenance["format"] = kFormat;
+  check_meta(path, provenance);
+  Database database = open_store(path);
+  if (read_meta(database).empty()) write_meta(database, provenance);
+  return database;
 }
 
 }  // namespace
@@ -73,9 +86,7 @@ void check_meta(Database& database, const std::string& file, Provenance expected
 TrialKey trial_key(const TrialId& id) { return {id.variant, id.scene, id.sensor, id.trial}; }
 
 Store::Store(const std::filesystem::path& path, const Provenance& provenance)
-    : database_(open_store(path)), insert_(database_.prepare(record_insert())) {
-  check_meta(database_, path.string(), provenance);
-}
+    : database_(checked_store(path, provenance)), insert_(database_.prepare(record_insert())) {}
 
 std::set<TrialKey> Store::keys() const {
   std::set<TrialKey> keys;
@@ -108,7 +119,7 @@ void rewrite_in_order(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::remove(ordered, error);
   {
-    Database database(ordered);
+    Database database(ordered, Access::write);
     database.run("PRAGMA journal_mode = DELETE; PRAGMA synchronous = FULL;");
     Statement attach = database.prepare("ATTACH ? AS old");
     attach.bind(0, path.string());

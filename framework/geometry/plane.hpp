@@ -20,8 +20,9 @@ struct Plane {
   Plane flipped() const { return {-normal, -offset_m}; }
 };
 
-/// The least-squares plane through the points of `cloud` that `indices` names: through their mean, across
-/// the direction of their least variance. Needs three points that are not on one line; throws StageError.
+/// The least-squares plane through the points of `cloud` that `indices` names: through their mean,
+/// across the direction of their least variance. Needs three points that are not on one line;
+/// throws StageError.
 Plane fit_plane(const PointCloud& cloud, const std::vector<int>& indices);
 
 /// The indices of the points of `cloud` within `distance_m` of the plane, in order.

@@ -7,8 +7,8 @@
 
 namespace croon {
 
-/// A rigid motion `p -> rotation * p + translation`, metres. `T_target_source` maps a point of the source
-/// frame to the target frame; adjacent frames cancel: `T_a_c = T_a_b * T_b_c`.
+/// A rigid motion `p -> rotation * p + translation`, metres. `T_target_source` maps a point of the
+/// source frame to the target frame; adjacent frames cancel: `T_a_c = T_a_b * T_b_c`.
 struct RigidTransform {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
@@ -39,8 +39,9 @@ double rotation_angle(const Eigen::Matrix3d& rotation);
 /// The nearest rotation to a matrix that rounding has moved off SO(3).
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix);
 
-/// The least rotation that turns the unit vector `from` into the unit vector `to` (axis `from x to`,
-/// Rodrigues; paper, section III-A). Opposite vectors turn by pi about an axis across them.
+/// The least rotation that turns the unit vector `from` into the unit vector `to` (axis `from x
+/// to`, Rodrigues; paper, rough calibration). Opposite vectors turn by pi about an axis across
+/// them.
 Eigen::Matrix3d rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 /// The points of `cloud` (source frame) in the target frame.

@@ -7,18 +7,21 @@
 
 namespace croon::params {
 
-/// A stage that was built from JSON, with the JSON that builds it again: all its parameters, defaults too,
-/// keys in order. Two slots with the same `resolved` text compute the same.
+/// A stage that was built from JSON, with the JSON that builds it again: all its parameters,
+/// defaults too, keys in order. Two slots with the same `resolved` text compute the same.
 struct BuiltStage {
   std::shared_ptr<const void> stage;  ///< Points at the stage's kind; null where there were faults.
+  std::string name;                   ///< "ransac".
   std::string resolved;
 };
 
-/// Builds the stages that a parameter table holds. The catalogue of stages is one; params knows no stage.
+/// Builds the stages that a parameter table holds. The catalogue of stages is one; params knows no
+/// stage.
 class StageBuilder {
  public:
   virtual ~StageBuilder() = default;
-  /// The stage of `kind` that `node` describes. Notes faults in the node and then returns a null stage.
+  /// The stage of `kind` that `node` describes. Notes faults in the node and then returns a null
+  /// stage.
   virtual BuiltStage build(const std::string& kind, const Node& node) const = 0;
 };
 
@@ -28,15 +31,21 @@ class Slot {
  public:
   Slot() = default;
   explicit Slot(const BuiltStage& built)
-      : stage_(std::static_pointer_cast<const Kind>(built.stage)), resolved_(built.resolved) {}
+      : stage_(std::static_pointer_cast<const Kind>(built.stage)),
+        name_(built.name),
+        resolved_(built.resolved) {}
 
   const Kind* operator->() const { return stage_.get(); }
   const Kind& operator*() const { return *stage_; }
-  /// Canonical JSON text of the stage and its parameters: the key of what it computes once per cloud.
+  /// The stage's name, "ransac".
+  const std::string& name() const { return name_; }
+  /// Canonical JSON text of the stage and its parameters: the key of what it computes once per
+  /// cloud.
   const std::string& resolved() const { return resolved_; }
 
  private:
   std::shared_ptr<const Kind> stage_;
+  std::string name_;
   std::string resolved_;
 };
 

@@ -23,8 +23,8 @@ struct CorrespondenceRule {
 /// function and its CorrespondenceRule.
 using Linearise = std::function<void(const Correspondence&, const RobustKernel&, NormalEquations&)>;
 
-/// The linearisation with the residual `n_t . (R s + t - p)` (Chen & Medioni 1992; paper, section
-/// III-B, eq. 7).
+/// The linearisation with the residual `n_t . (R s + t - p)` (Chen & Medioni 1992; paper,
+/// refinement).
 void linearise_point_to_plane(const Correspondence& pair, const RobustKernel& kernel,
                               NormalEquations& equations);
 

@@ -13,9 +13,10 @@
 
 namespace croon {
 
-/// One sensor's cloud, which is never changed, with all that is computed from it alone: kd-tree, normals,
-/// ground, a bound scorer, cropped and filtered clouds. Each is made once, when first asked for, and is shared
-/// by all starts, variants and sensors until the scene is done. Thread-safe.
+/// One sensor's cloud, which is never changed, with all that is computed from it alone: kd-tree,
+/// normals, ground, a bound scorer, cropped and filtered clouds. Each is made once, when first
+/// asked for, and is shared by all starts, variants and sensors until the scene is done.
+/// Thread-safe.
 class Cloud {
  public:
   /// `key` names the streams of whatever draws random numbers for this cloud alone.
@@ -32,15 +33,21 @@ class Cloud {
   /// Normals from the `neighbours` nearest points, see Normals.
   const Normals& normals(int neighbours) const;
 
-  /// Anything else, made once and called `key`: a stage's name and its parameters.
+  /// Anything else that depends on this cloud and on `parameters` alone, made once; `what` it is
+  /// stands in timings.csv.
   template <class T>
-  std::shared_ptr<const T> once(const std::string& key,
+  std::shared_ptr<const T> once(const std::string& what, const std::string& parameters,
                                 const std::function<std::shared_ptr<const T>()>& make) const {
-    return once_.get<T>(key, make);
+    return once_.get<T>(what, parameters, make);
+  }
+  template <class T>
+  std::shared_ptr<const T> once(const std::string& what,
+                                const std::function<std::shared_ptr<const T>()>& make) const {
+    return once_.get<T>(what, "", make);
   }
 
-  /// A cloud that was made of this one for `purpose`: cropped, thinned, without its ground. Its timings go
-  /// to the same log.
+  /// A cloud that was made of this one for `purpose`: cropped, thinned, without its ground. Its
+  /// timings go to the same log.
   std::shared_ptr<const Cloud> derived(PointCloud points, const std::string& purpose) const;
 
   /// A generator for a computation on this cloud alone; the same for every trial.

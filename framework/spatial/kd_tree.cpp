@@ -59,8 +59,8 @@ KdTree::~KdTree() = default;
 
 Neighbour KdTree::nearest(const Eigen::Vector3f& query, float max_distance_m) const {
   // The next float up makes the bound itself count as within.
-  const float bound = std::nextafter(max_distance_m * max_distance_m,
-                                     std::numeric_limits<float>::infinity());
+  const float bound =
+      std::nextafter(max_distance_m * max_distance_m, std::numeric_limits<float>::infinity());
   NearestResult result(bound);
   index_->tree.findNeighbors(result, query.data(), {});
   return result.best();

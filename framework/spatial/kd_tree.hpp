@@ -14,8 +14,8 @@ struct Neighbour {
   explicit operator bool() const { return index >= 0; }
 };
 
-/// Nearest neighbours in a fixed cloud (nanoflann's kd-tree). The cloud must outlive the tree. Queries may
-/// run on many threads at once and give the same answer every time.
+/// Nearest neighbours in a fixed cloud (nanoflann's kd-tree). The cloud must outlive the tree.
+/// Queries may run on many threads at once and give the same answer every time.
 class KdTree {
  public:
   explicit KdTree(const PointCloud& points);

@@ -8,9 +8,10 @@
 
 namespace croon {
 
-/// The paper's cost of the rough calibration (section III-A, eq. 5 and 6): the summed squared distances from
-/// the source's points to their nearest neighbours in the target. A distance counts for at most
-/// `max_distance_m`, because a point that the target does not see says nothing about the pose.
+/// The paper's cost of the rough calibration: the summed squared
+/// distances from the source's points to their nearest neighbours in the target. A distance counts
+/// for at most `max_distance_m`, because a point that the target does not see says nothing about
+/// the pose.
 class NearestDistanceCost {
  public:
   /// At most `max_points` of the source are looked at, evenly spaced through the cloud.

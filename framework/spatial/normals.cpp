@@ -5,8 +5,8 @@
 namespace croon {
 namespace {
 
-/// Mean and covariance of the neighbours, relative to `centre` so that no digits are lost far from the
-/// sensor.
+/// Mean and covariance of the neighbours, relative to `centre` so that no digits are lost far from
+/// the sensor.
 Eigen::Matrix3d covariance(const PointCloud& points, const Eigen::Vector3f& centre,
                            const std::vector<Neighbour>& neighbours) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -28,7 +28,8 @@ Normals::Normals(const PointCloud& points, const KdTree& tree, int neighbours)
       neighbours_(neighbours),
       states_(new std::atomic<unsigned char>[points.size()]),
       shapes_(points.size()) {
-  for (std::size_t i = 0; i < points.size(); ++i) states_[i].store(kEmpty, std::memory_order_relaxed);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    states_[i].store(kEmpty, std::memory_order_relaxed);
 }
 
 LocalShape Normals::at(int index) const {

@@ -10,20 +10,24 @@ namespace croon {
 
 /// The shape of a cloud around one of its points, from principal component analysis.
 struct LocalShape {
-  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< Unit, towards the sensor; zero where undefined.
-  /// Least variance over the sum of the three (Pauly et al. 2002): 0 on a plane, 1/3 where it is round.
+  Eigen::Vector3f normal =
+      Eigen::Vector3f::Zero();  ///< Unit, towards the sensor; zero where undefined.
+  /// Least variance over the sum of the three (Pauly et al. 2002): 0 on a plane, 1/3 where it is
+  /// round.
   float surface_variation = 0.0F;
 };
 
-/// Normals of a cloud by principal component analysis of each point's nearest neighbours (paper, section
-/// III-B: 40 of them). A normal is computed when it is first asked for and then kept: a registration asks for
-/// few of a large target's. Any number of threads may ask; the answers do not depend on who asks first.
+/// Normals of a cloud by principal component analysis of each point's nearest neighbours (paper,
+/// refinement: 40 of them). A normal is computed when it is first asked for and then kept: a
+/// registration asks for few of a large target's. Any number of threads may ask; the answers do not
+/// depend on who asks first.
 class Normals {
  public:
   /// `points` and `tree` (over the same points) must outlive this.
   Normals(const PointCloud& points, const KdTree& tree, int neighbours);
 
-  /// The shape around point `index`. Points with fewer than three neighbours apart have a zero normal.
+  /// The shape around point `index`. Points with fewer than three neighbours apart have a zero
+  /// normal.
   LocalShape at(int index) const;
 
  private:

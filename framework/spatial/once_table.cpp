@@ -27,11 +27,12 @@ std::vector<OnceTiming> OnceLog::timings() const {
   return timings_;
 }
 
-std::any OnceTable::get_any(const std::string& key, const std::function<std::any()>& make) const {
+std::any OnceTable::get_any(const std::string& what, const std::string& parameters,
+                            const std::function<std::any()>& make) const {
   std::shared_ptr<Entry> entry;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    std::shared_ptr<Entry>& slot = entries_[key];
+    std::shared_ptr<Entry>& slot = entries_[{what, parameters}];
     if (!slot) slot = std::make_shared<Entry>();
     entry = slot;
   }
@@ -39,12 +40,13 @@ std::any OnceTable::get_any(const std::string& key, const std::function<std::any
   const double start = now_s();
   std::call_once(entry->once, [&] {
     try {
-      // Isolated: a thread that waits inside `make` must not pick up a task that asks for this entry.
+      // Isolated: a thread that waits inside `make` must not pick up a task that asks for this
+      // entry.
       tbb::this_task_arena::isolate([&] { entry->thing = make(); });
     } catch (...) {
       entry->error = std::current_exception();
     }
-    log_->add({key, now_s() - start - (shared_work_s - spent_before)});
+    log_->add({what, now_s() - start - (shared_work_s - spent_before)});
   });
   // All of the wall time was shared work, that inside nested calls too.
   shared_work_s = spent_before + (now_s() - start);

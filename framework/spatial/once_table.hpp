@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace croon {
@@ -27,22 +28,24 @@ class OnceLog {
   std::vector<OnceTiming> timings_;
 };
 
-/// Seconds that this thread has spent so far inside OnceTable::get: making things that others share, or
-/// waiting for them. A step's own time is its wall time less the growth of this.
+/// Seconds that this thread has spent so far inside OnceTable::get: making things that others
+/// share, or waiting for them. A step's own time is its wall time less the growth of this.
 double seconds_spent_on_shared_work();
 
-/// Things that depend on a cloud alone, each made when it is first asked for and then shared. Thread-safe:
-/// one thread makes a thing, others that ask meanwhile wait. What throws is remembered and thrown again.
+/// Things that depend on a cloud alone, each made when it is first asked for and then shared.
+/// Thread-safe: one thread makes a thing, others that ask meanwhile wait. What throws is remembered
+/// and thrown again.
 class OnceTable {
  public:
   explicit OnceTable(std::shared_ptr<OnceLog> log) : log_(std::move(log)) {}
 
-  /// The thing called `key`, made by `make` at the first call. A key belongs to one type.
+  /// The thing that is `what` with these `parameters`, made by `make` at the first call. The two
+  /// belong to one type; the log knows it as `what`.
   template <class T>
-  std::shared_ptr<const T> get(const std::string& key,
+  std::shared_ptr<const T> get(const std::string& what, const std::string& parameters,
                                const std::function<std::shared_ptr<const T>()>& make) const {
     return std::any_cast<std::shared_ptr<const T>>(
-        get_any(key, [&make] { return std::any(make()); }));
+        get_any(what, parameters, [&make] { return std::any(make()); }));
   }
 
  private:
@@ -51,11 +54,12 @@ class OnceTable {
     std::any thing;
     std::exception_ptr error;
   };
-  std::any get_any(const std::string& key, const std::function<std::any()>& make) const;
+  std::any get_any(const std::string& what, const std::string& parameters,
+                   const std::function<std::any()>& make) const;
 
   std::shared_ptr<OnceLog> log_;
   mutable std::mutex mutex_;
-  mutable std::map<std::string, std::shared_ptr<Entry>> entries_;
+  mutable std::map<std::pair<std::string, std::string>, std::shared_ptr<Entry>> entries_;
 };
 
 }  // namespace croon

@@ -10,14 +10,15 @@
 
 namespace croon {
 
-/// One sensor's cloud in one scene, read when it is needed, with the poses `T_reference_sensor` that are known.
+/// One sensor's cloud in one scene, read when it is needed, with the poses `T_reference_sensor`
+/// that are known.
 struct SensorScan {
-  std::string sensor;                      ///< The sensor's name, "front".
-  std::string file;                        ///< For messages and digests; empty where there is no file.
-  std::function<PointCloud()> load;        ///< Throws InputError where the file is not what it says.
-  std::optional<RigidTransform> truth;     ///< Ground truth.
-  std::optional<RigidTransform> nominal;   ///< The pose on the rig's drawing.
-  std::optional<RigidTransform> initial;   ///< The start that the recording came with.
+  std::string sensor;                   ///< The sensor's name, "front".
+  std::string file;                     ///< For messages and digests; empty where there is no file.
+  std::function<PointCloud()> load;     ///< Throws InputError where the file is not what it says.
+  std::optional<RigidTransform> truth;  ///< Ground truth.
+  std::optional<RigidTransform> nominal;  ///< The pose on the rig's drawing.
+  std::optional<RigidTransform> initial;  ///< The start that the recording came with.
 };
 
 /// One recording of the rig: the reference LiDAR and the sensors to be calibrated to it.
@@ -34,8 +35,9 @@ class Dataset {
   static constexpr const char* kKind = "dataset";
   virtual ~Dataset() = default;
 
-  /// The scenes, in a fixed order. Relative paths are resolved below `data_root` and must stay in it. Looks at
-  /// every file (that it is there, that its header is whole) but loads no cloud. Throws InputError.
+  /// The scenes, in a fixed order. Relative paths are resolved below `data_root` and must stay in
+  /// it. Looks at every file (that it is there, that its header is whole) but loads no cloud.
+  /// Throws InputError.
   virtual std::vector<Scene> scenes(const std::filesystem::path& data_root) const = 0;
 };
 

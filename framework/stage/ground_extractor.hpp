@@ -9,21 +9,22 @@
 
 namespace croon {
 
-/// The ground of a cloud: its plane in the sensor's frame, and for each point whether it lies on it.
+/// The ground of a cloud: its plane in the sensor's frame, and for each point whether it lies on
+/// it.
 struct Ground {
   Plane plane;
   std::vector<std::uint8_t> is_ground;  ///< One per point of the cloud.
 };
 
-/// Finds the ground of one cloud (paper, section III-A, eq. 1: the plane with the most points).
+/// Finds the ground of one cloud (paper, rough calibration: the plane with the most points).
 class GroundExtractor {
  public:
   using Kind = GroundExtractor;
   static constexpr const char* kKind = "ground_extractor";
   virtual ~GroundExtractor() = default;
 
-  /// The ground; its normal's sign is arbitrary. Draws only from `rng`. Throws StageError where no plane is
-  /// found.
+  /// The ground; its normal's sign is arbitrary. Draws only from `rng`. Throws StageError where no
+  /// plane is found.
   virtual Ground extract(const PointCloud& cloud, Rng& rng) const = 0;
 };
 

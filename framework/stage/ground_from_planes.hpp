@@ -20,7 +20,7 @@ struct GroundRule {
 };
 
 /// The ground of `cloud`, given planes that some search found in it: the one with the most points
-/// (paper, section III-A, eq. 1), and within its slab the narrower one with the most points, fitted
+/// (paper, rough calibration), and within its slab the narrower one with the most points, fitted
 /// to them by least squares. Throws StageError where no plane holds enough points.
 Ground ground_from_planes(const PointCloud& cloud, const std::vector<Plane>& planes,
                           const GroundRule& rule, Rng& rng);

@@ -5,7 +5,7 @@
 
 namespace croon {
 
-/// Registers a source cloud to a target cloud from a start (paper, section III-B).
+/// Registers a source cloud to a target cloud from a start (paper, refinement).
 class Icp {
  public:
   using Kind = Icp;

@@ -9,7 +9,8 @@
 
 namespace croon {
 
-/// What the registry knows of one stage: where it stands, what it is for, its parameters, how to build it.
+/// What the registry knows of one stage: where it stands, what it is for, its parameters, how to
+/// build it.
 struct StageEntry {
   std::string kind;     ///< "ground_extractor", "icp", ...
   std::string name;     ///< The JSON "type" ("step" for a step), the file's name.
@@ -22,8 +23,8 @@ struct StageEntry {
 /// The JSON key that names a stage of `kind`: "step" for steps, else "type".
 inline std::string name_key(const std::string& kind) { return kind == "step" ? "step" : "type"; }
 
-/// The keys of a stage's JSON object that are not its parameters: its name, and for a step the optional
-/// "name" that variants and timings call it by.
+/// The keys of a stage's JSON object that are not its parameters: its name, and for a step the
+/// optional "name" that variants and timings call it by.
 inline std::vector<std::string> reserved_keys(const std::string& kind) {
   return kind == "step" ? std::vector<std::string>{"step", "name"}
                         : std::vector<std::string>{"type"};
@@ -41,7 +42,7 @@ StageEntry stage_entry(const std::string& name, const std::string& summary,
     const std::shared_ptr<const Kind> stage = std::make_shared<const Stage>(params);
     const std::string members = table.members_json(params);
     const std::string head = "{\"" + name_key(Kind::kKind) + "\":\"" + name + "\"";
-    return params::BuiltStage{stage, head + (members.empty() ? "" : "," + members) + "}"};
+    return params::BuiltStage{stage, name, head + (members.empty() ? "" : "," + members) + "}"};
   };
   return entry;
 }

@@ -30,8 +30,8 @@ struct Estimate {
   std::shared_ptr<const GroundSplit> target_ground;  ///< Null until a step has found it.
   std::shared_ptr<const GroundSplit> source_ground;  ///< Null until a step has found it.
   std::optional<Matrix6d> information;               ///< See Registration::information.
-  std::optional<std::string> rejection;              ///< Why the program says not to trust the pose.
-  std::vector<StepFigure> figures;                   ///< The last step's report.
+  std::optional<std::string> rejection;  ///< Why the program says not to trust the pose.
+  std::vector<StepFigure> figures;       ///< The last step's report.
 
   /// The axis that yaw turns about: up from the target's ground, else z.
   Eigen::Vector3d up() const {

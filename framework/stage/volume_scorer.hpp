@@ -22,8 +22,8 @@ struct OccupiedVolume {
 /// Thread-safe.
 using VolumeFunction = std::function<OccupiedVolume(const RigidTransform& T_target_source)>;
 
-/// Measures how well two clouds lie on each other by the space they occupy (paper, section III-B,
-/// eq. 9: aligned clouds occupy the least).
+/// Measures how well two clouds lie on each other by the space they occupy (paper, refinement:
+/// aligned clouds occupy the least).
 class VolumeScorer {
  public:
   using Kind = VolumeScorer;

@@ -14,7 +14,7 @@ struct YawMinimum {
   int evaluations = 0;
 };
 
-/// Finds the least of a function of yaw (paper, section III-A). Sees a function, never clouds.
+/// Finds the least of a function of yaw (paper, rough calibration). Sees a function, never clouds.
 class YawSearch {
  public:
   using Kind = YawSearch;

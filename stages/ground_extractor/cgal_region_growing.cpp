@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 
 #include "framework/base/error.hpp"
 #include "framework/spatial/oriented_sample.hpp"

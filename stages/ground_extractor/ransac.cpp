@@ -69,7 +69,7 @@ class Ransac final : public GroundExtractor {
 StageEntry ransac() {
   return stage_entry<Ransac>(
       "ransac", "Draws planes through three points and takes the one that holds the most.",
-      "CROON (arXiv 2203.03182), section III-A, equation 1; Fischler and Bolles 1981", table());
+      "CROON (arXiv 2203.03182), rough calibration; Fischler and Bolles 1981", table());
 }
 
 }  // namespace croon::stages::ground_extractor

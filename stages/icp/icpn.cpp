@@ -48,7 +48,7 @@ StageEntry icpn() {
   return stage_entry<Icpn>("icpn",
                            "Point-to-plane between points whose normals, each from 40 neighbours, "
                            "agree: the paper's ICP.",
-                           "CROON (arXiv 2203.03182), section III-B, equations 7 and 8", table());
+                           "CROON (arXiv 2203.03182), refinement", table());
 }
 
 }  // namespace croon::stages::icp

@@ -48,9 +48,9 @@ Eigen::Matrix<double, 3, 6> normal_jacobian(const Eigen::Vector3d& normal) {
   return J;
 }
 
-/// The residuals `R s + t - p`, with the information of the target's surface (a flat one hardly says
-/// where along it a point lies, a rough one says little in any direction), and `R n_s - n_t` where it
-/// is flat (Serafin, Grisetti 2015, section III).
+/// The residuals `R s + t - p`, with the information of the target's surface (a flat one hardly
+/// says where along it a point lies, a rough one says little in any direction), and `R n_s - n_t`
+/// where it is flat (Serafin, Grisetti 2015, section III).
 void linearise(const Params& params, const Correspondence& pair, const RobustKernel& kernel,
                NormalEquations& equations) {
   const bool is_flat = pair.target_variation <= params.plane_surface_variation;

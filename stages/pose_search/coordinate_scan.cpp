@@ -37,9 +37,9 @@ const params::Table<Params>& table() {
           "A step is taken only where it lowers the cost by more than this share of it."),
       params::choice(
           "stop", &Params::stop, {"first_rise", "never"},
-          "first_rise: a scan ends at the first step that does not lower the cost, and looks to "
-          "the other side only where the first did not lower it; never: both sides are looked "
-          "at as far as max_steps and the best is taken."),
+          "first_rise: to each side, plus first, the scan ends at the first step that does not "
+          "lower the cost; never: both sides are looked at as far as max_steps and the best is "
+          "taken."),
       params::integer("sweeps", &Params::sweeps, {1, 1000},
                       "How often the list is gone through; a sweep that changes nothing ends it."),
       params::integer("halvings", &Params::halvings, {0, 30},
@@ -62,9 +62,13 @@ class Scan {
     for (const Dof dof : dofs_from_names(params_.dofs)) {
       const double step = step_scale * (is_rotation(dof) ? rad_from_deg(params_.rotation_step_deg)
                                                          : params_.translation_step_m);
-      const bool lower_here = params_.stop == "never" ? scan_range(dof, step)
-                                                      : descend(dof, step) || descend(dof, -step);
-      lower = lower_here || lower;
+      const RigidTransform origin = best_.pose;
+      if (params_.stop == "never") {
+        lower = scan_range(origin, dof, step) || lower;
+      } else {
+        lower = descend(origin, dof, step) || lower;
+        lower = descend(origin, dof, -step) || lower;
+      }
     }
     return lower;
   }
@@ -77,9 +81,8 @@ class Scan {
     return moved(pose, offset);
   }
 
-  /// Goes one way as long as each step lowers the cost.
-  bool descend(Dof dof, double step) {
-    const RigidTransform origin = best_.pose;
+  /// Goes one way from `origin` as long as each step lowers the least cost so far.
+  bool descend(const RigidTransform& origin, Dof dof, double step) {
     for (int i = 1; i <= params_.max_steps; ++i) {
       if (!take_if_lower(stepped(origin, dof, i, step))) return i > 1;
     }
@@ -87,8 +90,7 @@ class Scan {
   }
 
   /// Looks at the whole range, the nearest first, and takes the best.
-  bool scan_range(Dof dof, double step) {
-    const RigidTransform origin = best_.pose;
+  bool scan_range(const RigidTransform& origin, Dof dof, double step) {
     bool lower = false;
     for (int i = 1; i <= params_.max_steps; ++i) {
       lower = take_if_lower(stepped(origin, dof, i, step)) || lower;
@@ -114,7 +116,7 @@ class Scan {
 };
 
 /// Scans one degree of freedom after the other. With its defaults this is the volume search of the
-/// authors' code: x, then y, each to the plus side while the cost falls, else to the minus side.
+/// authors' code: x, then y, each to the plus side while the cost falls, then to the minus side.
 class CoordinateScan final : public PoseSearch {
  public:
   explicit CoordinateScan(Params params) : params_(std::move(params)) {}
@@ -138,7 +140,7 @@ class CoordinateScan final : public PoseSearch {
 StageEntry coordinate_scan() {
   return stage_entry<CoordinateScan>(
       "coordinate_scan", "Steps along one degree of freedom after the other while the cost falls.",
-      "CROON (arXiv 2203.03182), section III-B; steps and limits are those of its public code "
+      "CROON (arXiv 2203.03182), refinement; steps and limits are those of its public code "
       "(lidar2lidar, commit c0e1e2b)",
       table());
 }

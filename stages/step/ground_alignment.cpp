@@ -20,8 +20,9 @@ const params::Table<Params>& table() {
   return table;
 }
 
-/// The plane with its normal towards most of the points that are not ground: a normal's sign is arbitrary, and
-/// what is not ground stands on it (paper, section III-A, the flip of roll and pitch by pi).
+/// The plane with its normal towards most of the points that are not ground: a normal's sign is
+/// arbitrary, and what is not ground stands on it (paper, rough calibration, the flip of roll and
+/// pitch by pi).
 Plane facing_up(const Ground& ground, const PointCloud& cloud) {
   std::size_t above = 0;
   std::size_t below = 0;
@@ -32,8 +33,8 @@ Plane facing_up(const Ground& ground, const PointCloud& cloud) {
   return below > above ? ground.plane.flipped() : ground.plane;
 }
 
-/// Rotates the source's ground onto the target's by the least rotation, then lifts it to the same height
-/// (paper, section III-A, eq. 2 to 4): roll, pitch and z.
+/// Rotates the source's ground onto the target's by the least rotation, then lifts it to the same
+/// height (paper, rough calibration): roll, pitch and z.
 RigidTransform aligned(const RigidTransform& T_target_source, const Plane& target,
                        const Plane& source) {
   const Eigen::Vector3d source_normal = T_target_source.rotation * source.normal;
@@ -52,8 +53,8 @@ class GroundAlignment final : public Step {
   Estimate advance(Estimate estimate, Rng&) const override {
     estimate.target_ground = split(*estimate.target, "reference");
     estimate.source_ground = split(*estimate.source, "sensor");
-    estimate.T_target_source =
-        aligned(estimate.T_target_source, estimate.target_ground->plane, estimate.source_ground->plane);
+    estimate.T_target_source = aligned(estimate.T_target_source, estimate.target_ground->plane,
+                                       estimate.source_ground->plane);
     estimate.figures = {{"target_ground_offset_m", estimate.target_ground->plane.offset_m},
                         {"source_ground_offset_m", estimate.source_ground->plane.offset_m}};
     return estimate;
@@ -63,16 +64,17 @@ class GroundAlignment final : public Step {
   /// The cloud's ground, extracted once for all starts.
   std::shared_ptr<const GroundSplit> split(const Cloud& cloud, const char* whose) const {
     if (cloud.empty()) throw StageError(std::string("the ") + whose + " cloud is empty");
-    const std::string key = "ground/" + params_.extractor.resolved();
-    return cloud.once<GroundSplit>(key, [&] {
-      Rng rng = cloud.rng(key);
+    const std::string what = "ground/" + params_.extractor.name();
+    const std::string& parameters = params_.extractor.resolved();
+    return cloud.once<GroundSplit>(what, parameters, [&] {
+      Rng rng = cloud.rng(parameters);
       const Ground ground = params_.extractor->extract(cloud.points(), rng);
       PointCloud non_ground;
       for (std::size_t i = 0; i < cloud.points().size(); ++i) {
         if (ground.is_ground[i] == 0) non_ground.push_back(cloud.points()[i]);
       }
       return std::make_shared<const GroundSplit>(GroundSplit{
-          facing_up(ground, cloud.points()), cloud.derived(std::move(non_ground), key)});
+          facing_up(ground, cloud.points()), cloud.derived(std::move(non_ground), parameters)});
     });
   }
 
@@ -82,10 +84,10 @@ class GroundAlignment final : public Step {
 }  // namespace
 
 StageEntry ground_alignment() {
-  return stage_entry<GroundAlignment>(
-      "ground_alignment",
-      "Turns the sensor's ground onto the reference's and lifts it to the same height: roll, pitch, z.",
-      "CROON (arXiv 2203.03182), section III-A, equations 1 to 4", table());
+  return stage_entry<GroundAlignment>("ground_alignment",
+                                      "Turns the sensor's ground onto the reference's and lifts it "
+                                      "to the same height: roll, pitch, z.",
+                                      "CROON (arXiv 2203.03182), rough calibration", table());
 }
 
 }  // namespace croon::stages::step

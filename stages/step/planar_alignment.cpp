@@ -54,7 +54,7 @@ StageEntry planar_alignment() {
   return stage_entry<PlanarAlignment>(
       "planar_alignment",
       "Moves the sensor over the ground to the least nearest-neighbour distance: x, y.",
-      "CROON (arXiv 2203.03182), section III-A, equation 6", table());
+      "CROON (arXiv 2203.03182), rough calibration", table());
 }
 
 }  // namespace croon::stages::step

@@ -25,9 +25,10 @@ std::shared_ptr<const Cloud> preprocessed(
     std::shared_ptr<const Cloud> cloud,
     const std::vector<params::Slot<Preprocessor>>& preprocessors) {
   for (const params::Slot<Preprocessor>& preprocessor : preprocessors) {
-    const std::string key = "preprocessed/" + preprocessor.resolved();
-    cloud = cloud->once<Cloud>(
-        key, [&] { return cloud->derived(preprocessor->apply(cloud->points()), key); });
+    const std::string& parameters = preprocessor.resolved();
+    cloud = cloud->once<Cloud>("preprocessor/" + preprocessor.name(), parameters, [&] {
+      return cloud->derived(preprocessor->apply(cloud->points()), parameters);
+    });
   }
   return cloud;
 }
@@ -54,9 +55,9 @@ class Preprocessing final : public Step {
 }  // namespace
 
 StageEntry preprocessing() {
-  return stage_entry<Preprocessing>(
-      "preprocessing", "Crops or thins the clouds for the steps that follow.",
-      "CROON's public code (lidar2lidar, commit c0e1e2b)", table());
+  return stage_entry<Preprocessing>("preprocessing",
+                                    "Crops or thins the clouds for the steps that follow.",
+                                    "CROON's public code (lidar2lidar, commit c0e1e2b)", table());
 }
 
 }  // namespace croon::stages::step

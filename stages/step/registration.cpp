@@ -17,8 +17,9 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table = {
       params::slot("icp", &Params::icp, R"({"type": "icpn"})", "Registers the two clouds."),
       params::choice("points", &Params::points, kPointChoices, "Which points are registered."),
-      params::number("min_inlier_ratio", &Params::min_inlier_ratio, {0.0, 1.0},
-                     "The pose is rejected where fewer of the sensor's points find a correspondence."),
+      params::number(
+          "min_inlier_ratio", &Params::min_inlier_ratio, {0.0, 1.0},
+          "The pose is rejected where fewer of the sensor's points find a correspondence."),
   };
   return table;
 }
@@ -54,7 +55,7 @@ class RegistrationStep final : public Step {
 StageEntry registration() {
   return stage_entry<RegistrationStep>(
       "registration", "Registers the sensor's cloud to the reference's from the pose so far.",
-      "CROON (arXiv 2203.03182), section III-B, equations 7 and 8", table());
+      "CROON (arXiv 2203.03182), refinement", table());
 }
 
 }  // namespace croon::stages::step

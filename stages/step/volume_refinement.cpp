@@ -51,7 +51,7 @@ StageEntry volume_refinement() {
   return stage_entry<VolumeRefinement>(
       "volume_refinement",
       "Moves the sensor to where the two clouds occupy the least space together.",
-      "CROON (arXiv 2203.03182), section III-B, equation 9", table());
+      "CROON (arXiv 2203.03182), refinement", table());
 }
 
 }  // namespace croon::stages::step

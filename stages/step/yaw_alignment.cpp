@@ -61,7 +61,7 @@ StageEntry yaw_alignment() {
   return stage_entry<YawAlignment>(
       "yaw_alignment",
       "Turns the sensor about the ground's normal to the least nearest-neighbour distance: yaw.",
-      "CROON (arXiv 2203.03182), section III-A, equation 5", table());
+      "CROON (arXiv 2203.03182), rough calibration", table());
 }
 
 }  // namespace croon::stages::step

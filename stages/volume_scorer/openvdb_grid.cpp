@@ -45,8 +45,8 @@ class OpenvdbGrid final : public VolumeScorer {
   VolumeFunction bind(std::shared_ptr<const Cloud> target,
                       std::shared_ptr<const Cloud> source) const override {
     const LeafGrid grid(leaf_size_m_);
-    const std::string key = "volume_scorer/openvdb_grid/" + params::value_json(leaf_size_m_);
-    const auto target_tree = target->once<Tree>(key, [&] {
+    const std::string leaf_size = params::value_json(leaf_size_m_);
+    const auto target_tree = target->once<Tree>("volume_scorer/openvdb_grid", leaf_size, [&] {
       const auto tree = std::make_shared<Tree>();
       Accessor<Tree> voxels(*tree);
       for (const Eigen::Vector3f& point : target->points()) {

@@ -22,7 +22,7 @@ const params::Table<Params>& table() {
   return table;
 }
 
-/// The paper's octree (section III-B): a cube that holds points is cut into eight until its side is
+/// The paper's octree (refinement): a cube that holds points is cut into eight until its side is
 /// that of a leaf. The root's side is 2^depth leaves; it doubles towards a leaf that it does not
 /// cover.
 class Octree {
@@ -40,18 +40,16 @@ class Octree {
     return true;
   }
 
-  /// True where the leaf was not there before.
-  bool insert(const Eigen::Vector3i& leaf) {
+  void insert(const Eigen::Vector3i& leaf) {
     if (leaves_ == 0) corner_ = leaf.cast<std::int64_t>();
     while (!covers(leaf)) grow_towards(leaf);
     const Vector3l place = leaf.cast<std::int64_t>() - corner_;
     std::uint32_t node = kRoot;
     for (int level = depth_ - 1; level > 0; --level) node = child(node, octant(place, level));
     std::uint32_t& occupied = nodes_[node][octant(place, 0)];
-    if (occupied == kLeaf) return false;
+    if (occupied == kLeaf) return;
     occupied = kLeaf;
     ++leaves_;
-    return true;
   }
 
   /// Empties the tree and keeps its memory.
@@ -119,8 +117,8 @@ class PointerOctree final : public VolumeScorer {
   VolumeFunction bind(std::shared_ptr<const Cloud> target,
                       std::shared_ptr<const Cloud> source) const override {
     const LeafGrid grid(leaf_size_m_);
-    const std::string key = "volume_scorer/pointer_octree/" + params::value_json(leaf_size_m_);
-    const auto target_tree = target->once<Octree>(key, [&] {
+    const std::string leaf_size = params::value_json(leaf_size_m_);
+    const auto target_tree = target->once<Octree>("volume_scorer/pointer_octree", leaf_size, [&] {
       const auto tree = std::make_shared<Octree>();
       for (const Eigen::Vector3f& point : target->points()) {
         tree->insert(grid.leaf_of(point.cast<double>()));
@@ -149,7 +147,7 @@ StageEntry pointer_octree() {
   return stage_entry<PointerOctree>(
       "pointer_octree",
       "Cuts every cube that holds points into eight down to the leaf size and counts the leaves.",
-      "CROON (arXiv 2203.03182), section III-B, equation 9", table());
+      "CROON (arXiv 2203.03182), refinement", table());
 }
 
 }  // namespace croon::stages::volume_scorer

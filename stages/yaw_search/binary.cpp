@@ -34,8 +34,8 @@ const params::Table<Params>& table() {
   return table;
 }
 
-/// The halving scan that the paper calls binary search (section III-A) as the authors' code has it:
-/// a grid around the start, then around the best yaw so far one of half the range and half the
+/// The halving scan that the paper calls binary search (rough calibration) as the authors' code has
+/// it: a grid around the start, then around the best yaw so far one of half the range and half the
 /// step, and so on.
 class Binary final : public YawSearch {
  public:
@@ -79,7 +79,7 @@ class Binary final : public YawSearch {
 StageEntry binary() {
   return stage_entry<Binary>(
       "binary", "Looks at a grid of yaws, then at ever finer and narrower ones around the best.",
-      "CROON (arXiv 2203.03182), section III-A; the grids are those of its public code "
+      "CROON (arXiv 2203.03182), rough calibration; the grids are those of its public code "
       "(lidar2lidar, "
       "commit c0e1e2b)",
       table());

@@ -16,8 +16,9 @@ def main(schema_file, files):
     validator = jsonschema.Draft202012Validator(schema)
     for name in files:
         faults = [fault.message for fault in validator.iter_errors(read(name))]
-        print(*faults, sep="\n", file=sys.stderr)
-        if not faults:
+        if faults:
+            print(name, *faults, sep="\n", file=sys.stderr)
+        else:
             print(name)
 
 

@@ -108,6 +108,24 @@ TEST_P(Docs, NamedFilesExist) {
   }
 }
 
+/// The example in docs/extending.md is the one that is built.
+TEST(ExampleStage, StandsInThePage) {
+  std::string sources;
+  for (const char* ending : {".cpp", ".txt"}) {
+    for (const std::string& file : tree_files("docs/example_stage/", ending)) {
+      for (const Line& line : lines_of(file)) sources += line.text + "\n";
+    }
+  }
+  for (const char* language : {"cpp", "cmake"}) {
+    const std::vector<FencedBlock> blocks = fenced_blocks("docs/extending.md", language);
+    EXPECT_FALSE(blocks.empty()) << language;
+    for (const FencedBlock& block : blocks) {
+      EXPECT_NE(sources.find(block.text()), std::string::npos) << block.place();
+    }
+  }
+  EXPECT_NE(registry().find("yaw_search", "ternary"), nullptr);
+}
+
 INSTANTIATE_TEST_SUITE_P(Pages, Docs, testing::ValuesIn(written_pages()), page_name);
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "test/experiments/support/fake_stages.hpp"
+#include "test/support/temp_folder.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -53,7 +53,7 @@ TEST(Program, AnswersAWrongCommandLineWithOneLine) {
 }
 
 TEST(Program, ValidatesFilesAndFolders) {
-  const test::TestFolder folder;
+  const test::TempFolder folder;
   const std::string path = folder.path().string();
   folder.write("good.json", R"({"name": "x", "dataset": {"type": "opencalib", "path": "nowhere"},
                                 "pipeline": [{"step": "identity"}]})");

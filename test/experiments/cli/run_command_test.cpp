@@ -13,6 +13,7 @@
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
 #include "test/experiments/support/fake_stages.hpp"
+#include "test/support/temp_folder.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -55,7 +56,7 @@ class Bench {
     }
   }
 
-  const test::TestFolder& folder() const { return folder_; }
+  const test::TempFolder& folder() const { return folder_; }
   const fs::path& experiment() const { return experiment_; }
 
   /// The bytes of every file but timings.csv, and of the manifest without its host.
@@ -76,7 +77,7 @@ class Bench {
   }
 
  private:
-  test::TestFolder folder_;
+  test::TempFolder folder_;
   fs::path experiment_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "framework/base/error.hpp"
 #include "test/experiments/support/fake_stages.hpp"
+#include "test/support/temp_folder.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -18,7 +19,7 @@ json minimal() {
 }
 
 Experiment load(const json& experiment) {
-  const test::TestFolder folder;
+  const test::TempFolder folder;
   return load_experiment(folder.write("x.json", experiment.dump()), test::fake_catalogue());
 }
 
@@ -134,7 +135,7 @@ TEST(ExperimentLoader, WantsAPipelineOfNamedSteps) {
 }
 
 TEST(ExperimentLoader, NamesTheFileOfAFault) {
-  const test::TestFolder folder;
+  const test::TempFolder folder;
   const std::filesystem::path path = folder.write("twice.json", R"({"name": "x", "name": "y"})");
   try {
     load_experiment(path, test::fake_catalogue());

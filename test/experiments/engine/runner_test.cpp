@@ -8,6 +8,7 @@
 #include "experiments/engine/experiment_loader.hpp"
 #include "experiments/engine/store.hpp"
 #include "test/experiments/support/fake_stages.hpp"
+#include "test/support/temp_folder.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -27,7 +28,7 @@ json drifting(int trials = 3) {
 }
 
 Ran run(const json& description, int jobs = 2) {
-  const test::TestFolder folder;
+  const test::TempFolder folder;
   const Experiment experiment =
       load_experiment(folder.write("x.json", description.dump()), test::fake_catalogue());
   const std::vector<Scene> scenes = experiment.dataset->scenes("");

@@ -9,8 +9,8 @@
 
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
-#include "test/experiments/support/fake_stages.hpp"
 #include "test/support/random_geometry.hpp"
+#include "test/support/temp_folder.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -85,7 +85,7 @@ void expect_same(const TrialRecord& a, const TrialRecord& b) {
 }
 
 TEST(Store, GivesBackEveryBitOfARecord) {
-  const test::TestFolder folder;
+  const test::TempFolder folder;
   const std::vector<TrialRecord> records = random_records(60);
   {
     Store store(folder.path() / "s", kProvenance);
@@ -106,7 +106,7 @@ TEST(Store, GivesBackEveryBitOfARecord) {
 }
 
 TEST(Store, HasTheSameBytesWhateverTheOrderAndTheNumberOfSessions) {
-  const test::TestFolder folder;
+  const test::TempFolder folder;
   std::vector<TrialRecord> records = random_records(40);
   std::vector<std::string> bytes;
   for (const std::size_t per_session : {40U, 7U, 1U}) {
@@ -131,7 +131,7 @@ TEST(Store, HasTheSameBytesWhateverTheOrderAndTheNumberOfSessions) {
 }
 
 TEST(Store, WhatWasAddedOutlivesAKill) {
-  const test::TestFolder folder;
+  const test::TempFolder folder;
   const std::vector<TrialRecord> records = random_records(10);
   Store store(folder.path() / "s", kProvenance);
   for (const TrialRecord& record : records) store.add(record);
@@ -147,7 +147,7 @@ TEST(Store, WhatWasAddedOutlivesAKill) {
 }
 
 TEST(Store, SaysWhatDiffers) {
-  const test::TestFolder folder;
+  const test::TempFolder folder;
   const std::filesystem::path path = folder.path() / "s";
   { const Store store(path, kProvenance); }
   EXPECT_NO_THROW(Store(path, kProvenance));
@@ -168,7 +168,7 @@ TEST(Store, SaysWhatDiffers) {
 }
 
 TEST(Store, BelongsToOneProcess) {
-  const test::TestFolder folder;
+  const test::TempFolder folder;
   const Store store(folder.path() / "s", kProvenance);
   try {
     const Store other(folder.path() / "s", kProvenance);
@@ -179,7 +179,7 @@ TEST(Store, BelongsToOneProcess) {
 }
 
 TEST(Store, RefusesWhatIsNoStore) {
-  const test::TestFolder folder;
+  const test::TempFolder folder;
   const std::filesystem::path path = folder.write("s", std::string(5000, 'x'));
   EXPECT_THROW(Store(path, kProvenance), InputError);
   EXPECT_EQ(read_whole_file(path), std::string(5000, 'x'));

@@ -1,12 +1,9 @@
 #include "test/experiments/support/fake_stages.hpp"
 
-#include <gtest/gtest.h>
-
 #include <limits>
 #include <new>
 
 #include "framework/base/error.hpp"
-#include "framework/base/whole_file.hpp"
 #include "framework/stage/dataset.hpp"
 #include "framework/stage/step.hpp"
 #include "framework/stage/yaw_search.hpp"
@@ -151,21 +148,6 @@ Catalogue fake_catalogue() {
       {choice("how", &BehaveParams::how, {"pass", "reject", "defeat", "memory", "bug", "nan"},
               "What it does.")}));
   return catalogue;
-}
-
-TestFolder::TestFolder() {
-  const testing::TestInfo* info = testing::UnitTest::GetInstance()->current_test_info();
-  path_ = std::filesystem::path(CROON_BINARY_DIR) / "test_folders" /
-          (std::string(info->test_suite_name()) + "." + info->name());
-  std::filesystem::remove_all(path_);
-  std::filesystem::create_directories(path_);
-}
-
-TestFolder::~TestFolder() { std::filesystem::remove_all(path_); }
-
-std::filesystem::path TestFolder::write(const std::string& name, const std::string& text) const {
-  write_whole_file(path_ / name, text);
-  return path_ / name;
 }
 
 }  // namespace croon::test

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <string>
-
 #include "framework/stage/catalogue.hpp"
 
 namespace croon::test {
@@ -16,21 +13,5 @@ namespace croon::test {
 /// clouds have;
 /// - step `behave` {how}: nothing, rejects, fails, ..., see fake_stages.cpp.
 Catalogue fake_catalogue();
-
-/// A folder of its own for the running test, empty; gone when this object goes.
-class TestFolder {
- public:
-  TestFolder();
-  ~TestFolder();
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  /// Writes a file in it and returns its path.
-  std::filesystem::path write(const std::string& name, const std::string& text) const;
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace croon::test

@@ -25,7 +25,7 @@ class Move final : public Step {
 
 NamedStep move(const std::string& name, bool fails = false) {
   const std::shared_ptr<const Step> step = std::make_shared<const Move>(fails);
-  return {name, params::Slot<Step>(params::BuiltStage{step, "{}"})};
+  return {name, params::Slot<Step>(params::BuiltStage{step, "move", "{}"})};
 }
 
 PipelineResult run(const Pipeline& pipeline) {

@@ -46,14 +46,15 @@ TEST(CoordinateScan, AuthorsSettingsStepAlongXThenY) {
   }
 }
 
-TEST(CoordinateScan, LooksToTheOtherSideOnlyWhereTheFirstDoesNotFall) {
+TEST(CoordinateScan, LooksToBothSidesAsFarAsTheCostFalls) {
   const auto search = test::stage<PoseSearch>(R"({"type": "coordinate_scan", "dofs": ["x"]})");
   const auto evaluations = [&](double least_m) {
     return search->minimise(planar_bowl({}, {least_m, 0.0}), {}).evaluations;
   };
-  EXPECT_EQ(evaluations(0.06), 1 + 3 + 1);  // Three steps, and the one that rises.
-  EXPECT_EQ(evaluations(-0.06), 1 + 1 + 3 + 1);
-  EXPECT_EQ(evaluations(1.0), 1 + 9);
+  // Three steps and the one that rises; then one to the other side.
+  EXPECT_EQ(evaluations(0.06), 1 + (3 + 1) + 1);
+  EXPECT_EQ(evaluations(-0.06), 1 + 1 + (3 + 1));
+  EXPECT_EQ(evaluations(1.0), 1 + 9 + 1);
   EXPECT_EQ(evaluations(0.0), 1 + 1 + 1);
 }
 

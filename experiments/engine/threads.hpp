@@ -1,0 +1,32 @@
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <cstddef>
+
+namespace croon::experiments {
+
+/// Calls `use` where TBB has `jobs` threads, more than there are cores if need be.
+template <class Use>
+void on_threads(int jobs, const Use& use) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(jobs));
+  tbb::task_arena arena(jobs);
+  arena.execute(use);
+}
+
+/// Calls `use(i)` for each i below `count`, each as a task of its own.
+template <class Use>
+void for_each_in_parallel(std::size_t count, const Use& use) {
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, count, 1),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) use(i);
+      },
+      tbb::simple_partitioner());
+}
+
+}  // namespace croon::experiments
