@@ -112,8 +112,8 @@ const char* centre_name(StartCentre centre) {
 }
 
 Experiment load_experiment(const std::filesystem::path& path, const Catalogue& catalogue) {
-  const nlohmann::json json = params::read_json_file(path);
   std::vector<Fault> faults;
+  const nlohmann::json json = params::read_json_file(path, faults);
   const Node root(json, path.string(), faults);
   Experiment experiment;
   experiment.file = path.string();

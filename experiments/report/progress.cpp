@@ -102,7 +102,7 @@ std::string Progress::state(double now_s) const {
     const double rate = worked / elapsed_s;
     text += "  " + fixed_number(rate, rate < 10.0 ? 2 : 0) + "/s";
     if (done_ < total_) {
-      text += "  " + clock_text(static_cast<double>(total_ - done_) / rate) + " left";
+      text += "  " + clock_text(static_cast<double>(total_ - done_) / rate) + " to go";
     }
   }
   if (is_finished_) return text + "  in " + clock_text(elapsed_s);

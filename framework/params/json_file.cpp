@@ -1,11 +1,10 @@
 #include "framework/params/json_file.hpp"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
 
 namespace croon::params {
 namespace {
@@ -79,24 +78,27 @@ std::string without_number(const std::string& message) {
 
 }  // namespace
 
-json parse_json(const std::string& text, const std::string& file) {
-  std::vector<Fault> faults;
+json parse_json(const std::string& text, const std::string& file, std::vector<Fault>& faults) {
   try {
-    json value = json::parse(text, DuplicateKeyWatch(file, faults));
-    if (!faults.empty()) throw InputError(std::move(faults));
-    return value;
+    return json::parse(text, DuplicateKeyWatch(file, faults));
   } catch (const json::exception& error) {
     throw InputError(file, "", "expected JSON, found: " + without_number(error.what()));
   }
 }
 
+json parse_json(const std::string& text, const std::string& file) {
+  std::vector<Fault> faults;
+  json value = parse_json(text, file, faults);
+  if (!faults.empty()) throw InputError(std::move(faults));
+  return value;
+}
+
+json read_json_file(const std::filesystem::path& path, std::vector<Fault>& faults) {
+  return parse_json(read_whole_file(path), path.string(), faults);
+}
+
 json read_json_file(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  if (!stream || std::filesystem::is_directory(path) || !(text << stream.rdbuf())) {
-    throw InputError(path.string(), "", "expected a readable JSON file, found none");
-  }
-  return parse_json(text.str(), path.string());
+  return parse_json(read_whole_file(path), path.string());
 }
 
 }  // namespace croon::params

@@ -16,6 +16,12 @@ std::ptrdiff_t kind_rank(const std::string& kind) {
   return std::find(kinds.begin(), kinds.end(), kind) - kinds.begin();
 }
 
+/// "a step", "an icp".
+std::string with_article(const std::string& kind) {
+  const bool has_vowel = std::string("aeiou").find(kind.front()) != std::string::npos;
+  return (has_vowel ? "an " : "a ") + kind;
+}
+
 bool comes_before(const StageEntry& a, const StageEntry& b) {
   return std::make_tuple(kind_rank(a.kind), a.name) < std::make_tuple(kind_rank(b.kind), b.name);
 }
@@ -23,9 +29,9 @@ bool comes_before(const StageEntry& a, const StageEntry& b) {
 }  // namespace
 
 const std::vector<std::string>& stage_kinds() {
-  static const std::vector<std::string> kinds = {
-      "dataset", "preprocessor",  "ground_extractor", "yaw_search",
-      "icp",     "volume_scorer", "pose_search",      "step"};
+  static const std::vector<std::string> kinds = {"dataset",     "preprocessor", "ground_extractor",
+                                                 "yaw_search",  "icp",          "volume_scorer",
+                                                 "pose_search", "step"};
   return kinds;
 }
 
@@ -61,7 +67,7 @@ params::BuiltStage Catalogue::build(const std::string& kind, const params::Node&
   if (!node.is_object() || !node.require(key) || !node.member(key).read(name)) return {};
   const StageEntry* entry = find(kind, name);
   if (entry == nullptr) {
-    node.member(key).fault("expected a " + kind + ", found \"" + name + "\"" +
+    node.member(key).fault("expected " + with_article(kind) + ", found \"" + name + "\"" +
                            name_hint(name, names(kind)));
     return {};
   }

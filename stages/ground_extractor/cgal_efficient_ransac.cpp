@@ -1,12 +1,14 @@
 #include <CGAL/Random.h>
 #include <CGAL/Shape_detection/Efficient_RANSAC.h>
 #include <CGAL/Simple_cartesian.h>
+#include <CGAL/exceptions.h>
 #include <CGAL/property_map.h>
 
 #include <cmath>
 #include <utility>
 
 #include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
 #include "framework/spatial/oriented_sample.hpp"
 #include "framework/stage/ground_from_planes.hpp"
 #include "framework/stage/stage_entry.hpp"
@@ -83,13 +85,22 @@ class CgalEfficientRansac final : public GroundExtractor {
   explicit CgalEfficientRansac(const Params& params) : params_(params) {}
 
   Ground extract(const PointCloud& cloud, Rng& rng) const override {
+    try {
+      return extracted(cloud, rng);
+    } catch (const CGAL::Failure_exception& error) {
+      // It is a std::logic_error, but of what the data are like.
+      throw StageError(std::string("CGAL: ") + error.what());
+    }
+  }
+
+ private:
+  Ground extracted(const PointCloud& cloud, Rng& rng) const {
     const OrientedPoints oriented = oriented_sample(cloud, params_.leaf_size_m, params_.neighbours);
     return ground_from_planes(
         cloud, planes(oriented, rng),
         {params_.threshold_m, params_.refit_threshold_m, params_.min_inlier_ratio}, rng);
   }
 
- private:
   std::vector<Plane> planes(const OrientedPoints& oriented, Rng& rng) const {
     // CGAL permutes the points it is given, and draws from this thread's default generator, whose
     // state is whatever the calls before left.

@@ -1,5 +1,6 @@
 #include <CGAL/Point_set_3.h>
 #include <CGAL/Simple_cartesian.h>
+#include <CGAL/exceptions.h>
 #include <CGAL/version.h>
 
 // CGAL 5.6 gave region growing a new interface.
@@ -129,13 +130,22 @@ class CgalRegionGrowing final : public GroundExtractor {
   explicit CgalRegionGrowing(const Params& params) : params_(params) {}
 
   Ground extract(const PointCloud& cloud, Rng& rng) const override {
+    try {
+      return extracted(cloud, rng);
+    } catch (const CGAL::Failure_exception& error) {
+      // It is a std::logic_error, but of what the data are like.
+      throw StageError(std::string("CGAL: ") + error.what());
+    }
+  }
+
+ private:
+  Ground extracted(const PointCloud& cloud, Rng& rng) const {
     const OrientedPoints oriented = oriented_sample(cloud, params_.leaf_size_m, params_.neighbours);
     return ground_from_planes(
         cloud, planes(oriented),
         {params_.threshold_m, params_.refit_threshold_m, params_.min_inlier_ratio}, rng);
   }
 
- private:
   std::vector<Plane> planes(const OrientedPoints& oriented) const {
     std::vector<Plane> planes;
     if (oriented.points.empty()) return planes;

@@ -1,35 +1,12 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
 #include <string>
 
+#include "test/experiments/support/program.hpp"
 #include "test/support/temp_folder.hpp"
 
 namespace croon::experiments {
 namespace {
-
-/// What the program answers: its exit code, and both of its outputs.
-struct Answer {
-  int code = -1;
-  std::string text;
-};
-
-Answer croon(const std::string& arguments) {
-  const std::string command =
-      std::string("\"") + CROON_BINARY_DIR + "/bin/croon\" " + arguments + " 2>&1";
-  Answer answer;
-  std::FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return answer;
-  std::array<char, 4096> buffer{};
-  for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
-    answer.text.append(buffer.data(), n);
-  }
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) answer.code = WEXITSTATUS(status);
-  return answer;
-}
 
 TEST(Program, AnswersAWrongCommandLineWithOneLine) {
   const auto expect_line = [](const std::string& arguments, const std::string& line) {
@@ -40,7 +17,7 @@ TEST(Program, AnswersAWrongCommandLineWithOneLine) {
   expect_line("rnu x.json", "croon: unknown command \"rnu\"; did you mean \"run\"?");
   expect_line("run x.json --jbos 2", "croon: unknown option \"--jbos\"; did you mean \"--jobs\"?");
   expect_line("--versoin", "croon: unknown option \"--versoin\"; did you mean \"--version\"?");
-  expect_line("validate none.json", "croon: none.json: expected a readable JSON file, found none");
+  expect_line("validate none.json", "croon: none.json: expected a readable file, found none");
   for (const char* arguments :
        {"run", "run x.json --jobs two", "run x.json --jobs 0", "run x.json --trials -1",
         "run x.json --shard", "stages --json --markdown", "schema more", "stages no_such_kind",
