@@ -43,12 +43,9 @@ const std::vector<std::string> kColumns = {"variant TEXT",
                                            "tz_m",
                                            "steps TEXT"};
 
-/// The words for Status in its order.
-const std::array<std::string, 4> kStatusWords = {"success", "inaccurate", "rejected", "failed"};
-
 Status status_of(const std::string& word) {
-  for (std::size_t i = 0; i < kStatusWords.size(); ++i) {
-    if (kStatusWords[i] == word) return static_cast<Status>(i);
+  for (std::size_t i = 0; i < kStatusNames.size(); ++i) {
+    if (word == kStatusNames[i]) return static_cast<Status>(i);
   }
   throw std::logic_error("the store has a status \"" + word + "\"");
 }
@@ -108,7 +105,7 @@ void bind_record(Statement& insert, const TrialRecord& record) {
   insert.bind(place++, record.id.scene);
   insert.bind(place++, record.id.sensor);
   insert.bind(place++, static_cast<std::int64_t>(record.id.trial));
-  insert.bind(place++, kStatusWords[static_cast<std::size_t>(record.status)]);
+  insert.bind(place++, status_name(record.status));
   insert.bind(place++, record.reason);
   if (record.error) {
     for (int i = 0; i < 6; ++i) insert.bind(place + i, record.error->dof(i));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +26,14 @@ enum class Status {
   rejected,    ///< The program itself says not to trust the pose.
   failed       ///< A stage could not go on.
 };
+
+/// The words for Status, in its order, as files, tables and the store have them.
+inline constexpr std::array<const char*, 4> kStatusNames = {"success", "inaccurate", "rejected",
+                                                            "failed"};
+
+inline const char* status_name(Status status) {
+  return kStatusNames.at(static_cast<std::size_t>(status));
+}
 
 /// What became of a trial: everything but wall times, and the same bits whenever it is run again.
 struct TrialRecord {

@@ -1,7 +1,5 @@
 #include "experiments/report/csv_files.hpp"
 
-#include <stdexcept>
-
 #include "experiments/report/csv_row.hpp"
 #include "experiments/report/measure.hpp"
 #include "experiments/report/unit_quaternion.hpp"
@@ -38,20 +36,6 @@ void add_pose(CsvRow& row, const std::optional<RigidTransform>& pose) {
 }
 
 }  // namespace
-
-const char* status_name(Status status) {
-  switch (status) {
-    case Status::success:
-      return "success";
-    case Status::inaccurate:
-      return "inaccurate";
-    case Status::rejected:
-      return "rejected";
-    case Status::failed:
-      return "failed";
-  }
-  throw std::logic_error("a status that does not exist");
-}
 
 std::string trials_csv(const std::vector<TrialRecord>& records) {
   std::string bytes =

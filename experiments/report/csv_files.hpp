@@ -15,7 +15,4 @@ std::string trials_csv(const std::vector<TrialRecord>& records);
 /// The bytes of timings.csv: a header and a row per timing in the order given.
 std::string timings_csv(const std::vector<TimingRow>& rows);
 
-/// The word for a status in files and tables: "success", "inaccurate", "rejected" or "failed".
-const char* status_name(Status status);
-
 }  // namespace croon::experiments

@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "experiments/report/csv_files.hpp"
+#include "experiments/engine/trial_record.hpp"
 #include "experiments/report/statistic_names.hpp"
 #include "experiments/report/summary.hpp"
 #include "experiments/report/unit_quaternion.hpp"

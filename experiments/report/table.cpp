@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "experiments/report/csv_files.hpp"
+#include "experiments/engine/trial_record.hpp"
 #include "experiments/report/csv_row.hpp"
 #include "experiments/report/row_table.hpp"
 #include "experiments/report/text.hpp"
