@@ -29,8 +29,8 @@ class Table {
   Table() = default;
   Table(std::initializer_list<Parameter<P>> parameters) : parameters_(parameters) {}
 
-  /// Adds the rows of a base of `P`: parameters that several stages share. `P` may give them
-  /// defaults of its own.
+  /// Adds the rows and conditions of a base of `P`: parameters that several stages share. `P` may
+  /// give them defaults of its own.
   template <class Base>
   Table& inherit(const Table<Base>& base) {
     for (const Parameter<Base>& row : base.rows()) {
@@ -43,10 +43,16 @@ class Table {
            },
            [json = row.json](const P& params) { return json(params); }, row.is_slot});
     }
+    for (const auto& [holds, message] : base.conditions()) {
+      conditions_.push_back({[holds = holds](const P& params) { return holds(params); }, message});
+    }
     return *this;
   }
 
   const std::vector<Parameter<P>>& rows() const { return parameters_; }
+  const std::vector<std::pair<std::function<bool(const P&)>, std::string>>& conditions() const {
+    return conditions_;
+  }
 
   /// Adds a condition on the parameters together; `message` says what must hold.
   Table& require(std::function<bool(const P&)> holds, std::string message) {

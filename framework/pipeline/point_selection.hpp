@@ -17,8 +17,8 @@ struct SelectedClouds {
   std::shared_ptr<const Cloud> source;
 };
 
-/// "all", or "non_ground": the points off the ground where a step before has found it, else all. Throws
-/// StageError where a selected cloud is empty.
+/// "all", or "non_ground": the points off the ground where a step before has found it, else all.
+/// Throws StageError where a selected cloud is empty.
 SelectedClouds selected_clouds(const Estimate& estimate, const std::string& points);
 
 }  // namespace croon

@@ -50,7 +50,9 @@ class Cloud {
   /// timings go to the same log.
   std::shared_ptr<const Cloud> derived(PointCloud points, const std::string& purpose) const;
 
-  /// A generator for a computation on this cloud alone; the same for every trial.
+  /// A generator for a computation on this cloud alone; the same for every trial. `purpose` names
+  /// the stage and not its parameters: variants of a stage are paired, and a new parameter moves no
+  /// draw.
   Rng rng(const std::string& purpose) const { return Rng(key_.with(purpose)); }
 
   /// What was made once so far, for this cloud and those derived from it.

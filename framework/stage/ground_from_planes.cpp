@@ -1,5 +1,6 @@
 #include "framework/stage/ground_from_planes.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include "framework/base/error.hpp"
@@ -41,11 +42,24 @@ Plane narrowed(const PointCloud& slab, double threshold_m, Rng& rng) {
 
 }  // namespace
 
+const params::Table<GroundRule>& ground_rule_table() {
+  static const params::Table<GroundRule> table = {
+      params::number("threshold_m", &GroundRule::threshold_m, {1e-4, 10.0},
+                     "A point within this distance of the plane is ground; the authors' 0.2."),
+      params::number("refit_threshold_m", &GroundRule::refit_threshold_m, {1e-4, 10.0},
+                     "The plane is last fitted to the points within this distance, which kerbs and "
+                     "wheels are not; never more than threshold_m."),
+      params::number("min_inlier_ratio", &GroundRule::min_inlier_ratio, {0.0, 1.0},
+                     "The stage fails where no plane holds this share of the points."),
+  };
+  return table;
+}
+
 Ground ground_from_planes(const PointCloud& cloud, const std::vector<Plane>& planes,
                           const GroundRule& rule, Rng& rng) {
   Ground ground;
-  ground.plane =
-      narrowed(fullest_slab(cloud, planes, rule.threshold_m), rule.refit_threshold_m, rng);
+  ground.plane = narrowed(fullest_slab(cloud, planes, rule.threshold_m),
+                          std::min(rule.refit_threshold_m, rule.threshold_m), rng);
   ground.is_ground.assign(cloud.size(), 0);
   const std::vector<int> indices = points_within(cloud, ground.plane, rule.threshold_m);
   for (const int i : indices) ground.is_ground[i] = 1;

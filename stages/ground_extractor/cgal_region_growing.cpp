@@ -24,10 +24,7 @@
 namespace croon::stages::ground_extractor {
 namespace {
 
-struct Params {
-  double threshold_m = 0.2;
-  double refit_threshold_m = 0.05;
-  double min_inlier_ratio = 0.05;
+struct Params : GroundRule {
   double leaf_size_m = 0.2;
   int neighbours = 20;
   double max_angle_deg = 25.0;
@@ -35,28 +32,19 @@ struct Params {
 };
 
 const params::Table<Params>& table() {
-  static const params::Table<Params> table = [] {
-    params::Table<Params> rows = {
-        params::number("threshold_m", &Params::threshold_m, {1e-4, 10.0},
-                       "A point within this distance of the plane is ground; the authors' 0.2."),
-        params::number(
-            "refit_threshold_m", &Params::refit_threshold_m, {1e-4, 10.0},
-            "The plane is last fitted to the points within this distance, which kerbs and "
-            "wheels are not."),
-        params::number("min_inlier_ratio", &Params::min_inlier_ratio, {0.0, 1.0},
-                       "The stage fails where no plane holds this share of the points."),
-        params::number("leaf_size_m", &Params::leaf_size_m, {1e-3, 10.0},
-                       "Regions are grown over one point of each cube of this size."),
-        params::integer("neighbours", &Params::neighbours, {3, 1000},
-                        "Regions grow to this many nearest points; normals come from as many."),
-        params::number("max_angle_deg", &Params::max_angle_deg, {0.0, 90.0},
-                       "The normals of a region's points differ from its plane's by at most this."),
-        params::number("min_region_ratio", &Params::min_region_ratio, {0.0, 1.0},
-                       "Regions of less than this share of the points are not looked at."),
-    };
-    return rows.require([](const Params& p) { return p.refit_threshold_m <= p.threshold_m; },
-                        "refit_threshold_m must not be greater than threshold_m");
-  }();
+  static const params::Table<Params> table =
+      params::Table<Params>{
+          params::number("leaf_size_m", &Params::leaf_size_m, {1e-3, 10.0},
+                         "Regions are grown over one point of each cube of this size."),
+          params::integer("neighbours", &Params::neighbours, {3, 1000},
+                          "Regions grow to this many nearest points; normals come from as many."),
+          params::number(
+              "max_angle_deg", &Params::max_angle_deg, {0.0, 90.0},
+              "The normals of a region's points differ from its plane's by at most this."),
+          params::number("min_region_ratio", &Params::min_region_ratio, {0.0, 1.0},
+                         "Regions of less than this share of the points are not looked at."),
+      }
+          .inherit(ground_rule_table());
   return table;
 }
 
@@ -141,9 +129,7 @@ class CgalRegionGrowing final : public GroundExtractor {
  private:
   Ground extracted(const PointCloud& cloud, Rng& rng) const {
     const OrientedPoints oriented = oriented_sample(cloud, params_.leaf_size_m, params_.neighbours);
-    return ground_from_planes(
-        cloud, planes(oriented),
-        {params_.threshold_m, params_.refit_threshold_m, params_.min_inlier_ratio}, rng);
+    return ground_from_planes(cloud, planes(oriented), params_, rng);
   }
 
   std::vector<Plane> planes(const OrientedPoints& oriented) const {

@@ -5,10 +5,7 @@
 namespace croon::stages::ground_extractor {
 namespace {
 
-struct Params {
-  double threshold_m = 0.2;
-  double refit_threshold_m = 0.05;
-  double min_inlier_ratio = 0.05;
+struct Params : GroundRule {
   double confidence = 0.9999;
   int max_iterations = 10000;
   int local_rounds = 4;
@@ -16,30 +13,22 @@ struct Params {
 };
 
 const params::Table<Params>& table() {
-  static const params::Table<Params> table = [] {
-    params::Table<Params> rows = {
-        params::number("threshold_m", &Params::threshold_m, {1e-4, 10.0},
-                       "A point within this distance of the plane is ground; the authors' 0.2."),
-        params::number(
-            "refit_threshold_m", &Params::refit_threshold_m, {1e-4, 10.0},
-            "The plane is last fitted to the points within this distance, which kerbs and "
-            "wheels are not."),
-        params::number("min_inlier_ratio", &Params::min_inlier_ratio, {0.0, 1.0},
-                       "The stage fails where no plane holds this share of the points."),
-        params::number("confidence", &Params::confidence, {0.0, 0.999999999},
-                       "Planes are drawn until one of ground points alone was among them with this "
-                       "probability."),
-        params::integer("max_iterations", &Params::max_iterations, {1, 10000000},
-                        "At most so many planes are drawn."),
-        params::integer("local_rounds", &Params::local_rounds, {0, 100},
-                        "How often a plane that is the best so far is fitted again to its points."),
-        params::integer(
-            "sample_points", &Params::sample_points, {3, 1e9},
-            "Planes are drawn from, and counted on, at most so many points of the cloud."),
-    };
-    return rows.require([](const Params& p) { return p.refit_threshold_m <= p.threshold_m; },
-                        "refit_threshold_m must not be greater than threshold_m");
-  }();
+  static const params::Table<Params> table =
+      params::Table<Params>{
+          params::number(
+              "confidence", &Params::confidence, {0.0, 0.999999999},
+              "Planes are drawn until one of ground points alone was among them with this "
+              "probability."),
+          params::integer("max_iterations", &Params::max_iterations, {1, 10000000},
+                          "At most so many planes are drawn."),
+          params::integer(
+              "local_rounds", &Params::local_rounds, {0, 100},
+              "How often a plane that is the best so far is fitted again to its points."),
+          params::integer(
+              "sample_points", &Params::sample_points, {3, 1e9},
+              "Planes are drawn from, and counted on, at most so many points of the cloud."),
+      }
+          .inherit(ground_rule_table());
   return table;
 }
 
@@ -55,9 +44,7 @@ class Ransac final : public GroundExtractor {
                      {params_.threshold_m, params_.confidence, params_.max_iterations,
                       params_.local_rounds, params_.sample_points},
                      rng);
-    return ground_from_planes(
-        cloud, {plane}, {params_.threshold_m, params_.refit_threshold_m, params_.min_inlier_ratio},
-        rng);
+    return ground_from_planes(cloud, {plane}, params_, rng);
   }
 
  private:

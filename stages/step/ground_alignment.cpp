@@ -67,14 +67,14 @@ class GroundAlignment final : public Step {
     const std::string what = "ground/" + params_.extractor.name();
     const std::string& parameters = params_.extractor.resolved();
     return cloud.once<GroundSplit>(what, parameters, [&] {
-      Rng rng = cloud.rng(parameters);
+      Rng rng = cloud.rng(what);
       const Ground ground = params_.extractor->extract(cloud.points(), rng);
       PointCloud non_ground;
       for (std::size_t i = 0; i < cloud.points().size(); ++i) {
         if (ground.is_ground[i] == 0) non_ground.push_back(cloud.points()[i]);
       }
       return std::make_shared<const GroundSplit>(GroundSplit{
-          facing_up(ground, cloud.points()), cloud.derived(std::move(non_ground), parameters)});
+          facing_up(ground, cloud.points()), cloud.derived(std::move(non_ground), what)});
     });
   }
 

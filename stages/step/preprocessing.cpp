@@ -25,9 +25,9 @@ std::shared_ptr<const Cloud> preprocessed(
     std::shared_ptr<const Cloud> cloud,
     const std::vector<params::Slot<Preprocessor>>& preprocessors) {
   for (const params::Slot<Preprocessor>& preprocessor : preprocessors) {
-    const std::string& parameters = preprocessor.resolved();
-    cloud = cloud->once<Cloud>("preprocessor/" + preprocessor.name(), parameters, [&] {
-      return cloud->derived(preprocessor->apply(cloud->points()), parameters);
+    const std::string what = "preprocessor/" + preprocessor.name();
+    cloud = cloud->once<Cloud>(what, preprocessor.resolved(), [&] {
+      return cloud->derived(preprocessor->apply(cloud->points()), what);
     });
   }
   return cloud;

@@ -1,7 +1,4 @@
-#include <memory>
-
-#include "framework/pipeline/point_selection.hpp"
-#include "framework/spatial/nearest_distance_cost.hpp"
+#include "framework/pipeline/nearest_cost_options.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/step.hpp"
 #include "framework/stage/yaw_search.hpp"
@@ -9,24 +6,17 @@
 namespace croon::stages::step {
 namespace {
 
-struct Params {
+struct Params : NearestCostOptions {
   params::Slot<YawSearch> search;
-  std::string points = "non_ground";
-  int max_points = 1500;
-  double max_distance_m = 2.0;
 };
 
 const params::Table<Params>& table() {
-  static const params::Table<Params> table = {
-      params::slot("search", &Params::search, R"({"type": "binary"})",
-                   "Finds the yaw of least cost."),
-      params::choice("points", &Params::points, kPointChoices,
-                     "Which points the cost looks at; ground says nothing of yaw."),
-      params::integer("max_points", &Params::max_points, {10, 1e9},
-                      "At most so many points of the sensor are looked at, evenly spaced."),
-      params::number("max_distance_m", &Params::max_distance_m, {0.01, 1e6},
-                     "A nearest-neighbour distance counts for at most this."),
-  };
+  static const params::Table<Params> table =
+      params::Table<Params>{
+          params::slot("search", &Params::search, R"({"type": "binary"})",
+                       "Finds the yaw of least cost."),
+      }
+          .inherit(nearest_cost_table());
   return table;
 }
 
@@ -35,9 +25,7 @@ class YawAlignment final : public Step {
   explicit YawAlignment(Params params) : params_(std::move(params)) {}
 
   Estimate advance(Estimate estimate, Rng&) const override {
-    const SelectedClouds clouds = selected_clouds(estimate, params_.points);
-    const NearestDistanceCost cost(clouds.target, *clouds.source, params_.max_points,
-                                   params_.max_distance_m);
+    const NearestDistanceCost cost = nearest_cost(estimate, params_);
     const RigidTransform start = estimate.T_target_source;
     const Eigen::Vector3d up = estimate.up();
     const auto turned = [&](double yaw_rad) {
