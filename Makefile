@@ -23,7 +23,9 @@ packages:
 release: packages
 	$(call PRESET_BUILD,release)
 
-demo: release
+demo:
+	@.ci/data_root > /dev/null
+	@$(MAKE) --no-print-directory release
 	.ci/demo build/release/bin/croon --trials $(TRIALS)
 
 test: packages

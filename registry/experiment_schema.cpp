@@ -61,7 +61,7 @@ ordered_json starts_schema() {
                     {"trials",
                      ParameterType::integer,
                      "50",
-                     {1, 1e9},
+                     {1, 1e6},
                      {},
                      "",
                      "Starts per variant, scene and sensor."}});

@@ -31,7 +31,7 @@ Estimates first_estimates(const std::vector<TrialRecord>& records) {
 /// The points of `scan`; none where it cannot be read, which its failed trials say.
 PointCloud points_of(const SensorScan& scan) {
   try {
-    return scan.load();
+    return scan.load().points;
   } catch (const InputError&) {
     return {};
   }
@@ -50,11 +50,24 @@ void write_scene(const std::vector<ColouredCloud>& clouds, const fs::path& stem)
   write_occupancy_vdb(stem.string() + ".vdb", fused, kLeafSize_m);
 }
 
+/// Writes what can be written; a pose may lie farther off than there are leaves. Returns why not.
+std::string try_to_write_scene(const std::vector<ColouredCloud>& clouds, const fs::path& stem) {
+  try {
+    write_scene(clouds, stem);
+    return "";
+  } catch (const StageError& error) {
+    return stem.string() + ".vdb: not written: " + error.what();
+  }
+}
+
 }  // namespace
 
-void write_fused_clouds(const Experiment& experiment, const std::vector<Scene>& scenes,
-                        const std::vector<TrialRecord>& records, const fs::path& folder) {
+std::vector<std::string> write_fused_clouds(const Experiment& experiment,
+                                            const std::vector<Scene>& scenes,
+                                            const std::vector<TrialRecord>& records,
+                                            const fs::path& folder) {
   const Estimates estimates = first_estimates(records);
+  std::vector<std::string> complaints;
   for (const Scene& scene : scenes) {
     const PointCloud reference = points_of(scene.reference);
     std::vector<PointCloud> points;
@@ -66,9 +79,12 @@ void write_fused_clouds(const Experiment& experiment, const std::vector<Scene>& 
         const auto found = estimates.find(std::tuple(variant.name, scene.name, sensor));
         if (found != estimates.end()) clouds.push_back({sensor, points[i], found->second});
       }
-      if (clouds.size() > 1) write_scene(clouds, folder / variant.name / scene.name);
+      if (clouds.size() == 1) continue;
+      const std::string why_not = try_to_write_scene(clouds, folder / variant.name / scene.name);
+      if (!why_not.empty()) complaints.push_back(why_not);
     }
   }
+  return complaints;
 }
 
 }  // namespace croon::experiments

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "experiments/engine/experiment.hpp"
@@ -10,10 +11,11 @@ namespace croon::experiments {
 
 /// Writes, for each variant and scene, the clouds of the rig in the reference's frame, each sensor
 /// at the estimate of its first trial that finished: `folder/<variant>/<scene>.ply`, coloured by
-/// sensor, and
-/// `<scene>.vdb`, the leaves of 0.05 m that they occupy. `records` are in report order.
-void write_fused_clouds(const Experiment& experiment, const std::vector<Scene>& scenes,
-                        const std::vector<TrialRecord>& records,
-                        const std::filesystem::path& folder);
+/// sensor, and `<scene>.vdb`, the leaves of 0.05 m that they occupy. `records` are in report order.
+/// Returns what could not be written and why, a line each.
+std::vector<std::string> write_fused_clouds(const Experiment& experiment,
+                                            const std::vector<Scene>& scenes,
+                                            const std::vector<TrialRecord>& records,
+                                            const std::filesystem::path& folder);
 
 }  // namespace croon::experiments

@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <new>
 
 #include "experiments/cli/fault_lines.hpp"
 #include "experiments/cli/run_command.hpp"
@@ -99,6 +100,7 @@ int run_chosen(const CLI::App& app, const CommandLine& line) {
   } else {
     std::cout << app.help();
   }
+  if (!std::cout.flush()) throw InputError("", "standard output", "cannot be written");
   return 0;
 }
 
@@ -130,6 +132,9 @@ int croon_main(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return croon::experiments::croon_main(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "croon: there is not enough memory; what was finished is in the store\n";
+    return 1;
   } catch (const std::exception& error) {
     std::cerr << "croon: this is a bug: " << error.what() << "\n";
     return 1;

@@ -44,6 +44,11 @@ std::filesystem::path data_root(const RunOptions& options) {
 CheckedRun check(const RunOptions& options, const Catalogue& catalogue) {
   CheckedRun run;
   run.experiment = load_experiment(options.experiment, catalogue);
+  if (options.trials > kMaxTrials) {
+    throw InputError("", "--trials",
+                     "expected a whole number from 1 to " + std::to_string(kMaxTrials) +
+                         ", found " + std::to_string(options.trials));
+  }
   if (options.trials > 0) run.experiment.starts.trials = options.trials;
   run.selection.variants = select_variants(run.experiment, options.only);
   if (!options.shard.empty()) run.selection.shard = read_shard(options.shard);
@@ -117,25 +122,33 @@ int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostr
                 std::ostream& progress_out) {
   const CheckedRun run = check(options, catalogue);
   const std::vector<InputFile> inputs = input_files(run.scenes, run.data_root, run.jobs);
-  const std::string manifest = manifest_json(run.experiment, inputs, run.data_root, run.jobs);
+  const Provenance provenance = provenance_of(run.experiment, run.scenes, inputs);
+  const std::string manifest =
+      manifest_json(run.experiment, inputs, provenance, run.data_root, run.jobs);
   const std::vector<PlannedTrial> plan = plan_trials(run.experiment, run.scenes, run.selection);
   const OutputFolder folder(run.out);
   if (options.fresh) folder.clear();
   std::vector<TrialRecord> records;
   {
-    Store store(folder.store(), provenance_of(run.experiment, run.scenes, inputs));
+    Store store(folder.store(), provenance);
     Progress progress(progress_out, progress_style_of_stderr(options.quiet), plan.size());
     records = fill_store(run, folder, store, progress, plan);
   }
   rewrite_in_order(folder.store());
   const Summary summary = summarise(records, run.experiment.success, report_order(run));
   write_reports(folder, records, summary, manifest);
-  if (options.clouds) write_fused_clouds(run.experiment, run.scenes, records, folder.clouds());
+  std::vector<std::string> complaints;
+  if (options.clouds) {
+    complaints = write_fused_clouds(run.experiment, run.scenes, records, folder.clouds());
+  }
+  for (const std::string& complaint : complaints) progress_out << "croon: " << complaint << "\n";
   TableStyle style;
   style.colours = options.colours;
   out << summary_table(summary, style) << "Results are in " << run.out.string() << "\n";
   const auto is_failed = [](const TrialRecord& r) { return r.status == Status::failed; };
-  return std::any_of(records.begin(), records.end(), is_failed) ? 3 : 0;
+  const bool all_done =
+      complaints.empty() && std::none_of(records.begin(), records.end(), is_failed);
+  return all_done ? 0 : 3;
 }
 
 }  // namespace croon::experiments

@@ -14,6 +14,9 @@ namespace croon::experiments {
 /// The pose that starts are drawn around.
 enum class StartCentre { truth, nominal, initial };
 
+/// As many as a plan of several variants, scenes and sensors can hold.
+inline constexpr int kMaxTrials = 1000000;
+
 /// How starts are drawn: (R, t) moved to (R_d R, t + d), see DESIGN.md section 4.
 struct StartRule {
   StartCentre around = StartCentre::truth;

@@ -15,7 +15,7 @@ namespace {
 
 using params::Node;
 
-constexpr double kLargestSeed = 9007199254740992.0;  // 2^53: exact in every JSON reader.
+constexpr std::uint64_t kLargestSeed = 9007199254740992;  // 2^53: exact in every JSON reader.
 
 /// The centres in the order of StartCentre.
 const std::vector<std::string> kCentres = {"truth", "nominal", "initial"};
@@ -36,7 +36,7 @@ const params::Table<StartKeys>& start_table() {
                      "Half range of roll, pitch and yaw; 180 is any rotation, uniform on SO(3)."),
       params::number("translation_m", &StartKeys::translation_m, {0.0, 1e6},
                      "Half range of x, y and z in reference axes."),
-      params::integer("trials", &StartKeys::trials, {1, 1e9},
+      params::integer("trials", &StartKeys::trials, {1, kMaxTrials},
                       "Starts per variant, scene and sensor."),
   };
   return table;
@@ -71,9 +71,9 @@ StartRule read_starts(const Node& root, const Catalogue& catalogue) {
 std::uint64_t read_seed(const Node& root) {
   if (!root.has("seed")) return Experiment{}.seed;
   const Node node = root.member("seed");
-  const double seed = node.value().is_number() ? node.value().get<double>() : -1.0;
-  if (seed >= 0.0 && seed <= kLargestSeed && std::floor(seed) == seed) {
-    return static_cast<std::uint64_t>(seed);
+  if (node.value().is_number_unsigned()) {
+    const std::uint64_t seed = node.value().get<std::uint64_t>();
+    if (seed <= kLargestSeed) return seed;
   }
   node.expected("a whole number from 0 to 9007199254740992");
   return 0;

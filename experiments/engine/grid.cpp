@@ -42,11 +42,12 @@ std::vector<std::string> differing_keys(const json& values, const json& value) {
   std::vector<std::string> keys;
   for (const json& other : values) {
     if (type_of(other) != type_of(value)) continue;
-    for (const auto& [key, member] : other.items()) {
+    for (const auto& item : other.items()) {
       const bool differs = std::any_of(values.begin(), values.end(), [&](const json& third) {
-        return type_of(third) == type_of(value) && third.value(key, json()) != member;
+        return type_of(third) == type_of(value) && third.value(item.key(), json()) != item.value();
       });
-      if (differs && std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+      const bool is_new = std::find(keys.begin(), keys.end(), item.key()) == keys.end();
+      if (differs && is_new) keys.push_back(item.key());
     }
   }
   std::sort(keys.begin(), keys.end());
@@ -83,11 +84,15 @@ std::vector<GridAxis> read_grid(const Node& grid) {
     if (!axis.node.is_array()) continue;
     if (values.empty()) axis.node.expected("a list of at least one value");
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const GridPoint point{label_of(axis_key(grid.value(), path), values, values[i]),
-                            axis.node.element(i)};
-      const auto is_same = [&](const GridPoint& other) { return other.label == point.label; };
-      if (std::any_of(axis.points.begin(), axis.points.end(), is_same)) {
+      GridPoint point{label_of(axis_key(grid.value(), path), values, values[i]),
+                      axis.node.element(i)};
+      if (std::find(values.begin(), values.begin() + i, values[i]) != values.begin() + i) {
         point.value.fault("\"" + point.label + "\" stands in this list twice");
+      }
+      const auto is_same = [&](const GridPoint& other) { return other.label == point.label; };
+      // Lists of stages may differ in what a label does not say: their places tell them apart.
+      if (std::any_of(axis.points.begin(), axis.points.end(), is_same)) {
+        point.label += " (" + std::to_string(i + 1) + ")";
       }
       axis.points.push_back(point);
     }

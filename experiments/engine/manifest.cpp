@@ -43,7 +43,12 @@ Json libraries_json() {
 Json inputs_json(const std::vector<InputFile>& inputs) {
   Json json = Json::array();
   for (const InputFile& input : inputs) {
-    json.push_back({{"path", input.path}, {"sha256", input.sha256}});
+    Json file = {{"path", input.path}, {"sha256", input.sha256}};
+    if (input.points) {
+      file["points"] = *input.points;
+      file["dropped_non_finite"] = *input.dropped_non_finite;
+    }
+    json.push_back(file);
   }
   return json;
 }
@@ -81,14 +86,18 @@ Json host_json(const std::filesystem::path& data_root, int jobs) {
 }  // namespace
 
 std::string manifest_json(const Experiment& experiment, const std::vector<InputFile>& inputs,
-                          const std::filesystem::path& data_root, int jobs) {
+                          const Provenance& provenance, const std::filesystem::path& data_root,
+                          int jobs) {
   Json manifest;
   manifest["experiment"] = experiment_json(experiment);
   manifest["croon"] = {{"version", croon_version()},
                        {"commit", croon_commit()},
-                       {"program_sha256", sha256_of_file("/proc/self/exe")}};
+                       {"program_sha256", provenance.at("program")}};
   manifest["libraries"] = libraries_json();
   manifest["inputs"] = inputs_json(inputs);
+  for (const char* digest : {"inputs", "pipelines"}) {
+    manifest["provenance"][digest] = provenance.at(digest);
+  }
   manifest["host"] = host_json(data_root, jobs);
   // A path may hold bytes that are not UTF-8.
   return manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

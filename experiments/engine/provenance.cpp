@@ -1,9 +1,10 @@
 #include "experiments/engine/provenance.hpp"
 
-#include <algorithm>
+#include <set>
 
 #include "experiments/engine/experiment_loader.hpp"
 #include "experiments/engine/threads.hpp"
+#include "framework/base/error.hpp"
 #include "framework/io/digest.hpp"
 #include "framework/params/values.hpp"
 
@@ -13,18 +14,36 @@ namespace {
 namespace fs = std::filesystem;
 using params::value_json;
 
-void add_file(std::vector<std::string>& files, const std::string& file) {
-  if (!file.empty() && std::find(files.begin(), files.end(), file) == files.end()) {
-    files.push_back(file);
-  }
-}
-
 /// `file` relative to the data root; as it is where it lies elsewhere.
 std::string relative_path(const std::string& file, const fs::path& data_root) {
   std::error_code error;
   const fs::path relative = fs::relative(file, data_root, error);
   const bool is_below = !error && !relative.empty() && *relative.begin() != "..";
   return is_below ? relative.generic_string() : file;
+}
+
+/// The scans that are in files, each file once.
+std::vector<const SensorScan*> scans_with_files(const std::vector<Scene>& scenes) {
+  std::vector<const SensorScan*> scans;
+  std::set<std::string> files = {""};
+  const auto add = [&](const SensorScan& scan) {
+    if (files.insert(scan.file).second) scans.push_back(&scan);
+  };
+  for (const Scene& scene : scenes) {
+    add(scene.reference);
+    for (const SensorScan& scan : scene.sensors) add(scan);
+  }
+  return scans;
+}
+
+void count_points(const SensorScan& scan, InputFile& input) {
+  try {
+    const LoadedCloud cloud = scan.load();
+    input.points = cloud.points.size();
+    input.dropped_non_finite = cloud.dropped_non_finite;
+  } catch (const InputError&) {
+    // Its trials will fail and say why.
+  }
 }
 
 /// The numbers of a pose, each exact; "none" where there is no pose.
@@ -61,15 +80,13 @@ std::string pipelines_text(const Experiment& experiment) {
 
 std::vector<InputFile> input_files(const std::vector<Scene>& scenes, const fs::path& data_root,
                                    int jobs) {
-  std::vector<std::string> files;
-  for (const Scene& scene : scenes) {
-    add_file(files, scene.reference.file);
-    for (const SensorScan& scan : scene.sensors) add_file(files, scan.file);
-  }
-  std::vector<InputFile> inputs(files.size());
+  const std::vector<const SensorScan*> scans = scans_with_files(scenes);
+  std::vector<InputFile> inputs(scans.size());
   on_threads(jobs, [&] {
-    for_each_in_parallel(files.size(), [&](std::size_t i) {
-      inputs[i] = {relative_path(files[i], data_root), sha256_of_file(files[i])};
+    for_each_in_parallel(scans.size(), [&](std::size_t i) {
+      inputs[i].path = relative_path(scans[i]->file, data_root);
+      inputs[i].sha256 = sha256_of_file(scans[i]->file);
+      count_points(*scans[i], inputs[i]);
     });
   });
   return inputs;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,8 @@ namespace croon::experiments {
 struct InputFile {
   std::string path;  ///< Relative to the data root where it lies below it.
   std::string sha256;
+  /// Its finite points, and how many were dropped as not finite; nothing where it cannot be loaded.
+  std::optional<std::size_t> points, dropped_non_finite;
 };
 
 /// The files that the clouds of `scenes` are in, in order, each once; read on `jobs` threads.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <new>
 
 #include "experiments/engine/starts.hpp"
 #include "framework/base/angles.hpp"
@@ -40,11 +39,9 @@ std::string reasons(const InputError& error) {
 /// Reads the points of `scan`; returns why they cannot be had, or nothing.
 std::string read_points(const SensorScan& scan, PointCloud& points) {
   try {
-    points = scan.load();
+    points = scan.load().points;
   } catch (const InputError& error) {
     return reasons(error);
-  } catch (const std::bad_alloc&) {
-    return "not enough memory";
   }
   const auto is_finite_point = [](const Eigen::Vector3f& point) { return point.allFinite(); };
   return std::any_of(points.begin(), points.end(), is_finite_point) ? "" : "it has no points";

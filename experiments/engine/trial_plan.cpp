@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <map>
 #include <tuple>
 
@@ -71,9 +72,11 @@ std::vector<PlannedTrial> plan_trials(const Experiment& experiment,
   const Shard shard = selection.shard;
   for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
     for (std::size_t sensor = 0; sensor < scenes[scene].sensors.size(); ++sensor) {
-      for (int trial = shard.part - 1; trial < experiment.starts.trials; trial += shard.parts) {
+      // Wide: the step may be as large as an int.
+      for (std::int64_t trial = shard.part - 1; trial < experiment.starts.trials;
+           trial += shard.parts) {
         for (const std::size_t variant : selection.variants) {
-          plan.push_back({scene, variant, sensor, trial});
+          plan.push_back({scene, variant, sensor, static_cast<int>(trial)});
         }
       }
     }
@@ -88,7 +91,7 @@ TrialId trial_id(const Experiment& experiment, const std::vector<Scene>& scenes,
           scene.sensors[planned.sensor].sensor, planned.trial};
 }
 
-std::vector<TrialRecord> in_report_order(std::vector<TrialRecord> records,
+std::vector<TrialRecord> in_report_order(const std::vector<TrialRecord>& records,
                                          const Experiment& experiment,
                                          const std::vector<Scene>& scenes) {
   const Ranks variants = variant_ranks(experiment);
@@ -100,11 +103,12 @@ std::vector<TrialRecord> in_report_order(std::vector<TrialRecord> records,
     for (const SensorScan& scan : scene.sensors) sensors.emplace(scan.sensor, sensors.size());
   }
   std::vector<std::pair<ReportKey, TrialRecord>> keyed;
-  for (TrialRecord& record : records) {
+  for (const TrialRecord& record : records) {
     const TrialId& id = record.id;
     const auto variant = variants.find(id.variant);
     const auto scene = scene_ranks.find(id.scene);
     if (variant == variants.end() || scene == scene_ranks.end()) continue;
+    if (id.trial >= experiment.starts.trials) continue;
     const Ranks& sensors = sensor_ranks[id.scene];
     const auto sensor = sensors.find(id.sensor);
     if (sensor == sensors.end()) continue;

@@ -48,7 +48,7 @@ TrialId trial_id(const Experiment& experiment, const std::vector<Scene>& scenes,
 
 /// Sorts records into the order of every output: variants as in the experiment, scenes and sensors
 /// as in the dataset, then trials. Records of anything else are dropped.
-std::vector<TrialRecord> in_report_order(std::vector<TrialRecord> records,
+std::vector<TrialRecord> in_report_order(const std::vector<TrialRecord>& records,
                                          const Experiment& experiment,
                                          const std::vector<Scene>& scenes);
 

@@ -20,14 +20,19 @@ std::string Fault::line() const {
   std::string text;
   if (!file.empty()) text += file + ": ";
   if (!where.empty()) text += where + ": ";
-  return text + message;
+  text += message;
+  // What the user wrote may hold line breaks; a fault is one line all the same.
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20) c = '?';
+  }
+  return text;
 }
 
 InputError::InputError(std::vector<Fault> faults)
     : std::runtime_error(joined_lines(faults)), faults_(std::move(faults)) {}
 
 InputError::InputError(std::string file, std::string where, std::string message)
-    : InputError(
-          std::vector<Fault>{Fault{std::move(file), std::move(where), std::move(message)}}) {}
+    : InputError(std::vector<Fault>{Fault{std::move(file), std::move(where), std::move(message)}}) {
+}
 
 }  // namespace croon

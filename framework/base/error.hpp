@@ -6,8 +6,9 @@
 
 namespace croon {
 
-/// One thing that is wrong with what the caller gave: the file, the place in it (a JSON pointer, a line
-/// or a byte; empty where there is none) and one sentence: what was expected and what was found.
+/// One thing that is wrong with what the caller gave: the file, the place in it (a JSON pointer, a
+/// line or a byte; empty where there is none) and one sentence: what was expected and what was
+/// found.
 struct Fault {
   std::string file;
   std::string where;
@@ -29,8 +30,8 @@ class InputError : public std::runtime_error {
   std::vector<Fault> faults_;
 };
 
-/// The data defeated a stage (no ground, too few correspondences, ...). The trial is recorded as `failed`
-/// with this reason and the run goes on.
+/// The data defeated a stage (no ground, too few correspondences, ...). The trial is recorded as
+/// `failed` with this reason and the run goes on.
 class StageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -6,7 +6,8 @@
 namespace croon {
 namespace {
 
-/// The finaliser of SplitMix64 (Steele, Lea, Flood 2014): every bit of the input moves every bit out.
+/// The finaliser of SplitMix64 (Steele, Lea, Flood 2014): every bit of the input moves every bit
+/// out.
 std::uint64_t mix(std::uint64_t z) {
   z += 0x9e3779b97f4a7c15ULL;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "framework/io/loaded_cloud.hpp"
+#include "framework/geometry/loaded_cloud.hpp"
 
 namespace croon {
 

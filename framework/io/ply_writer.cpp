@@ -1,6 +1,7 @@
 #include "framework/io/ply_writer.hpp"
 
 #include <array>
+#include <charconv>
 #include <cstring>
 
 #include "framework/base/whole_file.hpp"
@@ -19,8 +20,18 @@ void append_point(std::string& bytes, const Eigen::Vector3f& point) {
   for (int axis = 0; axis < 3; ++axis) append_float(bytes, point(axis));
 }
 
-std::string header(const std::string& comments, std::size_t vertices, const std::string& colours) {
-  return "ply\nformat binary_little_endian 1.0\n" + comments + "element vertex " +
+void append_text(std::string& bytes, const Eigen::Vector3f& point) {
+  std::array<char, 32> text{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), point(axis)).ptr;
+    bytes.append(text.data(), end);
+    bytes += axis < 2 ? ' ' : '\n';
+  }
+}
+
+std::string header(const std::string& format, const std::string& comments, std::size_t vertices,
+                   const std::string& colours) {
+  return "ply\nformat " + format + " 1.0\n" + comments + "element vertex " +
          std::to_string(vertices) + "\nproperty float x\nproperty float y\nproperty float z\n" +
          colours + "end_header\n";
 }
@@ -47,9 +58,16 @@ Colour sensor_colour(std::size_t index) {
   return colours[index % colours.size()];
 }
 
-void write_ply(const std::filesystem::path& path, const PointCloud& cloud) {
-  std::string bytes = header("", cloud.size(), "");
-  for (const Eigen::Vector3f& point : cloud) append_point(bytes, point);
+void write_ply(const std::filesystem::path& path, const PointCloud& cloud, PlyFormat format) {
+  const bool is_ascii = format == PlyFormat::ascii;
+  std::string bytes = header(is_ascii ? "ascii" : "binary_little_endian", "", cloud.size(), "");
+  for (const Eigen::Vector3f& point : cloud) {
+    if (is_ascii) {
+      append_text(bytes, point);
+    } else {
+      append_point(bytes, point);
+    }
+  }
   write_whole_file(path, bytes);
 }
 
@@ -70,7 +88,7 @@ void write_fused_ply(const std::filesystem::path& path, const std::vector<Colour
     }
   }
   const char* const colours = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-  write_whole_file(path, header(comments, vertices, colours) + body);
+  write_whole_file(path, header("binary_little_endian", comments, vertices, colours) + body);
 }
 
 }  // namespace croon

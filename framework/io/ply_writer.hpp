@@ -25,9 +25,12 @@ struct ColouredCloud {
   RigidTransform T_reference_sensor;
 };
 
-/// Writes a cloud as binary little-endian PLY with x, y, z. Throws InputError where the file cannot
-/// be written.
-void write_ply(const std::filesystem::path& path, const PointCloud& cloud);
+enum class PlyFormat { binary_little_endian, ascii };
+
+/// Writes a cloud as PLY with x, y, z; ascii numbers are the shortest that read back as the same
+/// floats. Throws InputError where the file cannot be written.
+void write_ply(const std::filesystem::path& path, const PointCloud& cloud,
+               PlyFormat format = PlyFormat::binary_little_endian);
 
 /// Writes all clouds of a rig in the reference's frame into one PLY, each in the colour of its
 /// place in `clouds`; comments in the header say which is which.

@@ -22,6 +22,8 @@ class DuplicateKeyWatch {
       case json::parse_event_t::object_start:
       case json::parse_event_t::array_start:
         next_element();
+        // Whoever shows or walks the value calls itself once for each level.
+        if (levels_.size() >= kMaxDepth) throw InputError(file_, "", "is nested too deeply");
         levels_.push_back({event == json::parse_event_t::array_start, -1, {}, {}});
         break;
       case json::parse_event_t::object_end:
@@ -39,6 +41,7 @@ class DuplicateKeyWatch {
   }
 
  private:
+  static constexpr std::size_t kMaxDepth = 100;
   struct Level {
     bool is_array;
     int index;

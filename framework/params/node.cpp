@@ -30,7 +30,11 @@ std::string escaped(const std::string& key) {
 std::string shown(const nlohmann::json& value) {
   constexpr std::size_t kLongest = 60;
   const std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+  if (text.size() <= kLongest) return text;
+  // Not in the middle of a character of UTF-8.
+  std::size_t end = kLongest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return text.substr(0, end) + "...";
 }
 
 }  // namespace
@@ -52,7 +56,9 @@ Node Node::element(std::size_t index) const {
   return node;
 }
 
-bool Node::has(const std::string& key) const { return value_->is_object() && value_->contains(key); }
+bool Node::has(const std::string& key) const {
+  return value_->is_object() && value_->contains(key);
+}
 
 void Node::fault(const std::string& message) const {
   faults_->push_back({file_, pointer_.empty() ? "/" : pointer_, message});

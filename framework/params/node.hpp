@@ -8,9 +8,9 @@
 
 namespace croon::params {
 
-/// A value in a JSON file that knows where it stands, so that whoever reads it can say what is wrong with it.
-/// Faults are collected, not thrown: the user sees all of them at once. Cheap to copy; the JSON value and the
-/// list of faults must outlive it.
+/// A value in a JSON file that knows where it stands, so that whoever reads it can say what is
+/// wrong with it. Faults are collected, not thrown: the user sees all of them at once. Cheap to
+/// copy; the JSON value and the list of faults must outlive it.
 class Node {
  public:
   Node(const nlohmann::json& value, std::string file, std::vector<Fault>& faults);

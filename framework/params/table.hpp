@@ -86,6 +86,7 @@ P Table<P>::read(const Node& node, const std::vector<std::string>& other_keys,
   for (const Parameter<P>& parameter : parameters_) known.push_back(parameter.doc.key);
   node.refuse_unknown_keys(known);
   P params;
+  const std::size_t faults_before = node.fault_count();
   for (const Parameter<P>& parameter : parameters_) {
     if (node.has(parameter.doc.key)) {
       parameter.read(params, node.member(parameter.doc.key), builder);
@@ -97,6 +98,8 @@ P Table<P>::read(const Node& node, const std::vector<std::string>& other_keys,
       node.require(parameter.doc.key);
     }
   }
+  // Of parameters of which one could not be read, nothing can be said together.
+  if (node.fault_count() > faults_before) return params;
   for (const auto& [holds, message] : conditions_) {
     if (!holds(params)) node.fault(message);
   }

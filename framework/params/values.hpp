@@ -9,8 +9,8 @@
 
 namespace croon::params {
 
-/// Reads the value of `node` into `out` and checks it against `doc`; notes a fault and leaves `out` where it
-/// does not fit.
+/// Reads the value of `node` into `out` and checks it against `doc`; notes a fault and leaves `out`
+/// where it does not fit.
 void read_value(const Node& node, const ParameterDoc& doc, bool& out);
 void read_value(const Node& node, const ParameterDoc& doc, int& out);
 void read_value(const Node& node, const ParameterDoc& doc, double& out);

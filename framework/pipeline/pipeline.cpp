@@ -1,6 +1,8 @@
 #include "framework/pipeline/pipeline.hpp"
 
 #include <chrono>
+#include <new>
+#include <optional>
 #include <stdexcept>
 
 namespace croon {
@@ -23,22 +25,29 @@ PipelineResult run_pipeline(const Pipeline& pipeline, std::shared_ptr<const Clou
   result.estimate.target = std::move(target);
   result.estimate.source = std::move(source);
   result.estimate.T_target_source = start;
-  for (std::size_t i = 0; i < pipeline.size(); ++i) {
+  std::optional<std::string> rejection;
+  for (const auto& [name, step] : pipeline) {
     const double shared_before = seconds_spent_on_shared_work();
     const Clock::time_point step_start = Clock::now();
-    Rng rng(key.with(pipeline[i].name).with(i));
+    Rng rng(key.with(name));
     result.estimate.figures.clear();
+    result.estimate.rejection.reset();
     try {
-      result.estimate = pipeline[i].step->advance(result.estimate, rng);
+      result.estimate = step->advance(result.estimate, rng);
     } catch (const std::logic_error&) {
       throw;
+    } catch (const std::bad_alloc&) {
+      // Of this machine at this time, not of the data: must not become a result.
+      throw;
     } catch (const std::exception& error) {
-      result.failure = pipeline[i].name + ": " + error.what();
+      result.failure = name + ": " + error.what();
     }
+    if (result.estimate.rejection) rejection = name + ": " + *result.estimate.rejection;
     result.records.push_back(
-        {pipeline[i].name, own_seconds(step_start, shared_before), result.estimate.figures});
+        {name, own_seconds(step_start, shared_before), result.estimate.figures});
     if (!result.failure.empty()) break;
   }
+  result.estimate.rejection = rejection;
   return result;
 }
 

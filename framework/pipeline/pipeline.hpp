@@ -33,9 +33,9 @@ struct PipelineResult {
 };
 
 /// Takes `start` through the steps of `pipeline`. Each step draws from a stream of its own, named
-/// by `key` and its place, so one step's draws do not move another's. A StageError, or what a
-/// library throws (bad_alloc), ends the trial and becomes its `failure`; a std::logic_error is a
-/// bug and passes through.
+/// by `key` and its name, so one step's draws do not move another's and a step that is removed
+/// moves none. A StageError, or what a library throws (bad_alloc), ends the trial and becomes its
+/// `failure`; a std::logic_error is a bug and passes through.
 PipelineResult run_pipeline(const Pipeline& pipeline, std::shared_ptr<const Cloud> target,
                             std::shared_ptr<const Cloud> source, const RigidTransform& start,
                             const StreamKey& key);

@@ -14,7 +14,6 @@ struct Correspondence {
   Eigen::Vector3d target_normal;  ///< Unit; zero where there is none or it was not asked for.
   Eigen::Vector3d source_normal;  ///< `R n`, in the target's axes; zero likewise.
   float target_variation = 0.0F;  ///< LocalShape::surface_variation.
-  float source_variation = 0.0F;
 };
 
 /// The Jacobian of `R s + t` by the six degrees of freedom of `moved`: `[-[R s]x, I]`.

@@ -37,7 +37,6 @@ class Matcher {
       const LocalShape shape = source_normals_->at(index);
       if (shape.normal.isZero()) return false;
       pair.source_normal = T.rotation * shape.normal.cast<double>();
-      pair.source_variation = shape.surface_variation;
     }
     const bool both = target_normals_ != nullptr && source_normals_ != nullptr;
     return !both || pair.target_normal.dot(pair.source_normal) >= rule_.min_normal_cosine;
@@ -79,8 +78,12 @@ class Loop {
       outcome.converged = step.head<3>().norm() <= rad_from_deg(options_.rotation_tolerance_deg) &&
                           step.tail<3>().norm() <= options_.translation_tolerance_m;
       ++outcome.iterations;
-      note(sums, outcome);
     }
+  }
+
+  /// Looks at the solution as it is: residuals, inliers, information.
+  void judge(Registration& outcome, double max_distance_m) const {
+    note(linearised(outcome.T_target_source, max_distance_m, source_size_), outcome);
   }
 
  private:
@@ -151,6 +154,7 @@ Registration iterate_icp(const Cloud& target, const Cloud& source, const RigidTr
     const bool is_last = i + 1 == options.max_distances_m.size();
     loop.run(outcome, options.max_distances_m[i], is_last ? all : options.coarse_points);
   }
+  loop.judge(outcome, options.max_distances_m.back());
   return outcome;
 }
 

@@ -13,7 +13,8 @@ const Normals& Cloud::normals(int neighbours) const {
 }
 
 std::shared_ptr<const Cloud> Cloud::derived(PointCloud points, const std::string& purpose) const {
-  return std::shared_ptr<const Cloud>(new Cloud(std::move(points), key_.with(purpose), log_));
+  return std::shared_ptr<const Cloud>(
+      new Cloud(std::move(points), key_.with(purpose), log_, prefix_ + purpose + "/"));
 }
 
 }  // namespace croon

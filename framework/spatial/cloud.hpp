@@ -21,7 +21,7 @@ class Cloud {
  public:
   /// `key` names the streams of whatever draws random numbers for this cloud alone.
   Cloud(PointCloud points, const StreamKey& key)
-      : Cloud(std::move(points), key, std::make_shared<OnceLog>()) {}
+      : Cloud(std::move(points), key, std::make_shared<OnceLog>(), "") {}
   Cloud(const Cloud&) = delete;
   Cloud& operator=(const Cloud&) = delete;
 
@@ -59,12 +59,17 @@ class Cloud {
   std::vector<OnceTiming> timings() const { return log_->timings(); }
 
  private:
-  Cloud(PointCloud points, const StreamKey& key, std::shared_ptr<OnceLog> log)
-      : points_(std::move(points)), key_(key), log_(std::move(log)), once_(log_) {}
+  Cloud(PointCloud points, const StreamKey& key, std::shared_ptr<OnceLog> log, std::string prefix)
+      : points_(std::move(points)),
+        key_(key),
+        log_(std::move(log)),
+        prefix_(std::move(prefix)),
+        once_(log_, prefix_) {}
 
   PointCloud points_;
   StreamKey key_;
   std::shared_ptr<OnceLog> log_;
+  std::string prefix_;  ///< What this cloud was made for, "ground/ransac/", in the log.
   OnceTable once_;
 };
 

@@ -53,8 +53,9 @@ LocalShape Normals::computed(int index) const {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(covariance(points_, point, neighbours));
   const Eigen::Vector3d variances = solver.eigenvalues().cwiseMax(0.0);
-  // Neighbours on one line have no normal.
-  if (!(variances(1) > 1e-9 * variances(2))) return shape;
+  // Neighbours on one line have no normal; the closed form knows small eigenvalues to about 1e-8 of
+  // the greatest.
+  if (!(variances(1) > 1e-6 * variances(2))) return shape;
   const Eigen::Vector3f normal = solver.eigenvectors().col(0).normalized().cast<float>();
   shape.normal = normal.dot(point) > 0.0F ? Eigen::Vector3f(-normal) : normal;
   shape.surface_variation = static_cast<float>(variances(0) / variances.sum());

@@ -46,7 +46,7 @@ std::any OnceTable::get_any(const std::string& what, const std::string& paramete
     } catch (...) {
       entry->error = std::current_exception();
     }
-    log_->add({what, now_s() - start - (shared_work_s - spent_before)});
+    log_->add({prefix_ + what, now_s() - start - (shared_work_s - spent_before)});
   });
   // All of the wall time was shared work, that inside nested calls too.
   shared_work_s = spent_before + (now_s() - start);

@@ -37,7 +37,9 @@ double seconds_spent_on_shared_work();
 /// and thrown again.
 class OnceTable {
  public:
-  explicit OnceTable(std::shared_ptr<OnceLog> log) : log_(std::move(log)) {}
+  /// What is made goes to `log`, each thing's name behind `prefix`.
+  OnceTable(std::shared_ptr<OnceLog> log, std::string prefix)
+      : log_(std::move(log)), prefix_(std::move(prefix)) {}
 
   /// The thing that is `what` with these `parameters`, made by `make` at the first call. The two
   /// belong to one type; the log knows it as `what`.
@@ -58,6 +60,7 @@ class OnceTable {
                    const std::function<std::any()>& make) const;
 
   std::shared_ptr<OnceLog> log_;
+  std::string prefix_;
   mutable std::mutex mutex_;
   mutable std::map<std::pair<std::string, std::string>, std::shared_ptr<Entry>> entries_;
 };

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/geometry/loaded_cloud.hpp"
 #include "framework/geometry/rigid_transform.hpp"
 
 namespace croon {
@@ -15,7 +16,7 @@ namespace croon {
 struct SensorScan {
   std::string sensor;                   ///< The sensor's name, "front".
   std::string file;                     ///< For messages and digests; empty where there is no file.
-  std::function<PointCloud()> load;     ///< Throws InputError where the file is not what it says.
+  std::function<LoadedCloud()> load;    ///< Throws InputError where the file is not what it says.
   std::optional<RigidTransform> truth;  ///< Ground truth.
   std::optional<RigidTransform> nominal;  ///< The pose on the rig's drawing.
   std::optional<RigidTransform> initial;  ///< The start that the recording came with.

@@ -129,8 +129,8 @@ std::map<int, SensorScan> listed_scans(const ScenePlace& place) {
       if (!names.insert(name).second) {
         throw InputError(list.string(), cloud.place, "a second sensor is called \"" + name + "\"");
       }
-      scans[cloud.device_id] = SensorScan{
-          name, file.string(), [file] { return read_point_cloud(file).points; }, {}, {}, {}};
+      scans[cloud.device_id] =
+          SensorScan{name, file.string(), [file] { return read_point_cloud(file); }, {}, {}, {}};
     });
   }
   if (!faults.empty()) throw InputError(faults);

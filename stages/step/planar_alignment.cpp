@@ -44,7 +44,7 @@ class PlanarAlignment final : public Step {
 StageEntry planar_alignment() {
   return stage_entry<PlanarAlignment>(
       "planar_alignment",
-      "Moves the sensor over the ground to the least nearest-neighbour distance: x, y.",
+      "Moves the sensor along the reference's x and y to the least nearest-neighbour distance.",
       "CROON (arXiv 2203.03182), rough calibration", table());
 }
 

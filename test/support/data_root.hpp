@@ -7,13 +7,14 @@
 
 namespace croon::test {
 
-/// The folder of the authors' samples: CROON_DATA, else shared/data beside the checkout, else data/ in it;
-/// empty where there is none.
+/// The folder of the authors' samples: CROON_DATA, else shared/data beside the checkout, else data/
+/// in it; empty where there is none.
 std::filesystem::path data_root();
 
 }  // namespace croon::test
 
-/// Ends a test that wants the authors' samples and does not find them; it says so and counts as skipped.
+/// Ends a test that wants the authors' samples and does not find them; it says so and counts as
+/// skipped.
 #define CROON_SKIP_WITHOUT_DATA()                                                      \
   if (croon::test::data_root().empty()) {                                              \
     GTEST_SKIP() << "the authors' samples are not here; set CROON_DATA to their root"; \

@@ -12,7 +12,8 @@ Rng test_rng(std::uint64_t seed = 1);
 /// A pose with a rotation uniform on SO(3) and a translation within +-`extent_m`.
 RigidTransform random_pose(Rng& rng, double extent_m);
 
-/// A pose within +-`rotation_deg` per axis and +-`translation_m` per axis of `pose`, as a start is drawn.
+/// A pose within +-`rotation_deg` per axis and +-`translation_m` per axis of `pose`, as a start is
+/// drawn.
 RigidTransform pose_near(Rng& rng, const RigidTransform& pose, double rotation_deg,
                          double translation_m);
 
@@ -20,8 +21,8 @@ RigidTransform pose_near(Rng& rng, const RigidTransform& pose, double rotation_d
 PointCloud random_cloud(Rng& rng, int count, double extent_m);
 
 /// A street as a LiDAR 2 m above it may see it, 20 m around: ground, two house fronts along x with
-/// protrusions, boxes and poles. `count` points, uniform over the surfaces, with `noise_m` of normal noise.
-/// Two calls with the same `scene_seed` sample the same street at different points.
+/// protrusions, boxes and poles. `count` points, uniform over the surfaces, with `noise_m` of
+/// normal noise. Two calls with the same `scene_seed` sample the same street at different points.
 PointCloud random_street(Rng& rng, std::uint64_t scene_seed, int count, double noise_m);
 
 }  // namespace croon::test

@@ -175,7 +175,7 @@ TEST_F(BadInput, UnknownParameter) {
 TEST_F(BadInput, DuplicateKeyAndAnotherFault) {
   edit("\"trials\": 1", "\"trials\": 1, \"trials\": 0");
   expect_refused({": /starts/trials: the key \"trials\" stands here twice",
-                  ": /starts/trials: expected a whole number from 1 to 1000000000, found 0"});
+                  ": /starts/trials: expected a whole number from 1 to 1000000, found 0"});
 }
 
 TEST_F(BadInput, TwoFaultsAtOnce) {
@@ -276,6 +276,22 @@ TEST_F(BadInput, Shards) {
         {"--shard: expected K/N with 1 <= K <= N, found \"" + std::string(shard) + "\""},
         "--shard=" + std::string(shard));
   }
+}
+
+TEST_F(BadInput, AHugeShardHoldsOneTrial) {
+  const Answer answer = run("--shard 2/2147483647 --trials 3");
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  EXPECT_NE(answer.text.find(" 1/1 "), std::string::npos) << answer.text;
+}
+
+TEST_F(BadInput, AKeyWithALineBreakIsOneLine) {
+  edit("\"starts\"", "\"sta\\nrts\"");
+  expect_refused_with({"unknown key \"sta?rts\""});
+}
+
+TEST_F(BadInput, MoreTrialsThanFit) {
+  expect_refused({"--trials: expected a whole number from 1 to 1000000, found 1000000000"},
+                 "--trials 1000000000");
 }
 
 TEST_F(BadInput, UnknownVariant) {

@@ -84,7 +84,7 @@ TEST(ExperimentLoader, ShowsAllFaultsAtTheirPlaces) {
                    "/starts/around: expected one of truth, nominal, initial, found \"turth\"; did "
                    "you mean \"truth\"?",
                    "/starts/rotation_deg: expected a number from 0 to 180, found 181",
-                   "/starts/trials: expected a whole number from 1 to 1000000000, found 0",
+                   "/starts/trials: expected a whole number from 1 to 1000000, found 0",
                    "/success/rotation: unknown key \"rotation\"; did you mean \"rotation_deg\"?",
                    "/pipeline/1: two steps are called \"drift\": give one of them a \"name\"",
                    "/pipeline/0/size_m: expected a number, found \"far\"",

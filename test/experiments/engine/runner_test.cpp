@@ -107,6 +107,12 @@ TEST(Runner, TrialsOfVariantsArePaired) {
   EXPECT_NE(bits(both.records[0]), bits(both.records[1]));
 }
 
+TEST(Runner, EndsWhereMemoryDoesAndRecordsNothing) {
+  json experiment = drifting();
+  experiment["pipeline"][1]["how"] = "memory";
+  EXPECT_THROW(run(experiment), std::bad_alloc);
+}
+
 TEST(Runner, SaysHowATrialEnded) {
   struct Case {
     const char* how;
@@ -115,9 +121,8 @@ TEST(Runner, SaysHowATrialEnded) {
     bool has_pose;
   };
   for (const Case& c : {Case{"pass", Status::inaccurate, "", true},
-                        Case{"reject", Status::rejected, "too few points", true},
+                        Case{"reject", Status::rejected, "behave: too few points", true},
                         Case{"defeat", Status::failed, "behave: no ground", false},
-                        Case{"memory", Status::failed, "behave: std::bad_alloc", false},
                         Case{"nan", Status::failed, "the pose is not finite", false}}) {
     json experiment = drifting();
     experiment["pipeline"][1]["how"] = c.how;

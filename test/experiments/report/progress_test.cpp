@@ -36,14 +36,14 @@ TEST(Progress, ALogGetsALineAtEveryTenthAndEveryTenSeconds) {
   run.progress.advance(99);
   EXPECT_EQ(run.out.str(), "");
   run.progress.advance(1);
-  EXPECT_EQ(run.out.str(), "100/1000  100/s  0:09 left  0001\n");
+  EXPECT_EQ(run.out.str(), "100/1000  100/s  0:09 to go  0001\n");
   run.out.str("");
   run.now_s += 9.9;
   run.progress.advance(1);
   EXPECT_EQ(run.out.str(), "");
   run.now_s += 0.1;
   run.progress.advance(9);
-  EXPECT_EQ(run.out.str(), "110/1000  10/s  1:29 left  0001\n");
+  EXPECT_EQ(run.out.str(), "110/1000  10/s  1:29 to go  0001\n");
   run.out.str("");
   run.progress.advance(890);
   run.progress.finish();
@@ -59,7 +59,7 @@ TEST(Progress, ATerminalGetsOneLineDrawnAnew) {
   run.now_s += 4.0;
   run.progress.advance();
   const std::string bar =
-      "\r[############............] 2/4  0.50/s  0:04 left  a scene with a name";
+      "\r[############............] 2/4  0.50/s  0:04 to go  a scene with a name";
   EXPECT_EQ(run.out.str(), bar);
   run.out.str("");
   run.progress.advance(2);
@@ -83,7 +83,7 @@ TEST(Progress, WhatTheStoreHasIsDoneButNotPartOfTheRate) {
   run.out.str("");
   run.now_s += 10.0;
   run.progress.advance(10);
-  EXPECT_EQ(run.out.str(), "90/100  1.00/s  0:10 left\n");
+  EXPECT_EQ(run.out.str(), "90/100  1.00/s  0:10 to go\n");
 }
 
 TEST(Progress, NothingToDoIsDone) {

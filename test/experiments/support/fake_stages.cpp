@@ -49,7 +49,7 @@ class FakeDataset final : public Dataset {
     scan.load = [seed, is_readable, count = params_.points] {
       if (!is_readable) throw InputError("/data/fake.pcd", "byte 7", "expected points");
       Rng points = test_rng(seed);
-      return random_cloud(points, count, 10.0);
+      return LoadedCloud{random_cloud(points, count, 10.0), 0};
     };
     return scan;
   }

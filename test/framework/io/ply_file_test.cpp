@@ -67,9 +67,11 @@ TEST(PlyFile, ReadsWhatWasWritten) {
   const test::TempFolder folder;
   for (const int count : {0, 1, 1000}) {
     const PointCloud cloud = test::random_cloud(rng, count, 100.0);
-    write_ply(folder.path() / "a.ply", cloud);
-    check_point_cloud_file(folder.path() / "a.ply");
-    EXPECT_EQ(read_ply(folder.path() / "a.ply").points, cloud);
+    for (const PlyFormat format : {PlyFormat::binary_little_endian, PlyFormat::ascii}) {
+      write_ply(folder.path() / "a.ply", cloud, format);
+      check_point_cloud_file(folder.path() / "a.ply");
+      EXPECT_EQ(read_ply(folder.path() / "a.ply").points, cloud);
+    }
   }
   EXPECT_NE(test::input_error([&] { write_ply(folder.path() / "no" / "a.ply", {}); }), "");
 }

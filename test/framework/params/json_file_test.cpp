@@ -40,6 +40,11 @@ TEST(ParseJson, SaysWhereItIsNotJson) {
   EXPECT_EQ(faults_of("{} {}").size(), 1u);
 }
 
+TEST(ParseJson, RefusesWhatIsNestedTooDeeply) {
+  EXPECT_EQ(faults_of(std::string(200000, '[')).size(), 1u);
+  EXPECT_TRUE(faults_of(std::string(50, '[') + std::string(50, ']')).empty());
+}
+
 TEST(ReadJsonFile, RefusesWhatIsNotAFile) {
   EXPECT_THROW(read_json_file("/no/such/file.json"), InputError);
   EXPECT_THROW(read_json_file("/"), InputError);

@@ -60,7 +60,7 @@ TEST(Cloud, TimesNestedWorkOnceAndDerivedCloudsToo) {
   ASSERT_EQ(timings.size(), 3u);
   EXPECT_EQ(timings[0].what, "inner");
   EXPECT_EQ(timings[1].what, "outer");
-  EXPECT_EQ(timings[2].what, "kd_tree");
+  EXPECT_EQ(timings[2].what, "part/kd_tree");
   EXPECT_LT(timings[1].seconds, timings[0].seconds);
   EXPECT_NEAR(timings[0].seconds + timings[1].seconds, spent, 1e-3);
 }

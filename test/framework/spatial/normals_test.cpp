@@ -41,6 +41,19 @@ TEST(Normals, AreUndefinedOnALineAndAmongEqualPoints) {
   }
 }
 
+TEST(Normals, AreUndefinedOnLinesOfAnyDirection) {
+  Rng rng = test::test_rng();
+  for (int trial = 0; trial < 500; ++trial) {
+    const RigidTransform pose = test::random_pose(rng, 10.0);
+    PointCloud line;
+    for (int i = 0; i < 40; ++i) {
+      line.push_back((pose * Eigen::Vector3d(rng.uniform(-2, 2), 0, 0)).cast<float>());
+    }
+    const KdTree tree(line);
+    EXPECT_TRUE(Normals(line, tree, 40).at(0).normal.isZero());
+  }
+}
+
 TEST(Normals, VariationTellsARoundCloudFromAFlatOne) {
   Rng rng = test::test_rng();
   PointCloud cloud = test::random_cloud(rng, 400, 1.0);

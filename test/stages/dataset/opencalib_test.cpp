@@ -55,10 +55,10 @@ TEST_F(MadeUpRig, IsAFolderOfScenesOrOneScene) {
     ASSERT_EQ(one.size(), 1u);
     EXPECT_EQ(one[0].name, "b");
     EXPECT_EQ(one[0].reference.sensor, "top");
-    EXPECT_EQ(one[0].reference.load(), (PointCloud{{1, 0, 0}}));
+    EXPECT_EQ(one[0].reference.load().points, (PointCloud{{1, 0, 0}}));
     ASSERT_EQ(one[0].sensors.size(), 1u);
     EXPECT_EQ(one[0].sensors[0].sensor, "left");
-    EXPECT_EQ(one[0].sensors[0].load(), (PointCloud{{2, 0, 0}}));
+    EXPECT_EQ(one[0].sensors[0].load().points, (PointCloud{{2, 0, 0}}));
     EXPECT_FALSE(one[0].sensors[0].truth || one[0].sensors[0].nominal || one[0].sensors[0].initial);
   }
   EXPECT_EQ(scenes(root / "rig" / "a", ".")[0].name, "a");
@@ -95,7 +95,7 @@ TEST_F(MadeUpRig, FindsCloudsWhereverTheListWasWritten) {
     while (entry.find("\\\\") != std::string::npos) entry.replace(entry.find("\\\\"), 2, "\\");
     folder.write("data/rig/a/lidar_cloud_path.txt",
                  "device_id: 0\npath: top-1.pcd\ndevice_id: 1\npath: " + entry + "\n");
-    EXPECT_EQ(scenes(root, "rig/a")[0].sensors[0].load(), (PointCloud{{2, 0, 0}})) << entry;
+    EXPECT_EQ(scenes(root, "rig/a")[0].sensors[0].load().points, (PointCloud{{2, 0, 0}})) << entry;
   }
 }
 
@@ -167,7 +167,7 @@ TEST(Opencalib, ReadsTheAuthorsSamples) {
   const std::vector<Scene> carla = scenes(test::data_root(), "opencalib/carla");
   ASSERT_GE(carla.size(), 2u);
   EXPECT_EQ(carla[0].name, "004069");
-  EXPECT_EQ(carla[0].reference.load().size(), 89021u);
+  EXPECT_EQ(carla[0].reference.load().points.size(), 89021u);
   ASSERT_EQ(carla[0].sensors.size(), 4u);
   for (const SensorScan& scan : carla[0].sensors) {
     EXPECT_TRUE(scan.truth && scan.initial && !scan.nominal) << scan.sensor;
@@ -178,7 +178,7 @@ TEST(Opencalib, ReadsTheAuthorsSamples) {
   ASSERT_EQ(real.size(), 1u);
   ASSERT_EQ(real[0].sensors.size(), 2u);
   EXPECT_TRUE(real[0].sensors[1].nominal && !real[0].sensors[1].truth);
-  EXPECT_EQ(real[0].sensors[1].load().size(), 9487u);
+  EXPECT_EQ(real[0].sensors[1].load().points.size(), 9487u);
 }
 
 }  // namespace

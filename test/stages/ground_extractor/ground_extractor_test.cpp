@@ -163,9 +163,18 @@ TEST_P(EveryGroundExtractor, PointsThatAreNotFiniteAreRefusedOrAreNotGround) {
   }
 }
 
-TEST_P(EveryGroundExtractor, RefusesAFinalSlabThatIsWiderThanTheFirst) {
-  EXPECT_THROW(extractor(GetParam(), R"(, "threshold_m": 0.1, "refit_threshold_m": 0.2)"),
-               InputError);
+TEST_P(EveryGroundExtractor, FitsTheFinalPlaneWithinTheSlab) {
+  // A wider final slab is the slab itself.
+  Rng scene = test::test_rng(3);
+  const PointCloud street = test::random_street(scene, 3, 6000, 0.01);
+  const auto plane_of = [&](const std::string& parameters) {
+    Rng rng = test::test_rng();
+    return extractor(GetParam(), parameters)->extract(street, rng).plane;
+  };
+  const Plane wide = plane_of(R"(, "threshold_m": 0.1, "refit_threshold_m": 0.2)");
+  const Plane equal = plane_of(R"(, "threshold_m": 0.1, "refit_threshold_m": 0.1)");
+  EXPECT_EQ(wide.normal, equal.normal);
+  EXPECT_EQ(wide.offset_m, equal.offset_m);
 }
 
 INSTANTIATE_TEST_SUITE_P(Registered, EveryGroundExtractor,

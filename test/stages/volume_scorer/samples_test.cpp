@@ -15,12 +15,12 @@ TEST(VolumeScorers, CountLikeTheSetOnTheAuthorsSamples) {
   for (const std::string rig : {"opencalib/carla", "opencalib/real"}) {
     const auto dataset = test::stage<Dataset>(R"({"type": "opencalib", "path": ")" + rig + R"("})");
     const Scene scene = dataset->scenes(test::data_root()).at(0);
-    const PointCloud reference = scene.reference.load();
+    const PointCloud reference = scene.reference.load().points;
     Rng rng = test::test_rng();
     for (const SensorScan& sensor : scene.sensors) {
       SCOPED_TRACE(rig + " " + scene.name + " " + sensor.sensor);
       const RigidTransform pose = sensor.truth ? *sensor.truth : sensor.nominal.value();
-      test::expect_equal_counts(reference, sensor.load(),
+      test::expect_equal_counts(reference, sensor.load().points,
                                 {pose, test::pose_near(rng, pose, 45.0, 0.1)}, 0.05);
     }
   }
