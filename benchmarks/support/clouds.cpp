@@ -17,8 +17,8 @@ CloudPair sample(const std::string& data_root, const std::string& scene_folder) 
   const SensorScan& sensor = scene.sensors.at(0);
   CloudPair pair;
   pair.name = scene_folder.substr(scene_folder.find('/') + 1) + "/" + sensor.sensor;
-  pair.target = scene.reference.load();
-  pair.source = sensor.load();
+  pair.target = scene.reference.load().points;
+  pair.source = sensor.load().points;
   pair.T_target_source = sensor.truth ? *sensor.truth : sensor.nominal.value();
   return pair;
 }

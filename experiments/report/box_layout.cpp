@@ -29,7 +29,8 @@ double BoxLayout::width() const {
 }
 
 double BoxLayout::height() const {
-  return kTitleHeight + static_cast<double>(kDofs / columns) * panel_height() + kMargin;
+  const auto rows = kDofs / columns;
+  return kTitleHeight + static_cast<double>(rows) * panel_height() + kMargin;
 }
 
 double BoxPanel::y(double value) const {
