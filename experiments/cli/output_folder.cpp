@@ -4,12 +4,20 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <vector>
 
 #include "experiments/engine/store.hpp"
 #include "framework/base/error.hpp"
 
 namespace croon::experiments {
+namespace {
+
+constexpr std::array<const char*, 6> kReports = {"trials.csv",   "timings.csv",   "summary.csv",
+                                                 "summary.json", "box_plots.svg", "manifest.json"};
+
+}  // namespace
 
 OutputFolder::OutputFolder(const std::filesystem::path& path) : path_(path) {
   std::error_code error;
@@ -19,6 +27,12 @@ OutputFolder::OutputFolder(const std::filesystem::path& path) : path_(path) {
   }
   if (::access(path.c_str(), W_OK | X_OK) != 0) {
     throw InputError(path.string(), "", "expected a folder that may be written to");
+  }
+  std::vector<std::filesystem::path> files = store_files(store());
+  for (const char* name : kReports) files.push_back(file(name));
+  for (const std::filesystem::path& to_write : files) {
+    if (!std::filesystem::is_directory(to_write, error)) continue;
+    throw InputError(to_write.string(), "", "expected a file or nothing, found a folder");
   }
   lock_ = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   // A file system that cannot lock folders is no fault: SQLite locks the store besides.
@@ -34,10 +48,8 @@ OutputFolder::~OutputFolder() {
 
 void OutputFolder::clear() const {
   std::vector<std::filesystem::path> old = store_files(store());
-  for (const char* name : {"trials.csv", "timings.csv", "summary.csv", "summary.json",
-                           "box_plots.svg", "manifest.json", "clouds"}) {
-    old.push_back(file(name));
-  }
+  for (const char* name : kReports) old.push_back(file(name));
+  old.push_back(clouds());
   for (const std::filesystem::path& path : old) {
     std::error_code error;
     std::filesystem::remove_all(path, error);

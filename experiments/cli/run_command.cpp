@@ -41,20 +41,32 @@ std::filesystem::path data_root(const RunOptions& options) {
   return set != nullptr && *set != '\0' ? set : "data";
 }
 
+/// Takes `trials` for those of the file; 0 keeps them.
+void set_trials(Experiment& experiment, int trials) {
+  if (trials > kMaxTrials) {
+    throw InputError("", "--trials",
+                     "expected a whole number from 1 to " + std::to_string(kMaxTrials) +
+                         ", found " + std::to_string(trials));
+  }
+  if (trials > 0) experiment.starts.trials = trials;
+}
+
 CheckedRun check(const RunOptions& options, const Catalogue& catalogue) {
   CheckedRun run;
   run.experiment = load_experiment(options.experiment, catalogue);
-  if (options.trials > kMaxTrials) {
-    throw InputError("", "--trials",
-                     "expected a whole number from 1 to " + std::to_string(kMaxTrials) +
-                         ", found " + std::to_string(options.trials));
-  }
-  if (options.trials > 0) run.experiment.starts.trials = options.trials;
-  run.selection.variants = select_variants(run.experiment, options.only);
-  if (!options.shard.empty()) run.selection.shard = read_shard(options.shard);
   run.data_root = data_root(options);
-  run.scenes = run.experiment.dataset->scenes(run.data_root);
-  check_centres(run.experiment, run.scenes);
+  std::vector<Fault> faults;
+  collect_faults(faults, [&] { set_trials(run.experiment, options.trials); });
+  collect_faults(faults,
+                 [&] { run.selection.variants = select_variants(run.experiment, options.only); });
+  collect_faults(faults, [&] {
+    if (!options.shard.empty()) run.selection.shard = read_shard(options.shard);
+  });
+  collect_faults(faults, [&] {
+    run.scenes = run.experiment.dataset->scenes(run.data_root);
+    check_centres(run.experiment, run.scenes);
+  });
+  if (!faults.empty()) throw InputError(std::move(faults));
   run.out = options.out;
   if (run.out.empty()) run.out = std::filesystem::path("results") / run.experiment.name;
   run.jobs = options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "experiments/engine/names.hpp"
 #include "experiments/engine/variants.hpp"
@@ -93,16 +92,6 @@ std::string read_description(const Node& root) {
   std::string description;
   if (root.has("description")) root.member("description").read(description);
   return description;
-}
-
-/// `faults` with each line once: variants share most of their pipelines.
-std::vector<Fault> without_repeats(const std::vector<Fault>& faults) {
-  std::vector<Fault> once;
-  std::set<std::string> lines;
-  for (const Fault& fault : faults) {
-    if (lines.insert(fault.line()).second) once.push_back(fault);
-  }
-  return once;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "framework/base/error.hpp"
 
+#include <set>
 #include <utility>
 
 namespace croon {
@@ -26,6 +27,23 @@ std::string Fault::line() const {
     if (static_cast<unsigned char>(c) < 0x20) c = '?';
   }
   return text;
+}
+
+void collect_faults(std::vector<Fault>& faults, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const InputError& error) {
+    faults.insert(faults.end(), error.faults().begin(), error.faults().end());
+  }
+}
+
+std::vector<Fault> without_repeats(const std::vector<Fault>& faults) {
+  std::vector<Fault> once;
+  std::set<std::string> lines;
+  for (const Fault& fault : faults) {
+    if (lines.insert(fault.line()).second) once.push_back(fault);
+  }
+  return once;
 }
 
 InputError::InputError(std::vector<Fault> faults)

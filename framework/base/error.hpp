@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -29,6 +30,12 @@ class InputError : public std::runtime_error {
  private:
   std::vector<Fault> faults_;
 };
+
+/// Does `work` and notes in `faults` those of the InputError that it throws.
+void collect_faults(std::vector<Fault>& faults, const std::function<void()>& work);
+
+/// `faults` with each line once, in order.
+std::vector<Fault> without_repeats(const std::vector<Fault>& faults);
 
 /// The data defeated a stage (no ground, too few correspondences, ...). The trial is recorded as
 /// `failed` with this reason and the run goes on.

@@ -38,16 +38,6 @@ struct ScenePlace {
   fs::path root;
 };
 
-/// Does `work`; notes what InputError it throws.
-template <class Work>
-void collect_faults(std::vector<Fault>& faults, const Work& work) {
-  try {
-    work();
-  } catch (const InputError& error) {
-    faults.insert(faults.end(), error.faults().begin(), error.faults().end());
-  }
-}
-
 /// The folder and those above it, up to the data root.
 std::vector<fs::path> folders_up(const ScenePlace& place) {
   std::vector<fs::path> folders = {place.folder};
@@ -182,16 +172,6 @@ std::vector<ScenePlace> scene_places(const fs::path& folder, const fs::path& roo
   return places;
 }
 
-/// Without repetitions: scenes share the files above them.
-std::vector<Fault> different(const std::vector<Fault>& faults) {
-  std::vector<Fault> out;
-  std::set<std::string> lines;
-  for (const Fault& fault : faults) {
-    if (lines.insert(fault.line()).second) out.push_back(fault);
-  }
-  return out;
-}
-
 class OpenCalib final : public Dataset {
  public:
   explicit OpenCalib(Params params) : params_(std::move(params)) {}
@@ -212,7 +192,7 @@ class OpenCalib final : public Dataset {
     for (const ScenePlace& place : scene_places(folder, fs::canonical(data_root))) {
       collect_faults(faults, [&] { scenes.push_back(read_scene(place)); });
     }
-    if (!faults.empty()) throw InputError(different(faults));
+    if (!faults.empty()) throw InputError(without_repeats(faults));
     return scenes;
   }
 

@@ -61,10 +61,11 @@ class BadInput : public testing::Test {
     folder_.write("e.json", replaced(kExperiment, from, to));
   }
 
-  Answer run(const std::string& options = "") {
+  /// Runs the experiment into the folder `out` of the test's.
+  Answer run(const std::string& options = "", const std::string& out = "out") {
     const std::string root = folder_.path().string();
-    return croon("run " + root + "/e.json --data " + root + "/data --quiet --out " + root +
-                 "/out " + options);
+    return croon("run " + root + "/e.json --data " + root + "/data --quiet --out " + root + "/" +
+                 out + " " + options);
   }
 
   /// The request is refused with exactly `lines` (each after "croon: " and the experiment's path
@@ -304,9 +305,26 @@ TEST_F(BadInput, UnknownOption) {
 
 TEST_F(BadInput, OutputThatCannotBeWritten) {
   folder_.write("file", "");
-  const Answer answer = run("--out " + folder_.path().string() + "/file/out");
+  const Answer answer = run("", "file/out");
   EXPECT_EQ(answer.code, 2);
+  EXPECT_NE(answer.text.find("/file/out: expected a folder to write to"), std::string::npos)
+      << answer.text;
   EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << answer.text;
+}
+
+TEST_F(BadInput, OutputWhereAFolderStands) {
+  folder_.write("other/trials.csv/x", "");
+  const Answer answer = run("", "other");
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_EQ(answer.text, "croon: " + folder_.path().string() +
+                             "/other/trials.csv: expected a file or nothing, found a folder\n");
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "other/store.sqlite"));
+}
+
+TEST_F(BadInput, FaultsOfSeveralOptions) {
+  expect_refused({"--only: there is no variant \"plan\"; did you mean \"plane\"?",
+                  "--shard: expected K/N with 1 <= K <= N, found \"3/2\""},
+                 "--only plan --shard 3/2");
 }
 
 TEST_F(BadInput, ResultsOfAnotherExperiment) {
