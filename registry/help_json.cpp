@@ -31,9 +31,15 @@ const char* type_name(ParameterType type) {
       return "stage";
     case ParameterType::stages:
       return "stages";
+    case ParameterType::group:
+      return "group";
+    case ParameterType::map:
+      return "map";
   }
   throw std::logic_error("a parameter type without a name");
 }
+
+ordered_json parameters_json(const std::vector<ParameterDoc>& parameters);
 
 ordered_json parameter_json(const ParameterDoc& parameter) {
   ordered_json value = {{"key", parameter.key}, {"type", type_name(parameter.type)}};
@@ -41,10 +47,18 @@ ordered_json parameter_json(const ParameterDoc& parameter) {
   if (std::isfinite(parameter.range.maximum)) value["maximum"] = parameter.range.maximum;
   if (!parameter.choices.empty()) value["choices"] = parameter.choices;
   if (!parameter.stage_kind.empty()) value["kind"] = parameter.stage_kind;
+  if (!parameter.name_words.empty()) value["names"] = parameter.name_words;
   value["required"] = parameter.is_required;
   if (!parameter.is_required) value["default"] = ordered_json::parse(parameter.default_json);
   value["sentence"] = parameter.sentence;
+  if (!parameter.members.empty()) value["members"] = parameters_json(parameter.members);
   return value;
+}
+
+ordered_json parameters_json(const std::vector<ParameterDoc>& parameters) {
+  ordered_json list = ordered_json::array();
+  for (const ParameterDoc& parameter : parameters) list.push_back(parameter_json(parameter));
+  return list;
 }
 
 }  // namespace
@@ -52,15 +66,11 @@ ordered_json parameter_json(const ParameterDoc& parameter) {
 std::string json_list(const StageList& stages) {
   ordered_json list = ordered_json::array();
   for (const StageEntry* stage : stages) {
-    ordered_json parameters = ordered_json::array();
-    for (const ParameterDoc& parameter : stage->parameters) {
-      parameters.push_back(parameter_json(parameter));
-    }
     list.push_back({{"kind", stage->kind},
                     {"name", stage->name},
                     {"summary", stage->summary},
                     {"source", stage->source},
-                    {"parameters", parameters}});
+                    {"parameters", parameters_json(stage->parameters)}});
   }
   return list.dump(2) + "\n";
 }

@@ -28,11 +28,11 @@ std::string markdown_section(const StageEntry& stage) {
                      "\n\nSource: " + stage.source + ". In JSON: " + code(example(stage)) + "\n";
   if (stage.parameters.empty()) return text + "\nIt has no parameters.\n";
   text += "\n| parameter | takes | default | what it does |\n|---|---|---|---|\n";
-  for (const params::ParameterDoc& parameter : stage.parameters) {
+  for (const auto& [path, parameter] : placed_parameters(stage.parameters)) {
     const std::string standard =
-        parameter.is_required ? "required" : code(default_words(parameter));
-    text += "| " + code(parameter.key) + " | " + parameter_type(parameter) + " | " + standard +
-            " | " + parameter.sentence + " |\n";
+        parameter->is_required ? "required" : code(default_words(*parameter));
+    text += "| " + code(path) + " | " + parameter_type(*parameter) + " | " + standard + " | " +
+            parameter->sentence + " |\n";
   }
   return text;
 }

@@ -32,11 +32,11 @@ std::string text_table(const StageList& stages) {
 std::string text_page(const StageEntry& stage) {
   std::string text =
       stage.kind + "/" + stage.name + "\n  " + stage.summary + "\n  Source: " + stage.source + "\n";
-  for (const params::ParameterDoc& parameter : stage.parameters) {
+  for (const auto& [path, parameter] : placed_parameters(stage.parameters)) {
     const std::string standard =
-        parameter.is_required ? "required" : "default " + default_words(parameter);
-    text += "\n  " + parameter.key + ": " + type_words(parameter, as_it_is) + "; " + standard +
-            "\n      " + parameter.sentence + "\n";
+        parameter->is_required ? "required" : "default " + default_words(*parameter);
+    text += "\n  " + path + ": " + type_words(*parameter, as_it_is) + "; " + standard + "\n      " +
+            parameter->sentence + "\n";
   }
   if (stage.parameters.empty()) text += "\n  It has no parameters.\n";
   return text;

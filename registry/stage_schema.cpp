@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "framework/params/group.hpp"
 #include "framework/params/values.hpp"
 #include "registry/schema_parts.hpp"
 
@@ -38,6 +39,50 @@ ordered_json word_list_schema(const std::vector<std::string>& words) {
   return schema;
 }
 
+/// Puts the parameters among the properties of an object, and their keys among the required ones.
+void add_parameters(const std::vector<ParameterDoc>& parameters, ordered_json& properties,
+                    ordered_json& required) {
+  for (const ParameterDoc& parameter : parameters) {
+    properties[parameter.key] = parameter_schema(parameter);
+    if (parameter.is_required) required.push_back(parameter.key);
+  }
+}
+
+/// The object of a group, or each object of a map.
+ordered_json object_schema(const ParameterDoc& parameter) {
+  ordered_json properties = ordered_json::object();
+  if (!parameter.choices.empty()) {
+    properties[params::kLikeKey] = {{"enum", parameter.choices},
+                                    {"description", "The preset to begin with."}};
+  }
+  ordered_json required = ordered_json::array();
+  add_parameters(parameter.members, properties, required);
+  ordered_json schema = {
+      {"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  if (required.empty()) return schema;
+  if (parameter.choices.empty()) {
+    schema["required"] = required;
+  } else {
+    // A preset has a value for every key.
+    const ordered_json like = {{"required", ordered_json::array({params::kLikeKey})}};
+    schema["anyOf"] = ordered_json::array({like, {{"required", required}}});
+  }
+  return schema;
+}
+
+ordered_json group_schema(const ParameterDoc& parameter) {
+  const ordered_json object = object_schema(parameter);
+  if (parameter.choices.empty()) return object;
+  return {{"anyOf", ordered_json::array({{{"enum", parameter.choices}}, object})}};
+}
+
+ordered_json map_schema(const ParameterDoc& parameter) {
+  return {{"type", "object"},
+          {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]+$"}}},
+          {"additionalProperties", object_schema(parameter)},
+          {"minProperties", 1}};
+}
+
 ordered_json value_schema(const ParameterDoc& parameter) {
   switch (parameter.type) {
     case ParameterType::boolean:
@@ -58,6 +103,10 @@ ordered_json value_schema(const ParameterDoc& parameter) {
       return definition(parameter.stage_kind);
     case ParameterType::stages:
       return list_schema(definition(parameter.stage_kind));
+    case ParameterType::group:
+      return group_schema(parameter);
+    case ParameterType::map:
+      return map_schema(parameter);
   }
   throw std::logic_error("a parameter type without a schema");
 }
@@ -83,10 +132,7 @@ ordered_json stage_schema(const StageEntry& entry) {
         {"pattern", "^[A-Za-z0-9_-]+$"},
         {"description", "What variants and timings call the step; else its kind."}};
   }
-  for (const ParameterDoc& parameter : entry.parameters) {
-    properties[parameter.key] = parameter_schema(parameter);
-    if (parameter.is_required) required.push_back(parameter.key);
-  }
+  add_parameters(entry.parameters, properties, required);
   return {{"type", "object"},
           {"description", entry.summary + " Source: " + entry.source + "."},
           {"properties", properties},

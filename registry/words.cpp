@@ -3,6 +3,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "framework/params/group.hpp"
 #include "framework/params/values.hpp"
 
 namespace croon {
@@ -21,6 +22,12 @@ std::string marked_list(const std::vector<std::string>& words, const Mark& mark)
 std::string with_article(const std::string& kind, const std::string& marked) {
   const bool has_vowel = std::string("aeiou").find(kind.front()) != std::string::npos;
   return (has_vowel ? "an " : "a ") + marked + " stage";
+}
+
+std::string group_words(const ParameterDoc& doc, const Mark& mark) {
+  if (doc.choices.empty()) return "an object";
+  return "one of " + marked_list(doc.choices, mark) + ", or an object, which may begin with one (" +
+         mark(params::kLikeKey) + ")";
 }
 
 }  // namespace
@@ -44,6 +51,19 @@ std::string kind_summary(const std::string& kind) {
 
 std::string kind_phrase(const std::string& kind) { return with_article(kind, kind); }
 
+std::vector<PlacedParameter> placed_parameters(const std::vector<ParameterDoc>& parameters,
+                                               const std::string& above) {
+  std::vector<PlacedParameter> placed;
+  for (const ParameterDoc& parameter : parameters) {
+    const std::string path = above + parameter.key;
+    placed.push_back({path, &parameter});
+    const bool is_map = parameter.type == ParameterType::map;
+    const auto below = placed_parameters(parameter.members, path + (is_map ? ".<name>." : "."));
+    placed.insert(placed.end(), below.begin(), below.end());
+  }
+  return placed;
+}
+
 std::string type_words(const ParameterDoc& doc, const Mark& mark) {
   switch (doc.type) {
     case ParameterType::boolean:
@@ -64,6 +84,10 @@ std::string type_words(const ParameterDoc& doc, const Mark& mark) {
       return with_article(doc.stage_kind, mark(doc.stage_kind));
     case ParameterType::stages:
       return "a list, each " + with_article(doc.stage_kind, mark(doc.stage_kind));
+    case ParameterType::group:
+      return group_words(doc, mark);
+    case ParameterType::map:
+      return "an object with " + doc.name_words + " for each key";
   }
   throw std::logic_error("a parameter type without words");
 }

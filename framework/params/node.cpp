@@ -56,9 +56,9 @@ Node Node::element(std::size_t index) const {
   return node;
 }
 
-bool Node::has(const std::string& key) const {
-  return value_->is_object() && value_->contains(key);
-}
+bool Node::has(const std::string& key) const { return has_members() && value_->contains(key); }
+
+bool Node::has_members() const { return value_->is_object(); }
 
 void Node::fault(const std::string& message) const {
   faults_->push_back({file_, pointer_.empty() ? "/" : pointer_, message});
@@ -69,7 +69,7 @@ void Node::expected(const std::string& what) const {
 }
 
 bool Node::is_object() const {
-  if (value_->is_object()) return true;
+  if (has_members()) return true;
   expected("an object");
   return false;
 }

@@ -25,6 +25,8 @@ class Node {
   /// The element `index` of an array.
   Node element(std::size_t index) const;
   bool has(const std::string& key) const;
+  /// True for an object; notes no fault.
+  bool has_members() const;
 
   /// Notes that this value is wrong.
   void fault(const std::string& message) const;

@@ -22,7 +22,9 @@ enum class ParameterType {
   numbers,
   choices,
   stage,
-  stages
+  stages,
+  group,
+  map
 };
 
 /// All that there is to know of one parameter: reading, help, JSON Schema and the reference page
@@ -32,10 +34,13 @@ struct ParameterDoc {
   ParameterType type = ParameterType::number;
   std::string default_json;          ///< JSON text of the default.
   Range range;                       ///< integer, number, numbers.
-  std::vector<std::string> choices;  ///< choice, choices.
+  std::vector<std::string> choices;  ///< choice, choices; the names of a group's presets.
   std::string stage_kind;            ///< stage, stages.
   std::string sentence;              ///< What it does; one sentence with its full stop.
   bool is_required = false;          ///< The key must be there; `default_json` is then no value.
+  std::vector<ParameterDoc> members = {};  ///< group, map: what is in the object, in each object.
+  std::vector<std::string> preset_json = {};  ///< group: the object that each preset stands for.
+  std::string name_words = "";                ///< map: what its keys are, "a sensor's name".
 };
 
 }  // namespace croon::params

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <initializer_list>
 #include <string>
@@ -35,7 +36,7 @@ class Table {
   Table& inherit(const Table<Base>& base) {
     for (const Parameter<Base>& row : base.rows()) {
       ParameterDoc doc = row.doc;
-      if (!row.is_slot) doc.default_json = row.json(P{});
+      if (!row.is_slot) set_default(doc, row.json(P{}));
       parameters_.push_back(
           {doc,
            [read = row.read](P& params, const Node& node, const StageBuilder& builder) {
@@ -60,10 +61,17 @@ class Table {
     return *this;
   }
 
-  /// Reads `node`, an object whose key `name_key` ("type" or "step") was dealt with by the caller.
-  /// Notes all faults in the node.
-  P read(const Node& node, const std::vector<std::string>& other_keys,
-         const StageBuilder& builder) const;
+  /// Reads the object `node` over the values that `params` begins with, and checks the conditions;
+  /// `other_keys` ("type", "step") are the caller's. Notes all faults in the node.
+  P read(const Node& node, const std::vector<std::string>& other_keys, const StageBuilder& builder,
+         P params = P{}) const;
+
+  /// The same without the conditions.
+  void read_members(const Node& node, const std::vector<std::string>& other_keys,
+                    const StageBuilder& builder, P& params) const;
+
+  /// True where `params` has a value for every required key.
+  bool is_whole(const P& params) const;
 
   /// `"key":value` for each parameter, comma-separated, for the resolved JSON.
   std::string members_json(const P& params) const;
@@ -75,18 +83,33 @@ class Table {
   }
 
  private:
+  static bool is_missing(const Parameter<P>& parameter, const P& params) {
+    return parameter.doc.is_required && parameter.json(params) == parameter.doc.default_json;
+  }
+
   std::vector<Parameter<P>> parameters_;
   std::vector<std::pair<std::function<bool(const P&)>, std::string>> conditions_;
 };
 
 template <class P>
 P Table<P>::read(const Node& node, const std::vector<std::string>& other_keys,
-                 const StageBuilder& builder) const {
+                 const StageBuilder& builder, P params) const {
+  const std::size_t faults_before = node.fault_count();
+  read_members(node, other_keys, builder, params);
+  // Of parameters of which one could not be read, nothing can be said together.
+  if (node.fault_count() > faults_before) return params;
+  for (const auto& [holds, message] : conditions_) {
+    if (!holds(params)) node.fault(message);
+  }
+  return params;
+}
+
+template <class P>
+void Table<P>::read_members(const Node& node, const std::vector<std::string>& other_keys,
+                            const StageBuilder& builder, P& params) const {
   std::vector<std::string> known = other_keys;
   for (const Parameter<P>& parameter : parameters_) known.push_back(parameter.doc.key);
   node.refuse_unknown_keys(known);
-  P params;
-  const std::size_t faults_before = node.fault_count();
   for (const Parameter<P>& parameter : parameters_) {
     if (node.has(parameter.doc.key)) {
       parameter.read(params, node.member(parameter.doc.key), builder);
@@ -94,16 +117,16 @@ P Table<P>::read(const Node& node, const std::vector<std::string>& other_keys,
       read_default(parameter.doc, node, [&](const Node& default_node) {
         parameter.read(params, default_node, builder);
       });
-    } else if (parameter.doc.is_required) {
+    } else if (is_missing(parameter, params)) {
       node.require(parameter.doc.key);
     }
   }
-  // Of parameters of which one could not be read, nothing can be said together.
-  if (node.fault_count() > faults_before) return params;
-  for (const auto& [holds, message] : conditions_) {
-    if (!holds(params)) node.fault(message);
-  }
-  return params;
+}
+
+template <class P>
+bool Table<P>::is_whole(const P& params) const {
+  return std::none_of(parameters_.begin(), parameters_.end(),
+                      [&](const Parameter<P>& row) { return is_missing(row, params); });
 }
 
 template <class P>

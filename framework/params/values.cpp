@@ -24,18 +24,9 @@ void read_text(const Node& node, std::string& out) {
 }
 
 bool read_choice(const Node& node, const ParameterDoc& doc, std::string& out) {
-  std::string word;
-  if (!node.read(word)) return false;
-  if (std::find(doc.choices.begin(), doc.choices.end(), word) == doc.choices.end()) {
-    std::string known;
-    for (const std::string& choice : doc.choices) known += (known.empty() ? "" : ", ") + choice;
-    const std::string near = nearest_name(word, doc.choices);
-    node.fault("expected one of " + known + ", found \"" + word + "\"" +
-               (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
-    return false;
-  }
-  out = word;
-  return true;
+  const std::optional<std::size_t> word = read_word(node, doc.choices);
+  if (word) out = doc.choices[*word];
+  return word.has_value();
 }
 
 }  // namespace
@@ -109,6 +100,24 @@ void read_value(const Node& node, const ParameterDoc& doc, std::vector<std::stri
   out = words;
 }
 
+std::optional<std::size_t> read_word(const Node& node, const std::vector<std::string>& words,
+                                     const std::string& or_else) {
+  std::string expected = "one of ";
+  for (const std::string& word : words) expected += (&word == &words[0] ? "" : ", ") + word;
+  expected += or_else;
+  if (!node.value().is_string()) {
+    node.expected(expected);
+    return std::nullopt;
+  }
+  const std::string word = node.value().get<std::string>();
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found != words.end()) return found - words.begin();
+  const std::string near = nearest_name(word, words);
+  node.fault("expected " + expected + ", found \"" + word + "\"" +
+             (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+  return std::nullopt;
+}
+
 std::string value_json(bool value) { return value ? "true" : "false"; }
 std::string value_json(int value) { return std::to_string(value); }
 std::string value_json(double value) {
@@ -123,6 +132,12 @@ std::string value_json(const std::vector<double>& values) {
   return "[" + text + "]";
 }
 std::string value_json(const std::vector<std::string>& words) { return json(words).dump(); }
+
+void set_default(ParameterDoc& doc, const std::string& value) {
+  const auto preset = std::find(doc.preset_json.begin(), doc.preset_json.end(), value);
+  const bool is_preset = preset != doc.preset_json.end();
+  doc.default_json = is_preset ? value_json(doc.choices[preset - doc.preset_json.begin()]) : value;
+}
 
 void read_default(const ParameterDoc& doc, const Node& node,
                   const std::function<void(const Node&)>& use) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,11 @@ void read_value(const Node& node, const ParameterDoc& doc, std::string& out);
 void read_value(const Node& node, const ParameterDoc& doc, std::vector<double>& out);
 void read_value(const Node& node, const ParameterDoc& doc, std::vector<std::string>& out);
 
+/// Which of `words` the node is; notes a fault, with the nearest of them, where it is none.
+/// `or_else` names what else may stand there: " or an object".
+std::optional<std::size_t> read_word(const Node& node, const std::vector<std::string>& words,
+                                     const std::string& or_else = "");
+
 /// The JSON text of a value.
 std::string value_json(bool value);
 std::string value_json(int value);
@@ -25,6 +31,9 @@ std::string value_json(double value);
 std::string value_json(const std::string& value);
 std::string value_json(const std::vector<double>& value);
 std::string value_json(const std::vector<std::string>& value);
+
+/// Sets the parameter's default to the JSON text `value`, or to the name of the preset that has it.
+void set_default(ParameterDoc& doc, const std::string& value);
 
 /// Calls `use` with the parameter's default as a node; a fault in it is noted at `node`.
 void read_default(const ParameterDoc& doc, const Node& node,

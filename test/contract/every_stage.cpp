@@ -8,15 +8,39 @@
 
 namespace croon::test {
 
+namespace {
+
+using params::ParameterDoc;
+using params::ParameterType;
+
+/// A value that the required parameter takes.
+nlohmann::ordered_json any_value(const ParameterDoc& parameter) {
+  switch (parameter.type) {
+    case ParameterType::text:
+      return "some/words";
+    case ParameterType::group:
+      if (!parameter.choices.empty()) return parameter.choices.front();
+      return minimal_object(parameter.members);
+    case ParameterType::map:
+      return {{kAnyName, minimal_object(parameter.members)}};
+    default:
+      throw std::logic_error("no value for the required key " + parameter.key);
+  }
+}
+
+}  // namespace
+
+nlohmann::ordered_json minimal_object(const std::vector<ParameterDoc>& parameters) {
+  nlohmann::ordered_json value = nlohmann::ordered_json::object();
+  for (const ParameterDoc& parameter : parameters) {
+    if (parameter.is_required) value[parameter.key] = any_value(parameter);
+  }
+  return value;
+}
+
 std::string minimal_json(const StageEntry& entry) {
   nlohmann::ordered_json value = {{name_key(entry.kind), entry.name}};
-  for (const params::ParameterDoc& parameter : entry.parameters) {
-    if (!parameter.is_required) continue;
-    if (parameter.type != params::ParameterType::text) {
-      throw std::logic_error("no value for the required key " + parameter.key);
-    }
-    value[parameter.key] = "some/words";
-  }
+  value.update(minimal_object(entry.parameters));
   return value.dump();
 }
 

@@ -2,12 +2,19 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "framework/stage/stage_entry.hpp"
 
 namespace croon::test {
+
+/// A name of the user's choosing, the key of a value in a map.
+constexpr const char* kAnyName = "any_name";
+
+/// The least JSON object that these parameters are read from: the keys that must be there.
+nlohmann::ordered_json minimal_object(const std::vector<params::ParameterDoc>& parameters);
 
 /// The least JSON object that builds the stage: its name, and the keys that must be there.
 std::string minimal_json(const StageEntry& entry);

@@ -1,11 +1,14 @@
-// Every stage reads its parameters as its table says, and says where in the file they are wrong.
+// Every stage reads its parameters as its table says, those of the objects in it too, and says
+// where in the file they are wrong.
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "framework/params/group.hpp"
 #include "registry/registry.hpp"
+#include "test/contract/every_parameter.hpp"
 #include "test/contract/every_stage.hpp"
-#include "test/support/stages.hpp"
+#include "test/support/nested_stage.hpp"
 
 namespace croon::test {
 namespace {
@@ -18,16 +21,26 @@ class ContractOfParameters : public EveryStage {
  protected:
   json minimal() const { return json::parse(minimal_json(entry())); }
 
+  params::BuiltStage build(const json& value, std::vector<Fault>& faults) const {
+    return entry().build(params::Node(value, "contract.json", faults), registry());
+  }
+
   std::vector<Fault> faults_of(const json& value) const {
     std::vector<Fault> faults;
-    registry().build(entry().kind, params::Node(value, "contract.json", faults));
+    build(value, faults);
     return faults;
   }
 
-  /// Expects a fault at `pointer` where the stage's `key` is `value`.
-  void expect_fault(const std::string& key, const json& value, const std::string& pointer) const {
-    json stage = minimal();
-    stage[key] = value;
+  /// The resolved JSON of the stage, which must have no faults.
+  std::string resolved(const json& value) const {
+    std::vector<Fault> faults;
+    const params::BuiltStage built = build(value, faults);
+    EXPECT_TRUE(faults.empty()) << value << ": " << faults.front().line();
+    return built.resolved;
+  }
+
+  /// Expects a fault at `pointer` of `stage`.
+  void expect_fault(const json& stage, const std::string& pointer) const {
     const std::vector<Fault> faults = faults_of(stage);
     const bool is_found = std::any_of(faults.begin(), faults.end(), [&](const Fault& fault) {
       return fault.file == "contract.json" && fault.where == pointer && !fault.message.empty();
@@ -35,42 +48,61 @@ class ContractOfParameters : public EveryStage {
     EXPECT_TRUE(is_found) << stage << " gave " << faults.size() << " faults, none at " << pointer;
   }
 
+  /// Expects a fault, where the parameter is `value`, at the value or at `below` in it.
+  void expect_fault(const ParameterPlace& placed, const json& value,
+                    const std::string& below = "") const {
+    expect_fault(placed.with(value), placed.place() + below);
+  }
+
   /// Expects that the value just outside of each finite end of the range is a fault, and the end is
   /// none.
-  void expect_range(const ParameterDoc& parameter, double step, bool is_list) const {
+  void expect_range(const ParameterPlace& placed, double step, bool is_list) const {
     const auto wrapped = [&](double value) { return is_list ? json::array({value}) : json(value); };
-    const std::string pointer = "/" + parameter.key + (is_list ? "/0" : "");
+    const params::Range& range = placed.parameter->range;
     for (const double sign : {-1.0, 1.0}) {
-      const double end = sign < 0 ? parameter.range.minimum : parameter.range.maximum;
+      const double end = sign < 0 ? range.minimum : range.maximum;
       if (!std::isfinite(end)) continue;
       const double outside = end + sign * std::max(step, std::abs(end) * 1e-6);
-      expect_fault(parameter.key, wrapped(outside), pointer);
-      json stage = minimal();
-      stage[parameter.key] = wrapped(end);
-      // The end of a range may break a condition between parameters, which is a fault of the whole
-      // stage.
-      for (const Fault& fault : faults_of(stage)) EXPECT_EQ(fault.where, "/") << fault.line();
+      expect_fault(placed, wrapped(outside), is_list ? "/0" : "");
+      // The end of a range may break a condition between parameters, which is a fault of the
+      // object that has them.
+      for (const Fault& fault : faults_of(placed.with(wrapped(end)))) {
+        EXPECT_EQ(fault.where, placed.fault_place()) << fault.line();
+      }
     }
   }
 };
 
 TEST_P(ContractOfParameters, DefaultsValidate) {
-  EXPECT_NO_THROW({
-    const params::BuiltStage built = build_stage(entry().kind, minimal_json(entry()));
-    EXPECT_NE(built.stage, nullptr);
-  });
+  std::vector<Fault> faults;
+  EXPECT_NE(build(minimal(), faults).stage, nullptr);
+  EXPECT_TRUE(faults.empty()) << faults.front().line();
 }
 
 TEST_P(ContractOfParameters, ResolvedJsonBuildsTheSame) {
-  const params::BuiltStage built = build_stage(entry().kind, minimal_json(entry()));
-  EXPECT_EQ(build_stage(entry().kind, built.resolved).resolved, built.resolved);
-  const json resolved = json::parse(built.resolved);
-  EXPECT_EQ(resolved.size(), entry().parameters.size() + 1);
+  const std::string text = resolved(minimal());
+  const json stage = json::parse(text);
+  EXPECT_EQ(resolved(stage), text);
+  EXPECT_EQ(stage.size(), entry().parameters.size() + 1);
   for (const ParameterDoc& parameter : entry().parameters) {
-    ASSERT_TRUE(resolved.contains(parameter.key)) << parameter.key;
+    ASSERT_TRUE(stage.contains(parameter.key)) << parameter.key;
     const bool is_slot = parameter.type == ParameterType::stage;
     if (parameter.is_required || is_slot) continue;
-    EXPECT_EQ(resolved[parameter.key], json::parse(parameter.default_json)) << parameter.key;
+    EXPECT_EQ(stage[parameter.key], default_value(parameter)) << parameter.key;
+  }
+}
+
+TEST_P(ContractOfParameters, PresetsStandForTheirObjects) {
+  for (const ParameterPlace& placed : every_parameter(entry())) {
+    if (placed.parameter->type != ParameterType::group) continue;
+    for (std::size_t i = 0; i < placed.parameter->choices.size(); ++i) {
+      const std::string& name = placed.parameter->choices[i];
+      const json object = json::parse(placed.parameter->preset_json[i]);
+      for (const json& value : {json(name), json{{params::kLikeKey, name}}, object}) {
+        const json stage = json::parse(resolved(placed.with(value)));
+        EXPECT_EQ(stage.at(json::json_pointer(placed.place())), object) << value;
+      }
+    }
   }
 }
 
@@ -78,75 +110,91 @@ TEST_P(ContractOfParameters, DocumentedWhole) {
   EXPECT_EQ(entry().summary.back(), '.');
   EXPECT_FALSE(entry().source.empty());
   EXPECT_NE(entry().source.back(), '.');
-  for (const ParameterDoc& parameter : entry().parameters) {
-    ASSERT_FALSE(parameter.sentence.empty()) << parameter.key;
-    EXPECT_EQ(parameter.sentence.back(), '.') << parameter.key;
+  for (const ParameterPlace& placed : every_parameter(entry())) {
+    ASSERT_FALSE(placed.parameter->sentence.empty()) << placed.place();
+    EXPECT_EQ(placed.parameter->sentence.back(), '.') << placed.place();
+    EXPECT_NE(placed.parameter->key, params::kLikeKey) << placed.place();
   }
 }
 
 TEST_P(ContractOfParameters, UnknownKeyIsAFault) {
-  expect_fault("no_such_parameter", 1, "/no_such_parameter");
+  json stage = minimal();
+  stage["no_such_parameter"] = 1;
+  expect_fault(stage, "/no_such_parameter");
+  for (const ParameterPlace& placed : every_parameter(entry())) {
+    if (placed.parameter->type != ParameterType::group) continue;
+    expect_fault(placed, {{"no_such_parameter", 1}}, "/no_such_parameter");
+    expect_fault(placed, {{params::kLikeKey, "no such word"}}, "/like");
+  }
 }
 
 TEST_P(ContractOfParameters, WrongTypeIsAFault) {
-  for (const ParameterDoc& parameter : entry().parameters) {
-    const std::string pointer = "/" + parameter.key;
-    expect_fault(parameter.key, nullptr, pointer);
-    const bool takes_object = parameter.type == ParameterType::stage;
-    expect_fault(parameter.key, takes_object ? json("word") : json::object(), pointer);
-    const bool takes_words =
-        parameter.type == ParameterType::text || parameter.type == ParameterType::choice;
-    expect_fault(parameter.key, takes_words ? json(1.5) : json("no such word"), pointer);
+  for (const ParameterPlace& placed : every_parameter(entry())) {
+    const ParameterType type = placed.parameter->type;
+    expect_fault(placed, nullptr);
+    const bool takes_object = type == ParameterType::stage || type == ParameterType::group;
+    // A map's object is not empty.
+    expect_fault(placed, takes_object ? json("no such word") : json::object());
+    const bool takes_words = type == ParameterType::text || type == ParameterType::choice ||
+                             type == ParameterType::group;
+    expect_fault(placed, takes_words ? json(1.5) : json("no such word"));
   }
 }
 
 TEST_P(ContractOfParameters, OutOfRangeIsAFault) {
-  for (const ParameterDoc& parameter : entry().parameters) {
-    if (parameter.type == ParameterType::integer) expect_range(parameter, 1.0, false);
-    if (parameter.type == ParameterType::number) expect_range(parameter, 1e-9, false);
-    if (parameter.type == ParameterType::numbers) expect_range(parameter, 1e-9, true);
+  for (const ParameterPlace& placed : every_parameter(entry())) {
+    const ParameterType type = placed.parameter->type;
+    if (type == ParameterType::integer) expect_range(placed, 1.0, false);
+    if (type == ParameterType::number) expect_range(placed, 1e-9, false);
+    if (type == ParameterType::numbers) expect_range(placed, 1e-9, true);
   }
 }
 
 TEST_P(ContractOfParameters, WordsThatAreNoneAndEmptyListsAreFaults) {
-  for (const ParameterDoc& parameter : entry().parameters) {
-    const std::string pointer = "/" + parameter.key;
-    if (parameter.type == ParameterType::text) expect_fault(parameter.key, "", pointer);
-    if (parameter.type == ParameterType::choice)
-      expect_fault(parameter.key, "none of them", pointer);
-    if (parameter.type == ParameterType::numbers || parameter.type == ParameterType::choices) {
-      expect_fault(parameter.key, json::array(), pointer);
+  for (const ParameterPlace& placed : every_parameter(entry())) {
+    const ParameterType type = placed.parameter->type;
+    if (type == ParameterType::text) expect_fault(placed, "");
+    if (type == ParameterType::choice) expect_fault(placed, "none of them");
+    if (type == ParameterType::numbers || type == ParameterType::choices) {
+      expect_fault(placed, json::array());
     }
-    if (parameter.type == ParameterType::choices) {
-      const std::string word = parameter.choices.front();
-      expect_fault(parameter.key, {word, word}, pointer + "/1");
+    if (type == ParameterType::choices) {
+      const std::string word = placed.parameter->choices.front();
+      expect_fault(placed, {word, word}, "/1");
+    }
+    if (type == ParameterType::map) {
+      expect_fault(placed, {{"a name", json::object()}}, "/a name");
+      expect_fault(placed, {{kAnyName, 1}}, std::string("/") + kAnyName);
     }
   }
 }
 
 TEST_P(ContractOfParameters, UnknownStageInASlotIsAFault) {
-  for (const ParameterDoc& parameter : entry().parameters) {
-    const std::string key = name_key(parameter.stage_kind);
+  for (const ParameterPlace& placed : every_parameter(entry())) {
+    const std::string key = name_key(placed.parameter->stage_kind);
     const json no_such_stage = {{key, "no_such_stage"}};
-    if (parameter.type == ParameterType::stage) {
-      expect_fault(parameter.key, no_such_stage, "/" + parameter.key + "/" + key);
+    if (placed.parameter->type == ParameterType::stage) {
+      expect_fault(placed, no_such_stage, "/" + key);
     }
-    if (parameter.type == ParameterType::stages) {
-      expect_fault(parameter.key, json::array({no_such_stage}), "/" + parameter.key + "/0/" + key);
+    if (placed.parameter->type == ParameterType::stages) {
+      expect_fault(placed, json::array({no_such_stage}), "/0/" + key);
     }
   }
 }
 
 TEST_P(ContractOfParameters, MissingKeyIsAFault) {
-  for (const ParameterDoc& parameter : entry().parameters) {
-    if (!parameter.is_required) continue;
-    json stage = minimal();
-    stage.erase(parameter.key);
-    EXPECT_FALSE(faults_of(stage).empty()) << parameter.key;
+  for (const ParameterPlace& placed : every_parameter(entry())) {
+    if (!placed.parameter->is_required) continue;
+    json stage = json::parse(placed.stage);
+    stage[json::json_pointer(placed.object)].erase(placed.parameter->key);
+    expect_fault(stage, placed.fault_place());
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, ContractOfParameters, testing::ValuesIn(every_stage()),
+                         stage_case_name);
+// No stage of the registry need have objects in it: one that has every sort of them.
+INSTANTIATE_TEST_SUITE_P(Nested, ContractOfParameters, testing::Values(nested_stage()),
                          stage_case_name);
 
 }  // namespace

@@ -8,12 +8,14 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include "experiments/engine/experiment_loader.hpp"
 #include "framework/base/error.hpp"
 #include "registry/registry.hpp"
 #include "test/house/script.hpp"
 #include "test/house/tree.hpp"
+#include "test/support/nested_stage.hpp"
 #include "test/support/temp_folder.hpp"
 
 namespace croon::test {
@@ -28,7 +30,8 @@ class SchemaAndLoader : public testing::Test {
     if (run_script("python3 -c 'import jsonschema'", folder_.path()).status != 0) {
       GTEST_SKIP() << "python3-jsonschema is not installed";
     }
-    std::ofstream(folder_.path() / "schema.json") << experiment_schema(registry());
+    catalogue_.add(nested_stage());
+    std::ofstream(folder_.path() / "schema.json") << experiment_schema(catalogue_);
   }
 
   /// Those of `files` that the schema takes.
@@ -44,9 +47,9 @@ class SchemaAndLoader : public testing::Test {
     return taken;
   }
 
-  static bool is_loaded(const fs::path& file) {
+  bool is_loaded(const fs::path& file) const {
     try {
-      experiments::load_experiment(file, registry());
+      experiments::load_experiment(file, catalogue_);
       return true;
     } catch (const InputError&) {
       return false;
@@ -70,6 +73,8 @@ class SchemaAndLoader : public testing::Test {
 
  private:
   TempFolder folder_;
+  /// The stages of the build, and one with objects in it.
+  Catalogue catalogue_ = registry();
 };
 
 json experiment() {
@@ -125,6 +130,37 @@ TEST_F(SchemaAndLoader, AgreeOnWhatIsWrong) {
     json changed = experiment();
     changed.erase(key);
     cases.emplace_back(changed, false);
+  }
+  expect_verdicts(cases);
+}
+
+TEST_F(SchemaAndLoader, AgreeOnObjectsInAStage) {
+  const std::vector<std::tuple<const char*, json, bool>> datasets = {
+      {"/rig", "pair", true},
+      {"/rig", "pear", false},
+      {"/rig", json::object(), false},
+      {"/rig", {{"reference", "a"}}, false},
+      {"/rig", {{"like", "pair"}, {"reference", "a"}}, true},
+      {"/rig", {{"like", "pear"}}, false},
+      {"/rig", {{"reference", "a"}, {"sensors", json::object()}}, false},
+      {"/rig", {{"reference", "a"}, {"sensors", {{"b", json::object()}}}}, true},
+      {"/rig", {{"reference", "a"}, {"sensors", {{"b c", json::object()}}}}, false},
+      {"/rig", {{"reference", "a"}, {"sensors", {{"b", {{"model", "fine"}}}}}}, true},
+      {"/rig", {{"reference", "a"}, {"sensors", {{"b", {{"model", 1}}}}}}, false},
+      {"/rig/sensors/b/model/rings", 128, true},
+      {"/rig/sensors/b/model/rings", 129, false},
+      {"/rig/sensors/b/model/like", "coarse", true},
+      {"/rig/sensors/b/none", 1, false},
+      {"/mix", "word", false},
+      {"/mix", {{"like", "word"}}, false},
+      {"/mix", {{"urban", 1}}, true},
+      {"/model", nullptr, false}};
+  std::vector<std::pair<json, bool>> cases;
+  for (const auto& [pointer, value, is_valid] : datasets) {
+    json changed = experiment();
+    changed["dataset"] = {{"type", "nested"}, {"rig", {{"like", "pair"}}}};
+    changed["dataset"][json::json_pointer(pointer)] = value;
+    cases.emplace_back(changed, is_valid);
   }
   expect_verdicts(cases);
 }

@@ -7,6 +7,7 @@
 
 #include "framework/base/error.hpp"
 #include "registry/registry.hpp"
+#include "test/support/nested_stage.hpp"
 
 namespace croon {
 namespace {
@@ -59,6 +60,53 @@ TEST(StagesHelp, JsonHoldsTheTable) {
       EXPECT_EQ(shown.contains("default"), !entry.parameters[k].is_required);
     }
   }
+}
+
+/// The help on a stage that has groups and maps.
+std::string nested_help(HelpFormat format) {
+  Catalogue catalogue;
+  catalogue.add(test::nested_stage());
+  return stages_help(catalogue, "dataset/nested", format);
+}
+
+TEST(StagesHelp, ShowsTheParametersOfObjectsBelowThem) {
+  for (const HelpFormat format : {HelpFormat::text, HelpFormat::markdown}) {
+    const std::string page = nested_help(format);
+    std::size_t end = 0;
+    for (const char* path : {"model", "model.rings", "mix", "mix.urban", "rig", "rig.reference",
+                             "rig.sensors", "rig.sensors.<name>.height_m",
+                             "rig.sensors.<name>.model", "rig.sensors.<name>.model.far_m"}) {
+      const std::string row = format == HelpFormat::text ? "\n  " + std::string(path) + ": "
+                                                         : "\n| `" + std::string(path) + "` | ";
+      const std::size_t place = page.find(row);
+      ASSERT_NE(place, std::string::npos) << path << " in " << page;
+      EXPECT_GE(place, end) << path;
+      end = place;
+    }
+  }
+}
+
+TEST(StagesHelp, SaysWhatAnObjectTakes) {
+  const std::string page = nested_help(HelpFormat::text);
+  for (const char* line :
+       {"model: one of coarse, fine, or an object, which may begin with one (like); default "
+        "\"coarse\"",
+        "mix: an object; default {\"urban\":3,\"highway\":1}", "rig: one of pair, or an object",
+        "rig.sensors: an object with a sensor's name for each key; required"}) {
+    EXPECT_NE(page.find(line), std::string::npos) << line << "\n" << page;
+  }
+}
+
+TEST(StagesHelp, JsonNestsTheParametersOfObjects) {
+  const auto list = nlohmann::json::parse(nested_help(HelpFormat::json));
+  const nlohmann::json& rig = list[0]["parameters"][2];
+  EXPECT_EQ(rig["type"], "group");
+  EXPECT_EQ(rig["choices"], nlohmann::json::array({"pair"}));
+  const nlohmann::json& sensors = rig["members"][1];
+  EXPECT_EQ(sensors["type"], "map");
+  EXPECT_EQ(sensors["names"], "a sensor's name");
+  EXPECT_EQ(sensors["members"][1]["members"][0]["key"], "rings");
+  EXPECT_FALSE(list[0]["parameters"][0]["members"][0].contains("members"));
 }
 
 TEST(StagesHelp, KindShowsItsStagesAlone) {

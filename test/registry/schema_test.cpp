@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "registry/registry.hpp"
+#include "test/support/nested_stage.hpp"
 
 namespace croon {
 namespace {
@@ -19,6 +20,15 @@ json schema() {
   return schema;
 }
 
+/// The keys of the parameters that must be there.
+std::vector<std::string> required_keys(const std::vector<ParameterDoc>& parameters) {
+  std::vector<std::string> keys;
+  for (const ParameterDoc& parameter : parameters) {
+    if (parameter.is_required) keys.push_back(parameter.key);
+  }
+  return keys;
+}
+
 /// Expects the ends of the range, or none where there are none.
 void expect_range(const json& found, const params::Range& range) {
   EXPECT_EQ(found.contains("minimum"), std::isfinite(range.minimum));
@@ -29,6 +39,36 @@ void expect_range(const json& found, const params::Range& range) {
   if (found.contains("maximum")) {
     EXPECT_EQ(found["maximum"].get<double>(), range.maximum);
   }
+}
+
+void expect_parameters(const json& properties, const std::vector<ParameterDoc>& parameters);
+
+/// Expects the object of a group or a map, and in it what its parameters take.
+void expect_object(const json& found, const ParameterDoc& parameter) {
+  EXPECT_EQ(found["type"], "object");
+  EXPECT_EQ(found["additionalProperties"], false);
+  expect_parameters(found["properties"], parameter.members);
+  const std::vector<std::string> required = required_keys(parameter.members);
+  const bool has_presets = !parameter.choices.empty();
+  EXPECT_EQ(found["properties"].size(), parameter.members.size() + (has_presets ? 1 : 0));
+  EXPECT_EQ(found.contains("required"), !required.empty() && !has_presets);
+  EXPECT_EQ(found.contains("anyOf"), !required.empty() && has_presets);
+  if (has_presets) {
+    EXPECT_EQ(found["properties"]["like"]["enum"], json(parameter.choices));
+  }
+}
+
+void expect_group(const json& found, const ParameterDoc& parameter) {
+  if (parameter.choices.empty()) return expect_object(found, parameter);
+  ASSERT_EQ(found["anyOf"].size(), 2U);
+  EXPECT_EQ(found["anyOf"][0]["enum"], json(parameter.choices));
+  expect_object(found["anyOf"][1], parameter);
+}
+
+void expect_map(const json& found, const ParameterDoc& parameter) {
+  EXPECT_EQ(found["minProperties"], 1);
+  EXPECT_TRUE(found["propertyNames"].contains("pattern"));
+  expect_object(found["additionalProperties"], parameter);
 }
 
 void expect_value(const json& found, const ParameterDoc& parameter) {
@@ -64,32 +104,52 @@ void expect_value(const json& found, const ParameterDoc& parameter) {
     case ParameterType::stages:
       EXPECT_EQ(found["items"], reference);
       break;
+    case ParameterType::group:
+      expect_group(found, parameter);
+      break;
+    case ParameterType::map:
+      expect_map(found, parameter);
+      break;
   }
+}
+
+void expect_parameters(const json& properties, const std::vector<ParameterDoc>& parameters) {
+  for (const ParameterDoc& parameter : parameters) {
+    SCOPED_TRACE(parameter.key);
+    const json& found = properties.at(parameter.key);
+    expect_value(found, parameter);
+    EXPECT_EQ(found["description"], parameter.sentence);
+    EXPECT_EQ(found.contains("default"), !parameter.is_required);
+    if (!parameter.is_required) {
+      EXPECT_EQ(found["default"], json::parse(parameter.default_json));
+    }
+  }
+}
+
+/// Expects that the stage's definition says what its table says.
+void expect_stage(const json& stage, const StageEntry& entry) {
+  SCOPED_TRACE(entry.name);
+  EXPECT_EQ(stage["additionalProperties"], false);
+  EXPECT_EQ(stage["properties"][name_key(entry.kind)]["const"], entry.name);
+  EXPECT_EQ(stage["properties"].size(), entry.parameters.size() + reserved_keys(entry.kind).size());
+  expect_parameters(stage["properties"], entry.parameters);
+  std::vector<std::string> required = required_keys(entry.parameters);
+  required.insert(required.begin(), name_key(entry.kind));
+  EXPECT_EQ(stage["required"], json(required));
 }
 
 TEST(Schema, EqualsTheTables) {
   const json definitions = schema()["$defs"];
   for (const StageEntry& entry : registry().entries()) {
-    const json& stage = definitions.at(entry.kind + "." + entry.name);
-    EXPECT_EQ(stage["additionalProperties"], false);
-    EXPECT_EQ(stage["properties"][name_key(entry.kind)]["const"], entry.name);
-    EXPECT_EQ(stage["properties"].size(),
-              entry.parameters.size() + reserved_keys(entry.kind).size());
-    json required = {name_key(entry.kind)};
-    for (const ParameterDoc& parameter : entry.parameters) {
-      SCOPED_TRACE(entry.name + "." + parameter.key);
-      const json& found = stage["properties"].at(parameter.key);
-      expect_value(found, parameter);
-      EXPECT_EQ(found["description"], parameter.sentence);
-      EXPECT_EQ(found.contains("default"), !parameter.is_required);
-      if (parameter.is_required) {
-        required.push_back(parameter.key);
-      } else {
-        EXPECT_EQ(found["default"], json::parse(parameter.default_json));
-      }
-    }
-    EXPECT_EQ(stage["required"], required);
+    expect_stage(definitions.at(entry.kind + "." + entry.name), entry);
   }
+}
+
+TEST(Schema, EqualsTheTablesOfObjectsInAStage) {
+  Catalogue catalogue;
+  catalogue.add(test::nested_stage());
+  const json nested = json::parse(experiment_schema(catalogue));
+  expect_stage(nested["$defs"].at("dataset.nested"), test::nested_stage());
 }
 
 TEST(Schema, OffersTheStagesOfEachKind) {

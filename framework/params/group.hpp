@@ -1,0 +1,122 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/params/table.hpp"
+
+namespace croon::params {
+
+/// A named value of a group.
+template <class G>
+struct Preset {
+  std::string name;
+  G value;
+};
+
+/// The key of a group's object that names the preset to begin with.
+constexpr const char* kLikeKey = "like";
+
+/// The keys of the object `node`, in order. Notes a fault where there is none, where one has
+/// other characters than letters, digits, _ and -, and where the node is no object. `name_words`
+/// says what a key is: "a sensor's name".
+std::vector<std::string> read_names(const Node& node, const std::string& name_words);
+
+/// The JSON object of the values by name, `named_json` their texts. Names that are not in
+/// alphabetical order are a std::logic_error: the file that says the same would be read in that
+/// order.
+std::string map_json(const std::vector<std::pair<std::string, std::string>>& named_json);
+
+/// The JSON object that `table` reads as `value`.
+template <class G>
+std::string object_json(const Table<G>& table, const G& value) {
+  return "{" + table.members_json(value) + "}";
+}
+
+/// What is known of a parameter that holds objects which `table` reads. A stage in `table` is a
+/// std::logic_error: presets and defaults are values, and a stage must be built.
+template <class G>
+ParameterDoc object_doc(const std::string& key, ParameterType type, const Table<G>& table,
+                        const std::string& sentence) {
+  for (const Parameter<G>& row : table.rows()) {
+    if (row.is_slot) throw std::logic_error(key + "." + row.doc.key + " is a stage in an object");
+  }
+  ParameterDoc doc{key, type, "", {}, {}, "", sentence};
+  doc.members = table.docs();
+  return doc;
+}
+
+/// Reads into `out` the object `node`, which may begin like a preset. Notes faults in the node.
+template <class G>
+void read_object(const Node& node, const Table<G>& table, const std::vector<Preset<G>>& presets,
+                 const std::vector<std::string>& names, const StageBuilder& builder, G& out) {
+  if (presets.empty()) {
+    out = table.read(node, {}, builder);
+  } else if (!node.has(kLikeKey)) {
+    out = table.read(node, {kLikeKey}, builder);
+  } else if (const auto like = read_word(node.member(kLikeKey), names)) {
+    out = table.read(node, {kLikeKey}, builder, presets[*like].value);
+  } else {
+    // What else is wrong with it: with any preset no key is missing, and conditions may not hold.
+    out = presets.front().value;
+    table.read_members(node, {kLikeKey}, builder, out);
+  }
+}
+
+/// An object that `table` reads, or the name of a preset. In the object the optional key "like"
+/// names the preset to begin with; else it begins with G{}.
+template <class P, class G>
+Parameter<P> group(const std::string& key, G P::*member, const Table<G>& table,
+                   const std::vector<Preset<G>>& presets, const std::string& sentence) {
+  ParameterDoc doc = object_doc(key, ParameterType::group, table, sentence);
+  for (const Preset<G>& preset : presets) {
+    doc.choices.push_back(preset.name);
+    doc.preset_json.push_back(object_json(table, preset.value));
+  }
+  doc.is_required = !table.is_whole(P{}.*member);
+  set_default(doc, object_json(table, P{}.*member));
+  const auto read = [=, names = doc.choices](P& params, const Node& node,
+                                             const StageBuilder& builder) {
+    if (node.has_members()) {
+      read_object(node, table, presets, names, builder, params.*member);
+    } else if (presets.empty()) {
+      node.expected("an object");
+    } else if (const auto preset = read_word(node, names, " or an object")) {
+      params.*member = presets[*preset].value;
+    }
+  };
+  return {doc, read, [=](const P& params) { return object_json(table, params.*member); }, false};
+}
+
+/// An object with names of the user's choosing as keys, each value an object that `table` reads.
+/// Not empty: where the struct's own value is, the key must be there. Kept in the order of the
+/// names.
+template <class P, class G>
+Parameter<P> map(const std::string& key, std::vector<std::pair<std::string, G>> P::*member,
+                 const Table<G>& table, const std::string& name_words,
+                 const std::string& sentence) {
+  const auto read = [=](P& params, const Node& node, const StageBuilder& builder) {
+    std::vector<std::pair<std::string, G>> values;
+    for (const std::string& name : read_names(node, name_words)) {
+      const Node value = node.member(name);
+      if (value.is_object()) values.emplace_back(name, table.read(value, {}, builder));
+    }
+    params.*member = std::move(values);
+  };
+  const auto json = [=](const P& params) {
+    std::vector<std::pair<std::string, std::string>> named_json;
+    for (const auto& [name, value] : params.*member) {
+      named_json.emplace_back(name, object_json(table, value));
+    }
+    return map_json(named_json);
+  };
+  ParameterDoc doc = object_doc(key, ParameterType::map, table, sentence);
+  doc.name_words = name_words;
+  doc.is_required = (P{}.*member).empty();
+  doc.default_json = json(P{});
+  return {doc, read, json, false};
+}
+
+}  // namespace croon::params
