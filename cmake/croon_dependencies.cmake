@@ -5,6 +5,8 @@ find_package(TBB REQUIRED)
 find_package(nanoflann REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(SQLite3 REQUIRED)
+find_package(PNG REQUIRED)
+find_package(embree REQUIRED)
 
 # Only FindOpenVDB.cmake exists, and not on the default module path.
 file(GLOB openvdb_modules /usr/lib/*/cmake/OpenVDB)

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <locale>
 #include <map>
 #include <optional>
+#include <sstream>
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
@@ -16,6 +19,8 @@ namespace croon {
 namespace {
 
 constexpr const char* kDeviceKey = "device_id";
+constexpr const char* kPathKey = "path";
+constexpr const char* kPoseKey = "(Roll,Pitch,Yaw,tx,ty,tz)";
 
 /// The two lines that belong together: a device and what is said of it.
 struct Record {
@@ -127,6 +132,12 @@ std::optional<RigidTransform> pose_of(std::string text) {
   return RigidTransform{rotation_from_rpy(values.head<3>() * rad_from_deg(1.0)), values.tail<3>()};
 }
 
+/// The two lines of a record.
+std::string record_text(int device_id, const char* key, const std::string& value) {
+  return std::string(kDeviceKey) + ": " + std::to_string(device_id) + "\n" + key + ": " + value +
+         "\n";
+}
+
 /// The records by device; throws what was wrong.
 template <class Listed>
 std::vector<Listed> sorted(std::vector<Listed> listed, const RecordReader& reader) {
@@ -139,7 +150,7 @@ std::vector<Listed> sorted(std::vector<Listed> listed, const RecordReader& reade
 }  // namespace
 
 std::vector<ListedCloud> read_cloud_list(const std::filesystem::path& file) {
-  RecordReader reader(file, "path");
+  RecordReader reader(file, kPathKey);
   std::vector<ListedCloud> clouds;
   for (const Record& record : reader.read()) {
     if (record.value.empty()) reader.fault(record.place, "expected a file's path, found none");
@@ -149,7 +160,7 @@ std::vector<ListedCloud> read_cloud_list(const std::filesystem::path& file) {
 }
 
 std::vector<ListedPose> read_pose_list(const std::filesystem::path& file) {
-  RecordReader reader(file, "(Roll,Pitch,Yaw,tx,ty,tz)");
+  RecordReader reader(file, kPoseKey);
   std::vector<ListedPose> poses;
   for (const Record& record : reader.read()) {
     const std::optional<RigidTransform> pose = pose_of(record.value);
@@ -159,6 +170,29 @@ std::vector<ListedPose> read_pose_list(const std::filesystem::path& file) {
     poses.push_back({record.device_id, pose.value_or(RigidTransform{}), record.place});
   }
   return sorted(std::move(poses), reader);
+}
+
+std::string cloud_list_text(const std::vector<ListedCloud>& clouds) {
+  std::string text;
+  for (const ListedCloud& cloud : clouds) {
+    text += record_text(cloud.device_id, kPathKey, cloud.path);
+  }
+  return text;
+}
+
+std::string pose_list_text(const std::vector<ListedPose>& poses) {
+  std::string text;
+  for (const ListedPose& pose : poses) {
+    const RigidTransform& T = pose.T_reference_sensor;
+    const Eigen::Vector3d rpy_deg = rpy_from_rotation(T.rotation) / rad_from_deg(1.0);
+    std::ostringstream value;
+    value.imbue(std::locale::classic());
+    value << std::setprecision(std::numeric_limits<double>::max_digits10);
+    for (int i = 0; i < 3; ++i) value << rpy_deg(i) << ' ';
+    for (int i = 0; i < 3; ++i) value << T.translation(i) << (i < 2 ? " " : "");
+    text += record_text(pose.device_id, kPoseKey, value.str());
+  }
+  return text;
 }
 
 }  // namespace croon

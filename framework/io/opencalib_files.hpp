@@ -30,4 +30,8 @@ std::vector<ListedCloud> read_cloud_list(const std::filesystem::path& file);
 /// `R = Rz(yaw) Ry(pitch) Rx(roll)`.
 std::vector<ListedPose> read_pose_list(const std::filesystem::path& file);
 
+/// The bytes of such files. Places are not written.
+std::string cloud_list_text(const std::vector<ListedCloud>& clouds);
+std::string pose_list_text(const std::vector<ListedPose>& poses);
+
 }  // namespace croon

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "framework/base/whole_file.hpp"
+#include "framework/picture/colour.hpp"
 
 namespace croon {
 namespace {
@@ -45,18 +46,6 @@ std::string one_line(std::string text) {
 }
 
 }  // namespace
-
-Colour sensor_colour(std::size_t index) {
-  static const std::array<Colour, 8> colours = {{{153, 153, 153},
-                                                 {230, 159, 0},
-                                                 {86, 180, 233},
-                                                 {0, 158, 115},
-                                                 {240, 228, 66},
-                                                 {0, 114, 178},
-                                                 {213, 94, 0},
-                                                 {204, 121, 167}}};
-  return colours[index % colours.size()];
-}
 
 void write_ply(const std::filesystem::path& path, const PointCloud& cloud, PlyFormat format) {
   const bool is_ascii = format == PlyFormat::ascii;

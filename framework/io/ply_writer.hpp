@@ -1,29 +1,11 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <string>
 #include <vector>
 
-#include "framework/geometry/rigid_transform.hpp"
+#include "framework/picture/coloured_cloud.hpp"
 
 namespace croon {
-
-/// Red, green, blue.
-struct Colour {
-  std::uint8_t red = 0, green = 0, blue = 0;
-};
-
-/// The colour of the sensor `index`, the reference being 0: grey, then the palette of Okabe and Ito
-/// (2008), which colour-blind readers can tell apart; it starts again after eight.
-Colour sensor_colour(std::size_t index);
-
-/// One sensor's cloud in its own frame, to be drawn in the reference's.
-struct ColouredCloud {
-  std::string sensor;
-  PointCloud points;
-  RigidTransform T_reference_sensor;
-};
 
 enum class PlyFormat { binary_little_endian, ascii };
 

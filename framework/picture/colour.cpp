@@ -1,0 +1,19 @@
+#include "framework/picture/colour.hpp"
+
+#include <array>
+
+namespace croon {
+
+Colour sensor_colour(std::size_t index) {
+  static const std::array<Colour, 8> colours = {{{153, 153, 153},
+                                                 {230, 159, 0},
+                                                 {86, 180, 233},
+                                                 {0, 158, 115},
+                                                 {240, 228, 66},
+                                                 {0, 114, 178},
+                                                 {213, 94, 0},
+                                                 {204, 121, 167}}};
+  return colours[index % colours.size()];
+}
+
+}  // namespace croon

@@ -1,0 +1,53 @@
+#include "framework/picture/image.hpp"
+
+#include <png.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "framework/base/whole_file.hpp"
+
+namespace croon {
+
+Image::Image(int width, int height, Colour background)
+    : width_(width),
+      height_(height),
+      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), background) {}
+
+Image side_by_side(const std::vector<Image>& images, int gap) {
+  int width = -gap;
+  int height = 0;
+  for (const Image& image : images) {
+    width += image.width() + gap;
+    height = std::max(height, image.height());
+  }
+  Image whole(std::max(width, 0), height);
+  int left = 0;
+  for (const Image& image : images) {
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) whole.at(left + x, y) = image.at(x, y);
+    }
+    left += image.width() + gap;
+  }
+  return whole;
+}
+
+void write_png(const std::filesystem::path& path, const Image& image) {
+  static_assert(sizeof(Colour) == 3, "a pixel is three bytes");
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = static_cast<png_uint_32>(image.width());
+  header.height = static_cast<png_uint_32>(image.height());
+  header.format = PNG_FORMAT_RGB;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
+  std::string bytes(size, '\0');
+  if (png_image_write_to_memory(&header, bytes.data(), &size, 0, image.pixels().data(), 0,
+                                nullptr) == 0) {
+    throw std::logic_error(std::string("write_png: ") + header.message);
+  }
+  bytes.resize(size);
+  write_whole_file(path, bytes);
+}
+
+}  // namespace croon

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "framework/picture/colour.hpp"
+
+namespace croon {
+
+/// A picture of `width` x `height` pixels, row by row from the top left.
+class Image {
+ public:
+  Image(int width, int height, Colour background = {255, 255, 255});
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  Colour& at(int x, int y) { return pixels_[index(x, y)]; }
+  const Colour& at(int x, int y) const { return pixels_[index(x, y)]; }
+  bool contains(int x, int y) const { return x >= 0 && x < width_ && y >= 0 && y < height_; }
+  const std::vector<Colour>& pixels() const { return pixels_; }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
+
+  int width_;
+  int height_;
+  std::vector<Colour> pixels_;
+};
+
+/// The pictures one beside the other, `gap` white pixels between; shorter ones end early.
+Image side_by_side(const std::vector<Image>& images, int gap);
+
+/// Writes `image` as PNG. Throws InputError where the file cannot be written.
+void write_png(const std::filesystem::path& path, const Image& image);
+
+}  // namespace croon

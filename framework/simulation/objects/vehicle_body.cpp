@@ -1,0 +1,112 @@
+#include "framework/simulation/objects/vehicle_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/base/angles.hpp"
+#include "framework/simulation/primitives.hpp"
+
+namespace croon::simulation {
+namespace {
+
+using Eigen::Vector2d;
+
+/// Height of the line through `points` (x, z), in order of x, at `x`.
+double height_on(const std::vector<Vector2d>& points, double x) {
+  std::size_t i = 1;
+  while (i + 1 < points.size() && points[i].x() < x) ++i;
+  const Vector2d& a = points[i - 1];
+  const Vector2d& b = points[i];
+  return a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x());
+}
+
+/// The upper edge of the lower body: tail, belt line, bonnet, nose.
+std::vector<Vector2d> upper_edge(const BodyShape& shape) {
+  const double end_m = 0.5 * shape.length_m;
+  const double belt_m = shape.cabin.belt.z_m + 0.02;
+  return {{-end_m, shape.tail_m - 0.12},     {-end_m + 0.08, shape.tail_m},
+          {shape.cabin.belt.rear_m, belt_m}, {shape.cabin.belt.front_m, belt_m},
+          {end_m - 0.15, shape.nose_m},      {end_m, shape.nose_m - 0.18}};
+}
+
+double arch_radius_m(const BodyShape& shape) { return shape.wheel_radius_m + 0.06; }
+
+/// Height of the underside: the sills, cut out in circles over the wheels, higher at the bumpers.
+double underside_m(const BodyShape& shape, double x) {
+  double height_m = shape.clearance_m;
+  for (const double axle_m : {shape.front_axle_m, shape.rear_axle_m}) {
+    const double off_m = std::abs(x - axle_m);
+    const double radius_m = arch_radius_m(shape);
+    if (off_m >= radius_m) continue;
+    const double arch_m = std::sqrt(radius_m * radius_m - off_m * off_m);
+    height_m = std::max(height_m, shape.wheel_radius_m + arch_m);
+  }
+  const double to_end_m = 0.5 * shape.length_m - std::abs(x);
+  return std::max(height_m, shape.clearance_m + 0.1 - to_end_m);
+}
+
+/// Half the width at `x`: rounded in towards both ends.
+double half_width_m(const BodyShape& shape, double x) {
+  const double beyond_ratio = std::max(0.0, (std::abs(x) - 0.5 * shape.length_m) / 0.55 + 1.0);
+  return 0.5 * shape.width_m * (1.0 - 0.16 * beyond_ratio * beyond_ratio);
+}
+
+/// The x at which the body's outline bends, in order.
+std::vector<double> stations(const BodyShape& shape) {
+  const double end_m = 0.5 * shape.length_m;
+  std::vector<double> places = {-end_m,
+                                -end_m + 0.08,
+                                -end_m + 0.3,
+                                end_m - 0.3,
+                                end_m - 0.15,
+                                end_m,
+                                shape.cabin.belt.rear_m,
+                                shape.cabin.belt.front_m};
+  for (const double axle_m : {shape.front_axle_m, shape.rear_axle_m}) {
+    for (const double angle_deg : {1.0, 25.0, 60.0, 90.0, 120.0, 155.0, 179.0}) {
+      places.push_back(axle_m + arch_radius_m(shape) * std::cos(rad_from_deg(angle_deg)));
+    }
+  }
+  std::sort(places.begin(), places.end());
+  const auto is_same = [](double a, double b) { return b - a < 0.005; };
+  places.erase(std::unique(places.begin(), places.end(), is_same), places.end());
+  return places;
+}
+
+/// The outline across the body at `x`, widest at the middle of its height.
+Ring section(const BodyShape& shape, double x) {
+  const double low_m = underside_m(shape, x);
+  const double high_m = height_on(upper_edge(shape), x);
+  const double half_m = half_width_m(shape, x);
+  const std::vector<Vector2d> left = {{0.94 * half_m, low_m},
+                                      {half_m, 0.55 * low_m + 0.45 * high_m},
+                                      {0.98 * half_m, 0.2 * low_m + 0.8 * high_m},
+                                      {0.88 * half_m, high_m}};
+  Ring ring;
+  for (const Vector2d& yz : left) ring.emplace_back(x, yz.x(), yz.y());
+  for (auto yz = left.rbegin(); yz != left.rend(); ++yz) ring.emplace_back(x, -yz->x(), yz->y());
+  return ring;
+}
+
+}  // namespace
+
+void add_body(Mesh& mesh, const BodyShape& shape) {
+  std::vector<Ring> rings;
+  for (const double x : stations(shape)) rings.push_back(section(shape, x));
+  add_loft(mesh, rings, shape.cabin.material);
+  add_cabin(mesh, shape.cabin);
+
+  const double half_m = 0.5 * shape.width_m;
+  const Wheels wheels = {shape.wheel_radius_m, 0.21, half_m - 0.02};
+  add_axle(mesh, shape.front_axle_m, wheels);
+  add_axle(mesh, shape.rear_axle_m, wheels);
+  const double end_m = 0.5 * shape.length_m;
+  // Engine, floor and boot: nothing is seen through the arches from one side to the other.
+  add_box(mesh, {-end_m + 0.3, -half_m + 0.24, shape.clearance_m},
+          {end_m - 0.3, half_m - 0.24, shape.nose_m - 0.1}, Material::rubber);
+  add_mirrors(mesh, shape.cabin.belt.front_m - 0.35, 0.88 * half_m, shape.cabin.belt.z_m + 0.09,
+              0.16);
+  add_lights(mesh, {-end_m, end_m}, 0.8 * half_m, shape.nose_m - 0.2);
+}
+
+}  // namespace croon::simulation

@@ -1,0 +1,159 @@
+#include "framework/simulation/recipe.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "framework/params/group.hpp"
+
+namespace croon::simulation {
+namespace {
+
+using params::boolean;
+using params::integer;
+using params::number;
+using params::numbers;
+using params::Preset;
+using params::Table;
+
+template <class Named>
+std::vector<Preset<typename Named::value_type::second_type>> presets(const Named& named) {
+  std::vector<Preset<typename Named::value_type::second_type>> result;
+  for (const auto& [name, value] : named) result.push_back({name, value});
+  return result;
+}
+
+Table<SensorModel> sensor_table() {
+  Table<SensorModel> table = {
+      numbers("elevations_deg", &SensorModel::elevations_deg, {-90.0, 90.0},
+              "Elevations of the rings, ring 0 first."),
+      number("azimuth_from_deg", &SensorModel::azimuth_from_deg, {-360.0, 360.0},
+             "Azimuth of the first rays of a sweep, from x towards y."),
+      number("azimuth_to_deg", &SensorModel::azimuth_to_deg, {-360.0, 360.0},
+             "Azimuth before which the sweep ends."),
+      number("azimuth_step_deg", &SensorModel::azimuth_step_deg, {0.01, 90.0},
+             "From one azimuth to the next."),
+      number("range_min_m", &SensorModel::range_min_m, {0.0, 1000.0},
+             "Nearer surfaces are not seen and hide nothing."),
+      number("range_max_m", &SensorModel::range_max_m, {0.1, 1000.0},
+             "Farther surfaces are not seen."),
+      number("period_s", &SensorModel::period_s, {0.001, 10.0}, "Time of one sweep."),
+  };
+  table.require([](const SensorModel& s) { return s.azimuth_to_deg > s.azimuth_from_deg; },
+                "azimuth_to_deg must be greater than azimuth_from_deg");
+  table.require([](const SensorModel& s) { return s.azimuth_to_deg <= s.azimuth_from_deg + 360.0; },
+                "azimuth_to_deg must be at most 360 more than azimuth_from_deg");
+  table.require([](const SensorModel& s) { return s.range_max_m > s.range_min_m; },
+                "range_max_m must be greater than range_min_m");
+  table.require([](const SensorModel& s) { return s.elevations_deg.size() <= 1024; },
+                "elevations_deg must have at most 1024 rings");
+  return table;
+}
+
+Table<Mounting> mounting_table() {
+  Table<Mounting> table = {
+      params::group("model", &Mounting::model, sensor_table(), presets(sensor_models()),
+                    "What LiDAR it is."),
+      numbers(
+          "rotation_rpy_deg", &Mounting::rotation_rpy_deg, {-360.0, 360.0},
+          "Roll, pitch and yaw of the sensor in the reference, R = Rz(yaw) Ry(pitch) Rx(roll)."),
+      numbers("translation_m", &Mounting::translation_m, {-100.0, 100.0},
+              "Place of the sensor in the reference's frame: x forward, y left, z up."),
+      number(
+          "time_offset_s", &Mounting::time_offset_s, {-10.0, 10.0},
+          "How much later than the reference's its sweep begins; matters with sweep_distortion."),
+  };
+  table.require([](const Mounting& m) { return m.rotation_rpy_deg.size() == 3; },
+                "rotation_rpy_deg must have three numbers");
+  table.require([](const Mounting& m) { return m.translation_m.size() == 3; },
+                "translation_m must have three numbers");
+  return table;
+}
+
+Table<CarBody> body_table() {
+  return {
+      boolean("is_visible", &CarBody::is_visible, "Whether the sensors see the car's own body."),
+      number("length_m", &CarBody::length_m, {0.5, 30.0}, "Length of the car."),
+      number("width_m", &CarBody::width_m, {0.3, 5.0}, "Width of the car."),
+      number("height_m", &CarBody::height_m, {0.3, 6.0}, "Height of the car."),
+  };
+}
+
+/// Whether the reference is one of the sensors, and its pose zero.
+bool has_reference(const Rig& rig) {
+  return std::any_of(rig.sensors.begin(), rig.sensors.end(), [&](const auto& sensor) {
+    const RigidTransform T = sensor.second.T_reference_sensor();
+    return sensor.first == rig.reference && T.rotation.isIdentity(0.0) && T.translation.isZero(0.0);
+  });
+}
+
+Table<Rig> rig_table() {
+  Table<Rig> table = {
+      params::text("reference", &Rig::reference, "The sensor that the others are calibrated to."),
+      number("reference_height_m", &Rig::reference_height_m, {0.1, 10.0},
+             "Height of the reference above the road."),
+      number("reference_forward_m", &Rig::reference_forward_m, {-15.0, 15.0},
+             "How far the reference stands ahead of the middle of the car."),
+      params::group("body", &Rig::body, body_table(), {}, "The car that carries the sensors."),
+      params::map("sensors", &Rig::sensors, mounting_table(), "a sensor's name",
+                  "The sensors by name, the reference among them."),
+  };
+  table.require(has_reference, "sensors must have the reference, with a pose of zeros");
+  table.require([](const Rig& rig) { return rig.sensors.size() >= 2; },
+                "sensors must have the reference and another");
+  return table;
+}
+
+Table<Mix> mix_table() {
+  const params::Range weight = {0.0, 1e9};
+  Table<Mix> table = {
+      number("urban", &Mix::urban, weight, "Weight of town streets."),
+      number("suburban", &Mix::suburban, weight, "Weight of streets of family houses."),
+      number("highway", &Mix::highway, weight, "Weight of highways."),
+      number("crossing", &Mix::crossing, weight, "Weight of crossings in a town."),
+      number("car_park", &Mix::car_park, weight, "Weight of car parks."),
+      number("empty", &Mix::empty, weight, "Weight of places where all around is the same."),
+      number("narrow", &Mix::narrow, weight, "Weight of alleys with walls close on both sides."),
+      number("blocked", &Mix::blocked, weight, "Weight of streets with a truck beside one sensor."),
+      number("corridor", &Mix::corridor, weight, "Weight of roads between long smooth walls."),
+  };
+  table.require(
+      [](const Mix& mix) {
+        const auto weights = mix.weights();
+        return std::any_of(weights.begin(), weights.end(), [](double w) { return w > 0.0; });
+      },
+      "one weight at least must be positive");
+  return table;
+}
+
+Table<Noise> noise_table() {
+  return {
+      number("range_std_m", &Noise::range_std_m, {0.0, 10.0}, "Standard deviation of a range."),
+      number("angle_std_deg", &Noise::angle_std_deg, {0.0, 10.0},
+             "Standard deviation of a ray's azimuth and of its elevation."),
+      number("dropout_ratio", &Noise::dropout_ratio, {0.0, 1.0},
+             "Share of the rays that are lost whatever they meet."),
+      number("detection_range_m", &Noise::detection_range_m, {0.0, 10000.0},
+             "Range at which half of the rays come back from a perpendicular target that sends "
+             "back 10 % of the light; 0: all rays come back."),
+      boolean("sweep_distortion", &Noise::sweep_distortion,
+              "Whether the car and others move while the sensors sweep; else all is of one time."),
+  };
+}
+
+}  // namespace
+
+const params::Table<Recipe>& recipe_table() {
+  static const params::Table<Recipe> table = {
+      params::group("rig", &Recipe::rig, rig_table(), presets(rigs()), "The car with its sensors."),
+      params::group("mix", &Recipe::mix, mix_table(), {{"paper", paper_mix()}},
+                    "How often each kind of scene comes, as weights; kinds that are not named do "
+                    "not come."),
+      params::group("noise", &Recipe::noise, noise_table(),
+                    {{"none", Noise{}}, {"real", real_noise()}}, "What the sensors do wrong."),
+      integer("seed", &Recipe::seed, {0, std::numeric_limits<int>::max()},
+              "Other scenes for another seed; the experiment's own seed moves starts alone."),
+  };
+  return table;
+}
+
+}  // namespace croon::simulation

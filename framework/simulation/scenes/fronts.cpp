@@ -1,0 +1,84 @@
+#include "framework/simulation/scenes/fronts.hpp"
+
+#include <cmath>
+
+#include "framework/simulation/primitives.hpp"
+#include "framework/simulation/scenes/boundary.hpp"
+#include "framework/simulation/scenes/draws.hpp"
+
+namespace croon::simulation {
+namespace {
+
+constexpr double kFloor_m = 3.0;
+
+BuildingSize draw_size(const Fronts& fronts, Rng& rng) {
+  BuildingSize size;
+  size.width_m = rng.uniform(9.0, 22.0);
+  size.depth_m = rng.uniform(9.0, 14.0);
+  size.floors = draw_int(rng, fronts.floors_low, fronts.floors_high);
+  return size;
+}
+
+/// The way from one house to the next.
+double draw_gap_m(const Fronts& fronts, Rng& rng) {
+  const double share = rng.uniform();
+  if (share < fronts.wall_to_wall) return 0.05;
+  if (share < 1.0 - fronts.side_street) return rng.uniform(2.0, 7.0);
+  return rng.uniform(9.0, 14.0);
+}
+
+/// Many gaps between houses are closed by a wall or a fence.
+void close_gap(SceneBuilder& builder, const Roadside& side, const Interval& gap_m, double out_m,
+               Rng& rng) {
+  if (gap_m.length_m() < 1.5 || gap_m.length_m() > 8.0 || chance(rng, 0.5)) return;
+  const BoundaryType type = pick<BoundaryType>(
+      {BoundaryType::garden_wall, BoundaryType::fence, BoundaryType::hedge}, rng);
+  const double height_m = rng.uniform(1.2, 2.4);
+  add_boundary(builder, {side.at(gap_m.from_m, out_m), side.at(gap_m.to_m, out_m)},
+               {type, height_m}, rng);
+}
+
+}  // namespace
+
+Mesh make_block(const BuildingSize& size, Rng& rng) {
+  Mesh mesh;
+  const Material material = chance(rng, 0.5) ? Material::plaster : Material::brick;
+  add_box(mesh, {0.0, 0.0, -1.0}, {size.width_m, size.depth_m, kFloor_m * size.floors}, material);
+  return mesh;
+}
+
+void add_fronts(SceneBuilder& builder, const Roadside& side, const Interval& along_m,
+                const Fronts& fronts, Rng rng) {
+  double from_m = along_m.from_m;
+  double last_m = from_m;
+  while (from_m < along_m.to_m) {
+    const BuildingSize size = draw_size(fronts, rng);
+    const double out_m = fronts.out_m + rng.uniform(0.0, 0.8);
+    const Interval depth_m = {out_m, out_m + size.depth_m};
+    const double needed_m = side.along_of(builder.shape(), size.width_m, depth_m);
+    const Interval own_m = {from_m, from_m + needed_m};
+    if (!builder.is_free(side.box(own_m, depth_m, kHeadroom_m))) {
+      from_m += 2.0;
+      continue;
+    }
+    const bool is_near = std::abs(own_m.middle_m()) < kDetail_m;
+    const Mesh building = is_near ? make_building(size, rng) : make_block(size, rng);
+    if (builder.stand(centred_along_x(building), side.at(own_m.middle_m(), out_m)) && is_near) {
+      close_gap(builder, side, {last_m + 0.1, from_m - 0.1}, out_m + 1.0, rng);
+    }
+    last_m = own_m.to_m;
+    from_m = own_m.to_m + draw_gap_m(fronts, rng);
+  }
+}
+
+void add_backdrop(SceneBuilder& builder, const Roadside& side, const Interval& along_m,
+                  const Interval& out_m, Rng rng) {
+  Fronts far;
+  for (double from_m = along_m.from_m; from_m < along_m.to_m; from_m += rng.uniform(14.0, 40.0)) {
+    const BuildingSize size = draw_size(far, rng);
+    const double place_m = draw(rng, out_m);
+    builder.stand(centred_along_x(make_block(size, rng)), side.at(from_m, place_m));
+  }
+}
+
+}  // namespace croon::simulation

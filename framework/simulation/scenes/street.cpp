@@ -1,0 +1,110 @@
+#include "framework/simulation/scenes/street.hpp"
+
+#include "framework/simulation/scenes/boundary.hpp"
+#include "framework/simulation/scenes/draws.hpp"
+
+namespace croon::simulation {
+namespace {
+
+constexpr double kParking_m = 2.2;  ///< Width of a strip for parked cars.
+constexpr Interval kTown_m = {-115.0, 115.0};
+
+/// Front gardens behind a hedge, a fence or a wall, where there is room for them.
+void add_front_gardens(SceneBuilder& builder, const Roadside& side, const Interval& along_m,
+                       const Interval& out_m, const StreamKey& key) {
+  Rng rng(key.with("front gardens"));
+  if (out_m.length_m() < 1.5 || chance(rng, 0.5)) return;
+  const BoundaryType type = pick<BoundaryType>(
+      {BoundaryType::garden_wall, BoundaryType::fence, BoundaryType::hedge}, rng);
+  const double height_m = rng.uniform(0.7, 1.3);
+  for (double from_m = along_m.from_m; from_m < along_m.to_m;) {
+    const double to_m = from_m + rng.uniform(5.0, 14.0);
+    if (std::abs(from_m) < kDetail_m) {
+      add_boundary(builder, {side.at(from_m, out_m.from_m), side.at(to_m, out_m.from_m)},
+                   {type, height_m}, rng);
+    }
+    from_m = to_m + rng.uniform(1.2, 4.0);
+  }
+}
+
+}  // namespace
+
+RoadShape draw_road(Rng& rng) {
+  RoadShape shape;
+  const bool is_straight = chance(rng, 0.5);
+  const double bend = rng.uniform(0.1, 1.0) * draw_sign(rng);
+  if (!is_straight) shape.curvature_per_m = bend / 120.0;
+  shape.grade = rng.uniform(-0.04, 0.04);
+  shape.banking = rng.uniform(-0.02, 0.02) + 1.5 * shape.curvature_per_m;
+  shape.crown = rng.uniform(0.0, 0.025);
+  shape.roughness_m = rng.uniform(0.002, 0.005);
+  shape.kerb_height_m = rng.uniform(0.08, 0.15);
+  shape.behind_roughness_m = rng.uniform(0.01, 0.04);
+  return shape;
+}
+
+Street draw_street(int least_lanes, Rng& rng) {
+  Street street;
+  street.shape = draw_road(rng);
+  const int lanes = chance(rng, 0.65) ? 1 : 2;
+  street.lanes.each_way = std::max(least_lanes, lanes);
+  street.lanes.width_m = rng.uniform(3.0, 3.5);
+  street.shape.half_width_m = street.lanes.edge_m() + kParking_m;
+  street.shape.pavement_width_m = rng.uniform(2.8, 5.0);
+  street.shape.lines = lane_lines(street.lanes, true);
+  street.shape.behind = chance(rng, 0.6) ? Material::paving : Material::grass;
+  street.speed_mps = chance(rng, 0.25) ? 0.0 : rng.uniform(4.0, 14.0);
+  const double kerb_m = street.shape.half_width_m + street.shape.pavement_width_m;
+  for (std::size_t i = 0; i < 2; ++i) {
+    street.has_parking[i] = chance(rng, 0.75);
+    const double least_m = std::max(kerb_m, 12.0);
+    street.front_m[i] = rng.uniform(least_m, std::max(least_m + 1.5, 17.5));
+  }
+  return street;
+}
+
+void put_car_on(SceneBuilder& builder, const Street& street, int index, const CarSpace& car) {
+  Rng rng(builder.key("car"));
+  const Place place = draw_car_place(street.lanes, index, rng);
+  const double turn_rate_radps = 0.01 * street.speed_mps * rng.uniform(-0.5, 0.5);
+  const double speed_mps = street.speed_mps * rng.uniform(0.8, 1.2);
+  builder.put_car(place, car, speed_mps, turn_rate_radps);
+}
+
+void add_town_side(SceneBuilder& builder, const Street& street, const Roadside& side,
+                   std::size_t index, const Interval& along_m, const StreamKey& key) {
+  const double kerb_m = street.shape.half_width_m;
+  const Pavement pavement = {kerb_m, street.shape.pavement_width_m, 0.6};
+  const double back_m = kerb_m + pavement.width_m;
+  Rng rng(key.with("side"));
+  Fronts fronts;
+  fronts.out_m = street.front_m[index];
+  fronts.floors_high = draw_int(rng, 3, 6);
+  fronts.wall_to_wall = rng.uniform(0.3, 0.8);
+  const double parked_share = rng.uniform(0.3, 0.95);
+  const int people = draw_int(rng, 1, 9);
+  add_fronts(builder, side, along_m, fronts, Rng(key.with("fronts")));
+  const Interval far_m = {fronts.out_m + 35.0, fronts.out_m + 60.0};
+  add_backdrop(builder, side, along_m, far_m, Rng(key.with("backdrop")));
+  add_front_gardens(builder, side, along_m, {back_m + 0.3, fronts.out_m}, key);
+  if (street.has_parking[index]) {
+    add_parked_row(builder, side, along_m, kerb_m - 1.12, parked_share, Rng(key.with("parked")));
+  }
+  add_furniture(builder, side, along_m, pavement, key);
+  const Interval near_m = {std::max(along_m.from_m, -40.0), std::min(along_m.to_m, 50.0)};
+  add_people(builder, side, near_m, {kerb_m + 1.2, back_m - 0.4}, people, Rng(key.with("people")));
+}
+
+void add_town(SceneBuilder& builder, const Street& street) {
+  Traffic traffic;
+  traffic.speed_mps = street.speed_mps;
+  if (street.speed_mps == 0.0) traffic.gap_m = {1.5, 30.0};
+  add_traffic(builder, street.lanes, kTown_m, traffic);
+  std::size_t index = 0;
+  for (const Roadside& side : both_sides()) {
+    add_town_side(builder, street, side, index, kTown_m, builder.key("side").with(index));
+    ++index;
+  }
+}
+
+}  // namespace croon::simulation
