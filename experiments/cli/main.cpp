@@ -8,6 +8,7 @@
 
 #include "experiments/cli/fault_lines.hpp"
 #include "experiments/cli/run_command.hpp"
+#include "experiments/cli/simulate_command.hpp"
 #include "experiments/cli/validate_command.hpp"
 #include "experiments/engine/version.hpp"
 #include "framework/base/nearest_name.hpp"
@@ -23,6 +24,7 @@ constexpr int kRequestIsWrong = 2;
 /// What the command line asks for.
 struct CommandLine {
   RunOptions run;
+  SimulateOptions simulate;
   std::vector<std::filesystem::path> to_validate;
   std::string stages;
   bool as_json = false;
@@ -43,6 +45,18 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_flag("--fresh", options.fresh, "Delete what is in the folder and start over.");
   run->add_flag("--quiet", options.quiet, "Do not show progress.");
   run->add_flag("--clouds", options.clouds, "Write the rig's clouds, fused by the estimates.");
+}
+
+void add_simulate(CLI::App& app, SimulateOptions& options) {
+  CLI::App* simulate =
+      app.add_subcommand("simulate", "Write the simulated scenes of an experiment as a dataset.");
+  simulate->add_option("EXPERIMENT", options.experiment, "The experiment, a JSON file.")
+      ->required();
+  simulate->add_option("--out", options.out, "Folder to write the dataset to.")->required();
+  simulate->add_option("--jobs", options.jobs, "Threads; default all cores.")
+      ->check(CLI::Range(1, 4096));
+  simulate->add_flag("--png", options.png, "Draw each scene, from behind the car and from above.");
+  simulate->add_flag("--quiet", options.quiet, "Do not show progress.");
 }
 
 void add_others(CLI::App& app, CommandLine& line) {
@@ -88,6 +102,9 @@ int run_chosen(const CLI::App& app, const CommandLine& line) {
     options.colours = ::isatty(STDOUT_FILENO) != 0;
     return run_command(options, registry(), std::cout, std::cerr);
   }
+  if (app.got_subcommand("simulate")) {
+    return simulate_command(line.simulate, registry(), std::cout, std::cerr);
+  }
   if (app.got_subcommand("validate")) {
     return validate_command(line.to_validate, registry(), std::cout, std::cerr);
   }
@@ -110,6 +127,7 @@ int croon_main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("croon ") + croon_version());
   app.allow_extras();
   add_run(app, line.run);
+  add_simulate(app, line.simulate);
   add_others(app, line);
   try {
     app.parse(argc, argv);

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "framework/geometry/loaded_cloud.hpp"
+#include "framework/geometry/measured_cloud.hpp"
 #include "framework/geometry/rigid_transform.hpp"
+#include "framework/picture/image.hpp"
 
 namespace croon {
 
@@ -20,13 +22,19 @@ struct SensorScan {
   std::optional<RigidTransform> truth;  ///< Ground truth.
   std::optional<RigidTransform> nominal;  ///< The pose on the rig's drawing.
   std::optional<RigidTransform> initial;  ///< The start that the recording came with.
+  /// The same points with all that the sensor tells of them; empty where the dataset only reads
+  /// clouds.
+  std::function<MeasuredCloud()> measure = {};
 };
 
 /// One recording of the rig: the reference LiDAR and the sensors to be calibrated to it.
 struct Scene {
   std::string name;
+  std::string kind;  ///< "urban", "narrow"; empty where the dataset tells none.
   SensorScan reference;
   std::vector<SensorScan> sensors;
+  /// A picture of the place from behind and above the car; empty where the dataset cannot draw.
+  std::function<Image()> draw = {};
 };
 
 /// The scenes of a rig.

@@ -1,5 +1,6 @@
 #include "framework/stage/rig_poses.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "framework/base/angles.hpp"
@@ -21,11 +22,30 @@ Eigen::Vector3d read_vector(const params::Node& pose, const std::string& key) {
   return vector;
 }
 
+RigidTransform pose_of(const Eigen::Vector3d& rpy_deg, const Eigen::Vector3d& translation_m) {
+  return {rotation_from_rpy(rpy_deg * rad_from_deg(1.0)), translation_m};
+}
+
 RigidTransform read_pose(const params::Node& pose) {
   if (!pose.is_object()) return {};
   pose.refuse_unknown_keys({"rotation_rpy_deg", "translation_m"});
   const Eigen::Vector3d rpy_deg = read_vector(pose, "rotation_rpy_deg");
-  return {rotation_from_rpy(rpy_deg * rad_from_deg(1.0)), read_vector(pose, "translation_m")};
+  return pose_of(rpy_deg, read_vector(pose, "translation_m"));
+}
+
+/// Roll, pitch and yaw in whole billionths of a degree: the digits that a file has.
+Eigen::Vector3d rounded_rpy_deg(const Eigen::Matrix3d& rotation) {
+  constexpr double kPerDegree = 1e9;
+  Eigen::Vector3d rpy_deg = rpy_from_rotation(rotation) / rad_from_deg(1.0);
+  for (double& angle_deg : rpy_deg) {
+    // Adding zero makes a negative zero positive.
+    angle_deg = std::round(angle_deg * kPerDegree) / kPerDegree + 0.0;
+  }
+  return rpy_deg;
+}
+
+nlohmann::ordered_json list_of(const Eigen::Vector3d& vector) {
+  return {vector.x(), vector.y(), vector.z()};
 }
 
 }  // namespace
@@ -40,6 +60,19 @@ RigPoses read_rig_poses(const std::filesystem::path& file) {
   }
   if (!faults.empty()) throw InputError(faults);
   return poses;
+}
+
+std::string rig_poses_json(const RigPoses& poses) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const auto& [sensor, T] : poses) {
+    json[sensor] = {{"rotation_rpy_deg", list_of(rounded_rpy_deg(T.rotation))},
+                    {"translation_m", list_of(T.translation)}};
+  }
+  return json.dump(2) + "\n";
+}
+
+RigidTransform pose_as_written(const RigidTransform& T_reference_sensor) {
+  return pose_of(rounded_rpy_deg(T_reference_sensor.rotation), T_reference_sensor.translation);
 }
 
 }  // namespace croon

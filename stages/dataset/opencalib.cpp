@@ -7,6 +7,7 @@
 #include "framework/io/point_cloud_file.hpp"
 #include "framework/stage/dataset.hpp"
 #include "framework/stage/rig_poses.hpp"
+#include "framework/stage/scene_kinds_file.hpp"
 #include "framework/stage/stage_entry.hpp"
 
 namespace croon::stages::dataset {
@@ -70,13 +71,31 @@ std::string sensor_name(const fs::path& file) {
   return stem.substr(0, stem.find('-'));
 }
 
-/// The poses in `name` beside the scene or above it, the nearest; none where there is no such file.
-RigPoses poses_above(const std::string& name, const ScenePlace& place) {
+/// The file `name` beside the scene or above it, the nearest.
+std::optional<fs::path> file_above(const std::string& name, const ScenePlace& place) {
   for (const fs::path& folder : folders_up(place)) {
-    if (!fs::exists(folder / name)) continue;
-    return read_rig_poses(path_in_data_root(place.root, (folder / name).string()));
+    if (fs::exists(folder / name)) return path_in_data_root(place.root, (folder / name).string());
   }
-  return {};
+  return std::nullopt;
+}
+
+/// The poses in `name` beside the scene or above it; none where there is no such file.
+RigPoses poses_above(const std::string& name, const ScenePlace& place) {
+  const std::optional<fs::path> file = file_above(name, place);
+  return file ? read_rig_poses(*file) : RigPoses{};
+}
+
+/// The files with kinds of scenes that were read: one file may be about thousands of scenes.
+using KindFiles = std::map<fs::path, SceneKinds>;
+
+/// The kind that the file beside the scene or above it gives; empty where there is none.
+std::string kind_of(const ScenePlace& place, KindFiles& read) {
+  const std::optional<fs::path> file = file_above("scene_kinds.json", place);
+  if (!file) return "";
+  auto kinds = read.find(*file);
+  if (kinds == read.end()) kinds = read.emplace(*file, read_scene_kinds(*file)).first;
+  const auto kind = kinds->second.find(place.name);
+  return kind == kinds->second.end() ? "" : kind->second;
 }
 
 template <class Poses, class Key>
@@ -131,8 +150,9 @@ std::map<int, SensorScan> listed_scans(const ScenePlace& place) {
   return scans;
 }
 
-Scene read_scene(const ScenePlace& place) {
+Scene read_scene(const ScenePlace& place, KindFiles& kind_files) {
   std::vector<Fault> faults;
+  std::string kind;
   std::map<int, SensorScan> scans;
   std::map<int, RigidTransform> initial;
   RigPoses truth, nominal;
@@ -140,8 +160,9 @@ Scene read_scene(const ScenePlace& place) {
   collect_faults(faults, [&] { initial = initial_poses(place); });
   collect_faults(faults, [&] { truth = poses_above("truth.json", place); });
   collect_faults(faults, [&] { nominal = poses_above("nominal.json", place); });
+  collect_faults(faults, [&] { kind = kind_of(place, kind_files); });
   if (!faults.empty()) throw InputError(faults);
-  Scene scene{place.name, scans.at(0), {}};
+  Scene scene{place.name, kind, scans.at(0), {}};
   scans.erase(0);
   for (auto& [device_id, scan] : scans) {
     scan.truth = pose_of(truth, scan.sensor);
@@ -189,8 +210,9 @@ class OpenCalib final : public Dataset {
     const fs::path folder = path_in_data_root(data_root, params_.path);
     std::vector<Scene> scenes;
     std::vector<Fault> faults;
+    KindFiles kind_files;
     for (const ScenePlace& place : scene_places(folder, fs::canonical(data_root))) {
-      collect_faults(faults, [&] { scenes.push_back(read_scene(place)); });
+      collect_faults(faults, [&] { scenes.push_back(read_scene(place, kind_files)); });
     }
     if (!faults.empty()) throw InputError(without_repeats(faults));
     return scenes;

@@ -162,6 +162,43 @@ TEST_F(MadeUpRig, TakesPosesFromTheNearestFile) {
   EXPECT_THAT(error_of(root, "rig"), HasSubstr("line 2: expected zeros for the reference"));
 }
 
+TEST_F(MadeUpRig, TakesKindsFromTheNearestFile) {
+  EXPECT_EQ(scenes(root, "rig")[0].kind, "");
+  folder.write("data/scene_kinds.json", R"({"a": "urban", "b": "car_park-2", "elsewhere": "x"})");
+  EXPECT_EQ(scenes(root, "rig")[0].kind, "urban");
+  EXPECT_EQ(scenes(root, "rig")[1].kind, "car_park-2");
+  EXPECT_EQ(scenes(root, "rig/b")[0].kind, "car_park-2");
+  folder.write("data/rig/a/scene_kinds.json", R"({"a": "narrow"})");
+  folder.write("data/rig/b/scene_kinds.json", "{}");
+  EXPECT_EQ(scenes(root, "rig")[0].kind, "narrow");
+  EXPECT_EQ(scenes(root, "rig")[1].kind, "");
+}
+
+TEST_F(MadeUpRig, SaysWhatIsWrongWithKinds) {
+  const std::string expected = "expected a word of letters, digits, \"_\" and \"-\", found ";
+  const std::pair<const char*, std::string> cases[] = {
+      {R"({"a": ""})", "scene_kinds.json: /a: " + expected + "\"\""},
+      {R"({"a": "car park"})", "scene_kinds.json: /a: " + expected + "\"car park\""},
+      {R"({"b": "straße"})", "scene_kinds.json: /b: " + expected},
+      {R"({"elsewhere": 7})", "scene_kinds.json: /elsewhere: " + expected + "7"},
+      {R"({"a": "x", "a": "y"})", "scene_kinds.json: /a: "},
+      {R"(["urban"])", "scene_kinds.json: expected an object"},
+      {"urban", "scene_kinds.json: "},
+  };
+  for (const auto& [text, message] : cases) {
+    folder.write("data/rig/scene_kinds.json", text);
+    EXPECT_THAT(error_of(root, "rig"), HasSubstr(message)) << text;
+  }
+  folder.write("data/rig/scene_kinds.json", R"({"a": 1, "b": {}})");
+  try {
+    scenes(root, "rig");
+    FAIL() << "nothing was thrown";
+  } catch (const InputError& error) {
+    // Both scenes share the file; its faults come once.
+    EXPECT_EQ(error.faults().size(), 2u) << error.what();
+  }
+}
+
 TEST(Opencalib, ReadsTheAuthorsSamples) {
   CROON_SKIP_WITHOUT_DATA();
   const std::vector<Scene> carla = scenes(test::data_root(), "opencalib/carla");

@@ -1,0 +1,130 @@
+#include <cstdio>
+#include <deque>
+#include <mutex>
+
+#include "framework/simulation/simulated_scene.hpp"
+#include "framework/stage/dataset.hpp"
+#include "framework/stage/rig_poses.hpp"
+#include "framework/stage/stage_entry.hpp"
+
+namespace croon::stages::dataset {
+namespace {
+
+using simulation::Recipe;
+using simulation::SimulatedScene;
+
+struct Params : Recipe {
+  int scenes = 100;
+  int first_scene = 0;
+};
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table = [] {
+    params::Table<Params> rows = {
+        params::integer("scenes", &Params::scenes, {1, 1000000}, "How many scenes."),
+        params::integer("first_scene", &Params::first_scene, {0, 1000000},
+                        "Number of the first one: a scene is the same whichever come with it."),
+    };
+    rows.inherit(simulation::recipe_table());
+    return rows;
+  }();
+  return table;
+}
+
+/// Builds scenes when a sensor of theirs is asked for, and keeps the last few, so that the sensors
+/// of one scene share it. Thread-safe.
+class Workshop {
+ public:
+  explicit Workshop(const Recipe& recipe) : recipe_(std::make_shared<const Recipe>(recipe)) {}
+
+  std::shared_ptr<const SimulatedScene> scene(std::uint64_t index) {
+    const std::shared_ptr<Bench> bench = bench_of(index);
+    std::call_once(bench->once,
+                   [&] { bench->scene = std::make_shared<const SimulatedScene>(recipe_, index); });
+    return bench->scene;
+  }
+
+ private:
+  struct Bench {
+    std::uint64_t index = 0;
+    std::once_flag once;
+    std::shared_ptr<const SimulatedScene> scene;
+  };
+
+  std::shared_ptr<Bench> bench_of(std::uint64_t index) {
+    constexpr std::size_t kKept = 4;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const std::shared_ptr<Bench>& bench : benches_) {
+      if (bench->index == index) return bench;
+    }
+    benches_.push_back(std::make_shared<Bench>());
+    benches_.back()->index = index;
+    if (benches_.size() > kKept) benches_.pop_front();
+    return benches_.back();
+  }
+
+  std::shared_ptr<const Recipe> recipe_;
+  std::mutex mutex_;
+  std::deque<std::shared_ptr<Bench>> benches_;
+};
+
+/// "000042".
+std::string scene_name(int index) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%06d", index);
+  return text;
+}
+
+class Simulated final : public Dataset {
+ public:
+  explicit Simulated(Params params) : params_(std::move(params)) {}
+
+  std::vector<Scene> scenes(const std::filesystem::path&) const override {
+    const auto workshop = std::make_shared<Workshop>(params_);
+    std::vector<Scene> scenes;
+    for (int i = 0; i < params_.scenes; ++i) {
+      scenes.push_back(scene(params_.first_scene + i, workshop));
+    }
+    return scenes;
+  }
+
+ private:
+  Scene scene(int number, const std::shared_ptr<Workshop>& workshop) const {
+    const auto index = static_cast<std::uint64_t>(number);
+    Scene scene;
+    scene.name = scene_name(number);
+    scene.kind = simulation::kSceneKindNames[static_cast<std::size_t>(
+        simulation::scene_kind(params_, index))];
+    for (const auto& [name, mounting] : params_.rig.sensors) {
+      SensorScan scan;
+      scan.sensor = name;
+      scan.measure = [workshop, index, sensor = name] {
+        return workshop->scene(index)->sweep_of(sensor);
+      };
+      scan.load = [measure = scan.measure] { return LoadedCloud{measure().points, 0}; };
+      if (name == params_.rig.reference) {
+        scene.reference = scan;
+      } else {
+        // As a file tells it, so that a written scene gives the same results to the last bit.
+        scan.truth = pose_as_written(mounting.T_reference_sensor());
+        scene.sensors.push_back(scan);
+      }
+    }
+    scene.draw = [workshop, index] { return simulation::bird_view(*workshop->scene(index)); };
+    return scene;
+  }
+
+  Params params_;
+};
+
+}  // namespace
+
+StageEntry simulated() {
+  return stage_entry<Simulated>(
+      "simulated",
+      "Road scenes that are built and ray-cast when they are needed, with exact truth; nothing is "
+      "downloaded and nothing written.",
+      "croon, after the paper's simulated experiment", table());
+}
+
+}  // namespace croon::stages::dataset
