@@ -4,12 +4,11 @@ PRESET_BUILD = cmake --preset $(1) && cmake --build --preset $(1)
 CLANG_FORMAT ?= $(shell command -v clang-format-14 || echo clang-format)
 RUN_CLANG_TIDY ?= $(shell command -v run-clang-tidy-14 || echo run-clang-tidy)
 SOURCES = git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp'
-TRIALS ?= 3
 
 .PHONY: help packages release demo test benchmark docs format lint clean
 
 help:
-	@echo 'make demo       the paper on the sample scenes, a few starts each'
+	@echo 'make demo       the paper on twelve simulated scenes, with a table and a picture'
 	@echo 'make test       build and run all tests'
 	@echo 'make benchmark  build and run the benchmarks'
 	@echo 'make docs       write docs/stages and docs/schema again'
@@ -23,10 +22,8 @@ packages:
 release: packages
 	$(call PRESET_BUILD,release)
 
-demo:
-	@.ci/data_root > /dev/null
-	@$(MAKE) --no-print-directory release
-	.ci/demo build/release/bin/croon --trials $(TRIALS)
+demo: release
+	build/release/bin/croon run experiments/demo.json --out results/demo --fresh --png
 
 test: packages
 	$(call PRESET_BUILD,test)

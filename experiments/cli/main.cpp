@@ -45,6 +45,7 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_flag("--fresh", options.fresh, "Delete what is in the folder and start over.");
   run->add_flag("--quiet", options.quiet, "Do not show progress.");
   run->add_flag("--clouds", options.clouds, "Write the rig's clouds, fused by the estimates.");
+  run->add_flag("--png", options.png, "Draw the first scene from above, before and after.");
 }
 
 void add_simulate(CLI::App& app, SimulateOptions& options) {

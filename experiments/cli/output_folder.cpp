@@ -14,8 +14,9 @@
 namespace croon::experiments {
 namespace {
 
-constexpr std::array<const char*, 6> kReports = {"trials.csv",   "timings.csv",   "summary.csv",
-                                                 "summary.json", "box_plots.svg", "manifest.json"};
+constexpr std::array<const char*, 7> kReports = {
+    "trials.csv",    "timings.csv",   "summary.csv",     "summary.json",
+    "box_plots.svg", "manifest.json", "before_after.png"};
 
 }  // namespace
 

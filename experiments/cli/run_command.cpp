@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "experiments/cli/before_after.hpp"
 #include "experiments/cli/fused_clouds.hpp"
 #include "experiments/cli/output_folder.hpp"
 #include "experiments/cli/timings_file.hpp"
@@ -128,6 +129,17 @@ void write_reports(const OutputFolder& folder, const std::vector<TrialRecord>& r
   write_whole_file(folder.file("manifest.json"), manifest);
 }
 
+constexpr const char* kPicture = "before_after.png";
+
+/// Draws the picture of `--png` and says what it shows.
+std::string draw_picture(const CheckedRun& run, const std::vector<TrialRecord>& records,
+                         const std::filesystem::path& path) {
+  const std::string scene = draw_before_after(run.experiment, run.scenes, records, path);
+  if (scene.empty()) return "There is no scene to draw: none has all its sensors.\n";
+  return "Scene " + scene + " from above, before (left) and after (right), is in " + path.string() +
+         "\n";
+}
+
 }  // namespace
 
 int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostream& out,
@@ -157,6 +169,7 @@ int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostr
   TableStyle style;
   style.colours = options.colours;
   out << summary_table(summary, style) << "Results are in " << run.out.string() << "\n";
+  if (options.png) out << draw_picture(run, records, folder.file(kPicture));
   const auto is_failed = [](const TrialRecord& r) { return r.status == Status::failed; };
   const bool all_done =
       complaints.empty() && std::none_of(records.begin(), records.end(), is_failed);

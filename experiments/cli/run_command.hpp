@@ -22,6 +22,7 @@ struct RunOptions {
   bool quiet = false;    ///< No progress.
   bool colours = false;  ///< Colours in the table.
   bool clouds = false;   ///< Write fused clouds.
+  bool png = false;      ///< Draw a scene before and after.
 };
 
 /// Runs the experiment, or what of it is missing, and writes the results: the table to `out`,

@@ -1,5 +1,8 @@
 #include "experiments/engine/runner.hpp"
 
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_group.h>
+
 #include <algorithm>
 #include <mutex>
 
@@ -11,8 +14,8 @@ namespace {
 
 /// The part of a plan that is one scene's.
 struct ScenePlan {
-  const PlannedTrial* begin;
-  const PlannedTrial* end;
+  const PlannedTrial* begin = nullptr;
+  const PlannedTrial* end = nullptr;
   std::size_t size() const { return static_cast<std::size_t>(end - begin); }
 };
 
@@ -30,11 +33,12 @@ LoadedScene load_scene(const Scene& scene, const ScenePlan& plan, std::uint64_t 
   LoadedScene loaded;
   loaded.sources.resize(scene.sensors.size());
   for_each_in_parallel(scene.sensors.size() + 1, [&](std::size_t i) {
-    if (i == scene.sensors.size()) {
-      loaded.target = load_scan(scene.reference, scene.name, seed);
-    } else if (is_wanted[i]) {
-      loaded.sources[i] = load_scan(scene.sensors[i], scene.name, seed);
-    }
+    const bool is_reference = i == scene.sensors.size();
+    if (!is_reference && !is_wanted[i]) return;
+    const SensorScan& scan = is_reference ? scene.reference : scene.sensors[i];
+    LoadedScan& to = is_reference ? loaded.target : loaded.sources[i];
+    // Isolated like trials: the time of reading is its own.
+    tbb::this_task_arena::isolate([&] { to = load_scan(scan, scene.name, seed); });
   });
   return loaded;
 }
@@ -64,12 +68,28 @@ std::vector<TimingRow> scene_timings(const Scene& scene, const LoadedScene& load
   return rows;
 }
 
+/// A run's listener, told one thing at a time, and nothing any more once an error ends the run:
+/// what still comes in then may have been cut short.
+class Telling {
+ public:
+  explicit Telling(const RunListener& listener) : listener_(listener) {}
+
+  template <class Tell>
+  void operator()(const Tell& tell) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!tbb::is_current_task_group_canceling()) tell(listener_);
+  }
+
+ private:
+  const RunListener& listener_;
+  std::mutex mutex_;
+};
+
 void run_scene(const Experiment& experiment, const std::vector<Scene>& scenes,
-               const ScenePlan& plan, const RunListener& listener) {
+               const ScenePlan& plan, Telling& tell) {
   const Scene& scene = scenes[plan.begin->scene];
-  listener.on_scene(scene.name);
+  tell([&](const RunListener& listener) { listener.on_scene(scene.name); });
   const LoadedScene loaded = load_scene(scene, plan, experiment.seed);
-  std::mutex listening;
   for_each_in_parallel(plan.size(), [&](std::size_t i) {
     const PlannedTrial& planned = plan.begin[i];
     TrialRecord record;
@@ -80,26 +100,49 @@ void run_scene(const Experiment& experiment, const std::vector<Scene>& scenes,
                          trial_id(experiment, scenes, planned), scene.sensors[planned.sensor],
                          loaded.target, loaded.sources[planned.sensor]);
     });
-    const std::lock_guard<std::mutex> lock(listening);
-    listener.on_trial(record, timings_of(record));
+    tell([&](const RunListener& listener) { listener.on_trial(record, timings_of(record)); });
   });
-  listener.on_scene_timings(scene_timings(scene, loaded));
+  tell([&](const RunListener& listener) {
+    listener.on_scene_timings(scene_timings(scene, loaded));
+  });
+}
+
+/// The plan scene by scene.
+std::vector<ScenePlan> split_by_scene(const std::vector<PlannedTrial>& plan) {
+  std::vector<ScenePlan> scenes;
+  const PlannedTrial* const end = plan.data() + plan.size();
+  for (const PlannedTrial* begin = plan.data(); begin != end; begin = scenes.back().end) {
+    const auto is_other = [&](const PlannedTrial& planned) {
+      return planned.scene != begin->scene;
+    };
+    scenes.push_back({begin, std::find_if(begin, end, is_other)});
+  }
+  return scenes;
+}
+
+/// Calls `use` for each scene, at most `in_flight` of them at a time.
+template <class Use>
+void for_each_scene(const std::vector<ScenePlan>& plans, std::size_t in_flight, const Use& use) {
+  auto next = plans.begin();
+  const auto take = [&](tbb::flow_control& control) {
+    if (next != plans.end()) return *next++;
+    control.stop();
+    return ScenePlan{};
+  };
+  tbb::parallel_pipeline(
+      in_flight, tbb::make_filter<void, ScenePlan>(tbb::filter_mode::serial_in_order, take) &
+                     tbb::make_filter<ScenePlan, void>(tbb::filter_mode::parallel, use));
 }
 
 }  // namespace
 
 void run_trials(const Experiment& experiment, const std::vector<Scene>& scenes,
                 const std::vector<PlannedTrial>& plan, int jobs, const RunListener& listener) {
+  Telling tell(listener);
   on_threads(jobs, [&] {
-    const PlannedTrial* const end = plan.data() + plan.size();
-    for (const PlannedTrial* begin = plan.data(); begin != end;) {
-      const auto is_other = [&](const PlannedTrial& planned) {
-        return planned.scene != begin->scene;
-      };
-      const PlannedTrial* const next = std::find_if(begin, end, is_other);
-      run_scene(experiment, scenes, {begin, next}, listener);
-      begin = next;
-    }
+    // One more than threads: while the last trials of a scene run, the next is loaded.
+    for_each_scene(split_by_scene(plan), static_cast<std::size_t>(jobs) + 1,
+                   [&](const ScenePlan& scene) { run_scene(experiment, scenes, scene, tell); });
   });
 }
 

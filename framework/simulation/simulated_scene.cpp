@@ -63,9 +63,10 @@ MeasuredCloud SimulatedScene::sweep_of(const std::string& name) const {
 }
 
 Image bird_view(const SimulatedScene& scene) {
+  // Low and over the car's axis, so that it is also inside of a tunnel and between close walls.
   const RigidTransform& T_world_car = scene.world().car.T_world_body;
-  return render(scene.caster(), looking_at(T_world_car * Eigen::Vector3d(-11.0, 3.0, 6.5),
-                                           T_world_car * Eigen::Vector3d(9.0, -0.5, 0.0)));
+  return render(scene.caster(), looking_at(T_world_car * Eigen::Vector3d(-10.5, 0.0, 4.3),
+                                           T_world_car * Eigen::Vector3d(10.0, 0.0, 0.5)));
 }
 
 }  // namespace croon::simulation

@@ -55,12 +55,12 @@ void add_panels(Mesh& mesh, const BusShape& shape, double side, const Span& heig
   }
 }
 
-/// Panes of about 1.5 m with posts between, and none where there are doors.
+/// Panes of 2.4 m and more with posts between, and none where there are doors.
 std::vector<Span> windows_of(const BusShape& shape, const std::vector<Span>& doors_m) {
   std::vector<Span> windows;
   for (const Span& wall : without({shape.whole_m.from + 0.3, shape.whole_m.to - 0.15}, doors_m)) {
     const double length_m = wall.to - wall.from;
-    const int count = std::max(1, static_cast<int>(length_m / 1.5));
+    const int count = std::max(1, static_cast<int>(length_m / 2.4));
     for (int i = 0; i < count; ++i) {
       windows.push_back(
           {wall.from + length_m * i / count + 0.05, wall.from + length_m * (i + 1) / count - 0.05});
@@ -143,14 +143,13 @@ Mesh make_bus(Rng& rng) {
   add_side(mesh, shape, 1.0, {});
   add_side(mesh, shape, -1.0, shape.doors_m);
   add_doors(mesh, shape);
-  add_end(mesh, shape, shape.whole_m.to, 0.95);
+  add_end(mesh, shape, shape.whole_m.to, kSill_m);
   add_end(mesh, shape, shape.whole_m.from, 1.5);
   for (const double axle_m : shape.axles_m) {
     add_axle(mesh, axle_m, {shape.wheel_radius_m, 0.3, shape.half_width_m});
   }
   add_mirrors(mesh, shape.whole_m.to - 0.15, shape.half_width_m - 0.02, 2.1, 0.4);
-  add_lights(mesh, {shape.whole_m.from - 0.01, shape.whole_m.to + 0.01}, shape.half_width_m - 0.1,
-             0.7);
+  add_lights(mesh, shape.whole_m, shape.half_width_m - 0.1, 0.7);
   return mesh;
 }
 

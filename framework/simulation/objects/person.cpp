@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "framework/simulation/objects/solids.hpp"
 #include "framework/simulation/primitives.hpp"
 #include "framework/simulation/scenes/draws.hpp"
 
@@ -77,13 +78,30 @@ void add_arm(Mesh& mesh, const Posture& posture, const Vector3d& shoulder, doubl
   add_box(mesh, hand - Vector3d(0.02, 0.02, 0.06), hand + Vector3d(0.03, 0.02, 0.02), kSkin);
 }
 
+/// An outline of the trunk: ratios of the body's height, from the hips up.
+struct Girth {
+  double above_hip, half_depth, half_width;
+};
+
 void add_trunk(Mesh& mesh, const Posture& posture) {
+  static const std::vector<Girth> girths = {{-0.05, 0.045, 0.075}, {0.0, 0.068, 0.094},
+                                            {0.1, 0.06, 0.08},     {0.22, 0.068, 0.11},
+                                            {0.29, 0.055, 0.115},  {0.325, 0.032, 0.045}};
   const double h = posture.height_m;
   const double girth_m = h * posture.girth_ratio;
-  const double hip_m = hip_height_m(posture);
-  const auto at = [&](double above_hip) { return Vector3d(0.0, 0.0, hip_m + above_hip * h); };
-  add_ellipsoid(mesh, at(0.04), {0.08 * girth_m, 0.1 * girth_m, 0.1 * h}, 6, Material::cloth);
-  add_ellipsoid(mesh, at(0.18), {0.078 * girth_m, 0.118 * girth_m, 0.17 * h}, 8, Material::cloth);
+  const auto at = [&](double above_hip) {
+    return Vector3d(0.0, 0.0, hip_height_m(posture) + above_hip * h);
+  };
+  std::vector<Ring> rings;
+  for (const Girth& girth : girths) {
+    Ring ring;
+    for (const Eigen::Vector2d& unit : regular_polygon(1.0, 8)) {
+      const Vector3d off(girth.half_depth * unit.x(), girth.half_width * unit.y(), 0.0);
+      ring.push_back(at(girth.above_hip) + girth_m * off);
+    }
+    rings.push_back(ring);
+  }
+  add_loft(mesh, rings, Material::cloth);
   add_cylinder(mesh, at(0.31), at(0.37), 0.034 * h, 0.03 * h, 5, kSkin);
   // The crown of the head is at the body's height where the legs are straight.
   const double crown = 1.0 - kAnkle - kThigh - kShin;
@@ -99,7 +117,7 @@ Mesh make_person(Rng& rng) {
   for (const double side : {1.0, -1.0}) {
     add_leg(mesh, posture, side);
     const Vector3d shoulder(0.0, side * 0.115 * posture.height_m * posture.girth_ratio,
-                            hip_height_m(posture) + 0.295 * posture.height_m);
+                            hip_height_m(posture) + 0.285 * posture.height_m);
     add_arm(mesh, posture, shoulder, side);
   }
   return mesh;

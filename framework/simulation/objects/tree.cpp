@@ -11,14 +11,17 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A clump of leaves: a closed core, which is where a crown lets nothing through, in loose leaves.
+/// A rounded part of a crown.
 struct Clump {
   Vector3d centre = Vector3d::Zero();
   Vector3d radii = Vector3d::Ones();
 };
 
+/// `leaves` around a few larger sprays, which make the clump's middle dense.
 void add_clump(Mesh& mesh, const Clump& clump, int leaves, double leaf_size_m, Rng& rng) {
-  add_ellipsoid(mesh, clump.centre, 0.5 * clump.radii, 6, Material::leaf);
+  constexpr int kSprays = 30;
+  const double spray_m = clump.radii.minCoeff();
+  add_leaves(mesh, clump.centre, 0.5 * clump.radii, kSprays, spray_m, rng);
   // Leaves reach half their size beyond where they are.
   const Vector3d radii = (clump.radii.array() - 0.5 * leaf_size_m).matrix();
   add_leaves(mesh, clump.centre, radii, leaves, leaf_size_m, rng);
@@ -48,7 +51,7 @@ void add_broad_crown(Mesh& mesh, double height_m, Rng& rng) {
   const Vector3d summit = fork + Vector3d(0.0, 0.0, rise_m - top_radii.z());
   add_cylinder(mesh, fork, summit, 0.5 * radius_m, 0.2 * radius_m, 5, Material::bark);
   const int boughs = draw_int(rng, 4, 5);
-  const int leaves = 500 / (boughs + 1);
+  const int leaves = 480 / (boughs + 1);
   add_clump(mesh, {summit, top_radii}, leaves, leaf_size_m, rng);
   const double turn_rad = rng.uniform(0.0, 2.0 * kPi);
   for (int i = 0; i < boughs; ++i) {
@@ -79,9 +82,9 @@ void add_conifer(Mesh& mesh, double height_m, Rng& rng) {
     const Vector3d foot(ratio * top.x(), ratio * top.y(), ratio * height_m);
     const Vector3d tip = foot + Vector3d(0.0, 0.0, 1.3 * step_m);
     const Vector3d end(tip.x(), tip.y(), std::min(tip.z(), height_m));
-    add_cylinder(mesh, foot, end, 0.7 * radius_m, 0.12 * radius_m, 8, Material::leaf);
+    add_cylinder(mesh, foot, end, 0.55 * radius_m, 0.1 * radius_m, 8, Material::leaf);
     const Vector3d radii(radius_m, radius_m, 0.45 * step_m);
-    const int leaves = static_cast<int>(150.0 * (1.05 - ratio));
+    const int leaves = static_cast<int>(160.0 * (1.05 - ratio));
     add_leaves(mesh, foot + Vector3d(0.0, 0.0, 0.5 * step_m), radii, leaves, leaf_size_m, rng);
   }
 }
@@ -89,7 +92,7 @@ void add_conifer(Mesh& mesh, double height_m, Rng& rng) {
 /// A slim column of leaves almost from the ground on.
 void add_poplar(Mesh& mesh, double height_m, Rng& rng) {
   const Vector3d top = add_trunk(mesh, 0.6 * height_m, 0.01 * height_m + 0.06, rng);
-  const double radius_m = rng.uniform(0.08, 0.11) * height_m;
+  const double radius_m = rng.uniform(0.1, 0.14) * height_m;
   const double leaf_size_m = rng.uniform(0.3, 0.4);
   constexpr int kClumps = 4;
   for (int i = 0; i < kClumps; ++i) {
@@ -99,7 +102,7 @@ void add_poplar(Mesh& mesh, double height_m, Rng& rng) {
     const double half_m = 0.68 * (height_m - foot_m) / kClumps;
     const double z_m = std::min(foot_m + ratio * (height_m - foot_m), height_m - half_m);
     const Vector3d centre(ratio * top.x(), ratio * top.y(), std::max(z_m, half_m + 0.2));
-    add_clump(mesh, {centre, {girth_m, girth_m, half_m}}, 150, leaf_size_m, rng);
+    add_clump(mesh, {centre, {girth_m, girth_m, half_m}}, 140, leaf_size_m, rng);
   }
 }
 

@@ -148,7 +148,7 @@ Mesh make_truck(Rng& rng) {
   // Boxes are the most frequent.
   const auto add_load = pick<AddLoad>({add_cargo_box, add_cargo_box, add_flatbed, add_tank}, rng);
   add_load(mesh, shape, rng);
-  add_lights(mesh, {shape.whole_m.from, shape.whole_m.to}, shape.half_width_m - 0.05, 0.75);
+  add_lights(mesh, shape.whole_m, shape.half_width_m - 0.05, 0.75);
   return mesh;
 }
 

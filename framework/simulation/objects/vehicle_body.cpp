@@ -31,9 +31,15 @@ std::vector<Vector2d> upper_edge(const BodyShape& shape) {
 
 double arch_radius_m(const BodyShape& shape) { return shape.wheel_radius_m + 0.06; }
 
-/// Height of the underside: the sills, cut out in circles over the wheels, higher at the bumpers.
+/// Height of the sills at `x`, higher at the bumpers.
+double sill_m(const BodyShape& shape, double x) {
+  const double to_end_m = 0.5 * shape.length_m - std::abs(x);
+  return shape.clearance_m + std::max(0.0, 0.1 - to_end_m);
+}
+
+/// Height of the underside: the sills, cut out in circles over the wheels.
 double underside_m(const BodyShape& shape, double x) {
-  double height_m = shape.clearance_m;
+  double height_m = sill_m(shape, x);
   for (const double axle_m : {shape.front_axle_m, shape.rear_axle_m}) {
     const double off_m = std::abs(x - axle_m);
     const double radius_m = arch_radius_m(shape);
@@ -41,14 +47,14 @@ double underside_m(const BodyShape& shape, double x) {
     const double arch_m = std::sqrt(radius_m * radius_m - off_m * off_m);
     height_m = std::max(height_m, shape.wheel_radius_m + arch_m);
   }
-  const double to_end_m = 0.5 * shape.length_m - std::abs(x);
-  return std::max(height_m, shape.clearance_m + 0.1 - to_end_m);
+  return height_m;
 }
 
-/// Half the width at `x`: rounded in towards both ends.
+/// Half the width at `x`: rounded in towards both ends, more so at the front.
 double half_width_m(const BodyShape& shape, double x) {
   const double beyond_ratio = std::max(0.0, (std::abs(x) - 0.5 * shape.length_m) / 0.55 + 1.0);
-  return 0.5 * shape.width_m * (1.0 - 0.16 * beyond_ratio * beyond_ratio);
+  const double rounding_ratio = x > 0.0 ? 0.16 : 0.06;
+  return 0.5 * shape.width_m * (1.0 - rounding_ratio * beyond_ratio * beyond_ratio);
 }
 
 /// The x at which the body's outline bends, in order.
@@ -73,15 +79,20 @@ std::vector<double> stations(const BodyShape& shape) {
   return places;
 }
 
-/// The outline across the body at `x`, widest at the middle of its height.
+/// The outline across the body at `x`, widest at the middle of its height. An arch cuts into the
+/// lower part and leaves the rest of the side as it is.
 Ring section(const BodyShape& shape, double x) {
   const double low_m = underside_m(shape, x);
   const double high_m = height_on(upper_edge(shape), x);
   const double half_m = half_width_m(shape, x);
-  const std::vector<Vector2d> left = {{0.94 * half_m, low_m},
-                                      {half_m, 0.55 * low_m + 0.45 * high_m},
-                                      {0.98 * half_m, 0.2 * low_m + 0.8 * high_m},
-                                      {0.88 * half_m, high_m}};
+  const auto side_m = [&](double ratio) {
+    const double whole_m = sill_m(shape, x) + ratio * (high_m - sill_m(shape, x));
+    return std::max(whole_m, low_m + 0.5 * ratio * (high_m - low_m));
+  };
+  const std::vector<Vector2d> left = {{0.96 * half_m, low_m},
+                                      {half_m, side_m(0.45)},
+                                      {0.98 * half_m, side_m(0.8)},
+                                      {0.92 * half_m, high_m}};
   Ring ring;
   for (const Vector2d& yz : left) ring.emplace_back(x, yz.x(), yz.y());
   for (auto yz = left.rbegin(); yz != left.rend(); ++yz) ring.emplace_back(x, -yz->x(), yz->y());

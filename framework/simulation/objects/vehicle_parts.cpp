@@ -81,7 +81,8 @@ void add_mirrors(Mesh& mesh, double x_m, double half_width_m, double height_m, d
 
 void add_lights(Mesh& mesh, const Span& ends, double half_width_m, double height_m) {
   constexpr double kDepth_m = 0.12;  // Deep enough to reach a body whose ends are rounded.
-  for (const double front_m : {ends.from + kDepth_m, ends.to}) {
+  constexpr double kProud_m = 0.012;
+  for (const double front_m : {ends.from + kDepth_m - kProud_m, ends.to + kProud_m}) {
     for (const double side : {1.0, -1.0}) {
       add_plate(mesh, {front_m, side * (half_width_m - 0.15), height_m}, rectangle(0.3, 0.14),
                 kDepth_m, Material::glass);

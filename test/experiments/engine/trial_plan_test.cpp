@@ -21,7 +21,8 @@ std::vector<Scene> two_scenes() {
   const auto scan = [](const std::string& sensor) {
     return SensorScan{sensor, "", {}, {}, {}, {}};
   };
-  return {{"z", scan("top"), {scan("right"), scan("left")}}, {"a", scan("top"), {scan("left")}}};
+  return {{"z", "", scan("top"), {scan("right"), scan("left")}},
+          {"a", "", scan("top"), {scan("left")}}};
 }
 
 TEST(Shard, ReadsKOfN) {

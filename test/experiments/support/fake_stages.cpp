@@ -28,7 +28,7 @@ class FakeDataset final : public Dataset {
     std::vector<Scene> scenes;
     for (int i = 0; i < params_.scenes; ++i) {
       // Not in the order of words: "scene10" would come before "scene2".
-      Scene scene{"scene" + std::to_string(params_.scenes - i), scan("top", i, -2), {}};
+      Scene scene{"scene" + std::to_string(params_.scenes - i), {}, scan("top", i, -2), {}};
       for (int k = 0; k < params_.sensors; ++k) {
         scene.sensors.push_back(scan("s" + std::to_string(params_.sensors - 1 - k), i, k));
       }

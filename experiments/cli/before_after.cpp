@@ -1,0 +1,55 @@
+#include "experiments/cli/before_after.hpp"
+
+#include <map>
+
+#include "experiments/engine/starts.hpp"
+#include "framework/picture/top_view.hpp"
+
+namespace croon::experiments {
+namespace {
+
+/// The first trials of one variant in one scene, by sensor.
+using FirstTrials = std::map<std::string, const TrialRecord*>;
+
+FirstTrials first_trials(const std::vector<TrialRecord>& records, const std::string& variant,
+                         const Scene& scene) {
+  FirstTrials trials;
+  for (const TrialRecord& record : records) {
+    if (record.id.variant != variant || record.id.scene != scene.name) continue;
+    // emplace keeps the first, and records are sorted by trial.
+    if (record.T_reference_sensor) trials.emplace(record.id.sensor, &record);
+  }
+  return trials;
+}
+
+Image drawn(const Experiment& experiment, const Scene& scene, const FirstTrials& trials) {
+  std::vector<ColouredCloud> before = {{scene.reference.sensor, scene.reference.load().points, {}}};
+  std::vector<ColouredCloud> after = before;
+  for (const SensorScan& scan : scene.sensors) {
+    const TrialRecord& trial = *trials.at(scan.sensor);
+    const PointCloud points = scan.load().points;
+    before.push_back({scan.sensor, points,
+                      draw_start(experiment.starts, *centre_pose(experiment.starts.around, scan),
+                                 experiment.seed, scene.name, scan.sensor, trial.id.trial)});
+    after.push_back({scan.sensor, points, *trial.T_reference_sensor});
+  }
+  constexpr TopView kView = {20.0, 20.0, 0.05};
+  constexpr int kGap_px = 8;
+  return side_by_side({top_view(before, kView), top_view(after, kView)}, kGap_px);
+}
+
+}  // namespace
+
+std::string draw_before_after(const Experiment& experiment, const std::vector<Scene>& scenes,
+                              const std::vector<TrialRecord>& records,
+                              const std::filesystem::path& path) {
+  for (const Scene& scene : scenes) {
+    const FirstTrials trials = first_trials(records, experiment.variants.front().name, scene);
+    if (trials.size() != scene.sensors.size()) continue;
+    write_png(path, drawn(experiment, scene, trials));
+    return scene.name;
+  }
+  return "";
+}
+
+}  // namespace croon::experiments
