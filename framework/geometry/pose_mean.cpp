@@ -33,12 +33,14 @@ std::vector<RigidTransform> in_fixed_order(std::vector<RigidTransform> poses) {
 /// `length` as a multiple of `bound`, which may be zero.
 double multiple(double length, double bound) { return length == 0.0 ? 0.0 : length / bound; }
 
-/// The larger of rotation and translation between two poses, each as a multiple of its bound.
+/// The larger of rotation and translation between two poses, each as a multiple of its bound. Not
+/// by `pose_error`, whose DOFs nobody wants here: a consensus of n poses asks n^2 / 2 times.
 double distance_in_bounds(const RigidTransform& a, const RigidTransform& b,
                           const PoseBounds& bounds) {
-  const PoseError error = pose_error(a, b);
-  return std::max(multiple(error.rotation_rad, bounds.rotation_rad),
-                  multiple(error.translation_m, bounds.translation_m));
+  const double rotation_rad = rotation_angle(a.rotation * b.rotation.transpose());
+  const double translation_m = (a.translation - b.translation).norm();
+  return std::max(multiple(rotation_rad, bounds.rotation_rad),
+                  multiple(translation_m, bounds.translation_m));
 }
 
 /// The place of the pose with the most others near it; see `consensus_pose`.

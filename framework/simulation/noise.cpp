@@ -4,6 +4,12 @@
 
 namespace croon::simulation {
 
+Noise carla_noise() {
+  Noise noise;
+  noise.dropout_ratio = 0.156;
+  return noise;
+}
+
 Noise real_noise() {
   Noise noise;
   noise.range_std_m = 0.02;

@@ -8,27 +8,35 @@
 namespace croon::simulation {
 namespace {
 
-/// The silhouette from the tail over the roof to the nose: shares of the length and of the height.
-constexpr std::array<std::array<double, 2>, 13> kSilhouette = {{{-0.49, 0.16},
-                                                                {-0.50, 0.35},
-                                                                {-0.49, 0.62},
-                                                                {-0.46, 0.72},
-                                                                {-0.37, 0.92},
-                                                                {-0.25, 0.985},
-                                                                {-0.08, 1.00},
-                                                                {0.06, 0.96},
-                                                                {0.22, 0.72},
-                                                                {0.38, 0.64},
-                                                                {0.47, 0.55},
-                                                                {0.50, 0.40},
-                                                                {0.49, 0.16}}};
+/// The silhouette from the tail over the roof to the nose, shares of the length and of the height:
+/// that of the car in the paper's samples, from the points that its own sensors see on it.
+constexpr std::array<std::array<double, 2>, 18> kSilhouette = {{{-0.49, 0.18},
+                                                                {-0.50, 0.45},
+                                                                {-0.475, 0.73},
+                                                                {-0.40, 0.83},
+                                                                {-0.28, 0.93},
+                                                                {-0.15, 0.985},
+                                                                {-0.09, 1.00},
+                                                                {-0.02, 0.99},
+                                                                {0.04, 0.96},
+                                                                {0.12, 0.88},
+                                                                {0.205, 0.79},
+                                                                {0.29, 0.675},
+                                                                {0.374, 0.63},
+                                                                {0.42, 0.57},
+                                                                {0.458, 0.51},
+                                                                {0.49, 0.43},
+                                                                {0.495, 0.32},
+                                                                {0.49, 0.18}}};
 
-/// Half the width at a share of the height: full up to the windows, then narrower up to the roof.
-double half_width_m(const CarBody& body, double height_share) {
-  constexpr double kWindows = 0.64;
-  constexpr double kRoof = 0.76;  // Of the full width.
-  const double up = std::clamp((height_share - kWindows) / (1.0 - kWindows), 0.0, 1.0);
-  return 0.5 * body.width_m * (1.0 - up * (1.0 - kRoof));
+/// Half the width at shares of the length and of the height: narrower from the windows up to the
+/// roof, and towards nose and tail.
+double half_width_m(const CarBody& body, double length_share, double height_share) {
+  const auto narrowed = [](double share, double from, double to, double least) {
+    return 1.0 - (1.0 - least) * std::clamp((share - from) / (to - from), 0.0, 1.0);
+  };
+  return 0.5 * body.width_m * narrowed(height_share, 0.6, 1.0, 0.72) *
+         narrowed(length_share, 0.36, 0.5, 0.56) * narrowed(-length_share, 0.33, 0.5, 0.66);
 }
 
 /// The hull over the silhouette: one band across the car, and its two sides.
@@ -40,9 +48,9 @@ void add_hull(Mesh& mesh, const CarBody& body) {
     const double sign = side == 0 ? 1.0 : -1.0;
     first[side] = static_cast<std::uint32_t>(mesh.vertices.size());
     for (const auto& [x, z] : kSilhouette) {
-      mesh.add_vertex({x * body.length_m, sign * half_width_m(body, z), z * body.height_m});
+      mesh.add_vertex({x * body.length_m, sign * half_width_m(body, x, z), z * body.height_m});
     }
-    hub[side] = mesh.add_vertex({0.0, sign * half_width_m(body, 0.5), 0.5 * body.height_m});
+    hub[side] = mesh.add_vertex({0.0, sign * half_width_m(body, 0.0, 0.5), 0.5 * body.height_m});
   }
   for (std::uint32_t i = 0; i < kCorners; ++i) {
     const std::uint32_t next = (i + 1) % kCorners;

@@ -14,9 +14,9 @@ Mounting mounted(const char* model, std::vector<double> rotation_rpy_deg,
 /// edges of its roof, pitched down by 48 degrees. Poses as in the samples.
 Rig croon_five() {
   Rig rig;
-  rig.body = {4.5, 1.62, 1.46, true};
+  rig.body = {4.72, 1.9, 1.45, true};
   rig.reference_height_m = 2.1;
-  rig.reference_forward_m = -0.55;
+  rig.reference_forward_m = -0.525;
   rig.sensors = {{"back", mounted("carla_pandar_qt", {0, 48, 180}, {-1.8, 0, -0.82})},
                  {"front", mounted("carla_pandar_qt", {0, 48, 0}, {2.9, 0.15, -1.195})},
                  {"left", mounted("carla_pandar_qt", {0, 48, -90}, {0.25, -0.85, -0.595})},

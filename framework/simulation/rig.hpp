@@ -22,9 +22,9 @@ struct Mounting {
 
 /// The car's body, whose middle is the origin of the car's frame. Sensors see it.
 struct CarBody {
-  double length_m = 4.6;
-  double width_m = 1.7;
-  double height_m = 1.45;
+  double length_m = 4.75;
+  double width_m = 1.9;
+  double height_m = 1.48;
   bool is_visible = true;
 };
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/simulation/draws.hpp"
 #include "framework/simulation/objects/vehicle_parts.hpp"
 #include "framework/simulation/objects/vehicle_types.hpp"
 #include "framework/simulation/primitives.hpp"
-#include "framework/simulation/scenes/draws.hpp"
 
 namespace croon::simulation {
 namespace {
@@ -86,15 +86,13 @@ void add_side(Mesh& mesh, const BusShape& shape, double side, const std::vector<
   add_panels(mesh, shape, side, {shape.window_top_m, shape.roof_m}, {});
 }
 
-/// Two leaves of glass in frames, level with the panels.
+/// Two leaves of glass each, whose frames meet in the middle.
 void add_doors(Mesh& mesh, const BusShape& shape) {
   const double y_m = -shape.half_width_m;
   for (const Span& door : shape.doors_m) {
     const double middle_m = 0.5 * (door.from + door.to);
-    for (const double post_m : {door.from + 0.03, middle_m, door.to - 0.03}) {
-      add_box(mesh, {post_m - 0.03, y_m, kFloor_m},
-              {post_m + 0.03, y_m + kRecess_m, shape.window_top_m}, Material::rubber);
-    }
+    add_box(mesh, {middle_m - 0.04, y_m, kFloor_m},
+            {middle_m + 0.04, y_m + kRecess_m, shape.window_top_m}, Material::rubber);
     add_box(mesh, {door.from, y_m + 0.5 * kRecess_m, kFloor_m},
             {door.to, y_m + 0.9 * kRecess_m, kSill_m + 0.1}, Material::glass);
   }

@@ -1,9 +1,9 @@
 #include <algorithm>
 
+#include "framework/simulation/draws.hpp"
 #include "framework/simulation/objects/solids.hpp"
 #include "framework/simulation/objects/street_furniture.hpp"
 #include "framework/simulation/primitives.hpp"
-#include "framework/simulation/scenes/draws.hpp"
 
 namespace croon::simulation {
 namespace {

@@ -2,10 +2,10 @@
 #include <cmath>
 
 #include "framework/base/angles.hpp"
+#include "framework/simulation/draws.hpp"
 #include "framework/simulation/objects/plants.hpp"
 #include "framework/simulation/objects/solids.hpp"
 #include "framework/simulation/primitives.hpp"
-#include "framework/simulation/scenes/draws.hpp"
 
 namespace croon::simulation {
 namespace {
@@ -51,7 +51,7 @@ Mesh make_bush(Rng& rng) {
   const Vector3d centre(0.0, 0.0, 0.5 * height_m);
   const Vector3d radii(girth_ratio * height_m, girth_ratio * height_m, 0.5 * height_m);
   // The core lets nothing through; it stands on a few stems.
-  add_ellipsoid(mesh, centre, 0.72 * radii, 8, Material::leaf);
+  add_ellipsoid(mesh, centre, 0.62 * radii, 8, Material::leaf);
   add_cylinder(mesh, Vector3d::Zero(), centre, 0.05, 0.04, 5, Material::bark);
   const Vector3d reach = (radii.array() - 0.5 * leaf_size_m).matrix();
   add_leaves(mesh, centre, reach, 110, leaf_size_m, rng);
@@ -60,7 +60,7 @@ Mesh make_bush(Rng& rng) {
 
 Mesh make_hedge(double length_m, double height_m, double width_m, Rng& rng) {
   Mesh mesh;
-  const double leaf_size_m = std::min(0.22, 0.35 * std::min(width_m, height_m));
+  const double leaf_size_m = std::min(0.3, 0.4 * std::min(width_m, height_m));
   const double depth_m = 0.5 * leaf_size_m;  // How far leaves stand out from the core.
   const double half_m = 0.5 * width_m - depth_m;
   const double top_m = height_m - depth_m;
@@ -68,14 +68,14 @@ Mesh make_hedge(double length_m, double height_m, double width_m, Rng& rng) {
   const double piece_m = length_m / pieces;
   std::vector<Ring> sections;
   for (int i = 0; i <= pieces; ++i) {
-    sections.push_back(hedge_section(i * piece_m, half_m, top_m, 0.2 * depth_m, rng));
+    sections.push_back(hedge_section(i * piece_m, half_m, top_m, 0.5 * depth_m, rng));
   }
   add_loft(mesh, sections, Material::leaf);
   const double along_m = 0.5 * piece_m - depth_m;
   const double up_m = 0.5 * height_m - depth_m;
   for (int i = 0; i < pieces; ++i) {
     const double x = (i + 0.5) * piece_m;
-    for (const double y : {-half_m, half_m}) {
+    for (const double y : {-half_m - 0.3 * depth_m, half_m + 0.3 * depth_m}) {
       add_leaves(mesh, {x, y, 0.5 * height_m}, {along_m, 0.02, up_m}, 8, leaf_size_m, rng);
     }
     add_leaves(mesh, {x, 0.0, top_m}, {along_m, 0.8 * half_m, 0.02}, 6, leaf_size_m, rng);

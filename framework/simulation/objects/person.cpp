@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "framework/simulation/draws.hpp"
 #include "framework/simulation/objects/solids.hpp"
 #include "framework/simulation/primitives.hpp"
-#include "framework/simulation/scenes/draws.hpp"
 
 namespace croon::simulation {
 namespace {

@@ -1,8 +1,8 @@
 #include "framework/simulation/objects/street_furniture.hpp"
 
+#include "framework/simulation/draws.hpp"
 #include "framework/simulation/objects/solids.hpp"
 #include "framework/simulation/primitives.hpp"
-#include "framework/simulation/scenes/draws.hpp"
 
 namespace croon::simulation {
 namespace {

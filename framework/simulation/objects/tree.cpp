@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "framework/base/angles.hpp"
+#include "framework/simulation/draws.hpp"
 #include "framework/simulation/objects/plants.hpp"
 #include "framework/simulation/primitives.hpp"
-#include "framework/simulation/scenes/draws.hpp"
 
 namespace croon::simulation {
 namespace {
@@ -19,8 +19,8 @@ struct Clump {
 
 /// `leaves` around a few larger sprays, which make the clump's middle dense.
 void add_clump(Mesh& mesh, const Clump& clump, int leaves, double leaf_size_m, Rng& rng) {
-  constexpr int kSprays = 30;
-  const double spray_m = clump.radii.minCoeff();
+  constexpr int kSprays = 40;
+  const double spray_m = std::min(1.1, clump.radii.minCoeff());
   add_leaves(mesh, clump.centre, 0.5 * clump.radii, kSprays, spray_m, rng);
   // Leaves reach half their size beyond where they are.
   const Vector3d radii = (clump.radii.array() - 0.5 * leaf_size_m).matrix();
@@ -51,7 +51,7 @@ void add_broad_crown(Mesh& mesh, double height_m, Rng& rng) {
   const Vector3d summit = fork + Vector3d(0.0, 0.0, rise_m - top_radii.z());
   add_cylinder(mesh, fork, summit, 0.5 * radius_m, 0.2 * radius_m, 5, Material::bark);
   const int boughs = draw_int(rng, 4, 5);
-  const int leaves = 480 / (boughs + 1);
+  const int leaves = 420 / (boughs + 1);
   add_clump(mesh, {summit, top_radii}, leaves, leaf_size_m, rng);
   const double turn_rad = rng.uniform(0.0, 2.0 * kPi);
   for (int i = 0; i < boughs; ++i) {
@@ -102,7 +102,7 @@ void add_poplar(Mesh& mesh, double height_m, Rng& rng) {
     const double half_m = 0.68 * (height_m - foot_m) / kClumps;
     const double z_m = std::min(foot_m + ratio * (height_m - foot_m), height_m - half_m);
     const Vector3d centre(ratio * top.x(), ratio * top.y(), std::max(z_m, half_m + 0.2));
-    add_clump(mesh, {centre, {girth_m, girth_m, half_m}}, 140, leaf_size_m, rng);
+    add_clump(mesh, {centre, {girth_m, girth_m, half_m}}, 130, leaf_size_m, rng);
   }
 }
 

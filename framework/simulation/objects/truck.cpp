@@ -1,9 +1,9 @@
 #include <algorithm>
 
+#include "framework/simulation/draws.hpp"
 #include "framework/simulation/objects/vehicle_parts.hpp"
 #include "framework/simulation/objects/vehicle_types.hpp"
 #include "framework/simulation/primitives.hpp"
-#include "framework/simulation/scenes/draws.hpp"
 
 namespace croon::simulation {
 namespace {

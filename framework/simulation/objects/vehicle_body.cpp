@@ -20,11 +20,16 @@ double height_on(const std::vector<Vector2d>& points, double x) {
   return a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x());
 }
 
+/// x at which the tail has its full height, behind the cabin.
+double tail_top_m(const BodyShape& shape) {
+  return std::min(-0.5 * shape.length_m + 0.08, shape.cabin.belt.rear_m - 0.01);
+}
+
 /// The upper edge of the lower body: tail, belt line, bonnet, nose.
 std::vector<Vector2d> upper_edge(const BodyShape& shape) {
   const double end_m = 0.5 * shape.length_m;
   const double belt_m = shape.cabin.belt.z_m + 0.02;
-  return {{-end_m, shape.tail_m - 0.12},     {-end_m + 0.08, shape.tail_m},
+  return {{-end_m, shape.tail_m - 0.12},     {tail_top_m(shape), shape.tail_m},
           {shape.cabin.belt.rear_m, belt_m}, {shape.cabin.belt.front_m, belt_m},
           {end_m - 0.15, shape.nose_m},      {end_m, shape.nose_m - 0.18}};
 }
@@ -61,7 +66,7 @@ double half_width_m(const BodyShape& shape, double x) {
 std::vector<double> stations(const BodyShape& shape) {
   const double end_m = 0.5 * shape.length_m;
   std::vector<double> places = {-end_m,
-                                -end_m + 0.08,
+                                tail_top_m(shape),
                                 -end_m + 0.3,
                                 end_m - 0.3,
                                 end_m - 0.15,

@@ -2,8 +2,8 @@
 
 #include "framework/simulation/objects/vehicle_parts.hpp"
 
+#include "framework/simulation/draws.hpp"
 #include "framework/simulation/primitives.hpp"
-#include "framework/simulation/scenes/draws.hpp"
 
 namespace croon::simulation {
 namespace {
@@ -92,6 +92,10 @@ void add_lights(Mesh& mesh, const Span& ends, double half_width_m, double height
   }
 }
 
-Material draw_coat(Rng& rng) { return chance(rng, 0.75) ? Material::paint : Material::metal; }
+Material draw_coat(Rng& rng) {
+  return pick<Material>({Material::white_paint, Material::black_paint, Material::metal,
+                         Material::blue_paint, Material::paint},
+                        rng);
+}
 
 }  // namespace croon::simulation

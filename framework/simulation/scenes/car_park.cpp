@@ -34,9 +34,9 @@ struct Bays {
 Bays draw_bays(Rng& rng) {
   Bays bays;
   bays.lane_m = rng.uniform(5.8, 7.5);
-  bays.rows = draw_int(rng, 1, 2);
+  bays.rows = 1;
   bays.along_m = {-rng.uniform(20.0, 45.0), rng.uniform(20.0, 55.0)};
-  bays.share = rng.uniform(0.25, 0.92);
+  bays.share = rng.uniform(0.1, 0.5);
   return bays;
 }
 

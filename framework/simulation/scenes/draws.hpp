@@ -1,32 +1,13 @@
 #pragma once
 
-#include <vector>
-
-#include "framework/base/rng.hpp"
+#include "framework/simulation/draws.hpp"
 #include "framework/simulation/scenes/road_box.hpp"
 
 namespace croon::simulation {
 
-/// True in `share` of the draws.
-inline bool chance(Rng& rng, double share) { return rng.uniform() < share; }
-
 /// Uniform in `interval_m`.
 inline double draw(Rng& rng, const Interval& interval_m) {
   return rng.uniform(interval_m.from_m, interval_m.to_m);
-}
-
-/// Uniform in {`low`, ..., `high`}.
-inline int draw_int(Rng& rng, int low, int high) {
-  return low + static_cast<int>(rng.below(static_cast<std::uint64_t>(high - low + 1)));
-}
-
-/// 1 or -1, as likely as each other.
-inline double draw_sign(Rng& rng) { return chance(rng, 0.5) ? 1.0 : -1.0; }
-
-/// One of `choices`, which must not be empty.
-template <class T>
-const T& pick(const std::vector<T>& choices, Rng& rng) {
-  return choices[rng.below(choices.size())];
 }
 
 }  // namespace croon::simulation

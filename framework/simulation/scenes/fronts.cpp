@@ -23,8 +23,8 @@ BuildingSize draw_size(const Fronts& fronts, Rng& rng) {
 double draw_gap_m(const Fronts& fronts, Rng& rng) {
   const double share = rng.uniform();
   if (share < fronts.wall_to_wall) return 0.05;
-  if (share < 1.0 - fronts.side_street) return rng.uniform(2.0, 7.0);
-  return rng.uniform(9.0, 14.0);
+  if (share < 1.0 - fronts.side_street) return rng.uniform(2.0, 9.0);
+  return rng.uniform(9.0, 20.0);
 }
 
 /// Many gaps between houses are closed by a wall or a fence.
@@ -53,7 +53,7 @@ void add_fronts(SceneBuilder& builder, const Roadside& side, const Interval& alo
   double last_m = from_m;
   while (from_m < along_m.to_m) {
     const BuildingSize size = draw_size(fronts, rng);
-    const double out_m = fronts.out_m + rng.uniform(0.0, 0.8);
+    const double out_m = fronts.out_m + rng.uniform(0.0, 3.0);
     const Interval depth_m = {out_m, out_m + size.depth_m};
     const double needed_m = side.along_of(builder.shape(), size.width_m, depth_m);
     const Interval own_m = {from_m, from_m + needed_m};
@@ -74,7 +74,7 @@ void add_fronts(SceneBuilder& builder, const Roadside& side, const Interval& alo
 void add_backdrop(SceneBuilder& builder, const Roadside& side, const Interval& along_m,
                   const Interval& out_m, Rng rng) {
   Fronts far;
-  for (double from_m = along_m.from_m; from_m < along_m.to_m; from_m += rng.uniform(14.0, 40.0)) {
+  for (double from_m = along_m.from_m; from_m < along_m.to_m; from_m += rng.uniform(25.0, 80.0)) {
     const BuildingSize size = draw_size(far, rng);
     const double place_m = draw(rng, out_m);
     builder.stand(centred_along_x(make_block(size, rng)), side.at(from_m, place_m));

@@ -57,8 +57,8 @@ Street draw_street(int least_lanes, Rng& rng) {
   const double kerb_m = street.shape.half_width_m + street.shape.pavement_width_m;
   for (std::size_t i = 0; i < 2; ++i) {
     street.has_parking[i] = chance(rng, 0.75);
-    const double least_m = std::max(kerb_m, 12.0);
-    street.front_m[i] = rng.uniform(least_m, std::max(least_m + 1.5, 17.5));
+    const double least_m = std::max(kerb_m, 13.0);
+    street.front_m[i] = rng.uniform(least_m, least_m + 8.0);
   }
   return street;
 }
@@ -79,8 +79,8 @@ void add_town_side(SceneBuilder& builder, const Street& street, const Roadside& 
   Rng rng(key.with("side"));
   Fronts fronts;
   fronts.out_m = street.front_m[index];
-  fronts.floors_high = draw_int(rng, 3, 6);
-  fronts.wall_to_wall = rng.uniform(0.3, 0.8);
+  fronts.floors_high = draw_int(rng, 2, 6);
+  fronts.wall_to_wall = rng.uniform(0.1, 0.5);
   const double parked_share = rng.uniform(0.3, 0.95);
   const int people = draw_int(rng, 1, 9);
   add_fronts(builder, side, along_m, fronts, Rng(key.with("fronts")));
