@@ -6,11 +6,11 @@ namespace croon::simulation {
 
 Mix paper_mix() {
   Mix mix;
-  mix.urban = 35.0;
-  mix.suburban = 22.0;
-  mix.highway = 13.0;
-  mix.crossing = 17.0;
-  mix.car_park = 7.7;
+  mix.urban = 42.0;
+  mix.suburban = 24.0;
+  mix.highway = 5.0;
+  mix.crossing = 18.0;
+  mix.car_park = 5.7;
   mix.empty = 1.5;
   mix.narrow = 1.3;
   mix.blocked = 1.5;

@@ -33,10 +33,10 @@ struct Bays {
 
 Bays draw_bays(Rng& rng) {
   Bays bays;
-  bays.lane_m = rng.uniform(5.8, 7.5);
+  bays.lane_m = rng.uniform(6.5, 9.0);
   bays.rows = 1;
   bays.along_m = {-rng.uniform(20.0, 45.0), rng.uniform(20.0, 55.0)};
-  bays.share = rng.uniform(0.1, 0.5);
+  bays.share = rng.uniform(0.1, 0.4);
   return bays;
 }
 

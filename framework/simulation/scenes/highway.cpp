@@ -15,7 +15,7 @@ void add_overhead(SceneBuilder& builder, Rng& rng) {
   const double length_m = rng.uniform(60.0, 130.0);
   if (share < 0.3) {
     add_bridge(builder, {from_m, from_m + deck_m}, rng);
-  } else if (share < 0.33) {
+  } else if (share < 0.32) {
     add_tunnel(builder, {tunnel_m, tunnel_m + length_m}, rng);
   }
 }

@@ -51,7 +51,7 @@ void add_parked_row(SceneBuilder& builder, const Roadside& side, const Interval&
       from_m += kPlace_m + gap_m;
       continue;
     }
-    const VehicleType type = chance(rng, 0.12) ? VehicleType::van : VehicleType::car;
+    const VehicleType type = chance(rng, 0.06) ? VehicleType::van : VehicleType::car;
     const Vehicle vehicle = make_vehicle(type, rng);
     const double off_m = rng.uniform(-0.12, 0.12);
     const double about_rad = chance(rng, 0.85) ? kWithTraffic_rad : 0.0;

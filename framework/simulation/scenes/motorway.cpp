@@ -33,7 +33,7 @@ void add_verge(SceneBuilder& builder, const Roadside& side, double edge_m, const
       chance(rng, 0.75) ? BoundaryType::guard_rail : BoundaryType::jersey_barrier;
   const double wall_m = edge_m + rng.uniform(5.0, 10.0);
   const double wall_height_m = rng.uniform(2.0, 3.5);
-  const bool has_wall = chance(rng, 0.2);
+  const bool has_wall = chance(rng, 0.06);
   const double trees_m = rng.uniform(4.0, 14.0);
   const double hedge_share = rng.uniform(0.0, 0.8);
   add_boundary_pieces(builder, side, kMotorway_m, edge_m + 0.6, {rail, 0.8}, rng);

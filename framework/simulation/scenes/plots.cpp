@@ -36,7 +36,7 @@ void add_boundaries(SceneBuilder& builder, const Roadside& side, const Plot& plo
                                            BoundaryType::hedge};
   const double front_m = plot.out_m + 0.4;
   const BoundaryType front = pick(types, rng);
-  const double height_m = rng.uniform(0.5, 1.2);
+  const double height_m = rng.uniform(0.5, 1.0);
   if (chance(rng, 0.75)) {
     add_boundary(
         builder,

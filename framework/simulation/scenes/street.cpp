@@ -16,7 +16,7 @@ void add_front_gardens(SceneBuilder& builder, const Roadside& side, const Interv
   if (out_m.length_m() < 1.5 || chance(rng, 0.5)) return;
   const BoundaryType type = pick<BoundaryType>(
       {BoundaryType::garden_wall, BoundaryType::fence, BoundaryType::hedge}, rng);
-  const double height_m = rng.uniform(0.7, 1.3);
+  const double height_m = rng.uniform(0.6, 1.0);
   for (double from_m = along_m.from_m; from_m < along_m.to_m;) {
     const double to_m = from_m + rng.uniform(5.0, 14.0);
     if (std::abs(from_m) < kDetail_m) {
@@ -48,7 +48,7 @@ Street draw_street(int least_lanes, Rng& rng) {
   street.shape = draw_road(rng);
   const int lanes = chance(rng, 0.65) ? 1 : 2;
   street.lanes.each_way = std::max(least_lanes, lanes);
-  street.lanes.width_m = rng.uniform(3.0, 3.5);
+  street.lanes.width_m = rng.uniform(3.1, 3.75);
   street.shape.half_width_m = street.lanes.edge_m() + kParking_m;
   street.shape.pavement_width_m = rng.uniform(2.8, 5.0);
   street.shape.lines = lane_lines(street.lanes, true);
@@ -81,7 +81,7 @@ void add_town_side(SceneBuilder& builder, const Street& street, const Roadside& 
   fronts.out_m = street.front_m[index];
   fronts.floors_high = draw_int(rng, 2, 6);
   fronts.wall_to_wall = rng.uniform(0.1, 0.5);
-  const double parked_share = rng.uniform(0.3, 0.95);
+  const double parked_share = rng.uniform(0.05, 0.5);
   const int people = draw_int(rng, 1, 9);
   add_fronts(builder, side, along_m, fronts, Rng(key.with("fronts")));
   const Interval far_m = {fronts.out_m + 35.0, fronts.out_m + 60.0};
@@ -98,7 +98,10 @@ void add_town_side(SceneBuilder& builder, const Street& street, const Roadside& 
 void add_town(SceneBuilder& builder, const Street& street) {
   Traffic traffic;
   traffic.speed_mps = street.speed_mps;
-  if (street.speed_mps == 0.0) traffic.gap_m = {1.5, 30.0};
+  traffic.truck_share = 0.05;
+  traffic.bus_share = 0.03;
+  traffic.gap_m = {15.0, 90.0};
+  if (street.speed_mps == 0.0) traffic.gap_m = {2.5, 40.0};
   add_traffic(builder, street.lanes, kTown_m, traffic);
   std::size_t index = 0;
   for (const Roadside& side : both_sides()) {

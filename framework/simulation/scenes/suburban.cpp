@@ -32,7 +32,7 @@ void add_suburban_side(SceneBuilder& builder, const Street& street, const Roadsi
   const Pavement pavement = {kerb_m, street.shape.pavement_width_m, 0.3};
   const double verge_m = chance(rng, 0.5) ? rng.uniform(0.8, 3.0) : 0.0;
   const double back_m = kerb_m + pavement.width_m;
-  const double parked_share = rng.uniform(0.1, 0.6);
+  const double parked_share = rng.uniform(0.05, 0.35);
   const int people = draw_int(rng, 0, 4);
   if (verge_m > 0.0) {
     add_boundary_pieces(builder, side, {-35.0, 35.0}, back_m + 0.3, {BoundaryType::tufts, 0.5},
