@@ -36,7 +36,7 @@ double half_width_m(const CarBody& body, double length_share, double height_shar
     return 1.0 - (1.0 - least) * std::clamp((share - from) / (to - from), 0.0, 1.0);
   };
   return 0.5 * body.width_m * narrowed(height_share, 0.6, 1.0, 0.72) *
-         narrowed(length_share, 0.36, 0.5, 0.56) * narrowed(-length_share, 0.33, 0.5, 0.66);
+         narrowed(length_share, 0.36, 0.5, 0.56) * narrowed(-length_share, 0.40, 0.5, 0.72);
 }
 
 /// The hull over the silhouette: one band across the car, and its two sides.
@@ -64,9 +64,9 @@ void add_hull(Mesh& mesh, const CarBody& body) {
 void add_wheels(Mesh& mesh, const CarBody& body) {
   constexpr double kRadius_m = 0.31;
   constexpr double kWidth_m = 0.2;
-  for (const double x : {-0.31 * body.length_m, 0.31 * body.length_m}) {
+  for (const double x : {-0.28 * body.length_m, 0.30 * body.length_m}) {
     for (const double side : {-1.0, 1.0}) {
-      const double outside_m = side * (0.5 * body.width_m + 0.01);
+      const double outside_m = side * (0.46 * body.width_m);
       add_cylinder(mesh, {x, outside_m, kRadius_m}, {x, outside_m - side * kWidth_m, kRadius_m},
                    kRadius_m, kRadius_m, 14, Material::rubber);
     }

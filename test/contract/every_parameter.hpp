@@ -8,9 +8,10 @@
 
 namespace croon::test {
 
-/// A parameter of a stage or of an object in it; places are JSON pointers.
+/// A parameter of a stage or of an object in it, where conditions on the objects hold; places are
+/// JSON pointers.
 struct ParameterPlace {
-  std::string stage;                      ///< The least JSON of the stage that has the object.
+  std::string stage;                      ///< JSON of the stage that has the object.
   std::string object;                     ///< Where the object stands that has the key.
   const params::ParameterDoc* parameter;  ///< Of the stage's entry.
 
@@ -18,6 +19,8 @@ struct ParameterPlace {
   std::string place() const { return object + "/" + parameter->key; }
   /// Where a fault of the object as a whole is noted.
   std::string fault_place() const { return object.empty() ? "/" : object; }
+  /// True where a fault at `pointer` is one of the object as a whole, or of one that it is in.
+  bool is_in(const std::string& pointer) const;
   /// The stage in which `value` stands there.
   nlohmann::json with(const nlohmann::json& value) const;
 };

@@ -1,0 +1,125 @@
+#include "framework/simulation/sweep.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "framework/base/angles.hpp"
+#include "framework/base/statistics.hpp"
+#include "framework/simulation/primitives.hpp"
+
+namespace croon::simulation {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A room of 20 x 16 x 8 m about the sensor, of plaster.
+std::shared_ptr<const World> room() {
+  auto world = std::make_shared<World>();
+  add_box(world->fixed, {-10.0, -8.0, -4.0}, {10.0, 8.0, 4.0}, Material::plaster);
+  return world;
+}
+
+SensorModel small_sensor() {
+  SensorModel sensor;
+  sensor.elevations_deg = {-20.0, -5.0, 0.0, 5.0, 20.0};
+  sensor.azimuth_step_deg = 1.0;
+  return sensor;
+}
+
+SweepPlan at_rest() {
+  return {0.0, [](double) { return RigidTransform{}; }};
+}
+
+MeasuredCloud swept(const Noise& noise, const SweepPlan& plan = at_rest()) {
+  const TimeWindow window = {0.0, noise.sweep_distortion ? 0.5 : 0.0};
+  const RayCaster caster(room(), window);
+  return sweep(caster, small_sensor(), noise, plan, StreamKey(3));
+}
+
+/// The range to the room's walls along a direction.
+double range_in_room_m(const Vector3d& direction) {
+  const Vector3d half(10.0, 8.0, 4.0);
+  return half.cwiseQuotient(direction.cwiseAbs().cwiseMax(1e-12)).minCoeff();
+}
+
+TEST(Sweep, WithoutNoiseEveryRayComesBackFromItsWall) {
+  const MeasuredCloud cloud = swept({});
+  ASSERT_EQ(cloud.points.size(), 5U * 360U);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const Vector3d point = cloud.points[i].cast<double>();
+    EXPECT_NEAR(point.norm(), range_in_room_m(point.normalized()), 1e-5);
+    EXPECT_EQ(cloud.ring[i], i % 5);
+    EXPECT_NEAR(std::asin(point.z() / point.norm()),
+                rad_from_deg(small_sensor().elevations_deg[i % 5]), 1e-6);
+    EXPECT_GE(cloud.intensity[i], 0.0F);
+    EXPECT_LE(cloud.intensity[i], 255.0F);
+  }
+  EXPECT_EQ(cloud.time_s.front(), 0.0);
+  EXPECT_NEAR(cloud.time_s.back(), 0.1 * 359.0 / 360.0, 1e-12);
+}
+
+TEST(Sweep, RangeNoiseHasItsDeviation) {
+  Noise noise;
+  noise.range_std_m = 0.05;
+  double squares = 0.0;
+  const MeasuredCloud cloud = swept(noise);
+  for (const Eigen::Vector3f& p : cloud.points) {
+    const Vector3d point = p.cast<double>();
+    squares += std::pow(point.norm() - range_in_room_m(point.normalized()), 2);
+  }
+  EXPECT_NEAR(std::sqrt(squares / static_cast<double>(cloud.points.size())), 0.05, 0.005);
+}
+
+TEST(Sweep, DropoutLosesItsShare) {
+  Noise noise;
+  noise.dropout_ratio = 0.25;
+  EXPECT_NEAR(static_cast<double>(swept(noise).points.size()), 0.75 * 1800, 90.0);
+  noise.dropout_ratio = 1.0;
+  EXPECT_TRUE(swept(noise).points.empty());
+}
+
+TEST(Sweep, DetectionIsAHalfAtItsRange) {
+  Noise noise;
+  noise.detection_range_m = 80.0;
+  EXPECT_NEAR(detection_probability(noise, 80.0, 0.1), 0.5, 1e-12);
+  EXPECT_NEAR(detection_probability(noise, 160.0, 0.4), 0.5, 1e-12);
+  double last = 1.0;
+  for (double range_m = 10.0; range_m < 300.0; range_m += 10.0) {
+    const double now = detection_probability(noise, range_m, 0.1);
+    EXPECT_LE(now, last);
+    last = now;
+  }
+  EXPECT_EQ(detection_probability(noise, 10.0, 0.0), 0.0);
+  EXPECT_EQ(detection_probability({}, 1e6, 0.0), 1.0);
+}
+
+TEST(Sweep, DistortionShiftsPointsAsTheCarMoves) {
+  constexpr double kSpeed_mps = 20.0;
+  const SweepPlan driving = {
+      0.05, [](double time_s) {
+        return RigidTransform{Eigen::Matrix3d::Identity(), {kSpeed_mps * time_s, 0.0, 0.0}};
+      }};
+  Noise noise;
+  noise.sweep_distortion = true;
+  const MeasuredCloud moving = swept(noise, driving);
+  int on_walls_ahead = 0;
+  for (std::size_t i = 0; i < moving.points.size(); ++i) {
+    const double x_m = static_cast<double>(moving.points[i].x()) + kSpeed_mps * moving.time_s[i];
+    const double y_m = moving.points[i].y();
+    EXPECT_TRUE(std::abs(x_m - 10.0) < 1e-4 || std::abs(x_m + 10.0) < 1e-4 ||
+                std::abs(std::abs(y_m) - 8.0) < 1e-4 ||
+                std::abs(std::abs(moving.points[i].z()) - 4.0F) < 1e-4F);
+    on_walls_ahead += std::abs(x_m - 10.0) < 1e-4 ? 1 : 0;
+    EXPECT_GE(moving.time_s[i], 0.05);
+  }
+  EXPECT_GT(on_walls_ahead, 100);
+  // Without distortion all is of time 0, however the car drives.
+  const MeasuredCloud still = swept({}, driving);
+  ASSERT_EQ(still.points.size(), swept({}).points.size());
+  EXPECT_EQ(still.points, swept({}).points);
+}
+
+}  // namespace
+}  // namespace croon::simulation
