@@ -115,9 +115,20 @@ ReportOrder report_order(const CheckedRun& run) {
   for (const Variant& variant : run.experiment.variants) order.variants.push_back(variant.name);
   for (const Scene& scene : run.scenes) {
     order.scenes.push_back(scene.name);
+    if (!scene.kind.empty()) order.kinds[scene.name] = scene.kind;
     for (const SensorScan& scan : scene.sensors) add_once(order.sensors, scan.sensor);
   }
   return order;
+}
+
+/// Writes the file where it is wanted; else none stays from an earlier run.
+void write_or_remove(const std::filesystem::path& path, const std::string& bytes, bool is_wanted) {
+  std::error_code ignored;
+  if (is_wanted) {
+    write_whole_file(path, bytes);
+  } else {
+    std::filesystem::remove(path, ignored);
+  }
 }
 
 void write_reports(const OutputFolder& folder, const std::vector<TrialRecord>& records,
@@ -125,6 +136,8 @@ void write_reports(const OutputFolder& folder, const std::vector<TrialRecord>& r
   write_whole_file(folder.file("trials.csv"), trials_csv(records));
   write_whole_file(folder.file("summary.csv"), summary_csv(summary));
   write_whole_file(folder.file("summary.json"), summary_json(summary));
+  write_or_remove(folder.file("summary_by_kind.csv"), summary_by_kind_csv(summary),
+                  !summary.kinds.empty());
   write_whole_file(folder.file("box_plots.svg"), box_plots_svg(summary));
   write_whole_file(folder.file("manifest.json"), manifest);
 }

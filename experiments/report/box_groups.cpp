@@ -1,7 +1,9 @@
 #include "experiments/report/box_groups.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <stdexcept>
 
 namespace croon::experiments {
 
@@ -15,45 +17,58 @@ std::size_t place_of(std::vector<std::string>& names, const std::string& name) {
   return place;
 }
 
-std::vector<Measures> all_deviations(const SummaryRow& row) {
-  std::vector<Measures> deviations;
-  for (const SceneSummary& scene : row.scenes) {
-    deviations.insert(deviations.end(), scene.deviations.begin(), scene.deviations.end());
+/// What the deviations of `scene` are gathered under.
+std::string label_of(const SummaryRow& row, const SceneSummary& scene, BoxOf of) {
+  switch (of) {
+    case BoxOf::variant:
+      return row.variant;
+    case BoxOf::scene:
+      return scene.scene;
+    case BoxOf::kind:
+      return scene.kind;
+    case BoxOf::all_scenes:
+      return "";
   }
-  return deviations;
+  throw std::logic_error("a box of nothing that exists");
 }
 
 }  // namespace
 
-std::vector<BoxGroup> box_groups(const Summary& summary, std::size_t max_scenes) {
-  std::set<std::string> variants;
+BoxOf box_of(const Summary& summary, std::size_t max_scenes, std::size_t max_kinds) {
+  std::set<std::string> variants, kinds;
   std::size_t scenes = 0;
   for (const SummaryRow& row : summary.rows) {
     variants.insert(row.variant);
     scenes = std::max(scenes, row.scenes.size());
   }
-  const bool by_variant = variants.size() > 1;
-  const bool by_scene = !by_variant && scenes > 1 && scenes <= max_scenes;
-  std::vector<std::string> labels;
-  std::vector<std::string> sensors;
-  std::vector<BoxGroup> groups;
+  for (const KindSummary& kind : summary.kinds) kinds.insert(kind.kind);
+  if (variants.size() > 1) return BoxOf::variant;
+  if (scenes > 1 && scenes <= max_scenes) return BoxOf::scene;
+  const bool by_kind = scenes > 1 && !kinds.empty() && kinds.size() <= max_kinds;
+  return by_kind ? BoxOf::kind : BoxOf::all_scenes;
+}
+
+std::vector<BoxGroup> box_groups(const Summary& summary, BoxOf of) {
+  // Kinds come in the order of their summaries, all else in that of the rows.
+  std::vector<std::string> labels, sensors;
+  if (of == BoxOf::kind) {
+    for (const KindSummary& kind : summary.kinds) place_of(labels, kind.kind);
+  }
+  std::vector<std::map<std::size_t, std::vector<Measures>>> boxes;
   for (const SummaryRow& row : summary.rows) {
-    const std::size_t place = place_of(sensors, row.sensor);
-    if (place == groups.size()) groups.push_back({row.sensor, {}});
-    std::vector<BoxSeries>& boxes = groups[place].boxes;
-    if (by_scene) {
-      for (const SceneSummary& scene : row.scenes) {
-        boxes.push_back({scene.scene, place_of(labels, scene.scene), scene.deviations});
-      }
-    } else {
-      const std::string label = by_variant ? row.variant : "";
-      boxes.push_back({label, place_of(labels, label), all_deviations(row)});
+    const std::size_t sensor = place_of(sensors, row.sensor);
+    boxes.resize(sensors.size());
+    for (const SceneSummary& scene : row.scenes) {
+      std::vector<Measures>& box = boxes[sensor][place_of(labels, label_of(row, scene, of))];
+      box.insert(box.end(), scene.deviations.begin(), scene.deviations.end());
     }
   }
-  for (BoxGroup& group : groups) {
-    group.boxes.erase(std::remove_if(group.boxes.begin(), group.boxes.end(),
-                                     [](const BoxSeries& box) { return box.deviations.empty(); }),
-                      group.boxes.end());
+  std::vector<BoxGroup> groups;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    groups.push_back({sensors[i], {}});
+    for (const auto& [label, deviations] : boxes[i]) {
+      if (!deviations.empty()) groups[i].boxes.push_back({labels[label], label, deviations});
+    }
   }
   return groups;
 }

@@ -9,7 +9,7 @@ namespace croon::experiments {
 
 /// One box per DOF: what it is called, where its colour comes from, its deviations.
 struct BoxSeries {
-  std::string label;       ///< Scene or variant; empty where a group has one box alone.
+  std::string label;       ///< Scene, kind or variant; empty where a group has one box alone.
   std::size_t colour = 0;  ///< The same for the same label in every group.
   std::vector<Measures> deviations;
 };
@@ -20,8 +20,14 @@ struct BoxGroup {
   std::vector<BoxSeries> boxes;
 };
 
-/// What is drawn beside what: with several variants a box for each, else one for each scene; where
-/// there are more than `max_scenes`, one for all of them. Boxes without a value are left out.
-std::vector<BoxGroup> box_groups(const Summary& summary, std::size_t max_scenes);
+/// What the boxes of one sensor are.
+enum class BoxOf { variant, scene, kind, all_scenes };
+
+/// With several variants a box for each, else one for each scene; of more than `max_scenes`, one
+/// for each kind of scene; where there are no kinds, or more than `max_kinds`, one for all scenes.
+BoxOf box_of(const Summary& summary, std::size_t max_scenes, std::size_t max_kinds);
+
+/// The boxes of each sensor; those without a value are left out.
+std::vector<BoxGroup> box_groups(const Summary& summary, BoxOf of);
 
 }  // namespace croon::experiments

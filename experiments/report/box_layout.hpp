@@ -10,7 +10,7 @@ namespace croon::experiments {
 
 // Pixels; what drawing and layout share.
 inline constexpr double kMargin = 16.0;
-inline constexpr double kTitleHeight = 44.0;
+inline constexpr double kTitleHeight = 62.0;
 inline constexpr double kPlotHeight = 190.0;
 inline constexpr double kBoxPitch = 22.0;  ///< From the middle of a box to that of the next.
 inline constexpr std::size_t kLabelColumns = 24;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 #include "experiments/report/box_groups.hpp"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr double kBoxWidth = 13.0;  // Pixels.
 constexpr std::size_t kMaxScenes = 12;
+constexpr std::size_t kMaxKinds = 20;
 
 // Colours that colour-blind readers can tell apart (Okabe and Ito 2008); they show on white and on
 // black.
@@ -123,14 +125,35 @@ std::string title_of(const Summary& summary) {
                    : "Deviation from what all scenes agree on (" + which + ")";
 }
 
+/// What one box shows.
+std::string explanation_of(BoxOf of) {
+  const auto of_what = [&] {
+    switch (of) {
+      case BoxOf::variant:
+        return "one variant and sensor, all scenes together";
+      case BoxOf::scene:
+        return "one sensor in one scene";
+      case BoxOf::kind:
+        return "one sensor in all scenes of one kind";
+      case BoxOf::all_scenes:
+        return "one sensor, all scenes together";
+    }
+    throw std::logic_error("a box of nothing that exists");
+  };
+  return std::string("A box is ") + of_what() +
+         ": quartiles and median; dots lie beyond 1.5 interquartile ranges";
+}
+
 }  // namespace
 
 std::string box_plots_svg(const Summary& summary) {
-  const std::vector<BoxGroup> groups = box_groups(summary, kMaxScenes);
+  const BoxOf of = box_of(summary, kMaxScenes, kMaxKinds);
+  const std::vector<BoxGroup> groups = box_groups(summary, of);
   const BoxLayout layout = layout_of(groups);
   Svg svg(layout.width(), layout.height(), kStyleSheet);
   svg.rectangle(0.0, 0.0, layout.width(), layout.height(), "page");
-  svg.text(kMargin, kTitleHeight - 18.0, title_of(summary), Anchor::start, "title");
+  svg.text(kMargin, kTitleHeight - 34.0, title_of(summary), Anchor::start, "title");
+  svg.text(kMargin, kTitleHeight - 16.0, explanation_of(of), Anchor::start, "small");
   for (std::size_t place = 0; place < kDofs; ++place) draw_panel(svg, layout, groups, place);
   return svg.bytes();
 }

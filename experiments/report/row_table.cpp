@@ -52,6 +52,10 @@ const Share& main_share(const SummaryRow& row, const SceneSummary& scene) {
   return row.reference == Reference::consensus ? scene.agreement : scene.success;
 }
 
+const Share& main_share(const KindSummary& kind) {
+  return kind.reference == Reference::consensus ? kind.agreement : kind.success;
+}
+
 std::string share_text(const Share& share) {
   return std::to_string(share.count) + "/" + std::to_string(share.trials);
 }

@@ -34,9 +34,16 @@ class RowTable {
 /// agree.
 const Share& main_share(const SummaryRow& row);
 const Share& main_share(const SummaryRow& row, const SceneSummary& scene);
+const Share& main_share(const KindSummary& kind);
 
 /// "248/250".
 std::string share_text(const Share& share);
+
+/// The sensors of the summary, in its order.
+std::vector<std::string> sensors_of(const Summary& summary);
+
+/// Success in % per variant, kind of scene (rows) and sensor (columns).
+std::string kind_table(const Summary& summary, const TableStyle& style);
 
 /// Success per variant, scene (rows) and sensor (columns). Of more than `style.max_scenes` rows the
 /// worst are shown, in their order.

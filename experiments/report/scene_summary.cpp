@@ -52,6 +52,14 @@ Share share_of(int count, int trials) {
   return {count, trials, ratio, wilson_interval(count, trials)};
 }
 
+void add_outcomes(Outcomes& sum, const Outcomes& outcomes) {
+  sum.trials += outcomes.trials;
+  sum.success += outcomes.success;
+  sum.inaccurate += outcomes.inaccurate;
+  sum.rejected += outcomes.rejected;
+  sum.failed += outcomes.failed;
+}
+
 StatisticsTable statistics_of(const std::vector<Measures>& deviations) {
   StatisticsTable table;
   for (std::size_t k = 0; k < table.size(); ++k) table[k] = statistics_of(column(deviations, k));

@@ -18,6 +18,9 @@ PoseBounds pose_bounds(const SuccessBounds& bounds);
 /// `count` of `trials` with its interval.
 Share share_of(int count, int trials);
 
+/// Adds `outcomes` to `sum`.
+void add_outcomes(Outcomes& sum, const Outcomes& outcomes);
+
 /// The statistics of each measure; `deviations` must not be empty.
 StatisticsTable statistics_of(const std::vector<Measures>& deviations);
 

@@ -15,23 +15,16 @@ struct SceneRow {
   std::string scene;
   std::map<std::string, const Share*> by_sensor;
 
-  /// The least share of all sensors: the worst come first.
-  double worst() const {
-    double ratio = std::numeric_limits<double>::infinity();
-    for (const auto& [sensor, share] : by_sensor) ratio = std::min(ratio, share->ratio);
+  /// The least share of all sensors, then their sum: the worst come first.
+  std::pair<double, double> worst() const {
+    std::pair<double, double> ratio = {std::numeric_limits<double>::infinity(), 0.0};
+    for (const auto& [sensor, share] : by_sensor) {
+      ratio.first = std::min(ratio.first, share->ratio);
+      ratio.second += share->ratio;
+    }
     return ratio;
   }
 };
-
-std::vector<std::string> sensors_of(const Summary& summary) {
-  std::vector<std::string> sensors;
-  for (const SummaryRow& row : summary.rows) {
-    if (std::find(sensors.begin(), sensors.end(), row.sensor) == sensors.end()) {
-      sensors.push_back(row.sensor);
-    }
-  }
-  return sensors;
-}
 
 std::vector<SceneRow> scene_rows(const Summary& summary) {
   std::vector<SceneRow> rows;
@@ -49,7 +42,7 @@ std::vector<SceneRow> scene_rows(const Summary& summary) {
 /// Keeps the `count` worst rows, in their order.
 void keep_worst(std::vector<SceneRow>& rows, std::size_t count) {
   if (rows.size() <= count) return;
-  std::vector<std::pair<double, std::size_t>> worst;
+  std::vector<std::pair<std::pair<double, double>, std::size_t>> worst;
   for (std::size_t i = 0; i < rows.size(); ++i) worst.emplace_back(rows[i].worst(), i);
   std::sort(worst.begin(), worst.end());
   worst.resize(count);
@@ -61,6 +54,16 @@ void keep_worst(std::vector<SceneRow>& rows, std::size_t count) {
 }
 
 }  // namespace
+
+std::vector<std::string> sensors_of(const Summary& summary) {
+  std::vector<std::string> sensors;
+  for (const SummaryRow& row : summary.rows) {
+    if (std::find(sensors.begin(), sensors.end(), row.sensor) == sensors.end()) {
+      sensors.push_back(row.sensor);
+    }
+  }
+  return sensors;
+}
 
 std::string scene_table(const Summary& summary, const TableStyle& style) {
   const std::vector<std::string> sensors = sensors_of(summary);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "experiments/report/kind_summary.hpp"
 #include "experiments/report/scene_summary.hpp"
 #include "framework/geometry/pose_mean.hpp"
 
@@ -39,14 +40,6 @@ Groups grouped(const std::vector<TrialRecord>& records) {
               [](const TrialRecord* a, const TrialRecord* b) { return a->id.trial < b->id.trial; });
   }
   return groups;
-}
-
-void add_outcomes(Outcomes& sum, const Outcomes& outcomes) {
-  sum.trials += outcomes.trials;
-  sum.success += outcomes.success;
-  sum.inaccurate += outcomes.inaccurate;
-  sum.rejected += outcomes.rejected;
-  sum.failed += outcomes.failed;
 }
 
 /// Truth where one trial has it, else what the scenes agree on.
@@ -94,6 +87,15 @@ SummaryRow summarise_row(const std::vector<SceneRecords>& scenes, const PoseBoun
   return row;
 }
 
+void set_kinds(std::vector<SummaryRow>& rows, const std::map<std::string, std::string>& kinds) {
+  for (SummaryRow& row : rows) {
+    for (SceneSummary& scene : row.scenes) {
+      const auto kind = kinds.find(scene.scene);
+      if (kind != kinds.end()) scene.kind = kind->second;
+    }
+  }
+}
+
 std::vector<ReasonCount> count_reasons(const std::vector<TrialRecord>& records) {
   std::map<std::tuple<std::string, Status, std::string>, int> counts;
   for (const TrialRecord& record : records) {
@@ -139,6 +141,8 @@ Summary summarise(const std::vector<TrialRecord>& records, const SuccessBounds& 
       if (!scenes.empty()) summary.rows.push_back(summarise_row(scenes, pose_bounds(bounds)));
     }
   }
+  set_kinds(summary.rows, order.kinds);
+  summary.kinds = summarise_kinds(summary.rows);
   summary.reasons = count_reasons(records);
   return summary;
 }

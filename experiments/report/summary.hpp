@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ struct ReportOrder {
   std::vector<std::string> variants;
   std::vector<std::string> sensors;
   std::vector<std::string> scenes;
+  std::map<std::string, std::string> kinds;  ///< By scene; nothing where the dataset tells none.
 };
 
 /// A share of a number of trials, with its 95 % interval (Wilson 1927).
@@ -59,6 +61,7 @@ enum class Reference {
 /// One variant and sensor in one scene.
 struct SceneSummary {
   std::string scene;
+  std::string kind;  ///< "urban"; empty where the dataset tells none.
   Outcomes outcomes;
   Share success;
   Share agreement;  ///< Successful and within the success bounds of `consensus`.
@@ -94,6 +97,20 @@ struct SummaryRow {
   std::vector<SceneSummary> scenes;
 };
 
+/// One variant and sensor in all scenes of one kind.
+struct KindSummary {
+  std::string variant;
+  std::string kind;
+  std::string sensor;                     ///< Empty for all sensors together.
+  Reference reference = Reference::none;  ///< As in SummaryRow; truth where one sensor has it.
+  int scenes = 0;
+  Outcomes outcomes;
+  Share success;
+  Share agreement;  ///< As in SummaryRow.
+  int counted = 0;  ///< Trials that `statistics` are over, as in SummaryRow.
+  std::optional<StatisticsTable> statistics;
+};
+
 /// Why trials ended as `rejected` or `failed`, and how many.
 struct ReasonCount {
   std::string variant;
@@ -106,6 +123,7 @@ struct ReasonCount {
 struct Summary {
   SuccessBounds bounds;
   std::vector<SummaryRow> rows;      ///< By variant, then sensor.
+  std::vector<KindSummary> kinds;    ///< By variant, then kind, then sensor, all together last.
   std::vector<ReasonCount> reasons;  ///< The most frequent first.
 };
 
@@ -119,7 +137,16 @@ const char* reference_name(Reference reference);
 /// The bytes of summary.csv: one row per variant and sensor.
 std::string summary_csv(const Summary& summary);
 
-/// The bytes of summary.json: the rows of summary.csv with the scenes below each, and the reasons.
+/// The bytes of summary_by_kind.csv: one row per variant, kind of scene and sensor, and one over
+/// all sensors, whose name is "all".
+std::string summary_by_kind_csv(const Summary& summary);
+
+/// The scenes of a row that summary.json lists at most.
+inline constexpr std::size_t kMaxJsonScenes = 100;
+
+/// The bytes of summary.json: the rows of summary.csv with the scenes below each, the reasons,
+/// and the kinds of scenes where there are some. Of more than `kMaxJsonScenes` scenes, whose trials
+/// are in trials.csv, none is listed: "scenes" is null.
 std::string summary_json(const Summary& summary);
 
 }  // namespace croon::experiments

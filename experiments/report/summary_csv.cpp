@@ -12,6 +12,20 @@ std::string joined(const Measure& measure, const char* statistic) {
   return std::string(measure.name) + "_" + statistic + "_" + measure.unit;
 }
 
+void add_statistic_names(CsvRow& header) {
+  for (const Measure& measure : kMeasures) {
+    for (const Statistic& statistic : kStatistics) header.text(joined(measure, statistic.name));
+  }
+}
+
+void add_statistics(CsvRow& row, const std::optional<StatisticsTable>& statistics) {
+  for (std::size_t k = 0; k < kMeasures.size(); ++k) {
+    for (const Statistic& statistic : kStatistics) {
+      statistics ? row.number((*statistics)[k].*statistic.value) : row.empty();
+    }
+  }
+}
+
 std::string csv_header() {
   CsvRow header;
   for (const char* name :
@@ -20,9 +34,7 @@ std::string csv_header() {
         "agreement_low_ratio", "agreement_high_ratio", "counted"}) {
     header.text(name);
   }
-  for (const Measure& measure : kMeasures) {
-    for (const Statistic& statistic : kStatistics) header.text(joined(measure, statistic.name));
-  }
+  add_statistic_names(header);
   for (const char* spread : kSpreads) {
     for (std::size_t k = 0; k < kDofs; ++k) header.text(joined(kMeasures[k], spread));
   }
@@ -43,18 +55,47 @@ std::string csv_line(const SummaryRow& summary) {
   row.count(summary.agreement.count);
   add_share(row, summary.agreement);
   row.count(summary.counted);
-  for (std::size_t k = 0; k < kMeasures.size(); ++k) {
-    for (const Statistic& statistic : kStatistics) {
-      summary.statistics ? row.number((*summary.statistics)[k].*statistic.value) : row.empty();
-    }
-  }
+  add_statistics(row, summary.statistics);
   for (const auto& spread : {summary.within_scene_std, summary.across_scenes_std}) {
     for (std::size_t k = 0; k < kDofs; ++k) spread ? row.number((*spread)[k]) : row.empty();
   }
   return row.line();
 }
 
+std::string kind_header() {
+  CsvRow header;
+  for (const char* name :
+       {"variant", "kind", "sensor", "reference", "scenes", "trials", "success", "inaccurate",
+        "rejected", "failed", "success_ratio", "success_low_ratio", "success_high_ratio",
+        "agreement", "agreement_ratio", "agreement_low_ratio", "agreement_high_ratio", "counted"}) {
+    header.text(name);
+  }
+  add_statistic_names(header);
+  return header.line();
+}
+
+std::string kind_line(const KindSummary& kind) {
+  const Outcomes& outcomes = kind.outcomes;
+  CsvRow row;
+  row.text(kind.variant).text(kind.kind).text(kind.sensor.empty() ? "all" : kind.sensor);
+  row.text(reference_name(kind.reference));
+  row.count(kind.scenes).count(outcomes.trials).count(outcomes.success);
+  row.count(outcomes.inaccurate).count(outcomes.rejected).count(outcomes.failed);
+  add_share(row, kind.success);
+  row.count(kind.agreement.count);
+  add_share(row, kind.agreement);
+  row.count(kind.counted);
+  add_statistics(row, kind.statistics);
+  return row.line();
+}
+
 }  // namespace
+
+std::string summary_by_kind_csv(const Summary& summary) {
+  std::string bytes = kind_header();
+  for (const KindSummary& kind : summary.kinds) bytes += kind_line(kind);
+  return bytes;
+}
 
 std::string summary_csv(const Summary& summary) {
   std::string bytes = csv_header();

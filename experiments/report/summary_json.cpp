@@ -68,6 +68,10 @@ Json json_of(const SummaryRow& row) {
   add_common(json, row);
   json["within_scene_std"] = json_of(row.within_scene_std);
   json["across_scenes_std"] = json_of(row.across_scenes_std);
+  if (row.scenes.size() > kMaxJsonScenes) {
+    json["scenes"] = nullptr;
+    return json;
+  }
   json["scenes"] = Json::array();
   for (const SceneSummary& scene : row.scenes) {
     Json entry = {{"scene", scene.scene}};
@@ -75,6 +79,22 @@ Json json_of(const SummaryRow& row) {
     json["scenes"].push_back(std::move(entry));
   }
   return json;
+}
+
+Json json_of(const KindSummary& kind) {
+  return {{"variant", kind.variant},
+          {"kind", kind.kind},
+          {"sensor", kind.sensor.empty() ? Json() : Json(kind.sensor)},
+          {"reference", reference_name(kind.reference)},
+          {"scenes", kind.scenes},
+          {"trials", kind.outcomes.trials},
+          {"success", json_of(kind.success)},
+          {"inaccurate", kind.outcomes.inaccurate},
+          {"rejected", kind.outcomes.rejected},
+          {"failed", kind.outcomes.failed},
+          {"agreement", json_of(kind.agreement)},
+          {"counted", kind.counted},
+          {"statistics", json_of(kind.statistics)}};
 }
 
 }  // namespace
@@ -92,6 +112,7 @@ std::string summary_json(const Summary& summary) {
                                {"reason", reason.reason},
                                {"count", reason.count}});
   }
+  for (const KindSummary& kind : summary.kinds) json["kinds"].push_back(json_of(kind));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

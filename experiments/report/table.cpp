@@ -134,6 +134,11 @@ std::string reasons_text(const Summary& summary, const TableStyle& style) {
   return text;
 }
 
+bool has_several_trials_per_scene(const Summary& summary) {
+  return std::any_of(summary.rows.begin(), summary.rows.end(),
+                     [](const SummaryRow& row) { return row.within_scene_std.has_value(); });
+}
+
 bool has_several_scenes(const Summary& summary) {
   return std::any_of(summary.rows.begin(), summary.rows.end(),
                      [](const SummaryRow& row) { return row.scenes.size() > 1; });
@@ -150,9 +155,14 @@ std::string summary_table(const Summary& summary, const TableStyle& style) {
                      "rotation deg", "translation m"},
                     outcome_cells);
   text += "\nmean ± std\n" + row_table(summary, style, dof_columns(), deviation_cells);
-  if (is_split) {
+  if (is_split && has_several_trials_per_scene(summary)) {
     text += "\nstd within scenes / across scenes\n";
     text += row_table(summary, style, dof_columns(), spread_cells);
+  }
+  if (!summary.kinds.empty()) {
+    text += "\nby kind of scene: success in %\n" + kind_table(summary, style);
+  }
+  if (is_split) {
     text += "\nsuccess per scene\n" + scene_table(summary, style);
   }
   return text + reasons_text(summary, style);

@@ -11,7 +11,7 @@ namespace croon::experiments {
 struct TableStyle {
   bool colours = false;         ///< Only where the output is a terminal.
   std::size_t max_reasons = 5;  ///< Reasons for failures that are shown, the most frequent first.
-  std::size_t max_scenes = 40;  ///< Rows of the table per scene; the worst are kept.
+  std::size_t max_scenes = 12;  ///< Rows of the table per scene; the worst are kept.
 };
 
 /// What `croon run` prints on stdout, in UTF-8, within 120 columns for names of ordinary length:

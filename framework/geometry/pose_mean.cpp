@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -33,22 +34,32 @@ std::vector<RigidTransform> in_fixed_order(std::vector<RigidTransform> poses) {
 /// `length` as a multiple of `bound`, which may be zero.
 double multiple(double length, double bound) { return length == 0.0 ? 0.0 : length / bound; }
 
-/// The larger of rotation and translation between two poses, each as a multiple of its bound. Not
-/// by `pose_error`, whose DOFs nobody wants here: a consensus of n poses asks n^2 / 2 times.
-double distance_in_bounds(const RigidTransform& a, const RigidTransform& b,
+/// A pose whose rotation is a quaternion: a consensus of n poses asks for n^2 / 2 angles, and of
+/// rotation matrices each costs three times as much.
+struct QuaternionPose {
+  Eigen::Quaterniond rotation;
+  Eigen::Vector3d translation;
+};
+
+/// The larger of rotation and translation between two poses, each as a multiple of its bound.
+double distance_in_bounds(const QuaternionPose& a, const QuaternionPose& b,
                           const PoseBounds& bounds) {
-  const double rotation_rad = rotation_angle(a.rotation * b.rotation.transpose());
-  const double translation_m = (a.translation - b.translation).norm();
+  const Eigen::Quaterniond q = a.rotation * b.rotation.conjugate();
+  const double rotation_rad = 2.0 * std::atan2(q.vec().norm(), std::abs(q.w()));
   return std::max(multiple(rotation_rad, bounds.rotation_rad),
-                  multiple(translation_m, bounds.translation_m));
+                  multiple((a.translation - b.translation).norm(), bounds.translation_m));
 }
 
 /// The place of the pose with the most others near it; see `consensus_pose`.
 std::size_t medoid(const std::vector<RigidTransform>& poses, const PoseBounds& bounds) {
+  std::vector<QuaternionPose> quaternions;
+  for (const RigidTransform& pose : poses) {
+    quaternions.push_back({Eigen::Quaterniond(pose.rotation), pose.translation});
+  }
   std::vector<std::pair<double, double>> cost(poses.size(), {0.0, 0.0});
   for (std::size_t i = 0; i < poses.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const double distance = distance_in_bounds(poses[i], poses[j], bounds);
+      const double distance = distance_in_bounds(quaternions[i], quaternions[j], bounds);
       for (const std::size_t k : {i, j}) {
         cost[k].first += std::min(1.0, distance);
         cost[k].second += distance;

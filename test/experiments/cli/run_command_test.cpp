@@ -205,6 +205,23 @@ TEST(RunCommand, RefusesToMixResultsAndStartsOverWhenTold) {
   EXPECT_TRUE(after == bench.bytes("other"));
 }
 
+TEST(RunCommand, TellsResultsByKindWhereTheDatasetHasKinds) {
+  json experiment = drifting();
+  experiment["dataset"]["kinds"] = true;
+  const Bench with(experiment), without;
+  EXPECT_EQ(with.run(with.options("out")), 0);
+  const auto files = with.bytes("out");
+  EXPECT_NE(files.at("summary_by_kind.csv").find("\nbase,narrow,s1,"), std::string::npos);
+  EXPECT_TRUE(json::parse(files.at("summary.json")).contains("kinds"));
+  without.folder().write("out/summary_by_kind.csv", "of an earlier run");
+  EXPECT_EQ(without.run(without.options("out")), 0);
+  const auto others = without.bytes("out");
+  EXPECT_EQ(others.count("summary_by_kind.csv"), 0U);
+  EXPECT_EQ(others.at("trials.csv"), files.at("trials.csv"));
+  EXPECT_EQ(others.at("summary.csv"), files.at("summary.csv"));
+  EXPECT_FALSE(json::parse(others.at("summary.json")).contains("kinds"));
+}
+
 TEST(RunCommand, SaysWithItsCodeThatATrialFailed) {
   json experiment = drifting();
   experiment["pipeline"][1]["how"] = "defeat";

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
 
 #include "experiments/engine/experiment_loader.hpp"
 #include "experiments/engine/store.hpp"
@@ -27,12 +31,21 @@ json drifting(int trials = 3) {
   return experiment;
 }
 
-Ran run(const json& description, int jobs = 2) {
+Experiment experiment_of(const json& description) {
   const test::TempFolder folder;
-  const Experiment experiment =
-      load_experiment(folder.write("x.json", description.dump()), test::fake_catalogue());
-  const std::vector<Scene> scenes = experiment.dataset->scenes("");
+  return load_experiment(folder.write("x.json", description.dump()), test::fake_catalogue());
+}
+
+/// Runs all trials.
+void run_all(const Experiment& experiment, const std::vector<Scene>& scenes, int jobs,
+             const RunListener& listener) {
   const Selection selection{select_variants(experiment, {}), {}};
+  run_trials(experiment, scenes, plan_trials(experiment, scenes, selection), jobs, listener);
+}
+
+Ran run(const json& description, int jobs = 2) {
+  const Experiment experiment = experiment_of(description);
+  const std::vector<Scene> scenes = experiment.dataset->scenes("");
   Ran ran;
   RunListener listener;
   const auto add_timings = [&](const std::vector<TimingRow>& rows) {
@@ -44,7 +57,7 @@ Ran run(const json& description, int jobs = 2) {
     add_timings(rows);
   };
   listener.on_scene_timings = add_timings;
-  run_trials(experiment, scenes, plan_trials(experiment, scenes, selection), jobs, listener);
+  run_all(experiment, scenes, jobs, listener);
   ran.records = in_report_order(ran.records, experiment, scenes);
   return ran;
 }
@@ -68,13 +81,66 @@ void expect_same(const TrialRecord& a, const TrialRecord& b) {
 }
 
 TEST(Runner, SameBitsOnAnyNumberOfThreads) {
-  const Ran one = run(drifting(20), 1);
-  ASSERT_EQ(one.records.size(), 2U * 2U * 20U);
-  for (const int jobs : {2, 4, 7}) {
-    const Ran other = run(drifting(20), jobs);
-    ASSERT_EQ(other.records.size(), one.records.size());
-    for (std::size_t i = 0; i < one.records.size(); ++i)
-      expect_same(one.records[i], other.records[i]);
+  for (const int scenes : {2, 60}) {
+    json experiment = drifting(scenes == 2 ? 20 : 1);
+    experiment["dataset"]["scenes"] = scenes;
+    const Ran one = run(experiment, 1);
+    ASSERT_EQ(one.records.size(), scenes == 2 ? 2U * 2U * 20U : 60U * 2U);
+    for (const int jobs : {2, 4, 7}) {
+      const Ran other = run(experiment, jobs);
+      ASSERT_EQ(other.records.size(), one.records.size());
+      for (std::size_t i = 0; i < one.records.size(); ++i)
+        expect_same(one.records[i], other.records[i]);
+    }
+  }
+}
+
+/// Counts clouds that are alive: each holds one of these.
+class Counted {
+ public:
+  Counted(std::atomic<int>& alive, std::atomic<int>& most) : alive_(&alive) {
+    const int now = ++alive;
+    for (int seen = most; now > seen && !most.compare_exchange_weak(seen, now);) {
+    }
+  }
+  ~Counted() { --*alive_; }
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+
+ private:
+  std::atomic<int>* alive_;
+};
+
+TEST(Runner, HoldsFewScenesAndTellsOneThingAtATime) {
+  json description = drifting(1);
+  description["dataset"]["scenes"] = 80;
+  const Experiment experiment = experiment_of(description);
+  const std::vector<Scene> scenes = experiment.dataset->scenes("");
+  for (const int jobs : {1, 2, 5}) {
+    std::vector<std::string> begun;
+    std::size_t ended = 0, most_at_a_time = 0;
+    int records = 0;
+    std::atomic<int> inside{0}, most_inside{0};
+    RunListener listener;
+    listener.on_scene = [&](const std::string& scene) {
+      const Counted told(inside, most_inside);
+      begun.push_back(scene);
+      most_at_a_time = std::max(most_at_a_time, begun.size() - ended);
+    };
+    listener.on_trial = [&](const TrialRecord&, const std::vector<TimingRow>&) {
+      const Counted told(inside, most_inside);
+      ++records;
+    };
+    listener.on_scene_timings = [&](const std::vector<TimingRow>&) {
+      const Counted told(inside, most_inside);
+      ++ended;
+    };
+    run_all(experiment, scenes, jobs, listener);
+    EXPECT_EQ(records, 80 * 2);
+    EXPECT_EQ(ended, 80U);
+    EXPECT_EQ(std::set<std::string>(begun.begin(), begun.end()).size(), 80U);
+    EXPECT_EQ(most_inside, 1);
+    EXPECT_LE(most_at_a_time, static_cast<std::size_t>(jobs) + 1);
   }
 }
 
@@ -137,9 +203,32 @@ TEST(Runner, SaysHowATrialEnded) {
 }
 
 TEST(Runner, ABugEndsTheRun) {
-  json experiment = drifting();
-  experiment["pipeline"][1]["how"] = "bug";
-  EXPECT_THROW(run(experiment), std::logic_error);
+  for (const int scenes : {2, 50}) {
+    json experiment = drifting();
+    experiment["dataset"]["scenes"] = scenes;
+    experiment["pipeline"][1]["how"] = "bug";
+    for (const int jobs : {1, 4}) EXPECT_THROW(run(experiment, jobs), std::logic_error);
+  }
+}
+
+TEST(Runner, ABugInOneSceneLeavesNoScanHalfDone) {
+  json description = drifting(2);
+  description["dataset"]["scenes"] = 50;
+  const Experiment experiment = experiment_of(description);
+  std::vector<Scene> scenes = experiment.dataset->scenes("");
+  scenes[9].sensors[0].load = []() -> LoadedCloud { throw std::logic_error("a bug"); };
+  std::vector<TrialRecord> records;
+  RunListener listener;
+  listener.on_scene = [](const std::string&) {};
+  listener.on_trial = [&](const TrialRecord& record, const std::vector<TimingRow>&) {
+    records.push_back(record);
+  };
+  listener.on_scene_timings = [](const std::vector<TimingRow>&) {};
+  EXPECT_THROW(run_all(experiment, scenes, 4, listener), std::logic_error);
+  for (const TrialRecord& record : records) {
+    EXPECT_NE(record.status, Status::failed) << record.reason;
+    EXPECT_NE(record.id.scene, scenes[9].name);
+  }
 }
 
 TEST(Runner, SuccessIsWithinTheBounds) {

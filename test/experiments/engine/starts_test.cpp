@@ -96,7 +96,8 @@ TEST(Starts, NeedTheirCentreInEveryScene) {
   SensorScan left{"left", "", {}, {}, RigidTransform{}, {}};
   SensorScan right{"right", "", {}, RigidTransform{}, {}, {}};
   std::vector<Scene> scenes;
-  for (const char* name : {"a", "b", "c", "d", "e"}) scenes.push_back({name, {}, {}, {left, right}});
+  for (const char* name : {"a", "b", "c", "d", "e"})
+    scenes.push_back({name, {}, {}, {left, right}});
   scenes[4].sensors[0].truth = RigidTransform{};
   Experiment experiment;
   experiment.file = "x.json";

@@ -88,8 +88,8 @@ TEST(Summary, DoesNotDependOnTheOrderOfTheRecords) {
 }
 
 TEST(Summary, KeepsTheGivenOrderAndPutsOthersLast) {
-  const Summary summary =
-      summarise(test::few_records(), kBounds, {{"no volume"}, {"right", "none"}, {"0002", "0001"}});
+  const Summary summary = summarise(test::few_records(), kBounds,
+                                    {{"no volume"}, {"right", "none"}, {"0002", "0001"}, {}});
   ASSERT_EQ(summary.rows.size(), 4U);
   EXPECT_EQ(summary.rows[0].variant + "/" + summary.rows[0].sensor, "no volume/right");
   EXPECT_EQ(summary.rows[1].variant + "/" + summary.rows[1].sensor, "no volume/left");
@@ -208,6 +208,21 @@ TEST(SummaryJson, SaysWhatTheSummarySays) {
   EXPECT_EQ(row["scenes"][1]["consensus"]["rotation_xyzw"].size(), 4U);
   EXPECT_EQ(json["reasons"][0]["status"], "rejected");
   EXPECT_EQ(json["reasons"][1]["status"], "failed");
+}
+
+TEST(SummaryJson, DoesNotListThousandsOfScenes) {
+  std::vector<TrialRecord> records;
+  for (std::size_t scene = 0; scene <= kMaxJsonScenes; ++scene) {
+    for (const char* sensor : {"left", "right"}) {
+      if (scene == 0 && std::string(sensor) == "right") continue;
+      records.push_back(test::finished({"base", std::to_string(scene), sensor, 0}, Status::success,
+                                       {}, Vector6d::Zero()));
+    }
+  }
+  const auto json = nlohmann::json::parse(summary_json(summarise(records, kBounds, {})));
+  EXPECT_TRUE(json["rows"][0]["scenes"].is_null());
+  EXPECT_EQ(json["rows"][1]["scenes"].size(), kMaxJsonScenes);
+  EXPECT_EQ(json["rows"][0]["trials"], kMaxJsonScenes + 1);
 }
 
 TEST(SummaryJson, TakesNamesThatAreNoUtf8) {

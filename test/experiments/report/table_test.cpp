@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "experiments/report/text.hpp"
@@ -106,6 +107,28 @@ TEST(SummaryTable, OfManyScenesAndReasonsShowsTheWorst) {
   EXPECT_NE(text.find("why s1"), std::string::npos);
   EXPECT_EQ(text.find("why s5"), std::string::npos);
   EXPECT_NE(text.find("and 1 other reason of 1 trial\n"), std::string::npos);
+}
+
+TEST(SummaryTable, OfThousandsOfScenesIsNotLonger) {
+  Rng rng = croon::test::test_rng();
+  std::vector<TrialRecord> records;
+  for (int scene = 0; scene < 2000; ++scene) {
+    for (const char* sensor : {"left", "right"}) {
+      const TrialId id = {"base", std::to_string(scene), sensor, 0};
+      // Both sensors fail in one scene of a hundred alone: those are the worst.
+      const bool is_bad = scene % 100 == 7 || (*sensor == 'l' && rng.uniform() < 0.1);
+      records.push_back(test::finished(id, is_bad ? Status::inaccurate : Status::success, {},
+                                       test::random_offset(rng, 0.1, 0.02)));
+    }
+  }
+  const std::string text = summary_table(summarise(records, kBounds, {}));
+  EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 40);
+  EXPECT_NE(text.find("-----\n1007    0/1    0/1\n107     0/1    0/1\n"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("\nthe worst 12 of 2000 rows\n"), std::string::npos);
+  // One trial per scene has no spread within.
+  EXPECT_EQ(text.find("within scenes"), std::string::npos);
+  EXPECT_EQ(text.find("nan"), std::string::npos);
 }
 
 TEST(SummaryTable, ColoursOnlyWhereAsked) {

@@ -18,6 +18,7 @@ struct FakeDatasetParams {
   bool truth = true;
   int points = 50;
   int unreadable = -1;
+  bool kinds = false;
 };
 
 class FakeDataset final : public Dataset {
@@ -29,6 +30,7 @@ class FakeDataset final : public Dataset {
     for (int i = 0; i < params_.scenes; ++i) {
       // Not in the order of words: "scene10" would come before "scene2".
       Scene scene{"scene" + std::to_string(params_.scenes - i), {}, scan("top", i, -2), {}};
+      if (params_.kinds) scene.kind = i % 2 == 0 ? "urban" : "narrow";
       for (int k = 0; k < params_.sensors; ++k) {
         scene.sensors.push_back(scan("s" + std::to_string(params_.sensors - 1 - k), i, k));
       }
@@ -132,7 +134,8 @@ Catalogue fake_catalogue() {
        integer("sensors", &FakeDatasetParams::sensors, {1, 10}, "How many sensors."),
        boolean("truth", &FakeDatasetParams::truth, "Whether there is truth."),
        integer("points", &FakeDatasetParams::points, {0, 1e6}, "Points per cloud."),
-       integer("unreadable", &FakeDatasetParams::unreadable, {-2, 10}, "The unreadable cloud.")}));
+       integer("unreadable", &FakeDatasetParams::unreadable, {-2, 10}, "The unreadable cloud."),
+       boolean("kinds", &FakeDatasetParams::kinds, "Whether scenes have kinds.")}));
   catalogue.add(stage_entry<FakeSearch<CoarseParams>, CoarseParams>(
       "coarse", "Looks nowhere.", "croon",
       {number("step_deg", &CoarseParams::step_deg, {0.1, 90}, "Its step.")}));

@@ -66,5 +66,21 @@ TEST(OpencalibFiles, ReadsPosesInDegrees) {
   }
 }
 
+TEST(OpenCalibFiles, ListsAreWrittenAndRead) {
+  const test::TempFolder folder;
+  const auto clouds = read_cloud_list(folder.write(
+      "clouds.txt", cloud_list_text({{0, "0001/top.pcd", ""}, {1, "0001/left.pcd", ""}})));
+  ASSERT_EQ(clouds.size(), 2u);
+  EXPECT_EQ(clouds[1].device_id, 1);
+  EXPECT_EQ(clouds[1].path, "0001/left.pcd");
+  const Eigen::Vector3d rpy_rad(0.1, -0.7, 2.5);
+  const RigidTransform pose = {rotation_from_rpy(rpy_rad), {1.0 / 3.0, -2e-7, 30.0}};
+  const auto poses = read_pose_list(folder.write("poses.txt", pose_list_text({{4, pose, ""}})));
+  ASSERT_EQ(poses.size(), 1u);
+  EXPECT_EQ(poses[0].device_id, 4);
+  EXPECT_LT((poses[0].T_reference_sensor.rotation - pose.rotation).norm(), 1e-14);
+  EXPECT_EQ(poses[0].T_reference_sensor.translation, pose.translation);
+}
+
 }  // namespace
 }  // namespace croon

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "framework/base/angles.hpp"
+#include "test/support/random_geometry.hpp"
 #include "test/support/temp_folder.hpp"
 
 namespace croon {
@@ -38,6 +39,34 @@ TEST(RigPoses, ReadStrictly) {
   for (const auto& [json, message] : cases) {
     const auto path = folder.write("truth.json", json);
     EXPECT_THAT(test::input_error([&] { read_rig_poses(path); }), HasSubstr(message)) << json;
+  }
+}
+
+/// The pose that a file gives back.
+RigidTransform written_and_read(const RigidTransform& T) {
+  const test::TempFolder folder;
+  return read_rig_poses(folder.write("truth.json", rig_poses_json({{"a", T}}))).at("a");
+}
+
+TEST(RigPoses, AreWrittenAndReadToTheLastBit) {
+  std::vector<RigidTransform> poses;
+  for (const double roll_deg : {0.0, 180.0, -180.0}) {
+    for (const double pitch_deg : {0.0, 48.0, -89.0}) {
+      for (const double yaw_deg : {0.0, 90.0, -90.0, 180.0, -180.0}) {
+        const Eigen::Vector3d rpy_deg(roll_deg, pitch_deg, yaw_deg);
+        poses.push_back({rotation_from_rpy(rpy_deg * rad_from_deg(1.0)), {2.9, 0.15, -1.195}});
+      }
+    }
+  }
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 200; ++i) poses.push_back(test::random_pose(rng, 5.0));
+  for (const RigidTransform& pose : poses) {
+    const RigidTransform as_written = pose_as_written(pose);
+    const RigidTransform read = written_and_read(pose);
+    EXPECT_EQ(read.rotation, as_written.rotation);
+    EXPECT_EQ(read.translation, as_written.translation);
+    EXPECT_EQ(pose_as_written(as_written).rotation, as_written.rotation);
+    EXPECT_LT((as_written.rotation - pose.rotation).norm(), 1e-9);
   }
 }
 

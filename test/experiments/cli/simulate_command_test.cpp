@@ -1,0 +1,97 @@
+// Scenes that are written run to the same results as those that are made when they are needed.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+
+#include "framework/base/whole_file.hpp"
+#include "test/experiments/support/program.hpp"
+#include "test/support/temp_folder.hpp"
+
+namespace croon::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string experiment(int dataset_seed) {
+  return R"({"name": "x", "dataset": {"type": "simulated", "scenes": 2, "seed": )" +
+         std::to_string(dataset_seed) +
+         R"(}, "starts": {"rotation_deg": 10, "trials": 1},
+            "pipeline": [{"step": "ground_alignment"}, {"step": "registration"}]})";
+}
+
+std::map<std::string, std::string> files_of(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    files[fs::relative(entry, folder).string()] = read_whole_file(entry);
+  }
+  return files;
+}
+
+class SimulateCommand : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+  void run(const std::string& arguments, int code = 0) const {
+    const Answer answer = croon(arguments);
+    EXPECT_EQ(answer.code, code) << arguments << "\n" << answer.text;
+  }
+
+  test::TempFolder folder_;
+};
+
+TEST_F(SimulateCommand, WritesADatasetThatRunsToTheSameResults) {
+  folder_.write("x.json", experiment(1));
+  run("simulate " + path("x.json") + " --out " + path("data") + " --quiet --png --jobs 1");
+  EXPECT_TRUE(fs::exists(folder_.path() / "data/000001/top.pcd"));
+  EXPECT_TRUE(fs::exists(folder_.path() / "data/000001.png"));
+  run("run " + path("x.json") + " --out " + path("made") + " --quiet");
+  run("run " + path("data/experiment.json") + " --data " + path("data") + " --out " + path("read") +
+      " --quiet");
+  for (const char* file :
+       {"/trials.csv", "/summary.csv", "/summary.json", "/summary_by_kind.csv"}) {
+    EXPECT_EQ(read_whole_file(path("made") + file), read_whole_file(path("read") + file)) << file;
+  }
+}
+
+TEST_F(SimulateCommand, IsTheSameForAnyNumberOfThreadsAndGoesOnWhereItStopped) {
+  folder_.write("x.json", experiment(1));
+  run("simulate " + path("x.json") + " --out " + path("one") + " --quiet --jobs 1");
+  run("simulate " + path("x.json") + " --out " + path("four") + " --quiet --jobs 4");
+  const auto files = files_of(path("one"));
+  EXPECT_EQ(files, files_of(path("four")));
+  fs::remove_all(path("one") + "/000001");
+  run("simulate " + path("x.json") + " --out " + path("one") + " --quiet");
+  EXPECT_EQ(files, files_of(path("one")));
+}
+
+TEST_F(SimulateCommand, RefusesAFolderWithSomethingElse) {
+  folder_.write("x.json", experiment(1));
+  folder_.write("y.json", experiment(2));
+  run("simulate " + path("x.json") + " --out " + path("data") + " --quiet");
+  const auto files = files_of(path("data"));
+  run("simulate " + path("y.json") + " --out " + path("data") + " --quiet", 2);
+  EXPECT_EQ(files, files_of(path("data")));
+  folder_.write("mine/notes.txt", "mine");
+  run("simulate " + path("x.json") + " --out " + path("mine") + " --quiet", 2);
+  EXPECT_EQ(files_of(path("mine")).size(), 1U);
+}
+
+TEST_F(SimulateCommand, RefusesRecordings) {
+  folder_.write("data/s/lidar_cloud_path.txt",
+                "device_id: 0\npath: a.ply\ndevice_id: 1\npath: b.ply\n");
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\n1 2 3\n";
+  folder_.write("data/s/a.ply", ply);
+  folder_.write("data/s/b.ply", ply);
+  folder_.write("x.json", R"({"name": "x", "dataset": {"type": "opencalib", "path": "data"},
+                              "pipeline": [{"step": "identity"}]})");
+  run("simulate " + path("x.json") + " --out " + path("out"), 2);
+  EXPECT_FALSE(fs::exists(path("out")));
+  run("simulate " + path("none.json") + " --out " + path("out"), 2);
+  run("simulate " + path("x.json"), 2);
+}
+
+}  // namespace
+}  // namespace croon::experiments
