@@ -6,6 +6,7 @@
 #include <iostream>
 #include <new>
 
+#include "experiments/cli/describe_command.hpp"
 #include "experiments/cli/fault_lines.hpp"
 #include "experiments/cli/run_command.hpp"
 #include "experiments/cli/simulate_command.hpp"
@@ -25,6 +26,7 @@ constexpr int kRequestIsWrong = 2;
 struct CommandLine {
   RunOptions run;
   SimulateOptions simulate;
+  DescribeOptions describe;
   std::vector<std::filesystem::path> to_validate;
   std::string stages;
   bool as_json = false;
@@ -58,6 +60,18 @@ void add_simulate(CLI::App& app, SimulateOptions& options) {
       ->check(CLI::Range(1, 4096));
   simulate->add_flag("--png", options.png, "Draw each scene, from behind the car and from above.");
   simulate->add_flag("--quiet", options.quiet, "Do not show progress.");
+}
+
+void add_describe(CLI::App& app, DescribeOptions& options) {
+  CLI::App* describe =
+      app.add_subcommand("describe", "Tell what the clouds of experiments' datasets look like.");
+  describe->add_option("EXPERIMENT", options.experiments, "Experiments, JSON files.")->required();
+  describe->add_option("--data", options.data, "The data root; default $CROON_DATA, else data.");
+  describe->add_option("--out", options.out, "Folder for clouds.csv and ranges.svg.");
+  describe->add_option("--scenes", options.scenes, "Look at so many scenes of each dataset.")
+      ->check(CLI::Range(1, 1000000));
+  describe->add_option("--jobs", options.jobs, "Threads; default all cores.")
+      ->check(CLI::Range(1, 4096));
 }
 
 void add_others(CLI::App& app, CommandLine& line) {
@@ -106,6 +120,9 @@ int run_chosen(const CLI::App& app, const CommandLine& line) {
   if (app.got_subcommand("simulate")) {
     return simulate_command(line.simulate, registry(), std::cout, std::cerr);
   }
+  if (app.got_subcommand("describe")) {
+    return describe_command(line.describe, registry(), std::cout);
+  }
   if (app.got_subcommand("validate")) {
     return validate_command(line.to_validate, registry(), std::cout, std::cerr);
   }
@@ -129,6 +146,7 @@ int croon_main(int argc, char** argv) {
   app.allow_extras();
   add_run(app, line.run);
   add_simulate(app, line.simulate);
+  add_describe(app, line.describe);
   add_others(app, line);
   try {
     app.parse(argc, argv);

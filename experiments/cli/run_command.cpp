@@ -3,9 +3,9 @@
 #include <tbb/info.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "experiments/cli/before_after.hpp"
+#include "experiments/cli/data_root.hpp"
 #include "experiments/cli/fused_clouds.hpp"
 #include "experiments/cli/output_folder.hpp"
 #include "experiments/cli/timings_file.hpp"
@@ -36,12 +36,6 @@ struct CheckedRun {
   int jobs = 1;
 };
 
-std::filesystem::path data_root(const RunOptions& options) {
-  if (!options.data.empty()) return options.data;
-  const char* set = std::getenv("CROON_DATA");
-  return set != nullptr && *set != '\0' ? set : "data";
-}
-
 /// Takes `trials` for those of the file; 0 keeps them.
 void set_trials(Experiment& experiment, int trials) {
   if (trials > kMaxTrials) {
@@ -55,7 +49,7 @@ void set_trials(Experiment& experiment, int trials) {
 CheckedRun check(const RunOptions& options, const Catalogue& catalogue) {
   CheckedRun run;
   run.experiment = load_experiment(options.experiment, catalogue);
-  run.data_root = data_root(options);
+  run.data_root = data_root(options.data);
   std::vector<Fault> faults;
   collect_faults(faults, [&] { set_trials(run.experiment, options.trials); });
   collect_faults(faults,

@@ -10,24 +10,24 @@ namespace {
 
 /// The silhouette from the tail over the roof to the nose, shares of the length and of the height:
 /// that of the car in the paper's samples, from the points that its own sensors see on it.
-constexpr std::array<std::array<double, 2>, 18> kSilhouette = {{{-0.49, 0.18},
-                                                                {-0.50, 0.45},
-                                                                {-0.475, 0.73},
-                                                                {-0.40, 0.83},
-                                                                {-0.28, 0.93},
-                                                                {-0.15, 0.985},
+constexpr std::array<std::array<double, 2>, 18> kSilhouette = {{{-0.47, 0.18},
+                                                                {-0.48, 0.40},
+                                                                {-0.45, 0.64},
+                                                                {-0.40, 0.75},
+                                                                {-0.28, 0.90},
+                                                                {-0.15, 0.97},
                                                                 {-0.09, 1.00},
                                                                 {-0.02, 0.99},
                                                                 {0.04, 0.96},
                                                                 {0.12, 0.88},
                                                                 {0.205, 0.79},
-                                                                {0.29, 0.675},
-                                                                {0.374, 0.63},
-                                                                {0.42, 0.57},
-                                                                {0.458, 0.51},
-                                                                {0.49, 0.43},
-                                                                {0.495, 0.32},
-                                                                {0.49, 0.18}}};
+                                                                {0.29, 0.66},
+                                                                {0.374, 0.59},
+                                                                {0.42, 0.51},
+                                                                {0.45, 0.44},
+                                                                {0.47, 0.36},
+                                                                {0.475, 0.28},
+                                                                {0.47, 0.18}}};
 
 /// Half the width at shares of the length and of the height: narrower from the windows up to the
 /// roof, and towards nose and tail.

@@ -95,11 +95,11 @@ void add_furniture(SceneBuilder& builder, const Roadside& side, const Interval& 
   add_series(builder, side, along_m,
              {make_lamp, 1, {lamp_m, lamp_m}, {strip_m, strip_m}, kToRoad_rad},
              Rng(key.with("lamps")));
-  const double tree_m = rng.uniform(8.0, 15.0);
+  const double tree_m = rng.uniform(6.0, 12.0);
   const Interval tree_out_m = {pavement.kerb_m + 1.0, pavement.kerb_m + 1.3};
   const Series trees{make_tree, 3,    {tree_m, tree_m + 1.0}, tree_out_m,
                      0.0,       true, pavement.tree_share};
-  if (chance(rng, 0.7)) add_series(builder, side, along_m, trees, Rng(key.with("trees")));
+  if (chance(rng, 0.85)) add_series(builder, side, along_m, trees, Rng(key.with("trees")));
   add_small_things(builder, side, near_m, pavement, key);
 }
 

@@ -57,8 +57,8 @@ Street draw_street(int least_lanes, Rng& rng) {
   const double kerb_m = street.shape.half_width_m + street.shape.pavement_width_m;
   for (std::size_t i = 0; i < 2; ++i) {
     street.has_parking[i] = chance(rng, 0.75);
-    const double least_m = std::max(kerb_m, 13.0);
-    street.front_m[i] = rng.uniform(least_m, least_m + 8.0);
+    const double least_m = std::max(kerb_m, 12.0);
+    street.front_m[i] = rng.uniform(least_m, least_m + 5.0);
   }
   return street;
 }
@@ -74,7 +74,7 @@ void put_car_on(SceneBuilder& builder, const Street& street, int index, const Ca
 void add_town_side(SceneBuilder& builder, const Street& street, const Roadside& side,
                    std::size_t index, const Interval& along_m, const StreamKey& key) {
   const double kerb_m = street.shape.half_width_m;
-  const Pavement pavement = {kerb_m, street.shape.pavement_width_m, 0.6};
+  const Pavement pavement = {kerb_m, street.shape.pavement_width_m, 0.75};
   const double back_m = kerb_m + pavement.width_m;
   Rng rng(key.with("side"));
   Fronts fronts;

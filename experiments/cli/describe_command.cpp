@@ -1,0 +1,105 @@
+#include "experiments/cli/describe_command.hpp"
+
+#include <tbb/info.h>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/cli/data_root.hpp"
+#include "experiments/engine/experiment_loader.hpp"
+#include "experiments/engine/threads.hpp"
+#include "experiments/report/cloud_figures.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
+
+namespace croon::experiments {
+namespace {
+
+/// A scene and the dataset that it belongs to.
+struct NamedScene {
+  std::string dataset;
+  Scene scene;
+};
+
+std::vector<NamedScene> scenes_of(const DescribeOptions& options, const Catalogue& catalogue) {
+  std::vector<NamedScene> named;
+  std::vector<Fault> faults;
+  for (const std::filesystem::path& file : options.experiments) {
+    collect_faults(faults, [&] {
+      const Experiment experiment = load_experiment(file, catalogue);
+      int left = options.scenes > 0 ? options.scenes : -1;
+      for (Scene& scene : experiment.dataset->scenes(data_root(options.data))) {
+        if (left-- == 0) break;
+        named.push_back({experiment.name, std::move(scene)});
+      }
+    });
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+  return named;
+}
+
+/// The plane with the most points, with the defaults of the stage.
+params::Slot<GroundExtractor> extractor_of(const Catalogue& catalogue) {
+  const nlohmann::json json = {{"type", "ransac"}};
+  std::vector<Fault> faults;
+  const auto extractor = catalogue.slot<GroundExtractor>(params::Node(json, "", faults));
+  if (!faults.empty()) throw std::logic_error("there is no ground extractor called ransac");
+  return extractor;
+}
+
+/// The figures of all clouds of a scene; one without points is left out.
+std::vector<CloudFigures> figures_of_scene(const NamedScene& named,
+                                           const GroundExtractor& extractor) {
+  std::vector<CloudFigures> figures;
+  const auto add = [&](const SensorScan& scan, const PointCloud& points) {
+    figures.push_back(figures_of(points, extractor));
+    figures.back().dataset = named.dataset;
+    figures.back().scene = named.scene.name;
+    figures.back().kind = named.scene.kind;
+    figures.back().sensor = scan.sensor;
+  };
+  const PointCloud reference = named.scene.reference.load().points;
+  if (reference.empty()) return {};
+  add(named.scene.reference, reference);
+  const KdTree tree(reference);
+  for (const SensorScan& scan : named.scene.sensors) {
+    const PointCloud points = scan.load().points;
+    if (points.empty()) continue;
+    add(scan, points);
+    if (scan.truth) add_overlap(figures.back(), points, tree, *scan.truth);
+  }
+  return figures;
+}
+
+void write_files(const std::filesystem::path& folder, const std::vector<CloudFigures>& figures) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw InputError(folder.string(), "", "cannot be made: " + error.message());
+  write_whole_file(folder / "clouds.csv", figures_csv(figures));
+  write_whole_file(folder / "ranges.svg", ranges_svg(figures));
+}
+
+}  // namespace
+
+int describe_command(const DescribeOptions& options, const Catalogue& catalogue,
+                     std::ostream& out) {
+  const std::vector<NamedScene> scenes = scenes_of(options, catalogue);
+  const params::Slot<GroundExtractor> extractor = extractor_of(catalogue);
+  std::vector<std::vector<CloudFigures>> by_scene(scenes.size());
+  on_threads(options.jobs > 0 ? options.jobs : tbb::info::default_concurrency(), [&] {
+    for_each_in_parallel(scenes.size(), [&](std::size_t i) {
+      by_scene[i] = figures_of_scene(scenes[i], *extractor);
+    });
+  });
+  std::vector<CloudFigures> figures;
+  for (const auto& of_scene : by_scene) {
+    figures.insert(figures.end(), of_scene.begin(), of_scene.end());
+  }
+  if (!options.out.empty()) write_files(options.out, figures);
+  out << "median over scenes (least to largest); ground: within 0.2 m of the largest plane;\n"
+         "distance to the reference's nearest point, of points that have one within 1 m "
+         "(overlap)\n\n"
+      << figures_table(figures);
+  return 0;
+}
+
+}  // namespace croon::experiments
