@@ -53,13 +53,13 @@ std::string colour(std::size_t index) { return "c" + std::to_string(index % kCol
 double x_of(double left, double bin) { return left + kWidth * bin / kRangeBins; }
 
 double y_of(double top, double share) {
-  constexpr double kMost = 0.4;  // Of the points in one bin.
+  constexpr double kMost = 0.25;  // Of the points in one bin.
   return top + kHeight * (1.0 - std::min(share, kMost) / kMost);
 }
 
 void draw_frame(Svg& svg, double left, double top, const std::string& sensor) {
   svg.text(left, top - 8.0, sensor, Anchor::start, "title");
-  for (const double share : {0.0, 0.1, 0.2, 0.3, 0.4}) {
+  for (const double share : {0.0, 0.05, 0.1, 0.15, 0.2, 0.25}) {
     svg.line(left, y_of(top, share), left + kWidth, y_of(top, share), "grid");
     svg.text(left - 6.0, y_of(top, share) + 4.0, fixed_number(100.0 * share, 0) + " %", Anchor::end,
              "small");

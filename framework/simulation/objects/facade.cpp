@@ -1,10 +1,46 @@
 #include "framework/simulation/objects/facade.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace croon::simulation {
+namespace {
 
 using Eigen::Vector3d;
+
+/// Where `opening` lies in `part`, at least 8 cm from its sides and its top.
+WallPart hole_of(const WallPart& part, const Opening& opening) {
+  constexpr double kEdge_m = 0.08;
+  const double middle_m = 0.5 * (part.left_m + part.right_m);
+  const double half_m =
+      std::min(0.5 * opening.width_m, 0.5 * (part.right_m - part.left_m) - kEdge_m);
+  const double low_m = part.low_m + opening.sill_m;
+  const double high_m = std::min(low_m + opening.height_m, part.high_m - kEdge_m);
+  return {middle_m - half_m, middle_m + half_m, low_m, high_m};
+}
+
+}  // namespace
+
+WallFrame Block::wall(std::size_t side) const {
+  const Vector3d x = Vector3d::UnitX();
+  const Vector3d y = Vector3d::UnitY();
+  const std::array<WallFrame, kWalls> walls = {{{corner, x, y},
+                                                {corner + width_m * x, y, -x},
+                                                {corner + width_m * x + depth_m * y, -x, -y},
+                                                {corner + depth_m * y, -y, x}}};
+  return walls[side];
+}
+
+WallPart Row::cell(int index) const {
+  const double cell_m = (whole.right_m - whole.left_m) / cells;
+  // A neighbour's edge must be the same number, and the last one's the end of the wall.
+  const auto edge_m = [&](int i) { return i == cells ? whole.right_m : whole.left_m + i * cell_m; };
+  return {edge_m(index), edge_m(index + 1), whole.low_m, whole.high_m};
+}
+
+int cells_of(double width_m, double cell_m, int most) {
+  return std::clamp(static_cast<int>(width_m / cell_m), 1, most);
+}
 
 void add_wall(Mesh& mesh, const WallFrame& frame, const WallPart& part, Material material) {
   mesh.add_quad(frame.point(part.left_m, part.low_m), frame.point(part.right_m, part.low_m),
@@ -12,51 +48,48 @@ void add_wall(Mesh& mesh, const WallFrame& frame, const WallPart& part, Material
                 material);
 }
 
-void add_opening(Mesh& mesh, const WallFrame& frame, const WallPart& part,
-                 const Openings& openings) {
-  const double middle_m = 0.5 * (part.left_m + part.right_m);
-  const double half_m = std::min(0.5 * openings.width_m, 0.46 * (part.right_m - part.left_m));
-  const double low_m = part.low_m + openings.sill_m;
-  const WallPart hole = {middle_m - half_m, middle_m + half_m, low_m,
-                         std::min(low_m + openings.height_m, part.high_m - 0.1)};
-  add_wall(mesh, frame, {part.left_m, hole.left_m, part.low_m, part.high_m}, openings.wall);
-  add_wall(mesh, frame, {hole.right_m, part.right_m, part.low_m, part.high_m}, openings.wall);
-  add_wall(mesh, frame, {hole.left_m, hole.right_m, hole.high_m, part.high_m}, openings.wall);
-  if (openings.sill_m > 0.0) {
-    add_wall(mesh, frame, {hole.left_m, hole.right_m, part.low_m, hole.low_m}, openings.wall);
+void add_rim(Mesh& mesh, const WallFrame& frame, const WallPart& part, double from_depth_m,
+             double to_depth_m, Material material) {
+  const std::array<double, 4> x = {part.left_m, part.right_m, part.right_m, part.left_m};
+  const std::array<double, 4> z = {part.low_m, part.low_m, part.high_m, part.high_m};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t next = (i + 1) % 4;
+    mesh.add_quad(
+        frame.point(x[i], z[i], from_depth_m), frame.point(x[next], z[next], from_depth_m),
+        frame.point(x[next], z[next], to_depth_m), frame.point(x[i], z[i], to_depth_m), material);
   }
-  const double x[4] = {hole.left_m, hole.right_m, hole.right_m, hole.left_m};
-  const double z[4] = {hole.low_m, hole.low_m, hole.high_m, hole.high_m};
-  for (int i = 0; i < 4; ++i) {
-    const int j = (i + 1) % 4;
-    mesh.add_quad(frame.point(x[i], z[i]), frame.point(x[j], z[j]),
-                  frame.point(x[j], z[j], openings.recess_m),
-                  frame.point(x[i], z[i], openings.recess_m), openings.wall);
-  }
-  const WallFrame pane = {frame.point(0.0, 0.0, openings.recess_m), frame.along, frame.inwards};
-  add_wall(mesh, pane, hole, openings.pane);
 }
 
 void add_relief(Mesh& mesh, const WallFrame& frame, const WallPart& part, double out_m,
                 Material material) {
-  const WallFrame outside = {frame.point(0.0, 0.0, -out_m), frame.along, frame.inwards};
-  add_wall(mesh, outside, part, material);
-  const double x[4] = {part.left_m, part.right_m, part.right_m, part.left_m};
-  const double z[4] = {part.low_m, part.low_m, part.high_m, part.high_m};
-  for (int i = 0; i < 4; ++i) {
-    const int j = (i + 1) % 4;
-    mesh.add_quad(frame.point(x[i], z[i]), frame.point(x[j], z[j]), outside.point(x[j], z[j]),
-                  outside.point(x[i], z[i]), material);
-  }
+  add_wall(mesh, frame.before(out_m), part, material);
+  add_rim(mesh, frame, part, -out_m, 0.0, material);
 }
 
-std::array<WallFrame, 4> walls_of(double width_m, double depth_m) {
-  const Vector3d x = Vector3d::UnitX();
-  const Vector3d y = Vector3d::UnitY();
-  return {{{{0.0, 0.0, 0.0}, x, y},
-           {{width_m, 0.0, 0.0}, y, -x},
-           {{width_m, depth_m, 0.0}, -x, -y},
-           {{0.0, depth_m, 0.0}, -y, x}}};
+void add_opening(Mesh& mesh, const WallFrame& frame, const WallPart& part, const Opening& opening,
+                 Material wall) {
+  const WallPart hole = hole_of(part, opening);
+  add_wall(mesh, frame, {part.left_m, hole.left_m, part.low_m, part.high_m}, wall);
+  add_wall(mesh, frame, {hole.right_m, part.right_m, part.low_m, part.high_m}, wall);
+  add_wall(mesh, frame, {hole.left_m, hole.right_m, hole.high_m, part.high_m}, wall);
+  if (opening.sill_m > 0.0) {
+    add_wall(mesh, frame, {hole.left_m, hole.right_m, part.low_m, hole.low_m}, wall);
+  }
+  add_rim(mesh, frame, hole, 0.0, opening.recess_m, wall);
+  add_wall(mesh, frame.before(-opening.recess_m), hole, opening.pane);
+}
+
+void add_openings(Mesh& mesh, const WallFrame& frame, const Row& row, const Opening& opening,
+                  Material wall) {
+  for (int i = 0; i < row.cells; ++i) add_opening(mesh, frame, row.cell(i), opening, wall);
+}
+
+void add_foundation(Mesh& mesh, const Block& block) {
+  constexpr double kDepth_m = 1.0;
+  for (std::size_t side = 0; side < Block::kWalls; ++side) {
+    add_wall(mesh, block.wall(side), {0.0, block.length_m(side), -kDepth_m, 0.0},
+             Material::concrete);
+  }
 }
 
 }  // namespace croon::simulation

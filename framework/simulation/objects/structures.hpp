@@ -12,12 +12,13 @@ struct Stretch {
   double to_s_m = 0.0;
 };
 
-/// A tunnel over the carriageway and its pavements: walls, an arched or flat ceiling, lamps,
-/// sometimes niches; portals at both ends. World coordinates.
+/// A tunnel over the carriageway and up to 3 m of its pavements: walls with niches or ribs, an
+/// arched or flat ceiling, lamps, and a hill around it with a portal at either end. World
+/// coordinates.
 Mesh make_tunnel(const Ground& ground, const Stretch& stretch, Rng& rng);
 
-/// A bridge across the road: deck with edge beams and parapets, abutments or walls, sometimes
-/// piers. World coordinates; `stretch` is what its deck covers.
+/// A bridge across the road: deck, parapets, abutments with dams of up to 40 m behind them,
+/// sometimes piers. World coordinates; `stretch` is what its deck covers.
 Mesh make_bridge(const Ground& ground, const Stretch& stretch, Rng& rng);
 
 }  // namespace croon::simulation

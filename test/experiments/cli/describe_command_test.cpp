@@ -1,0 +1,44 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "framework/base/whole_file.hpp"
+#include "test/experiments/support/program.hpp"
+#include "test/support/temp_folder.hpp"
+
+namespace croon::experiments {
+namespace {
+
+constexpr const char* kExperiment = R"({"name": "two",
+    "dataset": {"type": "simulated", "scenes": 2, "mix": {"empty": 1}},
+    "pipeline": [{"step": "identity"}]})";
+
+TEST(DescribeCommand, TellsOfEveryCloudTheSameForAnyNumberOfThreads) {
+  const test::TempFolder folder;
+  const std::string file = folder.write("x.json", kExperiment).string();
+  const std::string one = (folder.path() / "one").string();
+  const std::string two = (folder.path() / "two").string();
+  const Answer answer = croon("describe " + file + " --jobs 1 --out " + one);
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  EXPECT_EQ(croon("describe " + file + " --jobs 2 --out " + two).text, answer.text);
+  const std::string csv = read_whole_file(one + "/clouds.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 5);
+  EXPECT_NE(csv.find("two,000001,empty,left,"), std::string::npos);
+  EXPECT_EQ(csv, read_whole_file(two + "/clouds.csv"));
+  EXPECT_EQ(read_whole_file(one + "/ranges.svg"), read_whole_file(two + "/ranges.svg"));
+  const std::string first = csv.substr(0, csv.find("two,000001"));
+  EXPECT_EQ(croon("describe " + file + " --scenes 1 --out " + two).code, 0);
+  EXPECT_EQ(read_whole_file(two + "/clouds.csv"), first);
+}
+
+TEST(DescribeCommand, RefusesWhatIsNotThere) {
+  const test::TempFolder folder;
+  EXPECT_EQ(croon("describe " + (folder.path() / "none.json").string()).code, 2);
+  EXPECT_EQ(croon("describe").code, 2);
+  const std::string file = folder.write("x.json", kExperiment).string();
+  EXPECT_EQ(croon("describe " + file + " --scenes 0").code, 2);
+}
+
+}  // namespace
+}  // namespace croon::experiments
