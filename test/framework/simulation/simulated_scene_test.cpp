@@ -215,7 +215,7 @@ TEST(SimulatedScene, SensorsSeeTheirOwnCar) {
   for (const char* name : {"front", "back", "left", "right"}) {
     const PointCloud cloud = scene.sweep_of(name).points;
     EXPECT_TRUE(std::any_of(cloud.begin(), cloud.end(), [](const Eigen::Vector3f& p) {
-      return p.norm() < 0.4F;
+      return p.norm() < 0.8F;
     })) << name;
   }
 }

@@ -182,7 +182,7 @@ TEST_F(MadeUpRig, SaysWhatIsWrongWithKinds) {
       {R"({"b": "straße"})", "scene_kinds.json: /b: " + expected},
       {R"({"elsewhere": 7})", "scene_kinds.json: /elsewhere: " + expected + "7"},
       {R"({"a": "x", "a": "y"})", "scene_kinds.json: /a: "},
-      {R"(["urban"])", "scene_kinds.json: expected an object"},
+      {R"(["urban"])", "scene_kinds.json: /: expected an object"},
       {"urban", "scene_kinds.json: "},
   };
   for (const auto& [text, message] : cases) {
