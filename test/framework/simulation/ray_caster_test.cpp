@@ -1,0 +1,129 @@
+#include "framework/simulation/ray_caster.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "framework/simulation/primitives.hpp"
+#include "test/support/random_geometry.hpp"
+
+namespace croon::simulation {
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d draw_point(Rng& rng, double extent_m) {
+  return test::random_cloud(rng, 1, extent_m).front().cast<double>();
+}
+
+/// `count` triangles of a metre or two, anywhere within 10 m.
+std::shared_ptr<World> soup(Rng& rng, int count) {
+  auto world = std::make_shared<World>();
+  Mesh& mesh = world->fixed;
+  for (int i = 0; i < count; ++i) {
+    const Vector3d place = draw_point(rng, 10.0);
+    std::array<std::uint32_t, 3> corner{};
+    for (std::uint32_t& index : corner) index = mesh.add_vertex(place + draw_point(rng, 1.0));
+    mesh.add_triangle(corner[0], corner[1], corner[2], Material::brick);
+  }
+  return world;
+}
+
+/// Range to one triangle (Moeller and Trumbore 1997); infinite where the ray misses it, and NaN
+/// where it passes within a hair of an edge.
+double range_m(const Ray& ray, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const Vector3d p = ray.direction.cross(c - a);
+  const double determinant = (b - a).dot(p);
+  const Vector3d from = ray.origin - a;
+  const double u = from.dot(p) / determinant;
+  const Vector3d q = from.cross(b - a);
+  const double v = ray.direction.dot(q) / determinant;
+  constexpr double kHair = 1e-4;
+  const double inside = std::min({u, v, 1.0 - u - v});
+  if (std::abs(inside) < kHair) return std::numeric_limits<double>::quiet_NaN();
+  const double t = (c - a).dot(q) / determinant;
+  return inside > 0.0 && t > 0.0 ? t : std::numeric_limits<double>::infinity();
+}
+
+TEST(RayCaster, AgreesWithBruteForce) {
+  for (std::uint64_t seed = 1; seed < 6; ++seed) {
+    Rng rng = test::test_rng(seed);
+    const auto world = soup(rng, 200);
+    // Not a whole number of packets.
+    std::vector<Ray> rays(501 + seed);
+    for (Ray& ray : rays) {
+      ray.origin = draw_point(rng, 12.0);
+      ray.direction = draw_point(rng, 1.0).normalized();
+    }
+    constexpr double kMin_m = 0.5;
+    constexpr double kMax_m = 15.0;
+    const std::vector<Hit> hits = RayCaster(world, {}).cast(rays, kMin_m, kMax_m);
+    ASSERT_EQ(hits.size(), rays.size());
+    int compared = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      double least_m = std::numeric_limits<double>::infinity();
+      bool is_clear = true;
+      for (const auto& [a, b, c] : world->fixed.triangles) {
+        const auto corner = [&](std::uint32_t k) {
+          return Vector3d(world->fixed.vertices[k].cast<double>());
+        };
+        const double range = range_m(rays[i], corner(a), corner(b), corner(c));
+        if (std::isnan(range) || std::abs(range - kMin_m) < 1e-4) is_clear = false;
+        if (range >= kMin_m && range <= kMax_m) least_m = std::min(least_m, range);
+      }
+      if (!is_clear) continue;
+      ++compared;
+      EXPECT_EQ(hits[i].is_there(), std::isfinite(least_m));
+      if (!hits[i].is_there()) continue;
+      EXPECT_NEAR(hits[i].range_m, least_m, 1e-5);
+    }
+    EXPECT_GT(compared, 400);
+  }
+}
+
+TEST(RayCaster, MeetsABodyWhereItIsAtTheRaysTime) {
+  auto world = std::make_shared<World>();
+  Body body;
+  add_box(body.mesh, {-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0}, Material::metal);
+  body.T_world_body.translation = {10.0, 0.0, 0.0};
+  body.motion.speed_mps = 30.0;
+  world->bodies.push_back(body);
+  const RayCaster caster(world, {-0.1, 0.2});
+  for (const double time_s : {-0.1, 0.0, 0.05, 0.2}) {
+    const Ray ray = {{0.0, 0.0, 1.0}, Vector3d::UnitX(), time_s};
+    const Hit hit = caster.cast({ray}, 0.0, 100.0).front();
+    ASSERT_TRUE(hit.is_there());
+    EXPECT_NEAR(hit.range_m, 9.0 + 30.0 * time_s, 1e-4);
+    EXPECT_NEAR(hit.incidence_cos, 1.0, 1e-6);
+    EXPECT_EQ(hit.material, Material::metal);
+  }
+}
+
+TEST(RayCaster, MeetsNothingInAnEmptyWorld) {
+  const RayCaster caster(std::make_shared<World>(), {});
+  EXPECT_FALSE(caster.cast({Ray{}}, 0.0, 1000.0).front().is_there());
+  EXPECT_TRUE(caster.cast({}, 0.0, 1000.0).empty());
+}
+
+TEST(Body, MovesOnAnArc) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 50; ++i) {
+    Body body;
+    body.T_world_body = test::random_pose(rng, 20.0);
+    body.motion = {rng.uniform(-5.0, 30.0), rng.uniform(-0.5, 0.5)};
+    // Many small straight steps come to the same place.
+    constexpr int kSteps = 20000;
+    const double step_s = 0.7 / kSteps;
+    RigidTransform stepped = body.T_world_body;
+    const RigidTransform step = {rotation_from_rpy({0.0, 0.0, body.motion.yaw_rate_radps * step_s}),
+                                 {body.motion.speed_mps * step_s, 0.0, 0.0}};
+    for (int k = 0; k < kSteps; ++k) stepped = stepped * step;
+    const RigidTransform pose = body.pose_at(0.7);
+    EXPECT_LT((pose.translation - stepped.translation).norm(), 1e-3);
+    EXPECT_LT((pose.rotation - stepped.rotation).norm(), 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace croon::simulation
