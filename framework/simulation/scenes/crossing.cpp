@@ -97,7 +97,8 @@ void add_corners(SceneBuilder& builder, const Crossroads& roads) {
           crossing_m + ahead * (roads.across.shape.half_width_m + rng.uniform(2.5, 5.0));
       const double d_m = rng.uniform(-out_m, out_m);
       const double yaw_rad = 0.5 * kPi * draw_sign(rng);
-      builder.drive(make_person(rng), {s_m, d_m, yaw_rad}, rng.uniform(0.9, 1.6));
+      const double speed_mps = rng.uniform(0.9, 1.6);
+      builder.drive(make_person(rng), {s_m, d_m, yaw_rad}, speed_mps);
     }
   }
 }

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "framework/base/angles.hpp"
 #include "framework/simulation/objects/plants.hpp"
 #include "framework/simulation/scenes/draws.hpp"
@@ -47,7 +49,10 @@ World make_empty(const CarSpace& car, const StreamKey& key) {
     const Mesh block = centred_along_x(make_block({20.0, 10.0, 3}, far_rng));
     builder.stand(block, place);
   }
-  for (int i = 0; i < trees; ++i) builder.stand(make_tree(far_rng), draw_far_place(far_rng));
+  for (int i = 0; i < trees; ++i) {
+    const Place place = draw_far_place(far_rng);
+    builder.stand(make_tree(far_rng), place);
+  }
   return builder.finish();
 }
 

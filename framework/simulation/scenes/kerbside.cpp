@@ -70,7 +70,8 @@ void add_people(SceneBuilder& builder, const Roadside& side, const Interval& alo
     const Mesh person = make_person(rng);
     const double place_m = draw(rng, along_m);
     const double away_m = draw(rng, out_m);
-    const double turn_rad = (chance(rng, 0.5) ? 0.0 : kPi) + rad_from_deg(rng.uniform(-15.0, 15.0));
+    const double about_rad = chance(rng, 0.5) ? 0.0 : kPi;
+    const double turn_rad = about_rad + rad_from_deg(rng.uniform(-15.0, 15.0));
     const double speed_mps = rng.uniform(0.8, 1.7);
     if (chance(rng, 0.6)) {
       builder.drive(person, side.at(place_m, away_m, turn_rad), speed_mps);

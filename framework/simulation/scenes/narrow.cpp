@@ -39,7 +39,8 @@ void add_pipes(SceneBuilder& builder, const std::array<SmoothWall, 2>& walls, Rn
   for (std::size_t i = 0; i < 2; ++i) {
     const int pipes = draw_int(rng, 0, 3);
     for (int pipe = 0; pipe < pipes; ++pipe) {
-      const double along_m = draw_sign(rng) * rng.uniform(8.0, 30.0);
+      const double ahead = draw_sign(rng);
+      const double along_m = ahead * rng.uniform(8.0, 30.0);
       const Place place = sides[i].at(along_m, walls[i].face_m - 0.06);
       Mesh mesh;
       add_cylinder(mesh, Eigen::Vector3d::Zero(), {0.0, 0.0, walls[i].height_m - 0.2}, 0.05, 0.05,

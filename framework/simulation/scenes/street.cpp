@@ -1,5 +1,8 @@
 #include "framework/simulation/scenes/street.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "framework/simulation/scenes/boundary.hpp"
 #include "framework/simulation/scenes/draws.hpp"
 
@@ -32,7 +35,8 @@ void add_front_gardens(SceneBuilder& builder, const Roadside& side, const Interv
 RoadShape draw_road(Rng& rng) {
   RoadShape shape;
   const bool is_straight = chance(rng, 0.5);
-  const double bend = rng.uniform(0.1, 1.0) * draw_sign(rng);
+  const double size = rng.uniform(0.1, 1.0);
+  const double bend = size * draw_sign(rng);
   if (!is_straight) shape.curvature_per_m = bend / 120.0;
   shape.grade = rng.uniform(-0.04, 0.04);
   shape.banking = rng.uniform(-0.02, 0.02) + 1.5 * shape.curvature_per_m;
