@@ -10,13 +10,21 @@ namespace croon::simulation {
 namespace {
 
 constexpr double kFloor_m = 3.0;
+constexpr double kLeastWidth_m = 9.0;
 
 BuildingSize draw_size(const Fronts& fronts, Rng& rng) {
   BuildingSize size;
-  size.width_m = rng.uniform(9.0, 22.0);
+  size.width_m = rng.uniform(kLeastWidth_m, 22.0);
   size.depth_m = rng.uniform(9.0, 14.0);
   size.floors = draw_int(rng, fronts.floors_low, fronts.floors_high);
   return size;
+}
+
+/// Whether something near the car would stand beyond the end of its row, in the road that is there.
+/// Far away a row may end anyhow.
+bool leaves_row(const Interval& own_m, const Interval& along_m) {
+  return std::abs(own_m.middle_m()) < kDetail_m &&
+         (own_m.from_m < along_m.from_m || own_m.to_m > along_m.to_m);
 }
 
 /// The way from one house to the next.
@@ -52,11 +60,16 @@ void add_fronts(SceneBuilder& builder, const Roadside& side, const Interval& alo
   double from_m = along_m.from_m;
   double last_m = from_m;
   while (from_m < along_m.to_m) {
-    const BuildingSize size = draw_size(fronts, rng);
+    BuildingSize size = draw_size(fronts, rng);
     const double out_m = fronts.out_m + rng.uniform(0.0, 3.0);
     const Interval depth_m = {out_m, out_m + size.depth_m};
     const double needed_m = side.along_of(builder.shape(), size.width_m, depth_m);
-    const Interval own_m = {from_m, from_m + needed_m};
+    Interval own_m = {from_m, from_m + needed_m};
+    if (leaves_row(own_m, along_m)) {
+      own_m.to_m = along_m.to_m;
+      size.width_m *= own_m.length_m() / needed_m;
+      if (size.width_m < kLeastWidth_m) break;
+    }
     if (!builder.is_free(side.box(own_m, depth_m, kHeadroom_m))) {
       from_m += 2.0;
       continue;
@@ -77,6 +90,8 @@ void add_backdrop(SceneBuilder& builder, const Roadside& side, const Interval& a
   for (double from_m = along_m.from_m; from_m < along_m.to_m; from_m += rng.uniform(25.0, 80.0)) {
     const BuildingSize size = draw_size(far, rng);
     const double place_m = draw(rng, out_m);
+    const double half_m = 0.5 * size.width_m;
+    if (leaves_row({from_m - half_m, from_m + half_m}, along_m)) continue;
     builder.stand(centred_along_x(make_block(size, rng)), side.at(from_m, place_m));
   }
 }

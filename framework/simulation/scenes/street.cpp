@@ -23,7 +23,8 @@ void add_front_gardens(SceneBuilder& builder, const Roadside& side, const Interv
   for (double from_m = along_m.from_m; from_m < along_m.to_m;) {
     const double to_m = from_m + rng.uniform(5.0, 14.0);
     if (std::abs(from_m) < kDetail_m) {
-      add_boundary(builder, {side.at(from_m, out_m.from_m), side.at(to_m, out_m.from_m)},
+      const double end_m = std::min(to_m, along_m.to_m);
+      add_boundary(builder, {side.at(from_m, out_m.from_m), side.at(end_m, out_m.from_m)},
                    {type, height_m}, rng);
     }
     from_m = to_m + rng.uniform(1.2, 4.0);

@@ -111,6 +111,48 @@ TEST_P(EveryKind, HasGroundUnderTheCar) {
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryKind, testing::Range(std::size_t{0}, kSceneKinds),
                          [](const auto& kind) { return kSceneKindNames[kind.param]; });
 
+/// The middles of the triangles of houses and garden walls near the car, and a world without them.
+struct Masonry {
+  std::vector<Vector3d> middles;
+  std::shared_ptr<World> others = std::make_shared<World>();
+};
+
+Masonry take_masonry_out(const World& world) {
+  Masonry masonry;
+  const Mesh& mesh = world.fixed;
+  masonry.others->fixed.vertices = mesh.vertices;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& [a, b, c] = mesh.triangles[i];
+    if (mesh.materials[i] != Material::brick && mesh.materials[i] != Material::plaster) {
+      masonry.others->fixed.add_triangle(a, b, c, mesh.materials[i]);
+      continue;
+    }
+    const Eigen::Vector3f sum = mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c];
+    if (sum.head<2>().norm() < 3.0F * 50.0F) masonry.middles.emplace_back(sum.cast<double>() / 3.0);
+  }
+  return masonry;
+}
+
+TEST(Roads, AreFreeOfHouses) {
+  for (const SceneKind kind : {SceneKind::urban, SceneKind::suburban, SceneKind::crossing}) {
+    for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+      const Masonry masonry = take_masonry_out(scene(kind, seed));
+      ASSERT_FALSE(masonry.middles.empty());
+      // From below, the ground is what a ray meets first.
+      std::vector<Ray> rays;
+      for (const Vector3d& middle : masonry.middles) {
+        rays.push_back({{middle.x(), middle.y(), -20.0}, Vector3d::UnitZ(), 0.0});
+      }
+      int on_road = 0;
+      for (const Hit& hit : RayCaster(masonry.others, {}).cast(rays, 0.0, 100.0)) {
+        const bool is_road = hit.material == Material::asphalt || hit.material == Material::marking;
+        if (hit.is_there() && is_road) ++on_road;
+      }
+      EXPECT_EQ(on_road, 0) << kSceneKindNames[static_cast<std::size_t>(kind)] << ", seed " << seed;
+    }
+  }
+}
+
 TEST(HardKinds, AreWhatTheyAreCalled) {
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     for (const Eigen::Vector3f& point : seen_from_car(scene(SceneKind::empty, seed))) {
