@@ -7,9 +7,12 @@
 #include <new>
 
 #include "experiments/cli/describe_command.hpp"
+#include "experiments/cli/export_command.hpp"
 #include "experiments/cli/fault_lines.hpp"
+#include "experiments/cli/merge_command.hpp"
 #include "experiments/cli/run_command.hpp"
 #include "experiments/cli/simulate_command.hpp"
+#include "experiments/cli/starts_command.hpp"
 #include "experiments/cli/validate_command.hpp"
 #include "experiments/engine/version.hpp"
 #include "framework/base/nearest_name.hpp"
@@ -25,8 +28,11 @@ constexpr int kRequestIsWrong = 2;
 /// What the command line asks for.
 struct CommandLine {
   RunOptions run;
+  MergeOptions merge;
+  ExportOptions to_export;
   SimulateOptions simulate;
   DescribeOptions describe;
+  StartsOptions starts;
   std::vector<std::filesystem::path> to_validate;
   std::string stages;
   bool as_json = false;
@@ -44,10 +50,18 @@ void add_run(CLI::App& app, RunOptions& options) {
       ->check(CLI::Range(1, 1000000000));
   run->add_option("--only", options.only, "Run these variants alone.");
   run->add_option("--shard", options.shard, "Run part K of N of the trials, K/N.");
+  run->add_flag("--plan", options.plan, "Tell what there is to run, and how much variants share.");
+  run->add_flag("--no-share", options.no_share, "Run the variants one by one, to compare.");
   run->add_flag("--fresh", options.fresh, "Delete what is in the folder and start over.");
   run->add_flag("--quiet", options.quiet, "Do not show progress.");
   run->add_flag("--clouds", options.clouds, "Write the rig's clouds, fused by the estimates.");
   run->add_flag("--png", options.png, "Draw the first scene from above, before and after.");
+}
+
+void add_merge(CLI::App& app, MergeOptions& options) {
+  CLI::App* merge = app.add_subcommand("merge", "Put the results of shards together.");
+  merge->add_option("DIR", options.folders, "Folders of results.")->required();
+  merge->add_option("--out", options.out, "Folder to write to.")->required();
 }
 
 void add_simulate(CLI::App& app, SimulateOptions& options) {
@@ -72,6 +86,22 @@ void add_describe(CLI::App& app, DescribeOptions& options) {
       ->check(CLI::Range(1, 1000000));
   describe->add_option("--jobs", options.jobs, "Threads; default all cores.")
       ->check(CLI::Range(1, 4096));
+}
+
+void add_export(CLI::App& app, ExportOptions& options) {
+  CLI::App* exporting = app.add_subcommand("export", "Write results as a table for a paper.");
+  exporting->add_option("DIR", options.folder, "A folder of results.")->required();
+  exporting->add_option("--format", options.format, "csv, md (the default), latex or json.");
+  exporting->add_option("--out", options.out, "The file to write; default the output.");
+}
+
+void add_starts(CLI::App& app, StartsOptions& options) {
+  CLI::App* starts = app.add_subcommand("starts", "Write the list of an experiment's starts.");
+  starts->add_option("EXPERIMENT", options.experiment, "The experiment, a JSON file.")->required();
+  starts->add_option("--out", options.out, "File to write; default standard output.");
+  starts->add_option("--data", options.data, "The data root; default $CROON_DATA, else data.");
+  starts->add_option("--trials", options.trials, "Starts per scene and sensor.")
+      ->check(CLI::Range(1, 1000000000));
 }
 
 void add_others(CLI::App& app, CommandLine& line) {
@@ -117,16 +147,24 @@ int run_chosen(const CLI::App& app, const CommandLine& line) {
     options.colours = ::isatty(STDOUT_FILENO) != 0;
     return run_command(options, registry(), std::cout, std::cerr);
   }
+  if (app.got_subcommand("merge")) {
+    MergeOptions options = line.merge;
+    options.colours = ::isatty(STDOUT_FILENO) != 0;
+    return merge_command(options, std::cout);
+  }
   if (app.got_subcommand("simulate")) {
     return simulate_command(line.simulate, registry(), std::cout, std::cerr);
   }
   if (app.got_subcommand("describe")) {
     return describe_command(line.describe, registry(), std::cout);
   }
+  if (app.got_subcommand("export")) return export_command(line.to_export, std::cout);
   if (app.got_subcommand("validate")) {
     return validate_command(line.to_validate, registry(), std::cout, std::cerr);
   }
-  if (app.got_subcommand("schema")) {
+  if (app.got_subcommand("starts")) {
+    starts_command(line.starts, registry(), std::cout);
+  } else if (app.got_subcommand("schema")) {
     std::cout << experiment_schema(registry());
   } else if (app.got_subcommand("stages")) {
     const HelpFormat plain = line.as_json ? HelpFormat::json : HelpFormat::text;
@@ -145,8 +183,11 @@ int croon_main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("croon ") + croon_version());
   app.allow_extras();
   add_run(app, line.run);
+  add_merge(app, line.merge);
+  add_export(app, line.to_export);
   add_simulate(app, line.simulate);
   add_describe(app, line.describe);
+  add_starts(app, line.starts);
   add_others(app, line);
   try {
     app.parse(argc, argv);

@@ -17,17 +17,19 @@ struct RunOptions {
   int jobs = 0;                ///< 0: all cores.
   int trials = 0;              ///< 0: as in the experiment.
   std::vector<std::string> only;
-  std::string shard;     ///< "K/N"; empty: all.
-  bool fresh = false;    ///< Delete what is there and start over.
-  bool quiet = false;    ///< No progress.
-  bool colours = false;  ///< Colours in the table.
-  bool clouds = false;   ///< Write fused clouds.
-  bool png = false;      ///< Draw a scene before and after.
+  std::string shard;      ///< "K/N"; empty: all.
+  bool plan = false;      ///< Tell what there is to do, and do nothing.
+  bool no_share = false;  ///< Run the variants one by one.
+  bool fresh = false;     ///< Delete what is there and start over.
+  bool quiet = false;     ///< No progress.
+  bool colours = false;   ///< Colours in the table.
+  bool clouds = false;    ///< Write fused clouds.
+  bool png = false;       ///< Draw a scene before and after.
 };
 
 /// Runs the experiment, or what of it is missing, and writes the results: the table to `out`,
-/// progress to `progress`. Returns the exit code: 0, or 3 where a trial failed. Throws InputError,
-/// before anything is written where the request is wrong.
+/// progress to `progress`. Returns the exit code: 0, or 3 where something in it failed. Throws
+/// InputError, before anything is written where the request is wrong.
 int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostream& out,
                 std::ostream& progress);
 

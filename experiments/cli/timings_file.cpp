@@ -1,5 +1,9 @@
 #include "experiments/cli/timings_file.hpp"
 
+#include <sstream>
+#include <unordered_set>
+
+#include "experiments/cli/results_folder.hpp"
 #include "experiments/report/csv_files.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
@@ -25,8 +29,26 @@ TimingsFile::TimingsFile(const std::filesystem::path& path) : path_(path) {
 }
 
 void TimingsFile::add(const std::vector<TimingRow>& rows) {
-  stream_ << timings_csv(rows).substr(timings_csv({}).size()) << std::flush;
+  stream_ << timings_csv(rows).substr(timings_csv({}).size());
+}
+
+void TimingsFile::flush() {
+  stream_ << std::flush;
   if (!stream_) throw InputError(path_.string(), "", "cannot be written");
+}
+
+void merge_timings(const std::vector<std::filesystem::path>& folders,
+                   const std::filesystem::path& path) {
+  std::string merged = timings_csv({});
+  std::unordered_set<std::string> rows = {merged.substr(0, merged.size() - 1)};
+  for (const std::filesystem::path& folder : folders) {
+    if (!std::filesystem::exists(folder / kTimings)) continue;
+    std::istringstream bytes(read_whole_file(folder / kTimings));
+    for (std::string row; std::getline(bytes, row);) {
+      if (!bytes.eof() && rows.insert(row).second) merged += row + "\n";
+    }
+  }
+  write_whole_file(path, merged);
 }
 
 }  // namespace croon::experiments

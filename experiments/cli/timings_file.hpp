@@ -16,10 +16,16 @@ class TimingsFile {
   explicit TimingsFile(const std::filesystem::path& path);
 
   void add(const std::vector<TimingRow>& rows);
+  /// What was added outlives a kill from then on.
+  void flush();
 
  private:
   std::filesystem::path path_;
   std::ofstream stream_;
 };
+
+/// Writes to `path` the rows of timings.csv of all `folders` that have one, each row once.
+void merge_timings(const std::vector<std::filesystem::path>& folders,
+                   const std::filesystem::path& path);
 
 }  // namespace croon::experiments

@@ -50,7 +50,10 @@ void Statement::bind(int place, double number) {
   check(sqlite3_bind_double(statement_.get(), place + 1, number));
 }
 
-void Statement::bind_null(int place) { check(sqlite3_bind_null(statement_.get(), place + 1)); }
+void Statement::bind_bytes(int place, const std::string& bytes) {
+  check(sqlite3_bind_blob(statement_.get(), place + 1, bytes.data(), static_cast<int>(bytes.size()),
+                          SQLITE_TRANSIENT));
+}
 
 bool Statement::next() {
   const int code = sqlite3_step(statement_.get());
@@ -99,6 +102,28 @@ void Database::run(const std::string& sql) {
 
 Statement Database::prepare(const std::string& sql) const {
   return Statement(database_.get(), file_, sql);
+}
+
+Transaction::~Transaction() {
+  // An error may have undone it already.
+  if (is_open_) sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+}
+
+void Transaction::commit() {
+  database_.run("COMMIT");
+  is_open_ = false;
+}
+
+Attachment::Attachment(Database& database, const std::filesystem::path& path,
+                       const std::string& name)
+    : database_(database), name_(name) {
+  Statement attach = database.prepare("ATTACH ? AS " + name);
+  attach.bind(0, path.string());
+  attach.next();
+}
+
+Attachment::~Attachment() {
+  sqlite3_exec(database_.handle(), ("DETACH " + name_).c_str(), nullptr, nullptr, nullptr);
 }
 
 }  // namespace croon::experiments

@@ -18,7 +18,7 @@ class Statement {
   void bind(int place, const std::string& text);
   void bind(int place, std::int64_t number);
   void bind(int place, double number);
-  void bind_null(int place);
+  void bind_bytes(int place, const std::string& bytes);
 
   /// Runs to the next row; false where there is none any more.
   bool next();
@@ -53,6 +53,8 @@ class Database {
 
   /// Runs statements that return nothing.
   void run(const std::string& sql);
+  const std::string& file() const { return file_; }
+  sqlite3* handle() const { return database_.get(); }
   Statement prepare(const std::string& sql) const;
 
  private:
@@ -61,6 +63,35 @@ class Database {
   };
   std::string file_;
   std::unique_ptr<sqlite3, Close> database_;
+};
+
+/// A transaction, undone where it is not committed.
+class Transaction {
+ public:
+  explicit Transaction(Database& database) : database_(database) {
+    database_.run("BEGIN IMMEDIATE");
+  }
+  ~Transaction();
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  void commit();
+
+ private:
+  Database& database_;
+  bool is_open_ = true;
+};
+
+/// Another SQLite file, attached to a database under a name for as long as this lives.
+class Attachment {
+ public:
+  Attachment(Database& database, const std::filesystem::path& path, const std::string& name);
+  ~Attachment();
+  Attachment(const Attachment&) = delete;
+  Attachment& operator=(const Attachment&) = delete;
+
+ private:
+  Database& database_;
+  std::string name_;
 };
 
 }  // namespace croon::experiments

@@ -10,6 +10,7 @@
 
 #include "experiments/engine/experiment_loader.hpp"
 #include "experiments/engine/version.hpp"
+#include "framework/base/whole_file.hpp"
 #include "framework/io/digest.hpp"
 
 namespace croon::experiments {
@@ -53,6 +54,25 @@ Json inputs_json(const std::vector<InputFile>& inputs) {
   return json;
 }
 
+std::string pipelines_text(const Experiment& experiment) {
+  std::string text;
+  for (const Variant& variant : experiment.variants) {
+    text += variant.name + "\n" + variant.resolved + "\n";
+  }
+  return text;
+}
+
+std::size_t planned_trials(const Experiment& experiment, const std::vector<Scene>& scenes) {
+  std::size_t sensors = 0;
+  for (const Scene& scene : scenes) sensors += scene.sensors.size();
+  return sensors * static_cast<std::size_t>(experiment.starts.trials) * experiment.variants.size();
+}
+
+/// A path may hold bytes that are not UTF-8.
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 std::string cpu_model() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {
@@ -85,9 +105,8 @@ Json host_json(const std::filesystem::path& data_root, int jobs) {
 
 }  // namespace
 
-std::string manifest_json(const Experiment& experiment, const std::vector<InputFile>& inputs,
-                          const Provenance& provenance, const std::filesystem::path& data_root,
-                          int jobs) {
+std::string manifest_json(const Experiment& experiment, const std::vector<Scene>& scenes,
+                          const std::vector<InputFile>& inputs, const Provenance& provenance) {
   Json manifest;
   manifest["experiment"] = experiment_json(experiment);
   manifest["croon"] = {{"version", croon_version()},
@@ -95,12 +114,31 @@ std::string manifest_json(const Experiment& experiment, const std::vector<InputF
                        {"program_sha256", provenance.at("program")}};
   manifest["libraries"] = libraries_json();
   manifest["inputs"] = inputs_json(inputs);
-  for (const char* digest : {"inputs", "pipelines"}) {
-    manifest["provenance"][digest] = provenance.at(digest);
+  manifest["provenance"] = {{"inputs", sha256_of_text(provenance.at("inputs"))},
+                            {"pipelines", sha256_of_text(pipelines_text(experiment))}};
+  manifest["planned"] = planned_trials(experiment, scenes);
+  return text_of(manifest);
+}
+
+std::string manifest_with_host(const std::string& manifest, const std::filesystem::path& data_root,
+                               int jobs) {
+  Json json = Json::parse(manifest);
+  json["host"] = host_json(data_root, jobs);
+  return text_of(json);
+}
+
+std::string merged_manifest(const std::string& manifest,
+                            const std::vector<std::filesystem::path>& folders) {
+  Json json = Json::parse(manifest);
+  json["host"] = {{"merged", Json::array()}};
+  for (const std::filesystem::path& folder : folders) {
+    const std::filesystem::path file = folder / "manifest.json";
+    if (!std::filesystem::exists(file)) continue;
+    const Json other = Json::parse(read_whole_file(file), nullptr, false);
+    if (other.is_object() && other.contains("host"))
+      json["host"]["merged"].push_back(other["host"]);
   }
-  manifest["host"] = host_json(data_root, jobs);
-  // A path may hold bytes that are not UTF-8.
-  return manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text_of(json);
 }
 
 }  // namespace croon::experiments

@@ -1,9 +1,11 @@
 #include "experiments/engine/provenance.hpp"
 
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "experiments/engine/experiment_loader.hpp"
 #include "experiments/engine/threads.hpp"
+#include "experiments/engine/trial_plan.hpp"
 #include "framework/base/error.hpp"
 #include "framework/io/digest.hpp"
 #include "framework/params/values.hpp"
@@ -55,25 +57,21 @@ std::string pose_text(const std::optional<RigidTransform>& T) {
   return text;
 }
 
-std::string inputs_text(const std::vector<Scene>& scenes, const std::vector<InputFile>& inputs) {
-  std::string text;
-  for (const InputFile& input : inputs) text += input.sha256 + " " + input.path + "\n";
+/// The digests of the files by their paths, and one of the rig's poses.
+std::string inputs_json(const std::vector<Scene>& scenes, const std::vector<InputFile>& inputs) {
+  nlohmann::json json = {{"files", nlohmann::json::object()}};
+  for (const InputFile& input : inputs) json["files"][input.path] = input.sha256;
+  std::string poses;
   for (const Scene& scene : scenes) {
-    text += scene.name + "\n" + scene.reference.sensor + "\n";
+    poses += scene.name + "\n" + scene.reference.sensor + "\n";
     for (const SensorScan& scan : scene.sensors) {
-      text += scan.sensor + "\n" + pose_text(scan.truth) + "\n" + pose_text(scan.nominal) + "\n" +
-              pose_text(scan.initial) + "\n";
+      poses += scan.sensor + "\n" + pose_text(scan.truth) + "\n" + pose_text(scan.nominal) + "\n" +
+               pose_text(scan.initial) + "\n";
     }
   }
-  return text;
-}
-
-std::string pipelines_text(const Experiment& experiment) {
-  std::string text;
-  for (const Variant& variant : experiment.variants) {
-    text += variant.name + "\n" + variant.resolved + "\n";
-  }
-  return text;
+  json["poses"] = sha256_of_text(poses);
+  // A path may hold bytes that are not UTF-8.
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace
@@ -106,12 +104,24 @@ std::string success_json(const SuccessBounds& bounds) {
 Provenance provenance_of(const Experiment& experiment, const std::vector<Scene>& scenes,
                          const std::vector<InputFile>& inputs) {
   return {{"dataset", experiment.dataset.resolved()},
-          {"inputs", sha256_of_text(inputs_text(scenes, inputs))},
-          {"pipelines", sha256_of_text(pipelines_text(experiment))},
+          {"inputs", inputs_json(scenes, inputs)},
           {"program", sha256_of_file("/proc/self/exe")},
           {"seed", std::to_string(experiment.seed)},
           {"starts", start_rule_json(experiment.starts)},
           {"success", success_json(experiment.success)}};
+}
+
+StoreHeader header_of(const Experiment& experiment, const std::vector<Scene>& scenes,
+                      const Provenance& provenance, const std::string& manifest) {
+  StoreHeader header{provenance, manifest, experiment.starts.trials, {}, {}, {}};
+  for (const Variant& variant : experiment.variants) {
+    header.variants.push_back({variant.name, variant.resolved});
+  }
+  for (const Scene& scene : scenes) header.scenes.push_back({scene.name, scene.kind});
+  for (const std::string& sensor : sensor_names(scenes)) {
+    header.sensors.push_back({sensor, scenes.front().reference.sensor});
+  }
+  return header;
 }
 
 }  // namespace croon::experiments

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/engine/experiment.hpp"
-#include "experiments/engine/store.hpp"
+#include "experiments/engine/store_header.hpp"
 
 namespace croon::experiments {
 
@@ -29,9 +29,13 @@ std::string start_rule_json(const StartRule& rule);
 /// JSON text of the bounds.
 std::string success_json(const SuccessBounds& bounds);
 
-/// All that decides the result of a trial: resolved pipelines, dataset, inputs (files and the rig's
+/// All that decides the result of a trial but its pipeline: dataset, inputs (files and the rig's
 /// poses), starts (but not how many), seed, success bounds, and the program itself.
 Provenance provenance_of(const Experiment& experiment, const std::vector<Scene>& scenes,
                          const std::vector<InputFile>& inputs);
+
+/// What the store of a run says of itself. `manifest` is that of manifest_json.
+StoreHeader header_of(const Experiment& experiment, const std::vector<Scene>& scenes,
+                      const Provenance& provenance, const std::string& manifest);
 
 }  // namespace croon::experiments

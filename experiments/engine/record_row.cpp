@@ -1,47 +1,26 @@
 #include "experiments/engine/record_row.hpp"
 
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <vector>
 
 namespace croon::experiments {
 namespace {
 
-using nlohmann::json;
+using nlohmann::ordered_json;
 
+constexpr int kKeyColumns = 4;
 constexpr int kErrorColumns = 8;
 constexpr int kPoseColumns = 12;
+constexpr int kResultColumns = 2 + kErrorColumns + kPoseColumns;
 
-/// All columns in order; those with a type are part of the key or text.
-const std::vector<std::string> kColumns = {"variant TEXT",
-                                           "scene TEXT",
-                                           "sensor TEXT",
-                                           "trial INTEGER",
-                                           "status TEXT",
-                                           "reason TEXT",
-                                           "roll_error_rad",
-                                           "pitch_error_rad",
-                                           "yaw_error_rad",
-                                           "x_error_m",
-                                           "y_error_m",
-                                           "z_error_m",
-                                           "rotation_error_rad",
-                                           "translation_error_m",
-                                           "r00",
-                                           "r01",
-                                           "r02",
-                                           "r10",
-                                           "r11",
-                                           "r12",
-                                           "r20",
-                                           "r21",
-                                           "r22",
-                                           "tx_m",
-                                           "ty_m",
-                                           "tz_m",
-                                           "steps TEXT"};
+constexpr const char* kKey = "variant INTEGER, scene INTEGER, sensor INTEGER, trial INTEGER";
+
+std::string places(int count) {
+  std::string text = "?";
+  for (int i = 1; i < count; ++i) text += ", ?";
+  return text;
+}
 
 Status status_of(const std::string& word) {
   for (std::size_t i = 0; i < kStatusNames.size(); ++i) {
@@ -51,60 +30,34 @@ Status status_of(const std::string& word) {
 }
 
 /// JSON has no infinities and no NaN: they are words.
-json json_of(double value) {
+ordered_json json_of(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
   return value;
 }
 
-double number_of(const json& value) {
-  return value.is_string() ? std::stod(value.get<std::string>()) : value.get<double>();
+/// `{"rmse_m": 0.02, ...}`
+std::string figures_text(const std::vector<StepFigure>& figures) {
+  ordered_json object = ordered_json::object();
+  for (const auto& [name, value] : figures) object[name] = json_of(value);
+  return object.dump();
 }
 
-/// `[["registration", [["rmse_m", 0.02], ...]], ...]`
-std::string steps_text(const std::vector<StepRecord>& steps) {
-  json list = json::array();
-  for (const StepRecord& step : steps) {
-    json figures = json::array();
-    for (const auto& [name, value] : step.figures) {
-      figures.push_back(json::array({name, json_of(value)}));
-    }
-    list.push_back(json::array({step.name, figures}));
-  }
-  return list.dump();
+/// The 36 numbers by rows, as they are in memory (little-endian on every machine we build on).
+std::string bytes_of(const Matrix6d& information) {
+  const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> rows = information;
+  return {reinterpret_cast<const char*>(rows.data()), sizeof(double) * 36};
 }
 
-std::vector<StepRecord> steps_of(const std::string& text) {
-  std::vector<StepRecord> steps;
-  for (const json& step : json::parse(text)) {
-    steps.push_back({step.at(0).get<std::string>(), 0.0, {}});
-    for (const json& figure : step.at(1)) {
-      steps.back().figures.emplace_back(figure.at(0).get<std::string>(), number_of(figure.at(1)));
-    }
-  }
-  return steps;
+void bind_key(Statement& insert, const TrialRow& row) {
+  insert.bind(0, row.variant);
+  insert.bind(1, row.scene);
+  insert.bind(2, row.sensor);
+  insert.bind(3, static_cast<std::int64_t>(row.trial));
 }
 
-}  // namespace
-
-std::string record_columns() {
-  std::string text;
-  for (const std::string& column : kColumns) text += (text.empty() ? "" : ", ") + column;
-  return text;
-}
-
-std::string record_insert() {
-  std::string places;
-  for (std::size_t i = 0; i < kColumns.size(); ++i) places += i == 0 ? "?" : ", ?";
-  return "INSERT INTO trials VALUES(" + places + ")";
-}
-
-void bind_record(Statement& insert, const TrialRecord& record) {
-  int place = 0;
-  insert.bind(place++, record.id.variant);
-  insert.bind(place++, record.id.scene);
-  insert.bind(place++, record.id.sensor);
-  insert.bind(place++, static_cast<std::int64_t>(record.id.trial));
+void bind_result(Statement& insert, const TrialRecord& record) {
+  int place = kKeyColumns;
   insert.bind(place++, status_name(record.status));
   insert.bind(place++, record.reason);
   if (record.error) {
@@ -113,21 +66,83 @@ void bind_record(Statement& insert, const TrialRecord& record) {
     insert.bind(place + 7, record.error->translation_m);
   }
   place += kErrorColumns;
-  if (record.T_reference_sensor) {
-    const RigidTransform& T = *record.T_reference_sensor;
-    for (int i = 0; i < 9; ++i) insert.bind(place + i, T.rotation(i / 3, i % 3));
-    for (int i = 0; i < 3; ++i) insert.bind(place + 9 + i, T.translation(i));
-  }
-  place += kPoseColumns;
-  insert.bind(place, steps_text(record.steps));
+  if (!record.T_reference_sensor) return;
+  const RigidTransform& T = *record.T_reference_sensor;
+  for (int i = 0; i < 9; ++i) insert.bind(place + i, T.rotation(i / 3, i % 3));
+  for (int i = 0; i < 3; ++i) insert.bind(place + 9 + i, T.translation(i));
 }
 
-TrialRecord record_of(const Statement& select) {
+/// A view of `table` with the names of variants, scenes and sensors for their ids.
+std::string named_view(const std::string& view, const std::string& table,
+                       const std::string& columns) {
+  return "CREATE VIEW IF NOT EXISTS " + view +
+         " AS SELECT variants.name AS variant, scenes.name AS scene, sensors.name AS sensor, "
+         "t.trial, " +
+         columns + " FROM " + table +
+         " t JOIN variants ON variants.id = t.variant JOIN scenes ON scenes.id = t.scene"
+         " JOIN sensors ON sensors.id = t.sensor;";
+}
+
+}  // namespace
+
+// The columns of numbers have no type: SQLite then keeps the bits of a double, -0.0 too.
+const std::string& result_columns() {
+  static const std::string columns =
+      "status, reason, roll_error_rad, pitch_error_rad, yaw_error_rad, x_error_m, y_error_m, "
+      "z_error_m, rotation_error_rad, translation_error_m, r00, r01, r02, r10, r11, r12, r20, "
+      "r21, r22, tx_m, ty_m, tz_m";
+  return columns;
+}
+
+std::string record_tables() {
+  const std::string key = kKey;
+  return "CREATE TABLE IF NOT EXISTS trials(" + key + ", " + result_columns() +
+         ", PRIMARY KEY(variant, scene, sensor, trial)) WITHOUT ROWID;"
+         "CREATE TABLE IF NOT EXISTS steps(" +
+         key +
+         ", place INTEGER, step TEXT, figures TEXT, information BLOB,"
+         " PRIMARY KEY(variant, scene, sensor, trial, place)) WITHOUT ROWID;" +
+         named_view("named_trials", "trials", result_columns()) +
+         named_view("named_steps", "steps", "t.place, step, figures, information");
+}
+
+RecordInserter::RecordInserter(const Database& database)
+    : trial_(database.prepare("INSERT INTO trials VALUES(" + places(kKeyColumns + kResultColumns) +
+                              ")")),
+      step_(database.prepare("INSERT INTO steps VALUES(" + places(kKeyColumns + 4) + ")")) {}
+
+void RecordInserter::add(const TrialRow& row, const TrialRecord& record) {
+  bind_key(trial_, row);
+  bind_result(trial_, record);
+  trial_.next();
+  trial_.reset();
+  std::int64_t place = 0;
+  for (const StepRecord& step : record.steps) {
+    bind_key(step_, row);
+    step_.bind(kKeyColumns, place++);
+    step_.bind(kKeyColumns + 1, step.name);
+    step_.bind(kKeyColumns + 2, figures_text(step.figures));
+    if (step.information) step_.bind_bytes(kKeyColumns + 3, bytes_of(*step.information));
+    step_.next();
+    step_.reset();
+  }
+}
+
+Statement select_results(const Database& database) {
+  return database.prepare("SELECT variant, scene, sensor, trial, " + result_columns() +
+                          " FROM trials");
+}
+
+TrialRow row_of(const Statement& select) {
+  return {select.integer(0), select.integer(1), select.integer(2),
+          static_cast<int>(select.integer(3))};
+}
+
+TrialRecord result_of(const Statement& select) {
   TrialRecord record;
-  record.id = {select.text(0), select.text(1), select.text(2), static_cast<int>(select.integer(3))};
-  record.status = status_of(select.text(4));
-  record.reason = select.text(5);
-  int place = 6;
+  int place = kKeyColumns;
+  record.status = status_of(select.text(place++));
+  record.reason = select.text(place++);
   if (!select.is_null(place)) {
     record.error.emplace();
     for (int i = 0; i < 6; ++i) record.error->dof(i) = select.real(place + i);
@@ -140,8 +155,6 @@ TrialRecord record_of(const Statement& select) {
     for (int i = 0; i < 9; ++i) T.rotation(i / 3, i % 3) = select.real(place + i);
     for (int i = 0; i < 3; ++i) T.translation(i) = select.real(place + 9 + i);
   }
-  place += kPoseColumns;
-  record.steps = steps_of(select.text(place));
   return record;
 }
 

@@ -7,15 +7,38 @@
 
 namespace croon::experiments {
 
-/// The columns of a record in the store, for CREATE TABLE. Error and pose are null where the record
-/// has none: angles in rad, lengths in m, the rotation by rows.
-std::string record_columns();
+/// A trial as the store knows it: the ids of its variant, scene and sensor, and its number.
+struct TrialRow {
+  std::int64_t variant = 0;
+  std::int64_t scene = 0;
+  std::int64_t sensor = 0;
+  int trial = 0;
+};
 
-/// The statement that adds a record; bind_record sets its parameters.
-std::string record_insert();
-void bind_record(Statement& insert, const TrialRecord& record);
+/// The columns of `trials` after the four of a TrialRow: status, reason, error (rad and m) and pose
+/// (the rotation by rows, m); error and pose are null where the trial has none.
+const std::string& result_columns();
 
-/// The record in the row at which `select`, of all columns in their order, stands.
-TrialRecord record_of(const Statement& select);
+/// SQL that makes the tables `trials` and `steps` where they are missing, and the views on them
+/// that have names for ids.
+std::string record_tables();
+
+/// Adds rows to a store.
+class RecordInserter {
+ public:
+  explicit RecordInserter(const Database& database);
+  /// Adds `record` and its steps as the trial `row`.
+  void add(const TrialRow& row, const TrialRecord& record);
+
+ private:
+  Statement trial_;
+  Statement step_;
+};
+
+/// The statement whose rows `row_of` and `read_result` read.
+Statement select_results(const Database& database);
+TrialRow row_of(const Statement& select);
+/// The result, without its id.
+TrialRecord result_of(const Statement& select);
 
 }  // namespace croon::experiments

@@ -14,8 +14,8 @@ namespace {
 
 /// The part of a plan that is one scene's.
 struct ScenePlan {
-  const PlannedTrial* begin = nullptr;
-  const PlannedTrial* end = nullptr;
+  const PlannedStart* begin = nullptr;
+  const PlannedStart* end = nullptr;
   std::size_t size() const { return static_cast<std::size_t>(end - begin); }
 };
 
@@ -27,7 +27,7 @@ struct LoadedScene {
 
 LoadedScene load_scene(const Scene& scene, const ScenePlan& plan, std::uint64_t seed) {
   std::vector<bool> is_wanted(scene.sensors.size(), false);
-  for (const PlannedTrial* planned = plan.begin; planned != plan.end; ++planned) {
+  for (const PlannedStart* planned = plan.begin; planned != plan.end; ++planned) {
     is_wanted[planned->sensor] = true;
   }
   LoadedScene loaded;
@@ -85,22 +85,28 @@ class Telling {
   std::mutex mutex_;
 };
 
-void run_scene(const Experiment& experiment, const std::vector<Scene>& scenes,
-               const ScenePlan& plan, Telling& tell) {
-  const Scene& scene = scenes[plan.begin->scene];
+/// What all scenes of a run share.
+struct Run {
+  const Experiment& experiment;
+  const std::vector<Scene>& scenes;
+  std::vector<PipelineTree> trees;  ///< By PlannedStart::variants.
+};
+
+void run_scene(const Run& run, const ScenePlan& plan, Telling& tell) {
+  const Scene& scene = run.scenes[plan.begin->scene];
   tell([&](const RunListener& listener) { listener.on_scene(scene.name); });
-  const LoadedScene loaded = load_scene(scene, plan, experiment.seed);
+  const LoadedScene loaded = load_scene(scene, plan, run.experiment.seed);
+  const auto tell_trial = [&](const TrialRecord& record) {
+    tell([&](const RunListener& listener) { listener.on_trial(record, timings_of(record)); });
+  };
   for_each_in_parallel(plan.size(), [&](std::size_t i) {
-    const PlannedTrial& planned = plan.begin[i];
-    TrialRecord record;
+    const PlannedStart& planned = plan.begin[i];
     // Isolated: a thread that waits inside a step must not pick up another trial, whose time would
     // count as this one's.
     tbb::this_task_arena::isolate([&] {
-      record = run_trial(experiment, experiment.variants[planned.variant].pipeline,
-                         trial_id(experiment, scenes, planned), scene.sensors[planned.sensor],
-                         loaded.target, loaded.sources[planned.sensor]);
+      run_start(run.experiment, run.trees[planned.variants], scene, planned, loaded.target,
+                loaded.sources[planned.sensor], tell_trial);
     });
-    tell([&](const RunListener& listener) { listener.on_trial(record, timings_of(record)); });
   });
   tell([&](const RunListener& listener) {
     listener.on_scene_timings(scene_timings(scene, loaded));
@@ -108,11 +114,11 @@ void run_scene(const Experiment& experiment, const std::vector<Scene>& scenes,
 }
 
 /// The plan scene by scene.
-std::vector<ScenePlan> split_by_scene(const std::vector<PlannedTrial>& plan) {
+std::vector<ScenePlan> split_by_scene(const std::vector<PlannedStart>& starts) {
   std::vector<ScenePlan> scenes;
-  const PlannedTrial* const end = plan.data() + plan.size();
-  for (const PlannedTrial* begin = plan.data(); begin != end; begin = scenes.back().end) {
-    const auto is_other = [&](const PlannedTrial& planned) {
+  const PlannedStart* const end = starts.data() + starts.size();
+  for (const PlannedStart* begin = starts.data(); begin != end; begin = scenes.back().end) {
+    const auto is_other = [&](const PlannedStart& planned) {
       return planned.scene != begin->scene;
     };
     scenes.push_back({begin, std::find_if(begin, end, is_other)});
@@ -136,13 +142,17 @@ void for_each_scene(const std::vector<ScenePlan>& plans, std::size_t in_flight, 
 
 }  // namespace
 
-void run_trials(const Experiment& experiment, const std::vector<Scene>& scenes,
-                const std::vector<PlannedTrial>& plan, int jobs, const RunListener& listener) {
+void run_trials(const Experiment& experiment, const std::vector<Scene>& scenes, const Plan& plan,
+                int jobs, const RunListener& listener) {
   Telling tell(listener);
+  Run run{experiment, scenes, {}};
+  for (const std::vector<std::size_t>& variants : plan.variants) {
+    run.trees.push_back(pipeline_tree(experiment, variants));
+  }
   on_threads(jobs, [&] {
     // One more than threads: while the last trials of a scene run, the next is loaded.
-    for_each_scene(split_by_scene(plan), static_cast<std::size_t>(jobs) + 1,
-                   [&](const ScenePlan& scene) { run_scene(experiment, scenes, scene, tell); });
+    for_each_scene(split_by_scene(plan.starts), static_cast<std::size_t>(jobs) + 1,
+                   [&](const ScenePlan& scene) { run_scene(run, scene, tell); });
   });
 }
 

@@ -18,12 +18,12 @@ struct RunListener {
   std::function<void(const std::vector<TimingRow>&)> on_scene_timings;
 };
 
-/// Runs `plan`, which is sorted by scene, on `jobs` threads. The clouds of a scene are read once
-/// and let go when it is done; scenes are begun in order, and at most `jobs` + 1 are held at a
-/// time. A record depends on (experiment, scene, variant, sensor, trial) alone. A cloud that cannot
-/// be read, or is empty, and a stage that cannot go on make trials `failed`; a std::logic_error
-/// ends the run.
-void run_trials(const Experiment& experiment, const std::vector<Scene>& scenes,
-                const std::vector<PlannedTrial>& plan, int jobs, const RunListener& listener);
+/// Runs `plan` on `jobs` threads. The clouds of a scene are read once and let go when it is done;
+/// scenes are begun in order, and at most `jobs` + 1 are held at a time. The steps in which the
+/// variants of a start begin alike run once, and their time is booked to each of them. A record
+/// depends on (experiment, scene, variant, sensor, trial) alone. A cloud that cannot be read, or is
+/// empty, and a stage that cannot go on make trials `failed`; a std::logic_error ends the run.
+void run_trials(const Experiment& experiment, const std::vector<Scene>& scenes, const Plan& plan,
+                int jobs, const RunListener& listener);
 
 }  // namespace croon::experiments

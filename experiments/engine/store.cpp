@@ -1,141 +1,229 @@
 #include "experiments/engine/store.hpp"
 
+#include <algorithm>
+#include <map>
+
 #include "experiments/engine/record_row.hpp"
 #include "framework/base/error.hpp"
 
 namespace croon::experiments {
 namespace {
 
-constexpr const char* kFormat = "1";
+namespace fs = std::filesystem;
 
-/// The columns of numbers have no type: SQLite then keeps the bits of a double, -0.0 too.
-std::string make_tables() {
-  return "CREATE TABLE IF NOT EXISTS meta(name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT "
-         "ROWID;"
-         "CREATE TABLE IF NOT EXISTS trials(" +
-         record_columns() + ", PRIMARY KEY(variant, scene, sensor, trial)) WITHOUT ROWID;";
-}
+constexpr const char* kRemedy = "--fresh deletes them and starts over, --out writes elsewhere";
 
-/// Opens `path` for this process alone and makes the tables where they are missing.
-Database open_store(const std::filesystem::path& path) {
+/// The tables that map ids to names, and what the trials call them.
+struct IdColumn {
+  const char* table;
+  const char* column;
+};
+constexpr IdColumn kIdColumns[] = {
+    {"variants", "variant"}, {"scenes", "scene"}, {"sensors", "sensor"}};
+
+/// Opens `path`, whose header is `header` or not there yet, for this process alone.
+Database open_store(const fs::path& path, const StoreHeader& header) {
+  // Looks before it opens the file to write: a store that is refused keeps its bytes.
+  const StoreHeader stored = stored_header(path);
+  if (!stored.provenance.empty()) refuse_differences(path.string(), stored, header, kRemedy);
   Database database(path, Access::write);
   database.run(
       "PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;"
       "BEGIN EXCLUSIVE;" +
-      make_tables() + "COMMIT;");
+      header_tables() + record_tables() + "COMMIT;");
+  write_header(database, header);
   return database;
 }
 
-Provenance read_meta(const Database& database) {
-  Provenance meta;
-  Statement select = database.prepare("SELECT name, value FROM meta");
-  while (select.next()) meta[select.text(0)] = select.text(1);
-  return meta;
+/// The ids that `table` has for names.
+std::map<std::string, std::int64_t> ids_of(const Database& database, const std::string& table) {
+  std::map<std::string, std::int64_t> ids;
+  Statement select = database.prepare("SELECT name, id FROM " + table);
+  while (select.next()) ids[select.text(0)] = select.integer(1);
+  return ids;
 }
 
-void write_meta(Database& database, const Provenance& meta) {
-  database.run("BEGIN");
-  Statement insert = database.prepare("INSERT INTO meta VALUES(?, ?)");
-  for (const auto& [name, value] : meta) {
-    insert.reset();
-    insert.bind(0, name);
-    insert.bind(1, value);
-    insert.next();
+/// The places of current names in a header, by their ids; -1 for those that have none.
+std::vector<std::int64_t> places_of(const Database& database, const std::string& table,
+                                    const std::vector<StoredName>& names) {
+  const std::map<std::string, std::int64_t> ids = ids_of(database, table);
+  std::int64_t largest = 0;
+  for (const auto& [name, id] : ids) largest = std::max(largest, id);
+  std::vector<std::int64_t> places(static_cast<std::size_t>(largest) + 1, -1);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto id = ids.find(names[i].name);
+    if (id == ids.end() || !names[i].is_current) continue;
+    places[static_cast<std::size_t>(id->second)] = static_cast<std::int64_t>(i);
   }
-  database.run("COMMIT");
+  return places;
 }
 
-/// The names whose values differ, "starts, program".
-std::string differences(const Provenance& a, const Provenance& b) {
-  std::string names;
-  for (const auto& [name, value] : a) {
-    const auto other = b.find(name);
-    if (other != b.end() && other->second == value) continue;
-    names += (names.empty() ? "" : ", ") + name;
+/// Turns rows of the store into places in its header.
+class Places {
+ public:
+  Places(const Database& database, const StoreHeader& header)
+      : variants_(places_of(database, "variants", header.variants)),
+        scenes_(places_of(database, "scenes", header.scenes)),
+        sensors_(places_of(database, "sensors", header.sensors)) {}
+
+  /// The place of a trial; false where the experiment has it no more.
+  bool find(const TrialRow& row, TrialPlace& place) const {
+    const std::int64_t variant = variants_[static_cast<std::size_t>(row.variant)];
+    const std::int64_t scene = scenes_[static_cast<std::size_t>(row.scene)];
+    const std::int64_t sensor = sensors_[static_cast<std::size_t>(row.sensor)];
+    place = {variant, scene, sensor, row.trial};
+    return variant >= 0 && scene >= 0 && sensor >= 0;
   }
-  return names;
-}
 
-/// Throws where the store that is at `path` was made from something else. Looks before Store opens
-/// the file: a store that is refused keeps its bytes.
-void check_meta(const std::filesystem::path& path, const Provenance& expected) {
-  if (!std::filesystem::exists(path)) return;
-  const Database database(path, Access::read);
-  // A kill before the first commit leaves a store without tables.
-  if (!database.prepare("SELECT 1 FROM sqlite_master WHERE name = 'meta'").next()) return;
-  const Provenance found = read_meta(database);
-  const std::string names = found.empty() ? "" : differences(expected, found);
-  if (!names.empty()) {
-    throw InputError(path.string(), "",
-                     "its trials were made with different " + names +
-                         "; --fresh deletes them and starts over, --out writes elsewhere");
+ private:
+  std::vector<std::int64_t> variants_, scenes_, sensors_;
+};
+
+/// SQL that fills temporary tables `map_TABLE(old, new)`: the ids of `from` and those of main, by
+/// name.
+std::string id_maps(const std::string& from) {
+  std::string sql;
+  for (const IdColumn& ids : kIdColumns) {
+    const std::string table = ids.table;
+    sql += "DROP TABLE IF EXISTS temp.map_" + table + "; CREATE TEMP TABLE map_" + table +
+           "(old INTEGER PRIMARY KEY, new INTEGER);"
+           "INSERT INTO temp.map_" +
+           table + " SELECT a.id, b.id FROM " + from + "." + table + " a JOIN main." + table +
+           " b ON a.name = b.name;";
   }
+  return sql;
 }
 
-/// Opens `path`, whose meta is `provenance` or not there yet.
-Database checked_store(const std::filesystem::path& path, Provenance provenance) {
-  provenance["format"] = kFormat;
-  check_meta(path, provenance);
-  Database database = open_store(path);
-  if (read_meta(database).empty()) write_meta(database, provenance);
-  return database;
+/// SQL that selects the rows of `from`'s `table` with the ids of main.
+std::string with_main_ids(const std::string& from, const std::string& table,
+                          const std::string& columns) {
+  std::string ids, joins;
+  for (const IdColumn& id : kIdColumns) {
+    const std::string map = "map_" + std::string(id.table);
+    ids += map + ".new AS " + id.column + ", ";
+    joins += " JOIN temp." + map + " ON " + map + ".old = t." + id.column;
+  }
+  return "SELECT " + ids + "t.trial AS trial, " + columns + " FROM " + from + "." + table + " t" +
+         joins;
 }
+
+constexpr const char* kStepColumns = "place, step, figures, information";
 
 }  // namespace
 
-TrialKey trial_key(const TrialId& id) { return {id.variant, id.scene, id.sensor, id.trial}; }
+Store::Store(const fs::path& path, const StoreHeader& header)
+    : database_(open_store(path, header)),
+      variants_(ids_of(database_, "variants")),
+      scenes_(ids_of(database_, "scenes")),
+      sensors_(ids_of(database_, "sensors")),
+      inserter_(database_) {}
 
-Store::Store(const std::filesystem::path& path, const Provenance& provenance)
-    : database_(checked_store(path, provenance)), insert_(database_.prepare(record_insert())) {}
-
-std::set<TrialKey> Store::keys() const {
-  std::set<TrialKey> keys;
-  Statement select = database_.prepare("SELECT variant, scene, sensor, trial FROM trials");
-  while (select.next()) {
-    keys.insert(
-        {select.text(0), select.text(1), select.text(2), static_cast<int>(select.integer(3))});
+void Store::add(const std::vector<const TrialRecord*>& records) {
+  Transaction transaction(database_);
+  for (const TrialRecord* record : records) {
+    const TrialId& id = record->id;
+    inserter_.add(
+        {variants_.at(id.variant), scenes_.at(id.scene), sensors_.at(id.sensor), id.trial},
+        *record);
   }
-  return keys;
+  transaction.commit();
 }
 
-std::vector<TrialRecord> Store::records() const {
-  std::vector<TrialRecord> records;
-  Statement select =
-      database_.prepare("SELECT * FROM trials ORDER BY variant, scene, sensor, trial");
-  while (select.next()) records.push_back(record_of(select));
-  return records;
+void Store::merge(const fs::path& shard, const StoreHeader& from) {
+  refuse_differences(shard.string(), from, read_header(database_),
+                     "stores of one experiment alone can be merged");
+  const Attachment attachment(database_, shard, "shard");
+  Transaction transaction(database_);
+  database_.run(id_maps("shard"));
+  const std::string rows = with_main_ids("shard", "trials", result_columns());
+  {
+    Statement doubled = database_.prepare("SELECT count(*) FROM (" + rows +
+                                          " EXCEPT SELECT * FROM main.trials) s JOIN main.trials m"
+                                          " USING(variant, scene, sensor, trial)");
+    doubled.next();
+    if (doubled.integer(0) > 0) {
+      throw InputError(
+          shard.string(), "",
+          std::to_string(doubled.integer(0)) + " of its trials ended differently in another store");
+    }
+  }
+  database_.run("INSERT OR IGNORE INTO main.trials " + rows + ";INSERT OR IGNORE INTO main.steps " +
+                with_main_ids("shard", "steps", kStepColumns));
+  transaction.commit();
 }
 
-void Store::add(const TrialRecord& record) {
-  insert_.reset();
-  bind_record(insert_, record);
-  insert_.next();
-  // The commit is done when the statement is.
-  insert_.reset();
+StoreHeader stored_header(const fs::path& path) {
+  return fs::exists(path) ? read_header(Database(path, Access::read)) : StoreHeader{};
 }
 
-void rewrite_in_order(const std::filesystem::path& path) {
-  const std::filesystem::path ordered = path.string() + ".new";
+std::vector<TrialPlace> stored_places(const fs::path& path, const StoreHeader& header) {
+  std::vector<TrialPlace> places;
+  const StoreHeader stored = stored_header(path);
+  if (stored.provenance.empty()) return places;
+  refuse_differences(path.string(), stored, header, kRemedy);
+  const Database database(path, Access::read);
+  const Places to_place(database, header);
+  Statement select = database.prepare("SELECT variant, scene, sensor, trial FROM trials");
+  TrialPlace place;
+  while (select.next()) {
+    if (to_place.find(row_of(select), place)) places.push_back(place);
+  }
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+StoredRun read_store(const fs::path& path) {
+  StoredRun run{stored_header(path), {}};
+  if (run.header.provenance.empty()) {
+    throw InputError(path.string(), "", "expected the store of a run, found none");
+  }
+  const Database database(path, Access::read);
+  const Places to_place(database, run.header);
+  std::vector<std::pair<TrialPlace, TrialRecord>> rows;
+  Statement select = select_results(database);
+  TrialPlace place;
+  while (select.next()) {
+    const TrialRow row = row_of(select);
+    if (row.trial < run.header.trials && to_place.find(row, place))
+      rows.emplace_back(place, result_of(select));
+  }
+  // In a store that is in order they are sorted.
+  const auto is_before = [](const auto& a, const auto& b) { return a.first < b.first; };
+  if (!std::is_sorted(rows.begin(), rows.end(), is_before)) {
+    std::sort(rows.begin(), rows.end(), is_before);
+  }
+  run.records.reserve(rows.size());
+  for (auto& [at, record] : rows) {
+    const auto& [variant, scene, sensor, trial] = at;
+    record.id = {run.header.variants[variant].name, run.header.scenes[scene].name,
+                 run.header.sensors[sensor].name, trial};
+    run.records.push_back(std::move(record));
+  }
+  return run;
+}
+
+void rewrite_in_order(const fs::path& path) {
+  const fs::path ordered = path.string() + ".new";
   std::error_code error;
-  std::filesystem::remove(ordered, error);
+  fs::remove(ordered, error);
+  if (is_in_order(Database(path, Access::read))) return;
   {
     Database database(ordered, Access::write);
     database.run("PRAGMA journal_mode = DELETE; PRAGMA synchronous = FULL;");
-    Statement attach = database.prepare("ATTACH ? AS old");
-    attach.bind(0, path.string());
-    attach.next();
-    attach.reset();
-    database.run("BEGIN;" + make_tables() +
-                 "INSERT INTO main.meta SELECT * FROM old.meta ORDER BY name;"
-                 "INSERT INTO main.trials SELECT * FROM old.trials"
-                 " ORDER BY variant, scene, sensor, trial; COMMIT;");
+    const Attachment attachment(database, path, "old");
+    Transaction transaction(database);
+    database.run(header_tables() + record_tables() + copy_of_header("old") + id_maps("old") +
+                 "INSERT INTO main.trials " + with_main_ids("old", "trials", result_columns()) +
+                 " ORDER BY 1, 2, 3, 4; INSERT INTO main.steps " +
+                 with_main_ids("old", "steps", kStepColumns) + " ORDER BY 1, 2, 3, 4, 5");
+    transaction.commit();
   }
-  std::filesystem::rename(ordered, path, error);
+  fs::rename(ordered, path, error);
   if (error) throw InputError(path.string(), "", "cannot be replaced: " + error.message());
 }
 
-std::vector<std::filesystem::path> store_files(const std::filesystem::path& path) {
-  std::vector<std::filesystem::path> files;
+std::vector<fs::path> store_files(const fs::path& path) {
+  std::vector<fs::path> files;
   for (const char* ending : {"", "-wal", "-shm", "-journal", ".new", ".new-journal"}) {
     files.push_back(path.string() + ending);
   }

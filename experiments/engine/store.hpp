@@ -2,48 +2,59 @@
 
 #include <filesystem>
 #include <map>
-#include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "experiments/engine/database.hpp"
+#include "experiments/engine/record_row.hpp"
+#include "experiments/engine/store_header.hpp"
 #include "experiments/engine/trial_record.hpp"
 
 namespace croon::experiments {
 
-/// What decides the results of a run, by name ("starts", "program"), as text or as a digest of it.
-using Provenance = std::map<std::string, std::string>;
-
-/// A trial as a key: variant, scene, sensor, trial.
-using TrialKey = std::tuple<std::string, std::string, std::string, int>;
-
-TrialKey trial_key(const TrialId& id);
-
-/// The results of an experiment on disk, an SQLite file: each trial as it is done, without wall
-/// times. A trial that was added is there after a power loss. Not thread-safe. Throws InputError
-/// where the file cannot be read or written, and where another process has it open.
+/// The results of an experiment on disk, an SQLite file (docs/store.md): the trials as they are
+/// done, without wall times. A trial that was added is there after a power loss. Not thread-safe.
+/// Throws InputError where the file cannot be read or written, and where another process has it
+/// open.
 class Store {
  public:
-  /// Opens the store `path`, or makes it. Throws InputError, saying what differs, where its trials
-  /// come from something other than `provenance`: what is there and what would be added do not
-  /// belong together.
-  Store(const std::filesystem::path& path, const Provenance& provenance);
+  /// Opens the store `path`, or makes it, for trials of `header`. Throws InputError, saying what
+  /// differs, where its trials come from something else.
+  Store(const std::filesystem::path& path, const StoreHeader& header);
 
-  /// The trials that are there.
-  std::set<TrialKey> keys() const;
-  /// All records, by variant, scene, sensor (as words) and trial; their steps' seconds are 0.
-  std::vector<TrialRecord> records() const;
-  /// Adds a trial that is not there; on disk when this returns.
-  void add(const TrialRecord& record);
+  /// Adds trials that are not there; they are on disk, all of them, when this returns.
+  void add(const std::vector<const TrialRecord*>& records);
+  /// Adds all trials of the store `shard`, whose header is `from`. Throws InputError where a trial
+  /// that both have ended differently.
+  void merge(const std::filesystem::path& shard, const StoreHeader& from);
 
  private:
+  using Ids = std::map<std::string, std::int64_t>;
   Database database_;
-  Statement insert_;
+  Ids variants_, scenes_, sensors_;
+  RecordInserter inserter_;
 };
 
+/// The trials of `header` that the store `path` has, in order; none where there is no store. Throws
+/// InputError, saying what differs, where its trials come from something else.
+std::vector<TrialPlace> stored_places(const std::filesystem::path& path, const StoreHeader& header);
+
+/// A store as it is read for reports.
+struct StoredRun {
+  StoreHeader header;
+  std::vector<TrialRecord> records;  ///< Of the header's names, in report order; without steps.
+};
+
+/// The header of the store `path`; without provenance where there is none.
+StoreHeader stored_header(const std::filesystem::path& path);
+
+/// The store `path`; of trials of which the experiment now has fewer, the first. Throws InputError
+/// where there is none.
+StoredRun read_store(const std::filesystem::path& path);
+
 /// Writes the store `path`, which nobody may have open, anew in one order: stores of the same
-/// trials become the same bytes, whatever the order in which they were added.
+/// trials become the same bytes, whatever the order in which they were added. Does nothing where it
+/// is in order.
 void rewrite_in_order(const std::filesystem::path& path);
 
 /// The file and those that SQLite keeps beside it while it is open.

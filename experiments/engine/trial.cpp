@@ -82,23 +82,27 @@ LoadedScan load_scan(const SensorScan& scan, const std::string& scene, std::uint
   return loaded;
 }
 
-TrialRecord run_trial(const Experiment& experiment, const Pipeline& pipeline, const TrialId& id,
-                      const SensorScan& scan, const LoadedScan& target, const LoadedScan& source) {
-  if (!target.failure.empty()) return failed(id, target.failure);
-  if (!source.failure.empty()) return failed(id, source.failure);
-  const RigidTransform start =
-      draw_start(experiment.starts, *centre_pose(experiment.starts.around, scan), experiment.seed,
-                 id.scene, id.sensor, id.trial);
+void run_start(const Experiment& experiment, const PipelineTree& tree, const Scene& scene,
+               const PlannedStart& planned, const LoadedScan& target, const LoadedScan& source,
+               const std::function<void(const TrialRecord&)>& at_end) {
+  const SensorScan& scan = scene.sensors[planned.sensor];
   const StreamKey key = StreamKey(experiment.seed)
                             .with("trial")
-                            .with(id.scene)
-                            .with(id.sensor)
-                            .with(static_cast<std::uint64_t>(id.trial));
-  PipelineResult result = run_pipeline(pipeline, target.cloud, source.cloud, start, key);
-  TrialRecord record = failed(id, result.failure);
-  record.steps = std::move(result.records);
-  if (result.failure.empty()) finish(record, result.estimate, scan, experiment.success);
-  return record;
+                            .with(scene.name)
+                            .with(scan.sensor)
+                            .with(static_cast<std::uint64_t>(planned.trial));
+  const RigidTransform start =
+      draw_start(experiment.starts, *centre_pose(experiment.starts.around, scan), experiment.seed,
+                 scene.name, scan.sensor, planned.trial);
+  PipelineResult result = at_start(target.cloud, source.cloud, start);
+  result.failure = target.failure.empty() ? source.failure : target.failure;
+  run_tree(tree, std::move(result), key, [&](std::size_t variant, const PipelineResult& end) {
+    TrialRecord record = failed(
+        {experiment.variants[variant].name, scene.name, scan.sensor, planned.trial}, end.failure);
+    record.steps = end.records;
+    if (end.failure.empty()) finish(record, end.estimate, scan, experiment.success);
+    at_end(record);
+  });
 }
 
 }  // namespace croon::experiments

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
 #include "experiments/engine/experiment.hpp"
+#include "experiments/engine/pipeline_tree.hpp"
+#include "experiments/engine/trial_plan.hpp"
 #include "experiments/engine/trial_record.hpp"
 
 namespace croon::experiments {
@@ -18,8 +21,10 @@ struct LoadedScan {
 /// Reads the cloud of `scan`. Its streams of random numbers are named by seed, scene and sensor.
 LoadedScan load_scan(const SensorScan& scan, const std::string& scene, std::uint64_t seed);
 
-/// Runs one trial of `id.variant`, whose pipeline is `pipeline`, and says how it ended.
-TrialRecord run_trial(const Experiment& experiment, const Pipeline& pipeline, const TrialId& id,
-                      const SensorScan& scan, const LoadedScan& target, const LoadedScan& source);
+/// Runs the start `planned` of `scene` through `tree`, and calls `at_end` with how each of its
+/// variants ended.
+void run_start(const Experiment& experiment, const PipelineTree& tree, const Scene& scene,
+               const PlannedStart& planned, const LoadedScan& target, const LoadedScan& source,
+               const std::function<void(const TrialRecord&)>& at_end);
 
 }  // namespace croon::experiments

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <map>
-#include <tuple>
 
 #include "framework/base/error.hpp"
 #include "framework/base/nearest_name.hpp"
@@ -19,16 +17,72 @@ int whole_number(const std::string& text) {
   return error == std::errc() && end == text.data() + text.size() ? number : 0;
 }
 
-using Ranks = std::map<std::string, std::size_t>;
+/// Trials from `begin` to before `end`.
+struct TrialRange {
+  std::int64_t begin = 0;
+  std::int64_t end = 0;
+};
 
-Ranks variant_ranks(const Experiment& experiment) {
-  Ranks ranks;
-  for (const Variant& variant : experiment.variants) ranks.emplace(variant.name, ranks.size());
-  return ranks;
+/// The trials of scene `scene` that are the shard's.
+TrialRange trials_of(const Shard& shard, std::size_t scene, std::size_t scenes, int trials) {
+  const std::int64_t all = static_cast<std::int64_t>(scenes) * trials;
+  const auto border = [&](std::int64_t part) {
+    return part * (all / shard.parts) + std::min(part, all % shard.parts);
+  };
+  const std::int64_t first = static_cast<std::int64_t>(scene) * trials;
+  return {std::clamp<std::int64_t>(border(shard.part - 1) - first, 0, trials),
+          std::clamp<std::int64_t>(border(shard.part) - first, 0, trials)};
 }
 
-/// Where a record stands in reports: variant, scene, sensor, trial.
-using ReportKey = std::tuple<std::size_t, std::size_t, std::size_t, int>;
+/// Goes through the trials of one variant, scene and sensor that are done.
+class DoneTrials {
+ public:
+  DoneTrials(const std::vector<TrialPlace>& done, const TrialPlace& first)
+      : next_(std::lower_bound(done.begin(), done.end(), first)), end_(done.end()) {}
+
+  /// Whether `place` is done; must be asked in rising order.
+  bool has(const TrialPlace& place) {
+    while (next_ != end_ && *next_ < place) ++next_;
+    return next_ != end_ && *next_ == place;
+  }
+
+ private:
+  std::vector<TrialPlace>::const_iterator next_, end_;
+};
+
+/// The place of `variants` in the plan's lists, where it is put if need be.
+std::size_t list_of(Plan& plan, const std::vector<std::size_t>& variants) {
+  // From the end: neighbours lack the same.
+  const auto found = std::find(plan.variants.rbegin(), plan.variants.rend(), variants);
+  if (found != plan.variants.rend()) {
+    return static_cast<std::size_t>(plan.variants.rend() - found) - 1;
+  }
+  plan.variants.push_back(variants);
+  return plan.variants.size() - 1;
+}
+
+/// Adds the trials of one sensor of one scene; `sensor` is its place in all scenes.
+void add_starts(Plan& plan, const PlannedStart& first, std::size_t sensor, const TrialRange& trials,
+                const std::vector<std::size_t>& variants, const std::vector<TrialPlace>& done) {
+  std::vector<DoneTrials> done_of;
+  const int begin = static_cast<int>(trials.begin);
+  for (const std::size_t variant : variants) {
+    done_of.emplace_back(done, TrialPlace{variant, first.scene, sensor, begin});
+  }
+  PlannedStart start = first;
+  for (start.trial = begin; start.trial < trials.end; ++start.trial) {
+    std::vector<std::size_t> missing;
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+      if (!done_of[i].has({variants[i], first.scene, sensor, start.trial})) {
+        missing.push_back(variants[i]);
+      }
+    }
+    if (missing.empty()) continue;
+    start.variants = list_of(plan, missing);
+    plan.starts.push_back(start);
+    plan.trials += missing.size();
+  }
+}
 
 }  // namespace
 
@@ -65,60 +119,33 @@ std::vector<std::size_t> select_variants(const Experiment& experiment,
   return selected;
 }
 
-std::vector<PlannedTrial> plan_trials(const Experiment& experiment,
-                                      const std::vector<Scene>& scenes,
-                                      const Selection& selection) {
-  std::vector<PlannedTrial> plan;
-  const Shard shard = selection.shard;
-  for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
-    for (std::size_t sensor = 0; sensor < scenes[scene].sensors.size(); ++sensor) {
-      // Wide: the step may be as large as an int.
-      for (std::int64_t trial = shard.part - 1; trial < experiment.starts.trials;
-           trial += shard.parts) {
-        for (const std::size_t variant : selection.variants) {
-          plan.push_back({scene, variant, sensor, static_cast<int>(trial)});
-        }
+std::vector<std::string> sensor_names(const std::vector<Scene>& scenes) {
+  std::vector<std::string> names;
+  for (const Scene& scene : scenes) {
+    for (const SensorScan& scan : scene.sensors) {
+      if (std::find(names.begin(), names.end(), scan.sensor) == names.end()) {
+        names.push_back(scan.sensor);
       }
     }
   }
+  return names;
+}
+
+Plan plan_trials(const Experiment& experiment, const std::vector<Scene>& scenes,
+                 const Selection& selection, const std::vector<TrialPlace>& done) {
+  Plan plan;
+  const std::vector<std::string> names = sensor_names(scenes);
+  for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
+    const TrialRange trials =
+        trials_of(selection.shard, scene, scenes.size(), experiment.starts.trials);
+    for (std::size_t sensor = 0; sensor < scenes[scene].sensors.size(); ++sensor) {
+      const std::string& name = scenes[scene].sensors[sensor].sensor;
+      const auto place = std::find(names.begin(), names.end(), name) - names.begin();
+      add_starts(plan, {scene, sensor, 0, 0}, static_cast<std::size_t>(place), trials,
+                 selection.variants, done);
+    }
+  }
   return plan;
-}
-
-TrialId trial_id(const Experiment& experiment, const std::vector<Scene>& scenes,
-                 const PlannedTrial& planned) {
-  const Scene& scene = scenes[planned.scene];
-  return {experiment.variants[planned.variant].name, scene.name,
-          scene.sensors[planned.sensor].sensor, planned.trial};
-}
-
-std::vector<TrialRecord> in_report_order(const std::vector<TrialRecord>& records,
-                                         const Experiment& experiment,
-                                         const std::vector<Scene>& scenes) {
-  const Ranks variants = variant_ranks(experiment);
-  Ranks scene_ranks;
-  std::map<std::string, Ranks> sensor_ranks;
-  for (const Scene& scene : scenes) {
-    scene_ranks.emplace(scene.name, scene_ranks.size());
-    Ranks& sensors = sensor_ranks[scene.name];
-    for (const SensorScan& scan : scene.sensors) sensors.emplace(scan.sensor, sensors.size());
-  }
-  std::vector<std::pair<ReportKey, TrialRecord>> keyed;
-  for (const TrialRecord& record : records) {
-    const TrialId& id = record.id;
-    const auto variant = variants.find(id.variant);
-    const auto scene = scene_ranks.find(id.scene);
-    if (variant == variants.end() || scene == scene_ranks.end()) continue;
-    if (id.trial >= experiment.starts.trials) continue;
-    const Ranks& sensors = sensor_ranks[id.scene];
-    const auto sensor = sensors.find(id.sensor);
-    if (sensor == sensors.end()) continue;
-    keyed.push_back({{variant->second, scene->second, sensor->second, id.trial}, record});
-  }
-  std::sort(keyed.begin(), keyed.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<TrialRecord> sorted;
-  for (auto& [key, record] : keyed) sorted.push_back(std::move(record));
-  return sorted;
 }
 
 }  // namespace croon::experiments

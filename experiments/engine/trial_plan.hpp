@@ -9,15 +9,24 @@
 
 namespace croon::experiments {
 
-/// A trial by its places in Experiment::variants, the list of scenes and Scene::sensors.
-struct PlannedTrial {
+/// One start: places in the list of scenes and in Scene::sensors, and the variants that are to run
+/// from it.
+struct PlannedStart {
   std::size_t scene = 0;
-  std::size_t variant = 0;
   std::size_t sensor = 0;
   int trial = 0;
+  std::size_t variants = 0;  ///< Place in Plan::variants.
 };
 
-/// Part `part` of `parts` of the trials: those with `trial % parts == part - 1`.
+/// What is to be run. Starts that lack the same variants share a list of them.
+struct Plan {
+  std::vector<std::vector<std::size_t>> variants;  ///< Lists of places in Experiment::variants.
+  std::vector<PlannedStart> starts;                ///< By scene, sensor, trial.
+  std::size_t trials = 0;                          ///< Starts, each with its variants.
+};
+
+/// Part `part` of `parts` of the trials: with the trials of all scenes in one row, a block of it. A
+/// shard needs few scenes that way, and all variants and sensors of a trial are in one.
 struct Shard {
   int part = 1;
   int parts = 1;
@@ -38,18 +47,12 @@ Shard read_shard(const std::string& text);
 std::vector<std::size_t> select_variants(const Experiment& experiment,
                                          const std::vector<std::string>& names);
 
-/// The trials of `selection` in the order in which they are run: by scene, sensor, trial, variant.
-std::vector<PlannedTrial> plan_trials(const Experiment& experiment,
-                                      const std::vector<Scene>& scenes, const Selection& selection);
+/// The trials of `selection` that are not in `done`, which is sorted: places in
+/// Experiment::variants, `scenes`, sensor_names(scenes), and the trial.
+Plan plan_trials(const Experiment& experiment, const std::vector<Scene>& scenes,
+                 const Selection& selection, const std::vector<TrialPlace>& done = {});
 
-/// What `planned` is called.
-TrialId trial_id(const Experiment& experiment, const std::vector<Scene>& scenes,
-                 const PlannedTrial& planned);
-
-/// Sorts records into the order of every output: variants as in the experiment, scenes and sensors
-/// as in the dataset, then trials. Records of anything else are dropped.
-std::vector<TrialRecord> in_report_order(const std::vector<TrialRecord>& records,
-                                         const Experiment& experiment,
-                                         const std::vector<Scene>& scenes);
+/// The sensors of all scenes, each once, as they come.
+std::vector<std::string> sensor_names(const std::vector<Scene>& scenes);
 
 }  // namespace croon::experiments

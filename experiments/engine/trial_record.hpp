@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "framework/geometry/pose_error.hpp"
@@ -18,6 +19,10 @@ struct TrialId {
   std::string sensor;
   int trial = 0;
 };
+
+/// A trial by the places of its variant, scene and sensor in an experiment, and its number: the
+/// order of all reports.
+using TrialPlace = std::tuple<std::size_t, std::size_t, std::size_t, int>;
 
 /// How a trial ended.
 enum class Status {

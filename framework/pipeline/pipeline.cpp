@@ -4,6 +4,7 @@
 #include <new>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace croon {
 namespace {
@@ -18,36 +19,48 @@ double own_seconds(Clock::time_point start, double shared_before) {
 
 }  // namespace
 
-PipelineResult run_pipeline(const Pipeline& pipeline, std::shared_ptr<const Cloud> target,
-                            std::shared_ptr<const Cloud> source, const RigidTransform& start,
-                            const StreamKey& key) {
+PipelineResult at_start(std::shared_ptr<const Cloud> target, std::shared_ptr<const Cloud> source,
+                        const RigidTransform& start) {
   PipelineResult result;
   result.estimate.target = std::move(target);
   result.estimate.source = std::move(source);
   result.estimate.T_target_source = start;
-  std::optional<std::string> rejection;
-  for (const auto& [name, step] : pipeline) {
-    const double shared_before = seconds_spent_on_shared_work();
-    const Clock::time_point step_start = Clock::now();
-    Rng rng(key.with(name));
-    result.estimate.figures.clear();
-    result.estimate.rejection.reset();
-    try {
-      result.estimate = step->advance(result.estimate, rng);
-    } catch (const std::logic_error&) {
-      throw;
-    } catch (const std::bad_alloc&) {
-      // Of this machine at this time, not of the data: must not become a result.
-      throw;
-    } catch (const std::exception& error) {
-      result.failure = name + ": " + error.what();
-    }
-    if (result.estimate.rejection) rejection = name + ": " + *result.estimate.rejection;
-    result.records.push_back(
-        {name, own_seconds(step_start, shared_before), result.estimate.figures});
-    if (!result.failure.empty()) break;
+  return result;
+}
+
+void advance(PipelineResult& result, const NamedStep& named, const StreamKey& key) {
+  if (!result.failure.empty()) return;
+  const auto& [name, step] = named;
+  const double shared_before = seconds_spent_on_shared_work();
+  const Clock::time_point step_start = Clock::now();
+  Rng rng(key.with(name));
+  Estimate before = std::move(result.estimate);
+  const std::optional<std::string> rejection = std::exchange(before.rejection, std::nullopt);
+  const std::optional<Matrix6d> information = std::exchange(before.information, std::nullopt);
+  before.figures.clear();
+  result.estimate = before;
+  try {
+    result.estimate = step->advance(std::move(before), rng);
+  } catch (const std::logic_error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    // Of this machine at this time, not of the data: must not become a result.
+    throw;
+  } catch (const std::exception& error) {
+    result.failure = name + ": " + error.what();
   }
-  result.estimate.rejection = rejection;
+  Estimate& after = result.estimate;
+  result.records.push_back(
+      {name, own_seconds(step_start, shared_before), after.figures, after.information});
+  if (!after.information) after.information = information;
+  after.rejection = after.rejection ? std::optional(name + ": " + *after.rejection) : rejection;
+}
+
+PipelineResult run_pipeline(const Pipeline& pipeline, std::shared_ptr<const Cloud> target,
+                            std::shared_ptr<const Cloud> source, const RigidTransform& start,
+                            const StreamKey& key) {
+  PipelineResult result = at_start(std::move(target), std::move(source), start);
+  for (const NamedStep& step : pipeline) advance(result, step, key);
   return result;
 }
 

@@ -23,19 +23,27 @@ struct StepRecord {
   std::string name;
   double seconds = 0.0;  ///< Its own, without what was made once for all trials.
   std::vector<StepFigure> figures;
+  std::optional<Matrix6d> information;  ///< Where this step found one, see Estimate.
 };
 
-/// What became of one start.
+/// What became of one start so far.
 struct PipelineResult {
   Estimate estimate;    ///< The last good one.
   std::string failure;  ///< Empty, or which step was defeated and why.
   std::vector<StepRecord> records;
 };
 
-/// Takes `start` through the steps of `pipeline`. Each step draws from a stream of its own, named
-/// by `key` and its name, so one step's draws do not move another's and a step that is removed
-/// moves none. A StageError, or what a library throws (bad_alloc), ends the trial and becomes its
-/// `failure`; a std::logic_error is a bug and passes through.
+/// A start before its first step.
+PipelineResult at_start(std::shared_ptr<const Cloud> target, std::shared_ptr<const Cloud> source,
+                        const RigidTransform& start);
+
+/// Takes `result` one step further; nothing happens where a step before has failed. Each step draws
+/// from a stream of its own, named by `key` and its name, so one step's draws do not move another's
+/// and a step that is removed moves none. A StageError, or what a library throws, ends the trial
+/// and becomes its `failure`; a std::logic_error, which is a bug, and std::bad_alloc pass through.
+void advance(PipelineResult& result, const NamedStep& step, const StreamKey& key);
+
+/// Takes `start` through the steps of `pipeline`.
 PipelineResult run_pipeline(const Pipeline& pipeline, std::shared_ptr<const Cloud> target,
                             std::shared_ptr<const Cloud> source, const RigidTransform& start,
                             const StreamKey& key);

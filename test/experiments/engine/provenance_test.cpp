@@ -22,7 +22,8 @@ TEST(Provenance, CloudsThatAreInNoFileAreNoInputs) {
   const std::vector<InputFile> inputs = input_files(scenes, "/no/such/folder", 2);
   EXPECT_TRUE(inputs.empty());
   const Provenance provenance = provenance_of(experiment, scenes, inputs);
-  const auto manifest = nlohmann::json::parse(manifest_json(experiment, inputs, provenance, "", 2));
+  const auto manifest =
+      nlohmann::json::parse(manifest_json(experiment, scenes, inputs, provenance));
   EXPECT_EQ(manifest["inputs"], nlohmann::json::array());
 }
 

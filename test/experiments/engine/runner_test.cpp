@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 
 #include "experiments/engine/experiment_loader.hpp"
-#include "experiments/engine/store.hpp"
 #include "test/experiments/support/fake_stages.hpp"
 #include "test/support/temp_folder.hpp"
 
@@ -20,9 +21,16 @@ namespace {
 using nlohmann::json;
 
 struct Ran {
-  std::vector<TrialRecord> records;  ///< In report order.
+  std::vector<TrialRecord> records;  ///< By id.
   std::vector<TimingRow> timings;
 };
+
+auto key_of(const TrialId& id) { return std::tie(id.variant, id.scene, id.sensor, id.trial); }
+
+void sort_by_id(std::vector<TrialRecord>& records) {
+  std::sort(records.begin(), records.end(),
+            [](const TrialRecord& a, const TrialRecord& b) { return key_of(a.id) < key_of(b.id); });
+}
 
 json drifting(int trials = 3) {
   json experiment = json::parse(R"({"name": "x", "dataset": {"type": "fake"}, "starts": {},
@@ -58,7 +66,7 @@ Ran run(const json& description, int jobs = 2) {
   };
   listener.on_scene_timings = add_timings;
   run_all(experiment, scenes, jobs, listener);
-  ran.records = in_report_order(ran.records, experiment, scenes);
+  sort_by_id(ran.records);
   return ran;
 }
 
@@ -72,7 +80,7 @@ std::string bits(const TrialRecord& record) {
 }
 
 void expect_same(const TrialRecord& a, const TrialRecord& b) {
-  EXPECT_EQ(trial_key(a.id), trial_key(b.id));
+  EXPECT_EQ(key_of(a.id), key_of(b.id));
   EXPECT_EQ(bits(a), bits(b));
   EXPECT_EQ(a.status, b.status);
   ASSERT_EQ(a.steps.size(), b.steps.size());
@@ -153,7 +161,7 @@ TEST(Runner, AddingAVariantASceneOrASensorChangesNoNumber) {
   std::size_t found = 0;
   for (const TrialRecord& record : few.records) {
     for (const TrialRecord& other : many.records) {
-      if (trial_key(other.id) != trial_key(record.id)) continue;
+      if (key_of(other.id) != key_of(record.id)) continue;
       ++found;
       // The fake truth of a sensor depends on how many there are; draws do not.
       EXPECT_EQ(record.steps[0].figures[1], other.steps[0].figures[1]);
@@ -171,6 +179,56 @@ TEST(Runner, TrialsOfVariantsArePaired) {
   for (std::size_t i = 0; i < half; ++i)
     EXPECT_EQ(bits(both.records[i]), bits(both.records[half + i]));
   EXPECT_NE(bits(both.records[0]), bits(both.records[1]));
+}
+
+/// A base and three variants that share the first step, all three steps but one, and nothing.
+json branching() {
+  json description = drifting(4);
+  description["pipeline"] = json::parse(R"([{"step": "drift"}, {"step": "drift", "name": "second"},
+                                            {"step": "behave"}])");
+  description["variants"] = json::parse(R"([
+      {"name": "late", "replace": {"behave.how": "reject"}},
+      {"name": "middle", "replace": {"second.size_m": 1}},
+      {"name": "defeat", "replace": {"second": {"step": "behave", "how": "defeat"}}},
+      {"name": "early", "replace": {"drift.size_m": 1}}])");
+  return description;
+}
+
+TEST(Runner, SharedStepsComeToTheBitsOfStepsOfTheirOwn) {
+  const Experiment experiment = experiment_of(branching());
+  const std::vector<Scene> scenes = experiment.dataset->scenes("");
+  const std::vector<TrialRecord> shared = run(branching()).records;
+  std::vector<TrialRecord> alone;
+  RunListener listener;
+  listener.on_scene = [](const std::string&) {};
+  listener.on_trial = [&](const TrialRecord& record, const std::vector<TimingRow>&) {
+    alone.push_back(record);
+  };
+  listener.on_scene_timings = [](const std::vector<TimingRow>&) {};
+  for (std::size_t variant = 0; variant < experiment.variants.size(); ++variant) {
+    run_trials(experiment, scenes, plan_trials(experiment, scenes, {{variant}, {}}), 2, listener);
+  }
+  sort_by_id(alone);
+  ASSERT_EQ(alone.size(), shared.size());
+  for (std::size_t i = 0; i < alone.size(); ++i) expect_same(alone[i], shared[i]);
+}
+
+TEST(Runner, ASharedStepRunsOnceAndItsTimeIsBookedToEachVariant) {
+  const Ran ran = run(branching());
+  std::map<std::string, std::set<double>> seconds;  // Of each start and step.
+  std::map<std::string, int> rows;
+  for (const TimingRow& row : ran.timings) {
+    if (row.id.trial < 0) continue;
+    const std::string start = row.id.scene + row.id.sensor + std::to_string(row.id.trial);
+    if (row.step != "drift" || row.id.variant == "early") continue;
+    seconds[start].insert(row.seconds);
+    ++rows[start];
+  }
+  EXPECT_EQ(rows.size(), 2U * 2U * 4U);
+  for (const auto& [start, count] : rows) {
+    EXPECT_EQ(count, 4) << start;
+    EXPECT_EQ(seconds[start].size(), 1U) << start;
+  }
 }
 
 TEST(Runner, EndsWhereMemoryDoesAndRecordsNothing) {

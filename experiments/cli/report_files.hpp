@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "experiments/cli/results_folder.hpp"
+
+namespace croon::experiments {
+
+/// Writes all that is told of `results` into `folder`, the tables and the pictures, and takes away
+/// what an earlier run left and this one has not. `manifest` are the bytes of manifest.json.
+void write_reports(const std::filesystem::path& folder, const Results& results,
+                   const std::string& manifest);
+
+/// Whether a trial could not go on.
+bool has_failed_trials(const Results& results);
+
+}  // namespace croon::experiments

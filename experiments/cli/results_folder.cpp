@@ -1,0 +1,59 @@
+#include "experiments/cli/results_folder.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/engine/store.hpp"
+
+namespace croon::experiments {
+namespace {
+
+using nlohmann::json;
+
+/// The names that are current.
+std::vector<std::string> current(const std::vector<StoredName>& stored) {
+  std::vector<std::string> names;
+  for (const StoredName& name : stored) {
+    if (name.is_current) names.push_back(name.name);
+  }
+  return names;
+}
+
+ReportOrder report_order(const StoreHeader& header) {
+  ReportOrder order;
+  order.variants = current(header.variants);
+  order.sensors = current(header.sensors);
+  order.scenes = current(header.scenes);
+  for (const StoredName& scene : header.scenes) {
+    if (!scene.detail.empty()) order.kinds[scene.name] = scene.detail;
+  }
+  return order;
+}
+
+}  // namespace
+
+std::filesystem::path store_path(const std::filesystem::path& folder) {
+  return folder / "store.sqlite";
+}
+
+Results read_results(const std::filesystem::path& folder) {
+  StoredRun run = read_store(store_path(folder));
+  const json manifest = json::parse(run.header.manifest);
+  const json& experiment = manifest.at("experiment");
+  Results results;
+  results.name = experiment.at("name");
+  results.description = experiment.at("description");
+  results.commit = manifest.at("croon").at("commit");
+  results.seed = experiment.at("seed");
+  results.trials = experiment.at("starts").at("trials");
+  results.planned = manifest.at("planned");
+  results.manifest = run.header.manifest;
+  const SuccessBounds bounds{experiment.at("success").at("rotation_deg"),
+                             experiment.at("success").at("translation_m")};
+  const ReportOrder order = report_order(run.header);
+  results.scenes = order.scenes.size();
+  results.records = std::move(run.records);
+  results.summary = summarise(results.records, bounds, order);
+  return results;
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/engine/experiment.hpp"
+#include "experiments/engine/trial_record.hpp"
+#include "experiments/report/summary.hpp"
+
+namespace croon::experiments {
+
+/// What a folder of results says, read from its store alone: neither the experiment file nor the
+/// data need be there.
+struct Results {
+  std::string name;         ///< The experiment's.
+  std::string description;  ///< The question it answers; may be empty.
+  std::string commit;       ///< Of the program that made the trials.
+  std::uint64_t seed = 1;
+  int trials = 0;  ///< Starts per variant, scene and sensor.
+  std::size_t scenes = 0;
+  std::size_t planned = 0;           ///< Trials of the whole experiment; fewer may be there.
+  std::string manifest;              ///< JSON of manifest.json, without its host.
+  std::vector<TrialRecord> records;  ///< In report order, without their steps.
+  Summary summary;
+};
+
+/// The file of a folder of results that wall times stand in.
+inline constexpr const char* kTimings = "timings.csv";
+
+/// Where a folder of results has its store.
+std::filesystem::path store_path(const std::filesystem::path& folder);
+
+/// Throws InputError where the folder has no store, or one that this program does not know.
+Results read_results(const std::filesystem::path& folder);
+
+}  // namespace croon::experiments
