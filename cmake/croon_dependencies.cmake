@@ -7,6 +7,7 @@ find_package(CLI11 REQUIRED)
 find_package(SQLite3 REQUIRED)
 find_package(PNG REQUIRED)
 find_package(embree REQUIRED)
+find_package(Boost REQUIRED)
 
 # Only FindOpenVDB.cmake exists, and not on the default module path.
 file(GLOB openvdb_modules /usr/lib/*/cmake/OpenVDB)

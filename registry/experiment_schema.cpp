@@ -1,6 +1,8 @@
+#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "registry/experiment_keys.hpp"
 #include "registry/schema_parts.hpp"
 
 namespace croon {
@@ -35,54 +37,59 @@ ordered_json object_of(const std::string& description,
   return object_schema(description, properties);
 }
 
+/// No object has both keys at once.
+ordered_json not_both(const ordered_json& a, const ordered_json& b) {
+  return {{"not", {{"allOf", ordered_json::array({a, b})}}}};
+}
+
+ordered_json has_key(const std::string& key) { return {{"required", ordered_json::array({key})}}; }
+
+/// An object whose "sweep" is one of `key`.
+ordered_json sweeps(const std::string& key) {
+  ordered_json schema = has_key("sweep");
+  schema["properties"] = {{"sweep", has_key(key)}};
+  return schema;
+}
+
+ordered_json sweep_schema() {
+  ordered_json schema =
+      object_of("A ramp of the size of the perturbation, to measure how far a method finds home.",
+                sweep_table().docs());
+  const std::array<std::string, 2> ranges = {"rotation_deg", "translation_m"};
+  schema["oneOf"] = ordered_json::array();
+  for (const std::string& range : ranges) {
+    ordered_json& ends = schema["properties"][range];
+    ends["minItems"] = ends["maxItems"] = 2;
+    ends.erase("default");
+    schema["oneOf"].push_back(has_key(range));
+  }
+  return schema;
+}
+
 ordered_json starts_schema() {
-  return object_of("How starts are drawn: a pose (R, t) moved to (R_d R, t + d).",
-                   {{"around",
-                     ParameterType::choice,
-                     R"("truth")",
-                     {},
-                     {"truth", "nominal", "initial"},
-                     "",
-                     "The pose that starts are drawn around."},
-                    {"rotation_deg",
-                     ParameterType::number,
-                     "45",
-                     {0, 180},
-                     {},
-                     "",
-                     "Half range of roll, pitch and yaw; 180 is any rotation, uniform on SO(3)."},
-                    {"translation_m",
-                     ParameterType::number,
-                     "0.1",
-                     {0, 1e6},
-                     {},
-                     "",
-                     "Half range of x, y and z in reference axes."},
-                    {"trials",
-                     ParameterType::integer,
-                     "50",
-                     {1, 1e6},
-                     {},
-                     "",
-                     "Starts per variant, scene and sensor."}});
+  ordered_json schema =
+      object_of("How starts are drawn: a pose (R, t) moved to (R_d R, t + d); or a file of them.",
+                start_table().docs());
+  schema["allOf"] = ordered_json::array();
+  for (const char* key : {"around", "rotation_deg", "translation_m", "sweep"}) {
+    schema["allOf"].push_back(not_both(has_key("file"), has_key(key)));
+  }
+  for (const char* key : {"rotation_deg", "translation_m"}) {
+    schema["allOf"].push_back(not_both(sweeps(key), has_key(key)));
+  }
+  schema["properties"]["sweep"] = sweep_schema();
+  schema["properties"]["file"] = {
+      {"type", "string"},
+      {"minLength", 1},
+      {"description",
+       "A file of starts, as croon starts writes it: below the data root, else beside the "
+       "experiment."}};
+  return schema;
 }
 
 ordered_json success_schema() {
   return object_of("How near the truth a trial must end to count as a success.",
-                   {{"rotation_deg",
-                     ParameterType::number,
-                     "0.5",
-                     {0, 180},
-                     {},
-                     "",
-                     "Largest angle between the estimate and the truth."},
-                    {"translation_m",
-                     ParameterType::number,
-                     "0.1",
-                     {0, 1e6},
-                     {},
-                     "",
-                     "Largest distance between the estimate and the truth."}});
+                   success_table().docs());
 }
 
 /// 2^53, the largest seed that is exact in every JSON reader.
@@ -145,7 +152,7 @@ ordered_json variant_schema(const Catalogue& catalogue) {
 ordered_json experiment_properties(const Catalogue& catalogue) {
   ordered_json pipeline = list_of(definition("step"), "The steps of the method, in order.");
   pipeline["minItems"] = 1;
-  return {
+  ordered_json properties = {
       {"name", name_schema("^[A-Za-z0-9_-][A-Za-z0-9_.-]*$",
                            "The experiment's name; its results go to results/NAME.")},
       {"description", {{"type", "string"}, {"description", "The question it answers."}}},
@@ -158,6 +165,8 @@ ordered_json experiment_properties(const Catalogue& catalogue) {
       {"grid",
        places_schema(catalogue, true,
                      "The product of these lists, on the base pipeline and each variant.")}};
+  properties.update(claims_properties());
+  return properties;
 }
 
 }  // namespace croon

@@ -19,4 +19,7 @@ nlohmann::ordered_json stage_schema(const StageEntry& entry);
 /// The keys of an experiment file.
 nlohmann::ordered_json experiment_properties(const Catalogue& catalogue);
 
+/// Those of them that say what the results are held against: "expect" and "quoted".
+nlohmann::ordered_json claims_properties();
+
 }  // namespace croon

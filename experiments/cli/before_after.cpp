@@ -28,9 +28,7 @@ Image drawn(const Experiment& experiment, const Scene& scene, const FirstTrials&
   for (const SensorScan& scan : scene.sensors) {
     const TrialRecord& trial = *trials.at(scan.sensor);
     const PointCloud points = scan.load().points;
-    before.push_back({scan.sensor, points,
-                      draw_start(experiment.starts, *centre_pose(experiment.starts.around, scan),
-                                 experiment.seed, scene.name, scan.sensor, trial.id.trial)});
+    before.push_back({scan.sensor, points, start_of(experiment, scene.name, scan, trial.id.trial)});
     after.push_back({scan.sensor, points, *trial.T_reference_sensor});
   }
   constexpr TopView kView = {20.0, 20.0, 0.05};

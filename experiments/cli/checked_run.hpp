@@ -16,7 +16,6 @@ struct CheckedRun {
   std::vector<Scene> scenes;
   std::filesystem::path out;
   int jobs = 1;
-  bool is_whole = false;  ///< It runs all variants and trials of the experiment.
 };
 
 /// Reads and checks what `options` ask for. Throws InputError with all the faults.

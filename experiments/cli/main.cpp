@@ -6,6 +6,7 @@
 #include <iostream>
 #include <new>
 
+#include "experiments/cli/claims_command.hpp"
 #include "experiments/cli/describe_command.hpp"
 #include "experiments/cli/export_command.hpp"
 #include "experiments/cli/fault_lines.hpp"
@@ -34,6 +35,7 @@ struct CommandLine {
   DescribeOptions describe;
   StartsOptions starts;
   std::vector<std::filesystem::path> to_validate;
+  std::vector<std::filesystem::path> with_claims;
   std::string stages;
   bool as_json = false;
   bool as_markdown = false;
@@ -108,6 +110,9 @@ void add_others(CLI::App& app, CommandLine& line) {
   CLI::App* validate =
       app.add_subcommand("validate", "Check experiment files; the data need not be there.");
   validate->add_option("PATH", line.to_validate, "Files, or folders of *.json.")->required();
+  CLI::App* claims =
+      app.add_subcommand("claims", "Hold results against what their experiments expect.");
+  claims->add_option("DIR", line.with_claims, "Folders of results.")->required();
   CLI::App* stages = app.add_subcommand("stages", "Tell what stages there are.");
   stages->add_option("KIND/NAME", line.stages,
                      "A kind of stage, or one stage with its parameters.");
@@ -159,6 +164,7 @@ int run_chosen(const CLI::App& app, const CommandLine& line) {
     return describe_command(line.describe, registry(), std::cout);
   }
   if (app.got_subcommand("export")) return export_command(line.to_export, std::cout);
+  if (app.got_subcommand("claims")) return claims_command(line.with_claims, std::cout);
   if (app.got_subcommand("validate")) {
     return validate_command(line.to_validate, registry(), std::cout, std::cerr);
   }

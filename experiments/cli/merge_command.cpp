@@ -8,7 +8,6 @@
 #include "experiments/cli/timings_file.hpp"
 #include "experiments/engine/manifest.hpp"
 #include "experiments/engine/store.hpp"
-#include "experiments/report/table.hpp"
 #include "framework/base/error.hpp"
 
 namespace croon::experiments {
@@ -108,10 +107,8 @@ int merge_command(const MergeOptions& options, std::ostream& out) {
   const Results results = read_results(options.out);
   write_reports(options.out, results, merged_manifest(results.manifest, folders));
   merge_timings(folders, options.out / kTimings);
-  TableStyle style;
-  style.colours = options.colours;
   const std::string missing = missing_text(results);
-  out << summary_table(results.summary, style) << missing << "Results are in "
+  out << result_text(results, options.colours) << missing << "Results are in "
       << options.out.string() << "\n";
   return has_failed_trials(results) || !missing.empty() ? 3 : 0;
 }

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "experiments/report/box_plots.hpp"
+#include "experiments/report/claims.hpp"
 #include "experiments/report/csv_files.hpp"
+#include "experiments/report/table.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
 
@@ -23,13 +25,29 @@ void write_or_remove(const std::filesystem::path& path, const std::string& bytes
 void write_reports(const std::filesystem::path& folder, const Results& results,
                    const std::string& manifest) {
   const Summary& summary = results.summary;
+  const std::vector<ClaimResult> claims = check_claims(results.claims.expect, summary);
   write_whole_file(folder / "trials.csv", trials_csv(results.records));
   write_whole_file(folder / "summary.csv", summary_csv(summary));
-  write_whole_file(folder / "summary.json", summary_json(summary));
+  write_whole_file(folder / "summary.json", summary_json(summary, claims));
   write_or_remove(folder / "summary_by_kind.csv", summary_by_kind_csv(summary),
                   !summary.kinds.empty());
+  write_or_remove(folder / "comparison.csv", comparison_csv(summary), !summary.comparisons.empty());
+  const bool is_sweep = results.basin.has_value();
+  write_or_remove(folder / "basin.csv", is_sweep ? basin_csv(*results.basin) : "", is_sweep);
+  write_or_remove(folder / "basin.svg", is_sweep ? basin_svg(*results.basin) : "", is_sweep);
   write_whole_file(folder / "box_plots.svg", box_plots_svg(summary));
   write_whole_file(folder / "manifest.json", manifest);
+}
+
+std::string result_text(const Results& results, bool colours) {
+  TableStyle style;
+  style.colours = colours;
+  std::string text = summary_table(results.summary, style);
+  if (results.basin) text += "\n" + basin_table(*results.basin, style);
+  const std::vector<ClaimResult> claims = check_claims(results.claims.expect, results.summary);
+  const std::string claims_text =
+      claims_table(claims, results.claims.quoted, results.summary, style);
+  return claims_text.empty() ? text : text + "\n" + claims_text;
 }
 
 bool has_failed_trials(const Results& results) {

@@ -12,6 +12,9 @@ namespace croon::experiments {
 void write_reports(const std::filesystem::path& folder, const Results& results,
                    const std::string& manifest);
 
+/// What is printed of them, the same that the files hold: the tables.
+std::string result_text(const Results& results, bool colours);
+
 /// Whether a trial could not go on.
 bool has_failed_trials(const Results& results);
 

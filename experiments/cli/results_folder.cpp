@@ -1,6 +1,7 @@
 #include "experiments/cli/results_folder.hpp"
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "experiments/engine/store.hpp"
 
@@ -29,6 +30,15 @@ ReportOrder report_order(const StoreHeader& header) {
   return order;
 }
 
+/// The trials that were asked for. A variant that has none at all was not: `--only` left it out.
+std::size_t planned_trials(const json& manifest, const Summary& summary) {
+  std::set<std::string> run;
+  for (const SummaryRow& row : summary.rows) run.insert(row.variant);
+  const std::size_t planned = manifest.at("planned");
+  const std::size_t variants = manifest.at("experiment").at("variants").size();
+  return run.empty() ? planned : planned / variants * run.size();
+}
+
 }  // namespace
 
 std::filesystem::path store_path(const std::filesystem::path& folder) {
@@ -45,7 +55,6 @@ Results read_results(const std::filesystem::path& folder) {
   results.commit = manifest.at("croon").at("commit");
   results.seed = experiment.at("seed");
   results.trials = experiment.at("starts").at("trials");
-  results.planned = manifest.at("planned");
   results.manifest = run.header.manifest;
   const SuccessBounds bounds{experiment.at("success").at("rotation_deg"),
                              experiment.at("success").at("translation_m")};
@@ -53,6 +62,11 @@ Results read_results(const std::filesystem::path& folder) {
   results.scenes = order.scenes.size();
   results.records = std::move(run.records);
   results.summary = summarise(results.records, bounds, order);
+  results.planned = planned_trials(manifest, results.summary);
+  results.sweep = sweep_of_json(experiment.at("starts"));
+  if (results.sweep) results.basin = basin_of(results.records, *results.sweep, order);
+  const json claims = {{"expect", experiment.at("expect")}, {"quoted", experiment.at("quoted")}};
+  results.claims = claims_of(claims.dump(), store_path(folder).string());
   return results;
 }
 

@@ -2,11 +2,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/engine/experiment.hpp"
 #include "experiments/engine/trial_record.hpp"
+#include "experiments/report/basin.hpp"
+#include "experiments/report/claim_result.hpp"
 #include "experiments/report/summary.hpp"
 
 namespace croon::experiments {
@@ -20,10 +23,13 @@ struct Results {
   std::uint64_t seed = 1;
   int trials = 0;  ///< Starts per variant, scene and sensor.
   std::size_t scenes = 0;
-  std::size_t planned = 0;           ///< Trials of the whole experiment; fewer may be there.
+  std::size_t planned = 0;           ///< Trials of the variants that were run; fewer may be there.
   std::string manifest;              ///< JSON of manifest.json, without its host.
+  std::optional<Sweep> sweep;        ///< Of the starts.
+  Claims claims;                     ///< What the results are held against.
   std::vector<TrialRecord> records;  ///< In report order, without their steps.
   Summary summary;
+  std::optional<Basin> basin;  ///< Of a sweep.
 };
 
 /// The file of a folder of results that wall times stand in.

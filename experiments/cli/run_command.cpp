@@ -16,7 +16,6 @@
 #include "experiments/engine/store_writer.hpp"
 #include "experiments/report/plan_table.hpp"
 #include "experiments/report/progress.hpp"
-#include "experiments/report/table.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -136,14 +135,12 @@ int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostr
   const Work work = work_of(run, std::move(header));
   const Results results = run_missing(run, folder, work, options, progress_out);
   write_reports(run.out, results, manifest_with_host(results.manifest, run.data_root, run.jobs));
-  TableStyle style;
-  style.colours = options.colours;
   std::vector<std::string> complaints;
   if (options.clouds) {
     complaints = write_fused_clouds(run.experiment, run.scenes, results.records, folder.clouds());
   }
   for (const std::string& complaint : complaints) progress_out << "croon: " << complaint << "\n";
-  out << summary_table(results.summary, style) << "Results are in " << run.out.string() << "\n";
+  out << result_text(results, options.colours) << "Results are in " << run.out.string() << "\n";
   if (options.png) out << draw_picture(run, results.records, folder.file(kPicture));
   return complaints.empty() && !has_failed_trials(results) ? 0 : 3;
 }

@@ -37,10 +37,7 @@ void write_scene(const Experiment& experiment, const Scene& scene, const fs::pat
     const int device_id = static_cast<int>(clouds.size());
     write_pcd(dataset / cloud_path(scene, scan), scan.measure());
     clouds.push_back({device_id, cloud_path(scene, scan), ""});
-    starts.push_back({device_id,
-                      draw_start(experiment.starts, *centre_pose(experiment.starts.around, scan),
-                                 experiment.seed, scene.name, scan.sensor, 0),
-                      ""});
+    starts.push_back({device_id, start_of(experiment, scene.name, scan, 0), ""});
   }
   write_whole_file(folder / "initial_extrinsic.txt", pose_list_text(starts));
   write_whole_file(folder / kCloudList, cloud_list_text(clouds));

@@ -4,9 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/cli/data_root.hpp"
 #include "experiments/cli/scene_writer.hpp"
+#include "experiments/cli/starts_command.hpp"
 #include "experiments/engine/experiment_loader.hpp"
-#include "experiments/engine/provenance.hpp"
 #include "experiments/engine/starts.hpp"
 #include "experiments/engine/threads.hpp"
 #include "experiments/report/progress.hpp"
@@ -22,7 +23,10 @@ namespace fs = std::filesystem;
 /// What the dataset in a folder was made from; another program may not go on with it.
 constexpr const char* kRecipe = "simulation.json";
 
-std::vector<Scene> scenes_to_write(const Experiment& experiment) {
+/// The starts of an experiment that reads them, beside the scenes.
+constexpr const char* kStarts = "starts.csv";
+
+std::vector<Scene> scenes_to_write(Experiment& experiment) {
   std::vector<Scene> scenes = experiment.dataset->scenes(fs::path());
   for (const Scene& scene : scenes) {
     if (scene.reference.measure) continue;
@@ -30,7 +34,7 @@ std::vector<Scene> scenes_to_write(const Experiment& experiment) {
                      "expected a dataset that is simulated, found \"" + experiment.dataset.name() +
                          "\", whose clouds are files already");
   }
-  check_centres(experiment, scenes);
+  resolve_starts(experiment, scenes, data_root({}));
   return scenes;
 }
 
@@ -38,7 +42,7 @@ std::vector<Scene> scenes_to_write(const Experiment& experiment) {
 std::string recipe_json(const Experiment& experiment) {
   nlohmann::ordered_json json = {
       {"dataset", nlohmann::ordered_json::parse(experiment.dataset.resolved())},
-      {"starts", nlohmann::ordered_json::parse(start_rule_json(experiment.starts))},
+      {"starts", nlohmann::ordered_json::parse(starts_json(experiment.starts))},
       {"seed", experiment.seed}};
   return json.dump(2) + "\n";
 }
@@ -56,10 +60,11 @@ void prepare(const fs::path& folder, const std::string& recipe) {
                    "expected a new folder, or one with the same scenes; found something else");
 }
 
-/// The experiment with its dataset replaced by the written one.
+/// The experiment with its dataset, and its file of starts, replaced by the written ones.
 std::string experiment_on(const fs::path& file) {
   auto json = nlohmann::ordered_json::parse(read_whole_file(file));
   json["dataset"] = {{"type", "opencalib"}, {"path", "."}};
+  if (json.contains("starts") && json["starts"].contains("file")) json["starts"]["file"] = kStarts;
   return json.dump(2) + "\n";
 }
 
@@ -97,7 +102,7 @@ void write_scenes(const SimulateOptions& options, const Experiment& experiment,
 
 int simulate_command(const SimulateOptions& options, const Catalogue& catalogue, std::ostream& out,
                      std::ostream& progress_out) {
-  const Experiment experiment = load_experiment(options.experiment, catalogue);
+  Experiment experiment = load_experiment(options.experiment, catalogue);
   const std::vector<Scene> scenes = scenes_to_write(experiment);
   prepare(options.out, recipe_json(experiment));
   {
@@ -107,6 +112,9 @@ int simulate_command(const SimulateOptions& options, const Catalogue& catalogue,
   }
   write_whole_file(options.out / "truth.json", truth_json(scenes.front()));
   write_whole_file(options.out / "scene_kinds.json", kinds_json(scenes));
+  if (experiment.starts.table) {
+    write_whole_file(options.out / kStarts, starts_csv(experiment, scenes));
+  }
   write_whole_file(options.out / "experiment.json", experiment_on(options.experiment));
   const std::string folder = options.out.string();
   out << scenes.size() << (scenes.size() == 1 ? " scene is in " : " scenes are in ") << folder

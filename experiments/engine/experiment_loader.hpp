@@ -12,7 +12,4 @@ namespace croon::experiments {
 /// data.
 Experiment load_experiment(const std::filesystem::path& path, const Catalogue& catalogue);
 
-/// The word for a centre of starts in JSON: "truth", "nominal" or "initial".
-const char* centre_name(StartCentre centre);
-
 }  // namespace croon::experiments

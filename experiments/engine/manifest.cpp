@@ -23,7 +23,7 @@ Json experiment_json(const Experiment& experiment) {
   json["name"] = experiment.name;
   json["description"] = experiment.description;
   json["dataset"] = Json::parse(experiment.dataset.resolved());
-  json["starts"] = Json::parse(start_rule_json(experiment.starts));
+  json["starts"] = Json::parse(starts_json(experiment.starts));
   json["starts"]["trials"] = experiment.starts.trials;
   json["seed"] = experiment.seed;
   json["success"] = Json::parse(success_json(experiment.success));
@@ -32,6 +32,7 @@ Json experiment_json(const Experiment& experiment) {
     json["variants"].push_back(
         {{"name", variant.name}, {"pipeline", Json::parse(variant.resolved)}});
   }
+  json.update(Json::parse(claims_json(experiment.claims)));
   return json;
 }
 

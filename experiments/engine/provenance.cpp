@@ -90,12 +90,6 @@ std::vector<InputFile> input_files(const std::vector<Scene>& scenes, const fs::p
   return inputs;
 }
 
-std::string start_rule_json(const StartRule& rule) {
-  return "{\"around\":\"" + std::string(centre_name(rule.around)) +
-         "\",\"rotation_deg\":" + value_json(rule.rotation_deg) +
-         ",\"translation_m\":" + value_json(rule.translation_m) + "}";
-}
-
 std::string success_json(const SuccessBounds& bounds) {
   return "{\"rotation_deg\":" + value_json(bounds.rotation_deg) +
          ",\"translation_m\":" + value_json(bounds.translation_m) + "}";
@@ -103,12 +97,10 @@ std::string success_json(const SuccessBounds& bounds) {
 
 Provenance provenance_of(const Experiment& experiment, const std::vector<Scene>& scenes,
                          const std::vector<InputFile>& inputs) {
-  return {{"dataset", experiment.dataset.resolved()},
-          {"inputs", inputs_json(scenes, inputs)},
-          {"program", sha256_of_file("/proc/self/exe")},
-          {"seed", std::to_string(experiment.seed)},
-          {"starts", start_rule_json(experiment.starts)},
-          {"success", success_json(experiment.success)}};
+  return {
+      {"dataset", experiment.dataset.resolved()},    {"inputs", inputs_json(scenes, inputs)},
+      {"program", sha256_of_file("/proc/self/exe")}, {"seed", std::to_string(experiment.seed)},
+      {"starts", starts_json(experiment.starts)},    {"success", success_json(experiment.success)}};
 }
 
 StoreHeader header_of(const Experiment& experiment, const std::vector<Scene>& scenes,

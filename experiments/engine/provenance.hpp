@@ -23,9 +23,6 @@ struct InputFile {
 std::vector<InputFile> input_files(const std::vector<Scene>& scenes,
                                    const std::filesystem::path& data_root, int jobs);
 
-/// JSON text of the rule without the number of trials: what decides a start.
-std::string start_rule_json(const StartRule& rule);
-
 /// JSON text of the bounds.
 std::string success_json(const SuccessBounds& bounds);
 

@@ -3,10 +3,13 @@
 #include <cmath>
 #include <map>
 
-#include "experiments/engine/experiment_loader.hpp"
+#include "experiments/engine/start_file.hpp"
+#include "experiments/engine/start_rule.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/rng.hpp"
 #include "framework/geometry/dof.hpp"
+#include "framework/geometry/unit_quaternion.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -20,6 +23,28 @@ Eigen::Matrix3d uniform_rotation(Rng& rng) {
   const Eigen::Quaterniond q(r2 * std::cos(angle3), r1 * std::sin(angle2), r1 * std::cos(angle2),
                              r2 * std::sin(angle3));
   return q.toRotationMatrix();
+}
+
+/// Uniform on the unit sphere (Archimedes: the height is uniform).
+Eigen::Vector3d uniform_direction(Rng& rng) {
+  const double height = rng.uniform(-1.0, 1.0);
+  const double angle = 2.0 * kPi * rng.uniform();
+  const double radius = std::sqrt(1.0 - height * height);
+  return {radius * std::cos(angle), radius * std::sin(angle), height};
+}
+
+/// The file of starts below the data root, else beside the experiment.
+std::filesystem::path found_file(const Experiment& experiment,
+                                 const std::filesystem::path& data_root) {
+  const std::filesystem::path below = data_root / experiment.starts.file;
+  const std::filesystem::path beside =
+      std::filesystem::path(experiment.file).parent_path() / experiment.starts.file;
+  for (const std::filesystem::path& path : {below, beside}) {
+    if (std::filesystem::is_regular_file(path)) return path;
+  }
+  throw InputError(
+      experiment.file, "/starts/file",
+      "expected a file of starts, found neither " + below.string() + " nor " + beside.string());
 }
 
 /// The other centres that `scan` has, for the user to choose from.
@@ -49,31 +74,8 @@ std::string scene_list(const std::vector<std::string>& scenes) {
   return text;
 }
 
-}  // namespace
-
-const std::optional<RigidTransform>& centre_pose(StartCentre around, const SensorScan& scan) {
-  if (around == StartCentre::nominal) return scan.nominal;
-  if (around == StartCentre::initial) return scan.initial;
-  return scan.truth;
-}
-
-RigidTransform draw_start(const StartRule& rule, const RigidTransform& centre, std::uint64_t seed,
-                          const std::string& scene, const std::string& sensor, int trial) {
-  Rng rng(StreamKey(seed).with("start").with(scene).with(sensor).with(
-      static_cast<std::uint64_t>(trial)));
-  const bool is_any_rotation = rule.rotation_deg == 180.0;
-  const double range_rad = rad_from_deg(rule.rotation_deg);
-  RigidTransform rotated = centre;
-  Vector6d offset = Vector6d::Zero();
-  if (is_any_rotation) {
-    rotated.rotation = uniform_rotation(rng) * centre.rotation;
-  } else {
-    for (int i = 0; i < 3; ++i) offset(i) = rng.uniform(-range_rad, range_rad);
-  }
-  for (int i = 3; i < 6; ++i) offset(i) = rng.uniform(-rule.translation_m, rule.translation_m);
-  return moved(rotated, offset);
-}
-
+/// Throws InputError, with a line per sensor, where a scene lacks the pose that starts are drawn
+/// around.
 void check_centres(const Experiment& experiment, const std::vector<Scene>& scenes) {
   const StartCentre around = experiment.starts.around;
   std::map<std::string, Lack> lacks;
@@ -92,6 +94,69 @@ void check_centres(const Experiment& experiment, const std::vector<Scene>& scene
                           lack.instead});
   }
   if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+}  // namespace
+
+const std::optional<RigidTransform>& centre_pose(StartCentre around, const SensorScan& scan) {
+  if (around == StartCentre::nominal) return scan.nominal;
+  if (around == StartCentre::initial) return scan.initial;
+  return scan.truth;
+}
+
+Start draw_start(const StartRule& rule, const RigidTransform& centre, std::uint64_t seed,
+                 const std::string& scene, const std::string& sensor, int trial) {
+  Rng rng(StreamKey(seed).with("start").with(scene).with(sensor).with(
+      static_cast<std::uint64_t>(trial)));
+  const auto size_of = [&](SweepOf of) -> std::optional<double> {
+    if (!rule.sweep || rule.sweep->of != of) return std::nullopt;
+    return level_size(*rule.sweep, level_of(*rule.sweep, trial));
+  };
+  const std::optional<double> angle_deg = size_of(SweepOf::rotation);
+  const std::optional<double> length_m = size_of(SweepOf::translation);
+  RigidTransform rotated = centre;
+  Vector6d offset = Vector6d::Zero();
+  if (angle_deg) {
+    rotated.rotation =
+        rotation_exp(rad_from_deg(*angle_deg) * uniform_direction(rng)) * centre.rotation;
+  } else if (rule.rotation_deg == 180.0) {
+    rotated.rotation = uniform_rotation(rng) * centre.rotation;
+  } else {
+    const double range_rad = rad_from_deg(rule.rotation_deg);
+    for (int i = 0; i < 3; ++i) offset(i) = rng.uniform(-range_rad, range_rad);
+  }
+  if (length_m) {
+    offset.tail<3>() = *length_m * uniform_direction(rng);
+  } else {
+    for (int i = 3; i < 6; ++i) offset(i) = rng.uniform(-rule.translation_m, rule.translation_m);
+  }
+  const RigidTransform start = moved(rotated, offset);
+  return {unit_quaternion(start.rotation), start.translation};
+}
+
+Start start_of(const Experiment& experiment, const std::string& scene, const SensorScan& scan,
+               int trial) {
+  const StartRule& rule = experiment.starts;
+  if (rule.table) {
+    return rule.table->starts.at({scene, scan.sensor}).at(static_cast<std::size_t>(trial));
+  }
+  return draw_start(rule, centre_pose(rule.around, scan).value(), experiment.seed, scene,
+                    scan.sensor, trial);
+}
+
+void resolve_starts(Experiment& experiment, const std::vector<Scene>& scenes,
+                    const std::filesystem::path& data_root) {
+  StartRule& rule = experiment.starts;
+  if (rule.file.empty()) return check_centres(experiment, scenes);
+  const std::filesystem::path path = found_file(experiment, data_root);
+  rule.table = std::make_shared<const StartTable>(read_start_file(path, scenes));
+  if (rule.trials == 0) rule.trials = rule.table->trials;
+  if (rule.trials > rule.table->trials) {
+    throw InputError(experiment.file, "/starts/trials",
+                     "expected at most " + std::to_string(rule.table->trials) +
+                         " trials, as many as " + path.string() + " has, found " +
+                         std::to_string(rule.trials));
+  }
 }
 
 }  // namespace croon::experiments

@@ -91,9 +91,7 @@ void run_start(const Experiment& experiment, const PipelineTree& tree, const Sce
                             .with(scene.name)
                             .with(scan.sensor)
                             .with(static_cast<std::uint64_t>(planned.trial));
-  const RigidTransform start =
-      draw_start(experiment.starts, *centre_pose(experiment.starts.around, scan), experiment.seed,
-                 scene.name, scan.sensor, planned.trial);
+  const RigidTransform start = start_of(experiment, scene.name, scan, planned.trial);
   PipelineResult result = at_start(target.cloud, source.cloud, start);
   result.failure = target.failure.empty() ? source.failure : target.failure;
   run_tree(tree, std::move(result), key, [&](std::size_t variant, const PipelineResult& end) {

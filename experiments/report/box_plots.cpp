@@ -7,6 +7,7 @@
 
 #include "experiments/report/box_groups.hpp"
 #include "experiments/report/box_layout.hpp"
+#include "experiments/report/chart_style.hpp"
 #include "experiments/report/svg.hpp"
 #include "experiments/report/text.hpp"
 
@@ -17,38 +18,6 @@ namespace {
 constexpr double kBoxWidth = 13.0;  // Pixels.
 constexpr std::size_t kMaxScenes = 12;
 constexpr std::size_t kMaxKinds = 20;
-
-// Colours that colour-blind readers can tell apart (Okabe and Ito 2008); they show on white and on
-// black.
-constexpr const char* kStyleSheet =
-    R"css(text { font: 12px sans-serif; fill: #222; }
-.title { font-size: 14px; font-weight: bold; }
-.small { font-size: 11px; fill: #555; }
-.page { fill: #fff; }
-.grid { stroke: #e2e2e2; }
-.zero { stroke: #888; }
-.box { fill-opacity: 0.35; stroke-width: 1.2; }
-.line { stroke-width: 1.2; }
-.median { stroke-width: 2.4; }
-.dot { stroke: none; fill-opacity: 0.6; }
-.c0 { stroke: #0072b2; fill: #0072b2; }
-.c1 { stroke: #d55e00; fill: #d55e00; }
-.c2 { stroke: #009e73; fill: #009e73; }
-.c3 { stroke: #cc79a7; fill: #cc79a7; }
-.c4 { stroke: #e69f00; fill: #e69f00; }
-.c5 { stroke: #56b4e9; fill: #56b4e9; }
-.c6 { stroke: #8c7a00; fill: #8c7a00; }
-.c7 { stroke: #808080; fill: #808080; }
-@media (prefers-color-scheme: dark) {
-  text { fill: #ddd; }
-  .small { fill: #aaa; }
-  .page { fill: #16181c; }
-  .grid { stroke: #33373d; }
-  .zero { stroke: #8a8f98; }
-  .c0 { stroke: #4aa8e0; fill: #4aa8e0; }
-}
-)css";
-constexpr std::size_t kColours = 8;
 
 void draw_frame(Svg& svg, const BoxPanel& panel, const Measure& measure) {
   for (const double tick : panel.axis.ticks) {
@@ -66,7 +35,7 @@ void draw_box(Svg& svg, const BoxPanel& panel, double x, const BoxSeries& series
   std::vector<double> values;
   for (const Measures& deviation : series.deviations) values.push_back(deviation[measure]);
   const BoxPlot box = box_plot(std::move(values));
-  const std::string colour = " c" + std::to_string(series.colour % kColours);
+  const std::string colour = " c" + std::to_string(series.colour % kChartColours);
   const double left = x - kBoxWidth / 2.0;
   const double right = x + kBoxWidth / 2.0;
   const double top = panel.y(box.upper_quartile);
@@ -150,7 +119,7 @@ std::string box_plots_svg(const Summary& summary) {
   const BoxOf of = box_of(summary, kMaxScenes, kMaxKinds);
   const std::vector<BoxGroup> groups = box_groups(summary, of);
   const BoxLayout layout = layout_of(groups);
-  Svg svg(layout.width(), layout.height(), kStyleSheet);
+  Svg svg(layout.width(), layout.height(), kChartStyle);
   svg.rectangle(0.0, 0.0, layout.width(), layout.height(), "page");
   svg.text(kMargin, kTitleHeight - 34.0, title_of(summary), Anchor::start, "title");
   svg.text(kMargin, kTitleHeight - 16.0, explanation_of(of), Anchor::start, "small");

@@ -2,7 +2,7 @@
 
 #include "experiments/report/csv_row.hpp"
 #include "experiments/report/measure.hpp"
-#include "experiments/report/unit_quaternion.hpp"
+#include "framework/geometry/unit_quaternion.hpp"
 
 namespace croon::experiments {
 

@@ -45,6 +45,10 @@ std::vector<std::string> sensors_of(const Summary& summary);
 /// Success in % per variant, kind of scene (rows) and sensor (columns).
 std::string kind_table(const Summary& summary, const TableStyle& style);
 
+/// Every variant against the first, all sensors together: pairs won and lost, the differences of
+/// the median errors with their intervals, corrected p values with their marks.
+std::string comparison_table(const Summary& summary, const TableStyle& style);
+
 /// Success per variant, scene (rows) and sensor (columns). Of more than `style.max_scenes` rows the
 /// worst are shown, in their order.
 std::string scene_table(const Summary& summary, const TableStyle& style);

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include "experiments/report/summary.hpp"
@@ -11,6 +14,9 @@ namespace croon::experiments {
 
 /// The trials of one variant, sensor and scene, by trial.
 using SceneRecords = std::vector<const TrialRecord*>;
+
+/// The records of each (variant, sensor, scene).
+using RecordGroups = std::map<std::tuple<std::string, std::string, std::string>, SceneRecords>;
 
 /// The bounds in the units that geometry uses.
 PoseBounds pose_bounds(const SuccessBounds& bounds);

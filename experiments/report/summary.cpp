@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "experiments/report/compare_variants.hpp"
 #include "experiments/report/kind_summary.hpp"
 #include "experiments/report/scene_summary.hpp"
 #include "framework/geometry/pose_mean.hpp"
@@ -13,25 +14,8 @@ namespace croon::experiments {
 
 namespace {
 
-/// The records of each (variant, sensor, scene).
-using Groups = std::map<std::tuple<std::string, std::string, std::string>, SceneRecords>;
-
-/// `names`, then in alphabetical order those that records have and `names` lacks.
-std::vector<std::string> completed(std::vector<std::string> names,
-                                   const std::vector<TrialRecord>& records,
-                                   std::string TrialId::*name) {
-  std::vector<std::string> others;
-  for (const TrialRecord& record : records) others.push_back(record.id.*name);
-  std::sort(others.begin(), others.end());
-  others.erase(std::unique(others.begin(), others.end()), others.end());
-  for (const std::string& other : others) {
-    if (std::find(names.begin(), names.end(), other) == names.end()) names.push_back(other);
-  }
-  return names;
-}
-
-Groups grouped(const std::vector<TrialRecord>& records) {
-  Groups groups;
+RecordGroups grouped(const std::vector<TrialRecord>& records) {
+  RecordGroups groups;
   for (const TrialRecord& record : records) {
     groups[{record.id.variant, record.id.sensor, record.id.scene}].push_back(&record);
   }
@@ -112,6 +96,19 @@ std::vector<ReasonCount> count_reasons(const std::vector<TrialRecord>& records) 
 
 }  // namespace
 
+std::vector<std::string> completed(std::vector<std::string> names,
+                                   const std::vector<TrialRecord>& records,
+                                   std::string TrialId::*name) {
+  std::vector<std::string> others;
+  for (const TrialRecord& record : records) others.push_back(record.id.*name);
+  std::sort(others.begin(), others.end());
+  others.erase(std::unique(others.begin(), others.end()), others.end());
+  for (const std::string& other : others) {
+    if (std::find(names.begin(), names.end(), other) == names.end()) names.push_back(other);
+  }
+  return names;
+}
+
 const char* reference_name(Reference reference) {
   switch (reference) {
     case Reference::truth:
@@ -126,12 +123,13 @@ const char* reference_name(Reference reference) {
 
 Summary summarise(const std::vector<TrialRecord>& records, const SuccessBounds& bounds,
                   const ReportOrder& order) {
-  const Groups groups = grouped(records);
+  const RecordGroups groups = grouped(records);
   const std::vector<std::string> scene_names = completed(order.scenes, records, &TrialId::scene);
   const std::vector<std::string> sensors = completed(order.sensors, records, &TrialId::sensor);
+  const std::vector<std::string> variants = completed(order.variants, records, &TrialId::variant);
   Summary summary;
   summary.bounds = bounds;
-  for (const std::string& variant : completed(order.variants, records, &TrialId::variant)) {
+  for (const std::string& variant : variants) {
     for (const std::string& sensor : sensors) {
       std::vector<SceneRecords> scenes;
       for (const std::string& scene : scene_names) {
@@ -143,6 +141,9 @@ Summary summarise(const std::vector<TrialRecord>& records, const SuccessBounds& 
   }
   set_kinds(summary.rows, order.kinds);
   summary.kinds = summarise_kinds(summary.rows);
+  if (variants.size() > 1) {
+    summary.comparisons = compare_with_base(variants.front(), groups, summary.rows, bounds);
+  }
   summary.reasons = count_reasons(records);
   return summary;
 }

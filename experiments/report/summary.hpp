@@ -8,6 +8,8 @@
 
 #include "experiments/engine/experiment.hpp"
 #include "experiments/engine/trial_record.hpp"
+#include "experiments/report/claim_result.hpp"
+#include "experiments/report/comparison.hpp"
 #include "experiments/report/measure.hpp"
 #include "framework/base/statistics.hpp"
 
@@ -21,6 +23,11 @@ struct ReportOrder {
   std::vector<std::string> scenes;
   std::map<std::string, std::string> kinds;  ///< By scene; nothing where the dataset tells none.
 };
+
+/// `names`, then in alphabetical order those that records have as `name` and `names` lacks.
+std::vector<std::string> completed(std::vector<std::string> names,
+                                   const std::vector<TrialRecord>& records,
+                                   std::string TrialId::*name);
 
 /// A share of a number of trials, with its 95 % interval (Wilson 1927).
 struct Share {
@@ -122,9 +129,10 @@ struct ReasonCount {
 /// What an experiment came to.
 struct Summary {
   SuccessBounds bounds;
-  std::vector<SummaryRow> rows;      ///< By variant, then sensor.
-  std::vector<KindSummary> kinds;    ///< By variant, then kind, then sensor, all together last.
-  std::vector<ReasonCount> reasons;  ///< The most frequent first.
+  std::vector<SummaryRow> rows;         ///< By variant, then sensor.
+  std::vector<KindSummary> kinds;       ///< By variant, then kind, then sensor, all together last.
+  std::vector<Comparison> comparisons;  ///< With the first variant: by variant, then sensor, all.
+  std::vector<ReasonCount> reasons;     ///< The most frequent first.
 };
 
 /// Sums the records up. The order of the records makes no difference.
@@ -141,12 +149,16 @@ std::string summary_csv(const Summary& summary);
 /// all sensors, whose name is "all".
 std::string summary_by_kind_csv(const Summary& summary);
 
+/// The bytes of comparison.csv: one row per variant and sensor, and one over all sensors, whose
+/// name is "all". "inf" is the error of a trial without a usable result.
+std::string comparison_csv(const Summary& summary);
+
 /// The scenes of a row that summary.json lists at most.
 inline constexpr std::size_t kMaxJsonScenes = 100;
 
-/// The bytes of summary.json: the rows of summary.csv with the scenes below each, the reasons,
-/// and the kinds of scenes where there are some. Of more than `kMaxJsonScenes` scenes, whose trials
-/// are in trials.csv, none is listed: "scenes" is null.
-std::string summary_json(const Summary& summary);
+/// The bytes of summary.json: the rows of summary.csv with the scenes below each, the reasons, and
+/// the comparisons, the kinds of scenes and the claims where there are some. Of more than
+/// `kMaxJsonScenes` scenes, whose trials are in trials.csv, none is listed: "scenes" is null.
+std::string summary_json(const Summary& summary, const std::vector<ClaimResult>& claims = {});
 
 }  // namespace croon::experiments

@@ -1,9 +1,11 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/engine/trial_record.hpp"
+#include "experiments/report/claims.hpp"
+#include "experiments/report/comparison_json.hpp"
 #include "experiments/report/statistic_names.hpp"
 #include "experiments/report/summary.hpp"
-#include "experiments/report/unit_quaternion.hpp"
+#include "framework/geometry/unit_quaternion.hpp"
 
 namespace croon::experiments {
 
@@ -97,9 +99,25 @@ Json json_of(const KindSummary& kind) {
           {"statistics", json_of(kind.statistics)}};
 }
 
+Json json_of(const ClaimResult& claim) {
+  const Expectation& expected = claim.expectation;
+  const auto word = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
+  return {{"claim", expected.claim},
+          {"source", expected.source},
+          {"variant", expected.variant},
+          {"sensor", word(expected.sensor)},
+          {"measure", word(expected.measure)},
+          {"statistic", expected.statistic},
+          {"unit", unit_of(expected)},
+          {"expected", expected.value},
+          {"band", expected.band},
+          {"found", claim.found ? Json(*claim.found) : Json()},
+          {"verdict", verdict_name(claim.verdict)}};
+}
+
 }  // namespace
 
-std::string summary_json(const Summary& summary) {
+std::string summary_json(const Summary& summary, const std::vector<ClaimResult>& claims) {
   Json json;
   json["success_bounds"] = {{"rotation_deg", summary.bounds.rotation_deg},
                             {"translation_m", summary.bounds.translation_m}};
@@ -112,7 +130,11 @@ std::string summary_json(const Summary& summary) {
                                {"reason", reason.reason},
                                {"count", reason.count}});
   }
+  for (const Comparison& comparison : summary.comparisons) {
+    json["comparisons"].push_back(comparison_json(comparison));
+  }
   for (const KindSummary& kind : summary.kinds) json["kinds"].push_back(json_of(kind));
+  for (const ClaimResult& claim : claims) json["claims"].push_back(json_of(claim));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -31,9 +31,12 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// ` name="value"`; a tenth of a pixel is all that can be seen.
+/// A tenth of a pixel is all that can be seen.
+std::string pixels(double value) { return shortest_number(std::round(value * 10.0) / 10.0); }
+
+/// ` name="value"`.
 std::string attribute(const char* name, double value) {
-  return std::string(" ") + name + "=\"" + shortest_number(std::round(value * 10.0) / 10.0) + "\"";
+  return std::string(" ") + name + "=\"" + pixels(value) + "\"";
 }
 
 std::string styled(const std::string& style) { return " class=\"" + style + "\""; }
@@ -58,6 +61,12 @@ void Svg::line(double x1, double y1, double x2, double y2, const std::string& st
 void Svg::rectangle(double x, double y, double width, double height, const std::string& style) {
   bytes_ += "<rect" + attribute("x", x) + attribute("y", y) + attribute("width", width) +
             attribute("height", height) + styled(style) + "/>\n";
+}
+
+void Svg::area(const std::vector<std::array<double, 2>>& corners, const std::string& style) {
+  bytes_ += "<polygon points=\"";
+  for (const auto& [x, y] : corners) bytes_ += pixels(x) + "," + pixels(y) + " ";
+  bytes_ += "\"" + styled(style) + "/>\n";
 }
 
 void Svg::dot(double x, double y, double radius, const std::string& style) {

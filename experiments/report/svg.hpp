@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <string>
+#include <vector>
 
 namespace croon::experiments {
 
@@ -15,6 +17,8 @@ class Svg {
 
   void line(double x1, double y1, double x2, double y2, const std::string& style);
   void rectangle(double x, double y, double width, double height, const std::string& style);
+  /// A closed area; its corners as x, y.
+  void area(const std::vector<std::array<double, 2>>& corners, const std::string& style);
   void dot(double x, double y, double radius, const std::string& style);
   /// `text` may hold anything. `turn_deg` turns it about its place, clockwise.
   void text(double x, double y, const std::string& text, Anchor anchor, const std::string& style,

@@ -159,6 +159,11 @@ std::string summary_table(const Summary& summary, const TableStyle& style) {
     text += "\nstd within scenes / across scenes\n";
     text += row_table(summary, style, dof_columns(), spread_cells);
   }
+  if (!summary.comparisons.empty()) {
+    text += "\nagainst " + summary.comparisons.front().base +
+            ", pair by pair: difference of medians [95 % interval], failures as infinite\n" +
+            comparison_table(summary, style);
+  }
   if (!summary.kinds.empty()) {
     text += "\nby kind of scene: success in %\n" + kind_table(summary, style);
   }

@@ -14,6 +14,9 @@ namespace croon {
 
 namespace {
 
+/// A medoid of more poses is that of a sample: its time grows with their square.
+constexpr std::size_t kMedoidSample = 2000;
+
 void require_poses(const std::vector<RigidTransform>& poses) {
   if (poses.empty()) throw std::logic_error("a mean of no poses");
 }
@@ -48,6 +51,16 @@ double distance_in_bounds(const QuaternionPose& a, const QuaternionPose& b,
   const double rotation_rad = 2.0 * std::atan2(q.vec().norm(), std::abs(q.w()));
   return std::max(multiple(rotation_rad, bounds.rotation_rad),
                   multiple((a.translation - b.translation).norm(), bounds.translation_m));
+}
+
+/// Evenly spaced poses of those that are in their fixed order, all of them where they are few.
+std::vector<RigidTransform> sample_of(const std::vector<RigidTransform>& ordered) {
+  if (ordered.size() <= kMedoidSample) return ordered;
+  std::vector<RigidTransform> sample;
+  for (std::size_t i = 0; i < kMedoidSample; ++i) {
+    sample.push_back(ordered[i * ordered.size() / kMedoidSample]);
+  }
+  return sample;
 }
 
 /// The place of the pose with the most others near it; see `consensus_pose`.
@@ -104,13 +117,14 @@ RigidTransform mean_pose(const std::vector<RigidTransform>& poses) {
 RigidTransform consensus_pose(const std::vector<RigidTransform>& poses, const PoseBounds& bounds) {
   require_poses(poses);
   const std::vector<RigidTransform> ordered = in_fixed_order(poses);
-  const std::size_t centre = medoid(ordered, bounds);
+  const std::vector<RigidTransform> sample = sample_of(ordered);
+  const RigidTransform& centre = sample[medoid(sample, bounds)];
   std::vector<RigidTransform> near;
-  for (std::size_t i = 0; i < ordered.size(); ++i) {
-    // Rounding may put a pose a hair off itself, and bounds may be zero.
-    if (i == centre || agree(ordered[i], ordered[centre], bounds)) near.push_back(ordered[i]);
+  for (const RigidTransform& pose : ordered) {
+    if (agree(pose, centre, bounds)) near.push_back(pose);
   }
-  return mean_of_ordered(near);
+  // Rounding may put a pose a hair off itself, and bounds may be zero.
+  return near.empty() ? centre : mean_of_ordered(near);
 }
 
 }  // namespace croon

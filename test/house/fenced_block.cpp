@@ -17,7 +17,8 @@ std::vector<std::string> written_pages() {
   for (const std::string& file : tree_files("", ".md")) {
     const bool is_in_root = file.find('/') == std::string::npos;
     const bool is_in_docs = starts_with(file, "docs/") && file.find('/', 5) == std::string::npos;
-    if (is_in_root || is_in_docs) pages.push_back(file);
+    const bool is_in_experiments = starts_with(file, "experiments/");
+    if (is_in_root || is_in_docs || is_in_experiments) pages.push_back(file);
   }
   return pages;
 }

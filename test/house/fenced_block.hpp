@@ -17,7 +17,8 @@ struct FencedBlock {
   std::string text() const;
 };
 
-/// The pages that a person wrote: README.md, CONTRIBUTING.md and docs/*.md.
+/// The pages that a person wrote: README.md, CONTRIBUTING.md, docs/*.md and those of
+/// experiments.
 std::vector<std::string> written_pages();
 
 /// The fenced blocks of a page in `language`.

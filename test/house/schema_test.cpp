@@ -193,7 +193,7 @@ TEST_F(SchemaAndLoader, AgreeOnDefaults) {
   EXPECT_EQ(starts["translation_m"]["default"].get<double>(), rule.translation_m);
   EXPECT_EQ(starts["trials"]["default"].get<int>(), rule.trials);
   const json& success = properties["success"]["properties"];
-  const experiments::SuccessBounds bounds;
+  const SuccessBounds bounds;
   EXPECT_EQ(success["rotation_deg"]["default"].get<double>(), bounds.rotation_deg);
   EXPECT_EQ(success["translation_m"]["default"].get<double>(), bounds.translation_m);
   EXPECT_EQ(properties["seed"]["default"].get<std::uint64_t>(), experiments::Experiment{}.seed);

@@ -10,6 +10,12 @@
 namespace croon::experiments {
 namespace {
 
+StartRule swept(const Sweep& sweep) {
+  StartRule rule{StartCentre::truth, 0.0, 0.0, sweep.levels};
+  rule.sweep = sweep;
+  return rule;
+}
+
 bool is_same(const RigidTransform& a, const RigidTransform& b) {
   return a.rotation == b.rotation && a.translation == b.translation;
 }
@@ -42,7 +48,7 @@ TEST(Starts, DependOnSeedSceneSensorAndTrialAlone) {
   Rng rng = test::test_rng();
   const RigidTransform centre = test::random_pose(rng, 3.0);
   StartRule rule{StartCentre::truth, 45.0, 0.1, 10};
-  const RigidTransform start = draw_start(rule, centre, 1, "a", "left", 3);
+  const Start start = draw_start(rule, centre, 1, "a", "left", 3);
   rule.trials = 20;
   rule.around = StartCentre::nominal;
   EXPECT_TRUE(is_same(start, draw_start(rule, centre, 1, "a", "left", 3)));
@@ -60,7 +66,8 @@ TEST(Starts, WithoutRangesAreTheCentre) {
   const RigidTransform centre = test::random_pose(rng, 3.0);
   const RigidTransform start =
       draw_start({StartCentre::truth, 0.0, 0.0, 1}, centre, 1, "a", "b", 0);
-  EXPECT_TRUE(is_same(start, centre));
+  EXPECT_LT((start.rotation - centre.rotation).norm(), 1e-14);
+  EXPECT_EQ(start.translation, centre.translation);
 }
 
 /// Moments of the uniform distribution on SO(3): each entry of R has mean 0 and variance 1/3,
@@ -92,6 +99,48 @@ TEST(Starts, AnyRotationIsUniform) {
   EXPECT_NEAR(angle, kPi / 2.0 + 2.0 / kPi, tolerance);
 }
 
+TEST(Starts, OfASweepTurnByTheirLevel) {
+  Rng rng = test::test_rng();
+  const Sweep sweep{SweepOf::rotation, 0.0, 180.0, 7};
+  Eigen::Vector3d axes = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+  constexpr int kTrials = 7 * 2000;
+  int turned = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const RigidTransform centre = test::random_pose(rng, 3.0);
+    const RigidTransform start = draw_start(swept(sweep), centre, 1, "scene", "left", trial);
+    const Eigen::Matrix3d R = start.rotation * centre.rotation.transpose();
+    const double angle_deg = 30.0 * (trial % 7);
+    EXPECT_NEAR(rotation_angle(R), rad_from_deg(angle_deg), 1e-7);
+    EXPECT_EQ(start.translation, centre.translation);
+    if (angle_deg == 0.0 || angle_deg == 180.0) continue;
+    const Eigen::Vector3d axis = Eigen::AngleAxisd(R).axis();
+    axes += axis;
+    square += axis * axis.transpose();
+    ++turned;
+  }
+  // Uniform on the sphere: mean 0, covariance 1/3.
+  const double tolerance = 5.0 / std::sqrt(static_cast<double>(turned));
+  EXPECT_LT((axes / turned).norm(), tolerance);
+  EXPECT_LT((square / turned - Eigen::Matrix3d::Identity() / 3.0).norm(), tolerance);
+}
+
+TEST(Starts, OfASweepMoveByTheirLevelAndTurnByTheRange) {
+  Rng rng = test::test_rng();
+  StartRule rule = swept({SweepOf::translation, 1.0, 5.0, 5});
+  rule.rotation_deg = 10.0;
+  double largest = 0.0;
+  for (int trial = 0; trial < 500; ++trial) {
+    const RigidTransform centre = test::random_pose(rng, 3.0);
+    const RigidTransform start = draw_start(rule, centre, 1, "scene", "left", trial);
+    EXPECT_NEAR((start.translation - centre.translation).norm(), 1.0 + trial % 5, 1e-12);
+    const Vector6d offset = pose_error(start, centre).dof;
+    largest = std::max(largest, offset.head<3>().cwiseAbs().maxCoeff());
+  }
+  EXPECT_LE(largest, rad_from_deg(10.0) * (1.0 + 1e-9));
+  EXPECT_GT(largest, rad_from_deg(9.5));
+}
+
 TEST(Starts, NeedTheirCentreInEveryScene) {
   SensorScan left{"left", "", {}, {}, RigidTransform{}, {}};
   SensorScan right{"right", "", {}, RigidTransform{}, {}, {}};
@@ -102,7 +151,7 @@ TEST(Starts, NeedTheirCentreInEveryScene) {
   Experiment experiment;
   experiment.file = "x.json";
   try {
-    check_centres(experiment, scenes);
+    resolve_starts(experiment, scenes, "");
     FAIL();
   } catch (const InputError& error) {
     ASSERT_EQ(error.faults().size(), 1U);
@@ -112,7 +161,7 @@ TEST(Starts, NeedTheirCentreInEveryScene) {
   }
   experiment.starts.around = StartCentre::initial;
   try {
-    check_centres(experiment, scenes);
+    resolve_starts(experiment, scenes, "");
     FAIL();
   } catch (const InputError& error) {
     EXPECT_EQ(error.faults().size(), 2U);

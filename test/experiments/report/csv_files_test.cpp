@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "experiments/report/csv_row.hpp"
-#include "experiments/report/unit_quaternion.hpp"
 #include "framework/base/angles.hpp"
+#include "framework/geometry/unit_quaternion.hpp"
 #include "test/experiments/report/sample_records.hpp"
 
 namespace croon::experiments {

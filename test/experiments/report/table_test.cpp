@@ -41,6 +41,12 @@ base       right   0.010 / 0.000  0.000 / 0.028  0.010 / 0.000  0.0100 / 0.0141 
 no volume  left    0.020 / 0.000  0.000 / 0.028  0.020 / 0.000  0.0200 / 0.0283  0.0000 / 0.0000  0.0000 / 0.0000
 no volume  right   0.020 / 0.000  0.000 / 0.028  0.020 / 0.000  0.0200 / 0.0283  0.0000 / 0.0000  0.0000 / 0.0000
 
+against base, pair by pair: difference of medians [95 % interval], failures as infinite
+variant    pairs  won  lost      p          rotation deg       p            translation m       p
+---------  -----  ---  ----  -----  --------------------  ------  -----------------------  ------
+no volume     14    0     0  1.000  0.010 [0.005, 0.025]  0.023*  0.0098 [0.0049, 0.0199]  0.023*
+* p < 0.05 over trials (McNemar, Wilcoxon; Holm), ** also with scenes as units
+
 success per scene
 variant    scene  left  right
 ---------  -----  ----  -----

@@ -152,6 +152,18 @@ TEST(ConsensusPose, IgnoresAMinorityThatAgreesOnSomethingElse) {
   }
 }
 
+TEST(ConsensusPose, OfThousandsIsTheSameInAnyOrderAndNearTheMajority) {
+  Rng rng = test::test_rng();
+  const RigidTransform centre = test::random_pose(rng, 3.0);
+  std::vector<RigidTransform> poses = poses_near(rng, centre, 5000);
+  for (int k = 0; k < 4000; ++k) poses.push_back(test::random_pose(rng, 3.0));
+  const RigidTransform consensus = consensus_pose(poses, kBounds);
+  EXPECT_TRUE(agree(consensus, centre, {0.003, 0.02}));
+  const RigidTransform other = consensus_pose(shuffled(rng, poses), kBounds);
+  EXPECT_EQ(consensus.rotation, other.rotation);
+  EXPECT_EQ(consensus.translation, other.translation);
+}
+
 TEST(ConsensusPose, CommutesWithAMotionFromTheLeft) {
   Rng rng = test::test_rng();
   for (int i = 0; i < 100; ++i) {

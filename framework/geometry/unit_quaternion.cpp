@@ -1,6 +1,6 @@
-#include "experiments/report/unit_quaternion.hpp"
+#include "framework/geometry/unit_quaternion.hpp"
 
-namespace croon::experiments {
+namespace croon {
 
 Eigen::Quaterniond unit_quaternion(const Eigen::Matrix3d& rotation) {
   const Eigen::Quaterniond q = Eigen::Quaterniond(rotation).normalized();
@@ -11,4 +11,4 @@ Eigen::Quaterniond unit_quaternion(const Eigen::Matrix3d& rotation) {
   return q;
 }
 
-}  // namespace croon::experiments
+}  // namespace croon

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "experiments/engine/start_rule.hpp"
+
+namespace croon::experiments {
+
+/// A line of a file of starts.
+struct StartLine {
+  std::string scene;
+  std::string sensor;
+  int trial = 0;
+  Start start;
+};
+
+/// The parts of the line `text`. Throws InputError: expected ..., found ...
+StartLine read_start_line(const std::string& text);
+
+/// Throws the InputError of a line: expected ..., found ...
+[[noreturn]] void refuse(const std::string& expected, const std::string& found);
+
+/// `text` in quotes.
+std::string quoted(const std::string& text);
+
+}  // namespace croon::experiments

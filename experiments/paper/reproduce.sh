@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Runs the paper's experiments and writes what they came to, beside the paper's numbers, to
+# docs/reproduction.md. Those on recordings run where these are there.
+# Usage: experiments/paper/reproduce.sh [DATA_ROOT], from the root of the tree; DATA_ROOT is by
+# default $CROON_DATA, else data. CROON is the program, by default build/release/bin/croon; RESULTS the
+# folder of the results, by default results/paper. What is in there already is not run again.
+set -euo pipefail
+
+croon=${CROON:-build/release/bin/croon}
+data=${1:-${CROON_DATA:-data}}
+results=${RESULTS:-results/paper}
+page=docs/reproduction.md
+
+folders=()
+# run_experiment NAME: a trial that failed (code 3) is a result like others.
+run_experiment() {
+  local code=0
+  "$croon" run "experiments/paper/$1.json" --data "$data" --out "$results/$1" || code=$?
+  if [[ $code != 0 && $code != 3 ]]; then exit "$code"; fi
+  folders+=("$results/$1")
+}
+
+run_experiment table1_simulated
+run_experiment consistency_simulated
+if [[ -d $data/opencalib/real ]]; then run_experiment real_consistency; fi
+if [[ -d $data/opencalib/carla ]]; then run_experiment carla_samples; fi
+
+# Written whole or not at all. Code 3: a number is outside its band, and the page says which.
+code=0
+"$croon" claims "${folders[@]}" >"$page.new" || code=$?
+if [[ $code != 0 && $code != 3 ]]; then exit "$code"; fi
+mv "$page.new" "$page"
+echo "$page is written."

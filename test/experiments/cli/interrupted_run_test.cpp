@@ -1,0 +1,159 @@
+// The program as a user runs it: killed and started again, cut into shards, on one thread and on
+// many. The results are the bytes of one undisturbed run.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+#include "experiments/engine/store.hpp"
+#include "framework/base/rng.hpp"
+#include "framework/base/whole_file.hpp"
+#include "test/experiments/support/killed_program.hpp"
+#include "test/experiments/support/program.hpp"
+#include "test/support/temp_folder.hpp"
+
+namespace croon::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExperiment = R"({
+  "name": "small",
+  "dataset": {"type": "simulated", "rig": "croon_three", "scenes": 4},
+  "starts": {"rotation_deg": 10, "translation_m": 0.1, "trials": 3},
+  "success": {"rotation_deg": 5, "translation_m": 0.5},
+  "pipeline": [
+    {"step": "preprocessing", "sensor": [{"type": "voxel_downsample", "leaf_size_m": 0.5}]},
+    {"step": "ground_alignment"},
+    {"step": "planar_alignment"}
+  ],
+  "variants": [
+    {"name": "coarse", "replace": {"preprocessing.sensor": [{"type": "voxel_downsample", "leaf_size_m": 2}]}},
+    {"name": "ground alone", "remove": ["planar_alignment"]}
+  ]
+})";
+constexpr std::size_t kTrials = 3 * 4 * 2 * 3;  // Variants, scenes, sensors, starts.
+constexpr int kKills = 20;
+
+/// The words of `text` between the `separator`s.
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(stream, word, separator);) words.push_back(word);
+  return words;
+}
+
+class InterruptedRun : public testing::Test {
+ protected:
+  InterruptedRun() { folder_.write("small.json", kExperiment); }
+
+  fs::path path(const std::string& name) const { return folder_.path() / name; }
+
+  std::vector<std::string> words(const std::string& out) const {
+    return {"run", path("small.json").string(), "--out", path(out).string(), "--quiet"};
+  }
+
+  void run(const std::string& out, const std::string& options = "") const {
+    std::string arguments;
+    for (const std::string& word : words(out)) arguments += "\"" + word + "\" ";
+    expect_done(arguments + options);
+  }
+
+  static void expect_done(const std::string& arguments) {
+    const Answer answer = croon(arguments);
+    ASSERT_EQ(answer.code, 0) << arguments << "\n" << answer.text;
+  }
+
+  void expect_same_results(const std::string& out) const {
+    for (const char* file : {"trials.csv", "summary.csv", "summary.json", "summary_by_kind.csv"}) {
+      EXPECT_TRUE(read_whole_file(path(out) / file) == read_whole_file(path("whole") / file))
+          << out << "/" << file;
+    }
+  }
+
+  test::TempFolder folder_;
+};
+
+/// Each trial is in the table and in the store, once.
+void expect_each_trial_once(const fs::path& folder) {
+  std::map<std::string, int> times;
+  for (const std::string& row : split(read_whole_file(folder / "trials.csv"), '\n')) {
+    const std::vector<std::string> cells = split(row, ',');
+    ASSERT_GE(cells.size(), 4U) << row;
+    ++times[cells[0] + "," + cells[1] + "," + cells[2] + "," + cells[3]];
+  }
+  EXPECT_EQ(times.erase("variant,scene,sensor,trial"), 1U);
+  EXPECT_EQ(times.size(), kTrials);
+  for (const auto& [trial, count] : times) EXPECT_EQ(count, 1) << trial;
+  const Database store(folder / "store.sqlite", Access::read);
+  Statement count = store.prepare("SELECT COUNT(*) FROM trials");
+  ASSERT_TRUE(count.next());
+  EXPECT_EQ(count.integer(0), static_cast<std::int64_t>(kTrials));
+}
+
+/// A header, then whole rows that end in seconds.
+void expect_well_formed_timings(const fs::path& file) {
+  const std::string text = read_whole_file(file);
+  ASSERT_FALSE(text.empty());
+  EXPECT_EQ(text.back(), '\n');
+  std::vector<std::string> rows = split(text, '\n');
+  EXPECT_EQ(rows.front(), "variant,scene,sensor,trial,step,seconds");
+  rows.erase(rows.begin());
+  EXPECT_FALSE(rows.empty());
+  for (const std::string& row : rows) {
+    const std::vector<std::string> cells = split(row, ',');
+    ASSERT_EQ(cells.size(), 6U) << row;
+    std::size_t length = 0;
+    EXPECT_GE(std::stod(cells[5], &length), 0.0) << row;
+    EXPECT_EQ(length, cells[5].size()) << row;
+  }
+}
+
+TEST_F(InterruptedRun, GoesOnAfterTwentyKillsAtAnyMoment) {
+  const auto begin = std::chrono::steady_clock::now();
+  run("whole");
+  const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - begin;
+  expect_each_trial_once(path("whole"));
+  Rng rng(StreamKey(1).with("kills"));
+  // A folder is finished in ever shorter runs: kills fall into reading, trials and reports. Then
+  // comes a new folder, as long as there are kills to make.
+  int kills = 0;
+  for (int folder = 0; kills < kKills; ++folder) {
+    const std::string out = std::to_string(folder);
+    while (kills < kKills && kill_croon_after(rng.uniform(0, duration.count()), words(out))) {
+      ++kills;
+    }
+    run(out);
+    expect_same_results(out);
+    expect_each_trial_once(path(out));
+    expect_well_formed_timings(path(out) / "timings.csv");
+  }
+}
+
+TEST_F(InterruptedRun, IsTheSameBytesOnOneThreadAndOnFour) {
+  run("whole", "--jobs 1");
+  run("four", "--jobs 4");
+  expect_same_results("four");
+  expect_each_trial_once(path("four"));
+}
+
+TEST_F(InterruptedRun, IsTheSameBytesFromFourShards) {
+  run("whole");
+  std::string merge = "merge";
+  for (const char* shard : {"1", "2", "3", "4"}) {
+    const std::string out = std::string("shard.") + shard;
+    run(out, std::string("--jobs 1 --shard ") + shard + "/4");
+    EXPECT_FALSE(read_whole_file(path(out) / "trials.csv") ==
+                 read_whole_file(path("whole/trials.csv")));
+    merge += " \"" + path(out).string() + "\"";
+  }
+  expect_done(merge + " --out \"" + path("merged").string() + "\"");
+  expect_same_results("merged");
+  expect_each_trial_once(path("merged"));
+}
+
+}  // namespace
+}  // namespace croon::experiments

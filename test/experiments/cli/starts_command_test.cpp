@@ -1,0 +1,94 @@
+// Starts that were written run to the same results as those that are drawn.
+#include <gtest/gtest.h>
+
+#include "framework/base/whole_file.hpp"
+#include "test/experiments/support/program.hpp"
+#include "test/support/temp_folder.hpp"
+
+namespace croon::experiments {
+namespace {
+
+std::string experiment(const std::string& starts) {
+  return R"({"name": "x", "dataset": {"type": "simulated", "scenes": 2}, "starts": )" + starts +
+         R"(, "pipeline": [{"step": "ground_alignment"}]})";
+}
+
+class StartsCommand : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+  void run(const std::string& arguments) const {
+    const Answer answer = croon(arguments);
+    EXPECT_EQ(answer.code, 0) << arguments << "\n" << answer.text;
+  }
+  void expect_same_trials(const std::string& starts) const {
+    folder_.write("drawn.json", experiment(starts));
+    folder_.write("read.json", experiment(R"({"file": "starts.csv"})"));
+    run("starts " + path("drawn.json") + " --out " + path("starts.csv"));
+    run("run " + path("drawn.json") + " --out " + path("drawn") + " --quiet");
+    run("run " + path("read.json") + " --out " + path("read") + " --quiet");
+    EXPECT_EQ(read_whole_file(path("drawn/trials.csv")), read_whole_file(path("read/trials.csv")));
+    // What was read is written as it was.
+    EXPECT_EQ(croon("starts " + path("read.json")).text, read_whole_file(path("starts.csv")));
+  }
+
+  test::TempFolder folder_;
+};
+
+TEST_F(StartsCommand, WritesWhatARunDraws) {
+  expect_same_trials(R"({"rotation_deg": 30, "translation_m": 0.3, "trials": 6})");
+}
+
+TEST_F(StartsCommand, WritesWhatASweepDraws) {
+  expect_same_trials(R"({"sweep": {"rotation_deg": [0, 20], "levels": 3}, "trials": 2})");
+}
+
+TEST_F(StartsCommand, WritesAnyRotation) {
+  expect_same_trials(R"({"rotation_deg": 180, "trials": 6})");
+}
+
+TEST_F(StartsCommand, IsReadBelowTheDataRootFirst) {
+  folder_.write("x.json", experiment(R"({"trials": 1})"));
+  folder_.write("read.json", experiment(R"({"file": "starts.csv"})"));
+  run("starts " + path("x.json") + " --out " + path("starts.csv"));
+  folder_.write("data/starts.csv", "not starts\n");
+  run("starts " + path("read.json"));
+  const Answer answer = croon("starts " + path("read.json") + " --data " + path("data"));
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_NE(answer.text.find("data/starts.csv: line 1: expected \"scene,sensor,trial"),
+            std::string::npos)
+      << answer.text;
+}
+
+TEST_F(StartsCommand, RefusesMoreTrialsThanTheFileHas) {
+  folder_.write("x.json", experiment(R"({"trials": 2})"));
+  run("starts " + path("x.json") + " --out " + path("starts.csv"));
+  folder_.write("read.json", experiment(R"({"file": "starts.csv", "trials": 3})"));
+  const Answer answer = croon("starts " + path("read.json"));
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_NE(answer.text.find("/starts/trials: expected at most 2 trials, as many as "),
+            std::string::npos)
+      << answer.text;
+  run("starts " + path("read.json") + " --trials 1");
+}
+
+TEST_F(StartsCommand, NamesTheFileThatIsNotThere) {
+  folder_.write("x.json", experiment(R"({"file": "none.csv"})"));
+  run("validate " + path("x.json"));
+  const Answer answer = croon("run " + path("x.json") + " --out " + path("out"));
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_NE(answer.text.find("/starts/file: expected a file of starts, found neither "),
+            std::string::npos)
+      << answer.text;
+}
+
+TEST_F(StartsCommand, AreWrittenBesideSimulatedScenes) {
+  folder_.write("x.json", experiment(R"({"rotation_deg": 10, "trials": 2})"));
+  run("starts " + path("x.json") + " --out " + path("mine.csv"));
+  folder_.write("read.json", experiment(R"({"file": "mine.csv"})"));
+  run("simulate " + path("read.json") + " --out " + path("data") + " --quiet");
+  EXPECT_EQ(read_whole_file(path("mine.csv")), read_whole_file(path("data/starts.csv")));
+  run("starts " + path("data/experiment.json") + " --data " + path("data"));
+}
+
+}  // namespace
+}  // namespace croon::experiments

@@ -1,0 +1,252 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "experiments/report/export_formats.hpp"
+#include "test/experiments/report/sample_records.hpp"
+
+namespace croon::experiments {
+namespace {
+
+constexpr SuccessBounds kBounds = {0.5, 0.1};
+const std::string kCommit = "0123456789abcdef0123456789abcdef01234567";
+
+ExportTable table_of(const std::vector<TrialRecord>& records) {
+  return export_table(summarise(records, kBounds, {}),
+                      {"few_records", kCommit, 7, 2, 4, records.size(), 32});
+}
+
+/// One trial of a variant, `x_m` off the truth.
+TrialRecord trial_at(const std::string& variant, int trial, double x_m) {
+  return test::finished({variant, "0001", "left", trial}, Status::success, {},
+                        test::offset_of(0.0, 0.0, 0.0, x_m, 0.0, 0.0));
+}
+
+/// The variants whose value is the best of a column, sensor by sensor.
+std::vector<std::string> best_of(const ExportTable& table, std::size_t column) {
+  std::vector<std::string> best;
+  for (const ExportRow& row : table.rows) {
+    if (row.cells[column].is_best) best.push_back(row.sensor + "/" + row.variant);
+  }
+  return best;
+}
+
+std::size_t column(const std::string& name) {
+  const auto& columns = export_columns();
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [&](const ExportColumn& c) { return c.name == name; });
+  EXPECT_NE(found, columns.end()) << name;
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(ExportTable, HasARowPerSensorAndVariantAndOneOfAllSensors) {
+  const ExportTable table = table_of(test::few_records());
+  Names rows;
+  for (const ExportRow& row : table.rows) {
+    rows.push_back(row.sensor + "/" + row.variant);
+    EXPECT_EQ(row.cells.size(), export_columns().size());
+  }
+  EXPECT_EQ(rows, (Names{"left/base", "left/no volume", "right/base", "right/no volume", "/base",
+                         "/no volume"}));
+  const ExportRow& all = table.rows[4];
+  EXPECT_EQ(all.trials, 15);
+  EXPECT_EQ(all.success, 12);
+  EXPECT_EQ(all.cells[kSuccessColumn].value, 80.0);
+}
+
+TEST(ExportTable, PoolsTheTrialsOfAllSensors) {
+  Rng rng = croon::test::test_rng();
+  std::vector<TrialRecord> records;
+  std::vector<TrialRecord> as_one_sensor;
+  for (int trial = 0; trial < 40; ++trial) {
+    const Vector6d offset = test::random_offset(rng, 0.2, 0.03);
+    const char* sensor = trial % 3 == 0 ? "left" : "right";
+    records.push_back(test::finished({"base", "0001", sensor, trial}, Status::success, {}, offset));
+    as_one_sensor.push_back(
+        test::finished({"base", "0001", "one", trial}, Status::success, {}, offset));
+  }
+  const ExportRow pooled = table_of(records).rows.back();
+  const ExportRow one = table_of(as_one_sensor).rows.back();
+  for (std::size_t k = 0; k < one.cells.size(); ++k) {
+    EXPECT_NEAR(*pooled.cells[k].value, *one.cells[k].value, 1e-12) << export_columns()[k].name;
+  }
+}
+
+TEST(ExportTable, TellsTheBestOfEachSensor) {
+  const ExportTable table = table_of(test::few_records());
+  EXPECT_EQ(best_of(table, column("success_percent")),
+            (Names{"left/base", "left/no volume", "right/no volume", "/no volume"}));
+  EXPECT_EQ(best_of(table, column("rotation_median_deg")),
+            (Names{"left/base", "right/base", "/base"}));
+  // -0.01 is nearer to zero than -0.02.
+  EXPECT_EQ(best_of(table, column("pitch_mean_deg")), (Names{"left/base", "right/base", "/base"}));
+  EXPECT_TRUE(best_of(table, column("success_low_percent")).empty());
+}
+
+TEST(ExportTable, AllThatLookEquallyGoodAreTheBest) {
+  const std::size_t x_mean = column("x_mean_m");
+  const ExportTable near =
+      table_of({trial_at("a", 0, 0.02000), trial_at("b", 0, -0.02001), trial_at("c", 0, 0.0202)});
+  EXPECT_EQ(best_of(near, x_mean), (Names{"left/a", "left/b"}));
+}
+
+TEST(ExportTable, OneVariantAloneIsNotTheBest) {
+  const ExportTable table = table_of({trial_at("a", 0, 0.01), trial_at("a", 1, 0.02)});
+  for (const ExportCell& cell : table.rows.front().cells) EXPECT_FALSE(cell.is_best);
+  EXPECT_FALSE(has(export_latex(table), "\\bfseries 0"));
+  EXPECT_FALSE(has(export_markdown(table), "**"));
+}
+
+TEST(ExportTable, LacksWhatTooFewTrialsTell) {
+  const TrialId id = {"none", "0001", "left", 0};
+  const ExportTable table =
+      table_of({trial_at("one", 0, 0.01), test::unfinished(id, Status::failed, "no ground")});
+  const ExportRow& none = table.rows[0].variant == "none" ? table.rows[0] : table.rows[1];
+  const ExportRow& one = table.rows[0].variant == "none" ? table.rows[1] : table.rows[0];
+  EXPECT_EQ(none.cells[kSuccessColumn].value, 0.0);
+  for (std::size_t k = kDistanceColumn; k < none.cells.size(); ++k) {
+    EXPECT_FALSE(none.cells[k].value);
+    EXPECT_FALSE(none.cells[k].is_best);
+  }
+  EXPECT_EQ(one.cells[column("x_mean_m")].value, 0.01);
+  EXPECT_FALSE(one.cells[column("x_std_m")].value);
+  EXPECT_TRUE(has(export_latex(table), "& {--} & {--} \\\\"));
+  EXPECT_TRUE(has(export_markdown(table), "| - | - |"));
+  EXPECT_TRUE(has(export_csv(table), ",,,,,,\n"));
+  EXPECT_TRUE(nlohmann::json::parse(export_json(table))["rows"][0]["x_std_m"].is_null());
+}
+
+TEST(ExportTable, WithoutTruthTellsOfTheConsensus) {
+  std::vector<TrialRecord> records;
+  for (int trial = 0; trial < 4; ++trial) {
+    const RigidTransform pose = {Eigen::Matrix3d::Identity(), {trial == 3 ? 9.0 : 0.0, 0.0, 0.0}};
+    records.push_back(test::finished_without_truth({"base", "0001", "left", trial}, pose));
+  }
+  const ExportTable table = table_of(records);
+  EXPECT_EQ(table.rows.front().reference, Reference::consensus);
+  EXPECT_EQ(table.rows.front().success, 3);
+  EXPECT_EQ(table.rows.front().cells[kSuccessColumn].value, 75.0);
+  const std::string text = export_markdown(table);
+  EXPECT_TRUE(has(text, "where there is no truth"));
+  EXPECT_FALSE(has(text, "of the truth"));
+}
+
+TEST(ExportTable, MarksWhatDiffersFromTheBase) {
+  Summary summary = summarise(test::few_records(), kBounds, {});
+  Comparison comparison;
+  comparison.variant = "no volume";
+  comparison.base = "base";
+  comparison.rotation_deg.test = {1e-4, 1e-3, 1e-4, 1e-3};
+  comparison.translation_m.test = {1e-4, 1e-3, 0.4, 0.4};
+  summary.comparisons = {comparison};
+  const ExportTable table = export_table(summary, {"few", kCommit, 7, 2, 4, 29, 32});
+  const ExportRow& all = table.rows.back();
+  EXPECT_EQ(all.cells[column("success_percent")].mark, "");
+  EXPECT_EQ(all.cells[column("rotation_median_deg")].mark, "**");
+  EXPECT_EQ(all.cells[column("translation_median_m")].mark, "*");
+  EXPECT_EQ(table.rows[1].cells[column("rotation_median_deg")].mark, "");
+  EXPECT_TRUE(has(caption_sentences(table).back(), "differs from base"));
+  EXPECT_TRUE(has(export_markdown(table), "| 0.035\\*\\* |"));
+  EXPECT_TRUE(has(export_latex(table), "& 0.035 & ** & 0.060"));
+  EXPECT_TRUE(has(export_csv(table), ",,**,*\n"));
+  EXPECT_EQ(nlohmann::json::parse(export_json(table))["rows"][5]["marks"]["translation_median_m"],
+            "*");
+}
+
+TEST(ExportTable, WithoutComparisonsExplainsNoMarks) {
+  EXPECT_FALSE(has(export_latex(table_of({trial_at("a", 0, 0.01)})), "differs"));
+}
+
+TEST(ExportCaption, NamesWhatTheNumbersAreOf) {
+  const std::vector<std::string> sentences = caption_sentences(table_of(test::few_records()));
+  EXPECT_EQ(sentences.at(0), "few_records (croon, commit 0123456789ab, seed 7).");
+  EXPECT_EQ(sentences.at(1), "2 scenes, 2 sensors, 2 variants, 4 starts of each: 29 of 32 trials.");
+  EXPECT_EQ(sentences.at(2),
+            "Success: within 0.5 deg and 0.1 m of the truth; errors are those of these trials.");
+}
+
+TEST(ExportCaption, KeepsThatTheProgramHadBeenChanged) {
+  ExportTable table = table_of(test::few_records());
+  table.caption.commit += "-dirty";
+  EXPECT_TRUE(has(caption_sentences(table).at(0), "commit 0123456789ab-dirty,"));
+  table.caption.commit = "unknown";
+  EXPECT_TRUE(has(caption_sentences(table).at(0), "commit unknown,"));
+}
+
+TEST(ExportLatex, EscapesEverything) {
+  EXPECT_EQ(latex_escaped("a_b & 100 %"), "a\\_b \\& 100 \\%");
+  EXPECT_EQ(latex_escaped("#1 ~ ^ \\ {x} $"),
+            "\\#1 \\textasciitilde{} \\textasciicircum{} \\textbackslash{} \\{x\\} \\$");
+  EXPECT_EQ(latex_escaped("[a]--<b>*"), "{[}a{]}{-}{-}\\textless{}b\\textgreater{}{*}");
+}
+
+TEST(ExportLatex, BoldsTheBestAndAlignsTheDigits) {
+  const std::string text = export_latex(table_of(test::few_records()));
+  EXPECT_TRUE(has(text, "\\bfseries -0.010"));
+  EXPECT_TRUE(has(text, "& \\bfseries 100.0 & 61.0 & 100.0 "));
+  EXPECT_TRUE(has(text, "S[table-format=-1.3]@{\\,${}\\pm{}$\\,}"));
+  EXPECT_TRUE(has(text, "S[table-format=3.1]"));
+  EXPECT_TRUE(has(text, "\\label{tab:few_records}"));
+}
+
+TEST(ExportMarkdown, IsATableOfEqualRows) {
+  auto records = test::few_records();
+  for (TrialRecord& record : records) {
+    if (record.id.variant == "base") record.id.variant = "a|b *c*";
+  }
+  std::istringstream text(export_markdown(table_of(records)));
+  std::vector<std::ptrdiff_t> bars;
+  for (std::string line; std::getline(text, line);) {
+    if (line.empty() || line[0] != '|') continue;
+    std::ptrdiff_t escaped = 0;
+    for (std::size_t at = 0; (at = line.find("\\|", at)) != std::string::npos; ++at) ++escaped;
+    bars.push_back(std::count(line.begin(), line.end(), '|') - escaped);
+  }
+  EXPECT_EQ(bars, std::vector<std::ptrdiff_t>(8, 14));
+  EXPECT_TRUE(has(text.str(), "| a\\|b \\*c\\* | left |"));
+}
+
+TEST(ExportCsv, HoldsFullPrecisionInAsManyFieldsPerLine) {
+  const ExportTable table = table_of(test::few_records());
+  std::istringstream text(export_csv(table));
+  std::string line;
+  std::size_t lines = 0;
+  for (; std::getline(text, line); ++lines) {
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 5 + 19 + 3) << line;
+  }
+  EXPECT_EQ(lines, 1 + table.rows.size());
+  EXPECT_TRUE(has(text.str(), "\nno volume,all,truth,14,12,12,85.71428571428571,"));
+}
+
+TEST(ExportJson, HoldsTheSameNumbers) {
+  const ExportTable table = table_of(test::few_records());
+  const auto json = nlohmann::json::parse(export_json(table));
+  EXPECT_EQ(json["commit"], kCommit);
+  EXPECT_EQ(json["seed"], 7);
+  ASSERT_EQ(json["rows"].size(), table.rows.size());
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    for (std::size_t k = 0; k < export_columns().size(); ++k) {
+      EXPECT_EQ(json["rows"][i][export_columns()[k].name], *table.rows[i].cells[k].value);
+    }
+  }
+  EXPECT_TRUE(json["rows"].back()["sensor"].is_null());
+  EXPECT_EQ(json["rows"][0]["best"][0], "success_percent");
+}
+
+TEST(Export, OfNoTrialsIsAnEmptyTable) {
+  const ExportTable table = table_of({});
+  EXPECT_TRUE(table.rows.empty());
+  EXPECT_TRUE(nlohmann::json::parse(export_json(table))["rows"].empty());
+  EXPECT_TRUE(has(export_latex(table), "\\bottomrule"));
+}
+
+}  // namespace
+}  // namespace croon::experiments
