@@ -160,6 +160,12 @@ ordered_json experiment_properties(const Catalogue& catalogue) {
       {"starts", starts_schema()},
       {"seed", parameter_schema(seed())},
       {"success", success_schema()},
+      {"loops",
+       {{"type", "boolean"},
+        {"description",
+         "Each two sensors of a scene are calibrated to each other too, which tells how far the "
+         "loop over the reference is from closing."},
+        {"default", false}}},
       {"pipeline", pipeline},
       {"variants", list_of(variant_schema(catalogue), "Other pipelines, told by what differs.")},
       {"grid",

@@ -1,7 +1,9 @@
 #include "experiments/cli/before_after.hpp"
 
+#include <algorithm>
 #include <map>
 
+#include "experiments/engine/sensor_pairs.hpp"
 #include "experiments/engine/starts.hpp"
 #include "framework/picture/top_view.hpp"
 
@@ -41,9 +43,10 @@ Image drawn(const Experiment& experiment, const Scene& scene, const FirstTrials&
 std::string draw_before_after(const Experiment& experiment, const std::vector<Scene>& scenes,
                               const std::vector<TrialRecord>& records,
                               const std::filesystem::path& path) {
-  for (const Scene& scene : scenes) {
+  for (const Scene& scene : without_pairs(scenes)) {
     const FirstTrials trials = first_trials(records, experiment.variants.front().name, scene);
-    if (trials.size() != scene.sensors.size()) continue;
+    const auto is_there = [&](const SensorScan& scan) { return trials.count(scan.sensor) > 0; };
+    if (!std::all_of(scene.sensors.begin(), scene.sensors.end(), is_there)) continue;
     write_png(path, drawn(experiment, scene, trials));
     return scene.name;
   }

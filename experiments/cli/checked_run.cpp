@@ -4,6 +4,7 @@
 
 #include "experiments/cli/data_root.hpp"
 #include "experiments/engine/experiment_loader.hpp"
+#include "experiments/engine/sensor_pairs.hpp"
 #include "experiments/engine/starts.hpp"
 #include "framework/base/error.hpp"
 
@@ -21,7 +22,7 @@ CheckedRun check_run(const RunOptions& options, const Catalogue& catalogue) {
     if (!options.shard.empty()) run.selection.shard = read_shard(options.shard);
   });
   collect_faults(faults, [&] {
-    run.scenes = run.experiment.dataset->scenes(run.data_root);
+    run.scenes = scenes_of(run.experiment, run.data_root);
     resolve_starts(run.experiment, run.scenes, run.data_root);
   });
   if (!faults.empty()) throw InputError(std::move(faults));

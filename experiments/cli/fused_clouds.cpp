@@ -3,6 +3,7 @@
 #include <map>
 #include <tuple>
 
+#include "experiments/engine/sensor_pairs.hpp"
 #include "framework/base/error.hpp"
 #include "framework/io/ply_writer.hpp"
 #include "framework/io/vdb_writer.hpp"
@@ -68,7 +69,7 @@ std::vector<std::string> write_fused_clouds(const Experiment& experiment,
                                             const fs::path& folder) {
   const Estimates estimates = first_estimates(records);
   std::vector<std::string> complaints;
-  for (const Scene& scene : scenes) {
+  for (const Scene& scene : without_pairs(scenes)) {
     const PointCloud reference = points_of(scene.reference);
     std::vector<PointCloud> points;
     for (const SensorScan& scan : scene.sensors) points.push_back(points_of(scan));

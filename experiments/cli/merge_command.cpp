@@ -1,6 +1,8 @@
 #include "experiments/cli/merge_command.hpp"
 
+#include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "experiments/cli/output_folder.hpp"
 #include "experiments/cli/report_files.hpp"
@@ -17,6 +19,11 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRemedy = "results of one experiment alone can be merged";
 
+/// Experiments grow: the later state is the one with more trials, then more variants.
+bool is_later(const StoreHeader& a, const StoreHeader& b) {
+  return std::pair(a.trials, a.variants.size()) > std::pair(b.trials, b.variants.size());
+}
+
 /// The header of all the folders; the differences of each from the first are faults.
 StoreHeader header_of_all(const std::vector<fs::path>& folders) {
   std::vector<Fault> faults;
@@ -30,21 +37,24 @@ StoreHeader header_of_all(const std::vector<fs::path>& folders) {
       }
       if (header.provenance.empty()) header = other;
       refuse_differences(store.string(), header, other, kRemedy);
-      // The latest state of the experiment is the one with the most trials.
-      header = other.trials > header.trials ? united(other, header) : united(header, other);
+      header = is_later(other, header) ? united(other, header) : united(header, other);
     });
   }
   if (!faults.empty()) throw InputError(std::move(faults));
   return header;
 }
 
-/// The folders whose trials are put together: those given, and what is in `out` already.
+/// The folders whose trials are put together, each once: what is in `out` already, and those
+/// given.
 std::vector<fs::path> sources(const MergeOptions& options) {
   std::vector<fs::path> folders;
   if (fs::exists(store_path(options.out))) folders.push_back(options.out);
   for (const fs::path& folder : options.folders) {
-    std::error_code error;
-    if (!fs::equivalent(folder, options.out, error)) folders.push_back(folder);
+    const auto is_folder = [&](const fs::path& other) {
+      std::error_code error;
+      return fs::equivalent(folder, other, error);
+    };
+    if (std::none_of(folders.begin(), folders.end(), is_folder)) folders.push_back(folder);
   }
   return folders;
 }

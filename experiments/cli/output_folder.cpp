@@ -14,10 +14,10 @@
 namespace croon::experiments {
 namespace {
 
-constexpr std::array<const char*, 11> kReports = {
-    "trials.csv",          "timings.csv",    "summary.csv",     "summary.json",
-    "summary_by_kind.csv", "comparison.csv", "basin.csv",       "basin.svg",
-    "box_plots.svg",       "manifest.json",  "before_after.png"};
+constexpr std::array<const char*, 12> kReports = {
+    "loops.csv",    "trials.csv",          "timings.csv",    "summary.csv",
+    "summary.json", "summary_by_kind.csv", "comparison.csv", "basin.csv",
+    "basin.svg",    "box_plots.svg",       "manifest.json",  "before_after.png"};
 
 }  // namespace
 

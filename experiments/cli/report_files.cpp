@@ -32,6 +32,7 @@ void write_reports(const std::filesystem::path& folder, const Results& results,
   write_or_remove(folder / "summary_by_kind.csv", summary_by_kind_csv(summary),
                   !summary.kinds.empty());
   write_or_remove(folder / "comparison.csv", comparison_csv(summary), !summary.comparisons.empty());
+  write_or_remove(folder / "loops.csv", loops_csv(summary), !summary.loops.empty());
   const bool is_sweep = results.basin.has_value();
   write_or_remove(folder / "basin.csv", is_sweep ? basin_csv(*results.basin) : "", is_sweep);
   write_or_remove(folder / "basin.svg", is_sweep ? basin_svg(*results.basin) : "", is_sweep);

@@ -1,5 +1,6 @@
 #include "experiments/cli/results_folder.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -24,6 +25,12 @@ ReportOrder report_order(const StoreHeader& header) {
   order.variants = current(header.variants);
   order.sensors = current(header.sensors);
   order.scenes = current(header.scenes);
+  for (const StoredName& sensor : header.sensors) {
+    const auto is_target = [&](const StoredName& other) { return other.name == sensor.detail; };
+    if (sensor.is_current && std::any_of(header.sensors.begin(), header.sensors.end(), is_target)) {
+      order.pairs.push_back(named_pair(sensor.name, sensor.detail));
+    }
+  }
   for (const StoredName& scene : header.scenes) {
     if (!scene.detail.empty()) order.kinds[scene.name] = scene.detail;
   }

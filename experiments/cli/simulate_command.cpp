@@ -8,6 +8,7 @@
 #include "experiments/cli/scene_writer.hpp"
 #include "experiments/cli/starts_command.hpp"
 #include "experiments/engine/experiment_loader.hpp"
+#include "experiments/engine/sensor_pairs.hpp"
 #include "experiments/engine/starts.hpp"
 #include "experiments/engine/threads.hpp"
 #include "experiments/report/progress.hpp"
@@ -27,7 +28,7 @@ constexpr const char* kRecipe = "simulation.json";
 constexpr const char* kStarts = "starts.csv";
 
 std::vector<Scene> scenes_to_write(Experiment& experiment) {
-  std::vector<Scene> scenes = experiment.dataset->scenes(fs::path());
+  std::vector<Scene> scenes = scenes_of(experiment, fs::path());
   for (const Scene& scene : scenes) {
     if (scene.reference.measure) continue;
     throw InputError(experiment.file, "/dataset/type",
@@ -103,7 +104,8 @@ void write_scenes(const SimulateOptions& options, const Experiment& experiment,
 int simulate_command(const SimulateOptions& options, const Catalogue& catalogue, std::ostream& out,
                      std::ostream& progress_out) {
   Experiment experiment = load_experiment(options.experiment, catalogue);
-  const std::vector<Scene> scenes = scenes_to_write(experiment);
+  const std::vector<Scene> started = scenes_to_write(experiment);
+  const std::vector<Scene> scenes = without_pairs(started);
   prepare(options.out, recipe_json(experiment));
   {
     Progress progress(progress_out, progress_style_of_stderr(options.quiet), scenes.size());
@@ -113,7 +115,7 @@ int simulate_command(const SimulateOptions& options, const Catalogue& catalogue,
   write_whole_file(options.out / "truth.json", truth_json(scenes.front()));
   write_whole_file(options.out / "scene_kinds.json", kinds_json(scenes));
   if (experiment.starts.table) {
-    write_whole_file(options.out / kStarts, starts_csv(experiment, scenes));
+    write_whole_file(options.out / kStarts, starts_csv(experiment, started));
   }
   write_whole_file(options.out / "experiment.json", experiment_on(options.experiment));
   const std::string folder = options.out.string();

@@ -2,6 +2,7 @@
 
 #include "experiments/cli/data_root.hpp"
 #include "experiments/engine/experiment_loader.hpp"
+#include "experiments/engine/sensor_pairs.hpp"
 #include "experiments/engine/start_file.hpp"
 #include "experiments/engine/starts.hpp"
 #include "experiments/report/csv_row.hpp"
@@ -38,7 +39,7 @@ int starts_command(const StartsOptions& options, const Catalogue& catalogue, std
   Experiment experiment = load_experiment(options.experiment, catalogue);
   set_trials(experiment.starts, options.trials);
   const std::filesystem::path root = data_root(options.data);
-  const std::vector<Scene> scenes = experiment.dataset->scenes(root);
+  const std::vector<Scene> scenes = scenes_of(experiment, root);
   resolve_starts(experiment, scenes, root);
   const std::string bytes = starts_csv(experiment, scenes);
   if (options.out.empty()) {

@@ -29,6 +29,7 @@ struct Experiment {
   std::uint64_t seed = 1;
   SuccessBounds success;
   std::vector<Variant> variants;  ///< The base first, then in the order of the file.
+  bool loops = false;             ///< Sensors are calibrated to each other too (scenes_of).
   Claims claims;                  ///< What the results are held against; decides no trial.
 };
 

@@ -63,7 +63,7 @@ Experiment load_experiment(const std::filesystem::path& path, const Catalogue& c
   experiment.file = path.string();
   if (root.is_object()) {
     root.refuse_unknown_keys({"name", "description", "dataset", "starts", "seed", "success",
-                              "pipeline", "variants", "grid", "expect", "quoted"});
+                              "loops", "pipeline", "variants", "grid", "expect", "quoted"});
     experiment.name = read_name(root);
     experiment.description = read_description(root);
     if (root.require("dataset")) {
@@ -72,6 +72,7 @@ Experiment load_experiment(const std::filesystem::path& path, const Catalogue& c
     experiment.starts = read_start_rule(root, catalogue);
     experiment.seed = read_seed(root);
     experiment.success = read_success(root, catalogue);
+    if (root.has("loops")) root.member("loops").read(experiment.loops);
     if (root.require("pipeline")) experiment.variants = read_variants(root, catalogue, faults);
     experiment.claims = read_claims(root, variant_names(experiment.variants));
   }

@@ -26,6 +26,7 @@ Json experiment_json(const Experiment& experiment) {
   json["starts"] = Json::parse(starts_json(experiment.starts));
   json["starts"]["trials"] = experiment.starts.trials;
   json["seed"] = experiment.seed;
+  if (experiment.loops) json["loops"] = true;
   json["success"] = Json::parse(success_json(experiment.success));
   json["variants"] = Json::array();
   for (const Variant& variant : experiment.variants) {

@@ -1,9 +1,11 @@
 #include "experiments/engine/provenance.hpp"
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "experiments/engine/experiment_loader.hpp"
+#include "experiments/engine/sensor_pairs.hpp"
 #include "experiments/engine/threads.hpp"
 #include "experiments/engine/trial_plan.hpp"
 #include "framework/base/error.hpp"
@@ -65,6 +67,7 @@ std::string inputs_json(const std::vector<Scene>& scenes, const std::vector<Inpu
   for (const Scene& scene : scenes) {
     poses += scene.name + "\n" + scene.reference.sensor + "\n";
     for (const SensorScan& scan : scene.sensors) {
+      if (is_pair(scan)) continue;  // Its poses follow from its sensors'.
       poses += scan.sensor + "\n" + pose_text(scan.truth) + "\n" + pose_text(scan.nominal) + "\n" +
                pose_text(scan.initial) + "\n";
     }
@@ -110,8 +113,14 @@ StoreHeader header_of(const Experiment& experiment, const std::vector<Scene>& sc
     header.variants.push_back({variant.name, variant.resolved});
   }
   for (const Scene& scene : scenes) header.scenes.push_back({scene.name, scene.kind});
+  std::map<std::string, std::string> targets;
+  for (const Scene& scene : scenes) {
+    for (const SensorScan& scan : scene.sensors) {
+      targets.emplace(scan.sensor, is_pair(scan) ? scan.target : scene.reference.sensor);
+    }
+  }
   for (const std::string& sensor : sensor_names(scenes)) {
-    header.sensors.push_back({sensor, scenes.front().reference.sensor});
+    header.sensors.push_back({sensor, targets.at(sensor)});
   }
   return header;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <mutex>
 
+#include "experiments/engine/sensor_pairs.hpp"
 #include "experiments/engine/threads.hpp"
 #include "experiments/engine/trial.hpp"
 
@@ -21,22 +22,51 @@ struct ScenePlan {
 
 /// The clouds of a scene; sensors that no trial asks for are not read.
 struct LoadedScene {
-  LoadedScan target;
-  std::vector<LoadedScan> sources;
+  LoadedScan reference;
+  std::vector<LoadedScan> sensors;  ///< As Scene::sensors; of pairs nothing, their sensors have it.
 };
 
-LoadedScene load_scene(const Scene& scene, const ScenePlan& plan, std::uint64_t seed) {
+/// The place in Scene::sensors of the sensor that is called so.
+std::size_t place_of(const Scene& scene, const std::string& sensor) {
+  const auto is_it = [&](const SensorScan& scan) { return scan.sensor == sensor; };
+  const auto found = std::find_if(scene.sensors.begin(), scene.sensors.end(), is_it);
+  return static_cast<std::size_t>(found - scene.sensors.begin());
+}
+
+const LoadedScan& target_of(const Scene& scene, const LoadedScene& loaded, std::size_t sensor) {
+  const SensorScan& scan = scene.sensors[sensor];
+  return is_pair(scan) ? loaded.sensors[place_of(scene, scan.target)] : loaded.reference;
+}
+
+const LoadedScan& source_of(const Scene& scene, const LoadedScene& loaded, std::size_t sensor) {
+  const SensorScan& scan = scene.sensors[sensor];
+  return loaded.sensors[is_pair(scan) ? place_of(scene, scan.source) : sensor];
+}
+
+/// Which sensors' clouds the trials of `plan` want, as Scene::sensors.
+std::vector<bool> wanted_clouds(const Scene& scene, const ScenePlan& plan) {
   std::vector<bool> is_wanted(scene.sensors.size(), false);
   for (const PlannedStart* planned = plan.begin; planned != plan.end; ++planned) {
     is_wanted[planned->sensor] = true;
   }
+  for (std::size_t i = 0; i < scene.sensors.size(); ++i) {
+    const SensorScan& scan = scene.sensors[i];
+    if (!is_pair(scan) || !is_wanted[i]) continue;
+    is_wanted[i] = false;
+    is_wanted[place_of(scene, scan.source)] = is_wanted[place_of(scene, scan.target)] = true;
+  }
+  return is_wanted;
+}
+
+LoadedScene load_scene(const Scene& scene, const ScenePlan& plan, std::uint64_t seed) {
+  const std::vector<bool> is_wanted = wanted_clouds(scene, plan);
   LoadedScene loaded;
-  loaded.sources.resize(scene.sensors.size());
+  loaded.sensors.resize(scene.sensors.size());
   for_each_in_parallel(scene.sensors.size() + 1, [&](std::size_t i) {
     const bool is_reference = i == scene.sensors.size();
     if (!is_reference && !is_wanted[i]) return;
     const SensorScan& scan = is_reference ? scene.reference : scene.sensors[i];
-    LoadedScan& to = is_reference ? loaded.target : loaded.sources[i];
+    LoadedScan& to = is_reference ? loaded.reference : loaded.sensors[i];
     // Isolated like trials: the time of reading is its own.
     tbb::this_task_arena::isolate([&] { to = load_scan(scan, scene.name, seed); });
   });
@@ -61,9 +91,9 @@ void add_scan_timings(std::vector<TimingRow>& rows, const std::string& scene,
 
 std::vector<TimingRow> scene_timings(const Scene& scene, const LoadedScene& loaded) {
   std::vector<TimingRow> rows;
-  add_scan_timings(rows, scene.name, scene.reference.sensor, loaded.target);
+  add_scan_timings(rows, scene.name, scene.reference.sensor, loaded.reference);
   for (std::size_t i = 0; i < scene.sensors.size(); ++i) {
-    add_scan_timings(rows, scene.name, scene.sensors[i].sensor, loaded.sources[i]);
+    add_scan_timings(rows, scene.name, scene.sensors[i].sensor, loaded.sensors[i]);
   }
   return rows;
 }
@@ -104,8 +134,9 @@ void run_scene(const Run& run, const ScenePlan& plan, Telling& tell) {
     // Isolated: a thread that waits inside a step must not pick up another trial, whose time would
     // count as this one's.
     tbb::this_task_arena::isolate([&] {
-      run_start(run.experiment, run.trees[planned.variants], scene, planned, loaded.target,
-                loaded.sources[planned.sensor], tell_trial);
+      run_start(run.experiment, run.trees[planned.variants], scene, planned,
+                target_of(scene, loaded, planned.sensor), source_of(scene, loaded, planned.sensor),
+                tell_trial);
     });
   });
   tell([&](const RunListener& listener) {

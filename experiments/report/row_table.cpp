@@ -56,6 +56,19 @@ const Share& main_share(const KindSummary& kind) {
   return kind.reference == Reference::consensus ? kind.agreement : kind.success;
 }
 
+std::string percent(double ratio) { return fixed_number(100.0 * ratio, 1); }
+
+std::string interval_text(const Share& share) {
+  return "[" + percent(share.interval.low) + ", " + percent(share.interval.high) + "]";
+}
+
+int decimals_of(const Measure& measure) { return std::string(measure.unit) == "m" ? 4 : 3; }
+
+std::string median_and_p95(const MeasureStatistics& statistics, const Measure& measure) {
+  const int decimals = decimals_of(measure);
+  return fixed_number(statistics.median, decimals) + ", " + fixed_number(statistics.p95, decimals);
+}
+
 std::string share_text(const Share& share) {
   return std::to_string(share.count) + "/" + std::to_string(share.trials);
 }

@@ -39,6 +39,19 @@ const Share& main_share(const KindSummary& kind);
 /// "248/250".
 std::string share_text(const Share& share);
 
+/// 0.253 as "25.3".
+std::string percent(double ratio);
+
+/// "[9.7, 70.0]", in percent.
+std::string interval_text(const Share& share);
+
+/// As many decimals as methods differ by and the paper's tables show: millimetres are worth four,
+/// degrees three.
+int decimals_of(const Measure& measure);
+
+/// "0.024, 0.035".
+std::string median_and_p95(const MeasureStatistics& statistics, const Measure& measure);
+
 /// The sensors of the summary, in its order.
 std::vector<std::string> sensors_of(const Summary& summary);
 
@@ -48,6 +61,9 @@ std::string kind_table(const Summary& summary, const TableStyle& style);
 /// Every variant against the first, all sensors together: pairs won and lost, the differences of
 /// the median errors with their intervals, corrected p values with their marks.
 std::string comparison_table(const Summary& summary, const TableStyle& style);
+
+/// Per variant and pair of sensors, how many loops close and how far they are from closing.
+std::string loop_table(const Summary& summary, const TableStyle& style);
 
 /// Success per variant, scene (rows) and sensor (columns). Of more than `style.max_scenes` rows the
 /// worst are shown, in their order.

@@ -7,6 +7,7 @@
 
 #include "experiments/report/compare_variants.hpp"
 #include "experiments/report/kind_summary.hpp"
+#include "experiments/report/loop_closure.hpp"
 #include "experiments/report/scene_summary.hpp"
 #include "framework/geometry/pose_mean.hpp"
 
@@ -144,6 +145,8 @@ Summary summarise(const std::vector<TrialRecord>& records, const SuccessBounds& 
   if (variants.size() > 1) {
     summary.comparisons = compare_with_base(variants.front(), groups, summary.rows, bounds);
   }
+  summary.loops =
+      close_loops(groups, {variants, sensors, scene_names, {}, order.pairs}, pose_bounds(bounds));
   summary.reasons = count_reasons(records);
   return summary;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/engine/experiment.hpp"
+#include "experiments/engine/sensor_pairs.hpp"
 #include "experiments/engine/trial_record.hpp"
 #include "experiments/report/claim_result.hpp"
 #include "experiments/report/comparison.hpp"
@@ -22,6 +23,7 @@ struct ReportOrder {
   std::vector<std::string> sensors;
   std::vector<std::string> scenes;
   std::map<std::string, std::string> kinds;  ///< By scene; nothing where the dataset tells none.
+  std::vector<SensorPair> pairs = {};        ///< Of sensors that are pairs of others.
 };
 
 /// `names`, then in alphabetical order those that records have as `name` and `names` lacks.
@@ -118,6 +120,18 @@ struct KindSummary {
   std::optional<StatisticsTable> statistics;
 };
 
+/// How far loops over the reference and two sensors, T_ref_target T_target_source T_source_ref, are
+/// from the identity. That needs no truth: the three are found independently, from starts of their
+/// own.
+struct LoopClosure {
+  std::string variant;
+  SensorPair pair;
+  Share closed;     ///< Of all loops, those within the success bounds of the identity.
+  int counted = 0;  ///< Loops of three usable poses, what `statistics` are over.
+  std::optional<StatisticsTable>
+      statistics;  ///< Of T_ref_target T_target_source from T_ref_source.
+};
+
 /// Why trials ended as `rejected` or `failed`, and how many.
 struct ReasonCount {
   std::string variant;
@@ -132,6 +146,7 @@ struct Summary {
   std::vector<SummaryRow> rows;         ///< By variant, then sensor.
   std::vector<KindSummary> kinds;       ///< By variant, then kind, then sensor, all together last.
   std::vector<Comparison> comparisons;  ///< With the first variant: by variant, then sensor, all.
+  std::vector<LoopClosure> loops;       ///< By variant, then pair.
   std::vector<ReasonCount> reasons;     ///< The most frequent first.
 };
 
@@ -153,12 +168,15 @@ std::string summary_by_kind_csv(const Summary& summary);
 /// name is "all". "inf" is the error of a trial without a usable result.
 std::string comparison_csv(const Summary& summary);
 
+/// The bytes of loops.csv: one row per variant and pair of sensors.
+std::string loops_csv(const Summary& summary);
+
 /// The scenes of a row that summary.json lists at most.
 inline constexpr std::size_t kMaxJsonScenes = 100;
 
 /// The bytes of summary.json: the rows of summary.csv with the scenes below each, the reasons, and
-/// the comparisons, the kinds of scenes and the claims where there are some. Of more than
-/// `kMaxJsonScenes` scenes, whose trials are in trials.csv, none is listed: "scenes" is null.
+/// the comparisons, the kinds of scenes, the loops and the claims where there are some. Of more
+/// than `kMaxJsonScenes` scenes, whose trials are in trials.csv, none is listed: "scenes" is null.
 std::string summary_json(const Summary& summary, const std::vector<ClaimResult>& claims = {});
 
 }  // namespace croon::experiments

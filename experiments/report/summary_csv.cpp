@@ -45,6 +45,16 @@ void add_share(CsvRow& row, const Share& share) {
   row.number(share.ratio).number(share.interval.low).number(share.interval.high);
 }
 
+std::string loop_header() {
+  CsvRow header;
+  for (const char* name : {"variant", "pair", "source", "target", "loops", "closed", "closed_ratio",
+                           "closed_low_ratio", "closed_high_ratio", "counted"}) {
+    header.text(name);
+  }
+  add_statistic_names(header);
+  return header.line();
+}
+
 std::string csv_line(const SummaryRow& summary) {
   const Outcomes& outcomes = summary.outcomes;
   CsvRow row;
@@ -100,6 +110,20 @@ std::string summary_by_kind_csv(const Summary& summary) {
 std::string summary_csv(const Summary& summary) {
   std::string bytes = csv_header();
   for (const SummaryRow& row : summary.rows) bytes += csv_line(row);
+  return bytes;
+}
+
+std::string loops_csv(const Summary& summary) {
+  std::string bytes = loop_header();
+  for (const LoopClosure& loop : summary.loops) {
+    CsvRow row;
+    row.text(loop.variant).text(loop.pair.name).text(loop.pair.source).text(loop.pair.target);
+    row.count(loop.closed.trials).count(loop.closed.count);
+    add_share(row, loop.closed);
+    row.count(loop.counted);
+    add_statistics(row, loop.statistics);
+    bytes += row.line();
+  }
   return bytes;
 }
 

@@ -99,6 +99,13 @@ Json json_of(const KindSummary& kind) {
           {"statistics", json_of(kind.statistics)}};
 }
 
+Json json_of(const LoopClosure& loop) {
+  return {{"variant", loop.variant},     {"pair", loop.pair.name},
+          {"source", loop.pair.source},  {"target", loop.pair.target},
+          {"loops", loop.closed.trials}, {"closed", json_of(loop.closed)},
+          {"counted", loop.counted},     {"statistics", json_of(loop.statistics)}};
+}
+
 Json json_of(const ClaimResult& claim) {
   const Expectation& expected = claim.expectation;
   const auto word = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
@@ -134,6 +141,7 @@ std::string summary_json(const Summary& summary, const std::vector<ClaimResult>&
     json["comparisons"].push_back(comparison_json(comparison));
   }
   for (const KindSummary& kind : summary.kinds) json["kinds"].push_back(json_of(kind));
+  for (const LoopClosure& loop : summary.loops) json["loops"].push_back(json_of(loop));
   for (const ClaimResult& claim : claims) json["claims"].push_back(json_of(claim));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

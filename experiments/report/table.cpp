@@ -12,16 +12,6 @@ namespace croon::experiments {
 
 namespace {
 
-/// Millimetres and thousandths of a degree are what the methods differ by; the paper's tables show
-/// as many.
-int decimals_of(const Measure& measure) { return std::string(measure.unit) == "m" ? 4 : 3; }
-
-std::string percent(double ratio) { return fixed_number(100.0 * ratio, 1); }
-
-std::string interval_text(const Share& share) {
-  return "[" + percent(share.interval.low) + ", " + percent(share.interval.high) + "]";
-}
-
 std::vector<std::string> dof_columns() {
   std::vector<std::string> names;
   for (const std::size_t k : kPaperOrder) {
@@ -46,12 +36,7 @@ std::vector<std::string> outcome_cells(const SummaryRow& row) {
     cells.push_back(std::to_string(count));
   }
   for (std::size_t k = kDofs; k < kMeasures.size(); ++k) {
-    const auto text = [&](double MeasureStatistics::*value) {
-      return fixed_number((*row.statistics)[k].*value, decimals_of(kMeasures[k]));
-    };
-    cells.push_back(row.statistics
-                        ? text(&MeasureStatistics::median) + ", " + text(&MeasureStatistics::p95)
-                        : "-");
+    cells.push_back(row.statistics ? median_and_p95((*row.statistics)[k], kMeasures[k]) : "-");
   }
   return cells;
 }
@@ -88,18 +73,20 @@ std::string bounds_text(const SuccessBounds& bounds) {
          shortest_number(bounds.translation_m) + " m of ";
 }
 
+/// Whether a row's deviations are from `reference`.
+bool uses(const Summary& summary, Reference reference) {
+  return std::any_of(summary.rows.begin(), summary.rows.end(),
+                     [&](const SummaryRow& row) { return row.reference == reference; });
+}
+
 /// One sentence on what the numbers mean.
 std::string explanation(const Summary& summary) {
-  const auto uses = [&](Reference reference) {
-    return std::any_of(summary.rows.begin(), summary.rows.end(),
-                       [&](const SummaryRow& row) { return row.reference == reference; });
-  };
   std::string text;
-  if (uses(Reference::truth)) {
+  if (uses(summary, Reference::truth)) {
     text +=
         "success: within " + bounds_text(summary.bounds) + "the truth; errors of those trials\n";
   }
-  if (uses(Reference::consensus)) {
+  if (uses(summary, Reference::consensus)) {
     text += "success (no truth): within " + bounds_text(summary.bounds) +
             "what the trials of the scene agree on;\n  deviations of those trials from what all "
             "scenes agree on\n";
@@ -161,8 +148,17 @@ std::string summary_table(const Summary& summary, const TableStyle& style) {
   }
   if (!summary.comparisons.empty()) {
     text += "\nagainst " + summary.comparisons.front().base +
-            ", pair by pair: difference of medians [95 % interval], failures as infinite\n" +
-            comparison_table(summary, style);
+            ", pair by pair: difference of medians [95 % interval], failures as infinite\n";
+    if (uses(summary, Reference::consensus)) {
+      text +=
+          "  (no truth: of the distances to what the variant's own trials of the scene agree "
+          "on, so of how\n  repeatable it is, not how accurate)\n";
+    }
+    text += comparison_table(summary, style);
+  }
+  if (!summary.loops.empty()) {
+    text += "\nloops over the reference: closed within " + bounds_text(summary.bounds) +
+            "the identity; how far loops are from it\n" + loop_table(summary, style);
   }
   if (!summary.kinds.empty()) {
     text += "\nby kind of scene: success in %\n" + kind_table(summary, style);

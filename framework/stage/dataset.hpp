@@ -25,6 +25,9 @@ struct SensorScan {
   /// The same points with all that the sensor tells of them; empty where the dataset only reads
   /// clouds.
   std::function<MeasuredCloud()> measure = {};
+  /// Datasets leave these empty. Where the engine calibrates one sensor to another, the names of
+  /// the two: the points are `source`'s, the poses `T_target_source`.
+  std::string source = {}, target = {};
 };
 
 /// One recording of the rig: the reference LiDAR and the sensors to be calibrated to it.

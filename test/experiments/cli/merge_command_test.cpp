@@ -1,0 +1,142 @@
+#include "experiments/cli/merge_command.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "experiments/cli/run_command.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
+#include "test/experiments/support/fake_stages.hpp"
+#include "test/support/temp_folder.hpp"
+
+namespace croon::experiments {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+json two_variants() {
+  return json::parse(R"({"name": "x", "dataset": {"type": "fake"}, "starts": {"trials": 5},
+                         "pipeline": [{"step": "drift"}],
+                         "variants": [{"name": "far", "replace": {"drift.size_m": 2}}]})");
+}
+
+class MergeCommand : public testing::Test {
+ protected:
+  fs::path path(const std::string& name) const { return folder_.path() / name; }
+
+  /// Runs a shard, "" for all, of `experiment` into the folder `out`.
+  void run(const std::string& out, const std::string& shard, const json& experiment) const {
+    RunOptions options;
+    options.experiment = folder_.write(out + ".json", experiment.dump());
+    options.out = path(out);
+    options.shard = shard;
+    options.only = only_;
+    options.quiet = true;
+    std::ostringstream text, progress;
+    run_command(options, test::fake_catalogue(), text, progress);
+  }
+
+  int merge(const std::vector<std::string>& from, const std::string& out) {
+    MergeOptions options;
+    for (const std::string& name : from) options.folders.push_back(path(name));
+    options.out = path(out);
+    std::ostringstream text;
+    const int code = merge_command(options, text);
+    text_ = text.str();
+    return code;
+  }
+
+  std::string fault(const std::vector<std::string>& from, const std::string& out) {
+    return test::input_error([&] { merge(from, out); });
+  }
+
+  void expect_whole(const std::string& out) const {
+    for (const char* file : {"trials.csv", "summary.csv", "summary.json", "comparison.csv"}) {
+      EXPECT_EQ(read_whole_file(path(out) / file), read_whole_file(path("whole") / file)) << file;
+    }
+  }
+
+  test::TempFolder folder_;
+  std::vector<std::string> only_;
+  std::string text_;
+};
+
+TEST_F(MergeCommand, MakesOneRunOfShards) {
+  run("whole", "", two_variants());
+  for (const char* part : {"1", "2", "3"}) {
+    run(part, std::string(part) + "/3", two_variants());
+  }
+  EXPECT_EQ(merge({"3", "1", "2"}, "merged"), 0);
+  expect_whole("merged");
+  EXPECT_EQ(text_.find("missing"), std::string::npos) << text_;
+}
+
+TEST_F(MergeCommand, SaysWhatIsMissing) {
+  run("1", "1/3", two_variants());
+  run("2", "2/3", two_variants());
+  EXPECT_EQ(merge({"1", "2"}, "merged"), 3);
+  EXPECT_NE(text_.find("12 of 40 trials of the experiment are missing"), std::string::npos)
+      << text_;
+}
+
+TEST_F(MergeCommand, MissesNoVariantThatOnlyLeftOut) {
+  only_ = {"far"};
+  run("1", "1/2", two_variants());
+  run("2", "2/2", two_variants());
+  EXPECT_EQ(merge({"1", "2"}, "merged"), 0) << text_;
+}
+
+TEST_F(MergeCommand, AddsToWhatIsThere) {
+  run("whole", "", two_variants());
+  run("1", "1/2", two_variants());
+  run("2", "2/2", two_variants());
+  EXPECT_EQ(merge({"1"}, "merged"), 3);
+  EXPECT_EQ(merge({"2"}, "merged"), 0);
+  expect_whole("merged");
+}
+
+TEST_F(MergeCommand, UnitesVariants) {
+  run("whole", "", two_variants());
+  json base = two_variants();
+  base.erase("variants");
+  run("base", "", base);
+  only_ = {"far"};
+  run("far", "", two_variants());
+  EXPECT_EQ(merge({"base", "far"}, "merged"), 0) << text_;
+  expect_whole("merged");
+}
+
+TEST_F(MergeCommand, TakesNoTrialTwice) {
+  run("whole", "", two_variants());
+  EXPECT_EQ(merge({"whole", "whole"}, "merged"), 0);
+  expect_whole("merged");
+}
+
+TEST_F(MergeCommand, RefusesWhatDoesNotBelongTogether) {
+  run("1", "1/2", two_variants());
+  json other = two_variants();
+  other["seed"] = 7;
+  run("2", "2/2", other);
+  const std::string message = fault({"1", "2"}, "merged");
+  EXPECT_NE(message.find("seed"), std::string::npos) << message;
+  EXPECT_FALSE(fs::exists(path("merged")));
+}
+
+TEST_F(MergeCommand, RefusesAFolderWithoutResults) {
+  fs::create_directories(path("empty"));
+  EXPECT_NE(fault({"empty"}, "merged"), "");
+  EXPECT_NE(fault({"nowhere"}, "merged"), "");
+  EXPECT_FALSE(fs::exists(path("merged")));
+}
+
+TEST_F(MergeCommand, RefusesAStoreThatIsNone) {
+  folder_.write("1/store.sqlite", "this is no database, whatever its name says");
+  EXPECT_NE(fault({"1"}, "merged"), "");
+  EXPECT_FALSE(fs::exists(path("merged")));
+}
+
+}  // namespace
+}  // namespace croon::experiments
