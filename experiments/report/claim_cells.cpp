@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "experiments/report/csv_row.hpp"
 #include "experiments/report/text.hpp"
 
 namespace croon::experiments {
@@ -45,9 +44,9 @@ ClaimCells claim_cells(const std::vector<ClaimResult>& results) {
   for (const ClaimResult& result : results) {
     const Expectation& expectation = result.expectation;
     cells.rows.push_back({expectation.claim, expectation.source,
-                          shortest_number(expectation.value) + " " + unit_of(expectation),
-                          "[" + shortest_number(expectation.band.front()) + ", " +
-                              shortest_number(expectation.band.back()) + "]",
+                          plain_number(expectation.value) + " " + unit_of(expectation),
+                          "[" + plain_number(expectation.band.front()) + ", " +
+                              plain_number(expectation.band.back()) + "]",
                           found_text(result), verdict_name(result.verdict)});
   }
   return cells;

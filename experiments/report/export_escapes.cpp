@@ -50,6 +50,15 @@ std::string latex_escaped(const std::string& text) {
   return escaped;
 }
 
+std::string latex_breakable(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    text += latex_escaped(std::string(1, c));
+    if (is_one_of("/_.=,", c)) text += "\\allowbreak{}";
+  }
+  return text;
+}
+
 std::string markdown_escaped(const std::string& text) {
   std::string escaped;
   for (const char c : text) {

@@ -23,6 +23,9 @@ std::string export_json(const ExportTable& table);
 /// `text` as LaTeX prints it, wherever it stands in a cell or a sentence.
 std::string latex_escaped(const std::string& text);
 
+/// The same of a name, which may be broken behind its signs.
+std::string latex_breakable(const std::string& name);
+
 /// `text` as Markdown shows it in a cell or a sentence.
 std::string markdown_escaped(const std::string& text);
 

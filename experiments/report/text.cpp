@@ -55,6 +55,14 @@ std::string fixed_number(double value, int decimals) {
                                                                               : text;
 }
 
+std::string plain_number(double value) {
+  std::array<char, 400> digits;  // DBL_MAX has 309.
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value + 0.0,
+                                 std::chars_format::fixed)
+                       .ptr;
+  return {digits.data(), end};
+}
+
 std::string clock_text(double seconds) {
   const auto whole = static_cast<long long>(std::lround(std::min(seconds, 1e9)));
   const long long hours = whole / 3600;

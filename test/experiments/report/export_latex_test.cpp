@@ -28,10 +28,7 @@ bool has_latex() {
 /// The log of a document with the table; ends with "failed" where there is no PDF.
 std::string log_of(const ExportTable& table, const std::string& siunitx) {
   const croon::test::TempFolder folder;
-  folder.write("table.tex", export_latex(table)); /*D*/
-  if (getenv("DUMP"))
-    write_whole_file("/tmp/tex/table.tex", export_latex(table)),
-        write_whole_file("/tmp/tex/table.md", export_markdown(table));
+  folder.write("table.tex", export_latex(table));
   folder.write("paper.tex", kHead + siunitx +
                                 "\\begin{document}\nText.\n\\input{table}\n"
                                 "Table~\\ref{" +
@@ -77,6 +74,28 @@ TEST_P(ExportedLatex, CompilesAndFitsThePage) {
   const std::string log = log_of(full_table("no volume"), GetParam());
   EXPECT_EQ(log.find("failed"), std::string::npos) << log;
   EXPECT_EQ(log.find("Overfull"), std::string::npos) << log;
+}
+
+/// A table of a large grid, whose names are as long.
+ExportTable large_table() {
+  std::vector<TrialRecord> records;
+  for (int variant = 0; variant < 54; ++variant) {
+    for (TrialRecord record : test::few_records()) {
+      if (record.id.variant != "base") continue;
+      record.id.variant =
+          "base/cgal_efficient_ransac/point_to_plane/golden_section_" + std::to_string(variant);
+      records.push_back(record);
+    }
+  }
+  const Summary summary = summarise(records, {0.5, 0.1}, {});
+  return export_table(summary, {"few", "0123456789ab", 7, 2, 4, records.size(), records.size()});
+}
+
+TEST_P(ExportedLatex, GoesOverSeveralPages) {
+  const std::string log = log_of(large_table(), GetParam());
+  EXPECT_EQ(log.find("failed"), std::string::npos) << log;
+  EXPECT_EQ(log.find("Overfull"), std::string::npos) << log;
+  EXPECT_EQ(log.find("Float too large"), std::string::npos) << log;
 }
 
 TEST_P(ExportedLatex, CompilesWithNamesThatMeanSomethingToLatex) {

@@ -31,6 +31,14 @@ TEST(Text, FixedNumbers) {
   EXPECT_EQ(fixed_number(std::numeric_limits<double>::quiet_NaN(), 2), "nan");
 }
 
+TEST(Text, PlainNumbersHaveNoExponent) {
+  EXPECT_EQ(plain_number(-5e-4), "-0.0005");
+  EXPECT_EQ(plain_number(94.7), "94.7");
+  EXPECT_EQ(plain_number(100.0), "100");
+  EXPECT_EQ(plain_number(-0.0), "0");
+  EXPECT_EQ(plain_number(-1.7976931348623157e308).size(), 310U);
+}
+
 TEST(Text, Clock) {
   EXPECT_EQ(clock_text(0.4), "0:00");
   EXPECT_EQ(clock_text(59.6), "1:00");
