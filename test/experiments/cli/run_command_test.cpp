@@ -109,6 +109,35 @@ TEST(RunCommand, SameBytesForAnyNumberOfJobs) {
             timed(bench.folder().path() / "4/timings.csv"));
 }
 
+TEST(RunCommand, SameBytesWhereVariantsShareNoStep) {
+  json experiment = drifting();
+  experiment["variants"].push_back({{"name", "rejected"}, {"replace", {{"behave.how", "reject"}}}});
+  experiment["variants"].push_back({{"name", "defeated"}, {"replace", {{"behave.how", "defeat"}}}});
+  const Bench bench(experiment);
+  RunOptions options = bench.options("shared");
+  EXPECT_EQ(bench.run(options), 3);
+  options = bench.options("alone");
+  options.no_share = true;
+  EXPECT_EQ(bench.run(options), 3);
+  EXPECT_TRUE(bench.bytes("shared") == bench.bytes("alone"));
+  // A variant's times are there as if it had run alone; what is done once per scene, as it was.
+  const auto of_trials = [&](const char* out) {
+    std::vector<std::string> rows = timed(bench.folder().path() / out / "timings.csv");
+    const auto is_of_scene = [](const std::string& row) { return row.find(",-1,") != row.npos; };
+    rows.erase(std::remove_if(rows.begin(), rows.end(), is_of_scene), rows.end());
+    return rows;
+  };
+  EXPECT_EQ(of_trials("shared"), of_trials("alone"));
+}
+
+TEST(RunCommand, PlansWithoutWriting) {
+  const Bench bench;
+  RunOptions options = bench.options("planned");
+  options.plan = true;
+  EXPECT_EQ(bench.run(options), 0);
+  EXPECT_FALSE(fs::exists(bench.folder().path() / "planned"));
+}
+
 TEST(RunCommand, ShardsTogetherAreTheWhole) {
   const Bench bench;
   bench.run(bench.options("whole"));
