@@ -59,10 +59,13 @@ std::vector<fs::path> sources(const MergeOptions& options) {
   return folders;
 }
 
-/// Keeps the folders from other processes.
-std::vector<std::unique_ptr<OutputFolder>> locked(const std::vector<fs::path>& folders) {
-  std::vector<std::unique_ptr<OutputFolder>> locks;
-  for (const fs::path& folder : folders) locks.push_back(std::make_unique<OutputFolder>(folder));
+/// Keeps the folders but `out` from other processes: no run may write to what is read.
+std::vector<std::unique_ptr<FolderLock>> locked(const std::vector<fs::path>& folders,
+                                                const fs::path& out) {
+  std::vector<std::unique_ptr<FolderLock>> locks;
+  for (const fs::path& folder : folders) {
+    if (folder != out) locks.push_back(std::make_unique<FolderLock>(folder));
+  }
   return locks;
 }
 
@@ -105,9 +108,8 @@ int merge_command(const MergeOptions& options, std::ostream& out) {
   const std::vector<fs::path> folders = sources(options);
   const StoreHeader header = header_of_all(folders);
   const bool is_new = !fs::exists(options.out);
-  std::vector<fs::path> to_lock = folders;
-  if (to_lock.front() != options.out) to_lock.push_back(options.out);
-  const auto locks = locked(to_lock);
+  const auto locks = locked(folders, options.out);
+  const OutputFolder folder(options.out);
   try {
     merge_stores(folders, header, store_path(options.out));
   } catch (const InputError&) {

@@ -19,9 +19,8 @@ constexpr std::array<const char*, 12> kReports = {
     "summary.json", "summary_by_kind.csv", "comparison.csv", "basin.csv",
     "basin.svg",    "box_plots.svg",       "manifest.json",  "before_after.png"};
 
-}  // namespace
-
-OutputFolder::OutputFolder(const std::filesystem::path& path) : path_(path) {
+/// The folder, made where it is missing, if a run can write to it.
+std::filesystem::path writable(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error || !std::filesystem::is_directory(path, error)) {
@@ -30,12 +29,18 @@ OutputFolder::OutputFolder(const std::filesystem::path& path) : path_(path) {
   if (::access(path.c_str(), W_OK | X_OK) != 0) {
     throw InputError(path.string(), "", "expected a folder that may be written to");
   }
-  std::vector<std::filesystem::path> files = store_files(store());
-  for (const char* name : kReports) files.push_back(file(name));
+  std::vector<std::filesystem::path> files = store_files(path / "store.sqlite");
+  for (const char* name : kReports) files.push_back(path / name);
   for (const std::filesystem::path& to_write : files) {
     if (!std::filesystem::is_directory(to_write, error)) continue;
     throw InputError(to_write.string(), "", "expected a file or nothing, found a folder");
   }
+  return path;
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const std::filesystem::path& path) {
   lock_ = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   // A file system that cannot lock folders is no fault: SQLite locks the store besides.
   if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
@@ -44,9 +49,12 @@ OutputFolder::OutputFolder(const std::filesystem::path& path) : path_(path) {
   }
 }
 
-OutputFolder::~OutputFolder() {
+FolderLock::~FolderLock() {
   if (lock_ >= 0) ::close(lock_);
 }
+
+OutputFolder::OutputFolder(const std::filesystem::path& path)
+    : path_(writable(path)), lock_(path_) {}
 
 void OutputFolder::clear() const {
   std::vector<std::filesystem::path> old = store_files(store());

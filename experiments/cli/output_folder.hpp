@@ -4,6 +4,19 @@
 
 namespace croon::experiments {
 
+/// Keeps a folder from other processes until this object goes; it need not be writable.
+class FolderLock {
+ public:
+  /// Throws InputError where another croon is working in the folder.
+  explicit FolderLock(const std::filesystem::path& path);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int lock_ = -1;
+};
+
 /// The folder that a run writes into, made where it is missing and kept from other processes until
 /// this object goes.
 class OutputFolder {
@@ -11,9 +24,6 @@ class OutputFolder {
   /// Throws InputError where the folder cannot be made or written to, or another croon is working
   /// in it.
   explicit OutputFolder(const std::filesystem::path& path);
-  ~OutputFolder();
-  OutputFolder(const OutputFolder&) = delete;
-  OutputFolder& operator=(const OutputFolder&) = delete;
 
   std::filesystem::path store() const { return path_ / "store.sqlite"; }
   std::filesystem::path timings() const { return path_ / "timings.csv"; }
@@ -25,7 +35,7 @@ class OutputFolder {
 
  private:
   std::filesystem::path path_;
-  int lock_ = -1;
+  FolderLock lock_;
 };
 
 }  // namespace croon::experiments
