@@ -1,9 +1,9 @@
 #include "experiments/engine/store.hpp"
 
 #include <algorithm>
-#include <map>
 
 #include "experiments/engine/record_row.hpp"
+#include "experiments/engine/stored_places.hpp"
 #include "framework/base/error.hpp"
 
 namespace croon::experiments {
@@ -34,50 +34,6 @@ Database open_store(const fs::path& path, const StoreHeader& header) {
   write_header(database, header);
   return database;
 }
-
-/// The ids that `table` has for names.
-std::map<std::string, std::int64_t> ids_of(const Database& database, const std::string& table) {
-  std::map<std::string, std::int64_t> ids;
-  Statement select = database.prepare("SELECT name, id FROM " + table);
-  while (select.next()) ids[select.text(0)] = select.integer(1);
-  return ids;
-}
-
-/// The places of current names in a header, by their ids; -1 for those that have none.
-std::vector<std::int64_t> places_of(const Database& database, const std::string& table,
-                                    const std::vector<StoredName>& names) {
-  const std::map<std::string, std::int64_t> ids = ids_of(database, table);
-  std::int64_t largest = 0;
-  for (const auto& [name, id] : ids) largest = std::max(largest, id);
-  std::vector<std::int64_t> places(static_cast<std::size_t>(largest) + 1, -1);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto id = ids.find(names[i].name);
-    if (id == ids.end() || !names[i].is_current) continue;
-    places[static_cast<std::size_t>(id->second)] = static_cast<std::int64_t>(i);
-  }
-  return places;
-}
-
-/// Turns rows of the store into places in its header.
-class Places {
- public:
-  Places(const Database& database, const StoreHeader& header)
-      : variants_(places_of(database, "variants", header.variants)),
-        scenes_(places_of(database, "scenes", header.scenes)),
-        sensors_(places_of(database, "sensors", header.sensors)) {}
-
-  /// The place of a trial; false where the experiment has it no more.
-  bool find(const TrialRow& row, TrialPlace& place) const {
-    const std::int64_t variant = variants_[static_cast<std::size_t>(row.variant)];
-    const std::int64_t scene = scenes_[static_cast<std::size_t>(row.scene)];
-    const std::int64_t sensor = sensors_[static_cast<std::size_t>(row.sensor)];
-    place = {variant, scene, sensor, row.trial};
-    return variant >= 0 && scene >= 0 && sensor >= 0;
-  }
-
- private:
-  std::vector<std::int64_t> variants_, scenes_, sensors_;
-};
 
 /// SQL that fills temporary tables `map_TABLE(old, new)`: the ids of `from` and those of main, by
 /// name.
@@ -162,7 +118,7 @@ std::vector<TrialPlace> stored_places(const fs::path& path, const StoreHeader& h
   if (stored.provenance.empty()) return places;
   refuse_differences(path.string(), stored, header, kRemedy);
   const Database database(path, Access::read);
-  const Places to_place(database, header);
+  const StoredPlaces to_place(database, header);
   Statement select = database.prepare("SELECT variant, scene, sensor, trial FROM trials");
   TrialPlace place;
   while (select.next()) {
@@ -178,7 +134,7 @@ StoredRun read_store(const fs::path& path) {
     throw InputError(path.string(), "", "expected the store of a run, found none");
   }
   const Database database(path, Access::read);
-  const Places to_place(database, run.header);
+  const StoredPlaces to_place(database, run.header);
   std::vector<std::pair<TrialPlace, TrialRecord>> rows;
   Statement select = select_results(database);
   TrialPlace place;
