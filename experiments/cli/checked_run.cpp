@@ -2,13 +2,34 @@
 
 #include <tbb/info.h>
 
+#include <algorithm>
+
 #include "experiments/cli/data_root.hpp"
 #include "experiments/engine/experiment_loader.hpp"
 #include "experiments/engine/sensor_pairs.hpp"
 #include "experiments/engine/starts.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/nearest_name.hpp"
 
 namespace croon::experiments {
+namespace {
+
+/// Throws InputError where a claim is of a sensor that there is not: it would never be measured.
+void check_claimed_sensors(const Experiment& experiment, const std::vector<std::string>& sensors) {
+  std::vector<Fault> faults;
+  for (std::size_t i = 0; i < experiment.claims.expect.size(); ++i) {
+    const std::string& sensor = experiment.claims.expect[i].sensor;
+    if (sensor.empty() || std::find(sensors.begin(), sensors.end(), sensor) != sensors.end()) {
+      continue;
+    }
+    faults.push_back({experiment.file, "/expect/" + std::to_string(i) + "/sensor",
+                      "expected a sensor of the dataset, found \"" + sensor + "\"" +
+                          name_hint(sensor, sensors)});
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+}  // namespace
 
 CheckedRun check_run(const RunOptions& options, const Catalogue& catalogue) {
   CheckedRun run;
@@ -24,6 +45,7 @@ CheckedRun check_run(const RunOptions& options, const Catalogue& catalogue) {
   collect_faults(faults, [&] {
     run.scenes = scenes_of(run.experiment, run.data_root);
     resolve_starts(run.experiment, run.scenes, run.data_root);
+    check_claimed_sensors(run.experiment, sensor_names(run.scenes));
   });
   if (!faults.empty()) throw InputError(std::move(faults));
   run.out = options.out;

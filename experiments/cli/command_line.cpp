@@ -1,5 +1,7 @@
 #include "experiments/cli/command_line.hpp"
 
+#include <CLI/CLI.hpp>
+
 namespace croon::experiments {
 namespace {
 
@@ -11,7 +13,7 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_option("--jobs", options.jobs, "Threads; default all cores.")
       ->check(CLI::Range(1, 4096));
   run->add_option("--trials", options.trials, "Starts per variant, scene and sensor.")
-      ->check(CLI::Range(1, 1000000000));
+      ->check(CLI::PositiveNumber);
   run->add_option("--only", options.only, "Run these variants alone.");
   run->add_option("--shard", options.shard, "Run part K of N of the trials, K/N.");
   run->add_flag("--plan", options.plan, "Tell what there is to run, and how much variants share.");
@@ -65,7 +67,7 @@ void add_starts(CLI::App& app, StartsOptions& options) {
   starts->add_option("--out", options.out, "File to write; default standard output.");
   starts->add_option("--data", options.data, "The data root; default $CROON_DATA, else data.");
   starts->add_option("--trials", options.trials, "Starts per scene and sensor.")
-      ->check(CLI::Range(1, 1000000000));
+      ->check(CLI::PositiveNumber);
 }
 
 void add_others(CLI::App& app, CommandLine& line) {

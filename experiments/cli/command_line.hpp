@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,6 +10,10 @@
 #include "experiments/cli/run_command.hpp"
 #include "experiments/cli/simulate_command.hpp"
 #include "experiments/cli/starts_command.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace croon::experiments {
 

@@ -3,11 +3,12 @@
 #include <map>
 #include <vector>
 
+#include "experiments/cli/output_file.hpp"
+#include "experiments/cli/output_folder.hpp"
 #include "experiments/cli/results_folder.hpp"
 #include "experiments/report/export_formats.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/nearest_name.hpp"
-#include "framework/base/whole_file.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -36,9 +37,9 @@ int export_command(const ExportOptions& options, std::ostream& out) {
   const Results results = read_results(options.folder);
   const std::string text = write(export_table(results.summary, caption_of(results)));
   if (options.out.empty()) {
-    if (!(out << text).flush()) throw InputError("", "standard output", "cannot be written");
+    out << text;
   } else {
-    write_whole_file(options.out, text);
+    write_output_file(options.out, text, store_path(options.folder));
   }
   return 0;
 }

@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -78,8 +79,14 @@ int run_chosen(const CLI::App& app, const CommandLine& line) {
   } else {
     std::cout << app.help();
   }
-  if (!std::cout.flush()) throw InputError("", "standard output", "cannot be written");
   return 0;
+}
+
+/// Output that did not get through, to a full disc or a pipe that is gone, is no success.
+int run_and_flush(const CLI::App& app, const CommandLine& line) {
+  const int code = run_chosen(app, line);
+  if (!std::cout.flush()) throw InputError("", "standard output", "cannot be written");
+  return code;
 }
 
 int croon_main(int argc, char** argv) {
@@ -90,7 +97,7 @@ int croon_main(int argc, char** argv) {
   add_commands(app, line);
   try {
     app.parse(argc, argv);
-    return run_chosen(app, line);
+    return run_and_flush(app, line);
   } catch (const CLI::Success& success) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <utility>
 
 #include "experiments/cli/output_folder.hpp"
 #include "experiments/cli/report_files.hpp"
@@ -19,44 +18,23 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRemedy = "results of one experiment alone can be merged";
 
-/// Experiments grow: the later state is the one with more trials, then more variants.
-bool is_later(const StoreHeader& a, const StoreHeader& b) {
-  return std::pair(a.trials, a.variants.size()) > std::pair(b.trials, b.variants.size());
+bool is_same_folder(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return fs::equivalent(a, b, error);
 }
 
-/// The header of all the folders; the differences of each from the first are faults.
-StoreHeader header_of_all(const std::vector<fs::path>& folders) {
-  std::vector<Fault> faults;
-  StoreHeader header;
+bool is_among(const std::vector<fs::path>& folders, const fs::path& folder) {
+  return std::any_of(folders.begin(), folders.end(),
+                     [&](const fs::path& other) { return is_same_folder(other, folder); });
+}
+
+/// The folders, each once.
+std::vector<fs::path> without_repeats(const std::vector<fs::path>& folders) {
+  std::vector<fs::path> once;
   for (const fs::path& folder : folders) {
-    collect_faults(faults, [&] {
-      const fs::path store = store_path(folder);
-      const StoreHeader other = stored_header(store);
-      if (other.provenance.empty()) {
-        throw InputError(folder.string(), "", "expected a folder with the results of a run");
-      }
-      if (header.provenance.empty()) header = other;
-      refuse_differences(store.string(), header, other, kRemedy);
-      header = is_later(other, header) ? united(other, header) : united(header, other);
-    });
+    if (!is_among(once, folder)) once.push_back(folder);
   }
-  if (!faults.empty()) throw InputError(std::move(faults));
-  return header;
-}
-
-/// The folders whose trials are put together, each once: what is in `out` already, and those
-/// given.
-std::vector<fs::path> sources(const MergeOptions& options) {
-  std::vector<fs::path> folders;
-  if (fs::exists(store_path(options.out))) folders.push_back(options.out);
-  for (const fs::path& folder : options.folders) {
-    const auto is_folder = [&](const fs::path& other) {
-      std::error_code error;
-      return fs::equivalent(folder, other, error);
-    };
-    if (std::none_of(folders.begin(), folders.end(), is_folder)) folders.push_back(folder);
-  }
-  return folders;
+  return once;
 }
 
 /// Keeps the folders but `out` from other processes: no run may write to what is read.
@@ -64,9 +42,45 @@ std::vector<std::unique_ptr<FolderLock>> locked(const std::vector<fs::path>& fol
                                                 const fs::path& out) {
   std::vector<std::unique_ptr<FolderLock>> locks;
   for (const fs::path& folder : folders) {
-    if (folder != out) locks.push_back(std::make_unique<FolderLock>(folder));
+    if (!is_same_folder(folder, out)) locks.push_back(std::make_unique<FolderLock>(folder));
   }
   return locks;
+}
+
+/// The header of a folder of results.
+StoreHeader header_in(const fs::path& folder) {
+  StoreHeader header = stored_header(store_path(folder));
+  if (!header.provenance.empty()) return header;
+  throw InputError(folder.string(), "", "expected a folder with the results of a run");
+}
+
+/// The header of all the folders; the differences of each from the first are faults. Of folders
+/// in which the experiment grew, that with the most trials to run tells its latest state.
+StoreHeader header_of_all(const std::vector<fs::path>& folders) {
+  std::vector<Fault> faults;
+  StoreHeader header;
+  for (const fs::path& folder : folders) {
+    collect_faults(faults, [&] {
+      const StoreHeader other = header_in(folder);
+      if (header.provenance.empty()) header = other;
+      refuse_differences(store_path(folder).string(), header, other, kRemedy);
+      const bool is_later = planned_trials(other.manifest) > planned_trials(header.manifest);
+      header = is_later ? united(other, header) : united(header, other);
+    });
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+  return header;
+}
+
+/// `header` with the names of what `out` has from merges before. What the experiment has no more is
+/// kept and in no report.
+StoreHeader with_names_in(const fs::path& out, const StoreHeader& header) {
+  StoreHeader old = stored_header(store_path(out));
+  refuse_differences(store_path(out).string(), old, header, kRemedy);
+  for (auto names : {&StoreHeader::variants, &StoreHeader::scenes, &StoreHeader::sensors}) {
+    for (StoredName& name : old.*names) name.is_current = false;
+  }
+  return united(header, old);
 }
 
 void remove_files(const std::vector<fs::path>& files) {
@@ -74,16 +88,24 @@ void remove_files(const std::vector<fs::path>& files) {
   for (const fs::path& file : files) fs::remove(file, ignored);
 }
 
-/// Writes the store of all `folders` beside `path` and puts it there when it is whole.
-void merge_stores(const std::vector<fs::path>& folders, const StoreHeader& header,
-                  const fs::path& path) {
+/// Puts the trials of all `folders` into the store of `out`, whose own are kept. The old store is
+/// there until the new one is whole.
+void merge_stores(std::vector<fs::path> folders, const fs::path& out) {
+  StoreHeader header = header_of_all(folders);
+  header.manifest = manifest_with_variants(header.manifest, header.variants);
+  const fs::path path = store_path(out);
+  if (fs::exists(path) && !is_among(folders, out)) {
+    header = with_names_in(out, header);
+    folders.push_back(out);
+  }
   const fs::path merged = path.string() + ".merged";
   remove_files(store_files(merged));
   try {
     {
       Store store(merged, header);
       for (const fs::path& folder : folders) {
-        store.merge(store_path(folder), stored_header(store_path(folder)));
+        const fs::path from = store_path(folder);
+        reading(from, [&] { store.merge(from, header_in(folder)); });
       }
     }
     rewrite_in_order(merged);
@@ -91,8 +113,7 @@ void merge_stores(const std::vector<fs::path>& folders, const StoreHeader& heade
     remove_files(store_files(merged));
     throw;
   }
-  remove_files(store_files(path));
-  fs::rename(merged, path);
+  replace_store(path, merged);
 }
 
 /// "12 of 100 trials are missing", or nothing.
@@ -105,20 +126,21 @@ std::string missing_text(const Results& results) {
 }  // namespace
 
 int merge_command(const MergeOptions& options, std::ostream& out) {
-  const std::vector<fs::path> folders = sources(options);
-  const StoreHeader header = header_of_all(folders);
+  const std::vector<fs::path> folders = without_repeats(options.folders);
   const bool is_new = !fs::exists(options.out);
   const auto locks = locked(folders, options.out);
   const OutputFolder folder(options.out);
   try {
-    merge_stores(folders, header, store_path(options.out));
+    merge_stores(folders, options.out);
   } catch (const InputError&) {
     if (is_new) remove_files({options.out});
     throw;
   }
+  std::vector<fs::path> all = folders;
+  if (!is_among(all, options.out)) all.push_back(options.out);
   const Results results = read_results(options.out);
-  write_reports(options.out, results, merged_manifest(results.manifest, folders));
-  merge_timings(folders, options.out / kTimings);
+  write_reports(options.out, results, merged_manifest(results.manifest, all));
+  merge_timings(all, options.out / kTimings);
   const std::string missing = missing_text(results);
   out << result_text(results, options.colours) << missing << "Results are in "
       << options.out.string() << "\n";

@@ -15,9 +15,9 @@ namespace croon::experiments {
 namespace {
 
 constexpr std::array<const char*, 12> kReports = {
-    "loops.csv",    "trials.csv",          "timings.csv",    "summary.csv",
+    "loops.csv",    "trials.csv",          kTimings,         "summary.csv",
     "summary.json", "summary_by_kind.csv", "comparison.csv", "basin.csv",
-    "basin.svg",    "box_plots.svg",       "manifest.json",  "before_after.png"};
+    "basin.svg",    "box_plots.svg",       "manifest.json",  kPicture};
 
 /// The folder, made where it is missing, if a run can write to it.
 std::filesystem::path writable(const std::filesystem::path& path) {
@@ -29,7 +29,7 @@ std::filesystem::path writable(const std::filesystem::path& path) {
   if (::access(path.c_str(), W_OK | X_OK) != 0) {
     throw InputError(path.string(), "", "expected a folder that may be written to");
   }
-  std::vector<std::filesystem::path> files = store_files(path / "store.sqlite");
+  std::vector<std::filesystem::path> files = store_files(store_path(path));
   for (const char* name : kReports) files.push_back(path / name);
   for (const std::filesystem::path& to_write : files) {
     if (!std::filesystem::is_directory(to_write, error)) continue;
@@ -39,6 +39,10 @@ std::filesystem::path writable(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+std::filesystem::path store_path(const std::filesystem::path& folder) {
+  return folder / "store.sqlite";
+}
 
 FolderLock::FolderLock(const std::filesystem::path& path) {
   lock_ = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -4,6 +4,13 @@
 
 namespace croon::experiments {
 
+/// The files of a folder of results that more than one command knows.
+inline constexpr const char* kTimings = "timings.csv";
+inline constexpr const char* kPicture = "before_after.png";
+
+/// Where a folder of results has its store.
+std::filesystem::path store_path(const std::filesystem::path& folder);
+
 /// Keeps a folder from other processes until this object goes; it need not be writable.
 class FolderLock {
  public:
@@ -25,8 +32,8 @@ class OutputFolder {
   /// in it.
   explicit OutputFolder(const std::filesystem::path& path);
 
-  std::filesystem::path store() const { return path_ / "store.sqlite"; }
-  std::filesystem::path timings() const { return path_ / "timings.csv"; }
+  std::filesystem::path store() const { return store_path(path_); }
+  std::filesystem::path timings() const { return path_ / kTimings; }
   std::filesystem::path clouds() const { return path_ / "clouds"; }
   std::filesystem::path file(const char* name) const { return path_ / name; }
 

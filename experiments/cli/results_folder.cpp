@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "experiments/cli/output_folder.hpp"
 #include "experiments/engine/store.hpp"
 
 namespace croon::experiments {
@@ -38,7 +39,7 @@ ReportOrder report_order(const StoreHeader& header) {
 }
 
 /// The trials that were asked for. A variant that has none at all was not: `--only` left it out.
-std::size_t planned_trials(const json& manifest, const Summary& summary) {
+std::size_t asked_trials(const json& manifest, const Summary& summary) {
   std::set<std::string> run;
   for (const SummaryRow& row : summary.rows) run.insert(row.variant);
   const std::size_t planned = manifest.at("planned");
@@ -46,14 +47,8 @@ std::size_t planned_trials(const json& manifest, const Summary& summary) {
   return run.empty() ? planned : planned / variants * run.size();
 }
 
-}  // namespace
-
-std::filesystem::path store_path(const std::filesystem::path& folder) {
-  return folder / "store.sqlite";
-}
-
-Results read_results(const std::filesystem::path& folder) {
-  StoredRun run = read_store(store_path(folder));
+/// What the stored run says.
+Results results_of(StoredRun run, const std::string& file) {
   const json manifest = json::parse(run.header.manifest);
   const json& experiment = manifest.at("experiment");
   Results results;
@@ -69,12 +64,20 @@ Results read_results(const std::filesystem::path& folder) {
   results.scenes = order.scenes.size();
   results.records = std::move(run.records);
   results.summary = summarise(results.records, bounds, order);
-  results.planned = planned_trials(manifest, results.summary);
+  results.planned = asked_trials(manifest, results.summary);
   results.sweep = sweep_of_json(experiment.at("starts"));
   if (results.sweep) results.basin = basin_of(results.records, *results.sweep, order);
   const json claims = {{"expect", experiment.at("expect")}, {"quoted", experiment.at("quoted")}};
-  results.claims = claims_of(claims.dump(), store_path(folder).string());
+  results.claims = claims_of(claims.dump(), file);
   return results;
+}
+
+}  // namespace
+
+Results read_results(const std::filesystem::path& folder) {
+  const std::filesystem::path path = store_path(folder);
+  StoredRun run = read_store(path);
+  return reading(path, [&] { return results_of(std::move(run), path.string()); });
 }
 
 }  // namespace croon::experiments

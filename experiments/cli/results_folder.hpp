@@ -32,12 +32,6 @@ struct Results {
   std::optional<Basin> basin;  ///< Of a sweep.
 };
 
-/// The file of a folder of results that wall times stand in.
-inline constexpr const char* kTimings = "timings.csv";
-
-/// Where a folder of results has its store.
-std::filesystem::path store_path(const std::filesystem::path& folder);
-
 /// Throws InputError where the folder has no store, or one that this program does not know.
 Results read_results(const std::filesystem::path& folder);
 

@@ -35,8 +35,9 @@ struct Work {
   std::size_t done = 0;  ///< Trials that were asked for and are there.
 };
 
-Work work_of(const CheckedRun& run, StoreHeader header) {
-  const std::vector<TrialPlace> done = stored_places(store_path(run.out), header);
+Work work_of(const CheckedRun& run, StoreHeader header, bool is_fresh) {
+  const std::vector<TrialPlace> done =
+      is_fresh ? std::vector<TrialPlace>() : stored_places(store_path(run.out), header);
   Work work{std::move(header), plan_trials(run.experiment, run.scenes, run.selection, done)};
   if (done.empty()) return work;
   const Plan all = plan_trials(run.experiment, run.scenes, run.selection);
@@ -44,10 +45,13 @@ Work work_of(const CheckedRun& run, StoreHeader header) {
   return work;
 }
 
-std::string plan_text(const CheckedRun& run, const Work& work, bool colours) {
-  const PlanFigures figures{work.plan.starts.size(), work.plan.trials, work.done,
-                            count_steps(run.experiment, work.plan)};
-  return plan_table(figures, colours);
+std::string plan_text(const CheckedRun& run, const Work& work, const RunOptions& options) {
+  PlanFigures figures{work.plan.starts.size(), work.plan.trials, work.done,
+                      count_steps(run.experiment, work.plan)};
+  if (options.no_share) {
+    for (StepCount& count : figures.steps) count.runs = count.alone;
+  }
+  return plan_table(figures, options.colours);
 }
 
 /// The plan for each of the variants alone, one after the other.
@@ -109,8 +113,6 @@ Results run_missing(const CheckedRun& run, const OutputFolder& folder, const Wor
   return read_results(run.out);
 }
 
-constexpr const char* kPicture = "before_after.png";
-
 /// Draws the picture of `--png` and says what it shows.
 std::string draw_picture(const CheckedRun& run, const std::vector<TrialRecord>& records,
                          const std::filesystem::path& path) {
@@ -127,12 +129,12 @@ int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostr
   const CheckedRun run = check_run(options, catalogue);
   StoreHeader header = header_of(run);
   if (options.plan) {
-    out << plan_text(run, work_of(run, std::move(header)), options.colours);
+    out << plan_text(run, work_of(run, std::move(header), options.fresh), options);
     return 0;
   }
   const OutputFolder folder(run.out);
   if (options.fresh) folder.clear();
-  const Work work = work_of(run, std::move(header));
+  const Work work = work_of(run, std::move(header), options.fresh);
   const Results results = run_missing(run, folder, work, options, progress_out);
   write_reports(run.out, results, manifest_with_host(results.manifest, run.data_root, run.jobs));
   std::vector<std::string> complaints;

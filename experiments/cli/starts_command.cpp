@@ -1,12 +1,12 @@
 #include "experiments/cli/starts_command.hpp"
 
 #include "experiments/cli/data_root.hpp"
+#include "experiments/cli/output_file.hpp"
 #include "experiments/engine/experiment_loader.hpp"
 #include "experiments/engine/sensor_pairs.hpp"
 #include "experiments/engine/start_file.hpp"
 #include "experiments/engine/starts.hpp"
 #include "experiments/report/csv_row.hpp"
-#include "framework/base/whole_file.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -45,7 +45,7 @@ int starts_command(const StartsOptions& options, const Catalogue& catalogue, std
   if (options.out.empty()) {
     out << bytes;
   } else {
-    write_whole_file(options.out, bytes);
+    write_output_file(options.out, bytes, options.experiment);
   }
   return 0;
 }

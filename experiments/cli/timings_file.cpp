@@ -3,7 +3,7 @@
 #include <sstream>
 #include <unordered_set>
 
-#include "experiments/cli/results_folder.hpp"
+#include "experiments/cli/output_folder.hpp"
 #include "experiments/report/csv_files.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"

@@ -56,10 +56,15 @@ Json inputs_json(const std::vector<InputFile>& inputs) {
   return json;
 }
 
+/// What the digest of the pipelines is made of, for one variant.
+std::string pipeline_line(const std::string& name, const std::string& resolved) {
+  return name + "\n" + resolved + "\n";
+}
+
 std::string pipelines_text(const Experiment& experiment) {
   std::string text;
   for (const Variant& variant : experiment.variants) {
-    text += variant.name + "\n" + variant.resolved + "\n";
+    text += pipeline_line(variant.name, variant.resolved);
   }
   return text;
 }
@@ -122,6 +127,27 @@ std::string manifest_json(const Experiment& experiment, const std::vector<Scene>
   return text_of(manifest);
 }
 
+std::size_t planned_trials(const std::string& manifest) {
+  return Json::parse(manifest).at("planned");
+}
+
+std::string manifest_with_variants(const std::string& manifest,
+                                   const std::vector<StoredName>& variants) {
+  Json json = Json::parse(manifest);
+  Json& described = json.at("experiment").at("variants");
+  const std::size_t trials_of_one = planned_trials(manifest) / described.size();
+  described = Json::array();
+  std::string pipelines;
+  for (const StoredName& variant : variants) {
+    if (!variant.is_current) continue;
+    described.push_back({{"name", variant.name}, {"pipeline", Json::parse(variant.detail)}});
+    pipelines += pipeline_line(variant.name, variant.detail);
+  }
+  json["provenance"]["pipelines"] = sha256_of_text(pipelines);
+  json["planned"] = trials_of_one * described.size();
+  return text_of(json);
+}
+
 std::string manifest_with_host(const std::string& manifest, const std::filesystem::path& data_root,
                                int jobs) {
   Json json = Json::parse(manifest);
@@ -137,8 +163,11 @@ std::string merged_manifest(const std::string& manifest,
     const std::filesystem::path file = folder / "manifest.json";
     if (!std::filesystem::exists(file)) continue;
     const Json other = Json::parse(read_whole_file(file), nullptr, false);
-    if (other.is_object() && other.contains("host"))
-      json["host"]["merged"].push_back(other["host"]);
+    if (!other.is_object() || !other.contains("host")) continue;
+    // Results that were merged before list theirs.
+    const Json& host = other["host"];
+    const Json hosts = host.contains("merged") ? host["merged"] : Json::array({host});
+    for (const Json& one : hosts) json["host"]["merged"].push_back(one);
   }
   return text_of(json);
 }

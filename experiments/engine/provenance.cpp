@@ -100,10 +100,12 @@ std::string success_json(const SuccessBounds& bounds) {
 
 Provenance provenance_of(const Experiment& experiment, const std::vector<Scene>& scenes,
                          const std::vector<InputFile>& inputs) {
-  return {
-      {"dataset", experiment.dataset.resolved()},    {"inputs", inputs_json(scenes, inputs)},
-      {"program", sha256_of_file("/proc/self/exe")}, {"seed", std::to_string(experiment.seed)},
-      {"starts", starts_json(experiment.starts)},    {"success", success_json(experiment.success)}};
+  return {{"dataset", experiment.dataset.resolved()},
+          {"inputs", inputs_json(scenes, inputs)},
+          {"program", sha256_of_file("/proc/self/exe")},
+          {"seed", std::to_string(experiment.seed)},
+          {"starts", deciding_starts_json(experiment.starts)},
+          {"success", success_json(experiment.success)}};
 }
 
 StoreHeader header_of(const Experiment& experiment, const std::vector<Scene>& scenes,

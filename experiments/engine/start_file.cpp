@@ -1,12 +1,14 @@
 #include "experiments/engine/start_file.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include "experiments/engine/start_line.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/nearest_name.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/io/digest.hpp"
+#include "framework/io/text_scan.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -28,7 +30,7 @@ class StartLines {
     if (found == starts_.end()) refuse_place(line);
     if (!found->second.emplace(line.trial, line.start).second) {
       refuse("each trial once", "trial " + std::to_string(line.trial) + " of sensor " +
-                                    quoted(line.sensor) + " in scene " + quoted(line.scene) +
+                                    in_quotes(line.sensor) + " in scene " + in_quotes(line.scene) +
                                     " again");
     }
     trials_ = std::max(trials_, line.trial + 1);
@@ -47,7 +49,7 @@ class StartLines {
       if (static_cast<int>(starts.size()) == trials_) continue;
       faults.push_back({file, "",
                         "expected trials 0 to " + std::to_string(trials_ - 1) + " of sensor " +
-                            quoted(place.second) + " in scene " + quoted(place.first) +
+                            in_quotes(place.second) + " in scene " + in_quotes(place.first) +
                             ", found no trial " + std::to_string(starts.size())});
     }
     return table;
@@ -60,10 +62,10 @@ class StartLines {
       if (place.first == line.scene) sensors.push_back(place.second);
     }
     if (sensors.empty()) {
-      refuse("a scene of the dataset", quoted(line.scene) + name_hint(line.scene, scenes_));
+      refuse("a scene of the dataset", in_quotes(line.scene) + name_hint(line.scene, scenes_));
     }
-    refuse("a sensor of scene " + quoted(line.scene),
-           quoted(line.sensor) + name_hint(line.sensor, sensors));
+    refuse("a sensor of scene " + in_quotes(line.scene),
+           in_quotes(line.sensor) + name_hint(line.sensor, sensors));
   }
 
   std::vector<std::string> scenes_;
@@ -71,21 +73,10 @@ class StartLines {
   int trials_ = 0;
 };
 
-/// The line of `bytes` from `begin` on, without its end: "\n", or "\r\n" as of RFC 4180.
-std::string line_at(const std::string& bytes, std::size_t begin) {
-  std::string line = bytes.substr(begin, bytes.find('\n', begin) - begin);
-  if (!line.empty() && line.back() == '\r') line.pop_back();
-  return line;
-}
-
-/// Calls `use` with each line of `bytes` and its number, from 1.
-template <class Use>
-void for_each_line(const std::string& bytes, const Use& use) {
-  std::size_t number = 0;
-  for (std::size_t begin = 0; begin < bytes.size();) {
-    use(line_at(bytes, begin), ++number);
-    begin = std::min(bytes.find('\n', begin), bytes.size()) + 1;
-  }
+/// Spreadsheets put one before the first line.
+std::string_view without_byte_order_mark(std::string_view bytes) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  return bytes.substr(0, kMark.size()) == kMark ? bytes.substr(kMark.size()) : bytes;
 }
 
 /// The first faults, and how many more there are.
@@ -103,21 +94,20 @@ void for_each_line(const std::string& bytes, const Use& use) {
 StartTable read_start_file(const std::filesystem::path& path, const std::vector<Scene>& scenes) {
   const std::string bytes = read_whole_file(path);
   const std::string file = path.string();
-  if (const std::string header = line_at(bytes, 0); header != kStartHeader) {
-    throw InputError(
-        file, "line 1",
-        "expected " + quoted(kStartHeader) + ", found " + quoted(header.substr(0, 80)));
+  LineReader reader(without_byte_order_mark(bytes));
+  if (!reader.next() || reader.line() != kStartHeader) {
+    throw InputError(file, "line 1",
+                     "expected " + in_quotes(kStartHeader) + ", found " + in_quotes(reader.line()));
   }
   StartLines lines(scenes);
   std::vector<Fault> faults;
-  for_each_line(bytes, [&](const std::string& text, std::size_t number) {
-    if (number == 1) return;
+  while (reader.next()) {
     try {
-      lines.add(read_start_line(text));
+      lines.add(read_start_line(std::string(reader.line())));
     } catch (const InputError& error) {
-      faults.push_back({file, "line " + std::to_string(number), error.faults().front().message});
+      faults.push_back({file, reader.place(), error.faults().front().message});
     }
-  });
+  }
   if (!faults.empty()) throw_first(std::move(faults), file);
   StartTable table = lines.table(file, faults);
   if (table.trials == 0) throw InputError(file, "line 2", "expected a start, found the end");

@@ -1,11 +1,12 @@
 #include "experiments/engine/start_line.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "framework/base/error.hpp"
+#include "framework/io/text_scan.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -28,24 +29,23 @@ std::vector<std::string> fields_of(const std::string& line) {
       if (is_doubled) ++i;
     }
   }
-  if (is_quoted) refuse("a second quote", quoted(line));
+  if (is_quoted) refuse("a second quote", in_quotes(line));
   return fields;
 }
 
-/// The number that is all of `text`.
-template <class T>
-T number_of(const std::string& text, const std::string& what) {
-  T number{};
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || rest != end) refuse(what, quoted(text));
-  return number;
+double finite_number(const std::string& text) {
+  const std::optional<double> number = number_from(text);
+  if (!number) refuse("a number", in_quotes(text));
+  if (!std::isfinite(*number)) refuse("a finite number", in_quotes(text));
+  return *number;
 }
 
-double finite_number(const std::string& text) {
-  const double number = number_of<double>(text, "a number");
-  if (!std::isfinite(number)) refuse("a finite number", quoted(text));
-  return number;
+int trial_number(const std::string& text) {
+  const std::optional<std::uint64_t> number = count_from(text);
+  if (!number || *number >= kMaxTrials) {
+    refuse("a trial, a whole number from 0 to " + std::to_string(kMaxTrials - 1), in_quotes(text));
+  }
+  return static_cast<int>(*number);
 }
 
 /// Of unit length. What is of unit length but for rounding keeps its bits, so that a start that
@@ -65,17 +65,12 @@ void refuse(const std::string& expected, const std::string& found) {
   throw InputError("", "", "expected " + expected + ", found " + found);
 }
 
-std::string quoted(const std::string& text) { return "\"" + text + "\""; }
-
 StartLine read_start_line(const std::string& text) {
   const std::vector<std::string> fields = fields_of(text);
   if (fields.size() != kFields) {
     refuse(std::to_string(kFields) + " fields", std::to_string(fields.size()));
   }
-  StartLine line{fields[0], fields[1], number_of<int>(fields[2], "a trial, a whole number"), {}};
-  if (line.trial < 0 || line.trial >= kMaxTrials) {
-    refuse("a trial from 0 to " + std::to_string(kMaxTrials - 1), fields[2]);
-  }
+  StartLine line{fields[0], fields[1], trial_number(fields[2]), {}};
   for (int i = 0; i < 3; ++i) line.start.translation(i) = finite_number(fields[3 + i]);
   Eigen::Quaterniond q;
   for (int i = 0; i < 4; ++i) q.coeffs()(i) = finite_number(fields[6 + i]);

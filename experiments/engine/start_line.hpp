@@ -20,7 +20,4 @@ StartLine read_start_line(const std::string& text);
 /// Throws the InputError of a line: expected ..., found ...
 [[noreturn]] void refuse(const std::string& expected, const std::string& found);
 
-/// `text` in quotes.
-std::string quoted(const std::string& text);
-
 }  // namespace croon::experiments

@@ -135,6 +135,12 @@ std::string starts_json(const StartRule& rule) {
   return text + "}";
 }
 
+std::string deciding_starts_json(const StartRule& rule) {
+  StartRule nameless = rule;
+  if (rule.table) nameless.file = "*";
+  return starts_json(nameless);
+}
+
 std::optional<Sweep> sweep_of_json(const nlohmann::json& starts) {
   const auto found = starts.find("sweep");
   if (found == starts.end()) return std::nullopt;

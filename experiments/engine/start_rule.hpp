@@ -67,8 +67,11 @@ StartRule read_start_rule(const params::Node& root, const Catalogue& catalogue);
 /// Throws InputError where they are more than kMaxTrials.
 void set_trials(StartRule& rule, int trials);
 
-/// JSON text of the rule without the number of trials: what decides a start.
+/// JSON text of the rule without the number of trials.
 std::string starts_json(const StartRule& rule);
+
+/// What of it decides a start: not what a file of starts is called.
+std::string deciding_starts_json(const StartRule& rule);
 
 /// The sweep of the rule that `starts_json` told of; nothing where it has none.
 std::optional<Sweep> sweep_of_json(const nlohmann::json& starts);

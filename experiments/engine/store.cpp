@@ -65,6 +65,38 @@ std::string with_main_ids(const std::string& from, const std::string& table,
 
 constexpr const char* kStepColumns = "place, step, figures, information";
 
+/// The trials of `header` in the store, in its order.
+std::vector<TrialPlace> places_in(const fs::path& path, const StoreHeader& header) {
+  const Database database(path, Access::read);
+  const StoredPlaces to_place(database, header);
+  Statement select = database.prepare("SELECT variant, scene, sensor, trial FROM trials");
+  std::vector<TrialPlace> places;
+  TrialPlace place;
+  while (select.next()) {
+    if (to_place.find(row_of(select), place)) places.push_back(place);
+  }
+  return places;
+}
+
+/// A trial without its names, and its place.
+using PlacedRecord = std::pair<TrialPlace, TrialRecord>;
+
+/// The trials that the experiment still has, in the order of the store.
+std::vector<PlacedRecord> records_in(const fs::path& path, const StoreHeader& header) {
+  const Database database(path, Access::read);
+  const StoredPlaces to_place(database, header);
+  std::vector<PlacedRecord> rows;
+  Statement select = select_results(database);
+  TrialPlace place;
+  while (select.next()) {
+    const TrialRow row = row_of(select);
+    if (row.trial < header.trials && to_place.find(row, place)) {
+      rows.emplace_back(place, result_of(select));
+    }
+  }
+  return rows;
+}
+
 }  // namespace
 
 Store::Store(const fs::path& path, const StoreHeader& header)
@@ -109,21 +141,15 @@ void Store::merge(const fs::path& shard, const StoreHeader& from) {
 }
 
 StoreHeader stored_header(const fs::path& path) {
-  return fs::exists(path) ? read_header(Database(path, Access::read)) : StoreHeader{};
+  if (!fs::exists(path)) return {};
+  return reading(path, [&] { return read_header(Database(path, Access::read)); });
 }
 
 std::vector<TrialPlace> stored_places(const fs::path& path, const StoreHeader& header) {
-  std::vector<TrialPlace> places;
   const StoreHeader stored = stored_header(path);
-  if (stored.provenance.empty()) return places;
+  if (stored.provenance.empty()) return {};
   refuse_differences(path.string(), stored, header, kRemedy);
-  const Database database(path, Access::read);
-  const StoredPlaces to_place(database, header);
-  Statement select = database.prepare("SELECT variant, scene, sensor, trial FROM trials");
-  TrialPlace place;
-  while (select.next()) {
-    if (to_place.find(row_of(select), place)) places.push_back(place);
-  }
+  std::vector<TrialPlace> places = reading(path, [&] { return places_in(path, header); });
   std::sort(places.begin(), places.end());
   return places;
 }
@@ -133,16 +159,7 @@ StoredRun read_store(const fs::path& path) {
   if (run.header.provenance.empty()) {
     throw InputError(path.string(), "", "expected the store of a run, found none");
   }
-  const Database database(path, Access::read);
-  const StoredPlaces to_place(database, run.header);
-  std::vector<std::pair<TrialPlace, TrialRecord>> rows;
-  Statement select = select_results(database);
-  TrialPlace place;
-  while (select.next()) {
-    const TrialRow row = row_of(select);
-    if (row.trial < run.header.trials && to_place.find(row, place))
-      rows.emplace_back(place, result_of(select));
-  }
+  std::vector<PlacedRecord> rows = reading(path, [&] { return records_in(path, run.header); });
   // In a store that is in order they are sorted.
   const auto is_before = [](const auto& a, const auto& b) { return a.first < b.first; };
   if (!std::is_sorted(rows.begin(), rows.end(), is_before)) {
@@ -174,7 +191,14 @@ void rewrite_in_order(const fs::path& path) {
                  with_main_ids("old", "steps", kStepColumns) + " ORDER BY 1, 2, 3, 4, 5");
     transaction.commit();
   }
-  fs::rename(ordered, path, error);
+  replace_store(path, ordered);
+}
+
+void replace_store(const fs::path& path, const fs::path& by) {
+  // The log of a store that was killed would be taken for the new one's: it is worked in first.
+  if (fs::exists(path)) Database(path, Access::write).run("PRAGMA journal_mode = DELETE");
+  std::error_code error;
+  fs::rename(by, path, error);
   if (error) throw InputError(path.string(), "", "cannot be replaced: " + error.message());
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <map>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,7 @@
 #include "experiments/engine/record_row.hpp"
 #include "experiments/engine/store_header.hpp"
 #include "experiments/engine/trial_record.hpp"
+#include "framework/base/error.hpp"
 
 namespace croon::experiments {
 
@@ -39,6 +42,21 @@ class Store {
 /// InputError, saying what differs, where its trials come from something else.
 std::vector<TrialPlace> stored_places(const std::filesystem::path& path, const StoreHeader& header);
 
+/// Does `work`, which reads what is in the store `path`. What is wrong in there is no bug of ours:
+/// throws InputError.
+template <class Work>
+auto reading(const std::filesystem::path& path, const Work& work) {
+  try {
+    return work();
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw InputError(path.string(), "", std::string("is damaged: ") + error.what());
+  }
+}
+
 /// A store as it is read for reports.
 struct StoredRun {
   StoreHeader header;
@@ -56,6 +74,10 @@ StoredRun read_store(const std::filesystem::path& path);
 /// trials become the same bytes, whatever the order in which they were added. Does nothing where it
 /// is in order.
 void rewrite_in_order(const std::filesystem::path& path);
+
+/// Puts the store `by`, which nobody has open, in the place of the store `path`, if there is one:
+/// at every moment one of them is there.
+void replace_store(const std::filesystem::path& path, const std::filesystem::path& by);
 
 /// The file and those that SQLite keeps beside it while it is open.
 std::vector<std::filesystem::path> store_files(const std::filesystem::path& path);

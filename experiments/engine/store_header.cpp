@@ -123,7 +123,7 @@ StoreHeader read_header(const Database& database) {
   if (format != kFormat) {
     throw InputError(database.file(), "",
                      "is a store of format \"" + format + "\", expected \"" + kFormat +
-                         "\"; --fresh deletes it and starts over, --out writes elsewhere");
+                         "\", of another version of croon; croon run --fresh starts over");
   }
   header.manifest = taken(header.provenance, "manifest");
   header.trials = std::stoi(taken(header.provenance, "trials"));

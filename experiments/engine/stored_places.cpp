@@ -35,9 +35,9 @@ StoredPlaces::StoredPlaces(const Database& database, const StoreHeader& header)
       sensors_(places_of(database, "sensors", header.sensors)) {}
 
 bool StoredPlaces::find(const TrialRow& row, TrialPlace& place) const {
-  const std::int64_t variant = variants_[static_cast<std::size_t>(row.variant)];
-  const std::int64_t scene = scenes_[static_cast<std::size_t>(row.scene)];
-  const std::int64_t sensor = sensors_[static_cast<std::size_t>(row.sensor)];
+  const std::int64_t variant = variants_.at(static_cast<std::size_t>(row.variant));
+  const std::int64_t scene = scenes_.at(static_cast<std::size_t>(row.scene));
+  const std::int64_t sensor = sensors_.at(static_cast<std::size_t>(row.sensor));
   place = {variant, scene, sensor, row.trial};
   return variant >= 0 && scene >= 0 && sensor >= 0;
 }

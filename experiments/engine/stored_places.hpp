@@ -19,7 +19,8 @@ class StoredPlaces {
  public:
   StoredPlaces(const Database& database, const StoreHeader& header);
 
-  /// The place of a trial; false where the experiment has it no more.
+  /// The place of a trial; false where the experiment has it no more. Throws std::out_of_range
+  /// where the store has no such name.
   bool find(const TrialRow& row, TrialPlace& place) const;
 
  private:

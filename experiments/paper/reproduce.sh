@@ -25,9 +25,18 @@ run_experiment consistency_simulated
 if [[ -d $data/opencalib/real ]]; then run_experiment real_consistency; fi
 if [[ -d $data/opencalib/carla ]]; then run_experiment carla_samples; fi
 
-# Written whole or not at all. Code 3: a number is outside its band, and the page says which.
+# Written whole or not at all. Code 3: a number is not in its band, and the page says which.
 code=0
-"$croon" claims "${folders[@]}" >"$page.new" || code=$?
+{
+  echo '<!-- Written by `experiments/paper/reproduce.sh`. -->'
+  echo
+  echo '# Reproduction'
+  echo
+  echo 'Numbers that the paper (CROON, arXiv 2203.03182) claims, and ours. A number outside its band is said to be out; no'
+  echo 'band was widened to hold it.'
+  echo
+} >"$page.new"
+"$croon" claims "${folders[@]}" >>"$page.new" || code=$?
 if [[ $code != 0 && $code != 3 ]]; then exit "$code"; fi
 mv "$page.new" "$page"
 echo "$page is written."

@@ -62,6 +62,13 @@ std::optional<double> successful_scenes(const Rows& rows) {
   return percent_of(static_cast<int>(count), static_cast<int>(succeeds.size()));
 }
 
+/// Whether the deviations of all rows are errors. Without truth they are from what the trials
+/// themselves agree on: their spread says something, their mean is zero whatever the method.
+bool have_truth(const Rows& rows) {
+  return std::all_of(rows.begin(), rows.end(),
+                     [](const SummaryRow* row) { return row->reference == Reference::truth; });
+}
+
 /// The statistics of the trials that count, of all rows together.
 std::optional<StatisticsTable> pooled_statistics(const Rows& rows) {
   if (rows.size() == 1) return rows.front()->statistics;
@@ -132,8 +139,10 @@ std::optional<double> found(const Expectation& expectation, const Summary& summa
     return spread_of(*spread, measure);
   }
   const std::optional<StatisticsTable> statistics = pooled_statistics(rows);
-  if (!statistics) return std::nullopt;
-  return statistic_of((*statistics)[measure], name);
+  if (!statistics || (name != "std" && !have_truth(rows))) return std::nullopt;
+  const double value = statistic_of((*statistics)[measure], name);
+  if (std::isnan(value)) return std::nullopt;
+  return value;
 }
 
 Verdict verdict_of(const Expectation& expectation, const std::optional<double>& found) {
@@ -173,8 +182,9 @@ const char* unit_of(const Expectation& expectation) {
 
 std::optional<std::array<double, kDofs>> row_beside(const Quoted& quoted, const Summary& summary) {
   if (summary.rows.empty()) return std::nullopt;
-  const auto statistics = pooled_statistics(rows_of(summary, summary.rows.front().variant, ""));
-  if (!statistics) return std::nullopt;
+  const Rows rows = rows_of(summary, summary.rows.front().variant, "");
+  const auto statistics = pooled_statistics(rows);
+  if (!statistics || !have_truth(rows)) return std::nullopt;
   std::array<double, kDofs> row;
   for (std::size_t k = 0; k < kDofs; ++k) row[k] = statistic_of((*statistics)[k], quoted.statistic);
   return row;

@@ -14,7 +14,8 @@ namespace croon::experiments {
 /// Without a sensor, trials of all sensors are pooled: one mean of all their errors; spreads by
 /// degrees of freedom. Success is what tables call so: near the truth, or without truth near what
 /// the trials of a scene agree on. The spread of `rotation` (`translation`) is the root of the sum
-/// of the squares of those of its three degrees of freedom.
+/// of the squares of those of its three degrees of freedom. Where there is no truth, statistics of
+/// errors other than spreads are not measured.
 std::vector<ClaimResult> check_claims(const std::vector<Expectation>& expectations,
                                       const Summary& summary);
 
@@ -25,7 +26,7 @@ const char* verdict_name(Verdict verdict);
 const char* unit_of(const Expectation& expectation);
 
 /// The statistic of roll to z, pooled over all sensors of the summary's first variant, in the units
-/// of reports; nothing where no trial counts.
+/// of reports; nothing where no trial counts or there is no truth.
 std::optional<std::array<double, kDofs>> row_beside(const Quoted& quoted, const Summary& summary);
 
 /// What `croon run` prints of the claims: claim, source, expected, band, found and verdict, then

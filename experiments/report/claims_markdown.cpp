@@ -2,24 +2,15 @@
 
 #include "experiments/report/claim_cells.hpp"
 #include "experiments/report/claims.hpp"
+#include "experiments/report/export_formats.hpp"
 
 namespace croon::experiments {
 
 namespace {
 
-/// `text` as it may stand in a cell of a Markdown table.
-std::string escaped(const std::string& text) {
-  std::string cell;
-  for (const char c : text) {
-    if (c == '|') cell += '\\';
-    cell += c == '\n' ? ' ' : c;
-  }
-  return cell;
-}
-
 std::string markdown_row(const std::vector<std::string>& cells) {
   std::string row = "|";
-  for (const std::string& cell : cells) row += " " + escaped(cell) + " |";
+  for (const std::string& cell : cells) row += " " + markdown_escaped(cell) + " |";
   return row + "\n";
 }
 
@@ -51,7 +42,7 @@ std::string results_markdown(const std::vector<ClaimResult>& results) {
   std::string text = "Claims: " + verdict_counts(results) + ".\n\n" + markdown_table(cells);
   if (!reasons.empty()) text += "\nWhy ours may differ:\n\n";
   for (std::size_t i = 0; i < reasons.size(); ++i) {
-    text += std::to_string(i + 1) + ". " + reasons[i] + "\n";
+    text += std::to_string(i + 1) + ". " + markdown_escaped(reasons[i]) + "\n";
   }
   return text;
 }

@@ -24,11 +24,16 @@ std::string reddened(const std::string& text, const std::string& word) {
   return coloured;
 }
 
+bool ends_line(char c) { return c == '\n' || c == '\r'; }
+
 /// The first `names` columns are words.
 TextTable text_table(const ClaimCells& cells, std::size_t names) {
   TextTable table(cells.header, names);
   for (std::vector<std::string> row : cells.rows) {
-    for (std::size_t i = 0; i < names; ++i) row[i] = cut_to_columns(row[i], kWidestName);
+    for (std::size_t i = 0; i < names; ++i) {
+      std::replace_if(row[i].begin(), row[i].end(), ends_line, ' ');
+      row[i] = cut_to_columns(row[i], kWidestName);
+    }
     table.add(std::move(row));
   }
   return table;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "experiments/report/paired_trials.hpp"
@@ -53,8 +54,10 @@ ErrorComparison compared(const Pairs& pairs, const std::vector<std::size_t>& sce
   comparison.base_median = median_with_failures(pairs.base);
   comparison.variant_median = median_with_failures(pairs.variant);
   comparison.difference = difference(comparison.variant_median, comparison.base_median);
-  comparison.interval = median_difference_interval(pairs);
+  comparison.interval = median_difference_interval(pairs, scenes);
   const std::vector<double> ranks = signed_ranks(differences(pairs));
+  // Smaller errors are better.
+  comparison.test.favours_variant = std::accumulate(ranks.begin(), ranks.end(), 0.0) < 0.0;
   comparison.test.p = wilcoxon_p(ranks);
   comparison.test.p_by_scene = sign_flip_p(cluster_sums(ranks, scenes));
   return comparison;
@@ -72,6 +75,7 @@ Comparison compared(const PairedTrials& trials) {
   comparison.only_variant = count(1.0);
   comparison.rotation_deg = compared(trials.rotation_deg, trials.scenes);
   comparison.translation_m = compared(trials.translation_m, trials.scenes);
+  comparison.success.favours_variant = comparison.only_variant > comparison.only_base;
   comparison.success.p = mcnemar_p(comparison.only_base, comparison.only_variant);
   comparison.success.p_by_scene = sign_flip_p(cluster_sums(trials.success, trials.scenes));
   return comparison;

@@ -6,11 +6,12 @@
 
 namespace croon::experiments {
 
-/// The p values of one paired test, two-sided.
+/// What one paired test says; its p values are two-sided.
 struct PairedTest {
-  double p = 1.0;           ///< Had every trial been independent.
-  double p_holm = 1.0;      ///< The same, corrected for all tests of the sensor (Holm 1979).
-  double p_by_scene = 1.0;  ///< With scenes as the units that are independent.
+  bool favours_variant = false;  ///< The side that the sum of the test's scores is on.
+  double p = 1.0;                ///< Had every trial been independent.
+  double p_holm = 1.0;           ///< The same, corrected for all tests of the sensor (Holm 1979).
+  double p_by_scene = 1.0;       ///< With scenes as the units that are independent.
   double p_by_scene_holm = 1.0;
 };
 
@@ -25,7 +26,7 @@ struct ErrorComparison {
   double base_median = 0.0;
   double variant_median = 0.0;
   double difference = 0.0;      ///< Of the medians, variant - base; 0 where both are infinite.
-  Interval interval{0.0, 0.0};  ///< 95 % bootstrap interval of `difference`.
+  Interval interval{0.0, 0.0};  ///< 95 % bootstrap interval of `difference`, over scenes.
   PairedTest test;              ///< Wilcoxon's signed-rank test.
 };
 

@@ -54,11 +54,15 @@ std::vector<std::string> caption_sentences(const ExportTable& table) {
                         "what all scenes agree on.");
   }
   sentences.emplace_back("Interval: 95 % (Wilson).");
-  if (table.variants.size() > 1) sentences.emplace_back("Bold: the best of the sensor.");
+  if (table.variants.size() > 1) {
+    sentences.emplace_back(
+        "Bold: the best of the sensor, for errors among those that no other beats in success.");
+  }
   if (!table.base.empty()) {
     sentences.push_back("*: differs from " + table.base +
                         " over the same trials, those without a usable result as infinite errors "
-                        "(McNemar, Wilcoxon; p < 0.05 after Holm); **: also with scenes as units.");
+                        "(McNemar, Wilcoxon; p < 0.05 after Holm), + for the better, - for the "
+                        "worse; **: also with scenes as units.");
   }
   return sentences;
 }

@@ -52,9 +52,11 @@ std::string latex_escaped(const std::string& text) {
 
 std::string latex_breakable(const std::string& name) {
   std::string text;
-  for (const char c : name) {
-    text += latex_escaped(std::string(1, c));
-    if (is_one_of("/_.=,", c)) text += "\\allowbreak{}";
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    text += latex_escaped(name.substr(i, 1));
+    // Not inside 0.05.
+    const bool is_in_number = i + 1 < name.size() && name[i + 1] >= '0' && name[i + 1] <= '9';
+    if (is_one_of("/_=,", name[i]) || (name[i] == '.' && !is_in_number)) text += "\\allowbreak{}";
   }
   return text;
 }

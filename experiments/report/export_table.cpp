@@ -104,25 +104,53 @@ double rank(const ExportCell& cell, const ExportColumn& column) {
   return column.better == Better::nearer_to_zero ? std::abs(shown) : shown;
 }
 
+/// Whether the row succeeds significantly less often than another of its sensor, whose rows are
+/// [begin, end): its errors are of the easier trials then.
+bool is_of_easier_trials(const std::vector<ExportRow>& rows, std::size_t begin, std::size_t end,
+                         std::size_t row) {
+  const auto sign = [&](std::size_t i) {
+    const std::string& mark = rows[i].cells[kSuccessColumn].mark;
+    return mark.empty() ? ' ' : mark[0];
+  };
+  if (sign(row) != ' ') return sign(row) == '-';
+  // Neither better nor worse than the base: worse than what is better than the base.
+  for (std::size_t i = begin; i < end; ++i) {
+    if (sign(i) == '+') return true;
+  }
+  return false;
+}
+
 /// Marks the best of each column in the rows [begin, end), which are those of one sensor.
 void mark_best(std::vector<ExportRow>& rows, std::size_t begin, std::size_t end) {
   for (std::size_t k = 0; k < export_columns().size(); ++k) {
     const ExportColumn& column = export_columns()[k];
     if (column.better == Better::neither) continue;
+    const auto is_rival = [&](std::size_t i) {
+      const bool is_error = k != kSuccessColumn;
+      return rows[i].cells[k].value && !(is_error && is_of_easier_trials(rows, begin, end, i));
+    };
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t i = begin; i < end; ++i) {
-      best = std::min(best, rank(rows[i].cells[k], column));
+      if (is_rival(i)) best = std::min(best, rank(rows[i].cells[k], column));
     }
     for (std::size_t i = begin; i < end; ++i) {
       ExportCell& cell = rows[i].cells[k];
-      cell.is_best = cell.value && rank(cell, column) == best;
+      cell.is_best = is_rival(i) && rank(cell, column) == best;
     }
   }
 }
 
+/// Marks the best of each sensor's rows.
+void mark_best(std::vector<ExportRow>& rows) {
+  for (std::size_t begin = 0, end = 0; begin < rows.size(); begin = end) {
+    while (end < rows.size() && rows[end].sensor == rows[begin].sensor) ++end;
+    mark_best(rows, begin, end);
+  }
+}
+
 std::string mark_of(const PairedTest& test) {
-  if (holds_by_scene(test)) return "**";
-  return is_significant(test) ? "*" : "";
+  if (!is_significant(test)) return "";
+  return std::string(test.favours_variant ? "+" : "-") + (holds_by_scene(test) ? "**" : "*");
 }
 
 void set_marks(std::vector<ExportRow>& rows, const std::vector<Comparison>& comparisons) {
@@ -134,7 +162,10 @@ void set_marks(std::vector<ExportRow>& rows, const std::vector<Comparison>& comp
     const PairedTest tests[] = {comparison.success, comparison.rotation_deg.test,
                                 comparison.translation_m.test};
     for (std::size_t i = 0; i < kMarkedColumns.size(); ++i) {
-      row->cells[kMarkedColumns[i]].mark = mark_of(tests[i]);
+      const std::size_t k = kMarkedColumns[i];
+      // Without truth the tests of errors are of how repeatable they are, which no column shows.
+      if (k != kSuccessColumn && row->reference != Reference::truth) continue;
+      row->cells[k].mark = mark_of(tests[i]);
     }
   }
 }
@@ -154,11 +185,9 @@ ExportTable export_table(const Summary& summary, const ExportCaption& caption) {
   ExportTable table{caption, summary.bounds, "", variants_of(summary), sensors_of(summary), {}};
   std::vector<SummaryRow> pooled;
   const auto add_sensor = [&](const std::vector<SummaryRow>& rows, const std::string& sensor) {
-    const std::size_t begin = table.rows.size();
     for (const SummaryRow& row : rows) {
       if (row.sensor == sensor) table.rows.push_back(export_row(row));
     }
-    if (table.variants.size() > 1) mark_best(table.rows, begin, table.rows.size());
   };
   for (const std::string& sensor : table.sensors) add_sensor(summary.rows, sensor);
   if (table.sensors.size() > 1) {
@@ -169,6 +198,7 @@ ExportTable export_table(const Summary& summary, const ExportCaption& caption) {
   }
   if (!summary.comparisons.empty()) table.base = summary.comparisons.front().base;
   set_marks(table.rows, summary.comparisons);
+  if (table.variants.size() > 1) mark_best(table.rows);
   return table;
 }
 

@@ -36,7 +36,7 @@ struct ExportColumn {
 struct ExportCell {
   std::optional<double> value;  ///< Nothing where too few trials count.
   bool is_best = false;         ///< Among the variants of the sensor, as far as digits are shown.
-  std::string mark;             ///< "*" or "**" where it differs from the base's, else empty.
+  std::string mark;  ///< "+*" where it is better than the base's, "-**" worse in scenes too.
 };
 
 /// One variant and sensor, or one variant and all sensors together.

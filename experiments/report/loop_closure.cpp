@@ -6,12 +6,6 @@ namespace croon::experiments {
 
 namespace {
 
-/// The pose of a trial that came to its end and is not rejected.
-const RigidTransform* pose_of(const TrialRecord& record) {
-  const bool is_usable = record.status == Status::success || record.status == Status::inaccurate;
-  return is_usable && record.T_reference_sensor ? &*record.T_reference_sensor : nullptr;
-}
-
 /// The trials that are one link of the loops of a scene.
 class Link {
  public:
@@ -53,9 +47,9 @@ void add_scene(Loops& loops, const Link& pair, const Link& source, const Link& t
     const TrialRecord* const of_target = target.at(record->id.trial);
     if (of_source == nullptr || of_target == nullptr) continue;
     ++loops.all;
-    const RigidTransform* const T_target_source = pose_of(*record);
-    const RigidTransform* const T_reference_source = pose_of(*of_source);
-    const RigidTransform* const T_reference_target = pose_of(*of_target);
+    const RigidTransform* const T_target_source = usable_pose(*record);
+    const RigidTransform* const T_reference_source = usable_pose(*of_source);
+    const RigidTransform* const T_reference_target = usable_pose(*of_target);
     if (!T_target_source || !T_reference_source || !T_reference_target) continue;
     const RigidTransform around = *T_reference_target * *T_target_source;
     loops.closed += agree(around, *T_reference_source, bounds);

@@ -16,14 +16,12 @@ struct TrialResult {
 
 TrialResult result_of(const TrialRecord& record, const SceneSummary& scene,
                       const PoseBounds& bounds) {
-  const bool is_usable = record.status == Status::success || record.status == Status::inaccurate;
-  if (!is_usable || !record.T_reference_sensor) return {};
-  const RigidTransform& pose = *record.T_reference_sensor;
-  if (!record.error && !scene.consensus) return {};
-  const PoseError error = record.error ? *record.error : pose_error(pose, *scene.consensus);
+  const RigidTransform* const pose = usable_pose(record);
+  if (pose == nullptr || (!record.error && !scene.consensus)) return {};
+  const PoseError error = record.error ? *record.error : pose_error(*pose, *scene.consensus);
   // Without truth every trial that finished is a success: it must agree too, as in the tables.
   const bool is_won =
-      record.status == Status::success && (record.error || agree(pose, *scene.consensus, bounds));
+      record.status == Status::success && (record.error || agree(*pose, *scene.consensus, bounds));
   return {deg_from_rad(error.rotation_rad), error.translation_m, is_won};
 }
 

@@ -52,6 +52,11 @@ Share share_of(int count, int trials) {
   return {count, trials, ratio, wilson_interval(count, trials)};
 }
 
+const RigidTransform* usable_pose(const TrialRecord& record) {
+  const bool is_usable = record.status == Status::success || record.status == Status::inaccurate;
+  return is_usable && record.T_reference_sensor ? &*record.T_reference_sensor : nullptr;
+}
+
 void add_outcomes(Outcomes& sum, const Outcomes& outcomes) {
   sum.trials += outcomes.trials;
   sum.success += outcomes.success;

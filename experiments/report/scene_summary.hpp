@@ -24,6 +24,9 @@ PoseBounds pose_bounds(const SuccessBounds& bounds);
 /// `count` of `trials` with its interval.
 Share share_of(int count, int trials);
 
+/// The pose of a trial that came to its end and is not rejected; else null.
+const RigidTransform* usable_pose(const TrialRecord& record);
+
 /// Adds `outcomes` to `sum`.
 void add_outcomes(Outcomes& sum, const Outcomes& outcomes);
 

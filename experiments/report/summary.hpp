@@ -51,7 +51,7 @@ struct Outcomes {
 /// What the deviations of one measure look like, in its unit.
 struct MeasureStatistics {
   double mean = 0.0;
-  double std = 0.0;  ///< Sample (n - 1).
+  double std = 0.0;  ///< Sample (n - 1); not a number where n is 1.
   double median = 0.0;
   double rmse = 0.0;
   double p95 = 0.0;  ///< 95th percentile of the absolute value.

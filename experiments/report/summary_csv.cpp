@@ -1,3 +1,6 @@
+#include <cmath>
+#include <limits>
+
 #include "experiments/report/csv_row.hpp"
 #include "experiments/report/statistic_names.hpp"
 #include "experiments/report/summary.hpp"
@@ -21,7 +24,9 @@ void add_statistic_names(CsvRow& header) {
 void add_statistics(CsvRow& row, const std::optional<StatisticsTable>& statistics) {
   for (std::size_t k = 0; k < kMeasures.size(); ++k) {
     for (const Statistic& statistic : kStatistics) {
-      statistics ? row.number((*statistics)[k].*statistic.value) : row.empty();
+      const double value =
+          statistics ? (*statistics)[k].*statistic.value : std::numeric_limits<double>::quiet_NaN();
+      std::isnan(value) ? row.empty() : row.number(value);
     }
   }
 }

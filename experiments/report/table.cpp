@@ -1,6 +1,7 @@
 #include "experiments/report/table.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "experiments/engine/trial_record.hpp"
@@ -51,7 +52,7 @@ std::vector<std::string> deviation_cells(const SummaryRow& row) {
     const MeasureStatistics& statistics = (*row.statistics)[k];
     const int decimals = decimals_of(kMeasures[k]);
     cells.push_back(fixed_number(statistics.mean, decimals) + " ±" +
-                    fixed_number(statistics.std, decimals));
+                    (std::isnan(statistics.std) ? "-" : fixed_number(statistics.std, decimals)));
   }
   return cells;
 }

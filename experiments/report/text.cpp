@@ -56,10 +56,10 @@ std::string fixed_number(double value, int decimals) {
 }
 
 std::string plain_number(double value) {
-  std::array<char, 400> digits;  // DBL_MAX has 309.
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value + 0.0,
-                                 std::chars_format::fixed)
-                       .ptr;
+  std::array<char, 400> digits;  // The least number has more than 300 behind the point.
+  const auto format = std::abs(value) < 1e9 ? std::chars_format::fixed : std::chars_format::general;
+  const auto end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), value + 0.0, format).ptr;
   return {digits.data(), end};
 }
 

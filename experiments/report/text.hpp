@@ -20,7 +20,7 @@ std::string left_aligned(const std::string& text, std::size_t columns);
 /// `value` with so many decimals, the same in every locale; what rounds to zero has no sign.
 std::string fixed_number(double value, int decimals);
 
-/// `value` with as many digits as it takes and no exponent: "-0.0005".
+/// `value` with as many digits as it takes, and no exponent below 1e9: "-0.0005".
 std::string plain_number(double value);
 
 /// Hours, minutes and seconds: "3:07", "1:02:03".

@@ -33,37 +33,66 @@ SortedSide sorted_side(const std::vector<double>& values) {
   return side;
 }
 
-/// The median of a resample that has pair i `counts[i]` times, `counts.size()` in all.
-double median_of(const SortedSide& side, const std::vector<std::uint32_t>& counts) {
-  const std::size_t n = counts.size();
+/// The pairs of each cluster.
+using Members = std::vector<std::vector<std::size_t>>;
+
+Members members_of(const std::vector<std::size_t>& clusters) {
+  Members members;
+  for (std::size_t pair = 0; pair < clusters.size(); ++pair) {
+    if (clusters[pair] >= members.size()) members.resize(clusters[pair] + 1);
+    members[clusters[pair]].push_back(pair);
+  }
+  const auto is_empty = [](const std::vector<std::size_t>& pairs) { return pairs.empty(); };
+  members.erase(std::remove_if(members.begin(), members.end(), is_empty), members.end());
+  return members;
+}
+
+/// How often a resample has each pair.
+struct Resample {
+  std::vector<std::uint32_t> counts;
+  std::size_t size = 0;
+};
+
+/// The median of the pairs of a resample.
+double median_of(const SortedSide& side, const Resample& drawn) {
   std::size_t place = 0;
-  std::size_t passed = counts[side.pairs[0]];
-  while (passed <= (n - 1) / 2) passed += counts[side.pairs[++place]];
+  std::size_t passed = drawn.counts[side.pairs[0]];
+  while (passed <= (drawn.size - 1) / 2) passed += drawn.counts[side.pairs[++place]];
   const double lower = side.values[place];
-  while (passed <= n / 2) passed += counts[side.pairs[++place]];
+  while (passed <= drawn.size / 2) passed += drawn.counts[side.pairs[++place]];
   return lower == side.values[place] ? lower : 0.5 * (lower + side.values[place]);
 }
 
-void draw(Rng& rng, std::vector<std::uint32_t>& counts) {
-  std::fill(counts.begin(), counts.end(), 0U);
-  const auto n = static_cast<double>(counts.size());
-  // Below n even after rounding, and 53 bits leave no bias; `below` would take twice as long.
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    ++counts[static_cast<std::size_t>(rng.uniform() * n)];
+/// Below `n` even after rounding, and 53 bits leave no bias; `Rng::below` would take twice as long.
+std::size_t draw_below(Rng& rng, std::size_t n) {
+  return static_cast<std::size_t>(rng.uniform() * static_cast<double>(n));
+}
+
+void draw(Rng& rng, const Members& members, Resample& drawn) {
+  std::fill(drawn.counts.begin(), drawn.counts.end(), 0U);
+  drawn.size = 0;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const std::vector<std::size_t>& cluster = members[draw_below(rng, members.size())];
+    for (std::size_t k = 0; k < cluster.size(); ++k) {
+      ++drawn.counts[cluster[draw_below(rng, cluster.size())]];
+    }
+    drawn.size += cluster.size();
   }
 }
 
 /// The difference of medians in each resample.
-std::vector<double> resampled_differences(const SortedSide& base, const SortedSide& variant) {
+std::vector<double> resampled_differences(const SortedSide& base, const SortedSide& variant,
+                                          const Members& members) {
   const std::size_t n = base.values.size();
   std::vector<double> all(std::clamp<std::size_t>(20000000 / n, 200, 2000));
   const std::size_t blocks = (all.size() + kBlock - 1) / kBlock;
   for_each_in_parallel(blocks, [&](std::size_t block) {
     Rng rng(StreamKey(0).with("bootstrap").with(block));
-    std::vector<std::uint32_t> counts(n);
+    Resample drawn;
+    drawn.counts.resize(n);
     for (std::size_t i = block * kBlock; i < std::min(all.size(), (block + 1) * kBlock); ++i) {
-      draw(rng, counts);
-      all[i] = difference(median_of(variant, counts), median_of(base, counts));
+      draw(rng, members, drawn);
+      all[i] = difference(median_of(variant, drawn), median_of(base, drawn));
     }
   });
   return all;
@@ -71,10 +100,10 @@ std::vector<double> resampled_differences(const SortedSide& base, const SortedSi
 
 }  // namespace
 
-Interval median_difference_interval(const Pairs& pairs) {
+Interval median_difference_interval(const Pairs& pairs, const std::vector<std::size_t>& clusters) {
   if (pairs.base.empty()) throw std::logic_error("a bootstrap of no pairs");
-  std::vector<double> all =
-      resampled_differences(sorted_side(pairs.base), sorted_side(pairs.variant));
+  std::vector<double> all = resampled_differences(sorted_side(pairs.base),
+                                                  sorted_side(pairs.variant), members_of(clusters));
   std::sort(all.begin(), all.end());
   // Order statistics, not between them: an end may be infinite.
   const std::size_t low = all.size() / 40 - 1;

@@ -11,8 +11,8 @@ std::vector<double> cluster_sums(const std::vector<double>& scores,
 
 /// The two-sided p of the sum of `scores`, had each either sign with equal chance, by the normal
 /// distribution: `z = (|S| - c) / sqrt(sum s_i^2)`. The correction for continuity `c` is the least
-/// |s_i| that is not 0, half of the smallest step of the sum: 1 for ranks without ties. 1 where all
-/// are 0.
+/// |s_i| that is not 0: 1 for ranks without ties, half of a step of the sum; where zeros took the
+/// lowest ranks it is more, and p too large. 1 where all are 0.
 double normal_sign_p(const std::vector<double>& scores);
 
 /// The two-sided p of scores that are independent between clusters only, each cluster's sum with

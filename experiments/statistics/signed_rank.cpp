@@ -11,7 +11,7 @@ namespace croon::experiments {
 
 namespace {
 
-/// Exact up to here; beyond, the normal distribution is off by less than a hundredth of p.
+/// Exact up to here; beyond, the normal distribution is off by less than 0.01.
 constexpr std::size_t kMostExact = 25;
 
 /// `ways[count][excess]`: how many subsets of `magnitudes` have so many members that exceed

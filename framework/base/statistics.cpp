@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -43,7 +44,7 @@ double mean(const std::vector<double>& values) {
 
 double standard_deviation(const std::vector<double>& values) {
   const double centre = mean(values);
-  if (values.size() == 1) return 0.0;
+  if (values.size() == 1) return std::numeric_limits<double>::quiet_NaN();
   std::vector<double> squares;
   squares.reserve(values.size());
   for (const double value : values) squares.push_back((value - centre) * (value - centre));

@@ -13,8 +13,8 @@ double compensated_sum(const std::vector<double>& values);
 /// The arithmetic mean.
 double mean(const std::vector<double>& values);
 
-/// The sample standard deviation (n - 1), in two passes; 0 for one value, whose spread is not
-/// known.
+/// The sample standard deviation (n - 1), in two passes; not a number for one value, whose spread
+/// is not known.
 double standard_deviation(const std::vector<double>& values);
 
 /// The root of the mean of the squares.

@@ -299,6 +299,15 @@ TEST_F(BadInput, UnknownVariant) {
   expect_refused({"--only: there is no variant \"plan\"; did you mean \"plane\"?"}, "--only plan");
 }
 
+TEST_F(BadInput, AClaimOfNoSensor) {
+  edit(R"("starts")",
+       R"("expect": [{"claim": "c", "source": "s", "sensor": "lift", "statistic": "success",
+                      "value": 1, "band": [0, 1]}], "starts")");
+  expect_refused(
+      {": /expect/0/sensor: expected a sensor of the dataset, found \"lift\"; did you mean "
+       "\"left\"?"});
+}
+
 TEST_F(BadInput, UnknownOption) {
   expect_refused({"unknown option \"--trails\"; did you mean \"--trials\"?"}, "--trails 2");
 }

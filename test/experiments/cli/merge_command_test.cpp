@@ -109,6 +109,58 @@ TEST_F(MergeCommand, UnitesVariants) {
   expect_whole("merged");
 }
 
+TEST_F(MergeCommand, FollowsTheExperimentThatIsMerged) {
+  for (const char* part : {"1", "2"}) run(part, std::string(part) + "/2", two_variants());
+  EXPECT_EQ(merge({"1", "2"}, "merged"), 0);
+  json other = two_variants();
+  other["variants"] = json::parse(R"([{"name": "near", "replace": {"drift.size_m": 0.5}}])");
+  other["starts"]["trials"] = 3;
+  other["description"] = "another question";
+  for (const char* part : {"1", "2"}) run(part, std::string(part) + "/2", other);
+  EXPECT_EQ(merge({"1", "2"}, "merged"), 0) << text_;
+  run("whole", "", other);
+  expect_whole("merged");
+  const json manifest = json::parse(read_whole_file(path("merged") / "manifest.json"));
+  EXPECT_EQ(manifest["experiment"]["description"], "another question");
+}
+
+TEST_F(MergeCommand, NamesEveryVariantInItsManifest) {
+  json far = two_variants();
+  json near = two_variants();
+  near["variants"] = json::parse(R"([{"name": "near", "replace": {"drift.size_m": 0.5}}])");
+  run("far", "", far);
+  run("near", "", near);
+  for (const auto& order : {std::vector<std::string>{"far", "near"}, {"near", "far"}}) {
+    EXPECT_EQ(merge(order, order[0] + " first"), 0) << text_;
+    const json manifest = json::parse(read_whole_file(path(order[0] + " first") / "manifest.json"));
+    EXPECT_EQ(manifest["experiment"]["variants"].size(), 3U);
+    EXPECT_EQ(manifest["planned"], 60);
+  }
+}
+
+TEST_F(MergeCommand, MissesLoopsInAnyOrder) {
+  json loops = two_variants();
+  loops["loops"] = true;
+  run("whole", "", two_variants());
+  run("1", "1/2", loops);
+  EXPECT_EQ(merge({"whole", "1"}, "a"), 3);
+  EXPECT_NE(text_.find("trials of the experiment are missing"), std::string::npos);
+  EXPECT_EQ(merge({"1", "whole"}, "b"), 3);
+  EXPECT_NE(text_.find("trials of the experiment are missing"), std::string::npos);
+}
+
+TEST_F(MergeCommand, KeepsWhatIsThereWhereItCannotBeDone) {
+  run("1", "1/2", two_variants());
+  EXPECT_EQ(merge({"1"}, "merged"), 3);
+  const std::string before = read_whole_file(path("merged") / "store.sqlite");
+  json other = two_variants();
+  other["seed"] = 7;
+  run("2", "2/2", other);
+  EXPECT_NE(fault({"2"}, "merged"), "");
+  EXPECT_EQ(read_whole_file(path("merged") / "store.sqlite"), before);
+  EXPECT_FALSE(fs::exists(path("merged") / "store.sqlite.merged"));
+}
+
 TEST_F(MergeCommand, TakesNoTrialTwice) {
   run("whole", "", two_variants());
   EXPECT_EQ(merge({"whole", "whole"}, "merged"), 0);

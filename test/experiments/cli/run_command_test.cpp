@@ -130,6 +130,20 @@ TEST(RunCommand, SameBytesWhereVariantsShareNoStep) {
   EXPECT_EQ(of_trials("shared"), of_trials("alone"));
 }
 
+TEST(RunCommand, PlansAFreshRun) {
+  const Bench bench;
+  RunOptions options = bench.options("planned");
+  bench.run(options);
+  json other = drifting();
+  other["seed"] = 7;
+  options.experiment = bench.folder().write("other.json", other.dump());
+  options.plan = true;
+  EXPECT_NE(bench.fault(options), "");
+  options.fresh = true;
+  EXPECT_EQ(bench.fault(options), "");
+  EXPECT_TRUE(fs::exists(bench.folder().path() / "planned/store.sqlite"));
+}
+
 TEST(RunCommand, PlansWithoutWriting) {
   const Bench bench;
   RunOptions options = bench.options("planned");

@@ -81,6 +81,19 @@ TEST_F(StartsCommand, NamesTheFileThatIsNotThere) {
       << answer.text;
 }
 
+TEST_F(StartsCommand, OverwritesNeitherWhatItReadsNorAStore) {
+  folder_.write("x.json", experiment(R"({"trials": 2})"));
+  folder_.write("run/store.sqlite", "trials");
+  for (const char* out : {"x.json", "run/store.sqlite"}) {
+    const std::string before = read_whole_file(path(out));
+    const Answer answer = croon("starts " + path("x.json") + " --out " + path(out));
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_EQ(answer.text.find("croon: --out: expected a file to write, found "), 0U)
+        << answer.text;
+    EXPECT_EQ(read_whole_file(path(out)), before);
+  }
+}
+
 TEST_F(StartsCommand, AreWrittenBesideSimulatedScenes) {
   folder_.write("x.json", experiment(R"({"rotation_deg": 10, "trials": 2})"));
   run("starts " + path("x.json") + " --out " + path("mine.csv"));

@@ -72,6 +72,17 @@ TEST(StartFile, MayEndItsLinesAsWindowsDoes) {
   EXPECT_EQ(read(bytes, scenes_of({"a"}, {"left"})).trials, 1);
 }
 
+TEST(StartFile, MayBeginWithAByteOrderMark) {
+  EXPECT_EQ(
+      read("\xef\xbb\xbf" + file_of({"a,left,0,1,2,3,0,0,0,1"}), scenes_of({"a"}, {"left"})).trials,
+      1);
+}
+
+TEST(StartFile, ShowsLittleOfALongLine) {
+  const Lines faults = faults_of(file_of({std::string(100000, 'x') + ",left,0,1,2,3,0,0,0,1"}));
+  EXPECT_LT(faults.at(0).size(), 200U);
+}
+
 TEST(StartFile, NormalisesWhatIsNearlyOfUnitLength) {
   const StartTable table =
       read(file_of({"a,left,0,0,0,0,0,0,0.6000003,0.8000004"}), scenes_of({"a"}, {"left"}));
@@ -83,10 +94,13 @@ TEST(StartFile, NamesWhatIsWrongWithALine) {
       {"a,left,0,1,2,3,0,0,0", "expected 10 fields, found 9"},
       {"a,left,0,1,2,3,0,0,0,1,1", "expected 10 fields, found 11"},
       {"", "expected 10 fields, found 1"},
-      {"a,left,x,1,2,3,0,0,0,1", "expected a trial, a whole number, found \"x\""},
-      {"a,left,1.0,1,2,3,0,0,0,1", "expected a trial, a whole number, found \"1.0\""},
-      {"a,left,-1,1,2,3,0,0,0,1", "expected a trial from 0 to 999999, found -1"},
-      {"a,left,1000000,1,2,3,0,0,0,1", "expected a trial from 0 to 999999, found 1000000"},
+      {"a,left,x,1,2,3,0,0,0,1", "expected a trial, a whole number from 0 to 999999, found \"x\""},
+      {"a,left,1.0,1,2,3,0,0,0,1",
+       "expected a trial, a whole number from 0 to 999999, found \"1.0\""},
+      {"a,left,-1,1,2,3,0,0,0,1",
+       "expected a trial, a whole number from 0 to 999999, found \"-1\""},
+      {"a,left,1000000,1,2,3,0,0,0,1",
+       "expected a trial, a whole number from 0 to 999999, found \"1000000\""},
       {"a,left,0,1,2,3 m,0,0,0,1", "expected a number, found \"3 m\""},
       {"a,left,0,1,2,,0,0,0,1", "expected a number, found \"\""},
       {"a,left,0,1,2,nan,0,0,0,1", "expected a finite number, found \"nan\""},

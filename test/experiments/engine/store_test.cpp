@@ -296,6 +296,24 @@ TEST(Store, BelongsToOneProcess) {
   }
 }
 
+TEST(Store, SaysThatItIsDamaged) {
+  for (const char* damage :
+       {"UPDATE trials SET variant = 99999999", "UPDATE trials SET status = 'su?cess'",
+        "DROP TABLE variants", "UPDATE meta SET value = 'many' WHERE name = 'trials'"}) {
+    const test::TempFolder folder;
+    const std::filesystem::path path = folder.path() / "s";
+    {
+      Store store(path, header());
+      Rng rng = test::test_rng();
+      add(store, random_record(rng, "base", 0));
+    }
+    Database(path, Access::write).run(damage);
+    const std::string message = test::input_error([&] { read_store(path); });
+    EXPECT_NE(message.find(path.string() + ": is damaged"), std::string::npos)
+        << damage << ": " << message;
+  }
+}
+
 TEST(Store, RefusesWhatIsNoStore) {
   const test::TempFolder folder;
   const std::filesystem::path path = folder.write("s", std::string(5000, 'x'));

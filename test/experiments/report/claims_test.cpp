@@ -303,9 +303,10 @@ TEST(Claims, OutIsRedWhereThereAreColours) {
 
 TEST(Claims, MarkdownTellsEachReasonOnce) {
   const std::string text = claims_markdown(one_of_each(), {board()}, {});
-  EXPECT_NE(text.find("| yaw \\| of the front | a source | 0 deg | [-1000, 1000] | 0.25000 | out | "
-                      "1 |\n"),
-            std::string::npos)
+  EXPECT_NE(
+      text.find("| yaw \\| of the front | a source | 0 deg | \\[-1000, 1000\\] | 0.25000 | out | "
+                "1 |\n"),
+      std::string::npos)
       << text;
   EXPECT_NE(text.find("\n1. scenes of our own\n"), std::string::npos) << text;
   EXPECT_EQ(text.find("2. scenes"), std::string::npos) << text;

@@ -50,7 +50,7 @@ ExportTable full_table(const std::string& other_variant) {
   Comparison comparison;
   comparison.variant = other_variant;
   comparison.base = "base";
-  comparison.rotation_deg.test = {1e-4, 1e-3, 1e-4, 1e-3};
+  comparison.rotation_deg.test = {true, 1e-4, 1e-3, 1e-4, 1e-3};
   comparison.success.p_holm = 0.01;
   summary.comparisons = {comparison};
   return export_table(summary, {"few", "0123456789abcdef-dirty", 7, 2, 4, records.size(), 64});

@@ -144,21 +144,68 @@ TEST(ExportTable, MarksWhatDiffersFromTheBase) {
   Comparison comparison;
   comparison.variant = "no volume";
   comparison.base = "base";
-  comparison.rotation_deg.test = {1e-4, 1e-3, 1e-4, 1e-3};
-  comparison.translation_m.test = {1e-4, 1e-3, 0.4, 0.4};
+  comparison.rotation_deg.test = {false, 1e-4, 1e-3, 1e-4, 1e-3};
+  comparison.translation_m.test = {true, 1e-4, 1e-3, 0.4, 0.4};
   summary.comparisons = {comparison};
   const ExportTable table = export_table(summary, {"few", kCommit, 7, 2, 4, 29, 32});
   const ExportRow& all = table.rows.back();
   EXPECT_EQ(all.cells[column("success_percent")].mark, "");
-  EXPECT_EQ(all.cells[column("rotation_median_deg")].mark, "**");
-  EXPECT_EQ(all.cells[column("translation_median_m")].mark, "*");
+  EXPECT_EQ(all.cells[column("rotation_median_deg")].mark, "-**");
+  EXPECT_EQ(all.cells[column("translation_median_m")].mark, "+*");
   EXPECT_EQ(table.rows[1].cells[column("rotation_median_deg")].mark, "");
   EXPECT_TRUE(has(caption_sentences(table).back(), "differs from base"));
-  EXPECT_TRUE(has(export_markdown(table), "| 0.035\\*\\* |"));
-  EXPECT_TRUE(has(export_latex(table), "& 0.035 & ** & 0.060"));
-  EXPECT_TRUE(has(export_csv(table), ",,**,*\n"));
+  EXPECT_TRUE(has(export_markdown(table), "| 0.035-\\*\\* |"));
+  EXPECT_TRUE(has(export_latex(table), "& 0.035 & -** & 0.060"));
+  EXPECT_TRUE(has(export_csv(table), ",,-**,+*\n"));
   EXPECT_EQ(nlohmann::json::parse(export_json(table))["rows"][5]["marks"]["translation_median_m"],
-            "*");
+            "+*");
+}
+
+/// Two variants of which the second finishes half of its trials, and these with lesser errors.
+Summary with_survivors(double p) {
+  std::vector<TrialRecord> records;
+  for (int i = 0; i < 8; ++i) {
+    records.push_back(trial_at("base", i, 0.02));
+    records.push_back(i % 2 == 0
+                          ? trial_at("lucky", i, 0.01)
+                          : test::unfinished({"lucky", "0001", "left", i}, Status::failed, "no"));
+  }
+  Summary summary = summarise(records, kBounds, {});
+  for (Comparison& comparison : summary.comparisons) {
+    comparison.success.p_holm = p;
+    comparison.success.favours_variant = false;
+  }
+  return summary;
+}
+
+TEST(ExportTable, SurvivorsOfFewerTrialsAreNotTheBest) {
+  const std::size_t k = column("translation_median_m");
+  const auto is_best = [&](double p, std::size_t row) {
+    return export_table(with_survivors(p), {"few", kCommit, 7, 1, 8, 16, 16})
+        .rows[row]
+        .cells[k]
+        .is_best;
+  };
+  EXPECT_TRUE(is_best(0.01, 0));  // The base; the other succeeds significantly less often.
+  EXPECT_FALSE(is_best(0.01, 1));
+  EXPECT_FALSE(is_best(0.5, 0));
+  EXPECT_TRUE(is_best(0.5, 1));
+}
+
+TEST(ExportTable, WithoutTruthMarksNoErrors) {
+  std::vector<TrialRecord> records;
+  for (int i = 0; i < 4; ++i) {
+    for (const char* variant : {"base", "other"}) {
+      records.push_back(test::finished_without_truth({variant, "0001", "left", i}, {}));
+    }
+  }
+  Summary summary = summarise(records, kBounds, {});
+  for (Comparison& comparison : summary.comparisons) {
+    comparison.success.p_holm = comparison.rotation_deg.test.p_holm = 0.001;
+  }
+  const ExportTable table = export_table(summary, {"few", kCommit, 7, 1, 4, 8, 8});
+  EXPECT_EQ(table.rows[1].cells[column("success_percent")].mark, "-*");
+  EXPECT_EQ(table.rows[1].cells[column("rotation_median_deg")].mark, "");
 }
 
 TEST(ExportTable, WithoutComparisonsExplainsNoMarks) {

@@ -26,31 +26,63 @@ TEST(Pairs, MedianWithFailures) {
   EXPECT_THROW(median_with_failures({}), std::logic_error);
 }
 
-TEST(Bootstrap, CoversTheTrueDifference) {
+constexpr int kExperiments = 300;
+
+/// In how many of kExperiments the interval holds the difference that was put in.
+int count_covered(const test::MadeUp& like) {
   Rng rng = croon::test::test_rng();
-  constexpr int kExperiments = 300;
+  int covered = 0;
+  for (int i = 0; i < kExperiments; ++i) {
+    const test::Experiment drawn = draw_experiment(rng, like);
+    const Interval interval = median_difference_interval(drawn.pairs, drawn.scenes);
+    covered += interval.low <= like.effect && like.effect <= interval.high;
+  }
+  return covered;
+}
+
+TEST(Bootstrap, CoversTheTrueDifference) {
   for (const double failure_ratio : {0.0, 0.2}) {
-    int covered = 0;
-    for (int i = 0; i < kExperiments; ++i) {
-      test::MadeUp like;
-      like.scenes = 60;
-      like.effect = 0.5;
-      like.failure_ratio = failure_ratio;
-      const Interval interval = median_difference_interval(draw_experiment(rng, like).pairs);
-      // Both sides fail as often: their medians are shifted alike.
-      covered += interval.low <= 0.5 && 0.5 <= interval.high;
-    }
+    test::MadeUp like;
+    like.scenes = 60;
+    like.effect = 0.5;
+    like.failure_ratio = failure_ratio;  // Of both sides: their medians are shifted alike.
+    const int covered = count_covered(like);
     // 95 %, less three standard deviations (1.26 %) and the two that the method may lack.
     EXPECT_GE(covered, kExperiments * 0.89);
     EXPECT_LT(covered, kExperiments);
   }
 }
 
+TEST(Bootstrap, CoversItWhereTrialsOfASceneAreAlike) {
+  for (const double scene_effect : {1.0, 2.0}) {
+    test::MadeUp like;
+    like.scenes = 12;
+    like.trials = 20;
+    like.effect = 0.5;
+    like.scene_effect = scene_effect;
+    const int covered = count_covered(like);
+    // Of few scenes an interval of percentiles is somewhat short. Over trials alone it would
+    // cover 60 % and less.
+    EXPECT_GE(covered, kExperiments * 0.88) << scene_effect;
+    EXPECT_LT(covered, kExperiments) << scene_effect;
+  }
+}
+
 TEST(Bootstrap, IsTheSameBitsAgain) {
   Rng rng = croon::test::test_rng();
-  const Pairs pairs = test::draw_experiment(rng, {40, 3, 0.2, 0.5, 0.1, 0.1, 0.0}).pairs;
-  const Interval once = median_difference_interval(pairs);
-  const Interval again = median_difference_interval(pairs);
+  const test::Experiment drawn = test::draw_experiment(rng, {40, 3, 0.2, 0.5, 0.1, 0.1, 0.0});
+  const Interval once = median_difference_interval(drawn.pairs, drawn.scenes);
+  const Interval again = median_difference_interval(drawn.pairs, drawn.scenes);
+  EXPECT_EQ(once.low, again.low);
+  EXPECT_EQ(once.high, again.high);
+}
+
+TEST(Bootstrap, NumbersOfClustersAreNames) {
+  Rng rng = croon::test::test_rng();
+  test::Experiment drawn = test::draw_experiment(rng, {10, 3, 0.2, 0.5, 0.1, 0.1, 0.0});
+  const Interval once = median_difference_interval(drawn.pairs, drawn.scenes);
+  for (std::size_t& scene : drawn.scenes) scene = 3 * scene + 2;
+  const Interval again = median_difference_interval(drawn.pairs, drawn.scenes);
   EXPECT_EQ(once.low, again.low);
   EXPECT_EQ(once.high, again.high);
 }
@@ -58,9 +90,11 @@ TEST(Bootstrap, IsTheSameBitsAgain) {
 TEST(Bootstrap, SwappedSidesFlipTheInterval) {
   Rng rng = croon::test::test_rng();
   for (const std::size_t scenes : {7U, 50U}) {
-    const Pairs pairs = test::draw_experiment(rng, {scenes, 1, 0.2, 0.5, 0.3, 0.1, 0.25}).pairs;
-    const Interval interval = median_difference_interval(pairs);
-    const Interval swapped = median_difference_interval({pairs.variant, pairs.base});
+    const test::Experiment drawn =
+        test::draw_experiment(rng, {scenes, 1, 0.2, 0.5, 0.3, 0.1, 0.25});
+    const Pairs& pairs = drawn.pairs;
+    const Interval interval = median_difference_interval(pairs, drawn.scenes);
+    const Interval swapped = median_difference_interval({pairs.variant, pairs.base}, drawn.scenes);
     EXPECT_EQ(swapped.low, -interval.high);
     EXPECT_EQ(swapped.high, -interval.low);
   }
@@ -73,19 +107,19 @@ TEST(Bootstrap, EndsMayBeInfinite) {
     pairs.base.push_back(1.0 + 0.01 * i);
     pairs.variant.push_back(i % 2 == 0 ? kInf : 1.0);
   }
-  const Interval interval = median_difference_interval(pairs);
+  const Interval interval = median_difference_interval(pairs, std::vector<std::size_t>(41, 0));
   EXPECT_LT(interval.low, 0.0);
   EXPECT_EQ(interval.high, kInf);
-  const Interval none = median_difference_interval({{kInf, kInf}, {kInf, kInf}});
+  const Interval none = median_difference_interval({{kInf, kInf}, {kInf, kInf}}, {0, 1});
   EXPECT_EQ(none.low, 0.0);
   EXPECT_EQ(none.high, 0.0);
 }
 
 TEST(Bootstrap, OfOnePairIsItsDifference) {
-  const Interval interval = median_difference_interval({{1.0}, {3.5}});
+  const Interval interval = median_difference_interval({{1.0}, {3.5}}, {0});
   EXPECT_EQ(interval.low, 2.5);
   EXPECT_EQ(interval.high, 2.5);
-  EXPECT_THROW(median_difference_interval({}), std::logic_error);
+  EXPECT_THROW(median_difference_interval({}, {}), std::logic_error);
 }
 
 }  // namespace

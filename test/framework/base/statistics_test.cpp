@@ -28,7 +28,7 @@ TEST(Statistics, KnownValues) {
 
 TEST(Statistics, OneValue) {
   EXPECT_EQ(mean({-3.0}), -3.0);
-  EXPECT_EQ(standard_deviation({-3.0}), 0.0);
+  EXPECT_TRUE(std::isnan(standard_deviation({-3.0})));
   EXPECT_EQ(median({-3.0}), -3.0);
   EXPECT_EQ(root_mean_square({-3.0}), 3.0);
   EXPECT_EQ(percentile({-3.0}, 0.95), -3.0);
