@@ -1,6 +1,11 @@
 #include "experiments/cli/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <sstream>
+
+#include "experiments/engine/version.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/nearest_name.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -13,7 +18,7 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_option("--jobs", options.jobs, "Threads; default all cores.")
       ->check(CLI::Range(1, 4096));
   run->add_option("--trials", options.trials, "Starts per variant, scene and sensor.")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 1000000000).description(""));
   run->add_option("--only", options.only, "Run these variants alone.");
   run->add_option("--shard", options.shard, "Run part K of N of the trials, K/N.");
   run->add_flag("--plan", options.plan, "Tell what there is to run, and how much variants share.");
@@ -67,7 +72,7 @@ void add_starts(CLI::App& app, StartsOptions& options) {
   starts->add_option("--out", options.out, "File to write; default standard output.");
   starts->add_option("--data", options.data, "The data root; default $CROON_DATA, else data.");
   starts->add_option("--trials", options.trials, "Starts per scene and sensor.")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 1000000000).description(""));
 }
 
 void add_others(CLI::App& app, CommandLine& line) {
@@ -85,9 +90,37 @@ void add_others(CLI::App& app, CommandLine& line) {
   app.add_subcommand("schema", "Print the JSON Schema of experiment files.");
 }
 
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+/// Throws InputError for the words that no option or command took.
+void refuse_leftovers(const CLI::App& app) {
+  const std::vector<CLI::App*> commands = app.get_subcommands();
+  const CLI::App& command = commands.empty() ? app : *commands.front();
+  for (const std::string& word : app.remaining(true)) {
+    if (word.compare(0, 1, "-") == 0) {
+      throw InputError("", "",
+                       "unknown option \"" + word + "\"" + name_hint(word, option_names(command)));
+    }
+    if (!commands.empty()) throw InputError("", "", "unexpected \"" + word + "\"");
+    std::vector<std::string> names;
+    for (const CLI::App* known : app.get_subcommands({})) names.push_back(known->get_name());
+    throw InputError("", "", "unknown command \"" + word + "\"" + name_hint(word, names));
+  }
+}
+
 }  // namespace
 
-void add_commands(CLI::App& app, CommandLine& line) {
+CommandLine read_command_line(int argc, char** argv) {
+  CLI::App app("A bench for target-less multi-LiDAR calibration.", "croon");
+  app.set_version_flag("--version", std::string("croon ") + croon_version());
+  app.allow_extras();
+  CommandLine line;
   add_run(app, line.run);
   add_merge(app, line.merge);
   add_export(app, line.to_export);
@@ -95,6 +128,24 @@ void add_commands(CLI::App& app, CommandLine& line) {
   add_describe(app, line.describe);
   add_starts(app, line.starts);
   add_others(app, line);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    std::ostringstream text;
+    app.exit(success, text, text);
+    line.text = text.str();
+    return line;
+  } catch (const CLI::ParseError& error) {
+    throw InputError("", "", error.what());
+  }
+  refuse_leftovers(app);
+  const std::vector<CLI::App*> commands = app.get_subcommands();
+  if (commands.empty()) {
+    line.text = app.help();
+  } else {
+    line.command = commands.front()->get_name();
+  }
+  return line;
 }
 
 }  // namespace croon::experiments

@@ -11,14 +11,12 @@
 #include "experiments/cli/simulate_command.hpp"
 #include "experiments/cli/starts_command.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace croon::experiments {
 
 /// What the command line asks for.
 struct CommandLine {
+  std::string command;  ///< "run"; empty where `text` is all there is to say.
+  std::string text;     ///< Help or version.
   RunOptions run;
   MergeOptions merge;
   ExportOptions to_export;
@@ -32,7 +30,7 @@ struct CommandLine {
   bool as_markdown = false;
 };
 
-/// Adds the commands, whose words go to `line`, to the program.
-void add_commands(CLI::App& app, CommandLine& line);
+/// Reads the words that the program is called with. Throws InputError where they are wrong.
+CommandLine read_command_line(int argc, char** argv);
 
 }  // namespace croon::experiments
