@@ -73,7 +73,7 @@ void draw_legend(Svg& svg, std::size_t place, const std::string& variant,
   const double y = kTop + 8.0 + kLegendLine * static_cast<double>(place);
   constexpr std::size_t kColumns = 30;
   svg.line(left, y, left + 24.0, y, colour + " curve");
-  svg.text(left + 32.0, y + 4.0, cut_to_columns(variant, kColumns), Anchor::start, "name");
+  svg.text(left + 32.0, y + 4.0, cut_in_the_middle(variant, kColumns), Anchor::start, "name");
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ void draw_panel(Svg& svg, const BoxLayout& layout, const std::vector<BoxGroup>& 
     double x = left + (width - boxes) / 2.0 + kBoxPitch / 2.0;
     for (const BoxSeries& box : group.boxes) {
       draw_box(svg, panel, x, box, measure);
-      svg.text(x + 4.0, below, cut_to_columns(box.label, kLabelColumns), Anchor::end, "small",
+      svg.text(x + 4.0, below, cut_in_the_middle(box.label, kLabelColumns), Anchor::end, "small",
                -90.0);
       x += kBoxPitch;
     }

@@ -36,6 +36,16 @@ std::string cut_to_columns(const std::string& text, std::size_t columns) {
   return text.substr(0, end) + "…";
 }
 
+std::string cut_in_the_middle(const std::string& text, std::size_t columns) {
+  const std::size_t all = text_columns(text);
+  if (all <= columns || columns < 2) return cut_to_columns(text, columns);
+  const std::size_t behind = columns / 2;
+  std::size_t begun = 0;
+  std::size_t tail = 0;
+  while (!(begins_code_point(text[tail]) && ++begun == all - behind + 1)) ++tail;
+  return cut_to_columns(text, columns - behind) + text.substr(tail);
+}
+
 std::string right_aligned(const std::string& text, std::size_t columns) {
   return padding(text, columns) + text;
 }

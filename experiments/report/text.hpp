@@ -11,6 +11,9 @@ std::size_t text_columns(const std::string& text);
 /// The first `columns` columns of UTF-8 text; where something is cut off, the last of them is "…".
 std::string cut_to_columns(const std::string& text, std::size_t columns);
 
+/// The same with "…" in the middle: names of one grid differ at their ends.
+std::string cut_in_the_middle(const std::string& text, std::size_t columns);
+
 /// `text` with spaces before it, to fill `columns`.
 std::string right_aligned(const std::string& text, std::size_t columns);
 

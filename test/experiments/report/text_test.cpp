@@ -21,6 +21,15 @@ TEST(Text, ColumnsAreCodePoints) {
   EXPECT_EQ(cut_to_columns("abc", 0), "");
 }
 
+TEST(Text, CutsInTheMiddle) {
+  EXPECT_EQ(cut_in_the_middle("abcdefgh", 8), "abcdefgh");
+  EXPECT_EQ(cut_in_the_middle("abcdefgh", 7), "abc…fgh");
+  EXPECT_EQ(cut_in_the_middle("abcdefgh", 4), "a…gh");
+  EXPECT_EQ(cut_in_the_middle("±±±±ß", 3), "±…ß");
+  EXPECT_EQ(cut_in_the_middle("abc", 2), "…c");
+  EXPECT_EQ(cut_in_the_middle("abc", 1), "…");
+}
+
 TEST(Text, FixedNumbers) {
   EXPECT_EQ(fixed_number(1.0 / 3.0, 3), "0.333");
   EXPECT_EQ(fixed_number(-1.25, 1), "-1.2");
