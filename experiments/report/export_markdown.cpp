@@ -7,7 +7,8 @@ namespace {
 std::string shown(const ExportRow& row, std::size_t k) {
   const ExportCell& cell = row.cells[k];
   const std::string text = shown_text(cell, export_columns()[k]);
-  return (cell.is_best ? "**" + text + "**" : text) + markdown_escaped(cell.mark);
+  return (cell.is_best ? "**" + text + "**" : text) +
+         (cell.mark.empty() ? "" : " " + markdown_escaped(cell.mark));
 }
 
 std::string line(const std::vector<std::string>& cells) {

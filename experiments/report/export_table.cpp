@@ -126,8 +126,10 @@ void mark_best(std::vector<ExportRow>& rows, std::size_t begin, std::size_t end)
     const ExportColumn& column = export_columns()[k];
     if (column.better == Better::neither) continue;
     const auto is_rival = [&](std::size_t i) {
-      const bool is_error = k != kSuccessColumn;
-      return rows[i].cells[k].value && !(is_error && is_of_easier_trials(rows, begin, end, i));
+      const ExportCell& cell = rows[i].cells[k];
+      const bool is_worse_than_base = !cell.mark.empty() && cell.mark[0] == '-';
+      if (!cell.value || is_worse_than_base) return false;
+      return k == kSuccessColumn || !is_of_easier_trials(rows, begin, end, i);
     };
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t i = begin; i < end; ++i) {

@@ -154,7 +154,7 @@ TEST(ExportTable, MarksWhatDiffersFromTheBase) {
   EXPECT_EQ(all.cells[column("translation_median_m")].mark, "+*");
   EXPECT_EQ(table.rows[1].cells[column("rotation_median_deg")].mark, "");
   EXPECT_TRUE(has(caption_sentences(table).back(), "differs from base"));
-  EXPECT_TRUE(has(export_markdown(table), "| 0.035-\\*\\* |"));
+  EXPECT_TRUE(has(export_markdown(table), "| 0.035 -\\*\\* |"));
   EXPECT_TRUE(has(export_latex(table), "& 0.035 & -** & 0.060"));
   EXPECT_TRUE(has(export_csv(table), ",,-**,+*\n"));
   EXPECT_EQ(nlohmann::json::parse(export_json(table))["rows"][5]["marks"]["translation_median_m"],
