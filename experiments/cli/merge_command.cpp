@@ -7,6 +7,7 @@
 #include "experiments/cli/report_files.hpp"
 #include "experiments/cli/results_folder.hpp"
 #include "experiments/cli/timings_file.hpp"
+#include "experiments/engine/header_differences.hpp"
 #include "experiments/engine/manifest.hpp"
 #include "experiments/engine/store.hpp"
 #include "framework/base/error.hpp"

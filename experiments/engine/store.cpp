@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "experiments/engine/header_differences.hpp"
 #include "experiments/engine/record_row.hpp"
 #include "experiments/engine/stored_places.hpp"
 #include "framework/base/error.hpp"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 #include <tuple>
 #include <utility>
 
@@ -11,13 +10,9 @@
 namespace croon::experiments {
 namespace {
 
-using nlohmann::json;
-
 constexpr const char* kFormat = "2";
 /// Stands in a store that was written to since it was put in order.
 constexpr const char* kUnordered = "unordered";
-constexpr std::size_t kShownDifferences = 3;
-constexpr std::size_t kShownCharacters = 60;
 
 /// A table of names and where they stand in the header.
 struct NameTable {
@@ -62,34 +57,6 @@ std::vector<StoredName> read_names(const Database& database, const NameTable& ta
 std::string taken(Provenance& meta, const std::string& name) {
   const auto node = meta.extract(name);
   return node.empty() ? "" : node.mapped();
-}
-
-/// `value` on one line and not too long.
-std::string shown(const json& value) {
-  const std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
-  return text.size() <= kShownCharacters ? text : text.substr(0, kShownCharacters) + "...";
-}
-
-/// The places in which two JSON texts differ, below the pointer `where`.
-void add_differences(std::vector<std::string>& to, const std::string& where,
-                     const std::string& stored, const std::string& asked) {
-  if (stored == asked) return;
-  const json was = json::parse(stored, nullptr, false);
-  const json is = json::parse(asked, nullptr, false);
-  if (was.is_discarded() || is.is_discarded()) {
-    to.push_back(where + " differs");
-    return;
-  }
-  for (const json& change : json::diff(was, is)) {
-    const json::json_pointer place(change["path"].get<std::string>());
-    std::string text = where + place.to_string();
-    if (change["op"] == "add") text += " was not there and is " + shown(change["value"]);
-    if (change["op"] == "remove") text += " was " + shown(was[place]) + " and is not there";
-    if (change["op"] == "replace") {
-      text += " was " + shown(was[place]) + " and is " + shown(change["value"]);
-    }
-    to.push_back(text);
-  }
 }
 
 void add_missing(std::vector<StoredName>& to, const std::vector<StoredName>& from) {
@@ -177,45 +144,6 @@ bool is_same(const StoreHeader& a, const StoreHeader& b) {
            const auto& y = b.*table.names;
            return std::equal(x.begin(), x.end(), y.begin(), y.end(), is_same_name);
          });
-}
-
-std::vector<std::string> differences(const StoreHeader& stored, const StoreHeader& asked) {
-  std::vector<std::string> found;
-  Provenance names = asked.provenance;
-  names.insert(stored.provenance.begin(), stored.provenance.end());
-  const auto value = [](const Provenance& of, const std::string& name) {
-    const auto entry = of.find(name);
-    return entry == of.end() ? std::string("null") : entry->second;
-  };
-  for (const auto& [name, any] : names) {
-    const std::string was = value(stored.provenance, name), is = value(asked.provenance, name);
-    if (name != "program") {
-      add_differences(found, "/" + name, was, is);
-    } else if (was != is) {
-      found.push_back("the program was another build of croon");
-    }
-  }
-  for (const StoredName& variant : asked.variants) {
-    for (const StoredName& other : stored.variants) {
-      if (other.name != variant.name) continue;
-      add_differences(found, "/variants/" + variant.name, other.detail, variant.detail);
-    }
-  }
-  return found;
-}
-
-void refuse_differences(const std::string& file, const StoreHeader& stored,
-                        const StoreHeader& asked, const std::string& remedy) {
-  const std::vector<std::string> found = differences(stored, asked);
-  if (found.empty()) return;
-  std::string text;
-  for (std::size_t i = 0; i < found.size() && i < kShownDifferences; ++i) {
-    text += (i == 0 ? "" : "; ") + found[i];
-  }
-  if (found.size() > kShownDifferences) {
-    text += "; and " + std::to_string(found.size() - kShownDifferences) + " more";
-  }
-  throw InputError(file, "", "its trials were made from something else: " + text + "; " + remedy);
 }
 
 StoreHeader united(StoreHeader a, const StoreHeader& b) {
