@@ -67,7 +67,7 @@ std::vector<BoxGroup> box_groups(const Summary& summary, BoxOf of) {
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     groups.push_back({sensors[i], {}});
     for (const auto& [label, deviations] : boxes[i]) {
-      if (!deviations.empty()) groups[i].boxes.push_back({labels[label], label, deviations});
+      groups[i].boxes.push_back({labels[label], label, deviations});
     }
   }
   return groups;

@@ -27,7 +27,7 @@ enum class BoxOf { variant, scene, kind, all_scenes };
 /// for each kind of scene; where there are no kinds, or more than `max_kinds`, one for all scenes.
 BoxOf box_of(const Summary& summary, std::size_t max_scenes, std::size_t max_kinds);
 
-/// The boxes of each sensor; those without a value are left out.
+/// The boxes of each sensor; of what has no value, without deviations.
 std::vector<BoxGroup> box_groups(const Summary& summary, BoxOf of);
 
 }  // namespace croon::experiments

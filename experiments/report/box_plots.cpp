@@ -69,7 +69,11 @@ void draw_panel(Svg& svg, const BoxLayout& layout, const std::vector<BoxGroup>& 
     const double boxes = kBoxPitch * static_cast<double>(group.boxes.size());
     double x = left + (width - boxes) / 2.0 + kBoxPitch / 2.0;
     for (const BoxSeries& box : group.boxes) {
-      draw_box(svg, panel, x, box, measure);
+      if (box.deviations.empty()) {
+        svg.text(x + 4.0, below - 12.0, "none", Anchor::start, "small", -90.0);
+      } else {
+        draw_box(svg, panel, x, box, measure);
+      }
       svg.text(x + 4.0, below, cut_in_the_middle(box.label, kLabelColumns), Anchor::end, "small",
                -90.0);
       x += kBoxPitch;

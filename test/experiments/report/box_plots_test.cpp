@@ -122,6 +122,16 @@ TEST(BoxPlotsSvg, AValueBeyondTheWhiskersIsADot) {
   EXPECT_EQ(count(box_plots_svg(summarise(records, kBounds, {})), "class=\"dot c"), 1U);
 }
 
+TEST(BoxPlotsSvg, AVariantWithoutSuccessKeepsItsPlace) {
+  std::vector<TrialRecord> records = test::few_records();
+  for (const char* sensor : {"left", "right"}) {
+    records.push_back(test::unfinished({"lost", "0001", sensor, 0}, Status::failed, "no"));
+  }
+  const std::string svg = box_plots_svg(summarise(records, kBounds, {}));
+  EXPECT_EQ(count(svg, ">lost<"), kDofs * 2);
+  EXPECT_EQ(count(svg, ">none<"), kDofs * 2);
+}
+
 TEST(BoxPlotsSvg, NothingToShowIsAPictureToo) {
   const std::string empty = box_plots_svg(Summary{});
   EXPECT_EQ(count(empty, "</svg>"), 1U);
