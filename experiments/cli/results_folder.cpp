@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
+#include <utility>
 
 #include "experiments/cli/output_folder.hpp"
 #include "experiments/engine/store.hpp"
+#include "experiments/report/claims.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -40,11 +41,10 @@ ReportOrder report_order(const StoreHeader& header) {
 
 /// The trials that were asked for. A variant that has none at all was not: `--only` left it out.
 std::size_t asked_trials(const json& manifest, const Summary& summary) {
-  std::set<std::string> run;
-  for (const SummaryRow& row : summary.rows) run.insert(row.variant);
+  const std::size_t run = variants_of(summary).size();
   const std::size_t planned = manifest.at("planned");
   const std::size_t variants = manifest.at("experiment").at("variants").size();
-  return run.empty() ? planned : planned / variants * run.size();
+  return run == 0 ? planned : planned / variants * run;
 }
 
 /// What the stored run says.
@@ -65,10 +65,12 @@ Results results_of(StoredRun run, const std::string& file) {
   results.records = std::move(run.records);
   results.summary = summarise(results.records, bounds, order);
   results.planned = asked_trials(manifest, results.summary);
-  results.sweep = sweep_of_json(experiment.at("starts"));
-  if (results.sweep) results.basin = basin_of(results.records, *results.sweep, order);
-  const json claims = {{"expect", experiment.at("expect")}, {"quoted", experiment.at("quoted")}};
-  results.claims = claims_of(claims.dump(), file);
+  const std::optional<Sweep> sweep = sweep_of_json(experiment.at("starts"));
+  if (sweep) results.basin = basin_of(results.records, *sweep, order);
+  const json keys = {{"expect", experiment.at("expect")}, {"quoted", experiment.at("quoted")}};
+  Claims claims = claims_of(keys.dump(), file);
+  results.claims = check_claims(claims.expect, results.summary);
+  results.quoted = std::move(claims.quoted);
   return results;
 }
 

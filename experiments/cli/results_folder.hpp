@@ -25,11 +25,11 @@ struct Results {
   std::size_t scenes = 0;
   std::size_t planned = 0;           ///< Trials of the variants that were run; fewer may be there.
   std::string manifest;              ///< JSON of manifest.json, without its host.
-  std::optional<Sweep> sweep;        ///< Of the starts.
-  Claims claims;                     ///< What the results are held against.
   std::vector<TrialRecord> records;  ///< In report order, without their steps.
   Summary summary;
-  std::optional<Basin> basin;  ///< Of a sweep.
+  std::optional<Basin> basin;       ///< Of a sweep.
+  std::vector<ClaimResult> claims;  ///< What the experiment expects, and what was found.
+  std::vector<Quoted> quoted;       ///< Rows of other methods.
 };
 
 /// Throws InputError where the folder has no store, or one that this program does not know.

@@ -4,31 +4,13 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "experiments/report/measure.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/nearest_name.hpp"
-#include "framework/params/table.hpp"
 
 namespace croon::experiments {
 namespace {
 
 using params::Node;
-
-/// The statistics of one number per trial.
-const std::vector<std::string> kOfTrials = {"mean", "std", "median", "rmse", "p95"};
-
-std::vector<std::string> statistic_words() {
-  std::vector<std::string> words = {kSuccess, kScenes};
-  words.insert(words.end(), kOfTrials.begin(), kOfTrials.end());
-  words.insert(words.end(), {kWithinSceneStd, kAcrossScenesStd});
-  return words;
-}
-
-std::vector<std::string> measure_words() {
-  std::vector<std::string> words;
-  for (const Measure& measure : kMeasures) words.emplace_back(measure.name);
-  return words;
-}
 
 /// Claims hold no stages.
 class NoStages : public params::StageBuilder {
@@ -37,50 +19,6 @@ class NoStages : public params::StageBuilder {
     throw std::logic_error("a claim with a stage in it");
   }
 };
-
-template <class P>
-params::Parameter<P> required(params::Parameter<P> parameter) {
-  parameter.doc.is_required = true;
-  return parameter;
-}
-
-template <class P>
-params::Parameter<P> optional(params::Parameter<P> parameter) {
-  parameter.doc.is_required = false;
-  return parameter;
-}
-
-const params::Table<Expectation>& expectation_table() {
-  using P = Expectation;
-  static const params::Table<P> table = {
-      params::text("claim", &P::claim, "What the number is, in words."),
-      params::text("source", &P::source, "Where it stands."),
-      optional(params::text("variant", &P::variant, "The variant that is meant.")),
-      optional(params::text("sensor", &P::sensor, "The sensor that is meant.")),
-      optional(params::choice("measure", &P::measure, measure_words(), "What is measured.")),
-      required(params::choice("statistic", &P::statistic, statistic_words(), "Which statistic.")),
-      required(params::number("value", &P::value, {}, "What the source says.")),
-      required(params::numbers("band", &P::band, {}, "The band in which ours must lie.")),
-      optional(params::text("why", &P::why, "Why ours may differ.")),
-  };
-  return table;
-}
-
-const params::Table<Quoted>& quoted_table() {
-  using P = Quoted;
-  static const params::Table<P> table = {
-      params::text("method", &P::method, "The method's name."),
-      params::text("source", &P::source, "Where its numbers stand."),
-      required(params::choice("statistic", &P::statistic, kOfTrials, "Which statistic.")),
-      required(params::number("pitch_deg", &P::pitch_deg, {}, "Its error in pitch.")),
-      required(params::number("roll_deg", &P::roll_deg, {}, "Its error in roll.")),
-      required(params::number("yaw_deg", &P::yaw_deg, {}, "Its error in yaw.")),
-      required(params::number("x_m", &P::x_m, {}, "Its error in x.")),
-      required(params::number("y_m", &P::y_m, {}, "Its error in y.")),
-      required(params::number("z_m", &P::z_m, {}, "Its error in z.")),
-  };
-  return table;
-}
 
 /// The objects of the list `key`; none where it is missing.
 template <class P>

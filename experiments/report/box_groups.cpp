@@ -35,14 +35,13 @@ std::string label_of(const SummaryRow& row, const SceneSummary& scene, BoxOf of)
 }  // namespace
 
 BoxOf box_of(const Summary& summary, std::size_t max_scenes, std::size_t max_kinds) {
-  std::set<std::string> variants, kinds;
+  std::set<std::string> kinds;
   std::size_t scenes = 0;
   for (const SummaryRow& row : summary.rows) {
-    variants.insert(row.variant);
     scenes = std::max(scenes, row.scenes.size());
   }
   for (const KindSummary& kind : summary.kinds) kinds.insert(kind.kind);
-  if (variants.size() > 1) return BoxOf::variant;
+  if (variants_of(summary).size() > 1) return BoxOf::variant;
   if (scenes > 1 && scenes <= max_scenes) return BoxOf::scene;
   const bool by_kind = scenes > 1 && !kinds.empty() && kinds.size() <= max_kinds;
   return by_kind ? BoxOf::kind : BoxOf::all_scenes;

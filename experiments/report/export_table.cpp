@@ -85,14 +85,6 @@ ExportRow export_row(const SummaryRow& row) {
           main_share(row).count, row.counted, cells_of(row)};
 }
 
-std::vector<std::string> variants_of(const Summary& summary) {
-  std::vector<std::string> variants;
-  for (const SummaryRow& row : summary.rows) {
-    if (variants.empty() || variants.back() != row.variant) variants.push_back(row.variant);
-  }
-  return variants;
-}
-
 /// Less is better. Of the digits that are shown: a reader who sees two equal numbers, one of them
 /// bold, would look for a reason.
 double rank(const ExportCell& cell, const ExportColumn& column) {

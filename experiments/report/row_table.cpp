@@ -1,7 +1,6 @@
 #include "experiments/report/row_table.hpp"
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include "experiments/report/text.hpp"
@@ -20,12 +19,9 @@ void append(std::vector<std::string>& to, const std::vector<std::string>& from) 
 
 RowTable::RowTable(const Summary& summary, std::vector<std::string> names,
                    const std::vector<std::string>& columns) {
-  std::set<std::string> variants;
+  const std::vector<std::string> variants = variants_of(summary);
   std::size_t longest = 0;
-  for (const SummaryRow& row : summary.rows) {
-    variants.insert(row.variant);
-    longest = std::max(longest, text_columns(row.variant));
-  }
+  for (const std::string& variant : variants) longest = std::max(longest, text_columns(variant));
   if (variants.size() > 1) {
     place_ = longest > kLongName ? VariantPlace::heading : VariantPlace::column;
   }

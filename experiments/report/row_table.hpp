@@ -52,9 +52,6 @@ int decimals_of(const Measure& measure);
 /// "0.024, 0.035".
 std::string median_and_p95(const MeasureStatistics& statistics, const Measure& measure);
 
-/// The sensors of the summary, in its order.
-std::vector<std::string> sensors_of(const Summary& summary);
-
 /// Success in % per variant, kind of scene (rows) and sensor (columns).
 std::string kind_table(const Summary& summary, const TableStyle& style);
 

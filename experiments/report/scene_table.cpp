@@ -55,16 +55,6 @@ void keep_worst(std::vector<SceneRow>& rows, std::size_t count) {
 
 }  // namespace
 
-std::vector<std::string> sensors_of(const Summary& summary) {
-  std::vector<std::string> sensors;
-  for (const SummaryRow& row : summary.rows) {
-    if (std::find(sensors.begin(), sensors.end(), row.sensor) == sensors.end()) {
-      sensors.push_back(row.sensor);
-    }
-  }
-  return sensors;
-}
-
 std::string scene_table(const Summary& summary, const TableStyle& style) {
   const std::vector<std::string> sensors = sensors_of(summary);
   std::vector<SceneRow> rows = scene_rows(summary);

@@ -95,6 +95,17 @@ std::vector<ReasonCount> count_reasons(const std::vector<TrialRecord>& records) 
   return reasons;
 }
 
+/// The names that rows have, in their order.
+std::vector<std::string> each_once(const Summary& summary, std::string SummaryRow::*name) {
+  std::vector<std::string> names;
+  for (const SummaryRow& row : summary.rows) {
+    if (std::find(names.begin(), names.end(), row.*name) == names.end()) {
+      names.push_back(row.*name);
+    }
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<std::string> completed(std::vector<std::string> names,
@@ -108,6 +119,14 @@ std::vector<std::string> completed(std::vector<std::string> names,
     if (std::find(names.begin(), names.end(), other) == names.end()) names.push_back(other);
   }
   return names;
+}
+
+std::vector<std::string> variants_of(const Summary& summary) {
+  return each_once(summary, &SummaryRow::variant);
+}
+
+std::vector<std::string> sensors_of(const Summary& summary) {
+  return each_once(summary, &SummaryRow::sensor);
 }
 
 const char* reference_name(Reference reference) {

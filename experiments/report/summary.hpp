@@ -154,6 +154,10 @@ struct Summary {
 Summary summarise(const std::vector<TrialRecord>& records, const SuccessBounds& bounds,
                   const ReportOrder& order);
 
+/// The variants of the summary, and its sensors, each once, in its order.
+std::vector<std::string> variants_of(const Summary& summary);
+std::vector<std::string> sensors_of(const Summary& summary);
+
 /// "truth", "consensus" or "none".
 const char* reference_name(Reference reference);
 
