@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 
-#include "experiments/engine/sensor_pairs.hpp"
-#include "experiments/engine/starts.hpp"
+#include "experiments/run/sensor_pairs.hpp"
+#include "experiments/run/starts.hpp"
 #include "framework/picture/top_view.hpp"
 
 namespace croon::experiments {

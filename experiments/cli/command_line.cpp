@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <sstream>
 
-#include "experiments/engine/version.hpp"
+#include "experiments/store/version.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/nearest_name.hpp"
 

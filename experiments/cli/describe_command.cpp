@@ -4,10 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/cli/data_root.hpp"
-#include "experiments/engine/experiment_loader.hpp"
-#include "experiments/engine/threads.hpp"
+#include "experiments/file/experiment_loader.hpp"
 #include "experiments/report/cloud_figures.hpp"
+#include "experiments/run/data_root.hpp"
+#include "experiments/run/threads.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
 

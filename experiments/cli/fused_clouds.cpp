@@ -3,7 +3,7 @@
 #include <map>
 #include <tuple>
 
-#include "experiments/engine/sensor_pairs.hpp"
+#include "experiments/run/sensor_pairs.hpp"
 #include "framework/base/error.hpp"
 #include "framework/io/ply_writer.hpp"
 #include "framework/io/vdb_writer.hpp"

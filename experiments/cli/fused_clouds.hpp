@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/engine/experiment.hpp"
-#include "experiments/engine/trial_record.hpp"
+#include "experiments/file/experiment.hpp"
+#include "experiments/run/trial_record.hpp"
 
 namespace croon::experiments {
 

@@ -7,9 +7,9 @@
 #include "experiments/cli/report_files.hpp"
 #include "experiments/cli/results_folder.hpp"
 #include "experiments/cli/timings_file.hpp"
-#include "experiments/engine/header_differences.hpp"
-#include "experiments/engine/manifest.hpp"
-#include "experiments/engine/store.hpp"
+#include "experiments/store/header_differences.hpp"
+#include "experiments/store/manifest.hpp"
+#include "experiments/store/store.hpp"
 #include "framework/base/error.hpp"
 
 namespace croon::experiments {

@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <vector>
 
-#include "experiments/engine/store.hpp"
+#include "experiments/store/store.hpp"
 #include "framework/base/error.hpp"
 
 namespace croon::experiments {

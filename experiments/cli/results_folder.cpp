@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "experiments/cli/output_folder.hpp"
-#include "experiments/engine/store.hpp"
 #include "experiments/report/claims.hpp"
+#include "experiments/store/store.hpp"
 
 namespace croon::experiments {
 namespace {

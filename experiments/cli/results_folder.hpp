@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "experiments/engine/experiment.hpp"
-#include "experiments/engine/trial_record.hpp"
+#include "experiments/file/experiment.hpp"
 #include "experiments/report/basin.hpp"
 #include "experiments/report/claim_result.hpp"
 #include "experiments/report/summary.hpp"
+#include "experiments/run/trial_record.hpp"
 
 namespace croon::experiments {
 

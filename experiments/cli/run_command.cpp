@@ -3,19 +3,19 @@
 #include <map>
 
 #include "experiments/cli/before_after.hpp"
-#include "experiments/cli/checked_run.hpp"
 #include "experiments/cli/fused_clouds.hpp"
 #include "experiments/cli/output_folder.hpp"
 #include "experiments/cli/report_files.hpp"
 #include "experiments/cli/results_folder.hpp"
 #include "experiments/cli/timings_file.hpp"
-#include "experiments/engine/manifest.hpp"
-#include "experiments/engine/provenance.hpp"
-#include "experiments/engine/runner.hpp"
-#include "experiments/engine/step_counts.hpp"
-#include "experiments/engine/store_writer.hpp"
 #include "experiments/report/plan_table.hpp"
 #include "experiments/report/progress.hpp"
+#include "experiments/run/checked_run.hpp"
+#include "experiments/run/runner.hpp"
+#include "experiments/run/step_counts.hpp"
+#include "experiments/store/manifest.hpp"
+#include "experiments/store/provenance.hpp"
+#include "experiments/store/store_writer.hpp"
 
 namespace croon::experiments {
 namespace {

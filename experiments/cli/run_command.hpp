@@ -1,23 +1,14 @@
 #pragma once
 
-#include <filesystem>
 #include <ostream>
-#include <string>
-#include <vector>
 
+#include "experiments/run/checked_run.hpp"
 #include "framework/stage/catalogue.hpp"
 
 namespace croon::experiments {
 
 /// What `croon run` is asked for.
-struct RunOptions {
-  std::filesystem::path experiment;
-  std::filesystem::path out;   ///< Empty: results/<name>.
-  std::filesystem::path data;  ///< Empty: CROON_DATA, else data/.
-  int jobs = 0;                ///< 0: all cores.
-  int trials = 0;              ///< 0: as in the experiment.
-  std::vector<std::string> only;
-  std::string shard;      ///< "K/N"; empty: all.
+struct RunOptions : RunRequest {
   bool plan = false;      ///< Tell what there is to do, and do nothing.
   bool no_share = false;  ///< Run the variants one by one.
   bool fresh = false;     ///< Delete what is there and start over.

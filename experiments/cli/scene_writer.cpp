@@ -1,6 +1,6 @@
 #include "experiments/cli/scene_writer.hpp"
 
-#include "experiments/engine/starts.hpp"
+#include "experiments/run/starts.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/io/opencalib_files.hpp"

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "experiments/engine/experiment.hpp"
+#include "experiments/file/experiment.hpp"
 #include "framework/stage/dataset.hpp"
 
 namespace croon::experiments {

@@ -4,14 +4,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/cli/data_root.hpp"
 #include "experiments/cli/scene_writer.hpp"
 #include "experiments/cli/starts_command.hpp"
-#include "experiments/engine/experiment_loader.hpp"
-#include "experiments/engine/sensor_pairs.hpp"
-#include "experiments/engine/starts.hpp"
-#include "experiments/engine/threads.hpp"
+#include "experiments/file/experiment_loader.hpp"
 #include "experiments/report/progress.hpp"
+#include "experiments/run/data_root.hpp"
+#include "experiments/run/sensor_pairs.hpp"
+#include "experiments/run/starts.hpp"
+#include "experiments/run/threads.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/stage/rig_poses.hpp"

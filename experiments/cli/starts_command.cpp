@@ -1,12 +1,12 @@
 #include "experiments/cli/starts_command.hpp"
 
-#include "experiments/cli/data_root.hpp"
 #include "experiments/cli/output_file.hpp"
-#include "experiments/engine/experiment_loader.hpp"
-#include "experiments/engine/sensor_pairs.hpp"
-#include "experiments/engine/start_file.hpp"
-#include "experiments/engine/starts.hpp"
+#include "experiments/file/experiment_loader.hpp"
 #include "experiments/report/csv_row.hpp"
+#include "experiments/run/data_root.hpp"
+#include "experiments/run/sensor_pairs.hpp"
+#include "experiments/run/start_file.hpp"
+#include "experiments/run/starts.hpp"
 
 namespace croon::experiments {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/engine/experiment.hpp"
+#include "experiments/file/experiment.hpp"
 #include "framework/stage/catalogue.hpp"
 
 namespace croon::experiments {

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <vector>
 
-#include "experiments/engine/trial_record.hpp"
+#include "experiments/run/trial_record.hpp"
 
 namespace croon::experiments {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "experiments/cli/fault_lines.hpp"
-#include "experiments/engine/experiment_loader.hpp"
+#include "experiments/file/experiment_loader.hpp"
 
 namespace croon::experiments {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/engine/start_rule.hpp"
+#include "experiments/file/start_rule.hpp"
 #include "experiments/report/summary.hpp"
 #include "experiments/report/table.hpp"
 

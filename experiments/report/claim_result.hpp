@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "experiments/engine/expectation.hpp"
+#include "experiments/file/expectation.hpp"
 
 namespace croon::experiments {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/engine/step_counts.hpp"
+#include "experiments/run/step_counts.hpp"
 
 namespace croon::experiments {
 

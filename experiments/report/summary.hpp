@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "experiments/engine/experiment.hpp"
-#include "experiments/engine/sensor_pairs.hpp"
-#include "experiments/engine/trial_record.hpp"
+#include "experiments/file/experiment.hpp"
 #include "experiments/report/claim_result.hpp"
 #include "experiments/report/comparison.hpp"
 #include "experiments/report/measure.hpp"
+#include "experiments/run/sensor_pairs.hpp"
+#include "experiments/run/trial_record.hpp"
 #include "framework/base/statistics.hpp"
 
 namespace croon::experiments {

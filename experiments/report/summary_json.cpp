@@ -1,10 +1,10 @@
 #include <nlohmann/json.hpp>
 
-#include "experiments/engine/trial_record.hpp"
 #include "experiments/report/claims.hpp"
 #include "experiments/report/comparison_json.hpp"
 #include "experiments/report/statistic_names.hpp"
 #include "experiments/report/summary.hpp"
+#include "experiments/run/trial_record.hpp"
 #include "framework/geometry/unit_quaternion.hpp"
 
 namespace croon::experiments {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "experiments/engine/trial_record.hpp"
 #include "experiments/report/csv_row.hpp"
 #include "experiments/report/row_table.hpp"
 #include "experiments/report/text.hpp"
+#include "experiments/run/trial_record.hpp"
 
 namespace croon::experiments {
 

@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "experiments/engine/experiment_loader.hpp"
+#include "experiments/file/experiment_loader.hpp"
 #include "framework/base/error.hpp"
 #include "registry/registry.hpp"
 #include "test/house/fenced_block.hpp"

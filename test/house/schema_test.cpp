@@ -10,7 +10,7 @@
 #include <sstream>
 #include <tuple>
 
-#include "experiments/engine/experiment_loader.hpp"
+#include "experiments/file/experiment_loader.hpp"
 #include "framework/base/error.hpp"
 #include "registry/registry.hpp"
 #include "test/house/script.hpp"

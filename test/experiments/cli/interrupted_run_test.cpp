@@ -8,7 +8,7 @@
 #include <map>
 #include <sstream>
 
-#include "experiments/engine/store.hpp"
+#include "experiments/store/store.hpp"
 #include "framework/base/rng.hpp"
 #include "framework/base/whole_file.hpp"
 #include "test/experiments/support/killed_program.hpp"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "experiments/engine/store.hpp"
+#include "experiments/store/store.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
 #include "test/experiments/support/fake_stages.hpp"

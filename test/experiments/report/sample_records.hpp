@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/engine/trial_record.hpp"
+#include "experiments/run/trial_record.hpp"
 #include "test/support/random_geometry.hpp"
 
 namespace croon::experiments::test {

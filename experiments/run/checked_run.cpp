@@ -1,0 +1,57 @@
+#include "experiments/run/checked_run.hpp"
+
+#include <tbb/info.h>
+
+#include <algorithm>
+
+#include "experiments/file/experiment_loader.hpp"
+#include "experiments/run/data_root.hpp"
+#include "experiments/run/sensor_pairs.hpp"
+#include "experiments/run/starts.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/nearest_name.hpp"
+
+namespace croon::experiments {
+namespace {
+
+/// Throws InputError where a claim is of a sensor that there is not: it would never be measured.
+void check_claimed_sensors(const Experiment& experiment, const std::vector<std::string>& sensors) {
+  std::vector<Fault> faults;
+  for (std::size_t i = 0; i < experiment.claims.expect.size(); ++i) {
+    const std::string& sensor = experiment.claims.expect[i].sensor;
+    if (sensor.empty() || std::find(sensors.begin(), sensors.end(), sensor) != sensors.end()) {
+      continue;
+    }
+    faults.push_back({experiment.file, "/expect/" + std::to_string(i) + "/sensor",
+                      "expected a sensor of the dataset, found \"" + sensor + "\"" +
+                          name_hint(sensor, sensors)});
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+}  // namespace
+
+CheckedRun check_run(const RunRequest& request, const Catalogue& catalogue) {
+  CheckedRun run;
+  run.experiment = load_experiment(request.experiment, catalogue);
+  run.data_root = data_root(request.data);
+  std::vector<Fault> faults;
+  collect_faults(faults, [&] { set_trials(run.experiment.starts, request.trials); });
+  collect_faults(faults,
+                 [&] { run.selection.variants = select_variants(run.experiment, request.only); });
+  collect_faults(faults, [&] {
+    if (!request.shard.empty()) run.selection.shard = read_shard(request.shard);
+  });
+  collect_faults(faults, [&] {
+    run.scenes = scenes_of(run.experiment, run.data_root);
+    resolve_starts(run.experiment, run.scenes, run.data_root);
+    check_claimed_sensors(run.experiment, sensor_names(run.scenes));
+  });
+  if (!faults.empty()) throw InputError(std::move(faults));
+  run.out = request.out;
+  if (run.out.empty()) run.out = std::filesystem::path("results") / run.experiment.name;
+  run.jobs = request.jobs > 0 ? request.jobs : tbb::info::default_concurrency();
+  return run;
+}
+
+}  // namespace croon::experiments

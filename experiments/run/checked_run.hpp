@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/run/trial_plan.hpp"
+#include "framework/stage/catalogue.hpp"
+
+namespace croon::experiments {
+
+/// Which trials of which experiment are asked for.
+struct RunRequest {
+  std::filesystem::path experiment;
+  std::filesystem::path out;   ///< Empty: results/<name>.
+  std::filesystem::path data;  ///< Empty: CROON_DATA, else data/.
+  int jobs = 0;                ///< 0: all cores.
+  int trials = 0;              ///< 0: as in the experiment.
+  std::vector<std::string> only;
+  std::string shard;  ///< "K/N"; empty: all.
+};
+
+/// A run of which everything was checked that can be before anything is written.
+struct CheckedRun {
+  Experiment experiment;
+  Selection selection;
+  std::filesystem::path data_root;
+  std::vector<Scene> scenes;
+  std::filesystem::path out;
+  int jobs = 1;
+};
+
+/// Reads and checks what `request` asks for. Throws InputError with all the faults.
+CheckedRun check_run(const RunRequest& request, const Catalogue& catalogue);
+
+}  // namespace croon::experiments

@@ -1,0 +1,162 @@
+#include "experiments/run/starts.hpp"
+
+#include <cmath>
+#include <map>
+
+#include "experiments/file/start_rule.hpp"
+#include "experiments/run/start_file.hpp"
+#include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/rng.hpp"
+#include "framework/geometry/dof.hpp"
+#include "framework/geometry/unit_quaternion.hpp"
+
+namespace croon::experiments {
+namespace {
+
+/// Shoemake 1992: three uniform draws to a unit quaternion, uniform on S^3.
+Eigen::Matrix3d uniform_rotation(Rng& rng) {
+  const double u1 = rng.uniform();
+  const double angle2 = 2.0 * kPi * rng.uniform();
+  const double angle3 = 2.0 * kPi * rng.uniform();
+  const double r1 = std::sqrt(1.0 - u1), r2 = std::sqrt(u1);
+  const Eigen::Quaterniond q(r2 * std::cos(angle3), r1 * std::sin(angle2), r1 * std::cos(angle2),
+                             r2 * std::sin(angle3));
+  return q.toRotationMatrix();
+}
+
+/// Uniform on the unit sphere (Archimedes: the height is uniform).
+Eigen::Vector3d uniform_direction(Rng& rng) {
+  const double height = rng.uniform(-1.0, 1.0);
+  const double angle = 2.0 * kPi * rng.uniform();
+  const double radius = std::sqrt(1.0 - height * height);
+  return {radius * std::cos(angle), radius * std::sin(angle), height};
+}
+
+/// The file of starts below the data root, else beside the experiment.
+std::filesystem::path found_file(const Experiment& experiment,
+                                 const std::filesystem::path& data_root) {
+  const std::filesystem::path below = data_root / experiment.starts.file;
+  const std::filesystem::path beside =
+      std::filesystem::path(experiment.file).parent_path() / experiment.starts.file;
+  for (const std::filesystem::path& path : {below, beside}) {
+    if (std::filesystem::is_regular_file(path)) return path;
+  }
+  throw InputError(
+      experiment.file, "/starts/file",
+      "expected a file of starts, found neither " + below.string() + " nor " + beside.string());
+}
+
+/// The other centres that `scan` has, for the user to choose from.
+std::string centres_of(const SensorScan& scan) {
+  std::string known;
+  for (const StartCentre centre :
+       {StartCentre::truth, StartCentre::nominal, StartCentre::initial}) {
+    if (!centre_pose(centre, scan)) continue;
+    known += (known.empty() ? "" : ", ") + ("\"" + std::string(centre_name(centre)) + "\"");
+  }
+  return known.empty() ? "it has no pose to draw starts around" : "it has " + known;
+}
+
+/// The scenes in which one sensor lacks its pose.
+struct Lack {
+  std::vector<std::string> scenes;
+  std::string instead;
+};
+
+std::string scene_list(const std::vector<std::string>& scenes) {
+  constexpr std::size_t kShown = 3;
+  std::string text = scenes.size() == 1 ? "scene " : "scenes ";
+  for (std::size_t i = 0; i < scenes.size() && i < kShown; ++i) {
+    text += (i == 0 ? "" : ", ") + scenes[i];
+  }
+  if (scenes.size() > kShown) text += " and " + std::to_string(scenes.size() - kShown) + " more";
+  return text;
+}
+
+/// Throws InputError, with a line per sensor, where a scene lacks the pose that starts are drawn
+/// around.
+void check_centres(const Experiment& experiment, const std::vector<Scene>& scenes) {
+  const StartCentre around = experiment.starts.around;
+  std::map<std::string, Lack> lacks;
+  for (const Scene& scene : scenes) {
+    for (const SensorScan& scan : scene.sensors) {
+      if (centre_pose(around, scan)) continue;
+      lacks[scan.sensor].scenes.push_back(scene.name);
+      lacks[scan.sensor].instead = centres_of(scan);
+    }
+  }
+  std::vector<Fault> faults;
+  for (const auto& [sensor, lack] : lacks) {
+    faults.push_back({experiment.file, "/starts/around",
+                      "sensor \"" + sensor + "\" has no " + centre_name(around) +
+                          " pose to draw starts around in " + scene_list(lack.scenes) + "; " +
+                          lack.instead});
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+}  // namespace
+
+const std::optional<RigidTransform>& centre_pose(StartCentre around, const SensorScan& scan) {
+  if (around == StartCentre::nominal) return scan.nominal;
+  if (around == StartCentre::initial) return scan.initial;
+  return scan.truth;
+}
+
+Start draw_start(const StartRule& rule, const RigidTransform& centre, std::uint64_t seed,
+                 const std::string& scene, const std::string& sensor, int trial) {
+  Rng rng(StreamKey(seed).with("start").with(scene).with(sensor).with(
+      static_cast<std::uint64_t>(trial)));
+  const auto size_of = [&](SweepOf of) -> std::optional<double> {
+    if (!rule.sweep || rule.sweep->of != of) return std::nullopt;
+    return level_size(*rule.sweep, level_of(*rule.sweep, trial));
+  };
+  const std::optional<double> angle_deg = size_of(SweepOf::rotation);
+  const std::optional<double> length_m = size_of(SweepOf::translation);
+  RigidTransform rotated = centre;
+  Vector6d offset = Vector6d::Zero();
+  if (angle_deg) {
+    rotated.rotation =
+        rotation_exp(rad_from_deg(*angle_deg) * uniform_direction(rng)) * centre.rotation;
+  } else if (rule.rotation_deg == 180.0) {
+    rotated.rotation = uniform_rotation(rng) * centre.rotation;
+  } else {
+    const double range_rad = rad_from_deg(rule.rotation_deg);
+    for (int i = 0; i < 3; ++i) offset(i) = rng.uniform(-range_rad, range_rad);
+  }
+  if (length_m) {
+    offset.tail<3>() = *length_m * uniform_direction(rng);
+  } else {
+    for (int i = 3; i < 6; ++i) offset(i) = rng.uniform(-rule.translation_m, rule.translation_m);
+  }
+  const RigidTransform start = moved(rotated, offset);
+  return {unit_quaternion(start.rotation), start.translation};
+}
+
+Start start_of(const Experiment& experiment, const std::string& scene, const SensorScan& scan,
+               int trial) {
+  const StartRule& rule = experiment.starts;
+  if (rule.table) {
+    return rule.table->starts.at({scene, scan.sensor}).at(static_cast<std::size_t>(trial));
+  }
+  return draw_start(rule, centre_pose(rule.around, scan).value(), experiment.seed, scene,
+                    scan.sensor, trial);
+}
+
+void resolve_starts(Experiment& experiment, const std::vector<Scene>& scenes,
+                    const std::filesystem::path& data_root) {
+  StartRule& rule = experiment.starts;
+  if (rule.file.empty()) return check_centres(experiment, scenes);
+  const std::filesystem::path path = found_file(experiment, data_root);
+  rule.table = std::make_shared<const StartTable>(read_start_file(path, scenes));
+  if (rule.trials == 0) rule.trials = rule.table->trials;
+  if (rule.trials > rule.table->trials) {
+    throw InputError(experiment.file, "/starts/trials",
+                     "expected at most " + std::to_string(rule.table->trials) +
+                         " trials, as many as " + path.string() + " has, found " +
+                         std::to_string(rule.trials));
+  }
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,151 @@
+#include "experiments/run/trial_plan.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+
+#include "framework/base/error.hpp"
+#include "framework/base/nearest_name.hpp"
+
+namespace croon::experiments {
+namespace {
+
+/// The whole number that is all of `text`; 0 where it is none.
+int whole_number(const std::string& text) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? number : 0;
+}
+
+/// Trials from `begin` to before `end`.
+struct TrialRange {
+  std::int64_t begin = 0;
+  std::int64_t end = 0;
+};
+
+/// The trials of scene `scene` that are the shard's.
+TrialRange trials_of(const Shard& shard, std::size_t scene, std::size_t scenes, int trials) {
+  const std::int64_t all = static_cast<std::int64_t>(scenes) * trials;
+  const auto border = [&](std::int64_t part) {
+    return part * (all / shard.parts) + std::min(part, all % shard.parts);
+  };
+  const std::int64_t first = static_cast<std::int64_t>(scene) * trials;
+  return {std::clamp<std::int64_t>(border(shard.part - 1) - first, 0, trials),
+          std::clamp<std::int64_t>(border(shard.part) - first, 0, trials)};
+}
+
+/// Goes through the trials of one variant, scene and sensor that are done.
+class DoneTrials {
+ public:
+  DoneTrials(const std::vector<TrialPlace>& done, const TrialPlace& first)
+      : next_(std::lower_bound(done.begin(), done.end(), first)), end_(done.end()) {}
+
+  /// Whether `place` is done; must be asked in rising order.
+  bool has(const TrialPlace& place) {
+    while (next_ != end_ && *next_ < place) ++next_;
+    return next_ != end_ && *next_ == place;
+  }
+
+ private:
+  std::vector<TrialPlace>::const_iterator next_, end_;
+};
+
+/// The place of `variants` in the plan's lists, where it is put if need be.
+std::size_t list_of(Plan& plan, const std::vector<std::size_t>& variants) {
+  // From the end: neighbours lack the same.
+  const auto found = std::find(plan.variants.rbegin(), plan.variants.rend(), variants);
+  if (found != plan.variants.rend()) {
+    return static_cast<std::size_t>(plan.variants.rend() - found) - 1;
+  }
+  plan.variants.push_back(variants);
+  return plan.variants.size() - 1;
+}
+
+/// Adds the trials of one sensor of one scene; `sensor` is its place in all scenes.
+void add_starts(Plan& plan, const PlannedStart& first, std::size_t sensor, const TrialRange& trials,
+                const std::vector<std::size_t>& variants, const std::vector<TrialPlace>& done) {
+  std::vector<DoneTrials> done_of;
+  const int begin = static_cast<int>(trials.begin);
+  for (const std::size_t variant : variants) {
+    done_of.emplace_back(done, TrialPlace{variant, first.scene, sensor, begin});
+  }
+  PlannedStart start = first;
+  for (start.trial = begin; start.trial < trials.end; ++start.trial) {
+    std::vector<std::size_t> missing;
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+      if (!done_of[i].has({variants[i], first.scene, sensor, start.trial})) {
+        missing.push_back(variants[i]);
+      }
+    }
+    if (missing.empty()) continue;
+    start.variants = list_of(plan, missing);
+    plan.starts.push_back(start);
+    plan.trials += missing.size();
+  }
+}
+
+}  // namespace
+
+Shard read_shard(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  if (slash != std::string::npos) {
+    const Shard shard{whole_number(text.substr(0, slash)), whole_number(text.substr(slash + 1))};
+    if (shard.part >= 1 && shard.part <= shard.parts) return shard;
+  }
+  throw InputError("", "--shard", "expected K/N with 1 <= K <= N, found \"" + text + "\"");
+}
+
+std::vector<std::size_t> select_variants(const Experiment& experiment,
+                                         const std::vector<std::string>& names) {
+  std::vector<std::string> known;
+  for (const Variant& variant : experiment.variants) known.push_back(variant.name);
+  std::vector<bool> is_selected(known.size(), names.empty());
+  std::vector<Fault> faults;
+  for (const std::string& name : names) {
+    bool selects = false;
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      if (known[i] != name && known[i].compare(0, name.size() + 1, name + "/") != 0) continue;
+      is_selected[i] = selects = true;
+    }
+    if (selects) continue;
+    faults.push_back(
+        {"", "--only", "there is no variant \"" + name + "\"" + name_hint(name, known)});
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+  std::vector<std::size_t> selected;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (is_selected[i]) selected.push_back(i);
+  }
+  return selected;
+}
+
+std::vector<std::string> sensor_names(const std::vector<Scene>& scenes) {
+  std::vector<std::string> names;
+  for (const Scene& scene : scenes) {
+    for (const SensorScan& scan : scene.sensors) {
+      if (std::find(names.begin(), names.end(), scan.sensor) == names.end()) {
+        names.push_back(scan.sensor);
+      }
+    }
+  }
+  return names;
+}
+
+Plan plan_trials(const Experiment& experiment, const std::vector<Scene>& scenes,
+                 const Selection& selection, const std::vector<TrialPlace>& done) {
+  Plan plan;
+  const std::vector<std::string> names = sensor_names(scenes);
+  for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
+    const TrialRange trials =
+        trials_of(selection.shard, scene, scenes.size(), experiment.starts.trials);
+    for (std::size_t sensor = 0; sensor < scenes[scene].sensors.size(); ++sensor) {
+      const std::string& name = scenes[scene].sensors[sensor].sensor;
+      const auto place = std::find(names.begin(), names.end(), name) - names.begin();
+      add_starts(plan, {scene, sensor, 0, 0}, static_cast<std::size_t>(place), trials,
+                 selection.variants, done);
+    }
+  }
+  return plan;
+}
+
+}  // namespace croon::experiments

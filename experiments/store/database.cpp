@@ -1,0 +1,129 @@
+#include "experiments/store/database.hpp"
+
+#include <sqlite3.h>
+
+#include <stdexcept>
+
+#include "framework/base/error.hpp"
+
+namespace croon::experiments {
+namespace {
+
+[[noreturn]] void fail(sqlite3* database, const std::string& file) {
+  const int code = database == nullptr ? SQLITE_NOMEM : sqlite3_errcode(database);
+  if (code == SQLITE_BUSY || code == SQLITE_LOCKED) {
+    throw InputError(file, "", "another croon is working on this store");
+  }
+  if (code == SQLITE_ERROR || code == SQLITE_MISUSE || code == SQLITE_CONSTRAINT) {
+    throw std::logic_error(file + ": " + sqlite3_errmsg(database));
+  }
+  const char* words = database == nullptr ? "out of memory" : sqlite3_errmsg(database);
+  throw InputError(file, "", std::string("expected a readable and writable store: ") + words);
+}
+
+}  // namespace
+
+Statement::Statement(sqlite3* database, const std::string& file, const std::string& sql)
+    : database_(database), file_(file) {
+  sqlite3_stmt* statement = nullptr;
+  const int code = sqlite3_prepare_v2(database, sql.c_str(), -1, &statement, nullptr);
+  statement_.reset(statement);
+  check(code);
+}
+
+void Statement::Finalise::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+
+void Statement::check(int code) {
+  if (code != SQLITE_OK) fail(database_, file_);
+}
+
+void Statement::bind(int place, const std::string& text) {
+  check(sqlite3_bind_text(statement_.get(), place + 1, text.data(), static_cast<int>(text.size()),
+                          SQLITE_TRANSIENT));
+}
+
+void Statement::bind(int place, std::int64_t number) {
+  check(sqlite3_bind_int64(statement_.get(), place + 1, number));
+}
+
+void Statement::bind(int place, double number) {
+  check(sqlite3_bind_double(statement_.get(), place + 1, number));
+}
+
+void Statement::bind_bytes(int place, const std::string& bytes) {
+  check(sqlite3_bind_blob(statement_.get(), place + 1, bytes.data(), static_cast<int>(bytes.size()),
+                          SQLITE_TRANSIENT));
+}
+
+bool Statement::next() {
+  const int code = sqlite3_step(statement_.get());
+  if (code == SQLITE_ROW) return true;
+  if (code != SQLITE_DONE) fail(database_, file_);
+  return false;
+}
+
+void Statement::reset() {
+  sqlite3_reset(statement_.get());
+  sqlite3_clear_bindings(statement_.get());
+}
+
+bool Statement::is_null(int column) const {
+  return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL;
+}
+
+std::string Statement::text(int column) const {
+  const unsigned char* text = sqlite3_column_text(statement_.get(), column);
+  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column));
+  return text == nullptr ? "" : std::string(reinterpret_cast<const char*>(text), size);
+}
+
+std::int64_t Statement::integer(int column) const {
+  return sqlite3_column_int64(statement_.get(), column);
+}
+
+double Statement::real(int column) const { return sqlite3_column_double(statement_.get(), column); }
+
+Database::Database(const std::filesystem::path& path, Access access) : file_(path.string()) {
+  sqlite3* database = nullptr;
+  const int flags =
+      access == Access::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  const int code = sqlite3_open_v2(file_.c_str(), &database, flags, nullptr);
+  database_.reset(database);
+  if (code != SQLITE_OK) fail(database, file_);
+}
+
+void Database::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
+
+void Database::run(const std::string& sql) {
+  if (sqlite3_exec(database_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) {
+    fail(database_.get(), file_);
+  }
+}
+
+Statement Database::prepare(const std::string& sql) const {
+  return Statement(database_.get(), file_, sql);
+}
+
+Transaction::~Transaction() {
+  // An error may have undone it already.
+  if (is_open_) sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+}
+
+void Transaction::commit() {
+  database_.run("COMMIT");
+  is_open_ = false;
+}
+
+Attachment::Attachment(Database& database, const std::filesystem::path& path,
+                       const std::string& name)
+    : database_(database), name_(name) {
+  Statement attach = database.prepare("ATTACH ? AS " + name);
+  attach.bind(0, path.string());
+  attach.next();
+}
+
+Attachment::~Attachment() {
+  sqlite3_exec(database_.handle(), ("DETACH " + name_).c_str(), nullptr, nullptr, nullptr);
+}
+
+}  // namespace croon::experiments

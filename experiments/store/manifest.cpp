@@ -1,0 +1,175 @@
+#include "experiments/store/manifest.hpp"
+
+#include <sys/utsname.h>
+
+#include <chrono>
+#include <ctime>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "experiments/file/experiment_loader.hpp"
+#include "experiments/store/version.hpp"
+#include "framework/base/whole_file.hpp"
+#include "framework/io/digest.hpp"
+
+namespace croon::experiments {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json experiment_json(const Experiment& experiment) {
+  Json json;
+  json["name"] = experiment.name;
+  json["description"] = experiment.description;
+  json["dataset"] = Json::parse(experiment.dataset.resolved());
+  json["starts"] = Json::parse(starts_json(experiment.starts));
+  json["starts"]["trials"] = experiment.starts.trials;
+  json["seed"] = experiment.seed;
+  if (experiment.loops) json["loops"] = true;
+  json["success"] = Json::parse(success_json(experiment.success));
+  json["variants"] = Json::array();
+  for (const Variant& variant : experiment.variants) {
+    json["variants"].push_back(
+        {{"name", variant.name}, {"pipeline", Json::parse(variant.resolved)}});
+  }
+  json.update(Json::parse(claims_json(experiment.claims)));
+  return json;
+}
+
+Json libraries_json() {
+  Json json = Json::object();
+  for (const auto& [library, version] : library_versions()) json[library] = version;
+  return json;
+}
+
+Json inputs_json(const std::vector<InputFile>& inputs) {
+  Json json = Json::array();
+  for (const InputFile& input : inputs) {
+    Json file = {{"path", input.path}, {"sha256", input.sha256}};
+    if (input.points) {
+      file["points"] = *input.points;
+      file["dropped_non_finite"] = *input.dropped_non_finite;
+    }
+    json.push_back(file);
+  }
+  return json;
+}
+
+/// What the digest of the pipelines is made of, for one variant.
+std::string pipeline_line(const std::string& name, const std::string& resolved) {
+  return name + "\n" + resolved + "\n";
+}
+
+std::string pipelines_text(const Experiment& experiment) {
+  std::string text;
+  for (const Variant& variant : experiment.variants) {
+    text += pipeline_line(variant.name, variant.resolved);
+  }
+  return text;
+}
+
+std::size_t planned_trials(const Experiment& experiment, const std::vector<Scene>& scenes) {
+  std::size_t sensors = 0;
+  for (const Scene& scene : scenes) sensors += scene.sensors.size();
+  return sensors * static_cast<std::size_t>(experiment.starts.trials) * experiment.variants.size();
+}
+
+/// A path may hold bytes that are not UTF-8.
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string cpu_model() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.compare(0, 10, "model name") == 0) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
+
+/// Now, "2024-05-01T12:00:00Z".
+std::string utc_time() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+Json host_json(const std::filesystem::path& data_root, int jobs) {
+  utsname system{};
+  uname(&system);
+  return {{"hostname", system.nodename},
+          {"os", std::string(system.sysname) + " " + system.release + " " + system.machine},
+          {"cpu", cpu_model()},
+          {"cores", std::thread::hardware_concurrency()},
+          {"jobs", jobs},
+          {"data_root", data_root.string()},
+          {"started", utc_time()}};
+}
+
+}  // namespace
+
+std::string manifest_json(const Experiment& experiment, const std::vector<Scene>& scenes,
+                          const std::vector<InputFile>& inputs, const Provenance& provenance) {
+  Json manifest;
+  manifest["experiment"] = experiment_json(experiment);
+  manifest["croon"] = {{"version", croon_version()},
+                       {"commit", croon_commit()},
+                       {"program_sha256", provenance.at("program")}};
+  manifest["libraries"] = libraries_json();
+  manifest["inputs"] = inputs_json(inputs);
+  manifest["provenance"] = {{"inputs", sha256_of_text(provenance.at("inputs"))},
+                            {"pipelines", sha256_of_text(pipelines_text(experiment))}};
+  manifest["planned"] = planned_trials(experiment, scenes);
+  return text_of(manifest);
+}
+
+std::size_t planned_trials(const std::string& manifest) {
+  return Json::parse(manifest).at("planned");
+}
+
+std::string manifest_with_variants(const std::string& manifest,
+                                   const std::vector<StoredName>& variants) {
+  Json json = Json::parse(manifest);
+  Json& described = json.at("experiment").at("variants");
+  const std::size_t trials_of_one = planned_trials(manifest) / described.size();
+  described = Json::array();
+  std::string pipelines;
+  for (const StoredName& variant : variants) {
+    if (!variant.is_current) continue;
+    described.push_back({{"name", variant.name}, {"pipeline", Json::parse(variant.detail)}});
+    pipelines += pipeline_line(variant.name, variant.detail);
+  }
+  json["provenance"]["pipelines"] = sha256_of_text(pipelines);
+  json["planned"] = trials_of_one * described.size();
+  return text_of(json);
+}
+
+std::string manifest_with_host(const std::string& manifest, const std::filesystem::path& data_root,
+                               int jobs) {
+  Json json = Json::parse(manifest);
+  json["host"] = host_json(data_root, jobs);
+  return text_of(json);
+}
+
+std::string merged_manifest(const std::string& manifest,
+                            const std::vector<std::filesystem::path>& folders) {
+  Json json = Json::parse(manifest);
+  json["host"] = {{"merged", Json::array()}};
+  for (const std::filesystem::path& folder : folders) {
+    const std::filesystem::path file = folder / "manifest.json";
+    if (!std::filesystem::exists(file)) continue;
+    const Json other = Json::parse(read_whole_file(file), nullptr, false);
+    if (!other.is_object() || !other.contains("host")) continue;
+    // Results that were merged before list theirs.
+    const Json& host = other["host"];
+    const Json hosts = host.contains("merged") ? host["merged"] : Json::array({host});
+    for (const Json& one : hosts) json["host"]["merged"].push_back(one);
+  }
+  return text_of(json);
+}
+
+}  // namespace croon::experiments

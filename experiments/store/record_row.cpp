@@ -1,0 +1,161 @@
+#include "experiments/store/record_row.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace croon::experiments {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr int kKeyColumns = 4;
+constexpr int kErrorColumns = 8;
+constexpr int kPoseColumns = 12;
+constexpr int kResultColumns = 2 + kErrorColumns + kPoseColumns;
+
+constexpr const char* kKey = "variant INTEGER, scene INTEGER, sensor INTEGER, trial INTEGER";
+
+std::string places(int count) {
+  std::string text = "?";
+  for (int i = 1; i < count; ++i) text += ", ?";
+  return text;
+}
+
+Status status_of(const std::string& word) {
+  for (std::size_t i = 0; i < kStatusNames.size(); ++i) {
+    if (word == kStatusNames[i]) return static_cast<Status>(i);
+  }
+  throw std::logic_error("the store has a status \"" + word + "\"");
+}
+
+/// JSON has no infinities and no NaN: they are words.
+ordered_json json_of(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
+  return value;
+}
+
+/// `{"rmse_m": 0.02, ...}`
+std::string figures_text(const std::vector<StepFigure>& figures) {
+  ordered_json object = ordered_json::object();
+  for (const auto& [name, value] : figures) object[name] = json_of(value);
+  return object.dump();
+}
+
+/// The 36 numbers by rows, as they are in memory (little-endian on every machine we build on).
+std::string bytes_of(const Matrix6d& information) {
+  const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> rows = information;
+  return {reinterpret_cast<const char*>(rows.data()), sizeof(double) * 36};
+}
+
+void bind_key(Statement& insert, const TrialRow& row) {
+  insert.bind(0, row.variant);
+  insert.bind(1, row.scene);
+  insert.bind(2, row.sensor);
+  insert.bind(3, static_cast<std::int64_t>(row.trial));
+}
+
+void bind_result(Statement& insert, const TrialRecord& record) {
+  int place = kKeyColumns;
+  insert.bind(place++, status_name(record.status));
+  insert.bind(place++, record.reason);
+  if (record.error) {
+    for (int i = 0; i < 6; ++i) insert.bind(place + i, record.error->dof(i));
+    insert.bind(place + 6, record.error->rotation_rad);
+    insert.bind(place + 7, record.error->translation_m);
+  }
+  place += kErrorColumns;
+  if (!record.T_reference_sensor) return;
+  const RigidTransform& T = *record.T_reference_sensor;
+  for (int i = 0; i < 9; ++i) insert.bind(place + i, T.rotation(i / 3, i % 3));
+  for (int i = 0; i < 3; ++i) insert.bind(place + 9 + i, T.translation(i));
+}
+
+/// A view of `table` with the names of variants, scenes and sensors for their ids.
+std::string named_view(const std::string& view, const std::string& table,
+                       const std::string& columns) {
+  return "CREATE VIEW IF NOT EXISTS " + view +
+         " AS SELECT variants.name AS variant, scenes.name AS scene, sensors.name AS sensor, "
+         "t.trial, " +
+         columns + " FROM " + table +
+         " t JOIN variants ON variants.id = t.variant JOIN scenes ON scenes.id = t.scene"
+         " JOIN sensors ON sensors.id = t.sensor;";
+}
+
+}  // namespace
+
+// The columns of numbers have no type: SQLite then keeps the bits of a double, -0.0 too.
+const std::string& result_columns() {
+  static const std::string columns =
+      "status, reason, roll_error_rad, pitch_error_rad, yaw_error_rad, x_error_m, y_error_m, "
+      "z_error_m, rotation_error_rad, translation_error_m, r00, r01, r02, r10, r11, r12, r20, "
+      "r21, r22, tx_m, ty_m, tz_m";
+  return columns;
+}
+
+std::string record_tables() {
+  const std::string key = kKey;
+  return "CREATE TABLE IF NOT EXISTS trials(" + key + ", " + result_columns() +
+         ", PRIMARY KEY(variant, scene, sensor, trial)) WITHOUT ROWID;"
+         "CREATE TABLE IF NOT EXISTS steps(" +
+         key +
+         ", place INTEGER, step TEXT, figures TEXT, information BLOB,"
+         " PRIMARY KEY(variant, scene, sensor, trial, place)) WITHOUT ROWID;" +
+         named_view("named_trials", "trials", result_columns()) +
+         named_view("named_steps", "steps", "t.place, step, figures, information");
+}
+
+RecordInserter::RecordInserter(const Database& database)
+    : trial_(database.prepare("INSERT INTO trials VALUES(" + places(kKeyColumns + kResultColumns) +
+                              ")")),
+      step_(database.prepare("INSERT INTO steps VALUES(" + places(kKeyColumns + 4) + ")")) {}
+
+void RecordInserter::add(const TrialRow& row, const TrialRecord& record) {
+  bind_key(trial_, row);
+  bind_result(trial_, record);
+  trial_.next();
+  trial_.reset();
+  std::int64_t place = 0;
+  for (const StepRecord& step : record.steps) {
+    bind_key(step_, row);
+    step_.bind(kKeyColumns, place++);
+    step_.bind(kKeyColumns + 1, step.name);
+    step_.bind(kKeyColumns + 2, figures_text(step.figures));
+    if (step.information) step_.bind_bytes(kKeyColumns + 3, bytes_of(*step.information));
+    step_.next();
+    step_.reset();
+  }
+}
+
+Statement select_results(const Database& database) {
+  return database.prepare("SELECT variant, scene, sensor, trial, " + result_columns() +
+                          " FROM trials");
+}
+
+TrialRow row_of(const Statement& select) {
+  return {select.integer(0), select.integer(1), select.integer(2),
+          static_cast<int>(select.integer(3))};
+}
+
+TrialRecord result_of(const Statement& select) {
+  TrialRecord record;
+  int place = kKeyColumns;
+  record.status = status_of(select.text(place++));
+  record.reason = select.text(place++);
+  if (!select.is_null(place)) {
+    record.error.emplace();
+    for (int i = 0; i < 6; ++i) record.error->dof(i) = select.real(place + i);
+    record.error->rotation_rad = select.real(place + 6);
+    record.error->translation_m = select.real(place + 7);
+  }
+  place += kErrorColumns;
+  if (!select.is_null(place)) {
+    RigidTransform& T = record.T_reference_sensor.emplace();
+    for (int i = 0; i < 9; ++i) T.rotation(i / 3, i % 3) = select.real(place + i);
+    for (int i = 0; i < 3; ++i) T.translation(i) = select.real(place + 9 + i);
+  }
+  return record;
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+
+#include "experiments/run/trial_record.hpp"
+#include "experiments/store/database.hpp"
+
+namespace croon::experiments {
+
+/// A trial as the store knows it: the ids of its variant, scene and sensor, and its number.
+struct TrialRow {
+  std::int64_t variant = 0;
+  std::int64_t scene = 0;
+  std::int64_t sensor = 0;
+  int trial = 0;
+};
+
+/// The columns of `trials` after the four of a TrialRow: status, reason, error (rad and m) and pose
+/// (the rotation by rows, m); error and pose are null where the trial has none.
+const std::string& result_columns();
+
+/// SQL that makes the tables `trials` and `steps` where they are missing, and the views on them
+/// that have names for ids.
+std::string record_tables();
+
+/// Adds rows to a store.
+class RecordInserter {
+ public:
+  explicit RecordInserter(const Database& database);
+  /// Adds `record` and its steps as the trial `row`.
+  void add(const TrialRow& row, const TrialRecord& record);
+
+ private:
+  Statement trial_;
+  Statement step_;
+};
+
+/// The statement whose rows `row_of` and `read_result` read.
+Statement select_results(const Database& database);
+TrialRow row_of(const Statement& select);
+/// The result, without its id.
+TrialRecord result_of(const Statement& select);
+
+}  // namespace croon::experiments

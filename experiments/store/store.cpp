@@ -1,0 +1,214 @@
+#include "experiments/store/store.hpp"
+
+#include <algorithm>
+
+#include "experiments/store/header_differences.hpp"
+#include "experiments/store/record_row.hpp"
+#include "experiments/store/stored_places.hpp"
+#include "framework/base/error.hpp"
+
+namespace croon::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kRemedy = "--fresh deletes them and starts over, --out writes elsewhere";
+
+/// The tables that map ids to names, and what the trials call them.
+struct IdColumn {
+  const char* table;
+  const char* column;
+};
+constexpr IdColumn kIdColumns[] = {
+    {"variants", "variant"}, {"scenes", "scene"}, {"sensors", "sensor"}};
+
+/// Opens `path`, whose header is `header` or not there yet, for this process alone.
+Database open_store(const fs::path& path, const StoreHeader& header) {
+  // Looks before it opens the file to write: a store that is refused keeps its bytes.
+  const StoreHeader stored = stored_header(path);
+  if (!stored.provenance.empty()) refuse_differences(path.string(), stored, header, kRemedy);
+  Database database(path, Access::write);
+  database.run(
+      "PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;"
+      "BEGIN EXCLUSIVE;" +
+      header_tables() + record_tables() + "COMMIT;");
+  write_header(database, header);
+  return database;
+}
+
+/// SQL that fills temporary tables `map_TABLE(old, new)`: the ids of `from` and those of main, by
+/// name.
+std::string id_maps(const std::string& from) {
+  std::string sql;
+  for (const IdColumn& ids : kIdColumns) {
+    const std::string table = ids.table;
+    sql += "DROP TABLE IF EXISTS temp.map_" + table + "; CREATE TEMP TABLE map_" + table +
+           "(old INTEGER PRIMARY KEY, new INTEGER);"
+           "INSERT INTO temp.map_" +
+           table + " SELECT a.id, b.id FROM " + from + "." + table + " a JOIN main." + table +
+           " b ON a.name = b.name;";
+  }
+  return sql;
+}
+
+/// SQL that selects the rows of `from`'s `table` with the ids of main.
+std::string with_main_ids(const std::string& from, const std::string& table,
+                          const std::string& columns) {
+  std::string ids, joins;
+  for (const IdColumn& id : kIdColumns) {
+    const std::string map = "map_" + std::string(id.table);
+    ids += map + ".new AS " + id.column + ", ";
+    joins += " JOIN temp." + map + " ON " + map + ".old = t." + id.column;
+  }
+  return "SELECT " + ids + "t.trial AS trial, " + columns + " FROM " + from + "." + table + " t" +
+         joins;
+}
+
+constexpr const char* kStepColumns = "place, step, figures, information";
+
+/// The trials of `header` in the store, in its order.
+std::vector<TrialPlace> places_in(const fs::path& path, const StoreHeader& header) {
+  const Database database(path, Access::read);
+  const StoredPlaces to_place(database, header);
+  Statement select = database.prepare("SELECT variant, scene, sensor, trial FROM trials");
+  std::vector<TrialPlace> places;
+  TrialPlace place;
+  while (select.next()) {
+    if (to_place.find(row_of(select), place)) places.push_back(place);
+  }
+  return places;
+}
+
+/// A trial without its names, and its place.
+using PlacedRecord = std::pair<TrialPlace, TrialRecord>;
+
+/// The trials that the experiment still has, in the order of the store.
+std::vector<PlacedRecord> records_in(const fs::path& path, const StoreHeader& header) {
+  const Database database(path, Access::read);
+  const StoredPlaces to_place(database, header);
+  std::vector<PlacedRecord> rows;
+  Statement select = select_results(database);
+  TrialPlace place;
+  while (select.next()) {
+    const TrialRow row = row_of(select);
+    if (row.trial < header.trials && to_place.find(row, place)) {
+      rows.emplace_back(place, result_of(select));
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+Store::Store(const fs::path& path, const StoreHeader& header)
+    : database_(open_store(path, header)),
+      variants_(ids_of(database_, "variants")),
+      scenes_(ids_of(database_, "scenes")),
+      sensors_(ids_of(database_, "sensors")),
+      inserter_(database_) {}
+
+void Store::add(const std::vector<const TrialRecord*>& records) {
+  Transaction transaction(database_);
+  for (const TrialRecord* record : records) {
+    const TrialId& id = record->id;
+    inserter_.add(
+        {variants_.at(id.variant), scenes_.at(id.scene), sensors_.at(id.sensor), id.trial},
+        *record);
+  }
+  transaction.commit();
+}
+
+void Store::merge(const fs::path& shard, const StoreHeader& from) {
+  refuse_differences(shard.string(), from, read_header(database_),
+                     "stores of one experiment alone can be merged");
+  const Attachment attachment(database_, shard, "shard");
+  Transaction transaction(database_);
+  database_.run(id_maps("shard"));
+  const std::string rows = with_main_ids("shard", "trials", result_columns());
+  {
+    Statement doubled = database_.prepare("SELECT count(*) FROM (" + rows +
+                                          " EXCEPT SELECT * FROM main.trials) s JOIN main.trials m"
+                                          " USING(variant, scene, sensor, trial)");
+    doubled.next();
+    if (doubled.integer(0) > 0) {
+      throw InputError(
+          shard.string(), "",
+          std::to_string(doubled.integer(0)) + " of its trials ended differently in another store");
+    }
+  }
+  database_.run("INSERT OR IGNORE INTO main.trials " + rows + ";INSERT OR IGNORE INTO main.steps " +
+                with_main_ids("shard", "steps", kStepColumns));
+  transaction.commit();
+}
+
+StoreHeader stored_header(const fs::path& path) {
+  if (!fs::exists(path)) return {};
+  return reading(path, [&] { return read_header(Database(path, Access::read)); });
+}
+
+std::vector<TrialPlace> stored_places(const fs::path& path, const StoreHeader& header) {
+  const StoreHeader stored = stored_header(path);
+  if (stored.provenance.empty()) return {};
+  refuse_differences(path.string(), stored, header, kRemedy);
+  std::vector<TrialPlace> places = reading(path, [&] { return places_in(path, header); });
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+StoredRun read_store(const fs::path& path) {
+  StoredRun run{stored_header(path), {}};
+  if (run.header.provenance.empty()) {
+    throw InputError(path.string(), "", "expected the store of a run, found none");
+  }
+  std::vector<PlacedRecord> rows = reading(path, [&] { return records_in(path, run.header); });
+  // In a store that is in order they are sorted.
+  const auto is_before = [](const auto& a, const auto& b) { return a.first < b.first; };
+  if (!std::is_sorted(rows.begin(), rows.end(), is_before)) {
+    std::sort(rows.begin(), rows.end(), is_before);
+  }
+  run.records.reserve(rows.size());
+  for (auto& [at, record] : rows) {
+    const auto& [variant, scene, sensor, trial] = at;
+    record.id = {run.header.variants[variant].name, run.header.scenes[scene].name,
+                 run.header.sensors[sensor].name, trial};
+    run.records.push_back(std::move(record));
+  }
+  return run;
+}
+
+void rewrite_in_order(const fs::path& path) {
+  const fs::path ordered = path.string() + ".new";
+  std::error_code error;
+  fs::remove(ordered, error);
+  if (is_in_order(Database(path, Access::read))) return;
+  {
+    Database database(ordered, Access::write);
+    database.run("PRAGMA journal_mode = DELETE; PRAGMA synchronous = FULL;");
+    const Attachment attachment(database, path, "old");
+    Transaction transaction(database);
+    database.run(header_tables() + record_tables() + copy_of_header("old") + id_maps("old") +
+                 "INSERT INTO main.trials " + with_main_ids("old", "trials", result_columns()) +
+                 " ORDER BY 1, 2, 3, 4; INSERT INTO main.steps " +
+                 with_main_ids("old", "steps", kStepColumns) + " ORDER BY 1, 2, 3, 4, 5");
+    transaction.commit();
+  }
+  replace_store(path, ordered);
+}
+
+void replace_store(const fs::path& path, const fs::path& by) {
+  // The log of a store that was killed would be taken for the new one's: it is worked in first.
+  if (fs::exists(path)) Database(path, Access::write).run("PRAGMA journal_mode = DELETE");
+  std::error_code error;
+  fs::rename(by, path, error);
+  if (error) throw InputError(path.string(), "", "cannot be replaced: " + error.message());
+}
+
+std::vector<fs::path> store_files(const fs::path& path) {
+  std::vector<fs::path> files;
+  for (const char* ending : {"", "-wal", "-shm", "-journal", ".new", ".new-journal"}) {
+    files.push_back(path.string() + ending);
+  }
+  return files;
+}
+
+}  // namespace croon::experiments

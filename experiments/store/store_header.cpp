@@ -1,0 +1,154 @@
+#include "experiments/store/store_header.hpp"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+#include <utility>
+
+#include "framework/base/error.hpp"
+
+namespace croon::experiments {
+namespace {
+
+constexpr const char* kFormat = "2";
+/// Stands in a store that was written to since it was put in order.
+constexpr const char* kUnordered = "unordered";
+
+/// A table of names and where they stand in the header.
+struct NameTable {
+  const char* name;
+  const char* detail;
+  std::vector<StoredName> StoreHeader::*names;
+};
+
+constexpr std::array<NameTable, 3> kNameTables = {
+    {{"variants", "pipeline", &StoreHeader::variants},
+     {"scenes", "kind", &StoreHeader::scenes},
+     {"sensors", "reference", &StoreHeader::sensors}}};
+
+void write_names(Database& database, const NameTable& table, const StoreHeader& header) {
+  const std::string name = table.name;
+  database.run("UPDATE " + name + " SET place = NULL");
+  const std::string detail = table.detail;
+  Statement upsert =
+      database.prepare("INSERT INTO " + name + "(name, " + detail +
+                       ", place) VALUES(?1, ?2, ?3) ON CONFLICT(name) DO UPDATE SET " + detail +
+                       " = ?2, place = ?3");
+  std::int64_t place = 0;
+  for (const StoredName& stored : header.*table.names) {
+    upsert.reset();
+    upsert.bind(0, stored.name);
+    upsert.bind(1, stored.detail);
+    if (stored.is_current) upsert.bind(2, place++);
+    upsert.next();
+  }
+}
+
+std::vector<StoredName> read_names(const Database& database, const NameTable& table) {
+  std::vector<StoredName> names;
+  Statement select =
+      database.prepare("SELECT name, " + std::string(table.detail) + ", place FROM " + table.name +
+                       " ORDER BY place IS NULL, place, name");
+  while (select.next()) names.push_back({select.text(0), select.text(1), !select.is_null(2)});
+  return names;
+}
+
+/// The value of `name`, which is not in `meta` from then on; empty where it was not.
+std::string taken(Provenance& meta, const std::string& name) {
+  const auto node = meta.extract(name);
+  return node.empty() ? "" : node.mapped();
+}
+
+void add_missing(std::vector<StoredName>& to, const std::vector<StoredName>& from) {
+  for (const StoredName& stored : from) {
+    const auto is_same = [&](const StoredName& other) { return other.name == stored.name; };
+    if (std::none_of(to.begin(), to.end(), is_same)) to.push_back(stored);
+  }
+}
+
+}  // namespace
+
+std::string header_tables() {
+  std::string sql =
+      "CREATE TABLE IF NOT EXISTS meta(name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;";
+  for (const NameTable& table : kNameTables) {
+    sql += std::string("CREATE TABLE IF NOT EXISTS ") + table.name +
+           "(id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, " + table.detail +
+           " TEXT NOT NULL, place INTEGER);";
+  }
+  return sql;
+}
+
+StoreHeader read_header(const Database& database) {
+  StoreHeader header;
+  // A kill before the first commit leaves a store without tables.
+  if (!database.prepare("SELECT 1 FROM sqlite_master WHERE name = 'meta'").next()) return header;
+  Statement select = database.prepare("SELECT name, value FROM meta");
+  while (select.next()) header.provenance[select.text(0)] = select.text(1);
+  if (header.provenance.empty()) return header;
+  const std::string format = taken(header.provenance, "format");
+  if (format != kFormat) {
+    throw InputError(database.file(), "",
+                     "is a store of format \"" + format + "\", expected \"" + kFormat +
+                         "\", of another version of croon; croon run --fresh starts over");
+  }
+  header.manifest = taken(header.provenance, "manifest");
+  header.trials = std::stoi(taken(header.provenance, "trials"));
+  taken(header.provenance, kUnordered);
+  for (const NameTable& table : kNameTables) header.*table.names = read_names(database, table);
+  return header;
+}
+
+void write_header(Database& database, const StoreHeader& header) {
+  Transaction transaction(database);
+  database.run("DELETE FROM meta");
+  Statement insert = database.prepare("INSERT INTO meta VALUES(?, ?)");
+  Provenance meta = header.provenance;
+  meta["format"] = kFormat;
+  meta["manifest"] = header.manifest;
+  meta["trials"] = std::to_string(header.trials);
+  meta[kUnordered] = "yes";
+  for (const auto& [name, value] : meta) {
+    insert.reset();
+    insert.bind(0, name);
+    insert.bind(1, value);
+    insert.next();
+  }
+  for (const NameTable& table : kNameTables) write_names(database, table, header);
+  transaction.commit();
+}
+
+bool is_in_order(const Database& database) {
+  Statement select = database.prepare("SELECT 1 FROM meta WHERE name = ?");
+  select.bind(0, kUnordered);
+  return !select.next();
+}
+
+std::string copy_of_header(const std::string& from) {
+  std::string sql = "INSERT INTO main.meta SELECT * FROM " + from + ".meta WHERE name <> '" +
+                    kUnordered + "' ORDER BY name;";
+  for (const NameTable& table : kNameTables) {
+    sql += std::string("INSERT INTO main.") + table.name + " SELECT NULL, name, " + table.detail +
+           ", place FROM " + from + "." + table.name + " ORDER BY place IS NULL, place, name;";
+  }
+  return sql;
+}
+
+bool is_same(const StoreHeader& a, const StoreHeader& b) {
+  const auto is_same_name = [](const StoredName& x, const StoredName& y) {
+    return std::tie(x.name, x.detail, x.is_current) == std::tie(y.name, y.detail, y.is_current);
+  };
+  return a.provenance == b.provenance && a.manifest == b.manifest && a.trials == b.trials &&
+         std::all_of(kNameTables.begin(), kNameTables.end(), [&](const NameTable& table) {
+           const auto& x = a.*table.names;
+           const auto& y = b.*table.names;
+           return std::equal(x.begin(), x.end(), y.begin(), y.end(), is_same_name);
+         });
+}
+
+StoreHeader united(StoreHeader a, const StoreHeader& b) {
+  for (const NameTable& table : kNameTables) add_missing(a.*table.names, b.*table.names);
+  return a;
+}
+
+}  // namespace croon::experiments

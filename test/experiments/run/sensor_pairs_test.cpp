@@ -1,0 +1,67 @@
+#include "experiments/run/sensor_pairs.hpp"
+
+#include <gtest/gtest.h>
+
+#include "experiments/file/experiment_loader.hpp"
+#include "framework/geometry/pose_error.hpp"
+#include "test/experiments/support/fake_stages.hpp"
+#include "test/support/temp_folder.hpp"
+
+namespace croon::experiments {
+namespace {
+
+Experiment with_loops(const std::string& loops) {
+  const test::TempFolder folder;
+  return load_experiment(
+      folder.write("x.json", R"({"name": "x", "dataset": {"type": "fake", "sensors": 3}, )" +
+                                 loops + R"( "pipeline": [{"step": "behave"}]})"),
+      test::fake_catalogue());
+}
+
+TEST(SensorPairs, AreThereWhereLoopsAreAskedFor) {
+  EXPECT_EQ(scenes_of(with_loops(""), "").front().sensors.size(), 3U);
+  EXPECT_EQ(scenes_of(with_loops(R"("loops": false,)"), "").front().sensors.size(), 3U);
+  const std::vector<SensorScan> sensors =
+      scenes_of(with_loops(R"("loops": true,)"), "").front().sensors;
+  ASSERT_EQ(sensors.size(), 6U);
+  std::vector<std::string> names;
+  for (const SensorScan& scan : sensors) names.push_back(scan.sensor);
+  EXPECT_EQ(names, (std::vector<std::string>{"s2", "s1", "s0", "s1>s2", "s0>s2", "s0>s1"}));
+  EXPECT_FALSE(is_pair(sensors[2]));
+  EXPECT_TRUE(is_pair(sensors[3]));
+}
+
+TEST(SensorPairs, HaveTheRelativePose) {
+  for (const Scene& scene : scenes_of(with_loops(R"("loops": true,)"), "")) {
+    const auto truth = [&](std::size_t i) { return *scene.sensors[i].truth; };
+    // T_reference_s2 T_s2_s0 = T_reference_s0.
+    const PoseError error = pose_error(truth(0) * truth(4), truth(2));
+    EXPECT_LT(error.rotation_rad, 1e-12);
+    EXPECT_LT(error.translation_m, 1e-12);
+  }
+}
+
+TEST(SensorPairs, GoAgain) {
+  const Experiment experiment = with_loops(R"("loops": true,)");
+  for (const Scene& scene : without_pairs(scenes_of(experiment, ""))) {
+    EXPECT_EQ(scene.sensors.size(), 3U);
+  }
+  for (const Scene& scene : without_pairs(scenes_of(with_loops(""), ""))) {
+    EXPECT_EQ(scene.sensors.size(), 3U);
+  }
+}
+
+TEST(SensorPairs, AreKnownByTheirNames) {
+  // The names of sensors are the user's: they may have any character.
+  for (const char* source : {"left", "a>b", ""}) {
+    for (const char* target : {"front", ">", "x>"}) {
+      const SensorPair pair = sensor_pair(source, target);
+      const SensorPair named = named_pair(pair.name, target);
+      EXPECT_EQ(named.source, source);
+      EXPECT_EQ(named.target, target);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace croon::experiments

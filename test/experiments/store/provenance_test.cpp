@@ -1,0 +1,31 @@
+#include "experiments/store/provenance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/file/experiment_loader.hpp"
+#include "experiments/store/manifest.hpp"
+#include "test/experiments/support/fake_stages.hpp"
+#include "test/support/temp_folder.hpp"
+
+namespace croon::experiments {
+namespace {
+
+TEST(Provenance, CloudsThatAreInNoFileAreNoInputs) {
+  const test::TempFolder folder;
+  const auto path = folder.write(
+      "x.json",
+      R"({"name": "x", "dataset": {"type": "fake"}, "starts": {}, "pipeline": [{"step": "drift"}]})");
+  const Experiment experiment = load_experiment(path, test::fake_catalogue());
+  const std::vector<Scene> scenes = experiment.dataset->scenes("");
+  const std::vector<InputFile> inputs = input_files(scenes, "/no/such/folder", 2);
+  EXPECT_TRUE(inputs.empty());
+  const Provenance provenance = provenance_of(experiment, scenes, inputs);
+  const auto manifest =
+      nlohmann::json::parse(manifest_json(experiment, scenes, inputs, provenance));
+  EXPECT_EQ(manifest["inputs"], nlohmann::json::array());
+}
+
+}  // namespace
+}  // namespace croon::experiments
