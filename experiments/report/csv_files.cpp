@@ -1,7 +1,7 @@
 #include "experiments/report/csv_files.hpp"
 
+#include "experiments/file/measures.hpp"
 #include "experiments/report/csv_row.hpp"
-#include "experiments/report/measure.hpp"
 #include "framework/geometry/unit_quaternion.hpp"
 
 namespace croon::experiments {

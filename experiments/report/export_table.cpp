@@ -13,9 +13,6 @@ namespace croon::experiments {
 
 namespace {
 
-constexpr std::size_t kRotation = kDofs;
-constexpr std::size_t kTranslation = kDofs + 1;
-
 ExportColumn error_column(std::size_t measure, const char* statistic, Better better) {
   const std::string unit = kMeasures[measure].unit;
   return {kMeasures[measure].name + std::string("_") + statistic + "_" + unit, unit == "m" ? 4 : 3,

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "experiments/file/experiment.hpp"
+#include "experiments/file/measures.hpp"
 #include "experiments/report/claim_result.hpp"
 #include "experiments/report/comparison.hpp"
-#include "experiments/report/measure.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/trial_record.hpp"
 #include "framework/base/statistics.hpp"
