@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <string>
-#include <vector>
 
 #include "framework/geometry/rigid_transform.hpp"
 
@@ -18,9 +17,6 @@ enum class Dof : std::size_t { roll, pitch, yaw, x, y, z };
 
 /// "roll", "pitch", "yaw", "x", "y", "z".
 inline const std::array<std::string, 6> kDofNames = {"roll", "pitch", "yaw", "x", "y", "z"};
-
-/// The degrees of freedom that `names` lists, in its order; every name must be one of kDofNames.
-std::vector<Dof> dofs_from_names(const std::vector<std::string>& names);
 
 /// True for roll, pitch and yaw.
 inline bool is_rotation(Dof dof) { return dof < Dof::x; }

@@ -181,18 +181,11 @@ Parameter<P> numbers(const std::string& key, std::vector<double> P::*member, Ran
   return value_parameter<P>({key, ParameterType::numbers, "", range, {}, "", sentence}, member);
 }
 
-/// One of a few words.
+/// One of a few words, kept as a string. For an enumeration see choice.hpp.
 template <class P>
 Parameter<P> choice(const std::string& key, std::string P::*member,
                     const std::vector<std::string>& choices, const std::string& sentence) {
   return value_parameter<P>({key, ParameterType::choice, "", {}, choices, "", sentence}, member);
-}
-
-/// A list of different words out of a few, not empty.
-template <class P>
-Parameter<P> choices(const std::string& key, std::vector<std::string> P::*member,
-                     const std::vector<std::string>& choices, const std::string& sentence) {
-  return value_parameter<P>({key, ParameterType::choices, "", {}, choices, "", sentence}, member);
 }
 
 /// A stage of the kind `Kind`; `default_json` describes the one that is built where the key is

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "framework/base/nearest_name.hpp"
 
@@ -21,12 +20,6 @@ void read_text(const Node& node, std::string& out) {
   if (!node.read(text)) return;
   if (text.empty()) return node.expected("a string that is not empty");
   out = text;
-}
-
-bool read_choice(const Node& node, const ParameterDoc& doc, std::string& out) {
-  const std::optional<std::size_t> word = read_word(node, doc.choices);
-  if (word) out = doc.choices[*word];
-  return word.has_value();
 }
 
 }  // namespace
@@ -67,8 +60,8 @@ void read_value(const Node& node, const ParameterDoc& doc, double& out) {
 void read_value(const Node& node, const ParameterDoc& doc, std::string& out) {
   if (doc.type == ParameterType::text) {
     read_text(node, out);
-  } else {
-    read_choice(node, doc, out);
+  } else if (const auto index = read_word(node, doc.choices)) {
+    out = doc.choices[*index];
   }
 }
 
@@ -82,22 +75,6 @@ void read_value(const Node& node, const ParameterDoc& doc, std::vector<double>& 
     values.push_back(value);
   });
   out = values;
-}
-
-void read_value(const Node& node, const ParameterDoc& doc, std::vector<std::string>& out) {
-  if (!node.is_array()) return;
-  if (node.value().empty()) return node.expected("a list of at least one word");
-  std::vector<std::string> words;
-  for_each_element(node, [&](const Node& element) {
-    std::string word;
-    if (!read_choice(element, doc, word)) return;
-    if (std::find(words.begin(), words.end(), word) != words.end()) {
-      element.fault("\"" + word + "\" stands in this list twice");
-    } else {
-      words.push_back(word);
-    }
-  });
-  out = words;
 }
 
 std::optional<std::size_t> read_word(const Node& node, const std::vector<std::string>& words,
@@ -116,6 +93,22 @@ std::optional<std::size_t> read_word(const Node& node, const std::vector<std::st
   node.fault("expected " + expected + ", found \"" + word + "\"" +
              (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
   return std::nullopt;
+}
+
+std::vector<std::size_t> read_words(const Node& node, const std::vector<std::string>& words) {
+  std::vector<std::size_t> indices;
+  if (!node.is_array()) return indices;
+  if (node.value().empty()) node.expected("a list of at least one word");
+  for_each_element(node, [&](const Node& element) {
+    const std::optional<std::size_t> index = read_word(element, words);
+    if (!index) return;
+    if (std::find(indices.begin(), indices.end(), *index) != indices.end()) {
+      element.fault("\"" + words[*index] + "\" stands in this list twice");
+    } else {
+      indices.push_back(*index);
+    }
+  });
+  return indices;
 }
 
 std::string value_json(bool value) { return value ? "true" : "false"; }

@@ -17,12 +17,15 @@ void read_value(const Node& node, const ParameterDoc& doc, int& out);
 void read_value(const Node& node, const ParameterDoc& doc, double& out);
 void read_value(const Node& node, const ParameterDoc& doc, std::string& out);
 void read_value(const Node& node, const ParameterDoc& doc, std::vector<double>& out);
-void read_value(const Node& node, const ParameterDoc& doc, std::vector<std::string>& out);
 
 /// Which of `words` the node is; notes a fault, with the nearest of them, where it is none.
 /// `or_else` names what else may stand there: " or an object".
 std::optional<std::size_t> read_word(const Node& node, const std::vector<std::string>& words,
                                      const std::string& or_else = "");
+
+/// The indices in `words` of the elements of the list `node`. Notes a fault if the node is not a
+/// list, if it is empty, and for each element that is not one of `words` or is listed twice.
+std::vector<std::size_t> read_words(const Node& node, const std::vector<std::string>& words);
 
 /// The JSON text of a value.
 std::string value_json(bool value);

@@ -1,12 +1,10 @@
 #include "framework/pipeline/nearest_cost_options.hpp"
 
-#include "framework/pipeline/point_selection.hpp"
-
 namespace croon {
 
 const params::Table<NearestCostOptions>& nearest_cost_table() {
   static const params::Table<NearestCostOptions> table = {
-      params::choice("points", &NearestCostOptions::points, kPointChoices,
+      params::choice("points", &NearestCostOptions::points, kPointsWords,
                      "Which points the cost looks at; ground says nothing of yaw, x and y."),
       params::integer("max_points", &NearestCostOptions::max_points, {10, 1e9},
                       "At most so many points of the sensor are looked at, evenly spaced."),

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <string>
-
 #include "framework/params/table.hpp"
+#include "framework/pipeline/point_selection.hpp"
 #include "framework/spatial/nearest_distance_cost.hpp"
 #include "framework/stage/step.hpp"
 
@@ -11,7 +10,7 @@ namespace croon {
 /// The parameters of the steps that make the nearest-neighbour distances least. A step's own
 /// parameters derive from this and its table inherits nearest_cost_table().
 struct NearestCostOptions {
-  std::string points = "non_ground";
+  Points points = Points::non_ground;
   int max_points = 1500;
   double max_distance_m = 2.0;
 };

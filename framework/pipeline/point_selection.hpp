@@ -1,15 +1,18 @@
 #pragma once
 
 #include <memory>
-#include <string>
-#include <vector>
 
+#include "framework/params/choice.hpp"
 #include "framework/stage/step.hpp"
 
 namespace croon {
 
+/// Which points of the two clouds a step works on.
+enum class Points { non_ground, all };
+
 /// The choices of a step's parameter `points`.
-inline const std::vector<std::string> kPointChoices = {"non_ground", "all"};
+inline const params::Words<Points> kPointsWords = {{"non_ground", Points::non_ground},
+                                                   {"all", Points::all}};
 
 /// The target and source clouds that a step works on.
 struct SelectedClouds {
@@ -17,8 +20,8 @@ struct SelectedClouds {
   std::shared_ptr<const Cloud> source;
 };
 
-/// "all", or "non_ground": the points off the ground where a step before has found it, else all.
-/// Throws StageError where a selected cloud is empty.
-SelectedClouds selected_clouds(const Estimate& estimate, const std::string& points);
+/// The clouds with the selected points. Points::non_ground selects all points if no step before has
+/// found the ground. Throws StageError if a selected cloud is empty.
+SelectedClouds selected_clouds(const Estimate& estimate, Points points);
 
 }  // namespace croon

@@ -1,7 +1,5 @@
 #include "framework/registration/icp_options.hpp"
 
-#include "framework/registration/robust_kernel.hpp"
-
 namespace croon {
 
 const params::Table<IcpOptions>& icp_table() {
@@ -15,7 +13,7 @@ const params::Table<IcpOptions>& icp_table() {
               "in turn."),
       integer("max_iterations", &IcpOptions::max_iterations, {1, 10000},
               "Iterations at each distance, at most."),
-      choice("kernel", &IcpOptions::kernel, kRobustKernels,
+      choice("kernel", &IcpOptions::kernel, kKernelWords,
              "The M-estimator that weighs the residuals."),
       number("kernel_width_m", &IcpOptions::kernel_width_m, {1e-6, 1e6},
              "Residuals above this begin to lose weight."),

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "framework/params/table.hpp"
+#include "framework/registration/robust_kernel.hpp"
 
 namespace croon {
 
@@ -12,7 +12,7 @@ namespace croon {
 struct IcpOptions {
   std::vector<double> max_distances_m = {1.0, 0.5, 0.3};
   int max_iterations = 20;
-  std::string kernel = "geman_mcclure";
+  Kernel kernel = Kernel::geman_mcclure;
   double kernel_width_m = 0.1;
   double rotation_tolerance_deg = 0.0005;
   double translation_tolerance_m = 0.00005;

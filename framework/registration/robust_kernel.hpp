@@ -1,31 +1,37 @@
 #pragma once
 
-#include <string>
-#include <vector>
+#include "framework/params/choice.hpp"
 
 namespace croon {
 
+/// The M-estimators that weigh residuals.
+enum class Kernel { none, huber, cauchy, geman_mcclure };
+
 /// The choices of an ICP's parameter `kernel`.
-inline const std::vector<std::string> kRobustKernels = {"none", "huber", "cauchy", "geman_mcclure"};
+inline const params::Words<Kernel> kKernelWords = {{"none", Kernel::none},
+                                                   {"huber", Kernel::huber},
+                                                   {"cauchy", Kernel::cauchy},
+                                                   {"geman_mcclure", Kernel::geman_mcclure}};
 
 /// The weight of a residual in iteratively reweighted least squares, `rho'(r) / r` of an
-/// M-estimator, so that points that lie off everything pull little (Zhang 1997, "Parameter
-/// estimation techniques", table 1).
+/// M-estimator, so that outliers pull little (Zhang 1997, "Parameter estimation techniques",
+/// table 1).
 class RobustKernel {
  public:
-  /// `name` is one of kRobustKernels; `width` in the residual's unit is where it begins to bite.
-  RobustKernel(const std::string& name, double width);
+  /// `width` in the residual's unit: residuals above it begin to lose weight.
+  RobustKernel(Kernel kernel, double width)
+      : kernel_(kernel), width_(width), inverse_squared_width_(1.0 / (width * width)) {}
 
   /// In [0, 1]; 1 for a residual of zero.
   double weight(double squared_residual) const {
-    switch (shape_) {
-      case Shape::none:
+    switch (kernel_) {
+      case Kernel::none:
         return 1.0;
-      case Shape::huber:
+      case Kernel::huber:
         return huber_weight(squared_residual);
-      case Shape::cauchy:
+      case Kernel::cauchy:
         return 1.0 / (1.0 + squared_residual * inverse_squared_width_);
-      case Shape::geman_mcclure: {
+      case Kernel::geman_mcclure: {
         const double share = 1.0 / (1.0 + squared_residual * inverse_squared_width_);
         return share * share;
       }
@@ -34,10 +40,9 @@ class RobustKernel {
   }
 
  private:
-  enum class Shape { none, huber, cauchy, geman_mcclure };
   double huber_weight(double squared_residual) const;
 
-  Shape shape_;
+  Kernel kernel_;
   double width_;
   double inverse_squared_width_;
 };

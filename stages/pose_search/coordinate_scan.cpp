@@ -4,27 +4,37 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/geometry/dof.hpp"
+#include "framework/params/choice.hpp"
 #include "framework/stage/pose_search.hpp"
 #include "framework/stage/stage_entry.hpp"
 
 namespace croon::stages::pose_search {
 namespace {
 
+/// Where a scan to one side ends.
+enum class Stop { first_rise, never };
+
 struct Params {
-  std::vector<std::string> dofs = {"x", "y"};
+  std::vector<Dof> dofs = {Dof::x, Dof::y};
   double translation_step_m = 0.02;
   double rotation_step_deg = 0.1;
   int max_steps = 9;
   double min_decrease_ratio = 1e-4;
-  std::string stop = "first_rise";
+  Stop stop = Stop::first_rise;
   int sweeps = 1;
   int halvings = 0;
 };
 
 const params::Table<Params>& table() {
-  static const std::vector<std::string> dof_names(kDofNames.begin(), kDofNames.end());
+  static const params::Words<Dof> dof_words = [] {
+    params::Words<Dof> words;
+    for (std::size_t i = 0; i < kDofNames.size(); ++i) {
+      words.emplace_back(kDofNames[i], static_cast<Dof>(i));
+    }
+    return words;
+  }();
   static const params::Table<Params> table = {
-      params::choices("dofs", &Params::dofs, dof_names,
+      params::choices("dofs", &Params::dofs, dof_words,
                       "The degrees of freedom that are scanned, in this order."),
       params::number("translation_step_m", &Params::translation_step_m, {1e-6, 100.0},
                      "Step along x, y and z."),
@@ -36,7 +46,7 @@ const params::Table<Params>& table() {
           "min_decrease_ratio", &Params::min_decrease_ratio, {0.0, 1.0},
           "A step is taken only where it lowers the cost by more than this share of it."),
       params::choice(
-          "stop", &Params::stop, {"first_rise", "never"},
+          "stop", &Params::stop, {{"first_rise", Stop::first_rise}, {"never", Stop::never}},
           "first_rise: to each side, plus first, the scan ends at the first step that does not "
           "lower the cost; never: both sides are looked at as far as max_steps and the best is "
           "taken."),
@@ -59,11 +69,11 @@ class Scan {
   /// Scans every degree of freedom once; true where one of them lowered the cost.
   bool sweep(double step_scale) {
     bool lower = false;
-    for (const Dof dof : dofs_from_names(params_.dofs)) {
+    for (const Dof dof : params_.dofs) {
       const double step = step_scale * (is_rotation(dof) ? rad_from_deg(params_.rotation_step_deg)
                                                          : params_.translation_step_m);
       const RigidTransform origin = best_.pose;
-      if (params_.stop == "never") {
+      if (params_.stop == Stop::never) {
         lower = scan_range(origin, dof, step) || lower;
       } else {
         lower = descend(origin, dof, step) || lower;

@@ -1,13 +1,16 @@
+#include "framework/params/choice.hpp"
 #include "framework/stage/preprocessor.hpp"
 #include "framework/stage/stage_entry.hpp"
 
 namespace croon::stages::preprocessor {
 namespace {
 
+enum class Keep { outside, inside };
+
 struct Params {
   std::vector<double> min_m = {-1.0, -1.0, -1.0};
   std::vector<double> max_m = {1.0, 1.0, 1.0};
-  std::string keep = "outside";
+  Keep keep = Keep::outside;
 };
 
 bool is_box(const Params& params) {
@@ -25,7 +28,8 @@ const params::Table<Params>& table() {
                         "The box's lower corner x, y, z in the sensor's frame."),
         params::numbers("max_m", &Params::max_m, {-1e6, 1e6},
                         "The box's upper corner x, y, z in the sensor's frame."),
-        params::choice("keep", &Params::keep, {"outside", "inside"},
+        params::choice("keep", &Params::keep,
+                       {{"outside", Keep::outside}, {"inside", Keep::inside}},
                        "Which points stay; the box's faces are inside."),
     };
     rows.require(is_box,
@@ -40,7 +44,7 @@ class BoxCrop final : public Preprocessor {
   explicit BoxCrop(const Params& params)
       : low_(params.min_m.data()),
         high_(params.max_m.data()),
-        keeps_inside_(params.keep == "inside") {}
+        keeps_inside_(params.keep == Keep::inside) {}
 
   PointCloud apply(const PointCloud& cloud) const override {
     PointCloud kept;

@@ -9,14 +9,14 @@ namespace {
 
 struct Params {
   params::Slot<Icp> icp;
-  std::string points = "all";
+  Points points = Points::all;
   double min_inlier_ratio = 0.0;
 };
 
 const params::Table<Params>& table() {
   static const params::Table<Params> table = {
       params::slot("icp", &Params::icp, R"({"type": "icpn"})", "Registers the two clouds."),
-      params::choice("points", &Params::points, kPointChoices, "Which points are registered."),
+      params::choice("points", &Params::points, kPointsWords, "Which points are registered."),
       params::number(
           "min_inlier_ratio", &Params::min_inlier_ratio, {0.0, 1.0},
           "The pose is rejected where fewer of the sensor's points find a correspondence."),

@@ -10,7 +10,7 @@ namespace {
 struct Params {
   params::Slot<VolumeScorer> scorer;
   params::Slot<PoseSearch> search;
-  std::string points = "non_ground";
+  Points points = Points::non_ground;
 };
 
 const params::Table<Params>& table() {
@@ -19,7 +19,7 @@ const params::Table<Params>& table() {
                    "Measures the volume that the two clouds occupy together."),
       params::slot("search", &Params::search, R"({"type": "coordinate_scan"})",
                    "Finds the pose of least volume."),
-      params::choice("points", &Params::points, kPointChoices, "Which points occupy space."),
+      params::choice("points", &Params::points, kPointsWords, "Which points occupy space."),
   };
   return table;
 }

@@ -1,15 +1,18 @@
 #include "test/support/nested_stage.hpp"
 
+#include "framework/params/choice.hpp"
 #include "framework/params/group.hpp"
 #include "framework/stage/dataset.hpp"
 
 namespace croon::test {
 namespace {
 
+enum class Pattern { even, dense_middle };
+
 struct Model {
   int rings = 16;
   double far_m = 100.0;
-  std::string pattern = "even";
+  Pattern pattern = Pattern::even;
 };
 
 struct Mount {
@@ -37,10 +40,12 @@ const params::Table<Params>& table() {
   static const params::Table<Model> model_table = {
       params::integer("rings", &Model::rings, {1, 128}, "Rings of the sensor."),
       params::number("far_m", &Model::far_m, {1, 1000}, "Longest range."),
-      params::choice("pattern", &Model::pattern, {"even", "dense_middle"}, "Where rings stand."),
+      params::choice("pattern", &Model::pattern,
+                     {{"even", Pattern::even}, {"dense_middle", Pattern::dense_middle}},
+                     "Where rings stand."),
   };
   static const std::vector<params::Preset<Model>> models = {{"coarse", {}},
-                                                            {"fine", {64, 200.0, "even"}}};
+                                                            {"fine", {64, 200.0, Pattern::even}}};
   static const params::Table<Mix> mix_table =
       params::Table<Mix>{
           params::number("urban", &Mix::urban, {0, 100}, "Share of urban scenes."),
@@ -56,7 +61,7 @@ const params::Table<Params>& table() {
       params::map("sensors", &Rig::sensors, mount_table, "a sensor's name", "The sensors."),
   };
   static const std::vector<params::Preset<Rig>> rigs = {
-      {"pair", {"front", {{"front", {}}, {"top", {2.5, {64, 200.0, "even"}}}}}}};
+      {"pair", {"front", {{"front", {}}, {"top", {2.5, {64, 200.0, Pattern::even}}}}}}};
   static const params::Table<Params> table = {
       params::group("model", &Params::model, model_table, models, "The model of all."),
       params::group("mix", &Params::mix, mix_table, {}, "The shares of the kinds of scenes."),

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "framework/base/error.hpp"
+#include "framework/params/choice.hpp"
 #include "framework/stage/dataset.hpp"
 #include "framework/stage/step.hpp"
 #include "framework/stage/yaw_search.hpp"
@@ -100,8 +101,10 @@ class Drift final : public Step {
   DriftParams params_;
 };
 
+enum class How { pass, reject, defeat, memory, bug, nan };
+
 struct BehaveParams {
-  std::string how = "pass";
+  How how = How::pass;
 };
 
 class Behave final : public Step {
@@ -109,11 +112,11 @@ class Behave final : public Step {
   explicit Behave(BehaveParams params) : params_(std::move(params)) {}
 
   Estimate advance(Estimate estimate, Rng&) const override {
-    if (params_.how == "reject") estimate.rejection = "too few points";
-    if (params_.how == "defeat") throw StageError("no ground");
-    if (params_.how == "memory") throw std::bad_alloc();
-    if (params_.how == "bug") throw std::logic_error("a bug");
-    if (params_.how == "nan") {
+    if (params_.how == How::reject) estimate.rejection = "too few points";
+    if (params_.how == How::defeat) throw StageError("no ground");
+    if (params_.how == How::memory) throw std::bad_alloc();
+    if (params_.how == How::bug) throw std::logic_error("a bug");
+    if (params_.how == How::nan) {
       estimate.T_target_source.translation.x() = std::numeric_limits<double>::quiet_NaN();
     }
     return estimate;
@@ -146,10 +149,15 @@ Catalogue fake_catalogue() {
       "drift", "Moves the pose.", "croon",
       {number("size_m", &DriftParams::size_m, {0, 10}, "How far."),
        slot("search", &DriftParams::search, R"({"type": "coarse"})", "A stage in a stage.")}));
-  catalogue.add(stage_entry<Behave, BehaveParams>(
-      "behave", "Behaves as it is told to.", "croon",
-      {choice("how", &BehaveParams::how, {"pass", "reject", "defeat", "memory", "bug", "nan"},
-              "What it does.")}));
+  catalogue.add(stage_entry<Behave, BehaveParams>("behave", "Behaves as it is told to.", "croon",
+                                                  {choice("how", &BehaveParams::how,
+                                                          {{"pass", How::pass},
+                                                           {"reject", How::reject},
+                                                           {"defeat", How::defeat},
+                                                           {"memory", How::memory},
+                                                           {"bug", How::bug},
+                                                           {"nan", How::nan}},
+                                                          "What it does.")}));
   return catalogue;
 }
 

@@ -1,4 +1,4 @@
-#include "framework/params/table.hpp"
+#include "framework/params/choice.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,9 @@
 namespace croon::params {
 namespace {
 
+enum class Word { one, two };
+enum class Axis { x, y, z };
+
 struct Base {
   int count = 3;
 };
@@ -16,9 +19,10 @@ struct Base {
 struct Sample : Base {
   double size_m = 0.5;
   bool flag = false;
-  std::string word = "one";
+  Word word = Word::one;
+  std::string name = "a";
   std::vector<double> steps = {1.0, 0.5};
-  std::vector<std::string> words = {"x"};
+  std::vector<Axis> words = {Axis::x};
 };
 
 const Table<Sample>& table() {
@@ -26,9 +30,11 @@ const Table<Sample>& table() {
       Table<Sample>{
           number("size_m", &Sample::size_m, {0.0, 10.0}, "Size."),
           boolean("flag", &Sample::flag, "Flag."),
-          choice("word", &Sample::word, {"one", "two"}, "Word."),
+          choice("word", &Sample::word, {{"one", Word::one}, {"two", Word::two}}, "Word."),
+          choice("name", &Sample::name, {"a", "b"}, "A choice that is kept as a string."),
           numbers("steps", &Sample::steps, {0.1, 2.0}, "Steps."),
-          choices("words", &Sample::words, {"x", "y", "z"}, "Words."),
+          choices("words", &Sample::words, {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}},
+                  "Words."),
       }
           .inherit(Table<Base>{integer("count", &Base::count, {1, 9}, "Count.")})
           .require([](const Sample& s) { return s.count * s.size_m < 20.0; }, "too much");
@@ -54,18 +60,20 @@ TEST(Table, GivesDefaultsWhereNothingIsSaid) {
   std::vector<std::string> lines;
   const Sample sample = read(R"({"type": "t"})", lines);
   EXPECT_TRUE(lines.empty());
-  EXPECT_EQ(table().members_json(sample),
-            R"("size_m":0.5,"flag":false,"word":"one","steps":[1,0.5],"words":["x"],"count":3)");
+  EXPECT_EQ(
+      table().members_json(sample),
+      R"("size_m":0.5,"flag":false,"word":"one","name":"a","steps":[1,0.5],"words":["x"],"count":3)");
 }
 
 TEST(Table, ReadsEveryType) {
   std::vector<std::string> lines;
   const Sample sample = read(
-      R"({"size_m": 2, "flag": true, "word": "two", "steps": [0.3], "words": ["z", "x"], "count": 4})",
+      R"({"size_m": 2, "flag": true, "word": "two", "name": "b", "steps": [0.3], "words": ["z", "x"], "count": 4})",
       lines);
   EXPECT_TRUE(lines.empty());
-  EXPECT_EQ(table().members_json(sample),
-            R"("size_m":2,"flag":true,"word":"two","steps":[0.3],"words":["z","x"],"count":4)");
+  EXPECT_EQ(
+      table().members_json(sample),
+      R"("size_m":2,"flag":true,"word":"two","name":"b","steps":[0.3],"words":["z","x"],"count":4)");
 }
 
 TEST(Table, NotesEveryFaultWithItsPlace) {
