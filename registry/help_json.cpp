@@ -35,6 +35,14 @@ const char* type_name(ParameterType type) {
       return "group";
     case ParameterType::map:
       return "map";
+    case ParameterType::interval:
+      return "interval";
+    case ParameterType::texts:
+      return "texts";
+    case ParameterType::list:
+      return "list";
+    case ParameterType::json:
+      return "json";
   }
   throw std::logic_error("a parameter type without a name");
 }

@@ -1,14 +1,24 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "framework/stage/catalogue.hpp"
 
 namespace croon {
 
-/// The JSON Schema (draft 2020-12) of an experiment file: its own keys, and every stage of
-/// `catalogue` with its parameters, their ranges, words and defaults. Indented by two, ends with a
-/// newline. `croon schema` prints this; docs/schema/experiment.schema.json is a copy.
-std::string experiment_schema(const Catalogue& catalogue);
+/// `{"$ref": ...}` to the definition `name`: a kind of stage ("icp") or a stage ("icp.icpn").
+nlohmann::ordered_json definition(const std::string& name);
+
+/// The JSON Schema of one parameter: the values that it takes, its sentence and its default.
+nlohmann::ordered_json parameter_schema(const params::ParameterDoc& parameter);
+
+/// The JSON Schema of an object whose keys are `members` and follow `rules`.
+nlohmann::ordered_json object_schema(const std::vector<params::ParameterDoc>& members,
+                                     const std::vector<params::KeyRule>& rules);
+
+/// The definitions of a JSON Schema: each kind of stage of `catalogue`, and each stage with its
+/// parameters, their ranges, words and defaults.
+nlohmann::ordered_json stage_definitions(const Catalogue& catalogue);
 
 }  // namespace croon

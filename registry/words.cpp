@@ -86,6 +86,14 @@ std::string type_words(const ParameterDoc& doc, const Mark& mark) {
       return "a list, each " + with_article(doc.stage_kind, mark(doc.stage_kind));
     case ParameterType::group:
       return group_words(doc, mark);
+    case ParameterType::interval:
+      return "[low, high], each " + params::range_words("a number", doc.range);
+    case ParameterType::texts:
+      return "a list of strings";
+    case ParameterType::list:
+      return "a list of objects";
+    case ParameterType::json:
+      return "a JSON value";
     case ParameterType::map:
       return "an object with " + doc.name_words + " for each key";
   }

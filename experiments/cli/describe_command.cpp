@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/file/experiment_loader.hpp"
+#include "experiments/file/experiment.hpp"
 #include "experiments/report/cloud_figures.hpp"
 #include "experiments/run/data_root.hpp"
 #include "experiments/run/threads.hpp"

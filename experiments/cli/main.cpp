@@ -9,9 +9,9 @@
 #include "experiments/cli/command_line.hpp"
 #include "experiments/cli/fault_lines.hpp"
 #include "experiments/cli/validate_command.hpp"
+#include "experiments/file/experiment.hpp"
 #include "registry/help.hpp"
 #include "registry/registry.hpp"
-#include "registry/schema.hpp"
 
 namespace croon::experiments {
 namespace {

@@ -50,27 +50,23 @@ std::size_t asked_trials(const json& manifest, const Summary& summary) {
 /// What the stored run says.
 Results results_of(StoredRun run, const std::string& file) {
   const json manifest = json::parse(run.header.manifest);
-  const json& experiment = manifest.at("experiment");
+  const Experiment experiment = read_experiment_json(manifest.at("experiment").dump(), file);
   Results results;
-  results.name = experiment.at("name");
-  results.description = experiment.at("description");
+  results.name = experiment.name;
+  results.description = experiment.description;
   results.commit = manifest.at("croon").at("commit");
-  results.seed = experiment.at("seed");
-  results.trials = experiment.at("starts").at("trials");
+  results.seed = experiment.seed;
+  results.trials = run.header.trials;
   results.manifest = run.header.manifest;
-  const SuccessBounds bounds{experiment.at("success").at("rotation_deg"),
-                             experiment.at("success").at("translation_m")};
   const ReportOrder order = report_order(run.header);
   results.scenes = order.scenes.size();
   results.records = std::move(run.records);
-  results.summary = summarise(results.records, bounds, order);
+  results.summary = summarise(results.records, experiment.success, order);
   results.planned = asked_trials(manifest, results.summary);
-  const std::optional<Sweep> sweep = sweep_of_json(experiment.at("starts"));
+  const std::optional<Sweep>& sweep = experiment.starts.sweep;
   if (sweep) results.basin = basin_of(results.records, *sweep, order);
-  const json keys = {{"expect", experiment.at("expect")}, {"quoted", experiment.at("quoted")}};
-  Claims claims = claims_of(keys.dump(), file);
-  results.claims = check_claims(claims.expect, results.summary);
-  results.quoted = std::move(claims.quoted);
+  results.claims = check_claims(experiment.claims, results.summary);
+  results.quoted = experiment.quoted;
   return results;
 }
 

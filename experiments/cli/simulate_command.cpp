@@ -6,7 +6,7 @@
 
 #include "experiments/cli/scene_writer.hpp"
 #include "experiments/cli/starts_command.hpp"
-#include "experiments/file/experiment_loader.hpp"
+#include "experiments/file/experiment.hpp"
 #include "experiments/report/progress.hpp"
 #include "experiments/run/data_root.hpp"
 #include "experiments/run/sensor_pairs.hpp"
@@ -43,7 +43,7 @@ std::vector<Scene> scenes_to_write(Experiment& experiment) {
 std::string recipe_json(const Experiment& experiment) {
   nlohmann::ordered_json json = {
       {"dataset", nlohmann::ordered_json::parse(experiment.dataset.resolved())},
-      {"starts", nlohmann::ordered_json::parse(starts_json(experiment.starts))},
+      {"starts", nlohmann::ordered_json::parse(deciding_starts_json(experiment.starts))},
       {"seed", experiment.seed}};
   return json.dump(2) + "\n";
 }
@@ -62,8 +62,8 @@ void prepare(const fs::path& folder, const std::string& recipe) {
 }
 
 /// The experiment with its dataset, and its file of starts, replaced by the written ones.
-std::string experiment_on(const fs::path& file) {
-  auto json = nlohmann::ordered_json::parse(read_whole_file(file));
+std::string experiment_on(const Experiment& experiment) {
+  auto json = nlohmann::ordered_json::parse(experiment.merged);
   json["dataset"] = {{"type", "opencalib"}, {"path", "."}};
   if (json.contains("starts") && json["starts"].contains("file")) json["starts"]["file"] = kStarts;
   return json.dump(2) + "\n";
@@ -117,7 +117,7 @@ int simulate_command(const SimulateOptions& options, const Catalogue& catalogue,
   if (experiment.starts.table) {
     write_whole_file(options.out / kStarts, starts_csv(experiment, started));
   }
-  write_whole_file(options.out / "experiment.json", experiment_on(options.experiment));
+  write_whole_file(options.out / "experiment.json", experiment_on(experiment));
   const std::string folder = options.out.string();
   out << scenes.size() << (scenes.size() == 1 ? " scene is in " : " scenes are in ") << folder
       << "; run them with: croon run " << (options.out / "experiment.json").string() << " --data "

@@ -1,7 +1,7 @@
 #include "experiments/cli/starts_command.hpp"
 
 #include "experiments/cli/output_file.hpp"
-#include "experiments/file/experiment_loader.hpp"
+#include "experiments/file/experiment.hpp"
 #include "experiments/report/csv_row.hpp"
 #include "experiments/run/data_root.hpp"
 #include "experiments/run/sensor_pairs.hpp"
@@ -26,7 +26,7 @@ std::string starts_csv(const Experiment& experiment, const std::vector<Scene>& s
   std::string bytes = std::string(kStartHeader) + "\n";
   for (const Scene& scene : scenes) {
     for (const SensorScan& scan : scene.sensors) {
-      for (int trial = 0; trial < experiment.starts.trials; ++trial) {
+      for (int trial = 0; trial < total_trials(experiment.starts); ++trial) {
         bytes += start_line(scene.name, scan.sensor, trial,
                             start_of(experiment, scene.name, scan, trial));
       }

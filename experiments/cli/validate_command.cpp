@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "experiments/cli/fault_lines.hpp"
-#include "experiments/file/experiment_loader.hpp"
+#include "experiments/file/experiment.hpp"
 
 namespace croon::experiments {
 namespace {

@@ -1,13 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "experiments/file/expectation.hpp"
+#include "experiments/file/claims.hpp"
 #include "experiments/file/start_rule.hpp"
 #include "framework/params/slot.hpp"
 #include "framework/pipeline/pipeline.hpp"
+#include "framework/stage/catalogue.hpp"
 #include "framework/stage/dataset.hpp"
 
 namespace croon::experiments {
@@ -19,7 +21,19 @@ struct Variant {
   std::string resolved;  ///< Canonical JSON of the pipeline with all its parameters.
 };
 
-/// An experiment file, read, checked and with its variants and grid multiplied out.
+/// How near the truth a trial must end to count as `success`.
+struct SuccessBounds {
+  double rotation_deg = 0.5;
+  double translation_m = 0.1;
+};
+
+/// A file that an experiment was read from.
+struct ExperimentFile {
+  std::string path;  ///< The name of the first file; of those that it extends, the path it gives.
+  std::string sha256;
+};
+
+/// An experiment file, read, checked, and with its variants and grid multiplied out.
 struct Experiment {
   std::string file;
   std::string name;
@@ -28,9 +42,35 @@ struct Experiment {
   StartRule starts;
   std::uint64_t seed = 1;
   SuccessBounds success;
+  bool loops = false;  ///< Sensors are calibrated to each other too (scenes_of).
+  std::vector<Claim> claims;
+  std::vector<Quoted> quoted;     ///< Rows of other methods.
   std::vector<Variant> variants;  ///< The base first, then in the order of the file.
-  bool loops = false;             ///< Sensors are calibrated to each other too (scenes_of).
-  Claims claims;                  ///< What the results are held against; decides no trial.
+  std::vector<ExperimentFile> files;
+  /// JSON of the file's keys, with those of the files that it extends.
+  std::string merged;
 };
+
+/// The experiment that the JSON file `path` describes, with its stages from `catalogue`. Strict:
+/// throws one InputError with every fault of the file and of those that it extends. Does not look
+/// at the data.
+Experiment load_experiment(const std::filesystem::path& path, const Catalogue& catalogue);
+
+/// Canonical JSON of the experiment: every key with its default, claims expanded, each variant with
+/// its whole pipeline.
+std::string experiment_json(const Experiment& experiment);
+
+/// The experiment that `experiment_json` wrote, in this version or an earlier one: without its
+/// variants, and with stages that are names and parameters only. `file` is where `text` comes from.
+/// Throws InputError if the text is damaged.
+Experiment read_experiment_json(const std::string& text, const std::string& file);
+
+/// Canonical JSON of the bounds.
+std::string success_json(const SuccessBounds& bounds);
+
+/// The JSON Schema (draft 2020-12) of an experiment file: its keys, and every stage of `catalogue`
+/// with its parameters, their ranges, words and defaults. Indented by two, ends with a newline.
+/// `croon schema` prints this; docs/schema/experiment.schema.json is a copy.
+std::string experiment_schema(const Catalogue& catalogue);
 
 }  // namespace croon::experiments

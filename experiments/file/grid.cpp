@@ -32,7 +32,7 @@ std::string text_of(const json& value) {
   }
   if (text.empty()) text = value.dump();
   for (char& c : text) {
-    if (!is_variant_name({'x', c, 'x'})) c = '_';
+    if (!kVariantName.allows({'x', c, 'x'})) c = '_';
   }
   return text;
 }
@@ -67,7 +67,7 @@ std::string label_of(const std::string& key, const json& values, const json& val
 
 std::string last_key(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
-/// The shortest key that tells `path` from the other axes.
+/// The shortest key that no other axis has.
 std::string axis_key(const json& grid, const std::string& path) {
   int axes = 0;
   for (const auto& [other, values] : grid.items()) axes += last_key(other) == last_key(path);
@@ -90,7 +90,7 @@ std::vector<GridAxis> read_grid(const Node& grid) {
         point.value.fault("\"" + point.label + "\" stands in this list twice");
       }
       const auto is_same = [&](const GridPoint& other) { return other.label == point.label; };
-      // Lists of stages may differ in what a label does not say: their places tell them apart.
+      // Lists of stages may differ in what a label does not show. Then the index is added.
       if (std::any_of(axis.points.begin(), axis.points.end(), is_same)) {
         point.label += " (" + std::to_string(i + 1) + ")";
       }

@@ -1,19 +1,16 @@
 #pragma once
 
-#include <string>
+#include "framework/params/group.hpp"
 
 namespace croon::experiments {
 
-/// True for a name that can be a folder's: letters, digits, `_`, `.` and `-`, not starting with a
-/// dot.
-bool is_folder_name(const std::string& name);
+/// The name of an experiment, which is also the name of a folder.
+inline const params::NameRule kFolderName = {
+    "_.-", "a name for a folder: letters, digits, _ . and -, not starting with a dot", "."};
 
-/// True for a step's name: letters, digits, `_` and `-`. A dot would end it inside a path of a
-/// variant.
-bool is_step_name(const std::string& name);
-
-/// True for a variant's name: as a folder's, with spaces inside it. It stands in CSV files and in
-/// paths.
-bool is_variant_name(const std::string& name);
+/// A variant's name. It stands in CSV files and in paths.
+inline const params::NameRule kVariantName = {
+    "_.-+=() ", "a name of letters, digits, spaces and _ . - + = ( ), not starting with a dot",
+    ". ", " "};
 
 }  // namespace croon::experiments

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
-#include "experiments/file/names.hpp"
 #include "framework/base/nearest_name.hpp"
+#include "framework/params/group.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -18,27 +19,7 @@ std::vector<std::string> step_names(const PatchedPipeline& pipeline) {
   return names;
 }
 
-/// True where the JSON pointer `part` leads to `pointer` or to something around it.
-bool holds(const std::string& part, const std::string& pointer) {
-  return pointer.compare(0, part.size(), part) == 0 &&
-         (pointer.size() == part.size() || pointer[part.size()] == '/');
-}
-
-/// The place in the file of what stands at `pointer` in the step.
-std::string place_of(const std::vector<Origin>& origins, std::string pointer) {
-  if (pointer == "/") pointer.clear();
-  const Origin* nearest = nullptr;
-  for (const Origin& origin : origins) {
-    if (holds(origin.part, pointer) &&
-        (nearest == nullptr || origin.part.size() > nearest->part.size())) {
-      nearest = &origin;
-    }
-  }
-  return nearest->place + pointer.substr(nearest->part.size());
-}
-
-}  // namespace
-
+/// The step called `name`, or the end.
 PatchedPipeline::iterator find_step(PatchedPipeline& pipeline, const std::string& name) {
   return std::find_if(pipeline.begin(), pipeline.end(),
                       [&](const PatchedStep& step) { return step.name == name; });
@@ -48,6 +29,9 @@ std::string no_step(const PatchedPipeline& pipeline, const std::string& name) {
   return "there is no step \"" + name + "\"" + name_hint(name, step_names(pipeline));
 }
 
+std::string two_steps(const std::string& name) { return "two steps are called \"" + name + "\""; }
+
+/// The step's "name", else its type. Notes a fault if it is not a name.
 std::string read_step_name(const Node& step) {
   if (!step.has("name")) {
     // A type that is not a string is noted when the step is built.
@@ -55,17 +39,114 @@ std::string read_step_name(const Node& step) {
     return has_type ? step.value().at("step").get<std::string>() : "";
   }
   std::string name;
-  if (step.member("name").read(name) && !is_step_name(name)) {
-    step.member("name").expected("a name of letters, digits, _ and -");
+  if (step.member("name").read(name) && !params::kKeyName.allows(name)) {
+    step.member("name").expected(params::kKeyName.words);
   }
   return name;
 }
 
+PatchedStep patched_step(const std::string& name, const Node& step) {
+  return {name, std::make_shared<const json>(step.value()), {{"", step.file(), step.pointer()}}};
+}
+
+/// True if the JSON pointer `part` leads to `pointer` or to something around it.
+bool contains(const std::string& part, const std::string& pointer) {
+  return pointer.compare(0, part.size(), part) == 0 &&
+         (pointer.size() == part.size() || pointer[part.size()] == '/');
+}
+
+/// Notes that `origin.part` of a step was written at `origin`.
 void set_origin(std::vector<Origin>& origins, const Origin& origin) {
-  const auto is_replaced = [&](const Origin& other) { return holds(origin.part, other.part); };
+  const auto is_replaced = [&](const Origin& other) { return contains(origin.part, other.part); };
   origins.erase(std::remove_if(origins.begin(), origins.end(), is_replaced), origins.end());
   origins.push_back(origin);
 }
+
+/// `fault`, which names a pointer in the step, with the file and the pointer where it was written.
+Fault located(Fault fault, const std::vector<Origin>& origins) {
+  const std::string pointer = fault.where == "/" ? "" : fault.where;
+  const Origin* nearest = nullptr;
+  for (const Origin& origin : origins) {
+    if (contains(origin.part, pointer) &&
+        (nearest == nullptr || origin.part.size() > nearest->part.size())) {
+      nearest = &origin;
+    }
+  }
+  fault.file = nearest->file;
+  fault.where = nearest->pointer + pointer.substr(nearest->part.size());
+  return fault;
+}
+
+std::vector<std::string> words_between_dots(const std::string& path) {
+  std::vector<std::string> words;
+  std::istringstream stream(path);
+  for (std::string word; std::getline(stream, word, '.');) words.push_back(word);
+  if (path.empty() || path.back() == '.') words.push_back("");
+  return words;
+}
+
+/// The entry of the stage of `kind` that `value` describes, or null.
+const StageEntry* entry_of(const std::string& kind, const json& value, const Catalogue& catalogue) {
+  const std::string key = name_key(kind);
+  if (!value.is_object() || !value.contains(key) || !value.at(key).is_string()) return nullptr;
+  return catalogue.find(kind, value.at(key).get<std::string>());
+}
+
+const params::ParameterDoc* find_parameter(const StageEntry& entry, const std::string& key) {
+  for (const params::ParameterDoc& doc : entry.parameters) {
+    if (doc.key == key) return &doc;
+  }
+  return nullptr;
+}
+
+std::string no_parameter(const StageEntry& entry, const std::string& key) {
+  std::vector<std::string> known;
+  for (const params::ParameterDoc& doc : entry.parameters) known.push_back(doc.key);
+  return entry.kind + " \"" + entry.name + "\" has no parameter \"" + key + "\"" +
+         name_hint(key, known);
+}
+
+/// Puts `value` in the place that `keys` lead to inside `step`.
+std::string replace_inside(PatchedStep& step, const std::vector<std::string>& keys,
+                           const Node& value, const Catalogue& catalogue) {
+  json changed = *step.value;
+  json* at = &changed;
+  json::json_pointer part;
+  std::string kind = Step::kKind;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const StageEntry* entry = entry_of(kind, *at, catalogue);
+    // A stage that does not exist is noted where it stands; nothing is known of its parameters.
+    if (entry == nullptr) return "";
+    const params::ParameterDoc* doc = find_parameter(*entry, keys[i]);
+    if (doc == nullptr) return no_parameter(*entry, keys[i]);
+    part.push_back(keys[i]);
+    const bool is_last = i + 1 == keys.size();
+    if (!is_last && doc->type != params::ParameterType::stage) {
+      return "\"" + keys[i] + "\" is not a stage: nothing below it can be replaced";
+    }
+    if (!is_last && !at->contains(keys[i])) (*at)[keys[i]] = json::parse(doc->default_json);
+    at = &(*at)[keys[i]];
+    kind = doc->stage_kind;
+  }
+  *at = value.value();
+  step.value = std::make_shared<const json>(std::move(changed));
+  set_origin(step.origins, {part.to_string(), value.file(), value.pointer()});
+  return "";
+}
+
+std::string replace_step(PatchedPipeline& pipeline, PatchedPipeline::iterator step,
+                         const Node& value) {
+  std::string name = step->name;
+  if (value.has("name")) {
+    name = read_step_name(value);
+    const auto other = find_step(pipeline, name);
+    if (other != pipeline.end() && other != step) return two_steps(name);
+  }
+  *step = patched_step(name, value);
+  return "";
+}
+
+}  // namespace
 
 PatchedPipeline read_steps(const Node& pipeline) {
   PatchedPipeline steps;
@@ -75,11 +156,23 @@ PatchedPipeline read_steps(const Node& pipeline) {
     const Node step = pipeline.element(i);
     const std::string name = read_step_name(step);
     if (!name.empty() && find_step(steps, name) != steps.end()) {
-      step.fault("two steps are called \"" + name + "\": give one of them a \"name\"");
+      step.fault(two_steps(name) + ": give one of them a \"name\"");
     }
-    steps.push_back({name, std::make_shared<const json>(step.value()), {{"", step.pointer()}}});
+    steps.push_back(patched_step(name, step));
   }
   return steps;
+}
+
+std::string insert_step(PatchedPipeline& pipeline, const std::string& anchor, bool is_after,
+                        const Node& step) {
+  const auto found = find_step(pipeline, anchor);
+  if (found == pipeline.end()) return no_step(pipeline, anchor);
+  const std::string name = read_step_name(step);
+  if (!name.empty() && find_step(pipeline, name) != pipeline.end()) {
+    return two_steps(name) + ": give the inserted one a \"name\"";
+  }
+  pipeline.insert(is_after ? found + 1 : found, patched_step(name, step));
+  return "";
 }
 
 std::string remove_step(PatchedPipeline& pipeline, const std::string& name) {
@@ -89,18 +182,24 @@ std::string remove_step(PatchedPipeline& pipeline, const std::string& name) {
   return "";
 }
 
+std::string replace_value(PatchedPipeline& pipeline, const std::string& path, const Node& value,
+                          const Catalogue& catalogue) {
+  std::vector<std::string> words = words_between_dots(path);
+  const auto step = find_step(pipeline, words.front());
+  if (step == pipeline.end()) return no_step(pipeline, words.front());
+  words.erase(words.begin());
+  if (words.empty()) return replace_step(pipeline, step, value);
+  return replace_inside(*step, words, value, catalogue);
+}
+
 Pipeline build_pipeline(const PatchedPipeline& pipeline, const Catalogue& catalogue,
-                        const std::string& file, std::vector<Fault>& faults,
-                        std::string& resolved) {
+                        std::vector<Fault>& faults, std::string& resolved) {
   Pipeline built;
   resolved.clear();
   for (const PatchedStep& step : pipeline) {
     std::vector<Fault> step_faults;
-    const params::Slot<Step> slot = catalogue.slot<Step>(Node(*step.value, file, step_faults));
-    for (Fault& fault : step_faults) {
-      fault.where = place_of(step.origins, fault.where);
-      faults.push_back(std::move(fault));
-    }
+    const params::Slot<Step> slot = catalogue.slot<Step>(Node(*step.value, "", step_faults));
+    for (const Fault& fault : step_faults) faults.push_back(located(fault, step.origins));
     if (!step_faults.empty()) continue;
     built.push_back({step.name, slot});
     resolved += (resolved.empty() ? "" : ",") + ("{\"name\":" + json(step.name).dump()) + "," +

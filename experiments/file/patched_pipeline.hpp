@@ -10,43 +10,44 @@
 
 namespace croon::experiments {
 
-/// Where in the file a part of a step's JSON comes from; both are JSON pointers.
+/// Where a part of a step's JSON was written.
 struct Origin {
-  std::string part;   ///< In the step; empty for the whole.
-  std::string place;  ///< In the file.
+  std::string part;  ///< JSON pointer in the step; empty for the whole.
+  std::string file;
+  std::string pointer;  ///< JSON pointer in the file.
 };
 
-/// A step as JSON, put together from the base pipeline and what a variant puts in its place.
+/// A step as JSON, put together from the base pipeline and what a variant puts into it.
 struct PatchedStep {
   std::string name;
   std::shared_ptr<const nlohmann::json> value;
   std::vector<Origin> origins;
 };
 
-/// A pipeline as JSON that still knows where in the file each part stands. Cheap to copy.
+/// A pipeline as JSON that knows where each part was written. Cheap to copy.
 using PatchedPipeline = std::vector<PatchedStep>;
 
 /// The steps of the list `pipeline` with their names. Notes faults in the node.
 PatchedPipeline read_steps(const params::Node& pipeline);
 
-/// The step's "name", else its type; notes a fault where it is no name.
-std::string read_step_name(const params::Node& step);
+// The functions below that return a string change nothing if they return why they cannot, and
+// return an empty string otherwise.
 
-/// The step called `name`, or the end.
-PatchedPipeline::iterator find_step(PatchedPipeline& pipeline, const std::string& name);
+/// Inserts the step `step` before the step called `anchor`, or after it.
+std::string insert_step(PatchedPipeline& pipeline, const std::string& anchor, bool is_after,
+                        const params::Node& step);
 
-/// Says that there is no step `name`, with the nearest that there is.
-std::string no_step(const PatchedPipeline& pipeline, const std::string& name);
-
-/// Notes that `origin.part` of a step now stands at `origin.place`.
-void set_origin(std::vector<Origin>& origins, const Origin& origin);
-
-/// Takes the step called `name` out. Returns why that is not possible, or nothing.
+/// Removes the step called `name`.
 std::string remove_step(PatchedPipeline& pipeline, const std::string& name);
 
-/// The pipeline that the JSON describes; `resolved` is its canonical JSON. Notes faults at their
-/// places in `file`.
+/// Puts `value` in the place of what `path` leads to: "step", "step.key" or "step.key.key". Nothing
+/// is merged. A step that replaces another keeps its name unless it has one of its own.
+std::string replace_value(PatchedPipeline& pipeline, const std::string& path,
+                          const params::Node& value, const Catalogue& catalogue);
+
+/// Builds the pipeline that the JSON describes; `resolved` becomes its canonical JSON. Adds to
+/// `faults` what is wrong, each with the file and the pointer where it was written.
 Pipeline build_pipeline(const PatchedPipeline& pipeline, const Catalogue& catalogue,
-                        const std::string& file, std::vector<Fault>& faults, std::string& resolved);
+                        std::vector<Fault>& faults, std::string& resolved);
 
 }  // namespace croon::experiments

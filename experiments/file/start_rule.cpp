@@ -1,160 +1,142 @@
 #include "experiments/file/start_rule.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <nlohmann/json.hpp>
 
 #include "framework/base/error.hpp"
+#include "framework/params/group.hpp"
 
 namespace croon::experiments {
 namespace {
 
 using params::Node;
-using params::value_json;
+using params::Parameter;
 
-/// The keys of "starts" where there is a file.
-struct FileKeys {
-  std::string file;
-  int trials = 0;
-};
-
-const params::Table<FileKeys>& file_table() {
-  static const params::Table<FileKeys> table = {
-      params::text("file", &FileKeys::file, "A file of starts."),
-      params::integer("trials", &FileKeys::trials, {1, kMaxTrials}, "The first so many of them."),
+/// The row of the range [smallest, largest] of `of`. A sweep has one of two such keys.
+Parameter<Sweep> swept_range(const std::string& key, SweepOf of, double largest,
+                             const std::string& sentence) {
+  params::ParameterDoc doc{key,     params::ParameterType::interval, "", {0.0, largest}, {}, "",
+                           sentence};
+  doc.is_optional = true;
+  const auto read = [doc, of](Sweep& sweep, const Node& node, const params::StageBuilder&) {
+    const std::size_t faults_before = node.fault_count();
+    std::array<double, 2> ends = {};
+    params::read_value(node, doc, ends);
+    if (node.fault_count() > faults_before) return;
+    if (ends[0] == ends[1]) return node.expected("two numbers, the smaller first");
+    sweep.of = of;
+    sweep.first = ends[0];
+    sweep.last = ends[1];
   };
+  const auto json = [of](const Sweep& sweep) {
+    return sweep.of == of ? params::value_json(std::array<double, 2>{sweep.first, sweep.last})
+                          : std::string();
+  };
+  return {doc, read, json, false};
+}
+
+const params::Table<Sweep>& sweep_table() {
+  static const params::Table<Sweep> table = [] {
+    params::Table<Sweep> rows = {
+        swept_range("rotation_deg", SweepOf::rotation, 180.0,
+                    "Smallest and largest angle, about an axis uniform on the sphere."),
+        swept_range("translation_m", SweepOf::translation, 1e6,
+                    "Smallest and largest length, along a direction uniform on the sphere."),
+        params::integer("levels", &Sweep::levels, {2, 1000},
+                        "Sizes from the smallest to the largest, in equal steps."),
+    };
+    params::KeyRule one_range;
+    one_range.one_of = {"rotation_deg", "translation_m"};
+    return rows.rule(one_range);
+  }();
   return table;
 }
 
-StartRule read_file_rule(const Node& node, const Catalogue& catalogue) {
-  for (const char* key : {"around", "rotation_deg", "translation_m", "sweep"}) {
-    if (node.has(key)) {
-      node.member(key).fault("expected no key but \"trials\" beside \"file\", found \"" +
-                             std::string(key) + "\"");
-    }
-  }
-  const FileKeys keys =
-      file_table().read(node, {"around", "rotation_deg", "translation_m", "sweep"}, catalogue);
-  StartRule rule;
-  rule.file = keys.file;
-  rule.trials = keys.trials;
-  return rule;
+/// The number of trials, which starts in a file do not need.
+Parameter<StartRule> trials_row() {
+  Parameter<StartRule> row = params::integer(
+      "trials", &StartRule::trials, {1, kMaxTrials},
+      "Starts per variant, scene and sensor; of a sweep per level; of a file the first so many, "
+      "and all if the key is missing.");
+  row.json = [](const StartRule& rule) {
+    return rule.trials == 0 ? std::string() : params::value_json(rule.trials);
+  };
+  return row;
 }
 
-/// The ends of the ramp, `key` of `node`; notes a fault where they do not rise.
-void read_ends(const Node& node, const std::string& key, const std::vector<double>& ends,
-               Sweep& sweep) {
-  if (ends.size() != 2 || ends[0] >= ends[1]) {
-    return node.member(key).expected("two numbers, the smaller first");
-  }
-  sweep.first = ends[0];
-  sweep.last = ends[1];
+int level_count(const StartRule& rule) { return rule.sweep ? rule.sweep->levels : 1; }
+
+/// Why the rule has too many trials; empty if it has not.
+std::string excess_text(const StartRule& rule) {
+  const int levels = level_count(rule);
+  if (rule.trials <= kMaxTrials / levels) return "";
+  const std::string per_level =
+      rule.sweep ? " of each of the " + std::to_string(levels) + " levels of the sweep" : "";
+  return "expected a whole number from 1 to " + std::to_string(kMaxTrials / levels) + per_level +
+         ", found " + std::to_string(rule.trials);
 }
 
-Sweep read_sweep(const Node& starts, const Catalogue& catalogue) {
-  const Node node = starts.member("sweep");
-  Sweep sweep;
-  if (!node.is_object()) return sweep;
-  const std::size_t faults_before = node.fault_count();
-  const SweepKeys keys = sweep_table().read(node, {}, catalogue);
-  if (node.fault_count() > faults_before) return sweep;
-  if (node.has("rotation_deg") == node.has("translation_m")) {
-    node.expected("one of \"rotation_deg\" and \"translation_m\"");
-    return sweep;
-  }
-  const bool is_rotation = node.has("rotation_deg");
-  const char* const key = is_rotation ? "rotation_deg" : "translation_m";
-  sweep.of = is_rotation ? SweepOf::rotation : SweepOf::translation;
-  sweep.levels = keys.levels;
-  read_ends(node, key, is_rotation ? keys.rotation_deg : keys.translation_m, sweep);
-  if (starts.has(key)) {
-    starts.member(key).fault("expected no \"" + std::string(key) +
-                             "\" beside a sweep of it, found one");
-  }
-  return sweep;
+void finish_reading(StartRule& rule, const Node& node) {
+  if (!rule.file.empty() && !node.has("trials")) rule.trials = 0;
+  const std::string excess = excess_text(rule);
+  if (excess.empty()) return;
+  (node.has("trials") ? node.member("trials") : node).fault(excess);
 }
 
-StartRule read_drawn_rule(const Node& node, const Catalogue& catalogue) {
-  const StartKeys keys = start_table().read(node, {"sweep", "file"}, catalogue);
-  StartRule rule;
-  const auto centre = std::find(kStartCentres.begin(), kStartCentres.end(), keys.around);
-  rule.around = static_cast<StartCentre>(centre - kStartCentres.begin());
-  rule.rotation_deg = keys.rotation_deg;
-  rule.translation_m = keys.translation_m;
-  if (node.has("sweep")) rule.sweep = read_sweep(node, catalogue);
-  try {
-    set_trials(rule, keys.trials);
-  } catch (const InputError& error) {
-    const Node place = node.has("trials") ? node.member("trials") : node;
-    place.fault(error.faults().front().message);
-  }
-  return rule;
+/// A range beside a sweep of it.
+params::KeyRule swept(const std::string& key) {
+  return {"sweep/" + key, {}, false, {}, {key}, "no \"" + key + "\" beside a sweep of it"};
 }
 
-const char* swept_key(const Sweep& sweep) {
-  return sweep.of == SweepOf::rotation ? "rotation_deg" : "translation_m";
+params::Table<StartRule> make_start_table() {
+  using P = StartRule;
+  params::Table<P> table = {
+      params::choice("around", &P::around, kStartCentres, "The pose that starts are drawn around."),
+      params::number("rotation_deg", &P::rotation_deg, {0.0, 180.0},
+                     "Half range of roll, pitch and yaw; 180 is any rotation, uniform on SO(3)."),
+      params::number("translation_m", &P::translation_m, {0.0, 1e6},
+                     "Half range of x, y and z in reference axes."),
+      trials_row(),
+      params::optional_group("sweep", &P::sweep, sweep_table(),
+                             "Starts whose perturbation grows, to measure how far a method "
+                             "converges from."),
+      params::optional(params::text("file", &P::file,
+                                    "A file of starts, as croon starts writes it: below the data "
+                                    "root, else beside the experiment.")),
+      params::optional(
+          params::text("sha256", &P::sha256, "The digest that the file of starts must have.")),
+  };
+  table.rule({"file",
+              {},
+              false,
+              {},
+              {"around", "rotation_deg", "translation_m", "sweep"},
+              "no key but \"trials\" beside \"file\""});
+  table.rule({"file", {}, true, {}, {"sha256"}, "no key \"sha256\" without \"file\""});
+  table.rule(swept("rotation_deg")).rule(swept("translation_m"));
+  return table.finish(finish_reading);
 }
 
 }  // namespace
 
-StartRule read_start_rule(const Node& root, const Catalogue& catalogue) {
-  if (!root.has("starts") || !root.member("starts").is_object()) return {};
-  const Node node = root.member("starts");
-  return node.has("file") ? read_file_rule(node, catalogue) : read_drawn_rule(node, catalogue);
+const params::Table<StartRule>& start_table() {
+  static const params::Table<StartRule> table = make_start_table();
+  return table;
 }
+
+int total_trials(const StartRule& rule) { return rule.trials * level_count(rule); }
 
 void set_trials(StartRule& rule, int trials) {
-  const int levels = rule.sweep ? rule.sweep->levels : 1;
-  if (trials > kMaxTrials / levels) {
-    const std::string per_level =
-        rule.sweep ? " of each of the " + std::to_string(levels) + " levels of the sweep" : "";
-    throw InputError("", "--trials",
-                     "expected a whole number from 1 to " + std::to_string(kMaxTrials / levels) +
-                         per_level + ", found " + std::to_string(trials));
-  }
-  if (trials > 0) rule.trials = trials * levels;
-}
-
-std::string starts_json(const StartRule& rule) {
-  if (!rule.file.empty()) {
-    const std::string sha256 = rule.table ? rule.table->sha256 : "";
-    return R"({"file":)" + value_json(rule.file) + R"(,"sha256":)" + value_json(sha256) + "}";
-  }
-  std::string text = R"({"around":")" + std::string(centre_name(rule.around)) + "\"";
-  const auto add_range = [&](SweepOf of, const char* key, double value) {
-    if (rule.sweep && rule.sweep->of == of) return;
-    text += ",\"" + std::string(key) + "\":" + value_json(value);
-  };
-  add_range(SweepOf::rotation, "rotation_deg", rule.rotation_deg);
-  add_range(SweepOf::translation, "translation_m", rule.translation_m);
-  if (rule.sweep) {
-    text += R"(,"sweep":{")" + std::string(swept_key(*rule.sweep)) +
-            "\":" + value_json(std::vector{rule.sweep->first, rule.sweep->last}) +
-            ",\"levels\":" + value_json(rule.sweep->levels) + "}";
-  }
-  return text + "}";
+  StartRule changed = rule;
+  if (trials > 0) changed.trials = trials;
+  const std::string excess = excess_text(changed);
+  if (!excess.empty()) throw InputError("", "--trials", excess);
+  rule = changed;
 }
 
 std::string deciding_starts_json(const StartRule& rule) {
   StartRule nameless = rule;
-  if (rule.table) nameless.file = "*";
-  return starts_json(nameless);
-}
-
-std::optional<Sweep> sweep_of_json(const nlohmann::json& starts) {
-  const auto found = starts.find("sweep");
-  if (found == starts.end()) return std::nullopt;
-  Sweep sweep;
-  sweep.of = found->contains("rotation_deg") ? SweepOf::rotation : SweepOf::translation;
-  const nlohmann::json& ends = found->at(swept_key(sweep));
-  sweep.first = ends.at(0);
-  sweep.last = ends.at(1);
-  sweep.levels = found->at("levels");
-  return sweep;
-}
-
-const char* centre_name(StartCentre centre) {
-  return kStartCentres.at(static_cast<std::size_t>(centre)).c_str();
+  if (!rule.file.empty()) nameless.file = "*";
+  return "{" + start_table().members_json(nameless, {"trials"}) + "}";
 }
 
 }  // namespace croon::experiments

@@ -1,33 +1,39 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "framework/geometry/rigid_transform.hpp"
-#include "framework/params/node.hpp"
-#include "framework/stage/catalogue.hpp"
-#include "registry/experiment_keys.hpp"
+#include "framework/params/choice.hpp"
 
 namespace croon::experiments {
+
+/// As many as a plan of several variants, scenes and sensors can hold.
+inline constexpr int kMaxTrials = 1000000;
 
 /// The pose that starts are drawn around.
 enum class StartCentre { truth, nominal, initial };
 
-/// What a ramp of starts makes larger from level to level.
+/// The words for StartCentre in JSON.
+inline const params::Words<StartCentre> kStartCentres = {{"truth", StartCentre::truth},
+                                                         {"nominal", StartCentre::nominal},
+                                                         {"initial", StartCentre::initial}};
+
+/// What a sweep makes larger from level to level.
 enum class SweepOf { rotation, translation };
 
-/// A ramp of the size of a start's perturbation: level k of n has the size
+/// A series of starts whose perturbation grows: level k of n has the size
 /// `first + (last - first) k / (n - 1)`.
 struct Sweep {
   SweepOf of = SweepOf::rotation;
   double first = 0.0;  ///< deg of rotation, m of translation.
   double last = 0.0;
-  int levels = 2;
+  int levels = 11;
 };
 
 /// A start `T_reference_sensor` as files have it; the rotation is of unit length.
@@ -45,39 +51,33 @@ struct StartTable {
   std::string sha256;
 };
 
-/// Where starts come from: they are drawn, (R, t) moved to (R_d R, t + d), see DESIGN.md section 4,
-/// or read from a file.
+/// Where starts come from. They are drawn: the pose (R, t) moved to (R_d R, t + d) with
+/// R_d = Rz Ry Rx of three uniform draws and d of three more, in reference axes. Or a file lists
+/// them.
 struct StartRule {
   StartCentre around = StartCentre::truth;
-  /// Half range of each of R_d = Rz Ry Rx; 180 is uniform on SO(3).
-  double rotation_deg = StartKeys{}.rotation_deg;
-  double translation_m = StartKeys{}.translation_m;  ///< Half range of each of d, reference axes.
-  /// Per variant, scene and sensor, over all levels of a sweep; 0 before a file is read: all of it.
-  int trials = StartKeys{}.trials;
-  std::optional<Sweep> sweep = {};  ///< Takes the place of the range of what it sweeps.
-  std::string file = {};            ///< Of starts that are not drawn; else empty.
-  std::shared_ptr<const StartTable> table = {};  ///< What is in the file, once it is read.
+  double rotation_deg = 45.0;  ///< Half range of each angle of R_d; 180 is uniform on SO(3).
+  double translation_m = 0.1;  ///< Half range of each element of d.
+  /// Per variant, scene and sensor, and per level of a sweep; 0 is all that a file lists.
+  int trials = 50;
+  std::optional<Sweep> sweep = {};               ///< Replaces the range of what it sweeps.
+  std::string file = {};                         ///< Of starts that are not drawn; else empty.
+  std::string sha256 = {};                       ///< That the file must have; empty for any.
+  std::shared_ptr<const StartTable> table = {};  ///< The file's content, once it is read.
 };
 
-/// The rule that the optional key "starts" of the experiment `root` describes; notes faults in it.
-/// A file of starts is named, not read.
-StartRule read_start_rule(const params::Node& root, const Catalogue& catalogue);
+/// The keys of "starts".
+const params::Table<StartRule>& start_table();
 
-/// Takes `trials` for those of the experiment file: per level of a sweep; 0 keeps what there is.
-/// Throws InputError where they are more than kMaxTrials.
+/// The number of trials per variant, scene and sensor: over all levels of a sweep.
+int total_trials(const StartRule& rule);
+
+/// Replaces the rule's number of trials (per level of a sweep); 0 keeps it. Throws InputError if
+/// there are more than kMaxTrials in total.
 void set_trials(StartRule& rule, int trials);
 
-/// JSON text of the rule without the number of trials.
-std::string starts_json(const StartRule& rule);
-
-/// What of it decides a start: not what a file of starts is called.
+/// Canonical JSON of all that decides a start: neither the number of trials nor a file's name.
 std::string deciding_starts_json(const StartRule& rule);
-
-/// The sweep of the rule that `starts_json` told of; nothing where it has none.
-std::optional<Sweep> sweep_of_json(const nlohmann::json& starts);
-
-/// The word for a centre of starts in JSON: "truth", "nominal" or "initial".
-const char* centre_name(StartCentre centre);
 
 /// The level of a trial: level l has the trials l, l + levels, l + 2 levels, ..., so that more
 /// trials renumber none.

@@ -19,6 +19,7 @@ struct Statistic {
   /// False if it means something without truth too, where deviations are from what the trials agree
   /// on: the mean of those is zero for every method.
   bool needs_truth;
+  bool is_signed;  ///< Else it is never negative.
 };
 
 /// The 95th percentile of the absolute values.
@@ -27,11 +28,12 @@ double p95_of_magnitudes(const std::vector<double>& values);
 /// The statistics in the order of the files. The only list of them: a new statistic is a row here;
 /// summary.csv, summary.json, summary_by_kind.csv, loops.csv and claims follow it.
 inline constexpr std::array kStatistics = {
-    Statistic{"mean", mean, 1, true},
-    Statistic{"std", standard_deviation, 2, false},
-    Statistic{"median", [](const std::vector<double>& values) { return median(values); }, 1, true},
-    Statistic{"rmse", root_mean_square, 1, true},
-    Statistic{"p95", p95_of_magnitudes, 1, true},
+    Statistic{"mean", mean, 1, true, true},
+    Statistic{"std", standard_deviation, 2, false, false},
+    Statistic{"median", [](const std::vector<double>& values) { return median(values); }, 1, true,
+              true},
+    Statistic{"rmse", root_mean_square, 1, true, false},
+    Statistic{"p95", p95_of_magnitudes, 1, true, false},
 };
 
 /// One number per statistic, in their order.

@@ -1,11 +1,8 @@
-#include "experiments/file/variants.hpp"
-
 #include <nlohmann/json.hpp>
 
+#include "experiments/file/experiment_keys.hpp"
 #include "experiments/file/grid.hpp"
-#include "experiments/file/names.hpp"
 #include "experiments/file/patched_pipeline.hpp"
-#include "experiments/file/replace_value.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -19,54 +16,56 @@ struct NamedPipeline {
   PatchedPipeline pipeline;
 };
 
-void read_name(const Node& variant, const std::vector<NamedPipeline>& others, std::string& name) {
-  if (!variant.require("name") || !variant.member("name").read(name)) return;
-  if (!is_variant_name(name)) {
-    variant.member("name").expected(
-        "a name of letters, digits, spaces and _ . - + = ( ), not starting with a dot");
-  }
-  for (const NamedPipeline& other : others) {
-    if (other.name == name)
-      variant.member("name").fault("two variants are called \"" + name + "\"");
-  }
+void note(const Node& node, const std::string& why_not) {
+  if (!why_not.empty()) node.fault(why_not);
 }
 
-void apply_removals(PatchedPipeline& pipeline, const Node& remove) {
-  if (!remove.is_array()) return;
-  params::for_each_element(remove, [&](const Node& element) {
-    std::string step;
-    if (!element.read(step)) return;
-    const std::string why_not = remove_step(pipeline, step);
-    if (!why_not.empty()) element.fault(why_not);
-  });
-}
-
-void apply_replacements(PatchedPipeline& pipeline, const Node& replace,
+/// The base pipeline `base` as the variant `keys` changes it: steps are inserted, then removed,
+/// then replaced. `node` is the variant's.
+PatchedPipeline changed(const PatchedPipeline& base, const VariantKeys& keys, const Node& node,
                         const Catalogue& catalogue) {
-  if (!replace.is_object()) return;
-  for (const auto& item : replace.value().items()) {
-    const Node value = replace.member(item.key());
-    const std::string why_not = replace_value(pipeline, item.key(), value, catalogue);
-    if (!why_not.empty()) value.fault(why_not);
+  PatchedPipeline pipeline = keys.pipeline ? read_steps(*keys.pipeline) : base;
+  for (std::size_t i = 0; i < keys.insert.size(); ++i) {
+    const Insertion& insertion = keys.insert[i];
+    if (insertion.before.empty() == insertion.after.empty() || !insertion.step) continue;
+    const bool is_after = insertion.before.empty();
+    const Node at = node.member("insert").element(i).member(is_after ? "after" : "before");
+    note(at, insert_step(pipeline, is_after ? insertion.after : insertion.before, is_after,
+                         *insertion.step));
   }
+  for (std::size_t i = 0; i < keys.remove.size(); ++i) {
+    const Node at = node.member("remove").element(i);
+    if (at.value().is_string()) note(at, remove_step(pipeline, keys.remove[i]));
+  }
+  if (!keys.replace || !keys.replace->is_object()) return pipeline;
+  for (const auto& item : keys.replace->value().items()) {
+    const Node value = keys.replace->member(item.key());
+    note(value, replace_value(pipeline, item.key(), value, catalogue));
+  }
+  return pipeline;
 }
 
-NamedPipeline read_variant(const Node& variant, const std::vector<NamedPipeline>& others,
-                           const Catalogue& catalogue) {
-  NamedPipeline changed = others.front();
-  changed.name.clear();
-  if (!variant.is_object()) return changed;
-  variant.refuse_unknown_keys({"name", "replace", "remove"});
-  read_name(variant, others, changed.name);
-  if (variant.has("remove")) apply_removals(changed.pipeline, variant.member("remove"));
-  if (variant.has("replace")) {
-    apply_replacements(changed.pipeline, variant.member("replace"), catalogue);
+/// The base pipeline and that of each variant.
+std::vector<NamedPipeline> read_pipelines(const ExperimentKeys& keys, const Node& root,
+                                          const Catalogue& catalogue) {
+  std::vector<NamedPipeline> pipelines = {{"base", read_steps(*keys.pipeline)}};
+  for (std::size_t i = 0; i < keys.variant_keys.size(); ++i) {
+    const VariantKeys& variant = keys.variant_keys[i];
+    const Node node = root.member("variants").element(i);
+    if (!node.has_members()) continue;
+    for (const NamedPipeline& other : pipelines) {
+      if (!variant.name.empty() && other.name == variant.name) {
+        node.member("name").fault("two variants are called \"" + variant.name + "\"");
+      }
+    }
+    pipelines.push_back(
+        {variant.name, changed(pipelines.front().pipeline, variant, node, catalogue)});
   }
-  return changed;
+  return pipelines;
 }
 
-/// The product of the axes from `axis` on, applied to `point`. An axis whose place this pipeline
-/// lacks is left out; `is_used` notes which were not.
+/// The product of the axes from `axis` on, applied to `point`. An axis whose path leads nowhere in
+/// this pipeline is left out; `is_used` notes which axes were not.
 void multiply_out(const NamedPipeline& point, const std::vector<GridAxis>& axes, std::size_t axis,
                   const Catalogue& catalogue, std::vector<bool>& is_used,
                   std::vector<NamedPipeline>& out) {
@@ -112,20 +111,14 @@ std::vector<NamedPipeline> apply_grid(const std::vector<NamedPipeline>& pipeline
 
 }  // namespace
 
-std::vector<Variant> read_variants(const Node& root, const Catalogue& catalogue,
-                                   std::vector<Fault>& faults) {
-  std::vector<NamedPipeline> pipelines = {{"base", read_steps(root.member("pipeline"))}};
-  if (root.has("variants") && root.member("variants").is_array()) {
-    params::for_each_element(root.member("variants"), [&](const Node& variant) {
-      pipelines.push_back(read_variant(variant, pipelines, catalogue));
-    });
-  }
-  if (root.has("grid")) pipelines = apply_grid(pipelines, root.member("grid"), catalogue);
+std::vector<Variant> make_variants(const ExperimentKeys& keys, const Node& root,
+                                   const Catalogue& catalogue, std::vector<Fault>& faults) {
+  std::vector<NamedPipeline> pipelines = read_pipelines(keys, root, catalogue);
+  if (keys.grid) pipelines = apply_grid(pipelines, *keys.grid, catalogue);
   std::vector<Variant> variants;
   for (const NamedPipeline& named : pipelines) {
     Variant variant{named.name, {}, ""};
-    variant.pipeline =
-        build_pipeline(named.pipeline, catalogue, root.file(), faults, variant.resolved);
+    variant.pipeline = build_pipeline(named.pipeline, catalogue, faults, variant.resolved);
     variants.push_back(std::move(variant));
   }
   return variants;

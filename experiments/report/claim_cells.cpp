@@ -16,7 +16,7 @@ constexpr int kPercentDecimals = 2;
 std::string found_text(const ClaimResult& result) {
   if (!result.found) return "-";
   return fixed_number(*result.found,
-                      is_share(result.expectation.statistic) ? kPercentDecimals : kDecimals);
+                      is_share(result.claim.statistic) ? kPercentDecimals : kDecimals);
 }
 
 std::array<double, kDofs> dofs_of(const Quoted& quoted) {
@@ -42,12 +42,11 @@ bool is_last_of_its_statistic(const std::vector<Quoted>& quoted, std::size_t ind
 ClaimCells claim_cells(const std::vector<ClaimResult>& results) {
   ClaimCells cells{{"claim", "source", "expected", "band", "found", "verdict"}, {}};
   for (const ClaimResult& result : results) {
-    const Expectation& expectation = result.expectation;
-    cells.rows.push_back({expectation.claim, expectation.source,
-                          plain_number(expectation.value) + " " + unit_of(expectation),
-                          "[" + plain_number(expectation.band.front()) + ", " +
-                              plain_number(expectation.band.back()) + "]",
-                          found_text(result), verdict_name(result.verdict)});
+    const Claim& claim = result.claim;
+    cells.rows.push_back(
+        {claim.claim, claim.source, plain_number(claim.value) + " " + unit_of(claim),
+         "[" + plain_number(claim.band.front()) + ", " + plain_number(claim.band.back()) + "]",
+         found_text(result), verdict_name(result.verdict)});
   }
   return cells;
 }

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "experiments/file/expectation.hpp"
+#include "experiments/file/claims.hpp"
 
 namespace croon::experiments {
 
@@ -13,10 +13,10 @@ enum class Verdict {
   not_measured  ///< The run has no such variant or sensor, or nothing that counts.
 };
 
-/// An expectation, and what a run came to.
+/// A claim, and what a run came to.
 struct ClaimResult {
-  Expectation expectation;
-  std::optional<double> found;  ///< In the unit of the expectation.
+  Claim claim;
+  std::optional<double> found;  ///< In the unit of the claim.
   Verdict verdict = Verdict::not_measured;
 };
 

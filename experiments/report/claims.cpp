@@ -124,12 +124,12 @@ double statistic_of(const MeasureStatistics& statistics, const std::string& name
   throw std::logic_error("no statistic is called \"" + name + "\"");
 }
 
-std::optional<double> found(const Expectation& expectation, const Summary& summary) {
-  const Rows rows = rows_of(summary, expectation.variant, expectation.sensor);
-  const std::string& name = expectation.statistic;
+std::optional<double> found(const Claim& claim, const Summary& summary) {
+  const Rows rows = rows_of(summary, claim.variant, claim.sensor);
+  const std::string& name = claim.statistic;
   if (name == kSuccess) return successful_trials(rows);
   if (name == kScenes) return successful_scenes(rows);
-  const std::size_t measure = measure_index(expectation.measure);
+  const std::size_t measure = measure_index(claim.measure);
   if (name == kWithinSceneStd || name == kAcrossScenesStd) {
     const auto spread =
         name == kWithinSceneStd
@@ -145,20 +145,19 @@ std::optional<double> found(const Expectation& expectation, const Summary& summa
   return value;
 }
 
-Verdict verdict_of(const Expectation& expectation, const std::optional<double>& found) {
+Verdict verdict_of(const Claim& claim, const std::optional<double>& found) {
   if (!found) return Verdict::not_measured;
-  const bool is_in = *found >= expectation.band.front() && *found <= expectation.band.back();
+  const bool is_in = *found >= claim.band.front() && *found <= claim.band.back();
   return is_in ? Verdict::in : Verdict::out;
 }
 
 }  // namespace
 
-std::vector<ClaimResult> check_claims(const std::vector<Expectation>& expectations,
-                                      const Summary& summary) {
+std::vector<ClaimResult> check_claims(const std::vector<Claim>& claims, const Summary& summary) {
   std::vector<ClaimResult> results;
-  for (const Expectation& expectation : expectations) {
-    const std::optional<double> value = found(expectation, summary);
-    results.push_back({expectation, value, verdict_of(expectation, value)});
+  for (const Claim& claim : claims) {
+    const std::optional<double> value = found(claim, summary);
+    results.push_back({claim, value, verdict_of(claim, value)});
   }
   return results;
 }
@@ -175,9 +174,9 @@ const char* verdict_name(Verdict verdict) {
   throw std::logic_error("a verdict that does not exist");
 }
 
-const char* unit_of(const Expectation& expectation) {
-  if (is_share(expectation.statistic)) return "%";
-  return kMeasures[measure_index(expectation.measure)].unit;
+const char* unit_of(const Claim& claim) {
+  if (is_share(claim.statistic)) return "%";
+  return kMeasures[measure_index(claim.measure)].unit;
 }
 
 std::optional<std::array<double, kDofs>> row_beside(const Quoted& quoted, const Summary& summary) {

@@ -9,21 +9,20 @@
 
 namespace croon::experiments {
 
-/// Holds the summary against the expectations, in their order.
+/// Holds the summary against the claims, in their order.
 ///
 /// Without a sensor, trials of all sensors are pooled: one mean of all their errors; spreads by
 /// degrees of freedom. Success is what tables call so: near the truth, or without truth near what
 /// the trials of a scene agree on. The spread of `rotation` (`translation`) is the root of the sum
 /// of the squares of those of its three degrees of freedom. Where there is no truth, statistics of
 /// errors other than spreads are not measured.
-std::vector<ClaimResult> check_claims(const std::vector<Expectation>& expectations,
-                                      const Summary& summary);
+std::vector<ClaimResult> check_claims(const std::vector<Claim>& claims, const Summary& summary);
 
 /// "in", "out" or "not measured".
 const char* verdict_name(Verdict verdict);
 
-/// "%", "deg" or "m": the unit of the numbers of an expectation.
-const char* unit_of(const Expectation& expectation);
+/// "%", "deg" or "m": the unit of the numbers of a claim.
+const char* unit_of(const Claim& claim);
 
 /// The statistic of roll to z, pooled over all sensors of the summary's first variant, in the units
 /// of reports; nothing where no trial counts or there is no truth.

@@ -36,7 +36,7 @@ std::string results_markdown(const std::vector<ClaimResult>& results) {
   cells.header.emplace_back("why ours may differ");
   std::vector<std::string> reasons;
   for (std::size_t i = 0; i < results.size(); ++i) {
-    const std::string& why = results[i].expectation.why;
+    const std::string& why = results[i].claim.why;
     cells.rows[i].push_back(why.empty() ? "" : std::to_string(number_of(why, reasons)));
   }
   std::string text = "Claims: " + verdict_counts(results) + ".\n\n" + markdown_table(cells);

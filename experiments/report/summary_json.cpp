@@ -107,7 +107,7 @@ Json json_of(const LoopClosure& loop) {
 }
 
 Json json_of(const ClaimResult& claim) {
-  const Expectation& expected = claim.expectation;
+  const Claim& expected = claim.claim;
   const auto word = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
   return {{"claim", expected.claim},
           {"source", expected.source},

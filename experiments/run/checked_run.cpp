@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "experiments/file/experiment_loader.hpp"
+#include "experiments/file/experiment.hpp"
 #include "experiments/run/data_root.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
@@ -17,12 +17,12 @@ namespace {
 /// Throws InputError where a claim is of a sensor that there is not: it would never be measured.
 void check_claimed_sensors(const Experiment& experiment, const std::vector<std::string>& sensors) {
   std::vector<Fault> faults;
-  for (std::size_t i = 0; i < experiment.claims.expect.size(); ++i) {
-    const std::string& sensor = experiment.claims.expect[i].sensor;
+  for (const Claim& claim : experiment.claims) {
+    const std::string& sensor = claim.sensor;
     if (sensor.empty() || std::find(sensors.begin(), sensors.end(), sensor) != sensors.end()) {
       continue;
     }
-    faults.push_back({experiment.file, "/expect/" + std::to_string(i) + "/sensor",
+    faults.push_back({claim.sensor_file, claim.sensor_pointer,
                       "expected a sensor of the dataset, found \"" + sensor + "\"" +
                           name_hint(sensor, sensors)});
   }

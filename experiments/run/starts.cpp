@@ -50,10 +50,9 @@ std::filesystem::path found_file(const Experiment& experiment,
 /// The other centres that `scan` has, for the user to choose from.
 std::string centres_of(const SensorScan& scan) {
   std::string known;
-  for (const StartCentre centre :
-       {StartCentre::truth, StartCentre::nominal, StartCentre::initial}) {
+  for (const auto& [word, centre] : kStartCentres) {
     if (!centre_pose(centre, scan)) continue;
-    known += (known.empty() ? "" : ", ") + ("\"" + std::string(centre_name(centre)) + "\"");
+    known += (known.empty() ? "\"" : ", \"") + word + "\"";
   }
   return known.empty() ? "it has no pose to draw starts around" : "it has " + known;
 }
@@ -89,7 +88,7 @@ void check_centres(const Experiment& experiment, const std::vector<Scene>& scene
   std::vector<Fault> faults;
   for (const auto& [sensor, lack] : lacks) {
     faults.push_back({experiment.file, "/starts/around",
-                      "sensor \"" + sensor + "\" has no " + centre_name(around) +
+                      "sensor \"" + sensor + "\" has no " + params::word_of(kStartCentres, around) +
                           " pose to draw starts around in " + scene_list(lack.scenes) + "; " +
                           lack.instead});
   }
@@ -150,6 +149,12 @@ void resolve_starts(Experiment& experiment, const std::vector<Scene>& scenes,
   if (rule.file.empty()) return check_centres(experiment, scenes);
   const std::filesystem::path path = found_file(experiment, data_root);
   rule.table = std::make_shared<const StartTable>(read_start_file(path, scenes));
+  if (!rule.sha256.empty() && rule.sha256 != rule.table->sha256) {
+    throw InputError(
+        experiment.file, "/starts/sha256",
+        "expected " + rule.sha256 + ", found " + rule.table->sha256 + " of " + path.string());
+  }
+  rule.sha256 = rule.table->sha256;
   if (rule.trials == 0) rule.trials = rule.table->trials;
   if (rule.trials > rule.table->trials) {
     throw InputError(experiment.file, "/starts/trials",

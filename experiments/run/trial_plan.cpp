@@ -137,7 +137,7 @@ Plan plan_trials(const Experiment& experiment, const std::vector<Scene>& scenes,
   const std::vector<std::string> names = sensor_names(scenes);
   for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
     const TrialRange trials =
-        trials_of(selection.shard, scene, scenes.size(), experiment.starts.trials);
+        trials_of(selection.shard, scene, scenes.size(), total_trials(experiment.starts));
     for (std::size_t sensor = 0; sensor < scenes[scene].sensors.size(); ++sensor) {
       const std::string& name = scenes[scene].sensors[sensor].sensor;
       const auto place = std::find(names.begin(), names.end(), name) - names.begin();

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "experiments/file/experiment_loader.hpp"
+#include "experiments/file/experiment.hpp"
 #include "experiments/store/version.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/io/digest.hpp"
@@ -18,22 +18,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json experiment_json(const Experiment& experiment) {
-  Json json;
-  json["name"] = experiment.name;
-  json["description"] = experiment.description;
-  json["dataset"] = Json::parse(experiment.dataset.resolved());
-  json["starts"] = Json::parse(starts_json(experiment.starts));
-  json["starts"]["trials"] = experiment.starts.trials;
-  json["seed"] = experiment.seed;
-  if (experiment.loops) json["loops"] = true;
-  json["success"] = Json::parse(success_json(experiment.success));
-  json["variants"] = Json::array();
-  for (const Variant& variant : experiment.variants) {
-    json["variants"].push_back(
-        {{"name", variant.name}, {"pipeline", Json::parse(variant.resolved)}});
+Json files_json(const std::vector<ExperimentFile>& files) {
+  Json json = Json::array();
+  for (const ExperimentFile& file : files) {
+    json.push_back({{"path", file.path}, {"sha256", file.sha256}});
   }
-  json.update(Json::parse(claims_json(experiment.claims)));
   return json;
 }
 
@@ -72,7 +61,8 @@ std::string pipelines_text(const Experiment& experiment) {
 std::size_t planned_trials(const Experiment& experiment, const std::vector<Scene>& scenes) {
   std::size_t sensors = 0;
   for (const Scene& scene : scenes) sensors += scene.sensors.size();
-  return sensors * static_cast<std::size_t>(experiment.starts.trials) * experiment.variants.size();
+  return sensors * static_cast<std::size_t>(total_trials(experiment.starts)) *
+         experiment.variants.size();
 }
 
 /// A path may hold bytes that are not UTF-8.
@@ -115,7 +105,8 @@ Json host_json(const std::filesystem::path& data_root, int jobs) {
 std::string manifest_json(const Experiment& experiment, const std::vector<Scene>& scenes,
                           const std::vector<InputFile>& inputs, const Provenance& provenance) {
   Json manifest;
-  manifest["experiment"] = experiment_json(experiment);
+  manifest["experiment"] = Json::parse(experiment_json(experiment));
+  manifest["experiment_files"] = files_json(experiment.files);
   manifest["croon"] = {{"version", croon_version()},
                        {"commit", croon_commit()},
                        {"program_sha256", provenance.at("program")}};

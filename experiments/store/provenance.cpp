@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "experiments/file/experiment_loader.hpp"
+#include "experiments/file/experiment.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/threads.hpp"
 #include "experiments/run/trial_plan.hpp"
@@ -93,11 +93,6 @@ std::vector<InputFile> input_files(const std::vector<Scene>& scenes, const fs::p
   return inputs;
 }
 
-std::string success_json(const SuccessBounds& bounds) {
-  return "{\"rotation_deg\":" + value_json(bounds.rotation_deg) +
-         ",\"translation_m\":" + value_json(bounds.translation_m) + "}";
-}
-
 Provenance provenance_of(const Experiment& experiment, const std::vector<Scene>& scenes,
                          const std::vector<InputFile>& inputs) {
   return {{"dataset", experiment.dataset.resolved()},
@@ -110,7 +105,7 @@ Provenance provenance_of(const Experiment& experiment, const std::vector<Scene>&
 
 StoreHeader header_of(const Experiment& experiment, const std::vector<Scene>& scenes,
                       const Provenance& provenance, const std::string& manifest) {
-  StoreHeader header{provenance, manifest, experiment.starts.trials, {}, {}, {}};
+  StoreHeader header{provenance, manifest, total_trials(experiment.starts), {}, {}, {}};
   for (const Variant& variant : experiment.variants) {
     header.variants.push_back({variant.name, variant.resolved});
   }

@@ -23,9 +23,6 @@ struct InputFile {
 std::vector<InputFile> input_files(const std::vector<Scene>& scenes,
                                    const std::filesystem::path& data_root, int jobs);
 
-/// JSON text of the bounds.
-std::string success_json(const SuccessBounds& bounds);
-
 /// All that decides the result of a trial but its pipeline: dataset, inputs (files and the rig's
 /// poses), starts (but not how many), seed, success bounds, and the program itself.
 Provenance provenance_of(const Experiment& experiment, const std::vector<Scene>& scenes,

@@ -1,27 +1,16 @@
 #include "framework/params/group.hpp"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace croon::params {
-namespace {
-
-bool is_name(const std::string& text) {
-  const std::string others = "_-";
-  return !text.empty() && std::all_of(text.begin(), text.end(), [&](char c) {
-    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-    return is_letter || (c >= '0' && c <= '9') || others.find(c) != std::string::npos;
-  });
-}
-
-}  // namespace
+const NameRule kKeyName = {"_-", "a name of letters, digits, _ and -"};
 
 std::vector<std::string> read_names(const Node& node, const std::string& name_words) {
   std::vector<std::string> names;
   if (!node.is_object()) return names;
   for (const auto& [name, value] : node.value().items()) {
     names.push_back(name);
-    if (is_name(name)) continue;
+    if (kKeyName.allows(name)) continue;
     node.member(name).fault("expected " + name_words + " of letters, digits, _ and -, found " +
                             value_json(name));
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -18,6 +19,9 @@ struct Preset {
 
 /// The key of a group's object that names the preset to begin with.
 constexpr const char* kLikeKey = "like";
+
+/// The names of steps and of the keys of maps.
+extern const NameRule kKeyName;
 
 /// The keys of the object `node`, in order. Notes a fault where there is none, where one has
 /// other characters than letters, digits, _ and -, and where the node is no object. `name_words`
@@ -45,6 +49,7 @@ ParameterDoc object_doc(const std::string& key, ParameterType type, const Table<
   }
   ParameterDoc doc{key, type, "", {}, {}, "", sentence};
   doc.members = table.docs();
+  doc.rules = table.rules();
   return doc;
 }
 
@@ -88,6 +93,45 @@ Parameter<P> group(const std::string& key, G P::*member, const Table<G>& table,
     }
   };
   return {doc, read, [=](const P& params) { return object_json(table, params.*member); }, false};
+}
+
+/// An object that `table` reads, if the key is there.
+template <class P, class G>
+Parameter<P> optional_group(const std::string& key, std::optional<G> P::*member,
+                            const Table<G>& table, const std::string& sentence) {
+  ParameterDoc doc = object_doc(key, ParameterType::group, table, sentence);
+  doc.is_optional = true;
+  const auto read = [=](P& params, const Node& node, const StageBuilder& builder) {
+    if (node.is_object()) params.*member = table.read(node, {}, builder);
+  };
+  const auto json = [=](const P& params) {
+    return params.*member ? object_json(table, *(params.*member)) : std::string();
+  };
+  return {doc, read, json, false};
+}
+
+/// A list of objects that `table` reads. An element with faults is in the list too, so that indices
+/// are those of the file. Empty if the key is missing.
+template <class P, class G>
+Parameter<P> list(const std::string& key, std::vector<G> P::*member, const Table<G>& table,
+                  const std::string& sentence) {
+  ParameterDoc doc = object_doc(key, ParameterType::list, table, sentence);
+  doc.default_json = "[]";
+  const auto read = [=](P& params, const Node& node, const StageBuilder& builder) {
+    if (!node.is_array()) return;
+    (params.*member).clear();
+    for_each_element(node, [&](const Node& element) {
+      (params.*member).push_back(element.is_object() ? table.read(element, {}, builder) : G{});
+    });
+  };
+  const auto json = [=](const P& params) {
+    std::string text;
+    for (const G& value : params.*member) {
+      text += (text.empty() ? "" : ",") + object_json(table, value);
+    }
+    return "[" + text + "]";
+  };
+  return {doc, read, json, false};
 }
 
 /// An object with names of the user's choosing as keys, each value an object that `table` reads.

@@ -42,10 +42,20 @@ std::string shown(const nlohmann::json& value) {
 Node::Node(const nlohmann::json& value, std::string file, std::vector<Fault>& faults)
     : value_(&value), file_(std::move(file)), faults_(&faults) {}
 
+Node::Node(const nlohmann::json& value, std::string file, std::vector<Fault>& faults,
+           MemberOrigins origins)
+    : Node(value, std::move(file), faults) {
+  origins_ = std::make_shared<const MemberOrigins>(std::move(origins));
+}
+
 Node Node::member(const std::string& key) const {
   Node node = *this;
   node.value_ = &value_->at(key);
-  node.pointer_ += "/" + escaped(key);
+  const auto origin = origins_ ? origins_->find(key) : MemberOrigins::const_iterator();
+  const bool has_origin = origins_ && origin != origins_->end();
+  if (has_origin) node.file_ = origin->second.file;
+  node.pointer_ += "/" + escaped(has_origin ? origin->second.key : key);
+  node.origins_ = nullptr;
   return node;
 }
 
@@ -54,6 +64,18 @@ Node Node::element(std::size_t index) const {
   node.value_ = &value_->at(index);
   node.pointer_ += "/" + std::to_string(index);
   return node;
+}
+
+const nlohmann::json* Node::find(const std::string& path) const {
+  const nlohmann::json* at = value_;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t end = std::min(path.find('/', begin), path.size());
+    const std::string key = path.substr(begin, end - begin);
+    if (!at->is_object() || !at->contains(key)) return nullptr;
+    at = &at->at(key);
+    begin = end + 1;
+  }
+  return at;
 }
 
 bool Node::has(const std::string& key) const { return has_members() && value_->contains(key); }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -8,12 +10,24 @@
 
 namespace croon::params {
 
+/// Where a member of a merged object comes from.
+struct MemberOrigin {
+  std::string file;
+  std::string key;  ///< As the file writes it.
+};
+
+/// The origins of members by their keys in the merged object.
+using MemberOrigins = std::map<std::string, MemberOrigin>;
+
 /// A value in a JSON file that knows where it stands, so that whoever reads it can say what is
 /// wrong with it. Faults are collected, not thrown: the user sees all of them at once. Cheap to
 /// copy; the JSON value and the list of faults must outlive it.
 class Node {
  public:
   Node(const nlohmann::json& value, std::string file, std::vector<Fault>& faults);
+  /// An object merged from several files: faults in a member name the file that it comes from.
+  Node(const nlohmann::json& value, std::string file, std::vector<Fault>& faults,
+       MemberOrigins origins);
 
   const nlohmann::json& value() const { return *value_; }
   const std::string& file() const { return file_; }
@@ -45,6 +59,9 @@ class Node {
   /// Notes a fault where the member `key` is missing.
   bool require(const std::string& key) const;
 
+  /// The value at `path`, "sweep/rotation_deg", below this object; null if there is none.
+  const nlohmann::json* find(const std::string& path) const;
+
   /// Reads into `out` and returns true, or notes a fault.
   bool read(bool& out) const;
   bool read(double& out) const;
@@ -56,6 +73,7 @@ class Node {
   std::string file_;
   std::string pointer_;
   std::vector<Fault>* faults_;
+  std::shared_ptr<const MemberOrigins> origins_;  ///< Null unless the object was merged.
 };
 
 }  // namespace croon::params

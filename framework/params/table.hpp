@@ -1,8 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,8 +33,14 @@ class Table {
   Table() = default;
   Table(std::initializer_list<Parameter<P>> parameters) : parameters_(parameters) {}
 
-  /// Adds the rows and conditions of a base of `P`: parameters that several stages share. `P` may
-  /// give them defaults of its own.
+  /// Adds a row.
+  Table& add(Parameter<P> row) {
+    parameters_.push_back(std::move(row));
+    return *this;
+  }
+
+  /// Adds the rows, conditions and rules of a base of `P`: parameters that several stages share.
+  /// `P` may give them defaults of its own.
   template <class Base>
   Table& inherit(const Table<Base>& base) {
     for (const Parameter<Base>& row : base.rows()) {
@@ -47,6 +56,7 @@ class Table {
     for (const auto& [holds, message] : base.conditions()) {
       conditions_.push_back({[holds = holds](const P& params) { return holds(params); }, message});
     }
+    rules_.insert(rules_.end(), base.rules().begin(), base.rules().end());
     return *this;
   }
 
@@ -58,6 +68,20 @@ class Table {
   /// Adds a condition on the parameters together; `message` says what must hold.
   Table& require(std::function<bool(const P&)> holds, std::string message) {
     conditions_.push_back({std::move(holds), std::move(message)});
+    return *this;
+  }
+
+  /// Adds a rule on which keys belong together.
+  Table& rule(KeyRule rule) {
+    rules_.push_back(std::move(rule));
+    return *this;
+  }
+  const std::vector<KeyRule>& rules() const { return rules_; }
+
+  /// Adds a last step of reading that needs the node: it completes the values and may note faults.
+  /// It is left out if a fault was found before.
+  Table& finish(std::function<void(P&, const Node&)> finish) {
+    finishes_.push_back(std::move(finish));
     return *this;
   }
 
@@ -73,8 +97,9 @@ class Table {
   /// True where `params` has a value for every required key.
   bool is_whole(const P& params) const;
 
-  /// `"key":value` for each parameter, comma-separated, for the resolved JSON.
-  std::string members_json(const P& params) const;
+  /// `"key":value` for each parameter that has a value, comma-separated, for the resolved JSON.
+  /// Leaves out what the rules exclude and the keys of `without`.
+  std::string members_json(const P& params, const std::vector<std::string>& without = {}) const;
 
   std::vector<ParameterDoc> docs() const {
     std::vector<ParameterDoc> docs;
@@ -89,6 +114,8 @@ class Table {
 
   std::vector<Parameter<P>> parameters_;
   std::vector<std::pair<std::function<bool(const P&)>, std::string>> conditions_;
+  std::vector<KeyRule> rules_;
+  std::vector<std::function<void(P&, const Node&)>> finishes_;
 };
 
 template <class P>
@@ -101,6 +128,7 @@ P Table<P>::read(const Node& node, const std::vector<std::string>& other_keys,
   for (const auto& [holds, message] : conditions_) {
     if (!holds(params)) node.fault(message);
   }
+  for (const auto& finish : finishes_) finish(params, node);
   return params;
 }
 
@@ -113,7 +141,7 @@ void Table<P>::read_members(const Node& node, const std::vector<std::string>& ot
   for (const Parameter<P>& parameter : parameters_) {
     if (node.has(parameter.doc.key)) {
       parameter.read(params, node.member(parameter.doc.key), builder);
-    } else if (parameter.is_slot) {
+    } else if (parameter.is_slot && !parameter.doc.is_required) {
       read_default(parameter.doc, node, [&](const Node& default_node) {
         parameter.read(params, default_node, builder);
       });
@@ -121,6 +149,7 @@ void Table<P>::read_members(const Node& node, const std::vector<std::string>& ot
       node.require(parameter.doc.key);
     }
   }
+  check_key_rules(node, rules_);
 }
 
 template <class P>
@@ -130,12 +159,15 @@ bool Table<P>::is_whole(const P& params) const {
 }
 
 template <class P>
-std::string Table<P>::members_json(const P& params) const {
-  std::string text;
+std::string Table<P>::members_json(const P& params, const std::vector<std::string>& without) const {
+  std::vector<std::pair<std::string, std::string>> members;
   for (const Parameter<P>& parameter : parameters_) {
-    text += (text.empty() ? "\"" : ",\"") + parameter.doc.key + "\":" + parameter.json(params);
+    const std::string& key = parameter.doc.key;
+    if (std::find(without.begin(), without.end(), key) == without.end()) {
+      members.emplace_back(key, parameter.json(params));
+    }
   }
-  return text;
+  return members_text(members, rules_);
 }
 
 /// A row for any value that `read_value` and `value_json` know.
@@ -148,6 +180,27 @@ Parameter<P> value_parameter(ParameterDoc doc, T P::*member) {
   return {doc, read, [member](const P& params) { return value_json(params.*member); }, false};
 }
 
+/// `row` as one whose key must be there, whatever its default.
+template <class P>
+Parameter<P> required(Parameter<P> row) {
+  row.doc.is_required = true;
+  row.doc.is_optional = false;
+  return row;
+}
+
+/// `row` as one whose key may be missing and has no default: the value that the struct begins with
+/// stands for none, and is not written.
+template <class P>
+Parameter<P> optional(Parameter<P> row) {
+  row.doc.is_required = false;
+  row.doc.is_optional = true;
+  row.json = [json = row.json, none = row.doc.default_json](const P& params) {
+    const std::string text = json(params);
+    return text == none ? std::string() : text;
+  };
+  return row;
+}
+
 template <class P>
 Parameter<P> boolean(const std::string& key, bool P::*member, const std::string& sentence) {
   return value_parameter<P>({key, ParameterType::boolean, "", {}, {}, "", sentence}, member);
@@ -157,6 +210,21 @@ template <class P>
 Parameter<P> integer(const std::string& key, int P::*member, Range range,
                      const std::string& sentence) {
   return value_parameter<P>({key, ParameterType::integer, "", range, {}, "", sentence}, member);
+}
+
+/// A whole number that 32 bits do not hold; at most 2^53, which is exact in every JSON reader.
+template <class P>
+Parameter<P> integer(const std::string& key, std::uint64_t P::*member,
+                     const std::string& sentence) {
+  return value_parameter<P>(
+      {key, ParameterType::integer, "", {0.0, 9007199254740992.0}, {}, "", sentence}, member);
+}
+
+/// Two numbers, [low, high] with low at most high.
+template <class P>
+Parameter<P> interval(const std::string& key, std::array<double, 2> P::*member, Range range,
+                      const std::string& sentence) {
+  return value_parameter<P>({key, ParameterType::interval, "", range, {}, "", sentence}, member);
 }
 
 template <class P>
@@ -172,6 +240,46 @@ Parameter<P> text(const std::string& key, std::string P::*member, const std::str
   const bool is_required = (P{}.*member).empty();
   return value_parameter<P>({key, ParameterType::text, "", {}, {}, "", sentence, is_required},
                             member);
+}
+
+/// Any string; may be empty.
+template <class P>
+Parameter<P> free_text(const std::string& key, std::string P::*member,
+                       const std::string& sentence) {
+  ParameterDoc doc{key, ParameterType::text, "", {}, {}, "", sentence};
+  doc.is_optional = true;
+  return value_parameter<P>(doc, member);
+}
+
+/// A name that `rule` allows.
+template <class P>
+Parameter<P> name(const std::string& key, std::string P::*member, const NameRule& rule,
+                  const std::string& sentence) {
+  Parameter<P> row = text(key, member, sentence);
+  row.doc.name_rule = rule;
+  // The row reads with a copy of its document.
+  return value_parameter<P>(row.doc, member);
+}
+
+/// A list of strings; may be empty.
+template <class P>
+Parameter<P> texts(const std::string& key, std::vector<std::string> P::*member,
+                   const std::string& sentence) {
+  return value_parameter<P>({key, ParameterType::texts, "", {}, {}, "", sentence}, member);
+}
+
+/// Any JSON value, kept with its place in the file for code that reads it later. `definition`
+/// names the part of the JSON Schema that describes it. The key may be missing.
+template <class P>
+Parameter<P> json_value(const std::string& key, std::optional<Node> P::*member,
+                        const std::string& definition, const std::string& sentence) {
+  ParameterDoc doc{key, ParameterType::json, "", {}, {}, "", sentence};
+  doc.is_optional = true;
+  doc.definition = definition;
+  return {doc,
+          [member](P& params, const Node& node, const StageBuilder&) { params.*member = node; },
+          [member](const P& params) { return params.*member ? node_json(*(params.*member)) : ""; },
+          false};
 }
 
 /// A list of numbers, not empty.
@@ -199,6 +307,13 @@ Parameter<P> slot(const std::string& key, Slot<Kind> P::*member, const std::stri
           },
           [member](const P& params) { return (params.*member).resolved(); },
           true};
+}
+
+/// A stage of the kind `Kind`; the key must be there.
+template <class Kind, class P>
+Parameter<P> required_slot(const std::string& key, Slot<Kind> P::*member,
+                           const std::string& sentence) {
+  return required(slot<Kind>(key, member, "", sentence));
 }
 
 /// A list of stages of the kind `Kind`, empty where the key is missing.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "framework/base/nearest_name.hpp"
 
@@ -11,18 +12,62 @@ namespace {
 
 using nlohmann::json;
 
+bool is_alphanumeric(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+
+bool holds(const std::string& characters, char c) {
+  return characters.find(c) != std::string::npos;
+}
+
 bool in_range(double value, const Range& range) {
   return value >= range.minimum && value <= range.maximum;
 }
 
-void read_text(const Node& node, std::string& out) {
+void read_text(const Node& node, const ParameterDoc& doc, std::string& out) {
   std::string text;
   if (!node.read(text)) return;
-  if (text.empty()) return node.expected("a string that is not empty");
+  if (doc.name_rule && !doc.name_rule->allows(text)) return node.expected(doc.name_rule->words);
+  if (text.empty() && !doc.is_optional) return node.expected("a string that is not empty");
   out = text;
 }
 
+/// Whether the rule's condition holds for the object `node`.
+bool applies(const KeyRule& rule, const Node& node) {
+  const json* value = node.find(rule.key);
+  if (rule.words.empty()) return (value != nullptr) != rule.is_negated;
+  if (value == nullptr || !value->is_string()) return false;
+  const auto found = std::find(rule.words.begin(), rule.words.end(), value->get<std::string>());
+  return (found != rule.words.end()) != rule.is_negated;
+}
+
+/// `"a" and "b"`.
+std::string in_words(const std::vector<std::string>& keys) {
+  std::string text;
+  for (const std::string& key : keys) text += (text.empty() ? "\"" : " and \"") + key + "\"";
+  return text;
+}
+
 }  // namespace
+
+bool NameRule::allows(const std::string& name) const {
+  return !name.empty() && !holds(not_first, name.front()) && !holds(not_last, name.back()) &&
+         std::all_of(name.begin(), name.end(),
+                     [&](char c) { return is_alphanumeric(c) || holds(marks, c); });
+}
+
+std::string NameRule::pattern() const {
+  const auto one_of = [&](const std::string& without) {
+    std::string others;
+    for (const char c : marks) {
+      // A minus sign means a range unless it is the last character.
+      if (c != '-' && !holds(without, c)) others += c;
+    }
+    return "[A-Za-z0-9" + others + (holds(marks, '-') && !holds(without, '-') ? "-]" : "]");
+  };
+  if (not_first.empty() && not_last.empty()) return "^" + one_of("") + "+$";
+  return "^" + one_of(not_first + not_last) + "(" + one_of("") + "*" + one_of(not_last) + ")?$";
+}
 
 std::string range_words(const std::string& what, const Range& range) {
   const bool has_minimum = std::isfinite(range.minimum);
@@ -57,9 +102,32 @@ void read_value(const Node& node, const ParameterDoc& doc, double& out) {
   }
 }
 
+void read_value(const Node& node, const ParameterDoc& doc, std::uint64_t& out) {
+  const json& value = node.value();
+  if (value.is_number_unsigned() &&
+      in_range(static_cast<double>(value.get<std::uint64_t>()), doc.range)) {
+    out = value.get<std::uint64_t>();
+  } else {
+    node.expected(range_words("a whole number", doc.range));
+  }
+}
+
+void read_value(const Node& node, const ParameterDoc& doc, std::array<double, 2>& out) {
+  std::vector<double> ends;
+  if (!node.is_array()) return;
+  for_each_element(node, [&](const Node& element) {
+    ends.push_back(0.0);
+    read_value(element, doc, ends.back());
+  });
+  if (ends.size() != 2 || ends[0] > ends[1]) {
+    return node.expected("[low, high] with low at most high");
+  }
+  out = {ends[0], ends[1]};
+}
+
 void read_value(const Node& node, const ParameterDoc& doc, std::string& out) {
   if (doc.type == ParameterType::text) {
-    read_text(node, out);
+    read_text(node, doc, out);
   } else if (const auto index = read_word(node, doc.choices)) {
     out = doc.choices[*index];
   }
@@ -75,6 +143,12 @@ void read_value(const Node& node, const ParameterDoc& doc, std::vector<double>& 
     values.push_back(value);
   });
   out = values;
+}
+
+void read_value(const Node& node, const ParameterDoc&, std::vector<std::string>& out) {
+  if (!node.is_array()) return;
+  out.assign(node.value().size(), "");
+  for (std::size_t i = 0; i < out.size(); ++i) node.element(i).read(out[i]);
 }
 
 std::optional<std::size_t> read_word(const Node& node, const std::vector<std::string>& words,
@@ -113,6 +187,10 @@ std::vector<std::size_t> read_words(const Node& node, const std::vector<std::str
 
 std::string value_json(bool value) { return value ? "true" : "false"; }
 std::string value_json(int value) { return std::to_string(value); }
+std::string value_json(std::uint64_t value) { return std::to_string(value); }
+std::string value_json(const std::array<double, 2>& ends) {
+  return value_json(std::vector<double>(ends.begin(), ends.end()));
+}
 std::string value_json(double value) {
   // A whole number is written as one: "10", not "10.0".
   const bool is_whole = std::floor(value) == value && std::abs(value) < 1e15;
@@ -125,6 +203,49 @@ std::string value_json(const std::vector<double>& values) {
   return "[" + text + "]";
 }
 std::string value_json(const std::vector<std::string>& words) { return json(words).dump(); }
+
+std::string node_json(const Node& node) { return node.value().dump(); }
+
+void check_key_rules(const Node& node, const std::vector<KeyRule>& rules) {
+  for (const KeyRule& rule : rules) {
+    if (!rule.one_of.empty()) {
+      const auto count = std::count_if(rule.one_of.begin(), rule.one_of.end(),
+                                       [&](const std::string& key) { return node.has(key); });
+      if (count != 1) node.expected("one of " + in_words(rule.one_of));
+      continue;
+    }
+    if (!applies(rule, node)) continue;
+    for (const std::string& key : rule.required) node.require(key);
+    for (const std::string& key : rule.excluded) {
+      if (!node.has(key)) continue;
+      node.member(key).fault("expected " + rule.expected + ", found \"" + key + "\"");
+    }
+  }
+}
+
+std::string members_text(const std::vector<std::pair<std::string, std::string>>& members,
+                         const std::vector<KeyRule>& rules) {
+  std::set<std::string> excluded;
+  if (!rules.empty()) {
+    json object = json::object();
+    for (const auto& [key, text] : members) {
+      if (!text.empty()) object[key] = json::parse(text);
+    }
+    std::vector<Fault> faults;
+    const Node node(object, "", faults);
+    for (const KeyRule& rule : rules) {
+      if (rule.one_of.empty() && applies(rule, node)) {
+        excluded.insert(rule.excluded.begin(), rule.excluded.end());
+      }
+    }
+  }
+  std::string joined;
+  for (const auto& [key, text] : members) {
+    if (text.empty() || excluded.count(key) > 0) continue;
+    joined += (joined.empty() ? "\"" : ",\"") + key + "\":" + text;
+  }
+  return joined;
+}
 
 void set_default(ParameterDoc& doc, const std::string& value) {
   const auto preset = std::find(doc.preset_json.begin(), doc.preset_json.end(), value);

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framework/params/node.hpp"
@@ -14,9 +17,12 @@ namespace croon::params {
 /// where it does not fit.
 void read_value(const Node& node, const ParameterDoc& doc, bool& out);
 void read_value(const Node& node, const ParameterDoc& doc, int& out);
+void read_value(const Node& node, const ParameterDoc& doc, std::uint64_t& out);
 void read_value(const Node& node, const ParameterDoc& doc, double& out);
+void read_value(const Node& node, const ParameterDoc& doc, std::array<double, 2>& out);
 void read_value(const Node& node, const ParameterDoc& doc, std::string& out);
 void read_value(const Node& node, const ParameterDoc& doc, std::vector<double>& out);
+void read_value(const Node& node, const ParameterDoc& doc, std::vector<std::string>& out);
 
 /// Which of `words` the node is; notes a fault, with the nearest of them, where it is none.
 /// `or_else` names what else may stand there: " or an object".
@@ -30,10 +36,23 @@ std::vector<std::size_t> read_words(const Node& node, const std::vector<std::str
 /// The JSON text of a value.
 std::string value_json(bool value);
 std::string value_json(int value);
+std::string value_json(std::uint64_t value);
 std::string value_json(double value);
+std::string value_json(const std::array<double, 2>& ends);
 std::string value_json(const std::string& value);
 std::string value_json(const std::vector<double>& value);
 std::string value_json(const std::vector<std::string>& value);
+
+/// The JSON text of the node's value.
+std::string node_json(const Node& node);
+
+/// Notes a fault for each of the rules that the object `node` breaks.
+void check_key_rules(const Node& node, const std::vector<KeyRule>& rules);
+
+/// The JSON members `"key":value`, comma-separated. Leaves out keys whose text is empty and those
+/// that the rules exclude.
+std::string members_text(const std::vector<std::pair<std::string, std::string>>& members,
+                         const std::vector<KeyRule>& rules);
 
 /// Sets the parameter's default to the JSON text `value`, or to the name of the preset that has it.
 void set_default(ParameterDoc& doc, const std::string& value);

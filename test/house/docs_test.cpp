@@ -9,14 +9,14 @@
 #include <set>
 #include <sstream>
 
-#include "experiments/file/experiment_loader.hpp"
+#include "experiments/file/experiment.hpp"
 #include "framework/base/error.hpp"
 #include "registry/registry.hpp"
 #include "test/house/fenced_block.hpp"
-#include "test/house/script.hpp"
-#include "test/house/tree.hpp"
 #include "test/support/data_root.hpp"
+#include "test/support/script.hpp"
 #include "test/support/temp_folder.hpp"
+#include "test/support/tree.hpp"
 
 namespace croon::test {
 namespace {

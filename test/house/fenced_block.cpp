@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "test/house/tree.hpp"
+#include "test/support/tree.hpp"
 
 namespace croon::test {
 

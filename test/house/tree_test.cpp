@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <regex>
 
-#include "test/house/tree.hpp"
+#include "test/support/tree.hpp"
 
 namespace croon::test {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "registry/help.hpp"
 #include "registry/registry.hpp"
-#include "registry/schema.hpp"
 
 namespace croon {
 namespace {
@@ -56,11 +55,6 @@ TEST_F(GeneratedPages, ReferencePages) {
               stages_help(catalogue_, kind, HelpFormat::markdown))
         << kind << ": run make docs";
   }
-}
-
-TEST_F(GeneratedPages, Schema) {
-  EXPECT_EQ(bytes_of(kDocs + "schema/experiment.schema.json"), experiment_schema(catalogue_))
-      << "run make docs";
 }
 
 }  // namespace

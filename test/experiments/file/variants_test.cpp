@@ -1,4 +1,4 @@
-#include "experiments/file/variants.hpp"
+#include "experiments/file/experiment_keys.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,11 +34,16 @@ struct ReadVariants {
 /// Reads a pipeline of steps `first` (drift) and `behave` with the members `text` beside it.
 ReadVariants read(const std::string& text) {
   json root = json::parse("{" + text + "}");
+  root["name"] = "x";
+  root["dataset"] = {{"type", "fake"}};
   root["pipeline"] = json::parse(
       R"([{"step": "drift", "name": "first", "search": {"type": "coarse", "step_deg": 2}}, {"step": "behave"}])");
   std::vector<Fault> faults;
   ReadVariants read;
-  read.variants = read_variants(params::Node(root, "file", faults), test::fake_catalogue(), faults);
+  const Catalogue catalogue = test::fake_catalogue();
+  const params::Node node(root, "file", faults);
+  const ExperimentKeys keys = experiment_table().read(node, {}, catalogue);
+  read.variants = make_variants(keys, node, catalogue, faults);
   for (const Fault& fault : faults)
     read.faults.push_back(Fault{"", fault.where, fault.message}.line());
   return read;
@@ -177,6 +182,58 @@ TEST(Grid, RefusesToGrowBeyondReason) {
   const ReadVariants all = read(R"("grid": {"first.size_m": )" + list.dump() +
                                 R"(, "first.search.step_deg": )" + degrees.dump() + "}");
   EXPECT_EQ(all.faults, (Lines{"/grid: expected at most 10000 variants, found more"}));
+}
+
+TEST(Variants, InsertStepsBesideOthers) {
+  const ReadVariants all = read(R"("variants": [
+      {"name": "a", "insert": [{"after": "first", "step": {"step": "drift", "name": "second"}},
+                               {"after": "second", "step": {"step": "drift", "name": "third"}},
+                               {"before": "first", "step": {"step": "drift", "size_m": 3}}]},
+      {"name": "b", "insert": [{"before": "behave", "step": {"step": "drift"}}],
+       "remove": ["behave"], "replace": {"drift.size_m": 4}}])");
+  EXPECT_EQ(all.faults, Lines{});
+  const auto names = [&](const std::string& variant) {
+    Lines steps;
+    for (const json& step : all.pipeline(variant)) steps.push_back(step["name"]);
+    return steps;
+  };
+  EXPECT_EQ(names("base"), (Lines{"first", "behave"}));
+  EXPECT_EQ(names("a"), (Lines{"drift", "first", "second", "third", "behave"}));
+  EXPECT_EQ(all.pipeline("a")[0]["size_m"], 3);
+  EXPECT_EQ(names("b"), (Lines{"first", "drift"}));
+  EXPECT_EQ(all.pipeline("b")[1]["size_m"], 4);
+}
+
+TEST(Variants, ShowFaultsOfInsertionsAtTheirPlaces) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {R"({"after": "frist", "step": {"step": "drift"}})",
+       "/variants/0/insert/0/after: there is no step \"frist\"; did you mean \"first\"?"},
+      {R"({"step": {"step": "drift"}})",
+       R"(/variants/0/insert/0: expected one of "before" and "after", found {"step":{"step":"drift"}})"},
+      {R"({"after": "first"})", "/variants/0/insert/0: the key \"step\" is missing"},
+      {R"({"after": "first", "step": {"step": "behave"}})",
+       "/variants/0/insert/0/after: two steps are called \"behave\": give the inserted one a "
+       "\"name\""},
+      {R"({"after": "first", "step": {"step": "drift", "size_m": "far"}})",
+       "/variants/0/insert/0/step/size_m: expected a number, found \"far\""},
+      {R"({"after": "first", "step": 3})",
+       "/variants/0/insert/0/step: expected an object, found 3"}};
+  for (const auto& [insertion, message] : cases) {
+    const ReadVariants all = read(R"("variants": [{"name": "a", "insert": [)" + insertion + "]}]");
+    EXPECT_EQ(all.faults, Lines{message});
+  }
+}
+
+TEST(Variants, MayHaveAWholePipeline) {
+  const ReadVariants all = read(R"("variants": [
+      {"name": "other", "pipeline": [{"step": "drift", "size_m": 9}],
+       "replace": {"drift.search": {"type": "coarse", "step_deg": 7}}}])");
+  EXPECT_EQ(all.faults, Lines{});
+  ASSERT_EQ(all.pipeline("other").size(), 1U);
+  EXPECT_EQ(all.pipeline("other")[0]["size_m"], 9);
+  EXPECT_EQ(all.pipeline("other")[0]["search"]["step_deg"], 7);
+  EXPECT_EQ(read(R"("variants": [{"name": "other", "pipeline": []}])").faults,
+            Lines{"/variants/0/pipeline: expected a list of at least one step, found []"});
 }
 
 }  // namespace

@@ -112,9 +112,9 @@ std::pair<double, double> shares_of(const std::vector<TrialRecord>& records,
   return {100.0 * successes / trials, 100.0 * good / static_cast<double>(scenes.size())};
 }
 
-Expectation expectation(const std::string& statistic, const std::string& measure = "",
-                        const std::string& sensor = "", const std::string& variant = "base") {
-  Expectation one;
+Claim expectation(const std::string& statistic, const std::string& measure = "",
+                  const std::string& sensor = "", const std::string& variant = "base") {
+  Claim one;
   one.claim = "a claim";
   one.source = "a source";
   one.variant = variant;
@@ -126,7 +126,7 @@ Expectation expectation(const std::string& statistic, const std::string& measure
   return one;
 }
 
-double found(const Summary& summary, const Expectation& one) {
+double found(const Summary& summary, const Claim& one) {
   const ClaimResult result = check_claims({one}, summary).front();
   EXPECT_EQ(result.verdict, Verdict::in);
   return result.found.value_or(std::nan(""));
@@ -204,7 +204,7 @@ TEST(Claims, WithoutTruthSuccessIsAgreement) {
 TEST(Claims, BandsAreClosed) {
   Rng rng = test_rng(5);
   const Summary summary = summary_of(random_records(rng));
-  Expectation one = expectation("std", "yaw");
+  Claim one = expectation("std", "yaw");
   const double value = found(summary, one);
   const auto verdict = [&](double low, double high) {
     one.band = {low, high};
@@ -216,7 +216,7 @@ TEST(Claims, BandsAreClosed) {
 }
 
 TEST(Claims, WhatTheRunLacksIsNotMeasured) {
-  const auto is_missing = [](const Summary& summary, const Expectation& one) {
+  const auto is_missing = [](const Summary& summary, const Claim& one) {
     const ClaimResult result = check_claims({one}, summary).front();
     return result.verdict == Verdict::not_measured && !result.found;
   };
@@ -267,11 +267,11 @@ TEST(Claims, OurRowIsThatOfAllSensorsOfTheFirstVariant) {
 /// One claim of each verdict.
 std::vector<ClaimResult> one_of_each() {
   std::vector<ClaimResult> results(3, {expectation("std", "yaw"), 0.25, Verdict::in});
-  results[1].expectation.claim = "yaw | of the front";
-  results[1].expectation.why = "scenes of our own";
+  results[1].claim.claim = "yaw | of the front";
+  results[1].claim.why = "scenes of our own";
   results[1].verdict = Verdict::out;
   results[2] = {expectation("success"), std::nullopt, Verdict::not_measured};
-  results[2].expectation.why = "scenes of our own";
+  results[2].claim.why = "scenes of our own";
   return results;
 }
 

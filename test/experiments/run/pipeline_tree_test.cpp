@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "experiments/file/experiment_loader.hpp"
+#include "experiments/file/experiment.hpp"
 #include "experiments/report/plan_table.hpp"
 #include "experiments/run/step_counts.hpp"
 #include "framework/base/rng.hpp"

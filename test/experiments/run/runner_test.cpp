@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "experiments/file/experiment_loader.hpp"
+#include "experiments/file/experiment.hpp"
 #include "test/experiments/support/fake_stages.hpp"
 #include "test/support/temp_folder.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "experiments/file/experiment_loader.hpp"
+#include "experiments/file/experiment.hpp"
 #include "framework/geometry/pose_error.hpp"
 #include "test/experiments/support/fake_stages.hpp"
 #include "test/support/temp_folder.hpp"

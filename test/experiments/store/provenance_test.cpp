@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/file/experiment_loader.hpp"
+#include "experiments/file/experiment.hpp"
 #include "experiments/store/manifest.hpp"
 #include "test/experiments/support/fake_stages.hpp"
 #include "test/support/temp_folder.hpp"

@@ -1,6 +1,6 @@
 // The JSON Schema and the loader say the same of experiment files. The schema is read by
 // python3-jsonschema, where that is installed.
-#include "registry/schema.hpp"
+#include "experiments/file/experiment.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,19 +10,26 @@
 #include <sstream>
 #include <tuple>
 
-#include "experiments/file/experiment_loader.hpp"
+#include "experiments/file/experiment.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
 #include "registry/registry.hpp"
-#include "test/house/script.hpp"
-#include "test/house/tree.hpp"
 #include "test/support/nested_stage.hpp"
+#include "test/support/script.hpp"
 #include "test/support/temp_folder.hpp"
+#include "test/support/tree.hpp"
 
-namespace croon::test {
+namespace croon::experiments {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using test::Finished;
+using test::nested_stage;
+using test::run_script;
+using test::source_root;
+using test::TempFolder;
+using test::tree_files;
 
 class SchemaAndLoader : public testing::Test {
  protected:
@@ -36,7 +43,8 @@ class SchemaAndLoader : public testing::Test {
 
   /// Those of `files` that the schema takes.
   std::set<std::string> taken_by_schema(const std::vector<fs::path>& files) const {
-    std::string command = "python3 '" + (source_root() / "test/house/check_schema.py").string() +
+    std::string command = "python3 '" +
+                          (source_root() / "test/experiments/file/check_schema.py").string() +
                           "' schema.json 2> faults.txt";
     for (const fs::path& file : files) command += " '" + file.string() + "'";
     const Finished finished = run_script(command, folder_.path());
@@ -49,7 +57,7 @@ class SchemaAndLoader : public testing::Test {
 
   bool is_loaded(const fs::path& file) const {
     try {
-      experiments::load_experiment(file, catalogue_);
+      load_experiment(file, catalogue_);
       return true;
     } catch (const InputError&) {
       return false;
@@ -184,11 +192,96 @@ TEST_F(SchemaAndLoader, AgreeOnTheEndsOfRanges) {
   expect_verdicts(cases);
 }
 
+/// Every `$ref` leads somewhere.
+void expect_references(const json& part, const json& whole) {
+  if (part.is_object() && part.contains("$ref")) {
+    const std::string reference = part["$ref"].get<std::string>();
+    EXPECT_TRUE(whole.contains(json::json_pointer(reference.substr(1)))) << reference;
+  }
+  if (!part.is_structured()) return;
+  for (const json& below : part) expect_references(below, whole);
+}
+
+TEST(Schema, ReferencesLeadSomewhere) {
+  const json schema = json::parse(experiment_schema(registry()));
+  expect_references(schema, schema);
+}
+
+TEST_F(SchemaAndLoader, AgreeOnKeysThatBelongTogether) {
+  const json claim = json::parse(
+      R"({"claim": "c", "source": "s", "measure": "yaw", "statistic": "std", "value": 1,
+          "band": [0, 1]})");
+  const json table = json::parse(
+      R"({"claim": "c", "source": "s", "measures": ["yaw"], "band_rule": {"rule": "no_worse"},
+          "values": {"left": {"std": [1]}}})");
+  const auto with = [](json object, const char* key, const json& value) {
+    object[key] = value;
+    if (value.is_null()) object.erase(key);
+    return object;
+  };
+  const json step = {{"step", "identity"}};
+  const std::vector<std::tuple<const char*, json, bool>> changes = {
+      {"/starts", json::parse(R"({"sweep": {"rotation_deg": [0, 90]}})"), true},
+      {"/starts", json::parse(R"({"sweep": {"rotation_deg": [0, 90], "levels": 1}})"), false},
+      {"/starts", json::parse(R"({"sweep": {}})"), false},
+      {"/starts", json::parse(R"({"sweep": {"rotation_deg": [0, 90]}, "rotation_deg": 1})"), false},
+      {"/starts", json::parse(R"({"sweep": {"rotation_deg": [0, 90]}, "translation_m": 1})"), true},
+      {"/starts", json::parse(R"({"sweep": {"rotation_deg": [0, 9], "translation_m": [0, 1]}})"),
+       false},
+      {"/starts", {{"file", "a.csv"}, {"trials", 3}, {"sha256", "12"}}, true},
+      {"/starts", {{"file", "a.csv"}, {"around", "truth"}}, false},
+      {"/starts", {{"sha256", "12"}}, false},
+      {"/claims", json::array({claim, table}), true},
+      {"/expect", json::array({claim}), true},
+      {"/claims/0", with(claim, "measure", nullptr), false},
+      {"/claims/0", with(claim, "statistic", "success"), false},
+      {"/claims/0", with(with(claim, "statistic", "success"), "measure", nullptr), true},
+      {"/claims/0", with(claim, "band", {0, 1, 2}), false},
+      {"/claims/0", with(claim, "value", nullptr), false},
+      {"/claims/0", with(claim, "values", table["values"]), false},
+      {"/claims/0", with(table, "measures", nullptr), false},
+      {"/claims/0", with(table, "band", {0, 1}), false},
+      {"/claims/0", with(table, "band_rule", {{"rule", "around_zero"}}), false},
+      {"/claims/0",
+       with(table, "band_rule", {{"rule", "around_zero"}, {"half_width", json::array({1})}}), true},
+      {"/variants/0/insert", json::array({{{"after", "yaw"}, {"step", step}}}), true},
+      {"/variants/0/insert", json::array({{{"step", step}}}), false},
+      {"/variants/0/insert", json::array({{{"after", "yaw"}, {"before", "yaw"}, {"step", step}}}),
+       false},
+      {"/variants/0/insert", json::array({{{"after", "yaw"}}}), false},
+      {"/variants/0/pipeline", json::array({{{"step", "ground_alignment"}}}), true},
+      {"/variants/0/pipeline", json::array(), false}};
+  std::vector<std::pair<json, bool>> cases;
+  for (const auto& [pointer, value, is_valid] : changes) {
+    json changed = experiment();
+    const bool is_claim = std::string(pointer) == "/claims/0";
+    if (is_claim) changed["claims"] = json::array();
+    changed[json::json_pointer(pointer)] = value;
+    cases.emplace_back(changed, is_valid);
+  }
+  expect_verdicts(cases);
+}
+
+TEST(Schema, IsThatOfThePage) {
+  // Stages from outside the tree are not on the page.
+  Catalogue catalogue;
+  for (const StageEntry& entry : registry().entries()) {
+    const std::string file = "stages/" + entry.kind + "/" + entry.name + ".cpp";
+    if (std::filesystem::exists(test::source_root() / file)) catalogue.add(entry);
+  }
+  if (catalogue.entries().size() != test::tree_files("stages/", ".cpp").size()) {
+    GTEST_SKIP() << "this build leaves out stages of the tree";
+  }
+  EXPECT_EQ(read_whole_file(test::source_root() / "docs/schema/experiment.schema.json"),
+            experiment_schema(catalogue))
+      << "run make docs";
+}
+
 TEST_F(SchemaAndLoader, AgreeOnDefaults) {
   const json properties = json::parse(experiment_schema(registry()))["properties"];
   const json& starts = properties["starts"]["properties"];
-  const experiments::StartRule rule;
-  EXPECT_EQ(starts["around"]["default"], experiments::centre_name(rule.around));
+  const StartRule rule;
+  EXPECT_EQ(starts["around"]["default"], params::word_of(kStartCentres, rule.around));
   EXPECT_EQ(starts["rotation_deg"]["default"].get<double>(), rule.rotation_deg);
   EXPECT_EQ(starts["translation_m"]["default"].get<double>(), rule.translation_m);
   EXPECT_EQ(starts["trials"]["default"].get<int>(), rule.trials);
@@ -196,8 +289,8 @@ TEST_F(SchemaAndLoader, AgreeOnDefaults) {
   const SuccessBounds bounds;
   EXPECT_EQ(success["rotation_deg"]["default"].get<double>(), bounds.rotation_deg);
   EXPECT_EQ(success["translation_m"]["default"].get<double>(), bounds.translation_m);
-  EXPECT_EQ(properties["seed"]["default"].get<std::uint64_t>(), experiments::Experiment{}.seed);
+  EXPECT_EQ(properties["seed"]["default"].get<std::uint64_t>(), Experiment{}.seed);
 }
 
 }  // namespace
-}  // namespace croon::test
+}  // namespace croon::experiments

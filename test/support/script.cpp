@@ -1,4 +1,4 @@
-#include "test/house/script.hpp"
+#include "test/support/script.hpp"
 
 #include <array>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "test/house/tree.hpp"
+#include "test/support/tree.hpp"
 
 #include <algorithm>
 #include <fstream>

@@ -1,0 +1,328 @@
+#include "experiments/file/claims.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "experiments/file/measures.hpp"
+#include "experiments/file/statistics.hpp"
+#include "framework/params/choice.hpp"
+#include "framework/params/group.hpp"
+
+namespace croon::experiments {
+namespace {
+
+using params::Node;
+using params::optional;
+using params::Parameter;
+using params::Table;
+
+/// Claims hold no stages.
+class NoStages final : public params::StageBuilder {
+ public:
+  params::BuiltStage build(const std::string&, const Node&) const override {
+    throw std::logic_error("a claim with a stage in it");
+  }
+};
+
+const std::vector<std::string> kShares = {kSuccess, kScenes};
+
+/// How the bands of a table of claims follow from its values.
+enum class BandRule {
+  no_worse,    ///< No farther from zero than the source's value and its uncertainty.
+  around_zero  ///< Within a half width of zero, which the file gives for each measure.
+};
+
+struct TableBand {
+  BandRule rule = BandRule::no_worse;
+  int samples = 0;
+  int decimals = 4;
+  std::vector<double> half_width;
+};
+
+/// The values of one sensor: for each statistic a list, one number per measure of the table.
+struct TableValues {
+  std::array<std::vector<double>, kStatistics.size()> by_statistic;
+};
+
+/// An element of "claims".
+struct ClaimKeys : Claim {
+  std::vector<std::size_t> measures;
+  std::vector<std::pair<std::string, TableValues>> values;
+  TableBand band_rule;
+};
+
+const Table<Claim>& claim_table() {
+  static const Table<Claim> table = [] {
+    using P = Claim;
+    Table<P> rows = {
+        params::text("claim", &P::claim, "What the number is, in words."),
+        params::text("source", &P::source, "Where it stands."),
+        optional(params::text("variant", &P::variant,
+                              "The variant that is meant; the first if none is named.")),
+        optional(params::text("sensor", &P::sensor,
+                              "The sensor that is meant; all together if none is named.")),
+        optional(params::choice("measure", &P::measure, measure_names(),
+                                "What is measured, in deg or m; shares have none.")),
+        optional(params::choice("statistic", &P::statistic, claim_statistics(),
+                                "Which statistic; success and scenes are shares in %.")),
+        optional(params::number("value", &P::value, {}, "What the source says, in deg, m or %.")),
+        optional(params::interval("band", &P::band, {}, "Lowest and highest of ours.")),
+        optional(params::text("why", &P::why, "Why ours may differ.")),
+    };
+    rows.rule({"statistic", kShares, true, {"measure"}, {}});
+    return rows.rule(
+        {"statistic", kShares, false, {}, {"measure"}, "no measure of a share of the trials"});
+  }();
+  return table;
+}
+
+Table<TableBand> band_table() {
+  using P = TableBand;
+  Table<P> table = {
+      params::choice(
+          "rule", &P::rule,
+          params::Words<BandRule>{{"no_worse", BandRule::no_worse},
+                                  {"around_zero", BandRule::around_zero}},
+          "no_worse: a mean no farther from zero than the value and twice its standard error, "
+          "any other statistic no larger than the value; around_zero: within half_width of zero."),
+      params::integer("samples", &P::samples, {0, 1e9},
+                      "How many errors the source's values are over; for the standard error."),
+      params::integer("decimals", &P::decimals, {0, 9},
+                      "Bands of means are rounded up to this many decimals, those of the source."),
+      optional(params::numbers("half_width", &P::half_width, {0.0, 1e9},
+                               "Half of the width of the band of each measure.")),
+  };
+  table.rule({"rule", {"around_zero"}, false, {"half_width"}, {"samples"}, "no \"samples\" here"});
+  return table;
+}
+
+/// The row of one statistic of a table of values.
+Parameter<TableValues> values_row(std::size_t statistic) {
+  const std::string name = kStatistics[statistic].name;
+  params::ParameterDoc doc{name, params::ParameterType::numbers,     "", {}, {},
+                           "",   "The " + name + " of each measure."};
+  doc.is_optional = true;
+  return {doc,
+          [=](TableValues& values, const Node& node, const params::StageBuilder&) {
+            params::read_value(node, doc, values.by_statistic[statistic]);
+          },
+          [=](const TableValues& values) {
+            const std::vector<double>& list = values.by_statistic[statistic];
+            return list.empty() ? std::string() : params::value_json(list);
+          },
+          false};
+}
+
+Table<TableValues> values_table() {
+  Table<TableValues> table;
+  for (std::size_t k = 0; k < kStatistics.size(); ++k) table.add(values_row(k));
+  return table;
+}
+
+Parameter<ClaimKeys> measures_row() {
+  params::ParameterDoc doc{"measures",
+                           params::ParameterType::choices,
+                           "",
+                           {},
+                           measure_names(),
+                           "",
+                           "The measures that the values of a table are of."};
+  doc.is_optional = true;
+  return {doc,
+          [](ClaimKeys& keys, const Node& node, const params::StageBuilder&) {
+            keys.measures = params::read_words(node, measure_names());
+          },
+          [](const ClaimKeys&) { return std::string(); }, false};
+}
+
+const Table<ClaimKeys>& claim_keys_table() {
+  static const Table<ClaimKeys> table = [] {
+    using P = ClaimKeys;
+    Table<P> rows;
+    rows.inherit(claim_table());
+    rows.add(measures_row());
+    rows.add(optional(params::map("values", &P::values, values_table(), "a sensor's name, or all",
+                                  "A table of claims: for each sensor the statistics, each a list "
+                                  "with one number per measure.")));
+    rows.add(optional(params::group("band_rule", &P::band_rule, band_table(), {},
+                                    "How the bands of a table follow from its values.")));
+    const std::vector<std::string> of_one = {"sensor", "measure", "statistic", "value", "band"};
+    const std::vector<std::string> of_table = {"measures", "band_rule"};
+    rows.rule(
+        {"values", {}, false, of_table, of_one, "no key of a single claim beside \"values\""});
+    return rows.rule({"values",
+                      {},
+                      true,
+                      {"statistic", "value", "band"},
+                      of_table,
+                      "no key of a table of claims without \"values\""});
+  }();
+  return table;
+}
+
+/// Notes a fault for each list that has not one number per measure.
+void check_sizes(const ClaimKeys& keys, const Node& node) {
+  const std::string expected =
+      "one number for each of the " + std::to_string(keys.measures.size()) + " measures";
+  const auto check = [&](const std::vector<double>& list, const Node& at) {
+    if (list.size() != keys.measures.size()) at.expected(expected);
+  };
+  for (const auto& [sensor, values] : keys.values) {
+    const Node at = node.member("values").member(sensor);
+    for (std::size_t k = 0; k < kStatistics.size(); ++k) {
+      const std::string name = kStatistics[k].name;
+      if (at.has(name)) check(values.by_statistic[k], at.member(name));
+    }
+  }
+  if (keys.band_rule.rule == BandRule::around_zero) {
+    check(keys.band_rule.half_width, node.member("band_rule").member("half_width"));
+  }
+}
+
+/// The half width of the band of a mean: |value| and twice its standard error, rounded up.
+double half_width_of_mean(double value, double std, const TableBand& band) {
+  double scale = 1.0;
+  for (int i = 0; i < band.decimals; ++i) scale *= 10.0;
+  const double half_width = std::abs(value) + 2.0 * std / std::sqrt(band.samples);
+  // Without the subtrahend a half width that has these decimals would be rounded to the next.
+  return std::ceil(half_width * scale - 1e-6) / scale;
+}
+
+/// Expands a table of claims.
+class ClaimExpander {
+ public:
+  ClaimExpander(const ClaimKeys& keys, const Node& node) : keys_(keys), node_(node) {}
+
+  std::vector<Claim> expand() {
+    for (const auto& [sensor, values] : keys_.values) {
+      const Node at = node_.member("values").member(sensor);
+      for (std::size_t column = 0; column < keys_.measures.size(); ++column) {
+        for (std::size_t k = 0; k < kStatistics.size(); ++k) {
+          if (values.by_statistic[k].empty()) continue;
+          add(sensor, values, column, k, at);
+        }
+      }
+    }
+    return std::move(claims_);
+  }
+
+ private:
+  void add(const std::string& sensor, const TableValues& values, std::size_t column,
+           std::size_t statistic, const Node& at) {
+    Claim claim = keys_;
+    claim.sensor = sensor == "all" ? "" : sensor;
+    claim.measure = kMeasures[keys_.measures[column]].name;
+    claim.statistic = kStatistics[statistic].name;
+    claim.claim += ", " + (claim.sensor.empty() ? std::string("all sensors") : sensor) + ": " +
+                   claim.statistic + " of " + claim.measure;
+    claim.value = values.by_statistic[statistic][column];
+    claim.sensor_file = at.file();
+    claim.sensor_pointer = claim.sensor.empty() ? "" : at.pointer();
+    claim.band = band_of(claim, values, column, at);
+    claims_.push_back(std::move(claim));
+  }
+
+  std::array<double, 2> band_of(const Claim& claim, const TableValues& values, std::size_t column,
+                                const Node& at) const {
+    const TableBand& band = keys_.band_rule;
+    if (band.rule == BandRule::around_zero) {
+      return {-band.half_width[column], band.half_width[column]};
+    }
+    if (!kStatistics[statistic_index(claim.statistic)].is_signed) return {0.0, claim.value};
+    const std::vector<double>& stds = values.by_statistic[statistic_index("std")];
+    if (claim.statistic != "mean" || stds.empty() || band.samples == 0) {
+      at.member(claim.statistic)
+          .fault(
+              "expected a mean with \"std\" beside it and \"samples\" in \"band_rule\": the rule "
+              "no_worse needs the standard error");
+      return claim.band;
+    }
+    const double half_width = half_width_of_mean(claim.value, stds[column], band);
+    return {-half_width, half_width};
+  }
+
+  const ClaimKeys& keys_;
+  const Node& node_;
+  std::vector<Claim> claims_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& claim_statistics() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all = kShares;
+    const std::vector<std::string> statistics = statistic_names();
+    all.insert(all.end(), statistics.begin(), statistics.end());
+    all.insert(all.end(), {kWithinSceneStd, kAcrossScenesStd});
+    return all;
+  }();
+  return names;
+}
+
+bool is_share(const std::string& statistic) {
+  return std::find(kShares.begin(), kShares.end(), statistic) != kShares.end();
+}
+
+const params::ParameterDoc& claims_doc() {
+  static const params::ParameterDoc doc = [] {
+    params::ParameterDoc claims = params::object_doc(
+        "claims", params::ParameterType::list, claim_keys_table(),
+        "Numbers of a source, and the bands in which ours must lie; they decide no trial.");
+    claims.default_json = "[]";
+    return claims;
+  }();
+  return doc;
+}
+
+std::vector<Claim> read_claims(const Node& node) {
+  std::vector<Claim> claims;
+  if (!node.is_array()) return claims;
+  params::for_each_element(node, [&](const Node& element) {
+    if (!element.is_object()) return;
+    const std::size_t faults_before = element.fault_count();
+    ClaimKeys keys = claim_keys_table().read(element, {}, NoStages());
+    if (element.fault_count() > faults_before) return;
+    if (keys.values.empty()) {
+      keys.sensor_file = element.file();
+      keys.sensor_pointer = keys.sensor.empty() ? "" : element.pointer() + "/sensor";
+      claims.push_back(keys);
+      return;
+    }
+    check_sizes(keys, element);
+    if (element.fault_count() > faults_before) return;
+    const std::vector<Claim> expanded = ClaimExpander(keys, element).expand();
+    claims.insert(claims.end(), expanded.begin(), expanded.end());
+  });
+  return claims;
+}
+
+std::string claims_json(const std::vector<Claim>& claims) {
+  std::string text;
+  for (const Claim& claim : claims) {
+    text += (text.empty() ? "" : ",") + params::object_json(claim_table(), claim);
+  }
+  return "[" + text + "]";
+}
+
+const Table<Quoted>& quoted_table() {
+  using P = Quoted;
+  const auto error = [](const char* key, double P::*value, const std::string& dof) {
+    return params::required(params::number(key, value, {}, "Its error in " + dof + "."));
+  };
+  static const Table<P> table = {
+      params::text("method", &P::method, "The method's name."),
+      params::text("source", &P::source, "Where its numbers stand."),
+      params::required(params::choice("statistic", &P::statistic, statistic_names(),
+                                      "Which statistic the numbers are.")),
+      error("pitch_deg", &P::pitch_deg, "pitch"),
+      error("roll_deg", &P::roll_deg, "roll"),
+      error("yaw_deg", &P::yaw_deg, "yaw"),
+      error("x_m", &P::x_m, "x"),
+      error("y_m", &P::y_m, "y"),
+      error("z_m", &P::z_m, "z"),
+  };
+  return table;
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "framework/params/table.hpp"
+
+namespace croon::experiments {
+
+/// A number that a source claims, and the band in which ours must lie. Units are those of reports:
+/// deg, m, and % for shares. A claim decides no trial.
+struct Claim {
+  std::string claim;      ///< What the number is, in words.
+  std::string source;     ///< "paper, Table 1".
+  std::string variant;    ///< A variant of the experiment; the first if the file names none.
+  std::string sensor;     ///< Empty for all sensors together.
+  std::string measure;    ///< One of measure_names(); empty for shares.
+  std::string statistic;  ///< One of claim_statistics().
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< What the source says.
+  /// Closed: the lowest and the highest value of ours.
+  std::array<double, 2> band = {std::numeric_limits<double>::quiet_NaN(),
+                                std::numeric_limits<double>::quiet_NaN()};
+  std::string why;  ///< Why ours may differ; may be empty.
+
+  /// Where the experiment file names the sensor.
+  std::string sensor_file = {}, sensor_pointer = {};
+};
+
+/// Mean errors of a method that this program does not run, as a source has them.
+struct Quoted {
+  std::string method;
+  std::string source;
+  std::string statistic;
+  double roll_deg = std::numeric_limits<double>::quiet_NaN();
+  double pitch_deg = std::numeric_limits<double>::quiet_NaN();
+  double yaw_deg = std::numeric_limits<double>::quiet_NaN();
+  double x_m = std::numeric_limits<double>::quiet_NaN();
+  double y_m = std::numeric_limits<double>::quiet_NaN();
+  double z_m = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Percent of the trials, and percent of the scenes in which every trial succeeds.
+inline constexpr const char* kSuccess = "success";
+inline constexpr const char* kScenes = "scenes";
+/// Standard deviation inside scenes and between them, as in the summary.
+inline constexpr const char* kWithinSceneStd = "within_scene_std";
+inline constexpr const char* kAcrossScenesStd = "across_scenes_std";
+
+/// What a claim may be about: the two shares, the statistics of trials, the two spreads.
+const std::vector<std::string>& claim_statistics();
+
+/// True for the statistics that are shares of trials or scenes and have no measure.
+bool is_share(const std::string& statistic);
+
+/// The row "claims" of the experiment `P`. In the file an element is one claim, or a table of
+/// values that is expanded to one claim per sensor, measure and statistic. Canonical JSON has the
+/// single claims.
+template <class P>
+params::Parameter<P> claims_row(std::vector<Claim> P::*claims);
+
+/// What is known of the key "claims".
+const params::ParameterDoc& claims_doc();
+
+/// The claims of the list `node`, tables expanded. Notes faults in the node.
+std::vector<Claim> read_claims(const params::Node& node);
+
+/// JSON text of the list of single claims.
+std::string claims_json(const std::vector<Claim>& claims);
+
+/// The keys of an element of "quoted".
+const params::Table<Quoted>& quoted_table();
+
+template <class P>
+params::Parameter<P> claims_row(std::vector<Claim> P::*claims) {
+  return {claims_doc(),
+          [claims](P& params, const params::Node& node, const params::StageBuilder&) {
+            params.*claims = read_claims(node);
+          },
+          [claims](const P& params) { return claims_json(params.*claims); }, false};
+}
+
+}  // namespace croon::experiments

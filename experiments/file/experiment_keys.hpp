@@ -1,0 +1,61 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/file/experiment.hpp"
+#include "framework/params/node.hpp"
+
+namespace croon::experiments {
+
+/// Definitions of the JSON Schema that describe parts of a pipeline.
+inline constexpr const char* kPipelineDefinition = "pipeline";
+inline constexpr const char* kStepDefinition = "step";
+inline constexpr const char* kReplacementsDefinition = "replacements";
+inline constexpr const char* kGridDefinition = "grid";
+
+/// A step that a variant inserts, before or after a step of the pipeline.
+struct Insertion {
+  std::string before;
+  std::string after;
+  std::optional<params::Node> step;
+};
+
+/// An element of "variants".
+struct VariantKeys {
+  std::string name;
+  std::optional<params::Node> pipeline;
+  std::vector<Insertion> insert;
+  std::vector<std::string> remove;
+  std::optional<params::Node> replace;
+};
+
+/// The keys of an experiment file: what an Experiment keeps of them, and what its variants are made
+/// of.
+struct ExperimentKeys : Experiment {
+  std::string extends;
+  std::optional<params::Node> pipeline;
+  std::vector<VariantKeys> variant_keys;
+  std::optional<params::Node> grid;
+};
+
+/// The one description of an experiment file. The loader, the JSON Schema, canonical JSON and the
+/// reader of stored experiments are derived from it. A new key is a row.
+const params::Table<ExperimentKeys>& experiment_table();
+
+/// The rows of it that an Experiment keeps.
+const params::Table<Experiment>& kept_table();
+
+/// Keys that were renamed: the old names, which are still read, and the present ones.
+const std::map<std::string, std::string>& renamed_keys();
+
+/// The variants of the experiment `root`: the base pipeline and what `keys` make of it, each
+/// multiplied out over the grid. The base is the first. A point of the grid is called
+/// `variant/point/point`, a point for each axis. Faults are noted in `faults`; one that variants
+/// share is noted for each of them.
+std::vector<Variant> make_variants(const ExperimentKeys& keys, const params::Node& root,
+                                   const Catalogue& catalogue, std::vector<Fault>& faults);
+
+}  // namespace croon::experiments
