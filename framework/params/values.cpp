@@ -193,7 +193,8 @@ std::string value_json(const std::array<double, 2>& ends) {
 }
 std::string value_json(double value) {
   // A whole number is written as one: "10", not "10.0".
-  const bool is_whole = std::floor(value) == value && std::abs(value) < 1e15;
+  constexpr double kLargestExact = 9007199254740992.0;  // 2^53
+  const bool is_whole = std::floor(value) == value && std::abs(value) <= kLargestExact;
   return is_whole ? std::to_string(static_cast<long long>(value)) : json(value).dump();
 }
 std::string value_json(const std::string& value) { return json(value).dump(); }

@@ -98,11 +98,17 @@ TEST(Variants, FaultsStandWhereTheFileHasThem) {
       {"name": "base", "replaces": {}},
       {"name": "a/b"},
       {"remove": []}, 17])");
+  // First the faults of the keys themselves, then those of what they do to the pipeline.
   EXPECT_EQ(
       all.faults,
       (Lines{
-          "/variants/1/remove/0: there is no step \"frist\"; did you mean \"first\"?",
           "/variants/1/remove/1: expected a string, found 4",
+          "/variants/5/replaces: unknown key \"replaces\"; did you mean \"replace\"?",
+          "/variants/6/name: expected a name of letters, digits, spaces and _ . - + = ( ), not "
+          "starting with a "
+          "dot, found \"a/b\"",
+          "/variants/7: the key \"name\" is missing", "/variants/8: expected an object, found 17",
+          "/variants/1/remove/0: there is no step \"frist\"; did you mean \"first\"?",
           "/variants/1/replace/first.serach: step \"drift\" has no parameter \"serach\"; did you "
           "mean \"search\"?",
           "/variants/1/replace/third.x: there is no step \"third\"; known: first, behave",
@@ -110,12 +116,7 @@ TEST(Variants, FaultsStandWhereTheFileHasThem) {
           "replaced",
           "/variants/4/replace/: there is no step \"\"; known: first, behave",
           "/variants/4/replace/first.: step \"drift\" has no parameter \"\"; known: size_m, search",
-          "/variants/5/replaces: unknown key \"replaces\"; did you mean \"replace\"?",
           "/variants/5/name: two variants are called \"base\"",
-          "/variants/6/name: expected a name of letters, digits, spaces and _ . - + = ( ), not "
-          "starting with a "
-          "dot, found \"a/b\"",
-          "/variants/7: the key \"name\" is missing", "/variants/8: expected an object, found 17",
           "/variants/0/replace/first.search/step_dg: unknown key \"step_dg\"; did you mean "
           "\"step_deg\"?",
           "/variants/2/replace/behave.how: expected one of pass, reject, defeat, memory, bug, nan, "
