@@ -6,8 +6,8 @@
 
 #include "experiments/file/experiment.hpp"
 #include "experiments/report/cloud_figures.hpp"
-#include "experiments/run/data_root.hpp"
-#include "experiments/run/threads.hpp"
+#include "experiments/run/run_request.hpp"
+#include "framework/base/threads.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
 

@@ -10,9 +10,9 @@
 #include "experiments/cli/timings_file.hpp"
 #include "experiments/report/plan_table.hpp"
 #include "experiments/report/progress.hpp"
-#include "experiments/run/checked_run.hpp"
+#include "experiments/run/run_request.hpp"
 #include "experiments/run/runner.hpp"
-#include "experiments/run/step_counts.hpp"
+#include "experiments/run/pipeline_tree.hpp"
 #include "experiments/store/manifest.hpp"
 #include "experiments/store/provenance.hpp"
 #include "experiments/store/store_writer.hpp"
@@ -36,8 +36,8 @@ struct Work {
 };
 
 Work work_of(const CheckedRun& run, StoreHeader header, bool is_fresh) {
-  const std::vector<TrialPlace> done =
-      is_fresh ? std::vector<TrialPlace>() : stored_places(store_path(run.out), header);
+  const std::vector<TrialIndex> done =
+      is_fresh ? std::vector<TrialIndex>() : stored_trials(store_path(run.out), header);
   Work work{std::move(header), plan_trials(run.experiment, run.scenes, run.selection, done)};
   if (done.empty()) return work;
   const Plan all = plan_trials(run.experiment, run.scenes, run.selection);

@@ -2,7 +2,7 @@
 
 #include <ostream>
 
-#include "experiments/run/checked_run.hpp"
+#include "experiments/run/run_request.hpp"
 #include "framework/stage/catalogue.hpp"
 
 namespace croon::experiments {

@@ -3,7 +3,7 @@
 #include "experiments/cli/output_file.hpp"
 #include "experiments/file/experiment.hpp"
 #include "experiments/report/csv_row.hpp"
-#include "experiments/run/data_root.hpp"
+#include "experiments/run/run_request.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/start_file.hpp"
 #include "experiments/run/starts.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/run/step_counts.hpp"
+#include "experiments/run/pipeline_tree.hpp"
 
 namespace croon::experiments {
 

@@ -1,25 +1,26 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "experiments/file/experiment.hpp"
+#include "experiments/run/trial_plan.hpp"
 
 namespace croon::experiments {
 
-/// The pipelines of variants, merged where they begin alike: each path from the root is the
-/// pipeline of the variants that end there. A step of the tree runs once for each start, whatever
-/// the number of variants behind it.
+/// The pipelines of variants, with their common beginnings merged: each path from the root is the
+/// pipeline of the variants that end there. A step of the tree runs once per start, whatever the
+/// number of variants that share it.
 struct PipelineTree {
   const NamedStep* step = nullptr;     ///< Of the experiment; null at the root.
-  std::vector<std::size_t> variants;   ///< Places in Experiment::variants of those that end here.
+  std::vector<std::size_t> variants;   ///< Indices in Experiment::variants of those that end here.
   std::vector<PipelineTree> branches;  ///< In the order of the variants.
 };
 
-/// The tree of `variants`, places in Experiment::variants. Two steps are one where they have the
-/// same name, type and parameters, and so have all steps before them: then they draw the same
-/// numbers and come to the same bits. The experiment must outlive the tree.
+/// The tree of `variants`, indices in Experiment::variants. Two steps are
+/// merged if they and all steps before them have the same names, types and parameters: then they
+/// draw the same numbers and compute the same bits. The experiment must outlive the tree.
 PipelineTree pipeline_tree(const Experiment& experiment, const std::vector<std::size_t>& variants);
 
 /// Takes `result` along all paths of `tree` and calls `at_end(variant, result)` for each variant.
@@ -30,5 +31,15 @@ void run_tree(const PipelineTree& tree, PipelineResult result, const StreamKey& 
   for (const std::size_t variant : tree.variants) at_end(variant, result);
   for (const PipelineTree& branch : tree.branches) run_tree(branch, result, key, at_end);
 }
+
+/// How often a step runs, if none fails.
+struct StepCount {
+  std::string step;       ///< Its name.
+  std::size_t alone = 0;  ///< If each variant runs by itself.
+  std::size_t runs = 0;   ///< If variants share their first steps.
+};
+
+/// How often `plan` runs each step, in the order in which the variants first name them.
+std::vector<StepCount> count_steps(const Experiment& experiment, const Plan& plan);
 
 }  // namespace croon::experiments

@@ -7,8 +7,8 @@
 #include <mutex>
 
 #include "experiments/run/sensor_pairs.hpp"
-#include "experiments/run/threads.hpp"
 #include "experiments/run/trial.hpp"
+#include "framework/base/threads.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -20,14 +20,14 @@ struct ScenePlan {
   std::size_t size() const { return static_cast<std::size_t>(end - begin); }
 };
 
-/// The clouds of a scene; sensors that no trial asks for are not read.
+/// The clouds of a scene; those of sensors without trials are not read.
 struct LoadedScene {
   LoadedScan reference;
-  std::vector<LoadedScan> sensors;  ///< As Scene::sensors; of pairs nothing, their sensors have it.
+  std::vector<LoadedScan> sensors;  ///< As Scene::sensors; empty for pairs of sensors.
 };
 
-/// The place in Scene::sensors of the sensor that is called so.
-std::size_t place_of(const Scene& scene, const std::string& sensor) {
+/// The index of `sensor` in Scene::sensors.
+std::size_t index_of(const Scene& scene, const std::string& sensor) {
   const auto is_it = [&](const SensorScan& scan) { return scan.sensor == sensor; };
   const auto found = std::find_if(scene.sensors.begin(), scene.sensors.end(), is_it);
   return static_cast<std::size_t>(found - scene.sensors.begin());
@@ -35,39 +35,39 @@ std::size_t place_of(const Scene& scene, const std::string& sensor) {
 
 const LoadedScan& target_of(const Scene& scene, const LoadedScene& loaded, std::size_t sensor) {
   const SensorScan& scan = scene.sensors[sensor];
-  return is_pair(scan) ? loaded.sensors[place_of(scene, scan.target)] : loaded.reference;
+  return is_pair(scan) ? loaded.sensors[index_of(scene, scan.target)] : loaded.reference;
 }
 
 const LoadedScan& source_of(const Scene& scene, const LoadedScene& loaded, std::size_t sensor) {
   const SensorScan& scan = scene.sensors[sensor];
-  return loaded.sensors[is_pair(scan) ? place_of(scene, scan.source) : sensor];
+  return loaded.sensors[is_pair(scan) ? index_of(scene, scan.source) : sensor];
 }
 
-/// Which sensors' clouds the trials of `plan` want, as Scene::sensors.
-std::vector<bool> wanted_clouds(const Scene& scene, const ScenePlan& plan) {
-  std::vector<bool> is_wanted(scene.sensors.size(), false);
+/// Whether the trials of `plan` need the cloud of each of Scene::sensors.
+std::vector<bool> needed_clouds(const Scene& scene, const ScenePlan& plan) {
+  std::vector<bool> is_needed(scene.sensors.size(), false);
   for (const PlannedStart* planned = plan.begin; planned != plan.end; ++planned) {
-    is_wanted[planned->sensor] = true;
+    is_needed[planned->sensor] = true;
   }
   for (std::size_t i = 0; i < scene.sensors.size(); ++i) {
     const SensorScan& scan = scene.sensors[i];
-    if (!is_pair(scan) || !is_wanted[i]) continue;
-    is_wanted[i] = false;
-    is_wanted[place_of(scene, scan.source)] = is_wanted[place_of(scene, scan.target)] = true;
+    if (!is_pair(scan) || !is_needed[i]) continue;
+    is_needed[i] = false;
+    is_needed[index_of(scene, scan.source)] = is_needed[index_of(scene, scan.target)] = true;
   }
-  return is_wanted;
+  return is_needed;
 }
 
 LoadedScene load_scene(const Scene& scene, const ScenePlan& plan, std::uint64_t seed) {
-  const std::vector<bool> is_wanted = wanted_clouds(scene, plan);
+  const std::vector<bool> is_needed = needed_clouds(scene, plan);
   LoadedScene loaded;
   loaded.sensors.resize(scene.sensors.size());
   for_each_in_parallel(scene.sensors.size() + 1, [&](std::size_t i) {
     const bool is_reference = i == scene.sensors.size();
-    if (!is_reference && !is_wanted[i]) return;
+    if (!is_reference && !is_needed[i]) return;
     const SensorScan& scan = is_reference ? scene.reference : scene.sensors[i];
     LoadedScan& to = is_reference ? loaded.reference : loaded.sensors[i];
-    // Isolated like trials: the time of reading is its own.
+    // Isolated as trials are, so that the time of reading is its own.
     tbb::this_task_arena::isolate([&] { to = load_scan(scan, scene.name, seed); });
   });
   return loaded;
@@ -98,16 +98,16 @@ std::vector<TimingRow> scene_timings(const Scene& scene, const LoadedScene& load
   return rows;
 }
 
-/// A run's listener, told one thing at a time, and nothing any more once an error ends the run:
-/// what still comes in then may have been cut short.
-class Telling {
+/// Calls a run's listener, one call at a time. Makes no calls after an error has ended the run: the
+/// results that still arrive may be incomplete.
+class SerialListener {
  public:
-  explicit Telling(const RunListener& listener) : listener_(listener) {}
+  explicit SerialListener(const RunListener& listener) : listener_(listener) {}
 
-  template <class Tell>
-  void operator()(const Tell& tell) {
+  template <class Call>
+  void operator()(const Call& call) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!tbb::is_current_task_group_canceling()) tell(listener_);
+    if (!tbb::is_current_task_group_canceling()) call(listener_);
   }
 
  private:
@@ -115,36 +115,36 @@ class Telling {
   std::mutex mutex_;
 };
 
-/// What all scenes of a run share.
+/// What all scenes of a run have in common.
 struct Run {
   const Experiment& experiment;
   const std::vector<Scene>& scenes;
   std::vector<PipelineTree> trees;  ///< By PlannedStart::variants.
 };
 
-void run_scene(const Run& run, const ScenePlan& plan, Telling& tell) {
+void run_scene(const Run& run, const ScenePlan& plan, SerialListener& notify) {
   const Scene& scene = run.scenes[plan.begin->scene];
-  tell([&](const RunListener& listener) { listener.on_scene(scene.name); });
+  notify([&](const RunListener& listener) { listener.on_scene(scene.name); });
   const LoadedScene loaded = load_scene(scene, plan, run.experiment.seed);
-  const auto tell_trial = [&](const TrialRecord& record) {
-    tell([&](const RunListener& listener) { listener.on_trial(record, timings_of(record)); });
+  const auto notify_trial = [&](const TrialRecord& record) {
+    notify([&](const RunListener& listener) { listener.on_trial(record, timings_of(record)); });
   };
   for_each_in_parallel(plan.size(), [&](std::size_t i) {
     const PlannedStart& planned = plan.begin[i];
-    // Isolated: a thread that waits inside a step must not pick up another trial, whose time would
+    // Isolated: a thread that waits inside a step must not start another trial, whose time would
     // count as this one's.
     tbb::this_task_arena::isolate([&] {
       run_start(run.experiment, run.trees[planned.variants], scene, planned,
                 target_of(scene, loaded, planned.sensor), source_of(scene, loaded, planned.sensor),
-                tell_trial);
+                notify_trial);
     });
   });
-  tell([&](const RunListener& listener) {
+  notify([&](const RunListener& listener) {
     listener.on_scene_timings(scene_timings(scene, loaded));
   });
 }
 
-/// The plan scene by scene.
+/// The parts of the plan, one per scene.
 std::vector<ScenePlan> split_by_scene(const std::vector<PlannedStart>& starts) {
   std::vector<ScenePlan> scenes;
   const PlannedStart* const end = starts.data() + starts.size();
@@ -157,7 +157,7 @@ std::vector<ScenePlan> split_by_scene(const std::vector<PlannedStart>& starts) {
   return scenes;
 }
 
-/// Calls `use` for each scene, at most `in_flight` of them at a time.
+/// Calls `use` for each scene, for at most `in_flight` of them at a time.
 template <class Use>
 void for_each_scene(const std::vector<ScenePlan>& plans, std::size_t in_flight, const Use& use) {
   auto next = plans.begin();
@@ -175,15 +175,15 @@ void for_each_scene(const std::vector<ScenePlan>& plans, std::size_t in_flight, 
 
 void run_trials(const Experiment& experiment, const std::vector<Scene>& scenes, const Plan& plan,
                 int jobs, const RunListener& listener) {
-  Telling tell(listener);
+  SerialListener notify(listener);
   Run run{experiment, scenes, {}};
   for (const std::vector<std::size_t>& variants : plan.variants) {
     run.trees.push_back(pipeline_tree(experiment, variants));
   }
   on_threads(jobs, [&] {
-    // One more than threads: while the last trials of a scene run, the next is loaded.
+    // One more than threads: the next scene is loaded while the last trials of a scene run.
     for_each_scene(split_by_scene(plan.starts), static_cast<std::size_t>(jobs) + 1,
-                   [&](const ScenePlan& scene) { run_scene(run, scene, tell); });
+                   [&](const ScenePlan& scene) { run_scene(run, scene, notify); });
   });
 }
 

@@ -8,21 +8,20 @@
 
 namespace croon::experiments {
 
-/// Who is told of what a run does. Called one at a time, from any thread, in the order of
-/// completion.
+/// Callbacks of a run. They are called one at a time, from any thread, in the order of completion.
 struct RunListener {
   std::function<void(const std::string& scene)> on_scene;
-  /// A trial that is done, with its own timings.
+  /// A trial is done; with its own timings.
   std::function<void(const TrialRecord&, const std::vector<TimingRow>&)> on_trial;
-  /// What was done once for a scene; comes when the scene is done.
+  /// A scene is done; with the timings of what was done once for it.
   std::function<void(const std::vector<TimingRow>&)> on_scene_timings;
 };
 
-/// Runs `plan` on `jobs` threads. The clouds of a scene are read once and let go when it is done;
-/// scenes are begun in order, and at most `jobs` + 1 are held at a time. The steps in which the
-/// variants of a start begin alike run once, and their time is booked to each of them. A record
-/// depends on (experiment, scene, variant, sensor, trial) alone. A cloud that cannot be read, or is
-/// empty, and a stage that cannot go on make trials `failed`; a std::logic_error ends the run.
+/// Runs `plan` on `jobs` threads. The clouds of a scene are read once and released when it is done;
+/// scenes start in order, and at most `jobs` + 1 are in memory at a time. The first steps that
+/// variants share run once per start, and their time counts for each variant. A record depends on
+/// (experiment, scene, variant, sensor, trial) alone. If a cloud cannot be read or is empty, or if
+/// a stage cannot go on, trials are `failed`; a std::logic_error ends the run.
 void run_trials(const Experiment& experiment, const std::vector<Scene>& scenes, const Plan& plan,
                 int jobs, const RunListener& listener);
 

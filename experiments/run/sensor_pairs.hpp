@@ -8,14 +8,14 @@
 
 namespace croon::experiments {
 
-/// Two sensors of a rig, one calibrated to the other instead of to the reference.
+/// Two sensors of a rig, of which one is calibrated to the other instead of to the reference.
 struct SensorPair {
-  std::string name;    ///< "left>front", the sensor that its trials bear.
-  std::string source;  ///< "left", whose pose is searched.
+  std::string name;    ///< "left>front", the sensor of its trials.
+  std::string source;  ///< "left", whose pose is estimated.
   std::string target;  ///< "front", in whose frame.
 };
 
-/// Whether `scan` is a pair and not a sensor of the dataset.
+/// Whether `scan` is a pair of sensors and not a sensor of the dataset.
 bool is_pair(const SensorScan& scan);
 
 /// The pair of the two sensors.
@@ -24,13 +24,13 @@ SensorPair sensor_pair(const std::string& source, const std::string& target);
 /// The pair whose name is `name` and whose target is `target`.
 SensorPair named_pair(const std::string& name, const std::string& target);
 
-/// The scenes of the experiment's dataset. Where the experiment has `loops`, each two sensors of a
-/// scene follow its sensors as one more: the later calibrated to the earlier, from poses
-/// T_target_source = T_reference_target^-1 T_reference_source. Throws InputError as
+/// The scenes of the experiment's dataset. If the experiment has `loops`, each pair of a scene's
+/// sensors is appended as another sensor: the later one is calibrated to the earlier one, with the
+/// poses T_target_source = T_reference_target^-1 T_reference_source. Throws InputError as
 /// Dataset::scenes.
 std::vector<Scene> scenes_of(const Experiment& experiment, const std::filesystem::path& data_root);
 
-/// The scenes as the dataset has them.
+/// The scenes without pairs of sensors, as the dataset has them.
 std::vector<Scene> without_pairs(std::vector<Scene> scenes);
 
 }  // namespace croon::experiments

@@ -33,7 +33,7 @@ Eigen::Vector3d uniform_direction(Rng& rng) {
   return {radius * std::cos(angle), radius * std::sin(angle), height};
 }
 
-/// The file of starts below the data root, else beside the experiment.
+/// The file of starts, below the data root or beside the experiment.
 std::filesystem::path found_file(const Experiment& experiment,
                                  const std::filesystem::path& data_root) {
   const std::filesystem::path below = data_root / experiment.starts.file;
@@ -47,7 +47,7 @@ std::filesystem::path found_file(const Experiment& experiment,
       "expected a file of starts, found neither " + below.string() + " nor " + beside.string());
 }
 
-/// The other centres that `scan` has, for the user to choose from.
+/// Which centres `scan` has, for the message.
 std::string centres_of(const SensorScan& scan) {
   std::string known;
   for (const auto& [word, centre] : kStartCentres) {
@@ -57,8 +57,8 @@ std::string centres_of(const SensorScan& scan) {
   return known.empty() ? "it has no pose to draw starts around" : "it has " + known;
 }
 
-/// The scenes in which one sensor lacks its pose.
-struct Lack {
+/// The scenes in which one sensor has no pose to draw starts around.
+struct MissingPose {
   std::vector<std::string> scenes;
   std::string instead;
 };
@@ -73,24 +73,23 @@ std::string scene_list(const std::vector<std::string>& scenes) {
   return text;
 }
 
-/// Throws InputError, with a line per sensor, where a scene lacks the pose that starts are drawn
-/// around.
+/// Throws InputError, with a line per sensor, if a scene has no pose to draw starts around.
 void check_centres(const Experiment& experiment, const std::vector<Scene>& scenes) {
   const StartCentre around = experiment.starts.around;
-  std::map<std::string, Lack> lacks;
+  std::map<std::string, MissingPose> missing;
   for (const Scene& scene : scenes) {
     for (const SensorScan& scan : scene.sensors) {
       if (centre_pose(around, scan)) continue;
-      lacks[scan.sensor].scenes.push_back(scene.name);
-      lacks[scan.sensor].instead = centres_of(scan);
+      missing[scan.sensor].scenes.push_back(scene.name);
+      missing[scan.sensor].instead = centres_of(scan);
     }
   }
   std::vector<Fault> faults;
-  for (const auto& [sensor, lack] : lacks) {
+  for (const auto& [sensor, poses] : missing) {
     faults.push_back({experiment.file, "/starts/around",
                       "sensor \"" + sensor + "\" has no " + params::word_of(kStartCentres, around) +
-                          " pose to draw starts around in " + scene_list(lack.scenes) + "; " +
-                          lack.instead});
+                          " pose to draw starts around in " + scene_list(poses.scenes) + "; " +
+                          poses.instead});
   }
   if (!faults.empty()) throw InputError(std::move(faults));
 }

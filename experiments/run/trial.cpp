@@ -27,7 +27,7 @@ bool is_within(const PoseError& error, const SuccessBounds& bounds) {
          error.translation_m <= bounds.translation_m;
 }
 
-/// The faults without the file's path: a reason must not depend on where the data are.
+/// The faults without the file's path: a reason must not depend on the data root.
 std::string reasons(const InputError& error) {
   std::string text;
   for (const Fault& fault : error.faults()) {
@@ -36,7 +36,7 @@ std::string reasons(const InputError& error) {
   return text;
 }
 
-/// Reads the points of `scan`; returns why they cannot be had, or nothing.
+/// Reads the points of `scan`. Returns why they could not be read, or an empty string.
 std::string read_points(const SensorScan& scan, PointCloud& points) {
   try {
     points = scan.load().points;
@@ -47,7 +47,7 @@ std::string read_points(const SensorScan& scan, PointCloud& points) {
   return std::any_of(points.begin(), points.end(), is_finite_point) ? "" : "it has no points";
 }
 
-/// The record of a trial whose pipeline came to its end.
+/// Completes the record of a trial whose pipeline did not fail.
 void finish(TrialRecord& record, const Estimate& estimate, const SensorScan& scan,
             const SuccessBounds& bounds) {
   if (!is_finite(estimate.T_target_source)) {

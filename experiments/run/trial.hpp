@@ -11,18 +11,18 @@
 
 namespace croon::experiments {
 
-/// One sensor's cloud as a run has it: the cloud, or why there is none.
+/// One sensor's cloud, or why it could not be read.
 struct LoadedScan {
   std::shared_ptr<const Cloud> cloud;
   std::string failure;
   double reading_s = 0.0;
 };
 
-/// Reads the cloud of `scan`. Its streams of random numbers are named by seed, scene and sensor.
+/// Reads the cloud of `scan`. Its random streams are named by seed, scene and sensor.
 LoadedScan load_scan(const SensorScan& scan, const std::string& scene, std::uint64_t seed);
 
-/// Runs the start `planned` of `scene` through `tree`, and calls `at_end` with how each of its
-/// variants ended.
+/// Runs the start `planned` of `scene` through `tree`, and calls `at_end` with the record of each
+/// variant.
 void run_start(const Experiment& experiment, const PipelineTree& tree, const Scene& scene,
                const PlannedStart& planned, const LoadedScan& target, const LoadedScan& source,
                const std::function<void(const TrialRecord&)>& at_end);

@@ -10,7 +10,7 @@
 namespace croon::experiments {
 namespace {
 
-/// The whole number that is all of `text`; 0 where it is none.
+/// The whole number that `text` consists of; 0 if it is not one.
 int whole_number(const std::string& text) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -23,36 +23,36 @@ struct TrialRange {
   std::int64_t end = 0;
 };
 
-/// The trials of scene `scene` that are the shard's.
+/// The trials of the scene with index `scene` that belong to the shard.
 TrialRange trials_of(const Shard& shard, std::size_t scene, std::size_t scenes, int trials) {
   const std::int64_t all = static_cast<std::int64_t>(scenes) * trials;
-  const auto border = [&](std::int64_t part) {
+  const auto begin_of = [&](std::int64_t part) {
     return part * (all / shard.parts) + std::min(part, all % shard.parts);
   };
   const std::int64_t first = static_cast<std::int64_t>(scene) * trials;
-  return {std::clamp<std::int64_t>(border(shard.part - 1) - first, 0, trials),
-          std::clamp<std::int64_t>(border(shard.part) - first, 0, trials)};
+  return {std::clamp<std::int64_t>(begin_of(shard.part - 1) - first, 0, trials),
+          std::clamp<std::int64_t>(begin_of(shard.part) - first, 0, trials)};
 }
 
-/// Goes through the trials of one variant, scene and sensor that are done.
+/// A cursor over the trials of one variant, scene and sensor that are done.
 class DoneTrials {
  public:
-  DoneTrials(const std::vector<TrialPlace>& done, const TrialPlace& first)
+  DoneTrials(const std::vector<TrialIndex>& done, const TrialIndex& first)
       : next_(std::lower_bound(done.begin(), done.end(), first)), end_(done.end()) {}
 
-  /// Whether `place` is done; must be asked in rising order.
-  bool has(const TrialPlace& place) {
-    while (next_ != end_ && *next_ < place) ++next_;
-    return next_ != end_ && *next_ == place;
+  /// Whether `trial` is done. Calls must be in ascending order.
+  bool has(const TrialIndex& trial) {
+    while (next_ != end_ && *next_ < trial) ++next_;
+    return next_ != end_ && *next_ == trial;
   }
 
  private:
-  std::vector<TrialPlace>::const_iterator next_, end_;
+  std::vector<TrialIndex>::const_iterator next_, end_;
 };
 
-/// The place of `variants` in the plan's lists, where it is put if need be.
+/// The index of `variants` in the plan's lists; adds it if it is not there.
 std::size_t list_of(Plan& plan, const std::vector<std::size_t>& variants) {
-  // From the end: neighbours lack the same.
+  // From the end: neighbouring trials mostly miss the same variants.
   const auto found = std::find(plan.variants.rbegin(), plan.variants.rend(), variants);
   if (found != plan.variants.rend()) {
     return static_cast<std::size_t>(plan.variants.rend() - found) - 1;
@@ -61,13 +61,13 @@ std::size_t list_of(Plan& plan, const std::vector<std::size_t>& variants) {
   return plan.variants.size() - 1;
 }
 
-/// Adds the trials of one sensor of one scene; `sensor` is its place in all scenes.
+/// Adds the trials of one sensor of one scene; `sensor` is its index in sensor_names().
 void add_starts(Plan& plan, const PlannedStart& first, std::size_t sensor, const TrialRange& trials,
-                const std::vector<std::size_t>& variants, const std::vector<TrialPlace>& done) {
+                const std::vector<std::size_t>& variants, const std::vector<TrialIndex>& done) {
   std::vector<DoneTrials> done_of;
   const int begin = static_cast<int>(trials.begin);
   for (const std::size_t variant : variants) {
-    done_of.emplace_back(done, TrialPlace{variant, first.scene, sensor, begin});
+    done_of.emplace_back(done, TrialIndex{variant, first.scene, sensor, begin});
   }
   PlannedStart start = first;
   for (start.trial = begin; start.trial < trials.end; ++start.trial) {
@@ -132,7 +132,7 @@ std::vector<std::string> sensor_names(const std::vector<Scene>& scenes) {
 }
 
 Plan plan_trials(const Experiment& experiment, const std::vector<Scene>& scenes,
-                 const Selection& selection, const std::vector<TrialPlace>& done) {
+                 const Selection& selection, const std::vector<TrialIndex>& done) {
   Plan plan;
   const std::vector<std::string> names = sensor_names(scenes);
   for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
@@ -140,8 +140,8 @@ Plan plan_trials(const Experiment& experiment, const std::vector<Scene>& scenes,
         trials_of(selection.shard, scene, scenes.size(), total_trials(experiment.starts));
     for (std::size_t sensor = 0; sensor < scenes[scene].sensors.size(); ++sensor) {
       const std::string& name = scenes[scene].sensors[sensor].sensor;
-      const auto place = std::find(names.begin(), names.end(), name) - names.begin();
-      add_starts(plan, {scene, sensor, 0, 0}, static_cast<std::size_t>(place), trials,
+      const auto index = std::find(names.begin(), names.end(), name) - names.begin();
+      add_starts(plan, {scene, sensor, 0, 0}, static_cast<std::size_t>(index), trials,
                  selection.variants, done);
     }
   }

@@ -9,50 +9,49 @@
 
 namespace croon::experiments {
 
-/// One start: places in the list of scenes and in Scene::sensors, and the variants that are to run
-/// from it.
+/// One start, and the variants that are to run from it.
 struct PlannedStart {
-  std::size_t scene = 0;
-  std::size_t sensor = 0;
+  std::size_t scene = 0;   ///< Index in the list of scenes.
+  std::size_t sensor = 0;  ///< Index in Scene::sensors.
   int trial = 0;
-  std::size_t variants = 0;  ///< Place in Plan::variants.
+  std::size_t variants = 0;  ///< Index in Plan::variants.
 };
 
-/// What is to be run. Starts that lack the same variants share a list of them.
+/// What is to be run. Starts that miss the same variants share a list of them.
 struct Plan {
-  std::vector<std::vector<std::size_t>> variants;  ///< Lists of places in Experiment::variants.
+  std::vector<std::vector<std::size_t>> variants;  ///< Lists of indices in Experiment::variants.
   std::vector<PlannedStart> starts;                ///< By scene, sensor, trial.
   std::size_t trials = 0;                          ///< Starts, each with its variants.
 };
 
-/// Part `part` of `parts` of the trials: with the trials of all scenes in one row, a block of it. A
-/// shard needs few scenes that way, and all variants and sensors of a trial are in one.
+/// Part `part` of `parts` of the trials: a block of the list of (scene, trial). So a shard needs
+/// few scenes, and has all variants and sensors of a trial.
 struct Shard {
   int part = 1;
   int parts = 1;
 };
 
-/// Which part of an experiment a run is to do.
+/// The part of an experiment that is to be run.
 struct Selection {
-  std::vector<std::size_t> variants;  ///< Places in Experiment::variants.
+  std::vector<std::size_t> variants;  ///< Indices in Experiment::variants.
   Shard shard;
 };
 
 /// The shard that `text` names, "2/8". Throws InputError unless it is K/N with 1 <= K <= N.
 Shard read_shard(const std::string& text);
 
-/// The variants that `names` select, all where it is empty: a name selects the variant, and where a
-/// grid multiplied it out all of its points. Throws InputError, with the nearest name, where one
+/// The indices of the variants that `names` select; all if it is empty. A name selects the variant
+/// and, if there is a grid, all of its points. Throws InputError, with the nearest name, if a name
 /// selects nothing.
 std::vector<std::size_t> select_variants(const Experiment& experiment,
                                          const std::vector<std::string>& names);
 
-/// The trials of `selection` that are not in `done`, which is sorted: places in
-/// Experiment::variants, `scenes`, sensor_names(scenes), and the trial.
+/// The trials of `selection` that are not in `done`, which is sorted. Its indices are those in
+/// Experiment::variants, `scenes` and sensor_names(scenes).
 Plan plan_trials(const Experiment& experiment, const std::vector<Scene>& scenes,
-                 const Selection& selection, const std::vector<TrialPlace>& done = {});
+                 const Selection& selection, const std::vector<TrialIndex>& done = {});
 
-/// The sensors of all scenes, each once, as they come.
+/// The sensors of all scenes, each once, in the order of their first scene.
 std::vector<std::string> sensor_names(const std::vector<Scene>& scenes);
 
 }  // namespace croon::experiments

@@ -20,13 +20,13 @@ struct TrialId {
   int trial = 0;
 };
 
-/// A trial by the places of its variant, scene and sensor in an experiment, and its number: the
-/// order of all reports.
-using TrialPlace = std::tuple<std::size_t, std::size_t, std::size_t, int>;
+/// A trial by the indices of its variant, scene and sensor in an experiment, and its number.
+/// Reports are in this order.
+using TrialIndex = std::tuple<std::size_t, std::size_t, std::size_t, int>;
 
 /// How a trial ended.
 enum class Status {
-  success,     ///< Finished within the success bounds (where there is no truth: finished).
+  success,     ///< Finished within the success bounds; without truth: finished.
   inaccurate,  ///< Finished outside them.
   rejected,    ///< The program itself says not to trust the pose.
   failed       ///< A stage could not go on.
@@ -40,19 +40,19 @@ inline const char* status_name(Status status) {
   return kStatusNames.at(static_cast<std::size_t>(status));
 }
 
-/// What became of a trial: everything but wall times, and the same bits whenever it is run again.
+/// The result of a trial, without wall times: the same bits whenever it is run again.
 struct TrialRecord {
   TrialId id;
   Status status = Status::failed;
-  std::string reason;              ///< Why it is rejected or failed; else empty.
-  std::optional<PoseError> error;  ///< Where there is truth and the trial finished.
-  std::optional<RigidTransform> T_reference_sensor;  ///< Where it finished.
+  std::string reason;                                ///< Why it is rejected or failed; else empty.
+  std::optional<PoseError> error;                    ///< If there is truth and the trial finished.
+  std::optional<RigidTransform> T_reference_sensor;  ///< If it finished.
   std::vector<StepRecord> steps;  ///< Figures of each step (its seconds go to timings.csv alone).
 };
 
 /// One row of timings.csv.
 struct TimingRow {
-  TrialId id;  ///< Trial -1 and no variant for what was done once per scene.
+  TrialId id;  ///< Trial -1 and no variant for work that was done once per scene.
   std::string step;
   double seconds = 0.0;
 };

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "experiments/run/threads.hpp"
+#include "framework/base/threads.hpp"
 #include "framework/base/rng.hpp"
 
 namespace croon::experiments {

@@ -37,22 +37,22 @@ void Statement::check(int code) {
   if (code != SQLITE_OK) fail(database_, file_);
 }
 
-void Statement::bind(int place, const std::string& text) {
-  check(sqlite3_bind_text(statement_.get(), place + 1, text.data(), static_cast<int>(text.size()),
-                          SQLITE_TRANSIENT));
+void Statement::bind(int parameter, const std::string& text) {
+  check(sqlite3_bind_text(statement_.get(), parameter + 1, text.data(),
+                          static_cast<int>(text.size()), SQLITE_TRANSIENT));
 }
 
-void Statement::bind(int place, std::int64_t number) {
-  check(sqlite3_bind_int64(statement_.get(), place + 1, number));
+void Statement::bind(int parameter, std::int64_t number) {
+  check(sqlite3_bind_int64(statement_.get(), parameter + 1, number));
 }
 
-void Statement::bind(int place, double number) {
-  check(sqlite3_bind_double(statement_.get(), place + 1, number));
+void Statement::bind(int parameter, double number) {
+  check(sqlite3_bind_double(statement_.get(), parameter + 1, number));
 }
 
-void Statement::bind_bytes(int place, const std::string& bytes) {
-  check(sqlite3_bind_blob(statement_.get(), place + 1, bytes.data(), static_cast<int>(bytes.size()),
-                          SQLITE_TRANSIENT));
+void Statement::bind_bytes(int parameter, const std::string& bytes) {
+  check(sqlite3_bind_blob(statement_.get(), parameter + 1, bytes.data(),
+                          static_cast<int>(bytes.size()), SQLITE_TRANSIENT));
 }
 
 bool Statement::next() {
@@ -105,7 +105,7 @@ Statement Database::prepare(const std::string& sql) const {
 }
 
 Transaction::~Transaction() {
-  // An error may have undone it already.
+  // An error may have rolled it back already.
   if (is_open_) sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
 }
 

@@ -15,14 +15,14 @@ class Statement {
  public:
   Statement(sqlite3* database, const std::string& file, const std::string& sql);
 
-  void bind(int place, const std::string& text);
-  void bind(int place, std::int64_t number);
-  void bind(int place, double number);
-  void bind_bytes(int place, const std::string& bytes);
+  void bind(int parameter, const std::string& text);
+  void bind(int parameter, std::int64_t number);
+  void bind(int parameter, double number);
+  void bind_bytes(int parameter, const std::string& bytes);
 
-  /// Runs to the next row; false where there is none any more.
+  /// Steps to the next row; returns false after the last one.
   bool next();
-  /// Makes the statement ready to be run again; parameters become null.
+  /// Prepares the statement to run again; parameters become null.
   void reset();
 
   bool is_null(int column) const;
@@ -41,14 +41,14 @@ class Statement {
   std::unique_ptr<sqlite3_stmt, Finalise> statement_;
 };
 
-/// What a Database may do with its file.
+/// How a Database opens its file.
 enum class Access { read, write };
 
-/// An SQLite file. What SQLite cannot do (no space, no permission, not a database, in use by
-/// another process) is an InputError with the file's name.
+/// An SQLite file. If SQLite fails (no space, no permission, not a database, in use by another
+/// process), functions throw InputError with the file's name.
 class Database {
  public:
-  /// Opens `path`; makes it where it is missing and may be written to.
+  /// Opens `path`; for writing, creates it if it does not exist.
   Database(const std::filesystem::path& path, Access access);
 
   /// Runs statements that return nothing.
@@ -65,7 +65,7 @@ class Database {
   std::unique_ptr<sqlite3, Close> database_;
 };
 
-/// A transaction, undone where it is not committed.
+/// A transaction; rolled back unless it is committed.
 class Transaction {
  public:
   explicit Transaction(Database& database) : database_(database) {
@@ -81,7 +81,7 @@ class Transaction {
   bool is_open_ = true;
 };
 
-/// Another SQLite file, attached to a database under a name for as long as this lives.
+/// Another SQLite file, attached to a database under a name during the lifetime of this object.
 class Attachment {
  public:
   Attachment(Database& database, const std::filesystem::path& path, const std::string& name);

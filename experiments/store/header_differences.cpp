@@ -12,13 +12,13 @@ using nlohmann::json;
 constexpr std::size_t kShownDifferences = 3;
 constexpr std::size_t kShownCharacters = 60;
 
-/// `value` on one line and not too long.
+/// `value` on one line, cut if it is long.
 std::string shown(const json& value) {
   const std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
   return text.size() <= kShownCharacters ? text : text.substr(0, kShownCharacters) + "...";
 }
 
-/// A JSON pointer for a reader, who knows the slashes in the names of files: "~1" is one.
+/// A JSON pointer as the user knows it: "~1" is a slash in a file name.
 std::string readable(std::string pointer) {
   for (std::size_t at = pointer.find("~1"); at != std::string::npos; at = pointer.find("~1", at)) {
     pointer.replace(at, 2, "/");
@@ -26,7 +26,7 @@ std::string readable(std::string pointer) {
   return pointer;
 }
 
-/// The places in which two JSON texts differ, below the pointer `where`.
+/// Adds the differences of two JSON texts, with pointers below `where`.
 void add_differences(std::vector<std::string>& to, const std::string& where,
                      const std::string& stored, const std::string& asked) {
   if (stored == asked) return;
@@ -37,12 +37,12 @@ void add_differences(std::vector<std::string>& to, const std::string& where,
     return;
   }
   for (const json& change : json::diff(was, is)) {
-    const json::json_pointer place(change["path"].get<std::string>());
-    std::string text = where + readable(place.to_string());
+    const json::json_pointer pointer(change["path"].get<std::string>());
+    std::string text = where + readable(pointer.to_string());
     if (change["op"] == "add") text += " was not there and is " + shown(change["value"]);
-    if (change["op"] == "remove") text += " was " + shown(was[place]) + " and is not there";
+    if (change["op"] == "remove") text += " was " + shown(was[pointer]) + " and is not there";
     if (change["op"] == "replace") {
-      text += " was " + shown(was[place]) + " and is " + shown(change["value"]);
+      text += " was " + shown(was[pointer]) + " and is " + shown(change["value"]);
     }
     to.push_back(text);
   }

@@ -45,7 +45,7 @@ Json inputs_json(const std::vector<InputFile>& inputs) {
   return json;
 }
 
-/// What the digest of the pipelines is made of, for one variant.
+/// The input to the digest of the pipelines, for one variant.
 std::string pipeline_line(const std::string& name, const std::string& resolved) {
   return name + "\n" + resolved + "\n";
 }
@@ -65,7 +65,7 @@ std::size_t planned_trials(const Experiment& experiment, const std::vector<Scene
          experiment.variants.size();
 }
 
-/// A path may hold bytes that are not UTF-8.
+/// JSON text; bytes of paths that are not UTF-8 are replaced.
 std::string text_of(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -155,7 +155,7 @@ std::string merged_manifest(const std::string& manifest,
     if (!std::filesystem::exists(file)) continue;
     const Json other = Json::parse(read_whole_file(file), nullptr, false);
     if (!other.is_object() || !other.contains("host")) continue;
-    // Results that were merged before list theirs.
+    // Results of a merge already list several hosts.
     const Json& host = other["host"];
     const Json hosts = host.contains("merged") ? host["merged"] : Json::array({host});
     for (const Json& one : hosts) json["host"]["merged"].push_back(one);

@@ -6,9 +6,9 @@
 
 #include "experiments/file/experiment.hpp"
 #include "experiments/run/sensor_pairs.hpp"
-#include "experiments/run/threads.hpp"
 #include "experiments/run/trial_plan.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/threads.hpp"
 #include "framework/io/digest.hpp"
 #include "framework/params/values.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using params::value_json;
 
-/// `file` relative to the data root; as it is where it lies elsewhere.
+/// `file` relative to the data root if it is below it; else unchanged.
 std::string relative_path(const std::string& file, const fs::path& data_root) {
   std::error_code error;
   const fs::path relative = fs::relative(file, data_root, error);
@@ -26,7 +26,7 @@ std::string relative_path(const std::string& file, const fs::path& data_root) {
   return is_below ? relative.generic_string() : file;
 }
 
-/// The scans that are in files, each file once.
+/// The scans that are read from files, each file once.
 std::vector<const SensorScan*> scans_with_files(const std::vector<Scene>& scenes) {
   std::vector<const SensorScan*> scans;
   std::set<std::string> files = {""};
@@ -46,11 +46,11 @@ void count_points(const SensorScan& scan, InputFile& input) {
     input.points = cloud.points.size();
     input.dropped_non_finite = cloud.dropped_non_finite;
   } catch (const InputError&) {
-    // Its trials will fail and say why.
+    // The trials fail and give the reason.
   }
 }
 
-/// The numbers of a pose, each exact; "none" where there is no pose.
+/// The numbers of a pose, exact; "none" if there is no pose.
 std::string pose_text(const std::optional<RigidTransform>& T) {
   if (!T) return "none";
   std::string text;
@@ -59,7 +59,7 @@ std::string pose_text(const std::optional<RigidTransform>& T) {
   return text;
 }
 
-/// The digests of the files by their paths, and one of the rig's poses.
+/// The digests of the files by path, and one digest of the rig's poses.
 std::string inputs_json(const std::vector<Scene>& scenes, const std::vector<InputFile>& inputs) {
   nlohmann::json json = {{"files", nlohmann::json::object()}};
   for (const InputFile& input : inputs) json["files"][input.path] = input.sha256;

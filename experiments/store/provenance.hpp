@@ -14,21 +14,22 @@ namespace croon::experiments {
 struct InputFile {
   std::string path;  ///< Relative to the data root where it lies below it.
   std::string sha256;
-  /// Its finite points, and how many were dropped as not finite; nothing where it cannot be loaded.
+  /// The numbers of finite points and of points that were dropped as not finite; std::nullopt if
+  /// the file could not be loaded.
   std::optional<std::size_t> points, dropped_non_finite;
 };
 
-/// The files that the clouds of `scenes` are in, in order, each once; read on `jobs` threads.
-/// Throws InputError where one cannot be read.
+/// The files of the clouds of `scenes`, in order, each once; read on `jobs` threads. Throws
+/// InputError if a file cannot be read.
 std::vector<InputFile> input_files(const std::vector<Scene>& scenes,
                                    const std::filesystem::path& data_root, int jobs);
 
-/// All that decides the result of a trial but its pipeline: dataset, inputs (files and the rig's
-/// poses), starts (but not how many), seed, success bounds, and the program itself.
+/// Everything that decides the result of a trial except its pipeline: dataset, inputs (files and
+/// the rig's poses), starts (but not their number), seed, success bounds, and the program itself.
 Provenance provenance_of(const Experiment& experiment, const std::vector<Scene>& scenes,
                          const std::vector<InputFile>& inputs);
 
-/// What the store of a run says of itself. `manifest` is that of manifest_json.
+/// The header of the store of a run; `manifest` comes from manifest_json.
 StoreHeader header_of(const Experiment& experiment, const std::vector<Scene>& scenes,
                       const Provenance& provenance, const std::string& manifest);
 

@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "experiments/store/header_differences.hpp"
-#include "experiments/store/record_row.hpp"
-#include "experiments/store/stored_places.hpp"
+#include "experiments/store/trial_rows.hpp"
 #include "framework/base/error.hpp"
 
 namespace croon::experiments {
@@ -14,7 +13,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRemedy = "--fresh deletes them and starts over, --out writes elsewhere";
 
-/// The tables that map ids to names, and what the trials call them.
+/// The tables that map ids to names, and the columns of `trials` that hold these ids.
 struct IdColumn {
   const char* table;
   const char* column;
@@ -22,9 +21,9 @@ struct IdColumn {
 constexpr IdColumn kIdColumns[] = {
     {"variants", "variant"}, {"scenes", "scene"}, {"sensors", "sensor"}};
 
-/// Opens `path`, whose header is `header` or not there yet, for this process alone.
+/// Opens the store `path` for this process alone. Its header is `header`, or it has none yet.
 Database open_store(const fs::path& path, const StoreHeader& header) {
-  // Looks before it opens the file to write: a store that is refused keeps its bytes.
+  // Compare before opening the file for writing: a store that is refused keeps its bytes.
   const StoreHeader stored = stored_header(path);
   if (!stored.provenance.empty()) refuse_differences(path.string(), stored, header, kRemedy);
   Database database(path, Access::write);
@@ -36,8 +35,8 @@ Database open_store(const fs::path& path, const StoreHeader& header) {
   return database;
 }
 
-/// SQL that fills temporary tables `map_TABLE(old, new)`: the ids of `from` and those of main, by
-/// name.
+/// SQL that fills temporary tables `map_TABLE(old, new)`: the ids of the same names in `from` and
+/// in main.
 std::string id_maps(const std::string& from) {
   std::string sql;
   for (const IdColumn& ids : kIdColumns) {
@@ -66,33 +65,33 @@ std::string with_main_ids(const std::string& from, const std::string& table,
 
 constexpr const char* kStepColumns = "place, step, figures, information";
 
-/// The trials of `header` in the store, in its order.
-std::vector<TrialPlace> places_in(const fs::path& path, const StoreHeader& header) {
+/// The trials of `header` that are in the store, in the order of the store.
+std::vector<TrialIndex> trials_in(const fs::path& path, const StoreHeader& header) {
   const Database database(path, Access::read);
-  const StoredPlaces to_place(database, header);
+  const StoredIndices indices(database, header);
   Statement select = database.prepare("SELECT variant, scene, sensor, trial FROM trials");
-  std::vector<TrialPlace> places;
-  TrialPlace place;
+  std::vector<TrialIndex> trials;
+  TrialIndex index;
   while (select.next()) {
-    if (to_place.find(row_of(select), place)) places.push_back(place);
+    if (indices.find(row_of(select), index)) trials.push_back(index);
   }
-  return places;
+  return trials;
 }
 
-/// A trial without its names, and its place.
-using PlacedRecord = std::pair<TrialPlace, TrialRecord>;
+/// The index of a trial, and its record without names.
+using IndexedRecord = std::pair<TrialIndex, TrialRecord>;
 
 /// The trials that the experiment still has, in the order of the store.
-std::vector<PlacedRecord> records_in(const fs::path& path, const StoreHeader& header) {
+std::vector<IndexedRecord> records_in(const fs::path& path, const StoreHeader& header) {
   const Database database(path, Access::read);
-  const StoredPlaces to_place(database, header);
-  std::vector<PlacedRecord> rows;
+  const StoredIndices indices(database, header);
+  std::vector<IndexedRecord> rows;
   Statement select = select_results(database);
-  TrialPlace place;
+  TrialIndex index;
   while (select.next()) {
     const TrialRow row = row_of(select);
-    if (row.trial < header.trials && to_place.find(row, place)) {
-      rows.emplace_back(place, result_of(select));
+    if (row.trial < header.trials && indices.find(row, index)) {
+      rows.emplace_back(index, result_of(select));
     }
   }
   return rows;
@@ -146,13 +145,13 @@ StoreHeader stored_header(const fs::path& path) {
   return reading(path, [&] { return read_header(Database(path, Access::read)); });
 }
 
-std::vector<TrialPlace> stored_places(const fs::path& path, const StoreHeader& header) {
+std::vector<TrialIndex> stored_trials(const fs::path& path, const StoreHeader& header) {
   const StoreHeader stored = stored_header(path);
   if (stored.provenance.empty()) return {};
   refuse_differences(path.string(), stored, header, kRemedy);
-  std::vector<TrialPlace> places = reading(path, [&] { return places_in(path, header); });
-  std::sort(places.begin(), places.end());
-  return places;
+  std::vector<TrialIndex> trials = reading(path, [&] { return trials_in(path, header); });
+  std::sort(trials.begin(), trials.end());
+  return trials;
 }
 
 StoredRun read_store(const fs::path& path) {
@@ -160,15 +159,15 @@ StoredRun read_store(const fs::path& path) {
   if (run.header.provenance.empty()) {
     throw InputError(path.string(), "", "expected the store of a run, found none");
   }
-  std::vector<PlacedRecord> rows = reading(path, [&] { return records_in(path, run.header); });
-  // In a store that is in order they are sorted.
+  std::vector<IndexedRecord> rows = reading(path, [&] { return records_in(path, run.header); });
+  // A store in order is sorted already.
   const auto is_before = [](const auto& a, const auto& b) { return a.first < b.first; };
   if (!std::is_sorted(rows.begin(), rows.end(), is_before)) {
     std::sort(rows.begin(), rows.end(), is_before);
   }
   run.records.reserve(rows.size());
-  for (auto& [at, record] : rows) {
-    const auto& [variant, scene, sensor, trial] = at;
+  for (auto& [index, record] : rows) {
+    const auto& [variant, scene, sensor, trial] = index;
     record.id = {run.header.variants[variant].name, run.header.scenes[scene].name,
                  run.header.sensors[sensor].name, trial};
     run.records.push_back(std::move(record));
@@ -196,7 +195,7 @@ void rewrite_in_order(const fs::path& path) {
 }
 
 void replace_store(const fs::path& path, const fs::path& by) {
-  // The log of a store that was killed would be taken for the new one's: it is worked in first.
+  // Else SQLite would take the log of a killed store for the log of the new one.
   if (fs::exists(path)) Database(path, Access::write).run("PRAGMA journal_mode = DELETE");
   std::error_code error;
   fs::rename(by, path, error);

@@ -9,25 +9,24 @@
 
 #include "experiments/run/trial_record.hpp"
 #include "experiments/store/database.hpp"
-#include "experiments/store/record_row.hpp"
 #include "experiments/store/store_header.hpp"
+#include "experiments/store/trial_rows.hpp"
 #include "framework/base/error.hpp"
 
 namespace croon::experiments {
 
-/// The results of an experiment on disk, an SQLite file (docs/store.md): the trials as they are
-/// done, without wall times. A trial that was added is there after a power loss. Not thread-safe.
-/// Throws InputError where the file cannot be read or written, and where another process has it
-/// open.
+/// The results of an experiment on disk, an SQLite file (docs/store.md): the trials, without wall
+/// times. A trial that was added survives a power loss. Not thread-safe. Throws InputError if the
+/// file cannot be read or written, or if another process has it open.
 class Store {
  public:
-  /// Opens the store `path`, or makes it, for trials of `header`. Throws InputError, saying what
-  /// differs, where its trials come from something else.
+  /// Opens or creates the store `path` for trials of `header`. Throws InputError that names the
+  /// differences if its trials were made from something else.
   Store(const std::filesystem::path& path, const StoreHeader& header);
 
-  /// Adds trials that are not there; they are on disk, all of them, when this returns.
+  /// Adds trials that the store does not have. All of them are on disk when this returns.
   void add(const std::vector<const TrialRecord*>& records);
-  /// Adds all trials of the store `shard`, whose header is `from`. Throws InputError where a trial
+  /// Adds all trials of the store `shard`, whose header is `from`. Throws InputError if a trial
   /// that both have ended differently.
   void merge(const std::filesystem::path& shard, const StoreHeader& from);
 
@@ -38,12 +37,12 @@ class Store {
   RecordInserter inserter_;
 };
 
-/// The trials of `header` that the store `path` has, in order; none where there is no store. Throws
-/// InputError, saying what differs, where its trials come from something else.
-std::vector<TrialPlace> stored_places(const std::filesystem::path& path, const StoreHeader& header);
+/// The trials of `header` that the store `path` has, in order; none if there is no store. Throws
+/// InputError that names the differences if its trials were made from something else.
+std::vector<TrialIndex> stored_trials(const std::filesystem::path& path, const StoreHeader& header);
 
-/// Does `work`, which reads what is in the store `path`. What is wrong in there is no bug of ours:
-/// throws InputError.
+/// Calls `work`, which reads the store `path`. Exceptions become InputErrors: a damaged store is
+/// not a programming error.
 template <class Work>
 auto reading(const std::filesystem::path& path, const Work& work) {
   try {
@@ -57,29 +56,29 @@ auto reading(const std::filesystem::path& path, const Work& work) {
   }
 }
 
-/// A store as it is read for reports.
+/// The content of a store, for reports.
 struct StoredRun {
   StoreHeader header;
   std::vector<TrialRecord> records;  ///< Of the header's names, in report order; without steps.
 };
 
-/// The header of the store `path`; without provenance where there is none.
+/// The header of the store `path`; without provenance if there is no store.
 StoreHeader stored_header(const std::filesystem::path& path);
 
-/// The store `path`; of trials of which the experiment now has fewer, the first. Throws InputError
-/// where there is none.
+/// Reads the store `path`, without trials that the experiment no longer has. Throws InputError if
+/// there is no store.
 StoredRun read_store(const std::filesystem::path& path);
 
-/// Writes the store `path`, which nobody may have open, anew in one order: stores of the same
-/// trials become the same bytes, whatever the order in which they were added. Does nothing where it
-/// is in order.
+/// Rewrites the store `path`, which no one may have open, in report order: stores of the same
+/// trials become the same bytes, whatever the order in which the trials were added. Does nothing if
+/// the store is in order.
 void rewrite_in_order(const std::filesystem::path& path);
 
-/// Puts the store `by`, which nobody has open, in the place of the store `path`, if there is one:
-/// at every moment one of them is there.
+/// Replaces the store `path`, if there is one, by the store `by`, which no one may have open. One
+/// of them exists at every moment.
 void replace_store(const std::filesystem::path& path, const std::filesystem::path& by);
 
-/// The file and those that SQLite keeps beside it while it is open.
+/// The files of a store: its own, and those that SQLite keeps beside it while it is open.
 std::vector<std::filesystem::path> store_files(const std::filesystem::path& path);
 
 }  // namespace croon::experiments

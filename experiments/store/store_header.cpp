@@ -11,10 +11,10 @@ namespace croon::experiments {
 namespace {
 
 constexpr const char* kFormat = "2";
-/// Stands in a store that was written to since it was put in order.
+/// The entry of `meta` that marks a store as not in order.
 constexpr const char* kUnordered = "unordered";
 
-/// A table of names and where they stand in the header.
+/// A table of names, and the member of the header that it is read into.
 struct NameTable {
   const char* name;
   const char* detail;
@@ -53,10 +53,25 @@ std::vector<StoredName> read_names(const Database& database, const NameTable& ta
   return names;
 }
 
-/// The value of `name`, which is not in `meta` from then on; empty where it was not.
+/// Removes `name` from `meta` and returns its value; empty if it was not there.
 std::string taken(Provenance& meta, const std::string& name) {
   const auto node = meta.extract(name);
   return node.empty() ? "" : node.mapped();
+}
+
+/// The indices of current names in a header, by their ids; -1 for names that are not current.
+std::vector<std::int64_t> indices_of(const Database& database, const std::string& table,
+                                     const std::vector<StoredName>& names) {
+  const std::map<std::string, std::int64_t> ids = ids_of(database, table);
+  std::int64_t largest = 0;
+  for (const auto& [name, id] : ids) largest = std::max(largest, id);
+  std::vector<std::int64_t> indices(static_cast<std::size_t>(largest) + 1, -1);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto id = ids.find(names[i].name);
+    if (id == ids.end() || !names[i].is_current) continue;
+    indices[static_cast<std::size_t>(id->second)] = static_cast<std::int64_t>(i);
+  }
+  return indices;
 }
 
 void add_missing(std::vector<StoredName>& to, const std::vector<StoredName>& from) {
@@ -67,6 +82,26 @@ void add_missing(std::vector<StoredName>& to, const std::vector<StoredName>& fro
 }
 
 }  // namespace
+
+std::map<std::string, std::int64_t> ids_of(const Database& database, const std::string& table) {
+  std::map<std::string, std::int64_t> ids;
+  Statement select = database.prepare("SELECT name, id FROM " + table);
+  while (select.next()) ids[select.text(0)] = select.integer(1);
+  return ids;
+}
+
+StoredIndices::StoredIndices(const Database& database, const StoreHeader& header)
+    : variants_(indices_of(database, "variants", header.variants)),
+      scenes_(indices_of(database, "scenes", header.scenes)),
+      sensors_(indices_of(database, "sensors", header.sensors)) {}
+
+bool StoredIndices::find(const TrialRow& row, TrialIndex& index) const {
+  const std::int64_t variant = variants_.at(static_cast<std::size_t>(row.variant));
+  const std::int64_t scene = scenes_.at(static_cast<std::size_t>(row.scene));
+  const std::int64_t sensor = sensors_.at(static_cast<std::size_t>(row.sensor));
+  index = {variant, scene, sensor, row.trial};
+  return variant >= 0 && scene >= 0 && sensor >= 0;
+}
 
 std::string header_tables() {
   std::string sql =
@@ -81,7 +116,7 @@ std::string header_tables() {
 
 StoreHeader read_header(const Database& database) {
   StoreHeader header;
-  // A kill before the first commit leaves a store without tables.
+  // A store that was killed before its first commit has no tables.
   if (!database.prepare("SELECT 1 FROM sqlite_master WHERE name = 'meta'").next()) return header;
   Statement select = database.prepare("SELECT name, value FROM meta");
   while (select.next()) header.provenance[select.text(0)] = select.text(1);

@@ -1,54 +1,74 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "experiments/run/trial_record.hpp"
 #include "experiments/store/database.hpp"
+#include "experiments/store/trial_rows.hpp"
 
 namespace croon::experiments {
 
 /// What decides the result of every trial of a run, by name ("starts", "program"), as JSON or as a
-/// digest of it. Pipelines decide the results of their variants alone and stand with them.
+/// digest. Pipelines are not in it: a pipeline decides the results of its variant only.
 using Provenance = std::map<std::string, std::string>;
 
-/// A name that trials have, and what there is to know of it.
+/// The name of a variant, scene or sensor, with one property of it.
 struct StoredName {
   std::string name;
   std::string detail;
-  bool is_current = true;  ///< Else it is of the experiment as it once was, and in no report.
+  bool is_current = true;  ///< Else the experiment no longer has it, and no report shows it.
 };
 
-/// What a store says of its trials, all that a report needs beside them.
+/// What a store has beside its trials: all that a report needs.
 struct StoreHeader {
   Provenance provenance;
-  std::string manifest;  ///< JSON of manifest.json, without its host.
-  int trials = 0;        ///< Per variant, scene and sensor; those beyond are not current.
+  std::string manifest;  ///< JSON of manifest.json, without "host".
+  int trials = 0;  ///< Per variant, scene and sensor. Trials with larger numbers are not current.
   std::vector<StoredName> variants;  ///< In report order, with the JSON of their pipelines.
   std::vector<StoredName> scenes;    ///< In report order, with their kinds.
-  std::vector<StoredName> sensors;   ///< In report order, with the sensors they are calibrated to.
+  std::vector<StoredName>
+      sensors;  ///< In report order, with the sensors that they are calibrated to.
 };
 
-/// SQL that makes the header's tables where they are missing.
+/// SQL that creates the tables of the header if they do not exist.
 std::string header_tables();
 
-/// The header of the store; without provenance where none was written yet.
+/// Reads the header; without provenance if none was written yet.
 StoreHeader read_header(const Database& database);
 
-/// Writes the header. A variant, scene or sensor that the store has and `header` lacks stays, but
-/// is no longer current. The store is not in order from then on.
+/// Writes the header. A variant, scene or sensor that is only in the store stays there, but is no
+/// longer current. After this the store is not in order.
 void write_header(Database& database, const StoreHeader& header);
 
-/// Whether nothing was written since the store was put in order.
+/// Whether the store is in order: nothing was written since it was sorted.
 bool is_in_order(const Database& database);
 
 /// SQL that fills the empty header of main from the attached store `from`, in order.
 std::string copy_of_header(const std::string& from);
 
-/// Whether the two say the same.
+/// Whether the two headers are equal.
 bool is_same(const StoreHeader& a, const StoreHeader& b);
 
-/// `a` with the variants, scenes and sensors of `b` that it lacks behind its own.
+/// `a`, followed by the variants, scenes and sensors that only `b` has.
 StoreHeader united(StoreHeader a, const StoreHeader& b);
+
+/// The ids of the names in `table`, which is variants, scenes or sensors.
+std::map<std::string, std::int64_t> ids_of(const Database& database, const std::string& table);
+
+/// Maps rows of a store to indices in its header.
+class StoredIndices {
+ public:
+  StoredIndices(const Database& database, const StoreHeader& header);
+
+  /// Finds the index of a trial. Returns false if the experiment no longer has it. Throws
+  /// std::out_of_range if the store has no such name.
+  bool find(const TrialRow& row, TrialIndex& index) const;
+
+ private:
+  std::vector<std::int64_t> variants_, scenes_, sensors_;  ///< By ids, -1 for none.
+};
 
 }  // namespace croon::experiments

@@ -12,25 +12,25 @@
 
 namespace croon::experiments {
 
-/// What a run has done: a trial with its timings, or the timings of what was done once for a scene.
+/// A result of a run: a trial with its timings, or the timings of what was done once for a scene.
 struct Done {
   std::optional<TrialRecord> record;
   std::vector<TimingRow> timings;
 };
 
-/// Writes to a store from a thread of its own, so that trials do not wait for the disk: what comes
-/// while one commit is on its way goes into the next. A kill loses what the thread has not yet
-/// committed, some milliseconds of work.
+/// Writes to a store from a thread of its own, so that trials do not wait for the disk. Results
+/// that arrive during a commit are written in the next one. A kill loses what is not committed,
+/// some milliseconds of work.
 class StoreWriter {
  public:
-  /// Calls `on_stored`, on the writer's thread, with what is on disk from then on.
+  /// Calls `on_stored`, on the writer's thread, with results that are on disk.
   StoreWriter(Store& store, std::function<void(const std::vector<Done>&)> on_stored);
-  /// Writes what it has; an error is lost, so call finish().
+  /// Writes what is queued. Errors are lost, so call finish() before.
   ~StoreWriter();
   StoreWriter(const StoreWriter&) = delete;
   StoreWriter& operator=(const StoreWriter&) = delete;
 
-  /// Takes `done` to be written; waits where the disk is far behind. Throws what writing threw.
+  /// Queues `done`; waits if the queue is long. Throws what writing threw.
   void add(Done done);
   /// Returns when all is on disk. Throws what writing threw.
   void finish();

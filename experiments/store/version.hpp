@@ -9,7 +9,7 @@ namespace croon::experiments {
 /// croon's version, "0.1.0".
 const char* croon_version();
 
-/// The commit that this build was configured at, "-dirty" after it where files differed; "unknown"
+/// The commit that this build was configured at, followed by "-dirty" if files differed; "unknown"
 /// outside a repository.
 const char* croon_commit();
 

@@ -8,7 +8,7 @@
 
 #include "experiments/file/experiment.hpp"
 #include "experiments/report/plan_table.hpp"
-#include "experiments/run/step_counts.hpp"
+#include "experiments/run/pipeline_tree.hpp"
 #include "framework/base/rng.hpp"
 #include "test/experiments/support/fake_stages.hpp"
 #include "test/support/random_geometry.hpp"

@@ -37,14 +37,14 @@ TEST(Shard, ReadsKOfN) {
 
 /// The trials of `plan` by (variant, scene, sensor of all scenes, trial); fails where one is there
 /// twice.
-std::set<TrialPlace> places(const Plan& plan, const std::vector<Scene>& scenes) {
+std::set<TrialIndex> places(const Plan& plan, const std::vector<Scene>& scenes) {
   const std::vector<std::string> names = sensor_names(scenes);
-  std::set<TrialPlace> found;
+  std::set<TrialIndex> found;
   for (const PlannedStart& start : plan.starts) {
     const std::string& name = scenes[start.scene].sensors[start.sensor].sensor;
     const auto sensor = std::find(names.begin(), names.end(), name) - names.begin();
     for (const std::size_t variant : plan.variants[start.variants]) {
-      const TrialPlace place = {variant, start.scene, static_cast<std::size_t>(sensor),
+      const TrialIndex place = {variant, start.scene, static_cast<std::size_t>(sensor),
                                 start.trial};
       EXPECT_TRUE(found.insert(place).second);
     }
@@ -56,16 +56,16 @@ std::set<TrialPlace> places(const Plan& plan, const std::vector<Scene>& scenes) 
 TEST(Plan, ShardsAreDisjointAndTogetherAreAll) {
   for (const int trials : {1, 2, 7, 100}) {
     const Experiment experiment = experiment_with({"base", "other"}, trials);
-    const std::set<TrialPlace> all =
+    const std::set<TrialIndex> all =
         places(plan_trials(experiment, two_scenes(), {{0, 1}, {}}), two_scenes());
     EXPECT_EQ(all.size(), 2U * 3U * static_cast<std::size_t>(trials));
     for (const int parts : {1, 2, 3, 8, 1000000000}) {
-      std::set<TrialPlace> seen;
+      std::set<TrialIndex> seen;
       for (int part = 1; part <= std::min(parts, 8); ++part) {
         const Plan shard = plan_trials(experiment, two_scenes(), {{0, 1}, {part, parts}});
         // No shard has more than its share of (scene, trial) pairs, each with all sensors.
         EXPECT_LE(shard.trials, 2U * 2U * ((2U * trials + parts - 1U) / parts));
-        for (const TrialPlace& place : places(shard, two_scenes())) {
+        for (const TrialIndex& place : places(shard, two_scenes())) {
           EXPECT_TRUE(seen.insert(place).second);
         }
       }
@@ -86,19 +86,19 @@ TEST(Plan, AShardOfManyScenesNeedsFewOfThem) {
 TEST(Plan, LeavesOutWhatIsDone) {
   const Experiment experiment = experiment_with({"a", "b", "c"}, 5);
   const Selection all_of_it = {{0, 1, 2}, {}};
-  const std::set<TrialPlace> all =
+  const std::set<TrialIndex> all =
       places(plan_trials(experiment, two_scenes(), all_of_it), two_scenes());
   Rng rng = test::test_rng();
   for (int i = 0; i < 50; ++i) {
-    std::vector<TrialPlace> done;
-    for (const TrialPlace& place : all) {
+    std::vector<TrialIndex> done;
+    for (const TrialIndex& place : all) {
       if (rng.below(2) == 0) done.push_back(place);
     }
     // Of an experiment that once had more.
     done.push_back({2, 7, 0, 3});
-    const std::set<TrialPlace> left =
+    const std::set<TrialIndex> left =
         places(plan_trials(experiment, two_scenes(), all_of_it, done), two_scenes());
-    std::set<TrialPlace> together = left;
+    std::set<TrialIndex> together = left;
     together.insert(done.begin(), done.end());
     EXPECT_EQ(left.size() + done.size() - 1, all.size());
     EXPECT_EQ(together.size(), all.size() + 1);

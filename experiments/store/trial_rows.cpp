@@ -1,4 +1,4 @@
-#include "experiments/store/record_row.hpp"
+#include "experiments/store/trial_rows.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -16,7 +16,7 @@ constexpr int kResultColumns = 2 + kErrorColumns + kPoseColumns;
 
 constexpr const char* kKey = "variant INTEGER, scene INTEGER, sensor INTEGER, trial INTEGER";
 
-std::string places(int count) {
+std::string question_marks(int count) {
   std::string text = "?";
   for (int i = 1; i < count; ++i) text += ", ?";
   return text;
@@ -29,7 +29,7 @@ Status status_of(const std::string& word) {
   throw std::logic_error("the store has a status \"" + word + "\"");
 }
 
-/// JSON has no infinities and no NaN: they are words.
+/// JSON has no infinities and no NaN; they are written as strings.
 ordered_json json_of(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
@@ -43,7 +43,7 @@ std::string figures_text(const std::vector<StepFigure>& figures) {
   return object.dump();
 }
 
-/// The 36 numbers by rows, as they are in memory (little-endian on every machine we build on).
+/// The 36 numbers by rows, as they are in memory: little-endian on every supported machine.
 std::string bytes_of(const Matrix6d& information) {
   const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> rows = information;
   return {reinterpret_cast<const char*>(rows.data()), sizeof(double) * 36};
@@ -57,19 +57,19 @@ void bind_key(Statement& insert, const TrialRow& row) {
 }
 
 void bind_result(Statement& insert, const TrialRecord& record) {
-  int place = kKeyColumns;
-  insert.bind(place++, status_name(record.status));
-  insert.bind(place++, record.reason);
+  int column = kKeyColumns;
+  insert.bind(column++, status_name(record.status));
+  insert.bind(column++, record.reason);
   if (record.error) {
-    for (int i = 0; i < 6; ++i) insert.bind(place + i, record.error->dof(i));
-    insert.bind(place + 6, record.error->rotation_rad);
-    insert.bind(place + 7, record.error->translation_m);
+    for (int i = 0; i < 6; ++i) insert.bind(column + i, record.error->dof(i));
+    insert.bind(column + 6, record.error->rotation_rad);
+    insert.bind(column + 7, record.error->translation_m);
   }
-  place += kErrorColumns;
+  column += kErrorColumns;
   if (!record.T_reference_sensor) return;
   const RigidTransform& T = *record.T_reference_sensor;
-  for (int i = 0; i < 9; ++i) insert.bind(place + i, T.rotation(i / 3, i % 3));
-  for (int i = 0; i < 3; ++i) insert.bind(place + 9 + i, T.translation(i));
+  for (int i = 0; i < 9; ++i) insert.bind(column + i, T.rotation(i / 3, i % 3));
+  for (int i = 0; i < 3; ++i) insert.bind(column + 9 + i, T.translation(i));
 }
 
 /// A view of `table` with the names of variants, scenes and sensors for their ids.
@@ -107,19 +107,20 @@ std::string record_tables() {
 }
 
 RecordInserter::RecordInserter(const Database& database)
-    : trial_(database.prepare("INSERT INTO trials VALUES(" + places(kKeyColumns + kResultColumns) +
-                              ")")),
-      step_(database.prepare("INSERT INTO steps VALUES(" + places(kKeyColumns + 4) + ")")) {}
+    : trial_(database.prepare("INSERT INTO trials VALUES(" +
+                              question_marks(kKeyColumns + kResultColumns) + ")")),
+      step_(database.prepare("INSERT INTO steps VALUES(" + question_marks(kKeyColumns + 4) + ")")) {
+}
 
 void RecordInserter::add(const TrialRow& row, const TrialRecord& record) {
   bind_key(trial_, row);
   bind_result(trial_, record);
   trial_.next();
   trial_.reset();
-  std::int64_t place = 0;
+  std::int64_t index = 0;
   for (const StepRecord& step : record.steps) {
     bind_key(step_, row);
-    step_.bind(kKeyColumns, place++);
+    step_.bind(kKeyColumns, index++);
     step_.bind(kKeyColumns + 1, step.name);
     step_.bind(kKeyColumns + 2, figures_text(step.figures));
     if (step.information) step_.bind_bytes(kKeyColumns + 3, bytes_of(*step.information));
@@ -140,20 +141,20 @@ TrialRow row_of(const Statement& select) {
 
 TrialRecord result_of(const Statement& select) {
   TrialRecord record;
-  int place = kKeyColumns;
-  record.status = status_of(select.text(place++));
-  record.reason = select.text(place++);
-  if (!select.is_null(place)) {
+  int column = kKeyColumns;
+  record.status = status_of(select.text(column++));
+  record.reason = select.text(column++);
+  if (!select.is_null(column)) {
     record.error.emplace();
-    for (int i = 0; i < 6; ++i) record.error->dof(i) = select.real(place + i);
-    record.error->rotation_rad = select.real(place + 6);
-    record.error->translation_m = select.real(place + 7);
+    for (int i = 0; i < 6; ++i) record.error->dof(i) = select.real(column + i);
+    record.error->rotation_rad = select.real(column + 6);
+    record.error->translation_m = select.real(column + 7);
   }
-  place += kErrorColumns;
-  if (!select.is_null(place)) {
+  column += kErrorColumns;
+  if (!select.is_null(column)) {
     RigidTransform& T = record.T_reference_sensor.emplace();
-    for (int i = 0; i < 9; ++i) T.rotation(i / 3, i % 3) = select.real(place + i);
-    for (int i = 0; i < 3; ++i) T.translation(i) = select.real(place + 9 + i);
+    for (int i = 0; i < 9; ++i) T.rotation(i / 3, i % 3) = select.real(column + i);
+    for (int i = 0; i < 3; ++i) T.translation(i) = select.real(column + 9 + i);
   }
   return record;
 }

@@ -1,11 +1,11 @@
-#include "experiments/run/checked_run.hpp"
+#include "experiments/run/run_request.hpp"
 
 #include <tbb/info.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "experiments/file/experiment.hpp"
-#include "experiments/run/data_root.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
 #include "framework/base/error.hpp"
@@ -14,7 +14,7 @@
 namespace croon::experiments {
 namespace {
 
-/// Throws InputError where a claim is of a sensor that there is not: it would never be measured.
+/// Throws InputError if a claim names a sensor that does not exist: it would never be measured.
 void check_claimed_sensors(const Experiment& experiment, const std::vector<std::string>& sensors) {
   std::vector<Fault> faults;
   for (const Claim& claim : experiment.claims) {
@@ -30,6 +30,12 @@ void check_claimed_sensors(const Experiment& experiment, const std::vector<std::
 }
 
 }  // namespace
+
+std::filesystem::path data_root(const std::filesystem::path& asked) {
+  if (!asked.empty()) return asked;
+  const char* const set = std::getenv("CROON_DATA");
+  return set != nullptr && *set != '\0' ? set : "data";
+}
 
 CheckedRun check_run(const RunRequest& request, const Catalogue& catalogue) {
   CheckedRun run;

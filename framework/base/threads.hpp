@@ -7,9 +7,9 @@
 
 #include <cstddef>
 
-namespace croon::experiments {
+namespace croon {
 
-/// Calls `use` where TBB has `jobs` threads, more than there are cores if need be.
+/// Calls `use` with TBB limited to `jobs` threads, which may be more than there are cores.
 template <class Use>
 void on_threads(int jobs, const Use& use) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
@@ -29,4 +29,4 @@ void for_each_in_parallel(std::size_t count, const Use& use) {
       tbb::simple_partitioner());
 }
 
-}  // namespace croon::experiments
+}  // namespace croon

@@ -9,6 +9,9 @@
 
 namespace croon::experiments {
 
+/// The data root: `asked`; if it is empty, the folder CROON_DATA, else data/.
+std::filesystem::path data_root(const std::filesystem::path& asked);
+
 /// Which trials of which experiment are asked for.
 struct RunRequest {
   std::filesystem::path experiment;
@@ -20,7 +23,7 @@ struct RunRequest {
   std::string shard;  ///< "K/N"; empty: all.
 };
 
-/// A run of which everything was checked that can be before anything is written.
+/// A run that was checked as far as possible before anything is written.
 struct CheckedRun {
   Experiment experiment;
   Selection selection;
@@ -30,7 +33,7 @@ struct CheckedRun {
   int jobs = 1;
 };
 
-/// Reads and checks what `request` asks for. Throws InputError with all the faults.
+/// Reads and checks the request. Throws InputError with all faults.
 CheckedRun check_run(const RunRequest& request, const Catalogue& catalogue);
 
 }  // namespace croon::experiments

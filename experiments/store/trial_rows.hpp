@@ -7,7 +7,7 @@
 
 namespace croon::experiments {
 
-/// A trial as the store knows it: the ids of its variant, scene and sensor, and its number.
+/// A trial in the store: the ids of its variant, scene and sensor, and its number.
 struct TrialRow {
   std::int64_t variant = 0;
   std::int64_t scene = 0;
@@ -16,11 +16,11 @@ struct TrialRow {
 };
 
 /// The columns of `trials` after the four of a TrialRow: status, reason, error (rad and m) and pose
-/// (the rotation by rows, m); error and pose are null where the trial has none.
+/// (the rotation by rows, m). Error and pose are null if the trial has none.
 const std::string& result_columns();
 
-/// SQL that makes the tables `trials` and `steps` where they are missing, and the views on them
-/// that have names for ids.
+/// SQL that creates the tables `trials` and `steps` if they do not exist, and views on them with
+/// names in place of ids.
 std::string record_tables();
 
 /// Adds rows to a store.
@@ -35,7 +35,7 @@ class RecordInserter {
   Statement step_;
 };
 
-/// The statement whose rows `row_of` and `read_result` read.
+/// The statement whose rows `row_of` and `result_of` read.
 Statement select_results(const Database& database);
 TrialRow row_of(const Statement& select);
 /// The result, without its id.
