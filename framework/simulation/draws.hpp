@@ -6,7 +6,22 @@
 
 namespace croon::simulation {
 
-/// True in `share` of the draws.
+/// The numbers from `from` to `to`: a piece of a line, a time window, bounds of a uniform draw. The
+/// name of a variable carries the unit.
+struct Span {
+  double from = 0.0;
+  double to = 0.0;
+
+  double length() const { return to - from; }
+  double middle() const { return 0.5 * (from + to); }
+  /// `to` itself is not inside.
+  bool holds(double value) const { return value >= from && value < to; }
+};
+
+/// Uniform in `span`.
+inline double draw(Rng& rng, const Span& span) { return rng.uniform(span.from, span.to); }
+
+/// True with the probability `share`.
 inline bool chance(Rng& rng, double share) { return rng.uniform() < share; }
 
 /// Uniform in {`low`, ..., `high`}.
@@ -14,7 +29,7 @@ inline int draw_int(Rng& rng, int low, int high) {
   return low + static_cast<int>(rng.below(static_cast<std::uint64_t>(high - low + 1)));
 }
 
-/// 1 or -1, as likely as each other.
+/// 1 or -1 with equal probability.
 inline double draw_sign(Rng& rng) { return chance(rng, 0.5) ? 1.0 : -1.0; }
 
 /// One of `choices`, which must not be empty.

@@ -1,7 +1,8 @@
 #pragma once
 
-// Embree 3 (Debian 12) and Embree 4 (Ubuntu 24.04) differ in the name of the header and in how a
-// packet of rays is asked; this file hides both. Included by ray_caster.cpp alone.
+// A thin layer over Embree's C interface, included by ray_caster.cpp alone. Embree 3 (Debian 12)
+// and Embree 4 (Ubuntu 24.04) differ in the name of the header and in the call for a packet of
+// rays.
 
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
@@ -9,22 +10,76 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <cstring>
+#include <new>
+#include <stdexcept>
+
+#include "framework/simulation/ray_caster.hpp"
+
 namespace croon::simulation {
 
-/// The first hits of the rays of `packet` whose element of `valid` is -1; both aligned to 32 bytes.
-/// The rays begin close together and look almost the same way.
-inline void intersect_coherent(const int* valid, RTCScene scene, RTCRayHit8& packet) {
+constexpr std::size_t kPacketSize = 8;
+
+/// Eight rays in Embree's layout. `valid` is -1 for the rays that exist, else 0.
+struct alignas(32) Packet {
+  RTCRayHit8 rays;
+  int valid[kPacketSize] = {};
+
+  /// Sets the ray `i`.
+  void set(std::size_t i, const Ray& ray, double time_ratio, double min_m, double max_m) {
+    RTCRay8& r = rays.ray;
+    r.org_x[i] = static_cast<float>(ray.origin.x());
+    r.org_y[i] = static_cast<float>(ray.origin.y());
+    r.org_z[i] = static_cast<float>(ray.origin.z());
+    r.dir_x[i] = static_cast<float>(ray.direction.x());
+    r.dir_y[i] = static_cast<float>(ray.direction.y());
+    r.dir_z[i] = static_cast<float>(ray.direction.z());
+    r.tnear[i] = static_cast<float>(min_m);
+    r.tfar[i] = static_cast<float>(max_m);
+    r.time[i] = static_cast<float>(time_ratio);
+    r.mask[i] = 0xffffffffU;
+    r.id[i] = 0;
+    r.flags[i] = 0;
+    rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    valid[i] = -1;
+  }
+};
+
+/// Finds the first hits of the packet's rays, which begin close together and have almost the same
+/// direction.
+inline void intersect_coherent(RTCScene scene, Packet& packet) {
 #if RTC_VERSION_MAJOR >= 4
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
   arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
-  rtcIntersect8(valid, scene, &packet, &arguments);
+  rtcIntersect8(packet.valid, scene, &packet.rays, &arguments);
 #else
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect8(valid, scene, &context, &packet);
+  rtcIntersect8(packet.valid, scene, &context, &packet.rays);
 #endif
+}
+
+/// The device that all scenes share. Throws std::runtime_error if Embree finds none.
+inline RTCDevice embree_device() {
+  static const struct Device {
+    RTCDevice handle = rtcNewDevice(nullptr);
+    ~Device() { rtcReleaseDevice(handle); }
+  } device;
+  if (device.handle == nullptr) throw std::runtime_error("Embree finds no device to run on");
+  return device.handle;
+}
+
+/// Copies `elements` into a new buffer of `geometry`; `slot` is the time step of vertices.
+template <class Element>
+void set_buffer(RTCGeometry geometry, RTCBufferType type, unsigned int slot, RTCFormat format,
+                const std::vector<Element>& elements) {
+  void* const buffer =
+      rtcSetNewGeometryBuffer(geometry, type, slot, format, sizeof(Element), elements.size());
+  if (buffer == nullptr) throw std::bad_alloc();
+  std::memcpy(buffer, elements.data(), elements.size() * sizeof(Element));
 }
 
 }  // namespace croon::simulation

@@ -5,39 +5,34 @@
 #include <memory>
 #include <vector>
 
-#include "framework/simulation/world.hpp"
+#include "framework/simulation/draws.hpp"
+#include "framework/simulation/mesh.hpp"
 
 namespace croon::simulation {
-
-/// A stretch of time, seconds.
-struct TimeWindow {
-  double begin_s = 0.0;
-  double end_s = 0.0;
-};
 
 /// A ray of light in the world.
 struct Ray {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< Of length 1.
-  double time_s = 0.0;                                   ///< In the caster's window.
+  double time_s = 0.0;                                   ///< In the caster's time window.
 };
 
 /// Where a ray first meets a surface.
 struct Hit {
-  double range_m = std::numeric_limits<double>::infinity();  ///< Infinite where there is none.
+  double range_m = std::numeric_limits<double>::infinity();  ///< Infinite if there is no surface.
   double incidence_cos = 0.0;  ///< Of the angle between the ray and the surface's normal, 0 to 1.
   Material material = Material::asphalt;
 
   bool is_there() const { return range_m < std::numeric_limits<double>::infinity(); }
 };
 
-/// Finds what rays meet in a world, with Embree's packets of eight. Embree tells the triangle, in
-/// single precision; the range is then that of the triangle's plane, in double precision. Bodies
-/// move in straight lines from where they are at the window's begin to where they are at its end.
-/// The same bits on any number of threads; `cast` may be called from many.
+/// Finds the first surface that each ray meets, with Embree's packets of eight rays. Embree finds
+/// the triangle in single precision; the range is the one to the triangle's plane in double
+/// precision. Bodies move in straight lines from their poses at the begin of the time window to
+/// those at its end. The bits do not depend on the number of threads. `cast` is thread-safe.
 class RayCaster {
  public:
-  RayCaster(std::shared_ptr<const World> world, TimeWindow window);
+  RayCaster(std::shared_ptr<const World> world, Span window_s);
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;

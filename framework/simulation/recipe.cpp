@@ -57,7 +57,7 @@ Table<Mounting> mounting_table() {
           "rotation_rpy_deg", &Mounting::rotation_rpy_deg, {-360.0, 360.0},
           "Roll, pitch and yaw of the sensor in the reference, R = Rz(yaw) Ry(pitch) Rx(roll)."),
       numbers("translation_m", &Mounting::translation_m, {-100.0, 100.0},
-              "Place of the sensor in the reference's frame: x forward, y left, z up."),
+              "RoadPose of the sensor in the reference's frame: x forward, y left, z up."),
       number(
           "time_offset_s", &Mounting::time_offset_s, {-10.0, 10.0},
           "How much later than the reference's its sweep begins; matters with sweep_distortion."),
@@ -78,7 +78,7 @@ Table<CarBody> body_table() {
   };
 }
 
-/// Whether the reference is one of the sensors, and its pose zero.
+/// True if the reference is one of the sensors and its pose is zero.
 bool has_reference(const Rig& rig) {
   return std::any_of(rig.sensors.begin(), rig.sensors.end(), [&](const auto& sensor) {
     const RigidTransform T = sensor.second.T_reference_sensor();
@@ -103,23 +103,28 @@ Table<Rig> rig_table() {
   return table;
 }
 
-Table<Mix> mix_table() {
-  const params::Range weight = {0.0, 1e9};
-  Table<Mix> table = {
-      number("urban", &Mix::urban, weight, "Weight of town streets."),
-      number("suburban", &Mix::suburban, weight, "Weight of streets of family houses."),
-      number("highway", &Mix::highway, weight, "Weight of highways."),
-      number("crossing", &Mix::crossing, weight, "Weight of crossings in a town."),
-      number("car_park", &Mix::car_park, weight, "Weight of car parks."),
-      number("empty", &Mix::empty, weight, "Weight of places where all around is the same."),
-      number("narrow", &Mix::narrow, weight, "Weight of alleys with walls close on both sides."),
-      number("blocked", &Mix::blocked, weight, "Weight of streets with a truck beside one sensor."),
-      number("corridor", &Mix::corridor, weight, "Weight of roads between long smooth walls."),
+/// The row of the weight of `kind`.
+params::Parameter<Mix> weight_row(SceneKind kind) {
+  params::ParameterDoc doc;
+  doc.key = row_of(kind).name;
+  doc.type = params::ParameterType::number;
+  doc.default_json = params::value_json(0.0);
+  doc.range = {0.0, 1e9};
+  doc.sentence = row_of(kind).sentence;
+  const auto read = [doc, kind](Mix& mix, const params::Node& node, const params::StageBuilder&) {
+    params::read_value(node, doc, mix[kind]);
   };
+  return {doc, read, [kind](Mix mix) { return params::value_json(mix[kind]); }, false};
+}
+
+Table<Mix> mix_table() {
+#define CROON_WEIGHT_ROW(name, weight, sentence) weight_row(SceneKind::name),
+  Table<Mix> table = {CROON_SCENE_KINDS(CROON_WEIGHT_ROW)};
+#undef CROON_WEIGHT_ROW
   table.require(
       [](const Mix& mix) {
-        const auto weights = mix.weights();
-        return std::any_of(weights.begin(), weights.end(), [](double w) { return w > 0.0; });
+        const auto is_positive = [](double weight) { return weight > 0.0; };
+        return std::any_of(mix.weights.begin(), mix.weights.end(), is_positive);
       },
       "one weight at least must be positive");
   return table;
@@ -135,7 +140,7 @@ Table<Noise> noise_table() {
       number("detection_range_m", &Noise::detection_range_m, {0.0, 10000.0},
              "Range at which half of the rays come back from a perpendicular target that sends "
              "back 10 % of the light; 0: all rays come back."),
-      boolean("sweep_distortion", &Noise::sweep_distortion,
+      boolean("sweep_distortion", &Noise::moves_during_scan,
               "Whether the car and others move while the sensors sweep; else all is of one time."),
   };
 }

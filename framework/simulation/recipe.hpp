@@ -1,16 +1,14 @@
 #pragma once
 
-#include <cstdint>
-
 #include "framework/params/table.hpp"
-#include "framework/simulation/noise.hpp"
 #include "framework/simulation/rig.hpp"
-#include "framework/simulation/scene_kind.hpp"
+#include "framework/simulation/scenes/scene.hpp"
+#include "framework/simulation/sensor_model.hpp"
 
 namespace croon::simulation {
 
-/// All that decides what simulated scenes are, but for their number. Scene k follows from it and
-/// from k alone.
+/// All that decides the content of simulated scenes. Scene k follows from the recipe and from k
+/// alone.
 struct Recipe {
   Rig rig = rigs().front().second;
   Mix mix = paper_mix();

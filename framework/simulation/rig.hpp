@@ -5,43 +5,49 @@
 #include <vector>
 
 #include "framework/geometry/rigid_transform.hpp"
+#include "framework/simulation/mesh.hpp"
 #include "framework/simulation/sensor_model.hpp"
 
 namespace croon::simulation {
 
-/// A sensor on a rig. The pose is in the numbers of `truth.json`, so that a written dataset has the
-/// same bits.
+/// A sensor on a rig. The pose consists of the numbers that `truth.json` holds, so that a written
+/// dataset has the same bits.
 struct Mounting {
   SensorModel model = sensor_model("pandar64");
-  std::vector<double> rotation_rpy_deg = std::vector<double>(3, 0.0);  ///< Roll, pitch, yaw.
-  std::vector<double> translation_m = std::vector<double>(3, 0.0);
-  double time_offset_s = 0.0;  ///< How much later than the reference's its sweep begins.
+  std::vector<double> rotation_rpy_deg = {0.0, 0.0, 0.0};  ///< Roll, pitch, yaw.
+  std::vector<double> translation_m = {0.0, 0.0, 0.0};
+  double time_offset_s = 0.0;  ///< From the begin of the reference's scan to that of this sensor.
 
   RigidTransform T_reference_sensor() const;
 };
 
-/// The car's body, whose middle is the origin of the car's frame. Sensors see it.
+/// The body of the car that carries the sensors. Car frame: x forward, y left, z up, origin on the
+/// road below the middle of the body.
 struct CarBody {
   double length_m = 4.75;
   double width_m = 1.9;
   double height_m = 1.48;
-  bool is_visible = true;
+  bool is_visible = true;  ///< To the car's own sensors.
 };
 
-/// A car with its sensors. The reference is level, over the car's axis.
+/// The mesh of `body` in the car's frame: smooth and without mirrors, like that of the paper's
+/// samples. Empty if the body is not visible.
+Mesh make_own_car(const CarBody& body);
+
+/// A car with its sensors. The reference is level and above the middle axis of the car.
 struct Rig {
   CarBody body;
   std::string reference = "top";
   double reference_height_m = 2.1;                        ///< Above the road.
   double reference_forward_m = 0.0;                       ///< Ahead of the body's middle.
-  std::vector<std::pair<std::string, Mounting>> sensors;  ///< The reference among them, by name.
+  std::vector<std::pair<std::string, Mounting>> sensors;  ///< By name, with the reference.
 
   /// The pose of the reference on the car.
   RigidTransform T_car_reference() const;
 };
 
 /// The rigs that have names: `croon_five`, that of the paper's simulation, and `croon_three`, that
-/// of its real car.
+/// of the paper's real car.
 const std::vector<std::pair<std::string, Rig>>& rigs();
 
 }  // namespace croon::simulation

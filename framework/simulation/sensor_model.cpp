@@ -7,7 +7,7 @@
 namespace croon::simulation {
 namespace {
 
-/// `count` angles from `from_deg` to `to_deg`, both among them.
+/// `count` evenly spaced angles from `from_deg` to `to_deg`, both included.
 std::vector<double> evenly(double from_deg, double to_deg, int count) {
   std::vector<double> angles;
   for (int i = 0; i < count; ++i)
@@ -15,8 +15,8 @@ std::vector<double> evenly(double from_deg, double to_deg, int count) {
   return angles;
 }
 
-/// Hesai's Pandar64: rings a sixth of a degree apart from -6 to 2, coarser towards both ends (user
-/// manual; measured on the authors' real samples).
+/// Hesai's Pandar64: rings a sixth of a degree apart from -6 to 2 degrees, coarser towards both
+/// ends (from the user manual and the paper's real samples).
 std::vector<double> pandar64_elevations() {
   std::vector<double> rings = {-24.9, -18.9};
   for (const double deg : evenly(-13.95, -7.05, 8)) rings.push_back(deg);
@@ -55,7 +55,7 @@ SensorModel solid_state() {
 }
 
 std::vector<std::pair<std::string, SensorModel>> make_models() {
-  // CARLA's sensors of the paper's samples have the rings of the real ones and their own ranges.
+  // In the paper's samples, CARLA's sensors have the rings of the real ones and other ranges.
   return {{"carla_pandar64", spinner(pandar64_elevations(), 0.2, 0.1, 200.0)},
           {"carla_pandar_qt", spinner(pandar_qt_elevations(), 0.6, 0.1, 20.0)},
           {"pandar64", spinner(pandar64_elevations(), 0.2, 1.0, 200.0)},
@@ -82,13 +82,39 @@ const SensorModel& sensor_model(const std::string& name) {
 
 std::vector<double> azimuths_deg(const SensorModel& sensor) {
   const double span_deg = sensor.azimuth_to_deg - sensor.azimuth_from_deg;
-  // A step that divides the span but for rounding gives no ray at its end.
+  // If the step divides the span up to rounding, there is no ray at the span's end.
   const auto count = static_cast<int>(std::ceil(span_deg / sensor.azimuth_step_deg - 1e-6));
   std::vector<double> azimuths;
   for (int i = 0; i < count; ++i) {
     azimuths.push_back(sensor.azimuth_from_deg + i * sensor.azimuth_step_deg);
   }
   return azimuths;
+}
+
+Noise carla_noise() {
+  Noise noise;
+  noise.dropout_ratio = 0.156;
+  return noise;
+}
+
+Noise real_noise() {
+  Noise noise;
+  noise.range_std_m = 0.02;
+  noise.angle_std_deg = 0.02;
+  noise.dropout_ratio = 0.005;
+  noise.detection_range_m = 200.0;
+  noise.moves_during_scan = true;
+  return noise;
+}
+
+double detection_probability(const Noise& noise, double range_m, double signal_ratio) {
+  constexpr double kTarget = 0.1;
+  // The probability falls from nearly 1 to nearly 0 within a factor of two of the range.
+  constexpr double kSteepness = 8.0;
+  if (noise.detection_range_m <= 0.0) return 1.0;
+  const double half_m = noise.detection_range_m * std::sqrt(signal_ratio / kTarget);
+  if (half_m <= 0.0) return 0.0;
+  return 1.0 / (1.0 + std::pow(range_m / half_m, kSteepness));
 }
 
 }  // namespace croon::simulation

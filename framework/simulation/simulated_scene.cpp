@@ -1,13 +1,16 @@
 #include "framework/simulation/simulated_scene.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
-#include "framework/simulation/own_car.hpp"
-#include "framework/simulation/scenes/scene.hpp"
+#include "framework/base/angles.hpp"
 
 namespace croon::simulation {
 namespace {
+
+using Eigen::Vector3d;
 
 StreamKey scene_key(const Recipe& recipe, std::uint64_t index) {
   return StreamKey(static_cast<std::uint64_t>(recipe.seed)).with("simulated scene").with(index);
@@ -15,21 +18,20 @@ StreamKey scene_key(const Recipe& recipe, std::uint64_t index) {
 
 std::shared_ptr<const World> make_world(const Recipe& recipe, std::uint64_t index) {
   const CarBody& body = recipe.rig.body;
-  World world = make_scene(scene_kind(recipe, index), {body.length_m, body.width_m},
-                           scene_key(recipe, index).with("world"));
+  World world = make_scene(scene_kind(recipe, index), body, scene_key(recipe, index).with("world"));
   world.car.mesh = make_own_car(body);
   return std::make_shared<const World>(std::move(world));
 }
 
-/// From the first ray of any sensor to the last; one instant where nothing moves meanwhile.
-TimeWindow window_of(const Recipe& recipe) {
-  TimeWindow window;
-  if (!recipe.noise.sweep_distortion) return window;
+/// From the first ray of any sensor to the last; {0, 0} if nothing moves during a scan.
+Span window_of(const Recipe& recipe) {
+  Span window_s;
+  if (!recipe.noise.moves_during_scan) return window_s;
   for (const auto& [name, mounting] : recipe.rig.sensors) {
-    window.begin_s = std::min(window.begin_s, mounting.time_offset_s);
-    window.end_s = std::max(window.end_s, mounting.time_offset_s + mounting.model.period_s);
+    window_s.from = std::min(window_s.from, mounting.time_offset_s);
+    window_s.to = std::max(window_s.to, mounting.time_offset_s + mounting.model.period_s);
   }
-  return window;
+  return window_s;
 }
 
 const Mounting& mounting_of(const Rig& rig, const std::string& name) {
@@ -37,6 +39,39 @@ const Mounting& mounting_of(const Rig& rig, const std::string& name) {
     if (sensor == name) return mounting;
   }
   throw std::logic_error("the rig has no sensor " + name);
+}
+
+std::uint8_t channel(double value) {
+  return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0));
+}
+
+Colour mixed(const Colour& a, const Colour& b, double share_of_b) {
+  const auto mix = [&](std::uint8_t x, std::uint8_t y) {
+    return channel((1.0 - share_of_b) * x + share_of_b * y);
+  };
+  return {mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue)};
+}
+
+/// The colour of a pixel: surfaces are brightest if they face the camera, and fade into haze.
+Colour colour_of(const Hit& hit) {
+  const Colour haze = {206, 222, 236};
+  if (!hit.is_there()) return haze;
+  const Colour& own = look_of(hit.material).colour;
+  const double light = 0.45 + 0.6 * hit.incidence_cos;
+  const Colour lit = {channel(light * own.red), channel(light * own.green),
+                      channel(light * own.blue)};
+  return mixed(lit, haze, 0.8 * (1.0 - std::exp(-hit.range_m / 150.0)));
+}
+
+/// The pose of a camera at `eye` that looks at `target`. Camera frame: x along the view, y to the
+/// left, z up.
+RigidTransform looking_at(const Vector3d& eye, const Vector3d& target) {
+  RigidTransform T_world_camera;
+  const Vector3d forward = (target - eye).normalized();
+  const Vector3d left = Vector3d::UnitZ().cross(forward).normalized();
+  T_world_camera.rotation << forward, left, forward.cross(left);
+  T_world_camera.translation = eye;
+  return T_world_camera;
 }
 
 }  // namespace
@@ -52,21 +87,42 @@ SimulatedScene::SimulatedScene(std::shared_ptr<const Recipe> recipe, std::uint64
       world_(make_world(*recipe_, index)),
       caster_(world_, window_of(*recipe_)) {}
 
-MeasuredCloud SimulatedScene::sweep_of(const std::string& name) const {
+MeasuredCloud SimulatedScene::scan_of(const std::string& name) const {
   const Mounting& mounting = mounting_of(recipe_->rig, name);
   const RigidTransform T_car_sensor =
       recipe_->rig.T_car_reference() * mounting.T_reference_sensor();
-  const SweepPlan plan = {mounting.time_offset_s, [&](double time_s) {
-                            return world_->car.pose_at(time_s) * T_car_sensor;
-                          }};
-  return sweep(caster_, mounting.model, recipe_->noise, plan, key_.with("sweep").with(name));
+  const ScanPlan plan = {mounting.time_offset_s,
+                         [&](double time_s) { return world_->car.pose_at(time_s) * T_car_sensor; }};
+  // The name of the random stream decides the bits of all scans.
+  return scan(caster_, mounting.model, recipe_->noise, plan, key_.with("sweep").with(name));
 }
 
-Image bird_view(const SimulatedScene& scene) {
-  // Low and over the car's axis, so that it is also inside of a tunnel and between close walls.
-  const RigidTransform& T_world_car = scene.world().car.T_world_body;
-  return render(scene.caster(), looking_at(T_world_car * Eigen::Vector3d(-10.5, 0.0, 4.3),
-                                           T_world_car * Eigen::Vector3d(10.0, 0.0, 0.5)));
+Image SimulatedScene::picture() const {
+  constexpr int kWidth = 800;
+  constexpr int kHeight = 500;
+  constexpr double kWidth_deg = 75.0;
+  constexpr double kFar_m = 400.0;
+  // The camera is low and above the car's axis, so that tunnels and close walls do not hide the
+  // scene.
+  const RigidTransform& T_world_car = world_->car.T_world_body;
+  const RigidTransform T_world_camera =
+      looking_at(T_world_car * Vector3d(-10.5, 0.0, 4.3), T_world_car * Vector3d(10.0, 0.0, 0.5));
+  const double focal_px = 0.5 * kWidth / std::tan(0.5 * rad_from_deg(kWidth_deg));
+  std::vector<Ray> rays;
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const Vector3d through(focal_px, 0.5 * kWidth - x - 0.5, 0.5 * kHeight - y - 0.5);
+      rays.push_back(
+          {T_world_camera.translation, T_world_camera.rotation * through.normalized(), 0.0});
+    }
+  }
+  const std::vector<Hit> hits = caster_.cast(rays, 0.05, kFar_m);
+  Image image(kWidth, kHeight);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const int pixel = static_cast<int>(i);
+    image.at(pixel % kWidth, pixel / kWidth) = colour_of(hits[i]);
+  }
+  return image;
 }
 
 }  // namespace croon::simulation

@@ -4,17 +4,17 @@
 #include <memory>
 #include <string>
 
+#include "framework/picture/image.hpp"
 #include "framework/simulation/recipe.hpp"
-#include "framework/simulation/render.hpp"
-#include "framework/simulation/sweep.hpp"
+#include "framework/simulation/scan.hpp"
 
 namespace croon::simulation {
 
-/// What kind of scene the scene `index` of `recipe` is.
+/// The kind of the scene `index` of `recipe`.
 SceneKind scene_kind(const Recipe& recipe, std::uint64_t index);
 
-/// The scene `index` of `recipe`, built: its world, and what its sensors see. Depends on these two
-/// alone. May be asked from many threads.
+/// The world of the scene `index` of `recipe` and the scans of its sensors. Both follow from the
+/// recipe and the index alone. Thread-safe.
 class SimulatedScene {
  public:
   SimulatedScene(std::shared_ptr<const Recipe> recipe, std::uint64_t index);
@@ -22,8 +22,12 @@ class SimulatedScene {
   const World& world() const { return *world_; }
   const RayCaster& caster() const { return caster_; }
 
-  /// One sweep of the sensor `name`, which the rig must have.
-  MeasuredCloud sweep_of(const std::string& name) const;
+  /// One scan of the sensor `name`. Throws std::logic_error if the rig has no such sensor.
+  MeasuredCloud scan_of(const std::string& name) const;
+
+  /// A picture of the scene from behind and above the car, lit from the sky, in the colours of its
+  /// materials.
+  Image picture() const;
 
  private:
   std::shared_ptr<const Recipe> recipe_;
@@ -31,8 +35,5 @@ class SimulatedScene {
   std::shared_ptr<const World> world_;
   RayCaster caster_;
 };
-
-/// The scene through a camera behind and above its car.
-Image bird_view(const SimulatedScene& scene);
 
 }  // namespace croon::simulation

@@ -31,41 +31,41 @@ const params::Table<Params>& table() {
   return table;
 }
 
-/// Builds scenes when a sensor of theirs is asked for, and keeps the last few, so that the sensors
-/// of one scene share it. Thread-safe.
-class Workshop {
+/// Builds scenes on demand and keeps the last few, so that the sensors of one scene share it.
+/// Thread-safe.
+class SceneCache {
  public:
-  explicit Workshop(const Recipe& recipe) : recipe_(std::make_shared<const Recipe>(recipe)) {}
+  explicit SceneCache(const Recipe& recipe) : recipe_(std::make_shared<const Recipe>(recipe)) {}
 
   std::shared_ptr<const SimulatedScene> scene(std::uint64_t index) {
-    const std::shared_ptr<Bench> bench = bench_of(index);
-    std::call_once(bench->once,
-                   [&] { bench->scene = std::make_shared<const SimulatedScene>(recipe_, index); });
-    return bench->scene;
+    const std::shared_ptr<Entry> entry = entry_of(index);
+    std::call_once(entry->once,
+                   [&] { entry->scene = std::make_shared<const SimulatedScene>(recipe_, index); });
+    return entry->scene;
   }
 
  private:
-  struct Bench {
+  struct Entry {
     std::uint64_t index = 0;
     std::once_flag once;
     std::shared_ptr<const SimulatedScene> scene;
   };
 
-  std::shared_ptr<Bench> bench_of(std::uint64_t index) {
+  std::shared_ptr<Entry> entry_of(std::uint64_t index) {
     constexpr std::size_t kKept = 4;
     const std::lock_guard<std::mutex> lock(mutex_);
-    for (const std::shared_ptr<Bench>& bench : benches_) {
-      if (bench->index == index) return bench;
+    for (const std::shared_ptr<Entry>& entry : entries_) {
+      if (entry->index == index) return entry;
     }
-    benches_.push_back(std::make_shared<Bench>());
-    benches_.back()->index = index;
-    if (benches_.size() > kKept) benches_.pop_front();
-    return benches_.back();
+    entries_.push_back(std::make_shared<Entry>());
+    entries_.back()->index = index;
+    if (entries_.size() > kKept) entries_.pop_front();
+    return entries_.back();
   }
 
   std::shared_ptr<const Recipe> recipe_;
   std::mutex mutex_;
-  std::deque<std::shared_ptr<Bench>> benches_;
+  std::deque<std::shared_ptr<Entry>> entries_;
 };
 
 /// "000042".
@@ -80,37 +80,34 @@ class Simulated final : public Dataset {
   explicit Simulated(Params params) : params_(std::move(params)) {}
 
   std::vector<Scene> scenes(const std::filesystem::path&) const override {
-    const auto workshop = std::make_shared<Workshop>(params_);
+    const auto cache = std::make_shared<SceneCache>(params_);
     std::vector<Scene> scenes;
     for (int i = 0; i < params_.scenes; ++i) {
-      scenes.push_back(scene(params_.first_scene + i, workshop));
+      scenes.push_back(scene(params_.first_scene + i, cache));
     }
     return scenes;
   }
 
  private:
-  Scene scene(int number, const std::shared_ptr<Workshop>& workshop) const {
+  Scene scene(int number, const std::shared_ptr<SceneCache>& cache) const {
     const auto index = static_cast<std::uint64_t>(number);
     Scene scene;
     scene.name = scene_name(number);
-    scene.kind = simulation::kSceneKindNames[static_cast<std::size_t>(
-        simulation::scene_kind(params_, index))];
+    scene.kind = simulation::row_of(simulation::scene_kind(params_, index)).name;
     for (const auto& [name, mounting] : params_.rig.sensors) {
       SensorScan scan;
       scan.sensor = name;
-      scan.measure = [workshop, index, sensor = name] {
-        return workshop->scene(index)->sweep_of(sensor);
-      };
+      scan.measure = [cache, index, sensor = name] { return cache->scene(index)->scan_of(sensor); };
       scan.load = [measure = scan.measure] { return LoadedCloud{measure().points, 0}; };
       if (name == params_.rig.reference) {
         scene.reference = scan;
       } else {
-        // As a file tells it, so that a written scene gives the same results to the last bit.
+        // Rounded as in a file, so that a written scene gives the same results to the last bit.
         scan.truth = pose_as_written(mounting.T_reference_sensor());
         scene.sensors.push_back(scan);
       }
     }
-    scene.draw = [workshop, index] { return simulation::bird_view(*workshop->scene(index)); };
+    scene.draw = [cache, index] { return cache->scene(index)->picture(); };
     return scene;
   }
 

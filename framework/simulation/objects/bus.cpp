@@ -1,27 +1,24 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/simulation/draws.hpp"
 #include "framework/simulation/objects/vehicle_parts.hpp"
-#include "framework/simulation/objects/vehicle_types.hpp"
-#include "framework/simulation/primitives.hpp"
 
 namespace croon::simulation {
 namespace {
 
-constexpr double kRecess_m = 0.02;  ///< Of the panes behind the panels.
+constexpr double kRecess_m = 0.02;  ///< Depth of the panes behind the panels.
 constexpr double kFloor_m = 0.32;
 constexpr double kSill_m = 1.05;
 
-/// Sizes of a bus, and what its sides are cut by.
+/// The dimensions of a bus.
 struct BusShape {
   Span whole_m;
   double half_width_m = 1.275;
   double roof_m = 2.9;  ///< Height of the roof's edge.
   double window_top_m = 2.4;
   double wheel_radius_m = 0.48;
-  std::vector<double> axles_m;  ///< x of each, from the rear.
-  std::vector<Span> doors_m;    ///< On the right, from the rear.
+  std::vector<double> axles_m;  ///< x of each axle, from the rear.
+  std::vector<Span> doors_m;    ///< On the right side, from the rear.
   Material coat = Material::paint;
 };
 
@@ -44,7 +41,7 @@ BusShape draw_shape(Rng& rng) {
   return shape;
 }
 
-/// The panels of one side between two heights, with holes.
+/// Adds the panels of one side between two heights, with holes.
 void add_panels(Mesh& mesh, const BusShape& shape, double side, const Span& height_m,
                 const std::vector<Span>& holes) {
   const double inside_m = side * (shape.half_width_m - kRecess_m);
@@ -55,11 +52,17 @@ void add_panels(Mesh& mesh, const BusShape& shape, double side, const Span& heig
   }
 }
 
-/// Panes of 2.4 m and more with posts between, and none where there are doors.
+std::vector<Span> sorted(std::vector<Span> spans) {
+  std::sort(spans.begin(), spans.end(),
+            [](const Span& a, const Span& b) { return a.from < b.from; });
+  return spans;
+}
+
+/// The panes of one side, of at least 2.4 m with posts between them, and the doors.
 std::vector<Span> windows_of(const BusShape& shape, const std::vector<Span>& doors_m) {
   std::vector<Span> windows;
   for (const Span& wall : without({shape.whole_m.from + 0.3, shape.whole_m.to - 0.15}, doors_m)) {
-    const double length_m = wall.to - wall.from;
+    const double length_m = wall.length();
     const int count = std::max(1, static_cast<int>(length_m / 2.4));
     for (int i = 0; i < count; ++i) {
       windows.push_back(
@@ -67,9 +70,7 @@ std::vector<Span> windows_of(const BusShape& shape, const std::vector<Span>& doo
     }
   }
   windows.insert(windows.end(), doors_m.begin(), doors_m.end());
-  std::sort(windows.begin(), windows.end(),
-            [](const Span& a, const Span& b) { return a.from < b.from; });
-  return windows;
+  return sorted(windows);
 }
 
 void add_side(Mesh& mesh, const BusShape& shape, double side, const std::vector<Span>& doors_m) {
@@ -78,19 +79,17 @@ void add_side(Mesh& mesh, const BusShape& shape, double side, const std::vector<
     const double reach_m = shape.wheel_radius_m + 0.08;
     skirt_holes.push_back({axle_m - reach_m, axle_m + reach_m});
   }
-  std::sort(skirt_holes.begin(), skirt_holes.end(),
-            [](const Span& a, const Span& b) { return a.from < b.from; });
-  add_panels(mesh, shape, side, {kFloor_m, kSill_m}, skirt_holes);
+  add_panels(mesh, shape, side, {kFloor_m, kSill_m}, sorted(skirt_holes));
   add_panels(mesh, shape, side, {kSill_m, kSill_m + 0.1}, doors_m);
   add_panels(mesh, shape, side, {kSill_m + 0.1, shape.window_top_m}, windows_of(shape, doors_m));
   add_panels(mesh, shape, side, {shape.window_top_m, shape.roof_m}, {});
 }
 
-/// Two leaves of glass each, whose frames meet in the middle.
+/// Adds doors with two leaves of glass each, whose frames meet in the middle.
 void add_doors(Mesh& mesh, const BusShape& shape) {
   const double y_m = -shape.half_width_m;
   for (const Span& door : shape.doors_m) {
-    const double middle_m = 0.5 * (door.from + door.to);
+    const double middle_m = door.middle();
     add_box(mesh, {middle_m - 0.04, y_m, kFloor_m},
             {middle_m + 0.04, y_m + kRecess_m, shape.window_top_m}, Material::rubber);
     add_box(mesh, {door.from, y_m + 0.5 * kRecess_m, kFloor_m},
@@ -98,7 +97,7 @@ void add_doors(Mesh& mesh, const BusShape& shape) {
   }
 }
 
-/// The panels around the pane at one end: below it, above it and at its sides.
+/// Adds the panels around the pane at one end: below it, above it and at its sides.
 void add_end(Mesh& mesh, const BusShape& shape, double outside_m, double pane_from_m) {
   const double inside_m = outside_m - std::copysign(kRecess_m, outside_m);
   const double low_x = std::min(inside_m, outside_m);
@@ -113,7 +112,7 @@ void add_end(Mesh& mesh, const BusShape& shape, double outside_m, double pane_fr
   }
 }
 
-/// What is behind the panels, and the roof.
+/// Adds the roof and the body behind the panels.
 void add_core(Mesh& mesh, const BusShape& shape, Rng& rng) {
   const double rear_m = shape.whole_m.from + kRecess_m;
   const double front_m = shape.whole_m.to - kRecess_m;

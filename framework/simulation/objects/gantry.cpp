@@ -1,9 +1,7 @@
 #include <algorithm>
 
-#include "framework/simulation/draws.hpp"
-#include "framework/simulation/objects/solids.hpp"
-#include "framework/simulation/objects/street_furniture.hpp"
-#include "framework/simulation/primitives.hpp"
+#include "framework/simulation/objects/objects.hpp"
+#include "framework/simulation/objects/shapes.hpp"
 
 namespace croon::simulation {
 namespace {
@@ -12,7 +10,7 @@ using Eigen::Vector3d;
 
 constexpr double kClear_m = 5.2;
 
-/// Two chords across the road, from `-half_m` to `half_m` in y, with lacing between.
+/// Adds two chords across the road, from `-half_m` to `half_m` in y, and the lacing between them.
 void add_truss(Mesh& mesh, double half_m, double low_m, double depth_m) {
   for (const double z_m : {low_m, low_m + depth_m}) {
     add_box(mesh, {-0.09, -half_m, z_m - 0.09}, {0.09, half_m, z_m + 0.09}, Material::metal);

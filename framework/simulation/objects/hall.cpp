@@ -1,20 +1,19 @@
 #include <algorithm>
 
-#include "framework/simulation/draws.hpp"
-#include "framework/simulation/objects/buildings.hpp"
-#include "framework/simulation/objects/roofs.hpp"
+#include "framework/simulation/objects/facade.hpp"
+#include "framework/simulation/objects/objects.hpp"
 
 namespace croon::simulation {
 namespace {
 
-/// What all walls of a hall share.
+/// The common style of all walls of a hall.
 struct HallStyle {
   Material wall = Material::metal;
   double height_m = 8.0;
-  double bay_m = 6.0;  ///< From one rib to the next.
+  double bay_m = 6.0;  ///< Distance from one rib to the next.
   bool has_ribs = false;
   double rib_m = 0.2;      ///< How far they stand out.
-  double gates = 0.3;      ///< The share of the front's bays that have a gate.
+  double gates = 0.3;      ///< Share of the front's bays that have a gate.
   bool has_lights = true;  ///< A row of windows high up.
 };
 
@@ -31,7 +30,7 @@ HallStyle draw_style(int floors, Rng& rng) {
   return style;
 }
 
-/// The bays of the front: plain, with a gate, or with a window high up.
+/// Adds the bays of the front: plain, with a gate, or with a window high up.
 void add_front(Mesh& mesh, const WallFrame& wall, const Row& row, const HallStyle& style,
                Rng& rng) {
   const double bay_m = row.whole.right_m / row.cells;
@@ -49,7 +48,7 @@ void add_front(Mesh& mesh, const WallFrame& wall, const Row& row, const HallStyl
   }
 }
 
-/// Pillars between the bays of `row`, and at both ends.
+/// Adds ribs between the bays of `row` and at both ends.
 void add_ribs(Mesh& mesh, const WallFrame& wall, const Row& row, const HallStyle& style) {
   constexpr double kWide_m = 0.35;
   for (int i = 0; i <= row.cells; ++i) {

@@ -1,14 +1,13 @@
 #include <algorithm>
 
-#include "framework/simulation/draws.hpp"
-#include "framework/simulation/objects/buildings.hpp"
-#include "framework/simulation/objects/roofs.hpp"
-#include "framework/simulation/primitives.hpp"
+#include "framework/simulation/objects/facade.hpp"
+#include "framework/simulation/objects/objects.hpp"
+#include "framework/simulation/objects/shapes.hpp"
 
 namespace croon::simulation {
 namespace {
 
-/// A drawn family house.
+/// The dimensions and features of a family house.
 struct House {
   Block block;
   int floors = 2;
@@ -56,7 +55,7 @@ House draw_house(Rng& rng) {
   return house;
 }
 
-/// A step and a roof on two posts before the door.
+/// Adds a step and a roof on two posts in front of the door.
 void add_porch(Mesh& mesh, const House& house, const WallPart& door) {
   constexpr double kOut_m = 1.4;
   constexpr double kHalf_m = 1.1;
@@ -86,7 +85,7 @@ void add_front(Mesh& mesh, const House& house) {
   if (house.has_porch) add_porch(mesh, house, at_door);
 }
 
-/// The sides and the back with their plinth.
+/// Adds the sides and the back with their plinth.
 void add_other_walls(Mesh& mesh, const House& house) {
   for (std::size_t side = 1; side < Block::kWalls; ++side) {
     const WallFrame wall = house.block.wall(side);
@@ -98,7 +97,7 @@ void add_other_walls(Mesh& mesh, const House& house) {
   }
 }
 
-/// A chimney through the ridge, `share` of the way along it.
+/// Adds a chimney through the ridge, at `share` of its length.
 void add_chimney(Mesh& mesh, const House& house, double share) {
   constexpr double kHalf_m = 0.35;
   const double x_m = (house.has_gable_in_front ? 0.5 : share) * house.block.width_m;
@@ -108,7 +107,7 @@ void add_chimney(Mesh& mesh, const House& house, double share) {
           Material::brick);
 }
 
-/// A garage at the right side of the house, somewhat behind its front.
+/// Adds a garage at the right side of the house, behind its front.
 void add_garage(Mesh& mesh, const House& house, double width_m) {
   constexpr double kBehind_m = 0.8;
   constexpr double kDepth_m = 5.5;

@@ -2,17 +2,15 @@
 #include <cmath>
 
 #include "framework/base/angles.hpp"
-#include "framework/simulation/draws.hpp"
-#include "framework/simulation/objects/plants.hpp"
-#include "framework/simulation/objects/solids.hpp"
-#include "framework/simulation/primitives.hpp"
+#include "framework/simulation/objects/objects.hpp"
+#include "framework/simulation/objects/shapes.hpp"
 
 namespace croon::simulation {
 namespace {
 
 using Eigen::Vector3d;
 
-/// The outline across a hedge's core at `x`, every corner moved by up to `rough_m`.
+/// The outline across the core of a hedge at `x`. Each corner is moved by up to `rough_m`.
 Ring hedge_section(double x, double half_width_m, double height_m, double rough_m, Rng& rng) {
   const std::vector<Eigen::Vector2d> outline = {
       {-0.85 * half_width_m, 0.0},      {-half_width_m, 0.6 * height_m},
@@ -27,7 +25,7 @@ Ring hedge_section(double x, double half_width_m, double height_m, double rough_
   return ring;
 }
 
-/// One blade of grass, `height_m` high, bent over by less than its height.
+/// Adds one bent blade of grass.
 void add_blade(Mesh& mesh, const Vector3d& foot, double height_m, Rng& rng) {
   const double angle_rad = rng.uniform(0.0, 2.0 * kPi);
   const double bend_rad = rng.uniform(0.0, 2.0 * kPi);
@@ -50,7 +48,7 @@ Mesh make_bush(Rng& rng) {
   const double leaf_size_m = 0.12 + 0.08 * height_m;
   const Vector3d centre(0.0, 0.0, 0.5 * height_m);
   const Vector3d radii(girth_ratio * height_m, girth_ratio * height_m, 0.5 * height_m);
-  // The core lets nothing through; it stands on a few stems.
+  // The core is solid and stands on a stem.
   add_ellipsoid(mesh, centre, 0.62 * radii, 8, Material::leaf);
   add_cylinder(mesh, Vector3d::Zero(), centre, 0.05, 0.04, 5, Material::bark);
   const Vector3d reach = (radii.array() - 0.5 * leaf_size_m).matrix();

@@ -1,10 +1,7 @@
-#include "framework/simulation/objects/person.hpp"
-
 #include <cmath>
 
-#include "framework/simulation/draws.hpp"
-#include "framework/simulation/objects/solids.hpp"
-#include "framework/simulation/primitives.hpp"
+#include "framework/simulation/objects/objects.hpp"
+#include "framework/simulation/objects/shapes.hpp"
 
 namespace croon::simulation {
 namespace {
@@ -20,11 +17,11 @@ constexpr double kForearm = 0.2;
 // There is no skin among the materials; plaster scatters as much.
 constexpr Material kSkin = Material::plaster;
 
-/// How somebody stands or walks.
+/// How a person stands or walks.
 struct Posture {
   double height_m = 1.7;
-  double girth_ratio = 1.0;  ///< Of the body's width to the usual.
-  double stride_rad = 0.0;   ///< Of the front leg from upright; 0 standing.
+  double girth_ratio = 1.0;  ///< Width of the body to the usual one.
+  double stride_rad = 0.0;   ///< Angle of the front leg from upright; 0: the person stands.
   double elbow_rad = 0.2;
   double lead = 1.0;  ///< 1: the left leg is in front; -1: the right.
 };
@@ -41,7 +38,8 @@ Posture draw_posture(Rng& rng) {
   return posture;
 }
 
-/// From `from`, `length_m` along an angle that is 0 straight down and positive forward.
+/// The end of a limb of `length_m` that begins at `from`. The angle is 0 straight down and positive
+/// forward.
 Vector3d swung(const Vector3d& from, double angle_rad, double length_m) {
   return from + length_m * Vector3d(std::sin(angle_rad), 0.0, -std::cos(angle_rad));
 }
@@ -50,7 +48,7 @@ double hip_height_m(const Posture& posture) {
   return posture.height_m * (kAnkle + (kThigh + kShin) * std::cos(posture.stride_rad));
 }
 
-/// The leg of `side`; the rear one bends at the knee.
+/// Adds the leg of `side` (1: left). The rear leg bends at the knee.
 void add_leg(Mesh& mesh, const Posture& posture, double side) {
   const double h = posture.height_m;
   const double girth_m = h * posture.girth_ratio;
@@ -67,7 +65,7 @@ void add_leg(Mesh& mesh, const Posture& posture, double side) {
           ankle + Vector3d(0.105 * h, foot_half_m, 0.015 * h), Material::rubber);
 }
 
-/// The arm of `side`, which swings against the leg.
+/// Adds the arm of `side`, which swings against the leg.
 void add_arm(Mesh& mesh, const Posture& posture, const Vector3d& shoulder, double side) {
   const double h = posture.height_m;
   const double swing_rad = -side * posture.lead * 1.2 * posture.stride_rad;
@@ -78,7 +76,7 @@ void add_arm(Mesh& mesh, const Posture& posture, const Vector3d& shoulder, doubl
   add_box(mesh, hand - Vector3d(0.02, 0.02, 0.06), hand + Vector3d(0.03, 0.02, 0.02), kSkin);
 }
 
-/// An outline of the trunk: ratios of the body's height, from the hips up.
+/// An outline across the trunk. All are ratios of the body's height.
 struct Girth {
   double above_hip, half_depth, half_width;
 };
@@ -103,9 +101,9 @@ void add_trunk(Mesh& mesh, const Posture& posture) {
   }
   add_loft(mesh, rings, Material::cloth);
   add_cylinder(mesh, at(0.31), at(0.37), 0.034 * h, 0.03 * h, 5, kSkin);
-  // The crown of the head is at the body's height where the legs are straight.
-  const double crown = 1.0 - kAnkle - kThigh - kShin;
-  add_ellipsoid(mesh, at(crown - 0.068), {0.056 * h, 0.047 * h, 0.068 * h}, 8, kSkin);
+  // With straight legs, the top of the head is at the height of the body.
+  const double top = 1.0 - kAnkle - kThigh - kShin;
+  add_ellipsoid(mesh, at(top - 0.068), {0.056 * h, 0.047 * h, 0.068 * h}, 8, kSkin);
 }
 
 }  // namespace

@@ -1,9 +1,7 @@
 #include <algorithm>
 
-#include "framework/simulation/draws.hpp"
-#include "framework/simulation/objects/solids.hpp"
-#include "framework/simulation/objects/street_furniture.hpp"
-#include "framework/simulation/primitives.hpp"
+#include "framework/simulation/objects/objects.hpp"
+#include "framework/simulation/objects/shapes.hpp"
 
 namespace croon::simulation {
 namespace {
@@ -11,7 +9,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// A round, triangular or rectangular plate, its outline about 0 (y, z).
+/// The outline (y, z) about 0 of a round, triangular or rectangular plate.
 std::vector<Vector2d> draw_plate(Rng& rng) {
   const auto shape = rng.below(3);
   const double size_m = rng.uniform(0.6, 0.9);
@@ -21,14 +19,14 @@ std::vector<Vector2d> draw_plate(Rng& rng) {
   return rectangle(size_m, height_ratio * size_m);
 }
 
-/// Half the height of an outline, as far as it goes down from 0.
+/// The height of the part of an outline that is below 0.
 double depth_below(const std::vector<Vector2d>& outline) {
   double depth_m = 0.0;
   for (const Vector2d& yz : outline) depth_m = std::max(depth_m, -yz.y());
   return depth_m;
 }
 
-/// Three lamps under visors, about `middle`.
+/// Adds three lamps under visors around `middle`.
 void add_lamp_head(Mesh& mesh, const Vector3d& middle, double size_m) {
   const Vector3d half(0.1, 0.55 * size_m, 1.65 * size_m);
   add_box(mesh, middle - half, middle + half, Material::rubber);
@@ -70,7 +68,7 @@ Mesh make_lamp(Rng& rng) {
 
 Mesh make_traffic_light(Rng& rng) {
   Mesh mesh;
-  const double size_m = rng.uniform(0.24, 0.32);  // From one lamp to the next.
+  const double size_m = rng.uniform(0.24, 0.32);  // Distance from one lamp to the next.
   const double foot_m = rng.uniform(2.1, 2.6);
   const double middle_m = foot_m + 1.65 * size_m;
   const bool has_board = chance(rng, 0.4);
@@ -96,7 +94,7 @@ Mesh make_sign(Rng& rng) {
     const std::vector<Vector2d> outline = draw_plate(rng);
     const double half_m = depth_below(outline);
     add_plate(mesh, {radius_m + 0.02, 0.0, z_m + half_m}, outline, 0.012, Material::sign);
-    // No plate is higher above its middle than below it, but the triangles, which are twice.
+    // A plate is as high above its middle as below it, a triangle twice as high.
     z_m += half_m + (outline.size() == 3 ? 2.0 : 1.0) * half_m + 0.03;
   }
   add_cylinder(mesh, {0.0, 0.0, 0.0}, {0.0, 0.0, z_m}, radius_m, radius_m, 8, Material::metal);

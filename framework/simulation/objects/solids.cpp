@@ -1,8 +1,8 @@
-#include "framework/simulation/objects/solids.hpp"
-
+#include <array>
 #include <cmath>
 
 #include "framework/base/angles.hpp"
+#include "framework/simulation/objects/shapes.hpp"
 
 namespace croon::simulation {
 namespace {
@@ -10,10 +10,14 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Shuts the convex ring of `count` vertices from `first`.
-void add_end(Mesh& mesh, std::uint32_t first, std::uint32_t count, Material material) {
-  for (std::uint32_t i = 1; i + 1 < count; ++i) {
-    mesh.add_triangle(first, first + i, first + i + 1, material);
+/// Uniform in the unit ball, by rejection.
+Vector3d draw_in_ball(Rng& rng) {
+  for (;;) {
+    const double x = rng.uniform(-1.0, 1.0);
+    const double y = rng.uniform(-1.0, 1.0);
+    const double z = rng.uniform(-1.0, 1.0);
+    const Vector3d point(x, y, z);
+    if (point.squaredNorm() <= 1.0) return point;
   }
 }
 
@@ -27,21 +31,18 @@ Ring ring_of(const Level& level) {
 
 }  // namespace
 
-void add_loft(Mesh& mesh, const std::vector<Ring>& rings, Material material) {
-  const auto count = static_cast<std::uint32_t>(rings.front().size());
-  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (const Ring& ring : rings) {
-    for (const Vector3d& corner : ring) mesh.add_vertex(corner);
-  }
-  const auto last = static_cast<std::uint32_t>(mesh.vertices.size()) - count;
-  for (std::uint32_t ring = first; ring < last; ring += count) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const std::uint32_t next = (i + 1) % count;
-      mesh.add_quad(ring + i, ring + next, ring + count + next, ring + count + i, material);
+void add_leaves(Mesh& mesh, const Vector3d& centre, const Vector3d& radii, int count,
+                double leaf_size_m, Rng& rng) {
+  for (int i = 0; i < count; ++i) {
+    const Vector3d in_ball = draw_in_ball(rng);
+    // Division by the square root of the radius moves leaves outwards.
+    const Vector3d middle = centre + radii.cwiseProduct(in_ball / std::sqrt(in_ball.norm() + 1e-9));
+    std::array<std::uint32_t, 3> corner{};
+    for (std::uint32_t& index : corner) {
+      index = mesh.add_vertex(middle + 0.5 * leaf_size_m * draw_in_ball(rng));
     }
+    mesh.add_triangle(corner[0], corner[1], corner[2], Material::leaf);
   }
-  add_end(mesh, first, count, material);
-  add_end(mesh, last, count, material);
 }
 
 void add_plate(Mesh& mesh, const Vector3d& front, const std::vector<Vector2d>& outline,

@@ -1,15 +1,12 @@
-#include "framework/simulation/objects/street_furniture.hpp"
-
-#include "framework/simulation/draws.hpp"
-#include "framework/simulation/objects/solids.hpp"
-#include "framework/simulation/primitives.hpp"
+#include "framework/simulation/objects/objects.hpp"
+#include "framework/simulation/objects/shapes.hpp"
 
 namespace croon::simulation {
 namespace {
 
 using Eigen::Vector3d;
 
-/// A bin on two wheels with a lid, which is wheeled out to be emptied.
+/// Adds a bin on two wheels with a lid.
 void add_wheeled_bin(Mesh& mesh, Rng& rng) {
   const double height_m = rng.uniform(0.95, 1.3);
   const double half_m = rng.uniform(0.23, 0.55);
@@ -32,7 +29,7 @@ void add_wheeled_bin(Mesh& mesh, Rng& rng) {
   }
 }
 
-/// A round litter bin on a post.
+/// Adds a round litter bin on a post.
 void add_litter_bin(Mesh& mesh, Rng& rng) {
   const double height_m = rng.uniform(0.9, 1.15);
   const double radius_m = rng.uniform(0.18, 0.25);
@@ -45,7 +42,7 @@ void add_litter_bin(Mesh& mesh, Rng& rng) {
                Material::metal);
 }
 
-/// The seat and its legs, `half_m` to both sides, from `back_m` 0.4 m forward.
+/// Adds a seat with legs, `half_m` to both sides, from `back_m` 0.4 m forward.
 void add_seat(Mesh& mesh, double back_m, double half_m, double seat_m) {
   for (int i = 0; i < 3; ++i) {
     const double x = back_m + 0.14 * i;

@@ -6,7 +6,7 @@
 namespace croon::simulation {
 namespace {
 
-/// A slab with a railing on three sides before the cell `part`.
+/// Adds a slab with a railing on three sides in front of the cell `part`.
 void add_balcony(Mesh& mesh, const TownHouse& house, const WallPart& part) {
   constexpr double kOut_m = 1.2;
   constexpr double kSlab_m = 0.18;
@@ -23,7 +23,7 @@ void add_balcony(Mesh& mesh, const TownHouse& house, const WallPart& part) {
   }
 }
 
-/// A bay on all floors but the ground floor and the highest.
+/// Adds a bay on all floors except the ground floor and the highest.
 void add_bay(Mesh& mesh, const TownHouse& house) {
   constexpr double kOut_m = 0.7;
   const int highest = house.full_floors - 2;
@@ -54,7 +54,7 @@ void add_ground_floor(Mesh& mesh, const TownHouse& house) {
                Material::concrete);
   }
   if (!house.has_shops) return;
-  // The board with the shop's name.
+  // The name board of the shop.
   add_relief(mesh, house.front(), {0.1, width_m - 0.1, house.floor_m - 0.6, house.floor_m - 0.15},
              2.0 * house.relief_m, Material::wood);
 }

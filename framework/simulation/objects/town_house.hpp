@@ -1,19 +1,19 @@
 #pragma once
 
-#include "framework/simulation/objects/buildings.hpp"
 #include "framework/simulation/objects/facade.hpp"
+#include "framework/simulation/objects/objects.hpp"
 
 namespace croon::simulation {
 
-/// What is on a town house.
+/// The roof of a town house: flat, pitched, or a set-back floor with a flat roof.
 enum class Top { flat, pitched, set_back };
 
-/// A drawn town house.
+/// The dimensions and features of a town house.
 struct TownHouse {
   BuildingSize size;
   Material wall = Material::plaster;
   double floor_m = 3.2;
-  int full_floors = 3;  ///< But a floor that is set back.
+  int full_floors = 3;  ///< Without the set-back floor.
   int cells = 5;        ///< Of the front.
   int door_cell = 0;
   int bay_cell = -1;  ///< -1: the house has no bay.
@@ -22,7 +22,7 @@ struct TownHouse {
   bool has_bands = false;
   double plinth_m = 0.4;
   double relief_m = 0.05;  ///< How far the plinth and the bands stand out.
-  double cornice_m = 0.2;  ///< How far the cornice does.
+  double cornice_m = 0.2;  ///< How far the cornice stands out.
   Top top = Top::flat;
   double rise_m = 3.0;  ///< Of a pitched roof.
   Opening window;
@@ -38,10 +38,7 @@ struct TownHouse {
   }
 };
 
-/// A town house of `size` with all that `rng` decides.
-TownHouse draw_town_house(const BuildingSize& size, Rng& rng);
-
-/// The front of `house` from the plinth to the cornice.
+/// Adds the front of `house` from the plinth to the cornice.
 void add_front(Mesh& mesh, const TownHouse& house);
 
 }  // namespace croon::simulation

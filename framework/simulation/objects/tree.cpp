@@ -2,9 +2,8 @@
 #include <cmath>
 
 #include "framework/base/angles.hpp"
-#include "framework/simulation/draws.hpp"
-#include "framework/simulation/objects/plants.hpp"
-#include "framework/simulation/primitives.hpp"
+#include "framework/simulation/objects/objects.hpp"
+#include "framework/simulation/objects/shapes.hpp"
 
 namespace croon::simulation {
 namespace {
@@ -17,17 +16,17 @@ struct Clump {
   Vector3d radii = Vector3d::Ones();
 };
 
-/// `leaves` around a few larger sprays, which make the clump's middle dense.
+/// Adds `leaves` leaves, and a few larger sprays that make the middle of the clump dense.
 void add_clump(Mesh& mesh, const Clump& clump, int leaves, double leaf_size_m, Rng& rng) {
   constexpr int kSprays = 40;
   const double spray_m = std::min(1.1, clump.radii.minCoeff());
   add_leaves(mesh, clump.centre, 0.5 * clump.radii, kSprays, spray_m, rng);
-  // Leaves reach half their size beyond where they are.
+  // Leaves reach half their size beyond their middles.
   const Vector3d radii = (clump.radii.array() - 0.5 * leaf_size_m).matrix();
   add_leaves(mesh, clump.centre, radii, leaves, leaf_size_m, rng);
 }
 
-/// A trunk of `height_m`; returns its top, which leans away from the foot a little.
+/// Adds a trunk of `height_m` that leans a little, and returns its top.
 Vector3d add_trunk(Mesh& mesh, double height_m, double radius_m, Rng& rng) {
   const double lean_x = rng.uniform(-0.06, 0.06);
   const double lean_y = rng.uniform(-0.06, 0.06);
@@ -40,7 +39,7 @@ Vector3d add_trunk(Mesh& mesh, double height_m, double radius_m, Rng& rng) {
   return top;
 }
 
-/// Boughs that end in clumps around one in the middle.
+/// Adds a trunk with boughs that end in clumps, around a clump in the middle.
 void add_broad_crown(Mesh& mesh, double height_m, Rng& rng) {
   const double radius_m = (0.012 + rng.uniform(0.004, 0.01)) * height_m + 0.04;
   const Vector3d fork = add_trunk(mesh, rng.uniform(0.28, 0.4) * height_m, radius_m, rng);
@@ -67,7 +66,7 @@ void add_broad_crown(Mesh& mesh, double height_m, Rng& rng) {
   }
 }
 
-/// Whorls of boughs, ever shorter up to the tip.
+/// Adds a trunk with whorls of boughs that become shorter towards the tip.
 void add_conifer(Mesh& mesh, double height_m, Rng& rng) {
   const double trunk_radius_m = 0.012 * height_m + 0.05;
   const Vector3d top = add_trunk(mesh, 0.9 * height_m, trunk_radius_m, rng);
@@ -89,7 +88,7 @@ void add_conifer(Mesh& mesh, double height_m, Rng& rng) {
   }
 }
 
-/// A slim column of leaves almost from the ground on.
+/// Adds a slim column of leaves that begins close to the ground.
 void add_poplar(Mesh& mesh, double height_m, Rng& rng) {
   const Vector3d top = add_trunk(mesh, 0.6 * height_m, 0.01 * height_m + 0.06, rng);
   const double radius_m = rng.uniform(0.1, 0.14) * height_m;
@@ -111,10 +110,10 @@ void add_poplar(Mesh& mesh, double height_m, Rng& rng) {
 Mesh make_tree(Rng& rng) {
   Mesh mesh;
   const double height_m = rng.uniform(4.2, 12.0);
-  const double sort = rng.uniform();
-  if (sort < 0.7) {
+  const double share = rng.uniform();
+  if (share < 0.7) {
     add_broad_crown(mesh, height_m, rng);
-  } else if (sort < 0.87) {
+  } else if (share < 0.87) {
     add_conifer(mesh, height_m, rng);
   } else {
     add_poplar(mesh, height_m, rng);

@@ -1,23 +1,20 @@
 #include <algorithm>
 
-#include "framework/simulation/draws.hpp"
 #include "framework/simulation/objects/vehicle_parts.hpp"
-#include "framework/simulation/objects/vehicle_types.hpp"
-#include "framework/simulation/primitives.hpp"
 
 namespace croon::simulation {
 namespace {
 
 using Eigen::Vector3d;
 
-/// Where the parts of a truck are.
+/// The dimensions of a truck.
 struct TruckShape {
   Span whole_m;  ///< From its rear to its front.
-  Span load_m;   ///< What is behind the cab, with a gap between.
+  Span load_m;   ///< The load, behind the cab and a gap.
   double cab_rear_m = 0.0;
   double height_m = 3.5;
   double half_width_m = 1.25;
-  double deck_m = 1.2;  ///< Height of what the load stands on.
+  double deck_m = 1.2;  ///< Height of the deck that carries the load.
   double wheel_radius_m = 0.5;
 };
 
@@ -49,7 +46,7 @@ void add_cab(Mesh& mesh, const TruckShape& shape, Rng& rng) {
   cabin.has_rear_window = false;
   cabin.material = coat;
   add_cabin(mesh, cabin);
-  // The engine is below the seats: the front wheels stand at its sides, in the open.
+  // The engine is below the seats, between the front wheels.
   const double above_wheels_m = 2.0 * shape.wheel_radius_m + 0.05;
   add_stack(mesh, {{above_wheels_m, rear_m, front_m - 0.06, half_m}, cabin.belt}, coat);
   add_box(mesh, {rear_m, -half_m + 0.4, 0.4}, {front_m - 0.06, half_m - 0.4, above_wheels_m},
@@ -68,7 +65,7 @@ void add_cargo_box(Mesh& mesh, const TruckShape& shape, Rng& rng) {
              {shape.height_m - 0.08, rear_m, front_m, half_m - 0.02},
              {shape.height_m, rear_m + 0.06, front_m - 0.06, half_m - 0.08}},
             wall);
-  // The frame of the doors and the rails along the floor stand out.
+  // The rails along the floor stand out.
   for (const double side : {1.0, -1.0}) {
     const double y_m = side * (half_m - 0.05);
     add_box(mesh, {rear_m, y_m - 0.05, shape.deck_m - 0.05},
@@ -88,16 +85,15 @@ void add_flatbed(Mesh& mesh, const TruckShape& shape, Rng& rng) {
   }
   add_box(mesh, {front_m - 0.06, -half_m, deck_m}, {front_m, half_m, deck_m + 1.2},
           Material::metal);
-  double place_m = rear_m + rng.uniform(0.2, 0.8);
-  while (place_m < front_m - 1.2) {
-    const double length_m = std::min(rng.uniform(1.0, 2.4), front_m - 0.1 - place_m);
+  double box_m = rear_m + rng.uniform(0.2, 0.8);
+  while (box_m < front_m - 1.2) {
+    const double length_m = std::min(rng.uniform(1.0, 2.4), front_m - 0.1 - box_m);
     const double load_half_m = rng.uniform(0.5, 0.9) * half_m;
     const double top_m = deck_m + rng.uniform(0.4, 1.5);
     const Material material =
         pick<Material>({Material::wood, Material::concrete, Material::metal}, rng);
-    add_box(mesh, {place_m, -load_half_m, deck_m}, {place_m + length_m, load_half_m, top_m},
-            material);
-    place_m += length_m + rng.uniform(0.1, 1.0);
+    add_box(mesh, {box_m, -load_half_m, deck_m}, {box_m + length_m, load_half_m, top_m}, material);
+    box_m += length_m + rng.uniform(0.1, 1.0);
   }
 }
 

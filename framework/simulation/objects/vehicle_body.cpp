@@ -1,10 +1,9 @@
-#include "framework/simulation/objects/vehicle_body.hpp"
+#include "framework/simulation/objects/vehicle_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "framework/base/angles.hpp"
-#include "framework/simulation/primitives.hpp"
 
 namespace croon::simulation {
 namespace {
@@ -20,7 +19,7 @@ double height_on(const std::vector<Vector2d>& points, double x) {
   return a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x());
 }
 
-/// x at which the tail has its full height, behind the cabin.
+/// The x at which the tail reaches its full height, behind the cabin.
 double tail_top_m(const BodyShape& shape) {
   return std::min(-0.5 * shape.length_m + 0.08, shape.cabin.belt.rear_m - 0.01);
 }
@@ -42,7 +41,7 @@ double sill_m(const BodyShape& shape, double x) {
   return shape.clearance_m + std::max(0.0, 0.1 - to_end_m);
 }
 
-/// Height of the underside: the sills, cut out in circles over the wheels.
+/// Height of the underside: the sills, with circular cut-outs over the wheels.
 double underside_m(const BodyShape& shape, double x) {
   double height_m = sill_m(shape, x);
   for (const double axle_m : {shape.front_axle_m, shape.rear_axle_m}) {
@@ -55,37 +54,37 @@ double underside_m(const BodyShape& shape, double x) {
   return height_m;
 }
 
-/// Half the width at `x`: rounded in towards both ends, more so at the front.
+/// Half the width at `x`, which decreases towards both ends, more so at the front.
 double half_width_m(const BodyShape& shape, double x) {
   const double beyond_ratio = std::max(0.0, (std::abs(x) - 0.5 * shape.length_m) / 0.55 + 1.0);
   const double rounding_ratio = x > 0.0 ? 0.16 : 0.06;
   return 0.5 * shape.width_m * (1.0 - rounding_ratio * beyond_ratio * beyond_ratio);
 }
 
-/// The x at which the body's outline bends, in order.
+/// The x at which the outline of the body bends, ascending.
 std::vector<double> stations(const BodyShape& shape) {
   const double end_m = 0.5 * shape.length_m;
-  std::vector<double> places = {-end_m,
-                                tail_top_m(shape),
-                                -end_m + 0.3,
-                                end_m - 0.3,
-                                end_m - 0.15,
-                                end_m,
-                                shape.cabin.belt.rear_m,
-                                shape.cabin.belt.front_m};
+  std::vector<double> stations_m = {-end_m,
+                                    tail_top_m(shape),
+                                    -end_m + 0.3,
+                                    end_m - 0.3,
+                                    end_m - 0.15,
+                                    end_m,
+                                    shape.cabin.belt.rear_m,
+                                    shape.cabin.belt.front_m};
   for (const double axle_m : {shape.front_axle_m, shape.rear_axle_m}) {
     for (const double angle_deg : {1.0, 25.0, 60.0, 90.0, 120.0, 155.0, 179.0}) {
-      places.push_back(axle_m + arch_radius_m(shape) * std::cos(rad_from_deg(angle_deg)));
+      stations_m.push_back(axle_m + arch_radius_m(shape) * std::cos(rad_from_deg(angle_deg)));
     }
   }
-  std::sort(places.begin(), places.end());
+  std::sort(stations_m.begin(), stations_m.end());
   const auto is_same = [](double a, double b) { return b - a < 0.005; };
-  places.erase(std::unique(places.begin(), places.end(), is_same), places.end());
-  return places;
+  stations_m.erase(std::unique(stations_m.begin(), stations_m.end(), is_same), stations_m.end());
+  return stations_m;
 }
 
-/// The outline across the body at `x`, widest at the middle of its height. An arch cuts into the
-/// lower part and leaves the rest of the side as it is.
+/// The outline across the body at `x`, widest at the middle of its height. A wheel arch changes the
+/// lower part only.
 Ring section(const BodyShape& shape, double x) {
   const double low_m = underside_m(shape, x);
   const double high_m = height_on(upper_edge(shape), x);
@@ -117,7 +116,7 @@ void add_body(Mesh& mesh, const BodyShape& shape) {
   add_axle(mesh, shape.front_axle_m, wheels);
   add_axle(mesh, shape.rear_axle_m, wheels);
   const double end_m = 0.5 * shape.length_m;
-  // Engine, floor and boot: nothing is seen through the arches from one side to the other.
+  // Engine, floor and boot, which close the view through the arches.
   add_box(mesh, {-end_m + 0.3, -half_m + 0.24, shape.clearance_m},
           {end_m - 0.3, half_m - 0.24, shape.nose_m - 0.1}, Material::rubber);
   add_mirrors(mesh, shape.cabin.belt.front_m - 0.35, 0.88 * half_m, shape.cabin.belt.z_m + 0.09,

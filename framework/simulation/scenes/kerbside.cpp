@@ -3,32 +3,26 @@
 #include <algorithm>
 
 #include "framework/base/angles.hpp"
-#include "framework/simulation/objects/person.hpp"
-#include "framework/simulation/objects/plants.hpp"
-#include "framework/simulation/objects/street_furniture.hpp"
-#include "framework/simulation/objects/vehicles.hpp"
-#include "framework/simulation/scenes/draws.hpp"
-#include "framework/simulation/scenes/fronts.hpp"
+#include "framework/simulation/scenes/houses.hpp"
 
 namespace croon::simulation {
 namespace {
 
-/// The part of `along_m` where small things are worth their triangles.
-Interval near_part(const Interval& along_m) {
-  return {std::max(along_m.from_m, -kDetail_m), std::min(along_m.to_m, kDetail_m)};
+/// The part of `along_m` near the car. Farther away, small objects would cost more than they show.
+Span near_part(const Span& along_m) {
+  return {std::max(along_m.from, -kDetail_m), std::min(along_m.to, kDetail_m)};
 }
 
-void add_small_things(SceneBuilder& builder, const Roadside& side, const Interval& along_m,
-                      const Pavement& pavement, const StreamKey& key) {
+void add_small_objects(SceneBuilder& builder, const Roadside& side, const Span& along_m,
+                       const Pavement& pavement, const StreamKey& key) {
   const double strip_m = pavement.kerb_m + 0.7;
-  const Interval near_kerb_m = {strip_m - 0.1, strip_m + 0.1};
+  const Span near_kerb_m = {strip_m - 0.1, strip_m + 0.1};
   Rng rng(key.with("small things"));
   Series bollards{make_bollard, 1, {1.6, 1.6}, {strip_m, strip_m}};
   if (chance(rng, 0.3)) {
     const double first_m = rng.uniform(-30.0, 15.0);
     const double length_m = rng.uniform(8.0, 20.0);
-    const Interval row_m = {std::max(along_m.from_m, first_m),
-                            std::min(along_m.to_m, first_m + length_m)};
+    const Span row_m = {std::max(along_m.from, first_m), std::min(along_m.to, first_m + length_m)};
     add_series(builder, side, row_m, bollards, Rng(key.with("bollards")));
   }
   add_series(builder, side, along_m, {make_sign, 2, {12.0, 40.0}, near_kerb_m},
@@ -42,13 +36,13 @@ void add_small_things(SceneBuilder& builder, const Roadside& side, const Interva
 
 }  // namespace
 
-void add_parked_row(SceneBuilder& builder, const Roadside& side, const Interval& along_m,
-                    double out_m, double share, Rng rng) {
-  constexpr double kPlace_m = 5.6;
-  for (double from_m = along_m.from_m; from_m + kPlace_m < along_m.to_m;) {
+void add_parked_row(SceneBuilder& builder, const Roadside& side, const Span& along_m, double out_m,
+                    double share, Rng rng) {
+  constexpr double kSpace_m = 5.6;
+  for (double from_m = along_m.from; from_m + kSpace_m < along_m.to;) {
     const double gap_m = rng.uniform(0.5, 1.3);
     if (!chance(rng, share)) {
-      from_m += kPlace_m + gap_m;
+      from_m += kSpace_m + gap_m;
       continue;
     }
     const VehicleType type = chance(rng, 0.06) ? VehicleType::van : VehicleType::car;
@@ -57,36 +51,36 @@ void add_parked_row(SceneBuilder& builder, const Roadside& side, const Interval&
     const double about_rad = chance(rng, 0.85) ? kWithTraffic_rad : 0.0;
     const double turn_rad = about_rad + rad_from_deg(rng.uniform(-2.0, 2.0));
     const double length_m = vehicle.size_m.x();
-    // The wheels at the kerb stay off it, however wide the vehicle is.
+    // Wide vehicles stand farther from the kerb, so that their wheels do not touch it.
     const double wide_m = std::max(0.0, 0.5 * (vehicle.size_m.y() - 1.85));
     builder.park(vehicle.mesh, side.at(from_m + 0.5 * length_m, out_m + off_m - wide_m, turn_rad));
     from_m += length_m + gap_m;
   }
 }
 
-void add_people(SceneBuilder& builder, const Roadside& side, const Interval& along_m,
-                const Interval& out_m, int count, Rng rng) {
+void add_people(SceneBuilder& builder, const Roadside& side, const Span& along_m, const Span& out_m,
+                int count, Rng rng) {
   for (int i = 0; i < count; ++i) {
     const Mesh person = make_person(rng);
-    const double place_m = draw(rng, along_m);
+    const double position_m = draw(rng, along_m);
     const double away_m = draw(rng, out_m);
     const double about_rad = chance(rng, 0.5) ? 0.0 : kPi;
     const double turn_rad = about_rad + rad_from_deg(rng.uniform(-15.0, 15.0));
     const double speed_mps = rng.uniform(0.8, 1.7);
     if (chance(rng, 0.6)) {
-      builder.drive(person, side.at(place_m, away_m, turn_rad), speed_mps);
+      builder.drive(person, side.at(position_m, away_m, turn_rad), speed_mps);
     } else {
       const double stand_rad = rng.uniform(0.0, 2.0 * kPi);
-      builder.stand(person, side.at(place_m, away_m, stand_rad));
+      builder.stand(person, side.at(position_m, away_m, stand_rad));
     }
   }
 }
 
-void add_furniture(SceneBuilder& builder, const Roadside& side, const Interval& along_m,
+void add_furniture(SceneBuilder& builder, const Roadside& side, const Span& along_m,
                    const Pavement& pavement, const StreamKey& key) {
   Rng rng(key.with("furniture"));
   const double strip_m = pavement.kerb_m + 0.7;
-  const Interval near_m = near_part(along_m);
+  const Span near_m = near_part(along_m);
   const double stop_m = rng.uniform(-25.0, 35.0);
   if (chance(rng, 0.3) && near_m.holds(stop_m)) {
     const double out_m = pavement.kerb_m + std::min(pavement.width_m - 1.0, 2.2);
@@ -97,11 +91,11 @@ void add_furniture(SceneBuilder& builder, const Roadside& side, const Interval& 
              {make_lamp, 1, {lamp_m, lamp_m}, {strip_m, strip_m}, kToRoad_rad},
              Rng(key.with("lamps")));
   const double tree_m = rng.uniform(6.0, 12.0);
-  const Interval tree_out_m = {pavement.kerb_m + 1.0, pavement.kerb_m + 1.3};
+  const Span tree_out_m = {pavement.kerb_m + 1.0, pavement.kerb_m + 1.3};
   const Series trees{make_tree, 3,    {tree_m, tree_m + 1.0}, tree_out_m,
                      0.0,       true, pavement.tree_share};
   if (chance(rng, 0.85)) add_series(builder, side, along_m, trees, Rng(key.with("trees")));
-  add_small_things(builder, side, near_m, pavement, key);
+  add_small_objects(builder, side, near_m, pavement, key);
 }
 
 }  // namespace croon::simulation

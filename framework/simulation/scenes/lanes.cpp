@@ -3,8 +3,6 @@
 #include <utility>
 
 #include "framework/base/angles.hpp"
-#include "framework/simulation/objects/vehicles.hpp"
-#include "framework/simulation/scenes/draws.hpp"
 
 namespace croon::simulation {
 namespace {
@@ -31,28 +29,28 @@ std::vector<LaneLine> lane_lines(const Lanes& lanes, bool has_edges) {
   return lines;
 }
 
-Place draw_car_place(const Lanes& lanes, int index, Rng& rng) {
+RoadPose draw_car_pose(const Lanes& lanes, int index, Rng& rng) {
   const double off_m = rng.uniform(-0.35, 0.35);
   const double yaw_rad = rad_from_deg(rng.uniform(-3.0, 3.0));
   return {0.0, -lanes.middle_m(index) + off_m, yaw_rad};
 }
 
-void add_traffic(SceneBuilder& builder, const Roadside& side, const Interval& along_m, double out_m,
+void add_traffic(SceneBuilder& builder, const Roadside& side, const Span& along_m, double out_m,
                  const Traffic& traffic, Rng rng) {
-  double rear_m = along_m.from_m + rng.uniform(0.0, traffic.gap_m.to_m);
-  while (rear_m < along_m.to_m) {
+  double rear_m = along_m.from + rng.uniform(0.0, traffic.gap_m.to);
+  while (rear_m < along_m.to) {
     Vehicle vehicle = make_vehicle(draw_type(traffic, rng), rng);
     const double speed_mps = traffic.speed_mps * rng.uniform(0.9, 1.1);
     const double off_m = rng.uniform(-0.3, 0.3);
     const double turn_rad = kWithTraffic_rad + rad_from_deg(rng.uniform(-1.5, 1.5));
     const double length_m = vehicle.size_m.x();
-    const Place place = side.at(rear_m + 0.5 * length_m, out_m + off_m, turn_rad);
-    builder.drive(std::move(vehicle.mesh), place, speed_mps);
+    const RoadPose pose = side.at(rear_m + 0.5 * length_m, out_m + off_m, turn_rad);
+    builder.drive(std::move(vehicle.mesh), pose, speed_mps);
     rear_m += length_m + draw(rng, traffic.gap_m);
   }
 }
 
-void add_traffic(SceneBuilder& builder, const Lanes& lanes, const Interval& along_m,
+void add_traffic(SceneBuilder& builder, const Lanes& lanes, const Span& along_m,
                  const Traffic& traffic) {
   std::uint64_t stream = 0;
   for (const Roadside& side : both_sides()) {

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "framework/simulation/scenes/builder.hpp"
-#include "framework/simulation/scenes/roadside.hpp"
 
 namespace croon::simulation {
 
@@ -11,35 +10,35 @@ namespace croon::simulation {
 struct Lanes {
   int each_way = 1;
   double width_m = 3.25;
-  double half_median_m = 0.0;  ///< Half of what lies between the two directions.
+  double half_median_m = 0.0;  ///< Half the width of the median.
 
-  /// How far out of the centre line lane `index` runs, 0 the innermost.
+  /// The distance from the centre line to the middle of lane `index`; 0 is the innermost.
   double middle_m(int index) const { return half_median_m + (index + 0.5) * width_m; }
-  /// The outer edge of the outermost lane.
+  /// The distance from the centre line to the outer edge of the outermost lane.
   double edge_m() const { return half_median_m + each_way * width_m; }
 };
 
-/// The lines between the lanes and, where `has_edges`, along their outer edges.
+/// The lines between the lanes and, if `has_edges`, along the outer edges.
 std::vector<LaneLine> lane_lines(const Lanes& lanes, bool has_edges);
 
-/// Where the car with the sensors drives: lane `index`, off its middle by up to 0.35 m, turned by
-/// up to 3 degrees.
-Place draw_car_place(const Lanes& lanes, int index, Rng& rng);
+/// A pose of the car with the sensors in lane `index`: up to 0.35 m off the middle of the lane and
+/// turned by up to 3 degrees.
+RoadPose draw_car_pose(const Lanes& lanes, int index, Rng& rng);
 
-/// How the vehicles of a lane follow each other.
+/// The traffic of a lane.
 struct Traffic {
   double speed_mps = 10.0;
-  Interval gap_m = {8.0, 60.0};  ///< From bumper to bumper.
+  Span gap_m = {8.0, 60.0};  ///< Between two vehicles.
   double truck_share = 0.1;
   double bus_share = 0.05;
 };
 
-/// Vehicles in the lane `out_m` out on `side`, with the traffic there; fewer far away.
-void add_traffic(SceneBuilder& builder, const Roadside& side, const Interval& along_m, double out_m,
+/// Adds vehicles to the lane at the distance `out_m` on `side`, in its driving direction.
+void add_traffic(SceneBuilder& builder, const Roadside& side, const Span& along_m, double out_m,
                  const Traffic& traffic, Rng rng);
 
-/// The same in all lanes of both directions.
-void add_traffic(SceneBuilder& builder, const Lanes& lanes, const Interval& along_m,
+/// Adds vehicles to all lanes of both directions.
+void add_traffic(SceneBuilder& builder, const Lanes& lanes, const Span& along_m,
                  const Traffic& traffic);
 
 }  // namespace croon::simulation

@@ -1,17 +1,14 @@
 #include "framework/simulation/scenes/motorway.hpp"
 
-#include "framework/simulation/objects/plants.hpp"
-#include "framework/simulation/objects/street_furniture.hpp"
-#include "framework/simulation/scenes/boundary.hpp"
-#include "framework/simulation/scenes/draws.hpp"
+#include "framework/simulation/scenes/boundaries.hpp"
 #include "framework/simulation/scenes/street.hpp"
 
 namespace croon::simulation {
 namespace {
 
-constexpr Interval kMotorway_m = {-150.0, 150.0};
+constexpr Span kMotorway_m = {-150.0, 150.0};
 
-/// One concrete barrier in the middle, or a rail for each direction.
+/// Adds one concrete barrier in the middle, or a guard rail for each direction.
 void add_median(SceneBuilder& builder, const Motorway& motorway) {
   Rng rng(builder.key("median"));
   const std::array<Roadside, 2> sides = both_sides();
@@ -26,7 +23,7 @@ void add_median(SceneBuilder& builder, const Motorway& motorway) {
   }
 }
 
-/// The barrier, the verge and what is behind it.
+/// Adds the barrier, the verge and the plants behind it.
 void add_verge(SceneBuilder& builder, const Roadside& side, double edge_m, const StreamKey& key) {
   Rng rng(key.with("verge"));
   const BoundaryType rail =
@@ -54,15 +51,13 @@ void add_verge(SceneBuilder& builder, const Roadside& side, double edge_m, const
              Rng(key.with("signs")));
 }
 
-/// A gantry or none.
+/// Adds a gantry to some motorways.
 void add_gantry(SceneBuilder& builder, const Motorway& motorway) {
   Rng rng(builder.key("gantry"));
   const double s_m = rng.uniform(-60.0, 100.0);
   if (chance(rng, 0.6)) return;
   const double width_m = 2.0 * motorway.shape.half_width_m + 2.6;
-  const Place place = {s_m, 0.0, kWithTraffic_rad};
-  const RigidTransform pose = builder.ground().upright(place.s_m, place.d_m, place.yaw_rad);
-  const Interval along_m = {s_m - 1.0, s_m + 1.0};
+  const Span along_m = {s_m - 1.0, s_m + 1.0};
   const double out_m = 0.5 * width_m;
   for (const Roadside& side : both_sides()) {
     if (!builder.is_free(side.box(along_m, {out_m - 0.6, out_m + 0.6}, 9.0))) return;
@@ -70,9 +65,7 @@ void add_gantry(SceneBuilder& builder, const Motorway& motorway) {
   for (const Roadside& side : both_sides()) {
     builder.keep_clear(side.box(along_m, {out_m - 0.6, out_m + 0.6}, 9.0));
   }
-  Mesh gantry;
-  gantry.append(make_gantry(width_m, rng), pose);
-  builder.add(gantry);
+  builder.add(make_gantry(width_m, rng), builder.ground().upright(s_m, 0.0, kWithTraffic_rad));
 }
 
 }  // namespace
@@ -92,12 +85,12 @@ Motorway draw_motorway(Rng& rng) {
   return motorway;
 }
 
-void put_car_on(SceneBuilder& builder, const Motorway& motorway, int index, const CarSpace& car) {
+void put_car_on(SceneBuilder& builder, const Motorway& motorway, int index, const CarBody& car) {
   Rng rng(builder.key("car"));
-  Place place = draw_car_place(motorway.lanes, index, rng);
-  place.yaw_rad *= 0.5;
+  RoadPose pose = draw_car_pose(motorway.lanes, index, rng);
+  pose.yaw_rad *= 0.5;
   const double speed_mps = motorway.speed_mps * rng.uniform(0.85, 1.1);
-  builder.put_car(place, car, speed_mps);
+  builder.put_car(pose, car, speed_mps);
 }
 
 void add_motorway(SceneBuilder& builder, const Motorway& motorway) {

@@ -4,7 +4,7 @@
 
 namespace croon::simulation {
 
-/// A road with separate carriageways.
+/// A road with a carriageway for each direction.
 struct Motorway {
   RoadShape shape;
   Lanes lanes;
@@ -14,10 +14,10 @@ struct Motorway {
 /// A motorway with 2 to 4 lanes each way.
 Motorway draw_motorway(Rng& rng);
 
-/// Puts the car with the sensors into lane `index` of the motorway.
-void put_car_on(SceneBuilder& builder, const Motorway& motorway, int index, const CarSpace& car);
+/// Places the car with the sensors in lane `index` of the motorway.
+void put_car_on(SceneBuilder& builder, const Motorway& motorway, int index, const CarBody& car);
 
-/// Barriers, noise walls, gantries, trees and traffic.
+/// Adds barriers, noise walls, gantries, trees and traffic.
 void add_motorway(SceneBuilder& builder, const Motorway& motorway);
 
 }  // namespace croon::simulation

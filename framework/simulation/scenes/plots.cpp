@@ -1,36 +1,31 @@
-#include "framework/simulation/scenes/plots.hpp"
+#include "framework/simulation/scenes/houses.hpp"
 
 #include <cmath>
 
 #include "framework/base/angles.hpp"
-#include "framework/simulation/objects/buildings.hpp"
-#include "framework/simulation/objects/plants.hpp"
-#include "framework/simulation/objects/vehicles.hpp"
-#include "framework/simulation/scenes/boundary.hpp"
-#include "framework/simulation/scenes/draws.hpp"
-#include "framework/simulation/scenes/fronts.hpp"
+#include "framework/simulation/scenes/boundaries.hpp"
 
 namespace croon::simulation {
 namespace {
 
 constexpr double kDriveway_m = 3.6;
 
-/// One plot with its driveway at its end.
+/// A plot with a driveway at its end.
 struct Plot {
-  Interval along_m;
-  double out_m = 8.0;      ///< Where it begins.
-  double setback_m = 6.0;  ///< From there to the house.
+  Span along_m;
+  double out_m = 8.0;      ///< Distance from the centre line to the plot.
+  double setback_m = 6.0;  ///< From the front of the plot to the house.
 
-  double driveway_m() const { return along_m.to_m - 0.5 * kDriveway_m; }
+  double driveway_m() const { return along_m.to - 0.5 * kDriveway_m; }
 };
 
 void add_house(SceneBuilder& builder, const Roadside& side, const Plot& plot, Rng& rng) {
   const double off_m = rng.uniform(-1.0, 0.5);
   const Mesh house = centred_along_x(make_house(rng));
-  builder.stand(house, side.at(plot.along_m.middle_m() + off_m, plot.out_m + plot.setback_m));
+  builder.stand(house, side.at(plot.along_m.middle() + off_m, plot.out_m + plot.setback_m));
 }
 
-/// A boundary to the pavement that leaves the driveway open, and one to the next plot.
+/// Adds a boundary to the pavement that leaves the driveway open, and one to the next plot.
 void add_boundaries(SceneBuilder& builder, const Roadside& side, const Plot& plot, Rng& rng) {
   const std::vector<BoundaryType> types = {BoundaryType::garden_wall, BoundaryType::fence,
                                            BoundaryType::hedge};
@@ -40,7 +35,7 @@ void add_boundaries(SceneBuilder& builder, const Roadside& side, const Plot& plo
   if (chance(rng, 0.75)) {
     add_boundary(
         builder,
-        {side.at(plot.along_m.from_m, front_m), side.at(plot.along_m.to_m - kDriveway_m, front_m)},
+        {side.at(plot.along_m.from, front_m), side.at(plot.along_m.to - kDriveway_m, front_m)},
         {front, height_m}, rng);
   }
   const BoundaryType between = pick(types, rng);
@@ -48,7 +43,7 @@ void add_boundaries(SceneBuilder& builder, const Roadside& side, const Plot& plo
   if (chance(rng, 0.6)) {
     add_boundary(
         builder,
-        {side.at(plot.along_m.to_m, front_m + 0.6), side.at(plot.along_m.to_m, front_m + deep_m)},
+        {side.at(plot.along_m.to, front_m + 0.6), side.at(plot.along_m.to, front_m + deep_m)},
         {between, height_m}, rng);
   }
 }
@@ -62,11 +57,11 @@ void add_driveway_car(SceneBuilder& builder, const Roadside& side, const Plot& p
   builder.park(vehicle.mesh, side.at(plot.driveway_m(), plot.out_m + in_m, turn_rad));
 }
 
-/// Trees and bushes anywhere in the front garden, and trees behind the house.
+/// Adds trees and bushes in the front garden, and trees behind the house.
 void add_plants(SceneBuilder& builder, const Roadside& side, const Plot& plot,
                 const std::vector<Mesh>& trees, Rng& rng) {
-  const Interval front_m = {plot.out_m + 1.2, plot.out_m + plot.setback_m - 0.8};
-  const Interval back_m = {plot.out_m + plot.setback_m + 13.0, plot.out_m + 32.0};
+  const Span front_m = {plot.out_m + 1.2, plot.out_m + plot.setback_m - 0.8};
+  const Span back_m = {plot.out_m + plot.setback_m + 13.0, plot.out_m + 32.0};
   const int front_trees = draw_int(rng, 0, 2);
   const int back_trees = draw_int(rng, 0, 2);
   const int bushes = draw_int(rng, 0, 4);
@@ -76,7 +71,7 @@ void add_plants(SceneBuilder& builder, const Roadside& side, const Plot& plot,
     const double turn_rad = rng.uniform(0.0, 2.0 * kPi);
     builder.stand(pick(trees, rng), side.at(along_m, out_m, turn_rad));
   }
-  for (int i = 0; i < bushes && std::abs(plot.along_m.middle_m()) < kDetail_m; ++i) {
+  for (int i = 0; i < bushes && std::abs(plot.along_m.middle()) < kDetail_m; ++i) {
     const double along_m = draw(rng, plot.along_m);
     const double out_m = draw(rng, front_m);
     builder.stand(make_bush(rng), side.at(along_m, out_m));
@@ -85,13 +80,13 @@ void add_plants(SceneBuilder& builder, const Roadside& side, const Plot& plot,
 
 }  // namespace
 
-void add_plots(SceneBuilder& builder, const Roadside& side, const Interval& along_m, double out_m,
+void add_plots(SceneBuilder& builder, const Roadside& side, const Span& along_m, double out_m,
                const StreamKey& key) {
   Rng tree_rng(key.with("trees"));
   std::vector<Mesh> trees;
   for (int i = 0; i < 3; ++i) trees.push_back(make_tree(tree_rng));
-  double from_m = along_m.from_m;
-  for (std::uint64_t number = 0; from_m < along_m.to_m; ++number) {
+  double from_m = along_m.from;
+  for (std::uint64_t number = 0; from_m < along_m.to; ++number) {
     Rng rng(key.with(number));
     Plot plot;
     const double width_m = rng.uniform(17.0, 27.0);
@@ -101,7 +96,7 @@ void add_plots(SceneBuilder& builder, const Roadside& side, const Interval& alon
     plot.setback_m = rng.uniform(4.0, 9.0);
     from_m += needed_m;
     add_house(builder, side, plot, rng);
-    if (std::abs(plot.along_m.middle_m()) < kDetail_m + 15.0) {
+    if (std::abs(plot.along_m.middle()) < kDetail_m + 15.0) {
       add_boundaries(builder, side, plot, rng);
       add_driveway_car(builder, side, plot, rng);
     }

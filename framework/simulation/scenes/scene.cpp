@@ -2,32 +2,34 @@
 
 #include <stdexcept>
 
-#include "framework/simulation/scenes/kinds.hpp"
-
 namespace croon::simulation {
 
-World make_scene(SceneKind kind, const CarSpace& car, const StreamKey& key) {
-  switch (kind) {
-    case SceneKind::urban:
-      return make_urban(car, key);
-    case SceneKind::suburban:
-      return make_suburban(car, key);
-    case SceneKind::highway:
-      return make_highway(car, key);
-    case SceneKind::crossing:
-      return make_crossing(car, key);
-    case SceneKind::car_park:
-      return make_car_park(car, key);
-    case SceneKind::empty:
-      return make_empty(car, key);
-    case SceneKind::narrow:
-      return make_narrow(car, key);
-    case SceneKind::blocked:
-      return make_blocked(car, key);
-    case SceneKind::corridor:
-      return make_corridor(car, key);
+Mix paper_mix() {
+  Mix mix;
+  for (std::size_t i = 0; i < kSceneKinds.size(); ++i) mix.weights[i] = kSceneKinds[i].paper_weight;
+  return mix;
+}
+
+Mix mix_of(SceneKind kind) {
+  Mix mix;
+  mix[kind] = 1.0;
+  return mix;
+}
+
+SceneKind draw_kind(const Mix& mix, Rng& rng) {
+  double total = 0.0;
+  for (const double weight : mix.weights) total += weight;
+  if (!(total > 0.0)) throw std::logic_error("draw_kind: no weight is positive");
+  double draw = rng.uniform(0.0, total);
+  std::size_t last = 0;
+  for (std::size_t kind = 0; kind < kSceneKinds.size(); ++kind) {
+    const double weight = mix.weights[kind];
+    if (weight <= 0.0) continue;
+    last = kind;
+    if (draw < weight) break;
+    draw -= weight;
   }
-  throw std::logic_error("make_scene: a kind without a scene");
+  return static_cast<SceneKind>(last);
 }
 
 }  // namespace croon::simulation

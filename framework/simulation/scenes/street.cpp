@@ -3,28 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
-#include "framework/simulation/scenes/boundary.hpp"
-#include "framework/simulation/scenes/draws.hpp"
+#include "framework/simulation/scenes/boundaries.hpp"
 
 namespace croon::simulation {
 namespace {
 
 constexpr double kParking_m = 2.2;  ///< Width of a strip for parked cars.
-constexpr Interval kTown_m = {-115.0, 115.0};
+constexpr Span kTown_m = {-115.0, 115.0};
 
-/// Front gardens behind a hedge, a fence or a wall, where there is room for them.
-void add_front_gardens(SceneBuilder& builder, const Roadside& side, const Interval& along_m,
-                       const Interval& out_m, const StreamKey& key) {
+/// Adds front gardens behind a hedge, a fence or a wall, if there is room for them.
+void add_front_gardens(SceneBuilder& builder, const Roadside& side, const Span& along_m,
+                       const Span& out_m, const StreamKey& key) {
   Rng rng(key.with("front gardens"));
-  if (out_m.length_m() < 1.5 || chance(rng, 0.5)) return;
+  if (out_m.length() < 1.5 || chance(rng, 0.5)) return;
   const BoundaryType type = pick<BoundaryType>(
       {BoundaryType::garden_wall, BoundaryType::fence, BoundaryType::hedge}, rng);
   const double height_m = rng.uniform(0.6, 1.0);
-  for (double from_m = along_m.from_m; from_m < along_m.to_m;) {
+  for (double from_m = along_m.from; from_m < along_m.to;) {
     const double to_m = from_m + rng.uniform(5.0, 14.0);
     if (std::abs(from_m) < kDetail_m) {
-      const double end_m = std::min(to_m, along_m.to_m);
-      add_boundary(builder, {side.at(from_m, out_m.from_m), side.at(end_m, out_m.from_m)},
+      const double end_m = std::min(to_m, along_m.to);
+      add_boundary(builder, {side.at(from_m, out_m.from), side.at(end_m, out_m.from)},
                    {type, height_m}, rng);
     }
     from_m = to_m + rng.uniform(1.2, 4.0);
@@ -68,16 +67,16 @@ Street draw_street(int least_lanes, Rng& rng) {
   return street;
 }
 
-void put_car_on(SceneBuilder& builder, const Street& street, int index, const CarSpace& car) {
+void put_car_on(SceneBuilder& builder, const Street& street, int index, const CarBody& car) {
   Rng rng(builder.key("car"));
-  const Place place = draw_car_place(street.lanes, index, rng);
+  const RoadPose pose = draw_car_pose(street.lanes, index, rng);
   const double turn_rate_radps = 0.01 * street.speed_mps * rng.uniform(-0.5, 0.5);
   const double speed_mps = street.speed_mps * rng.uniform(0.8, 1.2);
-  builder.put_car(place, car, speed_mps, turn_rate_radps);
+  builder.put_car(pose, car, speed_mps, turn_rate_radps);
 }
 
 void add_town_side(SceneBuilder& builder, const Street& street, const Roadside& side,
-                   std::size_t index, const Interval& along_m, const StreamKey& key) {
+                   std::size_t index, const Span& along_m, const StreamKey& key) {
   const double kerb_m = street.shape.half_width_m;
   const Pavement pavement = {kerb_m, street.shape.pavement_width_m, 0.75};
   const double back_m = kerb_m + pavement.width_m;
@@ -89,14 +88,14 @@ void add_town_side(SceneBuilder& builder, const Street& street, const Roadside& 
   const double parked_share = rng.uniform(0.05, 0.5);
   const int people = draw_int(rng, 1, 9);
   add_fronts(builder, side, along_m, fronts, Rng(key.with("fronts")));
-  const Interval far_m = {fronts.out_m + 35.0, fronts.out_m + 60.0};
+  const Span far_m = {fronts.out_m + 35.0, fronts.out_m + 60.0};
   add_backdrop(builder, side, along_m, far_m, Rng(key.with("backdrop")));
   add_front_gardens(builder, side, along_m, {back_m + 0.3, fronts.out_m}, key);
   if (street.has_parking[index]) {
     add_parked_row(builder, side, along_m, kerb_m - 1.12, parked_share, Rng(key.with("parked")));
   }
   add_furniture(builder, side, along_m, pavement, key);
-  const Interval near_m = {std::max(along_m.from_m, -40.0), std::min(along_m.to_m, 50.0)};
+  const Span near_m = {std::max(along_m.from, -40.0), std::min(along_m.to, 50.0)};
   add_people(builder, side, near_m, {kerb_m + 1.2, back_m - 0.4}, people, Rng(key.with("people")));
 }
 

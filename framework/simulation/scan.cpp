@@ -1,0 +1,89 @@
+#include "framework/simulation/scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/base/angles.hpp"
+
+namespace croon::simulation {
+namespace {
+
+using Eigen::Vector3d;
+
+/// What the sensor itself knows of a ray.
+struct Firing {
+  Vector3d nominal_direction;  ///< In the sensor's frame.
+  std::uint16_t ring = 0;
+  double time_s = 0.0;
+};
+
+Vector3d direction_of(double azimuth_rad, double elevation_rad) {
+  const double level = std::cos(elevation_rad);
+  return {level * std::cos(azimuth_rad), level * std::sin(azimuth_rad), std::sin(elevation_rad)};
+}
+
+/// Fills `rays` and `firings` with one scan: all rings at one azimuth, then the next azimuth.
+void fire(const SensorModel& sensor, const Noise& noise, const ScanPlan& plan, Rng& rng,
+          std::vector<Ray>& rays, std::vector<Firing>& firings) {
+  const std::vector<double> azimuths = azimuths_deg(sensor);
+  const double jitter_rad = rad_from_deg(noise.angle_std_deg);
+  for (std::size_t i = 0; i < azimuths.size(); ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(azimuths.size());
+    const double fired_s = plan.begin_s + share * sensor.period_s;
+    const double time_s = noise.moves_during_scan ? fired_s : 0.0;
+    const RigidTransform T_world_sensor = plan.T_world_sensor(time_s);
+    const double azimuth_rad = rad_from_deg(azimuths[i]);
+    for (std::size_t ring = 0; ring < sensor.elevations_deg.size(); ++ring) {
+      const double elevation_rad = rad_from_deg(sensor.elevations_deg[ring]);
+      const Vector3d nominal = direction_of(azimuth_rad, elevation_rad);
+      Vector3d fired = nominal;
+      if (jitter_rad > 0.0) {
+        const double across = jitter_rad * rng.normal();
+        const double up = jitter_rad * rng.normal();
+        fired = direction_of(azimuth_rad + across, elevation_rad + up);
+      }
+      rays.push_back({T_world_sensor.translation, T_world_sensor.rotation * fired, time_s});
+      firings.push_back({nominal, static_cast<std::uint16_t>(ring), fired_s});
+    }
+  }
+}
+
+/// The share of light that a surface sends back to the sensor: Lambert's cosine law, and the
+/// retroreflection of signs and plates.
+double signal_ratio(const Hit& hit) {
+  const MaterialLook& look = look_of(hit.material);
+  return look.reflectivity * hit.incidence_cos + look.retroreflection;
+}
+
+bool is_lost(const Noise& noise, const Hit& hit, Rng& rng) {
+  if (noise.dropout_ratio <= 0.0 && noise.detection_range_m <= 0.0) return false;
+  const double kept =
+      (1.0 - noise.dropout_ratio) * detection_probability(noise, hit.range_m, signal_ratio(hit));
+  return rng.uniform() >= kept;
+}
+
+}  // namespace
+
+MeasuredCloud scan(const RayCaster& world, const SensorModel& sensor, const Noise& noise,
+                   const ScanPlan& plan, const StreamKey& key) {
+  Rng firing_rng(key.with("firing"));
+  Rng return_rng(key.with("return"));
+  std::vector<Ray> rays;
+  std::vector<Firing> firings;
+  fire(sensor, noise, plan, firing_rng, rays, firings);
+  const std::vector<Hit> hits = world.cast(rays, sensor.range_min_m, sensor.range_max_m);
+  MeasuredCloud result;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!hits[i].is_there() || is_lost(noise, hits[i], return_rng)) continue;
+    double range_m = hits[i].range_m;
+    if (noise.range_std_m > 0.0) range_m += noise.range_std_m * return_rng.normal();
+    result.points.push_back((range_m * firings[i].nominal_direction).cast<float>());
+    result.intensity.push_back(
+        static_cast<float>(std::round(255.0 * std::min(signal_ratio(hits[i]), 1.0))));
+    result.ring.push_back(firings[i].ring);
+    result.time_s.push_back(firings[i].time_s);
+  }
+  return result;
+}
+
+}  // namespace croon::simulation

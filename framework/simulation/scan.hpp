@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+
+#include "framework/base/rng.hpp"
+#include "framework/geometry/measured_cloud.hpp"
+#include "framework/simulation/ray_caster.hpp"
+#include "framework/simulation/sensor_model.hpp"
+
+namespace croon::simulation {
+
+/// When a scan begins, and where the sensor is at each time.
+struct ScanPlan {
+  double begin_s = 0.0;
+  std::function<RigidTransform(double time_s)> T_world_sensor;
+};
+
+/// One scan of `world` by `sensor`, in the sensor's frame. The intensity is the share of light sent
+/// back times 255; it does not depend on the range, as in real sensors. All random numbers come
+/// from `key`.
+MeasuredCloud scan(const RayCaster& world, const SensorModel& sensor, const Noise& noise,
+                   const ScanPlan& plan, const StreamKey& key);
+
+}  // namespace croon::simulation
