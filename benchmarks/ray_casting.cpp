@@ -12,6 +12,7 @@
 #include "benchmarks/support/run.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/simulation/simulated_scene.hpp"
+#include "test/support/simulated_worlds.hpp"
 
 namespace croon::benchmarks {
 namespace {
@@ -29,16 +30,16 @@ constexpr double kMax_m = 200.0;
 
 Kernel::Point_3 point_of(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
-void add_mesh(Triangles& triangles, const simulation::Mesh& mesh, const RigidTransform& T) {
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Kernel::Triangle_3 triangle(point_of(T * mesh.vertices[a].cast<double>()),
-                                      point_of(T * mesh.vertices[b].cast<double>()),
-                                      point_of(T * mesh.vertices[c].cast<double>()));
+Triangles triangles_of(const simulation::World& world) {
+  Triangles triangles;
+  for (const auto& [a, b, c] : test::triangles_of(world)) {
+    const Kernel::Triangle_3 triangle(point_of(a), point_of(b), point_of(c));
     if (!triangle.is_degenerate()) triangles.push_back(triangle);
   }
+  return triangles;
 }
 
-/// One sweep of 64 rings from over the car, without noise.
+/// One scan of 64 rings from above the car, without noise.
 std::vector<Ray> rays_of(const SimulatedScene& scene) {
   const RigidTransform T = scene.world().car.T_world_body;
   std::vector<Ray> rays;
@@ -81,12 +82,7 @@ void check(const std::vector<Ray>& rays, const std::vector<Hit>& hits, const Tre
 
 void check_and_add() {
   const auto scene = std::make_shared<SimulatedScene>(std::make_shared<simulation::Recipe>(), 0);
-  const auto triangles = std::make_shared<Triangles>();
-  add_mesh(*triangles, scene->world().fixed, {});
-  for (const simulation::Body& body : scene->world().bodies) {
-    add_mesh(*triangles, body.mesh, body.T_world_body);
-  }
-  add_mesh(*triangles, scene->world().car.mesh, scene->world().car.T_world_body);
+  const auto triangles = std::make_shared<Triangles>(triangles_of(scene->world()));
   const auto tree = std::make_shared<Tree>(triangles->begin(), triangles->end());
   const auto rays = std::make_shared<std::vector<Ray>>(rays_of(*scene));
   check(*rays, scene->caster().cast(*rays, 0.0, kMax_m), *tree);

@@ -1,10 +1,11 @@
-// What does a simulated scene cost: its meshes with the tree over them, and each sensor's sweep?
+// What does a simulated scene cost: its meshes with the tree over them, and each sensor's scan?
 
 #include <memory>
 #include <stdexcept>
 
 #include "benchmarks/support/run.hpp"
 #include "framework/simulation/simulated_scene.hpp"
+#include "test/support/simulated_worlds.hpp"
 
 namespace croon::benchmarks {
 namespace {
@@ -14,18 +15,6 @@ using simulation::SimulatedScene;
 
 /// The first scenes of a kind: one after the other is measured, since scenes differ.
 constexpr std::uint64_t kScenes = 8;
-
-std::shared_ptr<const Recipe> recipe_of(std::size_t kind, const simulation::Noise& noise) {
-  const auto table = std::array{
-      &simulation::Mix::urban,    &simulation::Mix::suburban, &simulation::Mix::highway,
-      &simulation::Mix::crossing, &simulation::Mix::car_park, &simulation::Mix::empty,
-      &simulation::Mix::narrow,   &simulation::Mix::blocked,  &simulation::Mix::corridor};
-  auto recipe = std::make_shared<Recipe>();
-  recipe->mix = {};
-  recipe->mix.*table[kind] = 1.0;
-  recipe->noise = noise;
-  return recipe;
-}
 
 void measure_building(benchmark::State& state, const std::shared_ptr<const Recipe>& recipe) {
   std::uint64_t index = 0;
@@ -45,23 +34,24 @@ void measure_scene(benchmark::State& state, const std::shared_ptr<const Recipe>&
   for (auto _ : state) {
     const SimulatedScene scene(recipe, index++ % kScenes);
     for (const auto& [name, mounting] : recipe->rig.sensors) {
-      points += scene.sweep_of(name).points.size();
+      points += scene.scan_of(name).points.size();
     }
   }
   state.counters["points"] = static_cast<double>(points) / static_cast<double>(state.iterations());
 }
 
-void measure_sweep(benchmark::State& state, const std::shared_ptr<const Recipe>& recipe,
-                   const std::string& sensor) {
+void measure_scan(benchmark::State& state, const std::shared_ptr<const Recipe>& recipe,
+                  const std::string& sensor) {
   const SimulatedScene scene(recipe, 0);
-  for (auto _ : state) benchmark::DoNotOptimize(scene.sweep_of(sensor).points.size());
+  for (auto _ : state) benchmark::DoNotOptimize(scene.scan_of(sensor).points.size());
 }
 
 void check_and_add() {
-  for (std::size_t kind = 0; kind < simulation::kSceneKinds; ++kind) {
-    const std::string name = simulation::kSceneKindNames[kind];
-    const auto recipe = recipe_of(kind, {});
-    if (simulation::scene_kind(*recipe, 0) != static_cast<simulation::SceneKind>(kind)) {
+  for (std::size_t i = 0; i < simulation::kSceneKinds.size(); ++i) {
+    const auto kind = static_cast<simulation::SceneKind>(i);
+    const std::string name = simulation::kSceneKinds[i].name;
+    const auto recipe = test::recipe_of(kind);
+    if (simulation::scene_kind(*recipe, 0) != kind) {
       throw std::logic_error("the mix does not give " + name);
     }
     add("building/" + name, benchmark::kMillisecond,
@@ -69,14 +59,13 @@ void check_and_add() {
     add("scene/" + name, benchmark::kMillisecond,
         [recipe](benchmark::State& state) { measure_scene(state, recipe); });
   }
-  const auto noisy = recipe_of(0, simulation::real_noise());
+  const auto noisy = test::recipe_of(simulation::SceneKind::urban, simulation::real_noise());
   add("scene/urban/real_noise", benchmark::kMillisecond,
       [noisy](benchmark::State& state) { measure_scene(state, noisy); });
   for (const auto& [sensor, mounting] : noisy->rig.sensors) {
     add("sweep/urban/" + sensor, benchmark::kMillisecond,
-        [recipe = recipe_of(0, {}), name = sensor](benchmark::State& state) {
-          measure_sweep(state, recipe, name);
-        });
+        [recipe = test::recipe_of(simulation::SceneKind::urban),
+         name = sensor](benchmark::State& state) { measure_scan(state, recipe, name); });
   }
 }
 

@@ -57,7 +57,7 @@ Table<Mounting> mounting_table() {
           "rotation_rpy_deg", &Mounting::rotation_rpy_deg, {-360.0, 360.0},
           "Roll, pitch and yaw of the sensor in the reference, R = Rz(yaw) Ry(pitch) Rx(roll)."),
       numbers("translation_m", &Mounting::translation_m, {-100.0, 100.0},
-              "RoadPose of the sensor in the reference's frame: x forward, y left, z up."),
+              "Place of the sensor in the reference's frame: x forward, y left, z up."),
       number(
           "time_offset_s", &Mounting::time_offset_s, {-10.0, 10.0},
           "How much later than the reference's its sweep begins; matters with sweep_distortion."),

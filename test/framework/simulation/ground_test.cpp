@@ -6,19 +6,16 @@
 #include <cmath>
 
 #include "test/support/random_geometry.hpp"
+#include "test/support/simulated_worlds.hpp"
 
 namespace croon::simulation {
 namespace {
 
 using Eigen::Vector3d;
 
+/// A random road with lines, and for half of the roads with a crossing.
 RoadShape random_shape(Rng& rng) {
-  RoadShape shape;
-  shape.curvature_per_m = rng.uniform(-1.0, 1.0) / 120.0;
-  shape.half_width_m = rng.uniform(3.0, 12.0);
-  shape.grade = rng.uniform(-0.05, 0.05);
-  shape.banking = rng.uniform(-0.04, 0.04);
-  shape.crown = rng.uniform(0.0, 0.025);
+  RoadShape shape = test::random_road(rng);
   shape.lines = {{0.0, true}, {shape.half_width_m - 0.3, false}};
   if (rng.uniform() < 0.5) shape.crossing = Crossing{rng.uniform(-30.0, 30.0), 5.0};
   return shape;
@@ -60,9 +57,9 @@ TEST(Ground, HasKerbsAndNoneOnACrossing) {
   shape.crossing = Crossing{20.0, 4.0};
   const Ground ground(shape, StreamKey(1));
   const double beyond_m = shape.half_width_m + 0.5;
-  EXPECT_NEAR(ground.height_m(0.0, beyond_m) - ground.height_m(0.0, beyond_m - 0.6),
+  EXPECT_NEAR(shape.height_m(0.0, beyond_m) - shape.height_m(0.0, beyond_m - 0.6),
               shape.kerb_height_m, 1e-9);
-  EXPECT_NEAR(ground.height_m(20.0, beyond_m), ground.height_m(20.0, 0.0), 1e-9);
+  EXPECT_NEAR(shape.height_m(20.0, beyond_m), shape.height_m(20.0, 0.0), 1e-9);
 }
 
 TEST(Ground, CarriesACarOnItsSlope) {
@@ -77,7 +74,7 @@ TEST(Ground, CarriesACarOnItsSlope) {
     EXPECT_LT((pose.rotation * pose.rotation.transpose() - Eigen::Matrix3d::Identity()).norm(),
               1e-9);
     EXPECT_GT(pose.rotation(2, 2), 0.99);
-    EXPECT_NEAR(pose.translation.z(), ground.height_m(4.0, 0.5), 0.01);
+    EXPECT_NEAR(pose.translation.z(), shape.height_m(4.0, 0.5), 0.01);
     const Vector3d ahead = pose * Vector3d(1.3, 0.0, 0.0);
     const double heading_rad = ground.heading_rad(4.0) + yaw_rad;
     EXPECT_NEAR(std::remainder(std::atan2(pose.rotation(1, 0), pose.rotation(0, 0)) - heading_rad,

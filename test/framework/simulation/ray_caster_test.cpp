@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "framework/simulation/primitives.hpp"
+#include "framework/simulation/objects/shapes.hpp"
 #include "test/support/random_geometry.hpp"
 
 namespace croon::simulation {
@@ -22,16 +22,16 @@ std::shared_ptr<World> soup(Rng& rng, int count) {
   auto world = std::make_shared<World>();
   Mesh& mesh = world->fixed;
   for (int i = 0; i < count; ++i) {
-    const Vector3d place = draw_point(rng, 10.0);
+    const Vector3d middle = draw_point(rng, 10.0);
     std::array<std::uint32_t, 3> corner{};
-    for (std::uint32_t& index : corner) index = mesh.add_vertex(place + draw_point(rng, 1.0));
+    for (std::uint32_t& index : corner) index = mesh.add_vertex(middle + draw_point(rng, 1.0));
     mesh.add_triangle(corner[0], corner[1], corner[2], Material::brick);
   }
   return world;
 }
 
-/// Range to one triangle (Moeller and Trumbore 1997); infinite where the ray misses it, and NaN
-/// where it passes within a hair of an edge.
+/// The range to one triangle (Moeller and Trumbore 1997): infinite if the ray misses it, NaN if the
+/// ray passes very close to an edge.
 double range_m(const Ray& ray, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const Vector3d p = ray.direction.cross(c - a);
   const double determinant = (b - a).dot(p);
@@ -39,9 +39,9 @@ double range_m(const Ray& ray, const Vector3d& a, const Vector3d& b, const Vecto
   const double u = from.dot(p) / determinant;
   const Vector3d q = from.cross(b - a);
   const double v = ray.direction.dot(q) / determinant;
-  constexpr double kHair = 1e-4;
+  constexpr double kNearEdge = 1e-4;
   const double inside = std::min({u, v, 1.0 - u - v});
-  if (std::abs(inside) < kHair) return std::numeric_limits<double>::quiet_NaN();
+  if (std::abs(inside) < kNearEdge) return std::numeric_limits<double>::quiet_NaN();
   const double t = (c - a).dot(q) / determinant;
   return inside > 0.0 && t > 0.0 ? t : std::numeric_limits<double>::infinity();
 }
@@ -50,7 +50,7 @@ TEST(RayCaster, AgreesWithBruteForce) {
   for (std::uint64_t seed = 1; seed < 6; ++seed) {
     Rng rng = test::test_rng(seed);
     const auto world = soup(rng, 200);
-    // Not a whole number of packets.
+    // The number of rays is not a multiple of eight.
     std::vector<Ray> rays(501 + seed);
     for (Ray& ray : rays) {
       ray.origin = draw_point(rng, 12.0);
@@ -112,7 +112,7 @@ TEST(Body, MovesOnAnArc) {
     Body body;
     body.T_world_body = test::random_pose(rng, 20.0);
     body.motion = {rng.uniform(-5.0, 30.0), rng.uniform(-0.5, 0.5)};
-    // Many small straight steps come to the same place.
+    // Many small straight steps lead to the same pose.
     constexpr int kSteps = 20000;
     const double step_s = 0.7 / kSteps;
     RigidTransform stepped = body.T_world_body;

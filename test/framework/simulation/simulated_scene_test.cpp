@@ -1,4 +1,4 @@
-// What the sensors of a simulated scene see lies on its surfaces, whichever thread asks and when.
+// The points of a simulated scene lie on its surfaces, and do not depend on threads or order.
 #include "framework/simulation/simulated_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -10,44 +10,15 @@
 #include <cstring>
 #include <map>
 
+#include "test/support/simulated_worlds.hpp"
+
 namespace croon::simulation {
 namespace {
 
 using Eigen::Vector3d;
-
-std::shared_ptr<Recipe> recipe_of(SceneKind kind, const Noise& noise = {}) {
-  auto recipe = std::make_shared<Recipe>();
-  const std::array<double Mix::*, kSceneKinds> weights = {
-      &Mix::urban, &Mix::suburban, &Mix::highway, &Mix::crossing, &Mix::car_park,
-      &Mix::empty, &Mix::narrow,   &Mix::blocked, &Mix::corridor};
-  recipe->mix = {};
-  recipe->mix.*weights[static_cast<std::size_t>(kind)] = 1.0;
-  recipe->noise = noise;
-  return recipe;
-}
-
-/// All triangles of a world at time 0, in the world.
-struct Soup {
-  std::vector<std::array<Vector3d, 3>> triangles;
-
-  void add(const Mesh& mesh, const RigidTransform& T) {
-    for (const auto& corners : mesh.triangles) {
-      std::array<Vector3d, 3> triangle;
-      for (std::size_t i = 0; i < 3; ++i) {
-        triangle[i] = T * mesh.vertices[corners[i]].cast<double>();
-      }
-      triangles.push_back(triangle);
-    }
-  }
-};
-
-Soup soup_of(const World& world) {
-  Soup soup;
-  soup.add(world.fixed, {});
-  for (const Body& body : world.bodies) soup.add(body.mesh, body.T_world_body);
-  soup.add(world.car.mesh, world.car.T_world_body);
-  return soup;
-}
+using test::recipe_of;
+using test::Triangle;
+using Triangles = std::vector<Triangle>;
 
 double distance_to_segment_m(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
   const Vector3d along = b - a;
@@ -56,7 +27,7 @@ double distance_to_segment_m(const Vector3d& p, const Vector3d& a, const Vector3
   return (p - a - t * along).norm();
 }
 
-double distance_m(const Vector3d& p, const std::array<Vector3d, 3>& triangle) {
+double distance_m(const Vector3d& p, const Triangle& triangle) {
   const auto& [a, b, c] = triangle;
   const Vector3d normal = (b - a).cross(c - a);
   double least = std::min({distance_to_segment_m(p, a, b), distance_to_segment_m(p, b, c),
@@ -70,9 +41,9 @@ double distance_m(const Vector3d& p, const std::array<Vector3d, 3>& triangle) {
   return least;
 }
 
-double distance_to_soup_m(const Vector3d& p, const Soup& soup) {
+double distance_m(const Vector3d& p, const Triangles& triangles) {
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& triangle : soup.triangles) least = std::min(least, distance_m(p, triangle));
+  for (const Triangle& triangle : triangles) least = std::min(least, distance_m(p, triangle));
   return least;
 }
 
@@ -93,25 +64,25 @@ TEST(SimulatedScene, EveryPointLiesOnASurface) {
   for (const SceneKind kind : {SceneKind::urban, SceneKind::crossing, SceneKind::narrow}) {
     const auto recipe = recipe_of(kind);
     const SimulatedScene scene(recipe, 3);
-    const Soup soup = soup_of(scene.world());
+    const Triangles triangles = test::triangles_of(scene.world());
     for (const auto& [name, mounting] : recipe->rig.sensors) {
       const RigidTransform T = T_world_sensor(scene, *recipe, mounting);
-      const PointCloud cloud = scene.sweep_of(name).points;
+      const PointCloud cloud = scene.scan_of(name).points;
       ASSERT_GT(cloud.size(), 1000U);
       for (const Eigen::Vector3f& point : every(cloud, cloud.size() / 40)) {
-        EXPECT_LT(distance_to_soup_m(T * point.cast<double>(), soup), 1e-4) << name;
+        EXPECT_LT(distance_m(T * point.cast<double>(), triangles), 1e-4) << name;
       }
     }
   }
 }
 
-/// Height of the ground's triangles over (x, y); the ground comes first in the fixed mesh.
-std::map<std::pair<int, int>, std::vector<std::size_t>> cells_of(const Soup& ground) {
+/// The indices of the triangles over each square metre of the xy plane.
+std::map<std::pair<int, int>, std::vector<std::size_t>> cells_of(const Triangles& ground) {
   std::map<std::pair<int, int>, std::vector<std::size_t>> cells;
-  for (std::size_t i = 0; i < ground.triangles.size(); ++i) {
-    Vector3d low = ground.triangles[i][0];
+  for (std::size_t i = 0; i < ground.size(); ++i) {
+    Vector3d low = ground[i][0];
     Vector3d high = low;
-    for (const Vector3d& corner : ground.triangles[i]) {
+    for (const Vector3d& corner : ground[i]) {
       low = low.cwiseMin(corner);
       high = high.cwiseMax(corner);
     }
@@ -128,14 +99,13 @@ TEST(SimulatedScene, CloudsAgreeOnTheGroundToAMillimetre) {
   const auto recipe = recipe_of(SceneKind::empty);
   for (const std::uint64_t index : {0U, 5U}) {
     const SimulatedScene scene(recipe, index);
-    Soup ground;
-    ground.add(scene.world().fixed, {});
+    const Triangles ground = test::triangles_of(scene.world().fixed);
     const auto cells = cells_of(ground);
     for (const auto& [name, mounting] : recipe->rig.sensors) {
       const RigidTransform T = T_world_sensor(scene, *recipe, mounting);
       const RigidTransform T_car_world = scene.world().car.T_world_body.inverse();
       int counted = 0;
-      for (const Eigen::Vector3f& point : every(scene.sweep_of(name).points, 50)) {
+      for (const Eigen::Vector3f& point : every(scene.scan_of(name).points, 50)) {
         const Vector3d in_world = T * point.cast<double>();
         const Vector3d on_car = T_car_world * in_world;
         const bool is_car = std::abs(on_car.x()) < 2.6 && std::abs(on_car.y()) < 1.2;
@@ -145,7 +115,7 @@ TEST(SimulatedScene, CloudsAgreeOnTheGroundToAMillimetre) {
         ASSERT_NE(cell, cells.end());
         double least = 1.0;
         for (const std::size_t i : cell->second) {
-          least = std::min(least, distance_m(in_world, ground.triangles[i]));
+          least = std::min(least, distance_m(in_world, ground[i]));
         }
         EXPECT_LT(least, 1e-3) << name;
         ++counted;
@@ -159,7 +129,7 @@ TEST(SimulatedScene, CloudsAgreeOnTheGroundToAMillimetre) {
 std::string bytes_of(const SimulatedScene& scene, const Recipe& recipe) {
   std::string bytes;
   for (const auto& [name, mounting] : recipe.rig.sensors) {
-    const MeasuredCloud cloud = scene.sweep_of(name);
+    const MeasuredCloud cloud = scene.scan_of(name);
     const auto* first = reinterpret_cast<const char*>(cloud.points.data());
     bytes.append(first, cloud.points.size() * sizeof(Eigen::Vector3f));
     for (const float intensity : cloud.intensity) bytes += std::to_string(intensity);
@@ -193,8 +163,8 @@ TEST(SimulatedScene, IsTheSameAloneInAnyOrderAndOnAnyNumberOfThreads) {
 TEST(SimulatedScene, KindsFollowTheMix) {
   Recipe recipe;
   recipe.mix = {};
-  recipe.mix.urban = 3.0;
-  recipe.mix.narrow = 1.0;
+  recipe.mix[SceneKind::urban] = 3.0;
+  recipe.mix[SceneKind::narrow] = 1.0;
   std::map<SceneKind, int> counts;
   for (std::uint64_t i = 0; i < 4000; ++i) ++counts[scene_kind(recipe, i)];
   EXPECT_EQ(counts.size(), 2U);
@@ -213,7 +183,7 @@ TEST(SimulatedScene, SensorsSeeTheirOwnCar) {
   const auto recipe = recipe_of(SceneKind::empty);
   const SimulatedScene scene(recipe, 1);
   for (const char* name : {"front", "back", "left", "right"}) {
-    const PointCloud cloud = scene.sweep_of(name).points;
+    const PointCloud cloud = scene.scan_of(name).points;
     EXPECT_TRUE(std::any_of(cloud.begin(), cloud.end(), [](const Eigen::Vector3f& p) {
       return p.norm() < 0.8F;
     })) << name;

@@ -1,20 +1,20 @@
 // Barriers follow their path within their height and thickness, without gaps at its corners.
-#include "framework/simulation/objects/barriers.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "test/framework/simulation/objects/mesh_checks.hpp"
+#include "framework/simulation/objects/objects.hpp"
+#include "test/support/mesh_checks.hpp"
 #include "test/support/random_geometry.hpp"
+#include "test/support/simulated_worlds.hpp"
 
 namespace croon::simulation {
 namespace {
 
-using croon::test::test_rng;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using test::caster_of;
+using test::test_rng;
 
 constexpr std::uint64_t kSeeds = 60;
 

@@ -1,25 +1,25 @@
 // Houses and halls keep to their ground, are shut, and have windows that lie behind their fronts.
-#include "framework/simulation/objects/buildings.hpp"
-
 #include <gtest/gtest.h>
 
-#include "test/framework/simulation/objects/mesh_checks.hpp"
+#include "framework/simulation/objects/objects.hpp"
+#include "test/support/mesh_checks.hpp"
 #include "test/support/random_geometry.hpp"
+#include "test/support/simulated_worlds.hpp"
 
 namespace croon::simulation {
 namespace {
 
-using croon::test::test_rng;
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 using test::bounds_of;
 using test::caster_of;
+using test::test_rng;
 
 constexpr std::uint64_t kSeeds = 100;
 constexpr double kEpsilon_m = 1e-4;
 constexpr double kLeastFloor_m = 2.5;
 
-/// Widths as those of scenes, then three times that, and up to ten floors.
+/// Widths as in scenes and three times as large, and up to ten floors.
 BuildingSize draw_size(Rng& rng, std::uint64_t seed) {
   const double scale = seed % 2 == 0 ? 1.0 : 3.0;
   BuildingSize size;
@@ -29,11 +29,11 @@ BuildingSize draw_size(Rng& rng, std::uint64_t seed) {
   return size;
 }
 
-/// Whether no ray leaves from within, level or upwards.
+/// Expects that no level or upward ray leaves from `inside`.
 void expect_closed(const Mesh& mesh, const Vector3d& inside, Rng& rng) {
   std::vector<Ray> rays;
   for (int i = 0; i < 500; ++i) {
-    Vector3d direction = croon::test::random_pose(rng, 1.0).rotation.col(0);
+    Vector3d direction = test::random_pose(rng, 1.0).rotation.col(0);
     direction.z() = std::abs(direction.z());
     rays.push_back({inside, direction, 0.0});
   }

@@ -1,33 +1,26 @@
-// What each sort of object promises beyond its height: sizes, directions and closed bodies.
+// Properties of single types of objects: sizes, directions and closed bodies.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <vector>
 
-#include "framework/simulation/objects/person.hpp"
-#include "framework/simulation/objects/plants.hpp"
-#include "framework/simulation/objects/street_furniture.hpp"
-#include "framework/simulation/objects/vehicles.hpp"
-#include "framework/simulation/ray_caster.hpp"
+#include "framework/simulation/objects/objects.hpp"
+#include "test/support/mesh_checks.hpp"
 #include "test/support/random_geometry.hpp"
+#include "test/support/simulated_worlds.hpp"
 
 namespace croon::simulation {
 namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
+using test::bounds_of;
+using test::expect_closed_around;
 
 constexpr std::uint64_t kSeeds = 60;
 constexpr double kEpsilon_m = 1e-4;
-
-Eigen::AlignedBox3d bounds_of(const Mesh& mesh) {
-  Eigen::AlignedBox3d bounds;
-  for (const Vector3f& vertex : mesh.vertices) bounds.extend(vertex.cast<double>().eval());
-  return bounds;
-}
 
 struct VehicleRange {
   VehicleType type;
@@ -40,24 +33,6 @@ const std::vector<VehicleRange> kVehicles = {{VehicleType::car, 3.6, 5.05, 2.2},
                                              {VehicleType::van, 5.0, 6.55, 2.3},
                                              {VehicleType::truck, 7.0, 16.05, 3.0},
                                              {VehicleType::bus, 11.0, 18.05, 3.0}};
-
-/// Whether rays from all around that aim at `inside` are stopped before it.
-void expect_closed_around(const Mesh& mesh, const std::vector<Vector3d>& insides, Rng& rng) {
-  auto world = std::make_shared<World>();
-  world->fixed = mesh;
-  const RayCaster caster(world, TimeWindow{});
-  constexpr double kFrom_m = 40.0;
-  for (const Vector3d& inside : insides) {
-    std::vector<Ray> rays;
-    for (int i = 0; i < 400; ++i) {
-      const Vector3d direction = test::random_pose(rng, 1.0).rotation.col(0);
-      rays.push_back({inside - kFrom_m * direction, direction, 0.0});
-    }
-    for (const Hit& hit : caster.cast(rays, 0.0, kFrom_m)) {
-      ASSERT_TRUE(hit.is_there()) << "a ray reached " << inside.transpose();
-    }
-  }
-}
 
 TEST(Vehicle, IsInsideItsSizeAndTheSizeInItsRange) {
   for (const VehicleRange& range : kVehicles) {
@@ -92,7 +67,7 @@ TEST(Vehicle, StopsRaysFromAllAround) {
           is_truck ? std::vector<Vector3d>{{0.5 * length_m - 1.0, 0.2, 0.55 * height_m}}
                    : std::vector<Vector3d>{{0.0, 0.2, 0.4 * height_m},
                                            {-0.15 * length_m, -0.3, 0.75 * height_m}};
-      expect_closed_around(vehicle.mesh, insides, rng);
+      for (const Vector3d& inside : insides) expect_closed_around(vehicle.mesh, inside, rng);
     }
   }
 }
@@ -122,7 +97,7 @@ TEST(Person, StopsRaysAndStandsOverTheOrigin) {
     EXPECT_TRUE(bounds.contains(Vector3d(0.0, 0.0, 0.5)));
     EXPECT_LT(bounds.sizes().x(), 0.8 * bounds.max().z());
     EXPECT_LT(bounds.sizes().y(), 0.5 * bounds.max().z());
-    expect_closed_around(mesh, {{0.0, 0.0, 0.7 * bounds.max().z()}}, rng);
+    expect_closed_around(mesh, {0.0, 0.0, 0.7 * bounds.max().z()}, rng);
   }
 }
 
@@ -140,7 +115,7 @@ TEST(Hedge, FillsItsLengthAndWidth) {
     EXPECT_NEAR(bounds.sizes().y(), width_m, 0.15);
     EXPECT_NEAR(bounds.max().z(), height_m, 0.1);
     const Vector3d inside(0.5 * length_m, 0.0, 0.5 * height_m);
-    expect_closed_around(mesh, {inside}, rng);
+    expect_closed_around(mesh, inside, rng);
   }
 }
 

@@ -1,4 +1,4 @@
-// What stands beside the road and drives on it: meshes that hold together, of the documented sizes.
+// All objects: sound meshes of the documented sizes.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -7,26 +7,23 @@
 #include <string>
 #include <vector>
 
-#include "framework/simulation/objects/person.hpp"
-#include "framework/simulation/objects/plants.hpp"
-#include "framework/simulation/objects/street_furniture.hpp"
-#include "framework/simulation/objects/vehicles.hpp"
+#include "framework/simulation/objects/objects.hpp"
+#include "test/support/mesh_checks.hpp"
 #include "test/support/random_geometry.hpp"
+#include "test/support/simulated_worlds.hpp"
 
 namespace croon::simulation {
 namespace {
 
-using Eigen::Vector3f;
-
 constexpr std::uint64_t kSeeds = 150;
 
-/// An object and what its documentation says of it.
+/// An object and its documented size.
 struct Object {
   std::string name;
   std::function<Mesh(Rng&)> make;
   std::size_t most_triangles = 0;
-  float least_height_m = 0.0F;
-  float most_height_m = 0.0F;
+  double least_height_m = 0.0;
+  double most_height_m = 0.0;
   bool has_poles = false;  ///< Ellipsoids, whose triangles at the poles have no area.
 };
 
@@ -41,23 +38,23 @@ Mesh make_some_tufts(Rng& rng) { return make_tufts(5.0, 1.0, rng); }
 Mesh make_some_gantry(Rng& rng) { return make_gantry(11.0, rng); }
 
 std::vector<Object> objects() {
-  return {{"car", mesh_of(VehicleType::car), 1200, 1.35F, 1.9F},
-          {"van", mesh_of(VehicleType::van), 1200, 1.9F, 2.7F},
-          {"truck", mesh_of(VehicleType::truck), 1200, 2.6F, 4.0F},
-          {"bus", mesh_of(VehicleType::bus), 1200, 2.9F, 3.3F},
-          {"person", make_person, 400, 1.2F, 1.95F, true},
-          {"tree", make_tree, 900, 4.0F, 12.0F},
-          {"bush", make_bush, 200, 0.5F, 1.8F, true},
-          {"hedge", make_some_hedge, 260, 1.35F, 1.55F},
-          {"tufts", make_some_tufts, 200, 0.3F, 0.7F},
-          {"lamp", make_lamp, 250, 4.9F, 9.0F},
-          {"traffic_light", make_traffic_light, 250, 2.8F, 3.8F},
-          {"sign", make_sign, 250, 2.0F, 5.0F},
-          {"bollard", make_bollard, 250, 0.7F, 1.1F},
-          {"bin", make_bin, 250, 0.85F, 1.3F},
-          {"bench", make_bench, 250, 0.4F, 1.0F},
-          {"bus_stop", make_bus_stop, 250, 2.4F, 2.8F},
-          {"gantry", make_some_gantry, 500, 6.4F, 8.0F}};
+  return {{"car", mesh_of(VehicleType::car), 1200, 1.35, 1.9},
+          {"van", mesh_of(VehicleType::van), 1200, 1.9, 2.7},
+          {"truck", mesh_of(VehicleType::truck), 1200, 2.6, 4.0},
+          {"bus", mesh_of(VehicleType::bus), 1200, 2.9, 3.3},
+          {"person", make_person, 400, 1.2, 1.95, true},
+          {"tree", make_tree, 900, 4.0, 12.0},
+          {"bush", make_bush, 200, 0.5, 1.8, true},
+          {"hedge", make_some_hedge, 260, 1.35, 1.55},
+          {"tufts", make_some_tufts, 200, 0.3, 0.7},
+          {"lamp", make_lamp, 250, 4.9, 9.0},
+          {"traffic_light", make_traffic_light, 250, 2.8, 3.8},
+          {"sign", make_sign, 250, 2.0, 5.0},
+          {"bollard", make_bollard, 250, 0.7, 1.1},
+          {"bin", make_bin, 250, 0.85, 1.3},
+          {"bench", make_bench, 250, 0.4, 1.0},
+          {"bus_stop", make_bus_stop, 250, 2.4, 2.8},
+          {"gantry", make_some_gantry, 500, 6.4, 8.0}};
 }
 
 Mesh make(const Object& object, std::uint64_t seed) {
@@ -65,60 +62,27 @@ Mesh make(const Object& object, std::uint64_t seed) {
   return object.make(rng);
 }
 
-Eigen::AlignedBox3f bounds_of(const Mesh& mesh) {
-  Eigen::AlignedBox3f bounds;
-  for (const Vector3f& vertex : mesh.vertices) bounds.extend(vertex);
-  return bounds;
-}
-
-bool are_same(const Mesh& a, const Mesh& b) {
-  return a.vertices == b.vertices && a.triangles == b.triangles && a.materials == b.materials;
-}
-
-double area_of(const Mesh& mesh, std::size_t triangle) {
-  const auto corner = [&](std::size_t i) {
-    return mesh.vertices[mesh.triangles[triangle][i]].cast<double>().eval();
-  };
-  return 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
-}
-
 class ObjectTest : public testing::TestWithParam<Object> {};
 
 TEST_P(ObjectTest, IsDrawnFromItsGeneratorAlone) {
-  for (std::uint64_t seed = 1; seed < 10; ++seed) {
-    EXPECT_TRUE(are_same(make(GetParam(), seed), make(GetParam(), seed)));
-    EXPECT_FALSE(are_same(make(GetParam(), seed), make(GetParam(), seed + 1)));
-  }
+  test::expect_drawn_from_its_rng(GetParam().make);
 }
 
-TEST_P(ObjectTest, HasOneMaterialPerTriangleAndCornersThatExist) {
+TEST_P(ObjectTest, IsSoundAndHasAreasButAtPoles) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const Mesh mesh = make(GetParam(), seed);
-    ASSERT_EQ(mesh.materials.size(), mesh.triangles.size());
-    ASSERT_LE(mesh.triangles.size(), GetParam().most_triangles) << "seed " << seed;
-    for (const auto& triangle : mesh.triangles) {
-      for (const std::uint32_t corner : triangle) ASSERT_LT(corner, mesh.vertices.size());
-    }
-    for (const Vector3f& vertex : mesh.vertices) ASSERT_TRUE(vertex.allFinite());
+    SCOPED_TRACE(seed);
+    // An ellipsoid of 8 meridians has as many triangles without an area at each of its poles.
+    test::expect_sound(make(GetParam(), seed), GetParam().most_triangles,
+                       GetParam().has_poles ? 16 : 0);
   }
 }
 
 TEST_P(ObjectTest, StandsOnTheGroundAndIsAsHighAsDocumented) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const Eigen::AlignedBox3f bounds = bounds_of(make(GetParam(), seed));
-    ASSERT_NEAR(bounds.min().z(), 0.0F, 0.05F) << "seed " << seed;
+    const Eigen::AlignedBox3d bounds = test::bounds_of(make(GetParam(), seed));
+    ASSERT_NEAR(bounds.min().z(), 0.0, 0.05) << "seed " << seed;
     ASSERT_GE(bounds.max().z(), GetParam().least_height_m) << "seed " << seed;
-    ASSERT_LE(bounds.max().z(), GetParam().most_height_m + 1e-4F) << "seed " << seed;
-  }
-}
-
-TEST_P(ObjectTest, HasTrianglesWithAnAreaButAtPoles) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const Mesh mesh = make(GetParam(), seed);
-    std::size_t flat = 0;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) flat += area_of(mesh, i) < 1e-9;
-    // An ellipsoid of 8 meridians has as many such triangles at each of its poles.
-    ASSERT_EQ(flat, GetParam().has_poles ? 16 : 0) << "seed " << seed;
+    ASSERT_LE(bounds.max().z(), GetParam().most_height_m + 1e-4) << "seed " << seed;
   }
 }
 

@@ -1,4 +1,5 @@
-// Every kind of scene, over many seeds: whole meshes, room for the car, and what its name says.
+// Every kind of scene, over many seeds: whole meshes, space for the car, and the features of its
+// kind.
 #include "framework/simulation/scenes/scene.hpp"
 
 #include <gtest/gtest.h>
@@ -6,31 +7,18 @@
 #include <cmath>
 
 #include "framework/simulation/ray_caster.hpp"
+#include "test/support/mesh_checks.hpp"
 
 namespace croon::simulation {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr CarSpace kCar = {4.7, 1.9};
+constexpr CarBody kCar = {4.7, 1.9};
 constexpr std::uint64_t kSeeds = 12;
 
 World scene(SceneKind kind, std::uint64_t seed) {
   return make_scene(kind, kCar, StreamKey(seed).with("scene test"));
-}
-
-void expect_same(const Mesh& a, const Mesh& b) {
-  EXPECT_EQ(a.vertices, b.vertices);
-  EXPECT_EQ(a.triangles, b.triangles);
-  EXPECT_EQ(a.materials, b.materials);
-}
-
-void expect_whole(const Mesh& mesh) {
-  ASSERT_EQ(mesh.triangles.size(), mesh.materials.size());
-  for (const Eigen::Vector3f& vertex : mesh.vertices) ASSERT_TRUE(vertex.allFinite());
-  for (const auto& triangle : mesh.triangles) {
-    for (const std::uint32_t corner : triangle) ASSERT_LT(corner, mesh.vertices.size());
-  }
 }
 
 /// The vertices of all but the car, in the car's frame.
@@ -44,15 +32,15 @@ PointCloud seen_from_car(const World& world) {
   return points;
 }
 
-/// The range from a place in the car's frame along a direction in it.
+/// The range from a point in the car's frame along a direction in it.
 double range_m(const RayCaster& caster, const World& world, const Vector3d& from,
                const Vector3d& along) {
   const RigidTransform& T = world.car.T_world_body;
   return caster.cast({{T * from, T.rotation * along, 0.0}}, 0.0, 100.0).front().range_m;
 }
 
-/// The nearest of what stands beside the car, at any height up to 3 m: a lorry has gaps, and its
-/// tank is nearest at its widest.
+/// The least range to an object beside the car at any height up to 3 m: a truck has gaps, and a
+/// tank is widest at its middle.
 double beside_m(const RayCaster& caster, const World& world, const Vector3d& side) {
   double least_m = std::numeric_limits<double>::infinity();
   for (double height_m = 0.5; height_m < 3.0; height_m += 0.25) {
@@ -72,13 +60,13 @@ TEST_P(EveryKind, IsWholeAndFollowsFromItsKeyAlone) {
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const World world = scene(kind(), seed);
     const World again = scene(kind(), seed);
-    expect_same(world.fixed, again.fixed);
-    expect_whole(world.fixed);
+    EXPECT_TRUE(test::are_same(world.fixed, again.fixed));
+    test::expect_whole(world.fixed);
     ASSERT_EQ(world.bodies.size(), again.bodies.size());
     std::size_t triangles = world.fixed.triangles.size();
     for (std::size_t i = 0; i < world.bodies.size(); ++i) {
-      expect_same(world.bodies[i].mesh, again.bodies[i].mesh);
-      expect_whole(world.bodies[i].mesh);
+      EXPECT_TRUE(test::are_same(world.bodies[i].mesh, again.bodies[i].mesh));
+      test::expect_whole(world.bodies[i].mesh);
       triangles += world.bodies[i].mesh.triangles.size();
     }
     EXPECT_LT(triangles, 220000U);
@@ -108,8 +96,8 @@ TEST_P(EveryKind, HasGroundUnderTheCar) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, EveryKind, testing::Range(std::size_t{0}, kSceneKinds),
-                         [](const auto& kind) { return kSceneKindNames[kind.param]; });
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryKind, testing::Range(std::size_t{0}, kSceneKinds.size()),
+                         [](const auto& kind) { return kSceneKinds[kind.param].name; });
 
 /// The middles of the triangles of houses and garden walls near the car, and a world without them.
 struct Masonry {
@@ -148,12 +136,12 @@ TEST(Roads, AreFreeOfHouses) {
         const bool is_road = hit.material == Material::asphalt || hit.material == Material::marking;
         if (hit.is_there() && is_road) ++on_road;
       }
-      EXPECT_EQ(on_road, 0) << kSceneKindNames[static_cast<std::size_t>(kind)] << ", seed " << seed;
+      EXPECT_EQ(on_road, 0) << row_of(kind).name << ", seed " << seed;
     }
   }
 }
 
-TEST(HardKinds, AreWhatTheyAreCalled) {
+TEST(HardKinds, HaveTheFeaturesOfTheirKind) {
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     for (const Eigen::Vector3f& point : seen_from_car(scene(SceneKind::empty, seed))) {
       if (point.head<2>().norm() > 20.0F) continue;
@@ -165,9 +153,9 @@ TEST(HardKinds, AreWhatTheyAreCalled) {
       const double left_m = beside_m(caster, *world, Vector3d::UnitY());
       const double right_m = beside_m(caster, *world, -Vector3d::UnitY());
       const double half_m = 0.5 * kCar.width_m;
-      const char* const name = kSceneKindNames[static_cast<std::size_t>(kind)];
+      const char* const name = row_of(kind).name;
       if (kind == SceneKind::blocked) {
-        // At most 0.9 m to its mirrors, which stand out by up to 0.3 m.
+        // At most 0.9 m to the mirrors, which stand out by up to 0.3 m.
         EXPECT_LT(std::min(left_m, right_m), half_m + 1.2) << name << ", seed " << seed;
       } else {
         const double most_m = kind == SceneKind::narrow ? half_m + 1.6 : 13.0;
@@ -175,6 +163,131 @@ TEST(HardKinds, AreWhatTheyAreCalled) {
       }
     }
   }
+}
+
+/// The material of the ground or of the object on it at a point of the car's plane; none outside.
+std::vector<Hit> hits_below(const World& world, const RayCaster& caster,
+                            const std::vector<Eigen::Vector2d>& points) {
+  const RigidTransform& T = world.car.T_world_body;
+  std::vector<Ray> rays;
+  for (const Eigen::Vector2d& point : points) {
+    rays.push_back({T * Vector3d(point.x(), point.y(), 100.0), -Vector3d::UnitZ(), 0.0});
+  }
+  return caster.cast(rays, 0.0, 200.0);
+}
+
+bool is_road(const Hit& hit) {
+  return hit.material == Material::asphalt || hit.material == Material::marking;
+}
+
+/// The ground of a scene alone, from which all objects are removed.
+std::shared_ptr<const World> only_road(const World& world) {
+  auto road = std::make_shared<World>();
+  road->car = world.car;
+  road->fixed.vertices = world.fixed.vertices;
+  for (std::size_t i = 0; i < world.fixed.triangles.size(); ++i) {
+    const auto& [a, b, c] = world.fixed.triangles[i];
+    const Material material = world.fixed.materials[i];
+    if (material != Material::asphalt && material != Material::marking) continue;
+    road->fixed.add_triangle(a, b, c, material);
+  }
+  return road;
+}
+
+/// The length of asphalt across the car's direction, through the point `ahead_m` ahead of the car.
+double asphalt_across_m(const World& road, const RayCaster& caster, double ahead_m) {
+  constexpr double kStep_m = 0.5;
+  std::vector<Eigen::Vector2d> points;
+  for (double left_m = -60.0; left_m <= 60.0; left_m += kStep_m)
+    points.emplace_back(ahead_m, left_m);
+  double length_m = 0.0;
+  for (const Hit& hit : hits_below(road, caster, points)) length_m += is_road(hit) ? kStep_m : 0.0;
+  return length_m;
+}
+
+TEST(Crossing, HasArmsThatMeet) {
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    double longest_m = 0.0;
+    const auto road = only_road(scene(SceneKind::crossing, seed));
+    const RayCaster caster(road, {});
+    for (double ahead_m = -14.0; ahead_m <= 30.0; ahead_m += 1.0) {
+      longest_m = std::max(longest_m, asphalt_across_m(*road, caster, ahead_m));
+    }
+    // The arms run on straight from one side to the other, but a car that turns is at an angle.
+    EXPECT_GT(longest_m, 30.0) << "seed " << seed;
+    const auto street = only_road(scene(SceneKind::urban, seed));
+    EXPECT_LT(asphalt_across_m(*street, RayCaster(street, {}), 0.0), 25.0) << "seed " << seed;
+  }
+}
+
+/// The share of level rays to both sides of the car, `above_m` over the road, that meet a material
+/// of `materials` within `most_m`.
+double seen_share(const World& world, const RayCaster& caster, double above_m, double most_m,
+                  const std::vector<Material>& materials) {
+  const RigidTransform& T = world.car.T_world_body;
+  std::vector<Ray> rays;
+  for (double ahead_m = -50.0; ahead_m <= 50.0; ahead_m += 0.25) {
+    for (const double side : {-1.0, 1.0}) {
+      rays.push_back({T * Vector3d(ahead_m, 0.0, above_m), T.rotation * Vector3d(0.0, side, 0.0)});
+    }
+  }
+  double seen = 0.0;
+  for (const Hit& hit : caster.cast(rays, 0.0, most_m)) {
+    const bool is_one_of =
+        std::find(materials.begin(), materials.end(), hit.material) != materials.end();
+    seen += hit.is_there() && is_one_of ? 1.0 : 0.0;
+  }
+  return seen / static_cast<double>(rays.size());
+}
+
+/// The mean over the seeds of seen_share.
+double mean_share(SceneKind kind, double above_m, double most_m,
+                  const std::vector<Material>& materials) {
+  double sum = 0.0;
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const auto world = std::make_shared<const World>(scene(kind, seed));
+    sum += seen_share(*world, RayCaster(world, {}), above_m, most_m, materials);
+  }
+  return sum / static_cast<double>(kSeeds);
+}
+
+TEST(OrdinaryKinds, HaveTheFeaturesOfTheirKind) {
+  const std::vector<Material> walls = {Material::brick, Material::plaster, Material::concrete,
+                                       Material::glass};
+  const double urban_walls = mean_share(SceneKind::urban, 6.0, 30.0, walls);
+  EXPECT_GT(urban_walls, 0.2);
+  EXPECT_LT(mean_share(SceneKind::suburban, 6.0, 30.0, walls), 0.5 * urban_walls);
+  EXPECT_LT(mean_share(SceneKind::highway, 6.0, 30.0, walls), 0.25 * urban_walls);
+  // Guard rails are of metal, half a metre above the road.
+  EXPECT_GT(mean_share(SceneKind::highway, 0.6, 25.0, {Material::metal, Material::concrete}), 0.4);
+  EXPECT_LT(mean_share(SceneKind::urban, 0.6, 25.0, {Material::metal, Material::concrete}), 0.3);
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    EXPECT_GE(scene(SceneKind::highway, seed).car.motion.speed_mps, 0.0);
+    const auto car_park = only_road(scene(SceneKind::car_park, seed));
+    EXPECT_GT(asphalt_across_m(*car_park, RayCaster(car_park, {}), 0.0), 30.0) << "seed " << seed;
+  }
+}
+
+TEST(SceneKinds, DifferInTheirScenesForTheSameKey) {
+  std::vector<World> worlds;
+  for (const SceneKindRow& kind : kSceneKinds) worlds.push_back(kind.make(kCar, StreamKey(7)));
+  for (std::size_t i = 0; i < worlds.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_FALSE(test::are_same(worlds[i].fixed, worlds[j].fixed))
+          << kSceneKinds[i].name << " and " << kSceneKinds[j].name;
+    }
+  }
+}
+
+TEST(Mix, OfThePaperHasTheSharesOfItsTable) {
+  // 101 of the paper's 1899 frames fail; they are of the four hard kinds.
+  Mix mix = paper_mix();
+  double total = 0.0;
+  for (const double weight : mix.weights) total += weight;
+  EXPECT_NEAR(total, 100.0, 1e-9);
+  const double hard = mix[SceneKind::empty] + mix[SceneKind::narrow] + mix[SceneKind::blocked] +
+                      mix[SceneKind::corridor];
+  EXPECT_NEAR(hard / total, 101.0 / 1899.0, 0.001);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "framework/simulation/sweep.hpp"
+#include "framework/simulation/scan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/base/statistics.hpp"
-#include "framework/simulation/primitives.hpp"
+#include "framework/simulation/objects/shapes.hpp"
 
 namespace croon::simulation {
 namespace {
@@ -28,14 +28,13 @@ SensorModel small_sensor() {
   return sensor;
 }
 
-SweepPlan at_rest() {
+ScanPlan at_rest() {
   return {0.0, [](double) { return RigidTransform{}; }};
 }
 
-MeasuredCloud swept(const Noise& noise, const SweepPlan& plan = at_rest()) {
-  const TimeWindow window = {0.0, noise.sweep_distortion ? 0.5 : 0.0};
-  const RayCaster caster(room(), window);
-  return sweep(caster, small_sensor(), noise, plan, StreamKey(3));
+MeasuredCloud scanned(const Noise& noise, const ScanPlan& plan = at_rest()) {
+  const RayCaster caster(room(), {0.0, noise.moves_during_scan ? 0.5 : 0.0});
+  return scan(caster, small_sensor(), noise, plan, StreamKey(3));
 }
 
 /// The range to the room's walls along a direction.
@@ -44,8 +43,8 @@ double range_in_room_m(const Vector3d& direction) {
   return half.cwiseQuotient(direction.cwiseAbs().cwiseMax(1e-12)).minCoeff();
 }
 
-TEST(Sweep, WithoutNoiseEveryRayComesBackFromItsWall) {
-  const MeasuredCloud cloud = swept({});
+TEST(Scan, WithoutNoiseEveryRayComesBackFromItsWall) {
+  const MeasuredCloud cloud = scanned({});
   ASSERT_EQ(cloud.points.size(), 5U * 360U);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const Vector3d point = cloud.points[i].cast<double>();
@@ -60,11 +59,11 @@ TEST(Sweep, WithoutNoiseEveryRayComesBackFromItsWall) {
   EXPECT_NEAR(cloud.time_s.back(), 0.1 * 359.0 / 360.0, 1e-12);
 }
 
-TEST(Sweep, RangeNoiseHasItsDeviation) {
+TEST(Scan, RangeNoiseHasItsDeviation) {
   Noise noise;
   noise.range_std_m = 0.05;
   double squares = 0.0;
-  const MeasuredCloud cloud = swept(noise);
+  const MeasuredCloud cloud = scanned(noise);
   for (const Eigen::Vector3f& p : cloud.points) {
     const Vector3d point = p.cast<double>();
     squares += std::pow(point.norm() - range_in_room_m(point.normalized()), 2);
@@ -72,15 +71,15 @@ TEST(Sweep, RangeNoiseHasItsDeviation) {
   EXPECT_NEAR(std::sqrt(squares / static_cast<double>(cloud.points.size())), 0.05, 0.005);
 }
 
-TEST(Sweep, DropoutLosesItsShare) {
+TEST(Scan, DropoutLosesItsShare) {
   Noise noise;
   noise.dropout_ratio = 0.25;
-  EXPECT_NEAR(static_cast<double>(swept(noise).points.size()), 0.75 * 1800, 90.0);
+  EXPECT_NEAR(static_cast<double>(scanned(noise).points.size()), 0.75 * 1800, 90.0);
   noise.dropout_ratio = 1.0;
-  EXPECT_TRUE(swept(noise).points.empty());
+  EXPECT_TRUE(scanned(noise).points.empty());
 }
 
-TEST(Sweep, DetectionIsAHalfAtItsRange) {
+TEST(Scan, DetectionIsAHalfAtItsRange) {
   Noise noise;
   noise.detection_range_m = 80.0;
   EXPECT_NEAR(detection_probability(noise, 80.0, 0.1), 0.5, 1e-12);
@@ -95,15 +94,15 @@ TEST(Sweep, DetectionIsAHalfAtItsRange) {
   EXPECT_EQ(detection_probability({}, 1e6, 0.0), 1.0);
 }
 
-TEST(Sweep, DistortionShiftsPointsAsTheCarMoves) {
+TEST(Scan, DistortionShiftsPointsAsTheCarMoves) {
   constexpr double kSpeed_mps = 20.0;
-  const SweepPlan driving = {
+  const ScanPlan driving = {
       0.05, [](double time_s) {
         return RigidTransform{Eigen::Matrix3d::Identity(), {kSpeed_mps * time_s, 0.0, 0.0}};
       }};
   Noise noise;
-  noise.sweep_distortion = true;
-  const MeasuredCloud moving = swept(noise, driving);
+  noise.moves_during_scan = true;
+  const MeasuredCloud moving = scanned(noise, driving);
   int on_walls_ahead = 0;
   for (std::size_t i = 0; i < moving.points.size(); ++i) {
     const double x_m = static_cast<double>(moving.points[i].x()) + kSpeed_mps * moving.time_s[i];
@@ -115,10 +114,10 @@ TEST(Sweep, DistortionShiftsPointsAsTheCarMoves) {
     EXPECT_GE(moving.time_s[i], 0.05);
   }
   EXPECT_GT(on_walls_ahead, 100);
-  // Without distortion all is of time 0, however the car drives.
-  const MeasuredCloud still = swept({}, driving);
-  ASSERT_EQ(still.points.size(), swept({}).points.size());
-  EXPECT_EQ(still.points, swept({}).points);
+  // Without motion during the scan all is at time 0, at any speed of the car.
+  const MeasuredCloud still = scanned({}, driving);
+  ASSERT_EQ(still.points.size(), scanned({}).points.size());
+  EXPECT_EQ(still.points, scanned({}).points);
 }
 
 }  // namespace
