@@ -97,6 +97,16 @@ TEST(Includes, KeepHeavyHeadersOutOfHeaders) {
   }
 }
 
+TEST(Includes, OfTheSimulationAreInItsDatasetOnly) {
+  for (const Include& include : tree_includes()) {
+    if (!is_below(include.path, "framework/simulation")) continue;
+    const std::string& file = include.line.file;
+    EXPECT_TRUE(is_below(file, "framework/simulation") || is_below(file, "test") ||
+                is_below(file, "benchmarks") || file == "stages/dataset/simulated.cpp")
+        << include.line.place() << ": only the dataset may include " << include.path;
+  }
+}
+
 TEST(Includes, ReadTheCommandLineInOneFile) {
   std::set<std::string> files;
   for (const Include& include : tree_includes()) {

@@ -89,6 +89,10 @@ Mesh without_ground(const simulation::World& world, const simulation::RoadShape&
   return rest;
 }
 
+bool is_in_car(const simulation::CarBody& car, const Eigen::Vector3f& point) {
+  return std::abs(point.x()) < 0.5 * car.length_m && std::abs(point.y()) < 0.5 * car.width_m;
+}
+
 std::vector<Vector2d> positions_in(const Mesh& objects, const simulation::RoadShape& shape,
                                    std::size_t vertices) {
   std::vector<Vector2d> positions;

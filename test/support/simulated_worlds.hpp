@@ -40,6 +40,9 @@ Eigen::Vector2d road_coordinates(const simulation::RoadShape& shape,
 /// first.
 simulation::Mesh without_ground(const simulation::World& world, const simulation::RoadShape& shape);
 
+/// True if `point`, in the car's frame, is inside the car seen from above.
+bool is_in_car(const simulation::CarBody& car, const Eigen::Vector3f& point);
+
 /// The mean road coordinates of each object in `objects`, which have `vertices` vertices each.
 std::vector<Eigen::Vector2d> positions_in(const simulation::Mesh& objects,
                                           const simulation::RoadShape& shape, std::size_t vertices);

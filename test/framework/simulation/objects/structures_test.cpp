@@ -21,11 +21,6 @@ constexpr std::uint64_t kSeeds = 60;
 constexpr double kClear_m = 4.7;
 constexpr double kEpsilon_m = 0.02;
 
-Span draw_span(Rng& rng, double least_m, double most_m) {
-  const double from_m = rng.uniform(-60.0, 60.0);
-  return {from_m, from_m + rng.uniform(least_m, most_m)};
-}
-
 /// Expects nothing of `mesh` in the carriageway up to 4.7 m above its surface.
 void expect_free_carriageway(const Mesh& mesh, const Ground& ground, const Span& along_m,
                              Rng& rng) {
@@ -62,63 +57,47 @@ std::vector<Hit> hits_aside(const Mesh& mesh, const Ground& ground, const Span& 
   return caster_of(mesh)->cast(rays, 0.0, 100.0);
 }
 
-TEST(Structures, AreDrawnFromTheirGeneratorAlone) {
+/// A structure over the road and its documented dimensions.
+struct Structure {
+  const char* name;
+  Mesh (*make)(const Ground& ground, const Span& along_m, Rng& rng);
+  Span length_m;
+  std::size_t most_triangles;
+  Span behind_kerb_m;  ///< Positions of its walls.
+};
+
+class StructureTest : public testing::TestWithParam<Structure> {};
+
+TEST_P(StructureTest, IsDrawnFromItsGeneratorAlone) {
   const Ground ground(RoadShape{}, StreamKey(1));
-  test::expect_drawn_from_its_rng([&](Rng& rng) { return make_tunnel(ground, {10.0, 60.0}, rng); });
-  test::expect_drawn_from_its_rng([&](Rng& rng) { return make_bridge(ground, {10.0, 20.0}, rng); });
+  test::expect_drawn_from_its_rng([&](Rng& rng) {
+    return GetParam().make(ground, {10.0, 30.0}, rng);
+  });
 }
 
-TEST(Tunnel, IsSoundAndLeavesTheCarriagewayFree) {
+TEST_P(StructureTest, IsSoundAndLeavesTheCarriagewayFreeBetweenItsWalls) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     const Ground ground(test::random_road(rng), StreamKey(seed));
-    const Span along_m = draw_span(rng, 20.0, 130.0);
-    const Mesh mesh = make_tunnel(ground, along_m, rng);
-    test::expect_sound(mesh, 3000);
+    const double from_m = rng.uniform(-60.0, 60.0);
+    const Span along_m = {from_m, from_m + draw(rng, GetParam().length_m)};
+    const Mesh mesh = GetParam().make(ground, along_m, rng);
+    test::expect_sound(mesh, GetParam().most_triangles);
     expect_free_carriageway(mesh, ground, along_m, rng);
-  }
-}
-
-TEST(Tunnel, HasWallsBehindTheKerbsOnBothSides) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    SCOPED_TRACE(seed);
-    Rng rng = test_rng(seed);
-    const Ground ground(test::random_road(rng), StreamKey(seed));
-    const Span along_m = draw_span(rng, 20.0, 130.0);
     const double kerb_m = ground.shape().half_width_m;
-    for (const Hit& hit : hits_aside(make_tunnel(ground, along_m, rng), ground, along_m, rng)) {
-      ASSERT_GE(hit.range_m, kerb_m + 0.3);
-      ASSERT_LE(hit.range_m, kerb_m + 4.5);
+    for (const Hit& hit : hits_aside(mesh, ground, along_m, rng)) {
+      ASSERT_GE(hit.range_m, kerb_m + GetParam().behind_kerb_m.from);
+      ASSERT_LE(hit.range_m, kerb_m + GetParam().behind_kerb_m.to);
     }
   }
 }
 
-TEST(Bridge, IsSoundAndLeavesTheCarriagewayFree) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    SCOPED_TRACE(seed);
-    Rng rng = test_rng(seed);
-    const Ground ground(test::random_road(rng), StreamKey(seed));
-    const Span along_m = draw_span(rng, 6.0, 20.0);
-    const Mesh mesh = make_bridge(ground, along_m, rng);
-    test::expect_sound(mesh, 1800);
-    expect_free_carriageway(mesh, ground, along_m, rng);
-  }
-}
-
-TEST(Bridge, HasAbutmentsBehindTheKerbsOnBothSides) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    SCOPED_TRACE(seed);
-    Rng rng = test_rng(seed);
-    const Ground ground(test::random_road(rng), StreamKey(seed));
-    const Span along_m = draw_span(rng, 6.0, 20.0);
-    const double kerb_m = ground.shape().half_width_m;
-    for (const Hit& hit : hits_aside(make_bridge(ground, along_m, rng), ground, along_m, rng)) {
-      ASSERT_GE(hit.range_m, kerb_m + 0.9);
-      ASSERT_LE(hit.range_m, kerb_m + 16.0);
-    }
-  }
-}
+INSTANTIATE_TEST_SUITE_P(
+    Simulation, StructureTest,
+    testing::Values(Structure{"tunnel", make_tunnel, {20.0, 130.0}, 3000, {0.3, 4.5}},
+                    Structure{"bridge", make_bridge, {6.0, 20.0}, 1800, {0.9, 16.0}}),
+    [](const auto& structure) { return structure.param.name; });
 
 }  // namespace
 }  // namespace croon::simulation

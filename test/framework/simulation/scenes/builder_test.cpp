@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "framework/base/angles.hpp"
+#include "framework/simulation/objects/shapes.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/simulated_worlds.hpp"
 
@@ -55,8 +56,7 @@ TEST(SceneBuilder, AcceptsAnObjectIfAndOnlyIfItsSpaceIsFree) {
 TEST(SceneBuilder, LetsObjectsStandUnderCrownsAndArms) {
   SceneBuilder builder(RoadShape{}, StreamKey(1));
   Mesh roof;
-  roof.add_quad(Vector3d(-2.0, -2.0, 4.0), Vector3d(2.0, -2.0, 4.0), Vector3d(2.0, 2.0, 4.0),
-                Vector3d(-2.0, 2.0, 4.0), Material::wood);
+  add_box(roof, {-2.0, -2.0, 4.0}, {2.0, 2.0, 4.2}, Material::wood);
   Rng rng = test_rng();
   EXPECT_TRUE(builder.stand(roof, {0.0, 0.0, 0.0}));
   EXPECT_FALSE(builder.stand(roof, {1.0, 1.0, 0.0}));
@@ -79,9 +79,7 @@ TEST(SceneBuilder, KeepsTheSpaceOfTheCarClear) {
     ASSERT_FALSE(objects.vertices.empty());
     for (const Eigen::Vector3f& vertex :
          transformed(objects.vertices, world.car.T_world_body.inverse())) {
-      const bool is_inside = std::abs(static_cast<double>(vertex.x())) < 0.5 * kCar.length_m &&
-                             std::abs(static_cast<double>(vertex.y())) < 0.5 * kCar.width_m;
-      ASSERT_FALSE(is_inside) << "seed " << seed;
+      ASSERT_FALSE(test::is_in_car(kCar, vertex)) << "seed " << seed;
     }
   }
 }

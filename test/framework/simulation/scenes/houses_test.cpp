@@ -120,13 +120,15 @@ TEST(AddBackdrop, StandsBetweenItsDistances) {
   }
 }
 
-/// The triangles of `mesh` that are of `material`, as a mesh of its own.
-Mesh only(const Mesh& mesh, Material material) {
+/// `mesh` without plants.
+Mesh without_leaves(const Mesh& mesh) {
   Mesh result;
   result.vertices = mesh.vertices;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& [a, b, c] = mesh.triangles[i];
-    if (mesh.materials[i] == material) result.add_triangle(a, b, c, material);
+    const Material material = mesh.materials[i];
+    if (material == Material::leaf || material == Material::bark) continue;
+    result.add_triangle(a, b, c, material);
   }
   return result;
 }
@@ -142,11 +144,9 @@ TEST(AddPlots, LeaveThePavementFree) {
       add_plots(builder, side, {-100.0, 100.0}, out_m, StreamKey(seed));
       const Mesh plots = test::without_ground(builder.finish(), shape);
       ASSERT_FALSE(plots.vertices.empty());
-      for (std::size_t i = 0; i < plots.triangles.size(); ++i) {
-        // Crowns of trees may hang over the pavement.
-        if (plots.materials[i] == Material::leaf || plots.materials[i] == Material::bark) continue;
-        for (const std::uint32_t index : plots.triangles[i]) {
-          const Vector3d vertex = plots.vertices[index].cast<double>();
+      // Crowns of trees may hang over the pavement.
+      for (const test::Triangle& triangle : test::triangles_of(without_leaves(plots))) {
+        for (const Vector3d& vertex : triangle) {
           const Vector2d road = test::road_coordinates(shape, vertex);
           ASSERT_GE(side.sign * road.y(), out_m - 0.5);
         }
@@ -167,17 +167,10 @@ TEST(AddPlots, AreSideBySideWithOneHouseEach) {
     for (double s_m = -55.0; s_m <= 80.0; s_m += 0.1) {
       rays.push_back({{s_m, 0.0, 2.5}, Vector3d::UnitY(), 0.0});
     }
-    Mesh walls = plots;
-    walls.triangles.clear();
-    walls.materials.clear();
-    for (const Material material : {Material::plaster, Material::brick, Material::wood,
-                                    Material::glass, Material::concrete, Material::metal}) {
-      const Mesh part = only(plots, material);
-      for (const auto& [a, b, c] : part.triangles) walls.add_triangle(a, b, c, material);
-    }
     int houses = 0;
     int gap = 100;
-    for (const Hit& hit : test::caster_of(walls)->cast(rays, 0.0, 8.0 + 9.0 + 12.0)) {
+    for (const Hit& hit :
+         test::caster_of(without_leaves(plots))->cast(rays, 0.0, 8.0 + 9.0 + 12.0)) {
       const bool is_house = hit.is_there() && hit.range_m > 8.0 + 3.5;
       if (is_house && gap >= 10) ++houses;
       gap = is_house ? 0 : gap + 1;

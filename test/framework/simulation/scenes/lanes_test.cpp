@@ -128,9 +128,7 @@ TEST(AddTraffic, LeavesTheCarItsLane) {
     for (const Body& body : world.bodies) {
       for (const Eigen::Vector3f& vertex :
            transformed(body.mesh.vertices, T_car_world * body.T_world_body)) {
-        const bool is_inside = std::abs(static_cast<double>(vertex.x())) < 0.5 * kCar.length_m &&
-                               std::abs(static_cast<double>(vertex.y())) < 0.5 * kCar.width_m;
-        ASSERT_FALSE(is_inside) << "seed " << seed;
+        ASSERT_FALSE(test::is_in_car(kCar, vertex)) << "seed " << seed;
       }
     }
   }

@@ -30,7 +30,7 @@ RoadBox random_box(Rng& rng) {
 }
 
 TEST(BoxesOf, HoldTheObjectHoweverTheRoadBends) {
-  constexpr double kEpsilon_m = 0.03;
+  constexpr double kEpsilon_m = 0.05;  // The bulge of a long side is an approximation.
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
@@ -74,7 +74,7 @@ TEST(Occupancy, IsFreeWhereNoTakenBoxOverlaps) {
     for (int i = 0; i < 50; ++i) {
       const RoadBox box = random_box(rng);
       bool overlaps = false;
-      for (const RoadBox& other : taken) overlaps |= box.intersection(other).volume() > 1e-9;
+      for (const RoadBox& other : taken) overlaps |= !box.intersection(other).isEmpty();
       ASSERT_EQ(occupancy.is_free(box), !overlaps) << "seed " << seed;
       refused += overlaps ? 1 : 0;
       if (overlaps) continue;
