@@ -63,7 +63,7 @@ void check_and_add() {
   add("scene/urban/real_noise", benchmark::kMillisecond,
       [noisy](benchmark::State& state) { measure_scene(state, noisy); });
   for (const auto& [sensor, mounting] : noisy->rig.sensors) {
-    add("sweep/urban/" + sensor, benchmark::kMillisecond,
+    add("scan/urban/" + sensor, benchmark::kMillisecond,
         [recipe = test::recipe_of(simulation::SceneKind::urban),
          name = sensor](benchmark::State& state) { measure_scan(state, recipe, name); });
   }

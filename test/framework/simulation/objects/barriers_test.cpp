@@ -60,11 +60,11 @@ void expect_within(const Mesh& mesh, const Path& path, double half_m, double hei
   constexpr double kSlope_m = 0.02;
   double highest_m = 0.0;
   for (const Eigen::Vector3f& vertex : mesh.vertices) {
-    const Vector2d place = beside_and_above(path, vertex.cast<double>());
-    ASSERT_LE(place.x(), kMitre * half_m + 1e-3);
-    ASSERT_GE(place.y(), -0.3 - kSlope_m);
-    ASSERT_LE(place.y(), height_m + kSlope_m);
-    highest_m = std::max(highest_m, place.y());
+    const Vector2d offset = beside_and_above(path, vertex.cast<double>());
+    ASSERT_LE(offset.x(), kMitre * half_m + 1e-3);
+    ASSERT_GE(offset.y(), -0.3 - kSlope_m);
+    ASSERT_LE(offset.y(), height_m + kSlope_m);
+    highest_m = std::max(highest_m, offset.y());
   }
   EXPECT_NEAR(highest_m, height_m, 0.05);
 }
