@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "framework/simulation/objects/objects.hpp"
 #include "test/support/mesh_checks.hpp"
@@ -31,6 +32,16 @@ Path draw_path(Rng& rng) {
     yaw_rad += rng.uniform(-0.3, 0.3) + (i % 3 == 1 ? 0.7 : 0.0);
   }
   return path;
+}
+
+/// Calls `check` with a path for each seed.
+void for_each_path(const std::function<void(const Path& path, Rng& rng)>& check) {
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    SCOPED_TRACE(seed);
+    Rng rng = test_rng(seed);
+    const Path path = draw_path(rng);
+    check(path, rng);
+  }
 }
 
 double length_of(const Path& path) {
@@ -101,10 +112,7 @@ TEST(Barriers, AreDrawnFromTheirGeneratorAlone) {
 }
 
 TEST(Wall, IsAsThickAndHighAsAskedAndHasNoGap) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    SCOPED_TRACE(seed);
-    Rng rng = test_rng(seed);
-    const Path path = draw_path(rng);
+  for_each_path([](const Path& path, Rng& rng) {
     const double height_m = rng.uniform(0.5, 5.0);
     const double thickness_m = rng.uniform(0.1, 0.5);
     const Mesh mesh = make_wall(path, height_m, thickness_m, Material::concrete);
@@ -118,27 +126,21 @@ TEST(Wall, IsAsThickAndHighAsAskedAndHasNoGap) {
     for (const Hit& hit : caster_of(mesh)->cast(rays, 0.0, kFrom_m)) {
       EXPECT_NEAR(hit.range_m, kFrom_m - 0.5 * thickness_m, 1e-3);
     }
-  }
+  });
 }
 
 TEST(GardenWall, StaysWithinItsHeightAndHasNoGap) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    SCOPED_TRACE(seed);
-    Rng rng = test_rng(seed);
-    const Path path = draw_path(rng);
+  for_each_path([](const Path& path, Rng& rng) {
     const double height_m = rng.uniform(0.5, 2.4);
     const Mesh mesh = make_garden_wall(path, height_m, rng);
     test::expect_sound(mesh, 24 * path.size() + static_cast<std::size_t>(6.0 * length_of(path)));
     expect_within(mesh, path, 0.29, height_m);
     EXPECT_EQ(stopped_share(mesh, path, rng.uniform(0.0, height_m - 0.25), rng), 1.0);
-  }
+  });
 }
 
 TEST(Fence, StopsSomeRaysAndNotOthers) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    SCOPED_TRACE(seed);
-    Rng rng = test_rng(seed);
-    const Path path = draw_path(rng);
+  for_each_path([](const Path& path, Rng& rng) {
     const double height_m = rng.uniform(0.5, 2.4);
     const Mesh mesh = make_fence(path, height_m, rng);
     test::expect_sound(mesh, static_cast<std::size_t>(80.0 * length_of(path)));
@@ -146,32 +148,26 @@ TEST(Fence, StopsSomeRaysAndNotOthers) {
     const double stopped = stopped_share(mesh, path, 0.5 * height_m, rng);
     EXPECT_GT(stopped, 0.08);
     EXPECT_LT(stopped, 0.99);
-  }
+  });
 }
 
 TEST(GuardRail, IsClosedAtItsBeamAndOpenBelow) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    SCOPED_TRACE(seed);
-    Rng rng = test_rng(seed);
-    const Path path = draw_path(rng);
+  for_each_path([](const Path& path, Rng& rng) {
     const Mesh mesh = make_guard_rail(path, rng);
     test::expect_sound(mesh, 24 * path.size() + static_cast<std::size_t>(6.0 * length_of(path)));
     expect_within(mesh, path, 0.14, 0.74);
     EXPECT_EQ(stopped_share(mesh, path, 0.6, rng), 1.0);
     EXPECT_LT(stopped_share(mesh, path, 0.2, rng), 0.3);
-  }
+  });
 }
 
 TEST(JerseyBarrier, IsEightyCentimetresHighAndHasNoGap) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    SCOPED_TRACE(seed);
-    Rng rng = test_rng(seed);
-    const Path path = draw_path(rng);
+  for_each_path([](const Path& path, Rng& rng) {
     const Mesh mesh = make_jersey_barrier(path);
     test::expect_sound(mesh, 18 * path.size());
     expect_within(mesh, path, 0.3, 0.8);
     EXPECT_EQ(stopped_share(mesh, path, rng.uniform(0.0, 0.75), rng), 1.0);
-  }
+  });
 }
 
 }  // namespace
