@@ -1,5 +1,7 @@
 #include "registry/help.hpp"
 
+#include <algorithm>
+
 #include "framework/base/error.hpp"
 #include "framework/base/nearest_name.hpp"
 #include "registry/help_formats.hpp"
@@ -14,20 +16,20 @@ struct Selection {
   std::string name;
 };
 
-bool is_kind(const std::string& word) {
-  for (const std::string& kind : stage_kinds()) {
-    if (kind == word) return true;
-  }
-  return false;
+std::vector<std::string> kind_names(const Catalogue& catalogue) {
+  std::vector<std::string> names;
+  for (const StageKind& kind : catalogue.kinds()) names.push_back(kind.name);
+  return names;
 }
 
 Selection selection_from(const Catalogue& catalogue, const std::string& which) {
   const std::size_t slash = which.find('/');
   Selection selection{which.substr(0, slash), ""};
-  if (!which.empty() && !is_kind(selection.kind)) {
+  const std::vector<std::string> kinds = kind_names(catalogue);
+  if (!which.empty() && std::find(kinds.begin(), kinds.end(), selection.kind) == kinds.end()) {
     throw InputError("", "",
                      "expected a kind of stage, found \"" + selection.kind + "\"" +
-                         name_hint(selection.kind, stage_kinds()));
+                         name_hint(selection.kind, kinds));
   }
   if (slash == std::string::npos) return selection;
   selection.name = which.substr(slash + 1);
@@ -51,7 +53,7 @@ StageList selected(const Catalogue& catalogue, const Selection& selection) {
 
 std::string markdown(const Selection& selection, const StageList& stages) {
   if (selection.kind.empty()) return markdown_index(stages);
-  if (selection.name.empty()) return markdown_page(selection.kind, stages);
+  if (selection.name.empty()) return markdown_page(stages);
   return markdown_section(*stages.front());
 }
 

@@ -20,8 +20,8 @@ std::string json_list(const StageList& stages);
 
 /// The index of the reference pages: the kinds and their stages, with links.
 std::string markdown_index(const StageList& stages);
-/// The reference page of a kind: each of its stages with its parameters.
-std::string markdown_page(const std::string& kind, const StageList& stages);
+/// The reference page of a kind: each of its stages, `stages`, with its parameters.
+std::string markdown_page(const StageList& stages);
 /// One stage with its parameters.
 std::string markdown_section(const StageEntry& stage);
 

@@ -8,9 +8,6 @@
 
 namespace croon {
 
-/// What a kind of stage is for; one sentence. An unknown kind is a std::logic_error.
-std::string kind_summary(const std::string& kind);
-
 /// "an icp stage", "a yaw_search stage".
 std::string kind_phrase(const std::string& kind);
 

@@ -45,6 +45,9 @@ class Dataset {
  public:
   using Kind = Dataset;
   static constexpr const char* kKind = "dataset";
+  static constexpr const char* kKindSummary =
+      "The scenes of a rig: named clouds, with truth and starts where they are known.";
+  static constexpr int kKindOrder = 10;
   virtual ~Dataset() = default;
 
   /// The scenes, in a fixed order. Relative paths are resolved below `data_root` and must stay in

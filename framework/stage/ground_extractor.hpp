@@ -21,6 +21,9 @@ class GroundExtractor {
  public:
   using Kind = GroundExtractor;
   static constexpr const char* kKind = "ground_extractor";
+  static constexpr const char* kKindSummary =
+      "Finds the plane of the ground in a cloud and the points that lie on it.";
+  static constexpr int kKindOrder = 30;
   virtual ~GroundExtractor() = default;
 
   /// The ground; its normal's sign is arbitrary. Draws only from `rng`. Throws StageError where no

@@ -10,6 +10,9 @@ class Icp {
  public:
   using Kind = Icp;
   static constexpr const char* kKind = "icp";
+  static constexpr const char* kKindSummary =
+      "Registers a source cloud to a target cloud from a start.";
+  static constexpr int kKindOrder = 50;
   virtual ~Icp() = default;
 
   /// The pose of the source near `start`. Throws StageError where there are too few

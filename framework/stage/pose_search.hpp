@@ -21,6 +21,8 @@ class PoseSearch {
  public:
   using Kind = PoseSearch;
   static constexpr const char* kKind = "pose_search";
+  static constexpr const char* kKindSummary = "Finds the least of a function of pose near a start.";
+  static constexpr int kKindOrder = 70;
   virtual ~PoseSearch() = default;
 
   /// The pose of least cost near `start`; never one that costs more than `start`.

@@ -9,6 +9,9 @@ class Preprocessor {
  public:
   using Kind = Preprocessor;
   static constexpr const char* kKind = "preprocessor";
+  static constexpr const char* kKindSummary =
+      "Makes another cloud of a cloud: crops it or thins it.";
+  static constexpr int kKindOrder = 20;
   virtual ~Preprocessor() = default;
 
   /// The points that stay (or stand for those that do), in a fixed order.

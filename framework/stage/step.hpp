@@ -44,6 +44,9 @@ class Step {
  public:
   using Kind = Step;
   static constexpr const char* kKind = "step";
+  static constexpr const char* kKindSummary =
+      "An element of the pipeline: takes an estimate and returns a better one.";
+  static constexpr int kKindOrder = 80;
   virtual ~Step() = default;
 
   /// The better estimate. Draws only from `rng`. Throws StageError where the data defeat it.

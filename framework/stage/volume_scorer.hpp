@@ -28,6 +28,9 @@ class VolumeScorer {
  public:
   using Kind = VolumeScorer;
   static constexpr const char* kKind = "volume_scorer";
+  static constexpr const char* kKindSummary =
+      "Measures the volume that two clouds occupy together, as a function of pose.";
+  static constexpr int kKindOrder = 60;
   virtual ~VolumeScorer() = default;
 
   /// The volume as a function of pose. What depends on the target alone is made once

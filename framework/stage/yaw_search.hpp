@@ -19,6 +19,8 @@ class YawSearch {
  public:
   using Kind = YawSearch;
   static constexpr const char* kKind = "yaw_search";
+  static constexpr const char* kKindSummary = "Finds the least of a function of yaw.";
+  static constexpr int kKindOrder = 40;
   virtual ~YawSearch() = default;
 
   /// The yaw of least cost near zero. The costs of the yaws that it looks at must not be NaN.

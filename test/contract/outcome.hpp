@@ -29,7 +29,9 @@ struct CloudPair {
 CloudPair cloud_pair(const PointCloud& target, const PointCloud& source);
 
 /// Builds the stage `json` of `kind` and runs it as its kind asks: on both clouds, on each alone,
-/// or on a function. A step runs after `ground_alignment` where that one succeeds.
+/// or on a function. A step runs after `ground_alignment` if that one succeeds. A stage of any
+/// other kind runs in the steps that have a slot of the kind; if there is none, throws
+/// std::logic_error.
 Outcome outcome_of(const std::string& kind, const std::string& json, const CloudPair& clouds);
 
 }  // namespace croon::test
