@@ -44,4 +44,29 @@ class StageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Returns what `work` returns. An exception of the type `Error`, by which the library called
+/// `library` says that it cannot handle the data, becomes a StageError.
+///
+/// A StageError is the only exception that ends a trial alone; any other one ends the run, because
+/// it is a bug or a failure of the machine. So a stage wraps its calls of a library in this
+/// function if, and only if, the library throws at valid calls with unusual data:
+///
+/// | exception | converted | reason |
+/// |---|---|---|
+/// | CGAL::Failure_exception | yes | a precondition or assertion fails on degenerate points |
+/// | openvdb::Exception | no | thrown at trees of another type or origin: a wrong call |
+/// | std::runtime_error of nanoflann | no | thrown at an index that was not built: a wrong call |
+/// | tbb::bad_last_alloc, std::system_error | no | the machine has no memory or threads left |
+/// | std::bad_alloc | no | of this machine at this time, so it must not become a result |
+///
+/// Eigen and LZF throw nothing of their own.
+template <class Error, class Work>
+auto with_stage_errors(const std::string& library, const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    throw StageError(library + ": " + error.what());
+  }
+}
+
 }  // namespace croon

@@ -1,10 +1,10 @@
 #include "framework/pipeline/pipeline.hpp"
 
 #include <chrono>
-#include <new>
 #include <optional>
-#include <stdexcept>
 #include <utility>
+
+#include "framework/base/error.hpp"
 
 namespace croon {
 namespace {
@@ -41,12 +41,7 @@ void advance(PipelineResult& result, const NamedStep& named, const StreamKey& ke
   result.estimate = before;
   try {
     result.estimate = step->advance(std::move(before), rng);
-  } catch (const std::logic_error&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    // Of this machine at this time, not of the data: must not become a result.
-    throw;
-  } catch (const std::exception& error) {
+  } catch (const StageError& error) {
     result.failure = name + ": " + error.what();
   }
   Estimate& after = result.estimate;

@@ -37,10 +37,10 @@ struct PipelineResult {
 PipelineResult at_start(std::shared_ptr<const Cloud> target, std::shared_ptr<const Cloud> source,
                         const RigidTransform& start);
 
-/// Takes `result` one step further; nothing happens where a step before has failed. Each step draws
-/// from a stream of its own, named by `key` and its name, so one step's draws do not move another's
-/// and a step that is removed moves none. A StageError, or what a library throws, ends the trial
-/// and becomes its `failure`; a std::logic_error, which is a bug, and std::bad_alloc pass through.
+/// Takes `result` one step further; does nothing if an earlier step failed. Each step draws from a
+/// stream of its own, named by `key` and its name, so one step's draws do not move another's and a
+/// step that is removed moves none. A StageError ends the trial and becomes its `failure`; any
+/// other exception passes through (see `with_stage_errors` for those of libraries).
 void advance(PipelineResult& result, const NamedStep& step, const StreamKey& key);
 
 /// Takes `start` through the steps of `pipeline`.

@@ -73,12 +73,8 @@ class CgalEfficientRansac final : public GroundExtractor {
   explicit CgalEfficientRansac(const Params& params) : params_(params) {}
 
   Ground extract(const PointCloud& cloud, Rng& rng) const override {
-    try {
-      return extracted(cloud, rng);
-    } catch (const CGAL::Failure_exception& error) {
-      // It is a std::logic_error, but of what the data are like.
-      throw StageError(std::string("CGAL: ") + error.what());
-    }
+    return with_stage_errors<CGAL::Failure_exception>("CGAL",
+                                                      [&] { return extracted(cloud, rng); });
   }
 
  private:
