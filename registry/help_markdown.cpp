@@ -1,5 +1,4 @@
-#include "registry/help_formats.hpp"
-#include "registry/words.hpp"
+#include "registry/help_parts.hpp"
 
 namespace croon {
 namespace {

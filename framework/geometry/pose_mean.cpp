@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "framework/base/statistics.hpp"
-#include "framework/geometry/pose_error.hpp"
+#include "framework/geometry/dof.hpp"
 
 namespace croon {
 

@@ -47,4 +47,8 @@ Eigen::Matrix3d rotation_between(const Eigen::Vector3d& from, const Eigen::Vecto
 /// The points of `cloud` (source frame) in the target frame.
 PointCloud transformed(const PointCloud& cloud, const RigidTransform& T_target_source);
 
+/// The quaternion of a rotation with the sign that files use: of `q` and `-q` the one whose first
+/// coefficient in the order w, x, y, z that is not zero is positive.
+Eigen::Quaterniond unit_quaternion(const Eigen::Matrix3d& rotation);
+
 }  // namespace croon

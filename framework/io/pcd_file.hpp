@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "framework/geometry/loaded_cloud.hpp"
+#include "framework/geometry/point_cloud.hpp"
 
 namespace croon {
 
@@ -10,5 +10,9 @@ namespace croon {
 /// type and in any order; other fields are skipped). VIEWPOINT is ignored: points are taken in the
 /// sensor's frame as they are stored. Throws InputError where the file is not what its header says.
 LoadedCloud read_pcd(const std::filesystem::path& path);
+
+/// Writes a cloud as binary PCD with the fields `x y z intensity ring timestamp` (F4 F4 F4 F4 U2
+/// F8, as the real samples have them). Throws InputError where the file cannot be written.
+void write_pcd(const std::filesystem::path& path, const MeasuredCloud& cloud);
 
 }  // namespace croon

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "framework/base/error.hpp"
-#include "framework/base/nearest_name.hpp"
 #include "framework/io/text_scan.hpp"
 
 namespace croon {

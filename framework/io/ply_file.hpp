@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
-#include "framework/geometry/loaded_cloud.hpp"
+#include "framework/geometry/point_cloud.hpp"
+#include "framework/picture/colour.hpp"
 
 namespace croon {
 
@@ -10,5 +12,17 @@ namespace croon {
 /// order; other properties, lists and elements are skipped). Throws InputError where the file is
 /// not what its header says.
 LoadedCloud read_ply(const std::filesystem::path& path);
+
+/// How write_ply writes numbers.
+enum class PlyFormat { binary_little_endian, ascii };
+
+/// Writes a cloud as PLY with x, y, z; ascii numbers are the shortest that read back as the same
+/// floats. Throws InputError where the file cannot be written.
+void write_ply(const std::filesystem::path& path, const PointCloud& cloud,
+               PlyFormat format = PlyFormat::binary_little_endian);
+
+/// Writes all clouds of a rig in the reference's frame into one PLY, each in the colour of its
+/// index in `clouds`; comments in the header name the sensors and their colours.
+void write_fused_ply(const std::filesystem::path& path, const std::vector<ColouredCloud>& clouds);
 
 }  // namespace croon

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "framework/geometry/loaded_cloud.hpp"
+#include "framework/geometry/point_cloud.hpp"
 
 namespace croon {
 

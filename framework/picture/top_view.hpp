@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "framework/picture/coloured_cloud.hpp"
+#include "framework/picture/colour.hpp"
 #include "framework/picture/image.hpp"
 
 namespace croon {

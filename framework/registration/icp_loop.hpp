@@ -5,7 +5,6 @@
 #include "framework/registration/gauss_newton.hpp"
 #include "framework/registration/icp_options.hpp"
 #include "framework/registration/registration.hpp"
-#include "framework/registration/robust_kernel.hpp"
 #include "framework/spatial/cloud.hpp"
 
 namespace croon {

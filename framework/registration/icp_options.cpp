@@ -1,6 +1,12 @@
 #include "framework/registration/icp_options.hpp"
 
+#include <cmath>
+
 namespace croon {
+
+double RobustKernel::huber_weight(double squared_residual) const {
+  return squared_residual <= width_ * width_ ? 1.0 : width_ / std::sqrt(squared_residual);
+}
 
 const params::Table<IcpOptions>& icp_table() {
   using params::choice;

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <sstream>
+
+#include "framework/base/error.hpp"
 
 namespace croon {
 
@@ -30,7 +33,13 @@ class LeafGrid {
     const int towards_zero = static_cast<int>(value);
     return towards_zero - static_cast<int>(value < towards_zero);
   }
-  [[noreturn]] void refuse(const Eigen::Vector3d& point) const;
+  [[noreturn]] void refuse(const Eigen::Vector3d& point) const {
+    std::ostringstream message;
+    message << "a point at (" << point.x() << ", " << point.y() << ", " << point.z()
+            << ") m is outside of the grid of leaves: with a leaf size of " << leaf_size_m_
+            << " m a coordinate reaches to " << kMaxIndex * leaf_size_m_ << " m";
+    throw StageError(message.str());
+  }
 
   double leaf_size_m_;
   double inverse_;

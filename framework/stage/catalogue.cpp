@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "framework/base/nearest_name.hpp"
+#include "framework/base/error.hpp"
 
 namespace croon {
 namespace {

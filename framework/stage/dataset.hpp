@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/geometry/loaded_cloud.hpp"
-#include "framework/geometry/measured_cloud.hpp"
+#include "framework/geometry/point_cloud.hpp"
 #include "framework/geometry/rigid_transform.hpp"
 #include "framework/picture/image.hpp"
 

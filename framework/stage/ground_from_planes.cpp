@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "framework/base/error.hpp"
-#include "framework/geometry/plane_ransac.hpp"
+#include "framework/geometry/plane.hpp"
 
 namespace croon {
 namespace {

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
+#include <vector>
+
+#include "framework/base/angles.hpp"
 
 namespace croon {
 
@@ -26,5 +30,32 @@ class YawSearch {
   /// The yaw of least cost near zero. The costs of the yaws that it looks at must not be NaN.
   virtual YawMinimum minimise(const YawCost& cost) const = 0;
 };
+
+/// The multiples of `step_deg` within +-`range_deg`, nearest to zero first: 0, 1, -1, 2, -2, ...
+/// Taken in this order with a strict comparison, the least of equal costs is the one that turns the
+/// sensor least. Of -180 and 180 degrees, which are one yaw, only the second is there.
+inline std::vector<int> yaw_grid(double range_deg, double step_deg) {
+  // The addend lets a range that is a multiple of the step but for rounding reach its ends.
+  const int count = static_cast<int>(std::floor(range_deg / step_deg + 1e-9));
+  std::vector<int> grid = {0};
+  for (int i = 1; i <= count; ++i) {
+    grid.push_back(i);
+    if (i * step_deg < 180.0 - 1e-9) grid.push_back(-i);
+  }
+  return grid;
+}
+
+/// The least of `cost` on the grid of `yaw_grid`, of equal costs the first.
+inline YawMinimum least_on_grid(const YawCost& cost, double range_deg, double step_deg) {
+  YawMinimum least{0.0, cost(0.0), 1};
+  const std::vector<int> grid = yaw_grid(range_deg, step_deg);
+  for (std::size_t i = 1; i < grid.size(); ++i) {
+    const double yaw_rad = rad_from_deg(grid[i] * step_deg);
+    const double yaw_cost = cost(yaw_rad);
+    if (yaw_cost < least.cost) least = {yaw_rad, yaw_cost, 0};
+  }
+  least.evaluations = static_cast<int>(grid.size());
+  return least;
+}
 
 }  // namespace croon

@@ -6,8 +6,7 @@
 #include "framework/io/opencalib_files.hpp"
 #include "framework/io/point_cloud_file.hpp"
 #include "framework/stage/dataset.hpp"
-#include "framework/stage/rig_poses.hpp"
-#include "framework/stage/scene_kinds_file.hpp"
+#include "framework/stage/rig_files.hpp"
 #include "framework/stage/stage_entry.hpp"
 
 namespace croon::stages::dataset {

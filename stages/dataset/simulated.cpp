@@ -4,7 +4,7 @@
 
 #include "framework/simulation/simulated_scene.hpp"
 #include "framework/stage/dataset.hpp"
-#include "framework/stage/rig_poses.hpp"
+#include "framework/stage/rig_files.hpp"
 #include "framework/stage/stage_entry.hpp"
 
 namespace croon::stages::dataset {

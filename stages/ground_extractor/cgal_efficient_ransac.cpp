@@ -9,7 +9,7 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
-#include "framework/spatial/oriented_sample.hpp"
+#include "framework/spatial/normals.hpp"
 #include "framework/stage/ground_from_planes.hpp"
 #include "framework/stage/stage_entry.hpp"
 

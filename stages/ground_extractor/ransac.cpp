@@ -1,4 +1,4 @@
-#include "framework/geometry/plane_ransac.hpp"
+#include "framework/geometry/plane.hpp"
 #include "framework/stage/ground_from_planes.hpp"
 #include "framework/stage/stage_entry.hpp"
 

@@ -1,5 +1,5 @@
 #include "framework/base/error.hpp"
-#include "framework/pipeline/point_selection.hpp"
+#include "framework/pipeline/step_options.hpp"
 #include "framework/stage/icp.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/step.hpp"

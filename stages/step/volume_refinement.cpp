@@ -1,4 +1,4 @@
-#include "framework/pipeline/point_selection.hpp"
+#include "framework/pipeline/step_options.hpp"
 #include "framework/stage/pose_search.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/step.hpp"

@@ -1,4 +1,4 @@
-#include "framework/pipeline/nearest_cost_options.hpp"
+#include "framework/pipeline/step_options.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/step.hpp"
 #include "framework/stage/yaw_search.hpp"

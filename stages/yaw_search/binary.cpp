@@ -4,7 +4,6 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/stage/stage_entry.hpp"
-#include "framework/stage/yaw_grid.hpp"
 #include "framework/stage/yaw_search.hpp"
 
 namespace croon::stages::yaw_search {

@@ -1,6 +1,4 @@
-#include "framework/base/angles.hpp"
 #include "framework/stage/stage_entry.hpp"
-#include "framework/stage/yaw_grid.hpp"
 #include "framework/stage/yaw_search.hpp"
 
 namespace croon::stages::yaw_search {
@@ -25,15 +23,7 @@ class Exhaustive final : public YawSearch {
   explicit Exhaustive(const Params& params) : params_(params) {}
 
   YawMinimum minimise(const YawCost& cost) const override {
-    YawMinimum least{0.0, cost(0.0), 0};
-    const std::vector<int> grid = yaw_grid(params_.range_deg, params_.step_deg);
-    for (std::size_t i = 1; i < grid.size(); ++i) {
-      const double yaw_rad = rad_from_deg(grid[i] * params_.step_deg);
-      const double yaw_cost = cost(yaw_rad);
-      if (yaw_cost < least.cost) least = {yaw_rad, yaw_cost, 0};
-    }
-    least.evaluations = static_cast<int>(grid.size());
-    return least;
+    return least_on_grid(cost, params_.range_deg, params_.step_deg);
   }
 
  private:

@@ -2,7 +2,6 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/stage/stage_entry.hpp"
-#include "framework/stage/yaw_grid.hpp"
 #include "framework/stage/yaw_search.hpp"
 
 namespace croon::stages::yaw_search {
@@ -40,7 +39,7 @@ class GoldenSection final : public YawSearch {
   explicit GoldenSection(const Params& params) : params_(params) {}
 
   YawMinimum minimise(const YawCost& cost) const override {
-    YawMinimum least = bracketed(cost);
+    YawMinimum least = least_on_grid(cost, params_.range_deg, params_.bracket_step_deg);
     const double tolerance_rad = rad_from_deg(params_.tolerance_deg);
     const double step_rad = rad_from_deg(params_.bracket_step_deg);
     double low_rad = least.yaw_rad - step_rad;
@@ -64,19 +63,6 @@ class GoldenSection final : public YawSearch {
   }
 
  private:
-  /// The yaw of least cost on the coarse grid.
-  YawMinimum bracketed(const YawCost& cost) const {
-    YawMinimum least{0.0, cost(0.0), 0};
-    const std::vector<int> grid = yaw_grid(params_.range_deg, params_.bracket_step_deg);
-    for (std::size_t i = 1; i < grid.size(); ++i) {
-      const double yaw_rad = rad_from_deg(grid[i] * params_.bracket_step_deg);
-      const double yaw_cost = cost(yaw_rad);
-      if (yaw_cost < least.cost) least = {yaw_rad, yaw_cost, 0};
-    }
-    least.evaluations = static_cast<int>(grid.size());
-    return least;
-  }
-
   Params params_;
 };
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/base/angles.hpp"
-#include "framework/geometry/pose_error.hpp"
+#include "framework/geometry/dof.hpp"
 #include "framework/stage/ground_extractor.hpp"
 #include "framework/stage/icp.hpp"
 #include "framework/stage/preprocessor.hpp"

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "framework/base/angles.hpp"
-#include "framework/geometry/pose_error.hpp"
+#include "framework/geometry/dof.hpp"
 #include "test/support/random_geometry.hpp"
 
 namespace croon {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "framework/base/angles.hpp"
-#include "framework/geometry/pose_error.hpp"
+#include "framework/geometry/dof.hpp"
 #include "framework/stage/pose_search.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"

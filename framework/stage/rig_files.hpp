@@ -23,4 +23,11 @@ std::string rig_poses_json(const RigPoses& poses);
 /// roll and yaw are not so exact.)
 RigidTransform pose_as_written(const RigidTransform& T_reference_sensor);
 
+/// The kind of each scene by the scene's name.
+using SceneKinds = std::map<std::string, std::string>;
+
+/// Reads `{"000012": "urban"}`; a kind is a word of letters, digits, `_` and `-`. Throws InputError
+/// with every fault.
+SceneKinds read_scene_kinds(const std::filesystem::path& file);
+
 }  // namespace croon

@@ -1,4 +1,4 @@
-#include "registry/words.hpp"
+#include "registry/help_parts.hpp"
 
 #include <stdexcept>
 
