@@ -8,7 +8,7 @@
 namespace croon {
 namespace {
 
-/// What the caller asked for: everything where both are empty, a kind, or one stage of it.
+/// What the caller asked for: all stages (both empty), those of a kind of stage, or one stage.
 struct Selection {
   std::string kind;
   std::string name;

@@ -212,7 +212,7 @@ ordered_json stage_schema(const StageEntry& entry) {
     properties["name"] = {
         {"type", "string"},
         {"pattern", params::kKeyName.pattern()},
-        {"description", "What variants and timings call the step; else its kind."}};
+        {"description", "The name of the step in variants and timings; by default its type."}};
   }
   add_parameters(entry.parameters, properties, required);
   return {{"type", "object"},

@@ -40,7 +40,7 @@ std::string Fault::line() const {
   if (!file.empty()) text += file + ": ";
   if (!where.empty()) text += where + ": ";
   text += message;
-  // What the user wrote may hold line breaks; a fault is one line all the same.
+  // The user's text may contain line breaks; a fault is one line.
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20) c = '?';
   }
@@ -73,7 +73,7 @@ InputError::InputError(std::string file, std::string where, std::string message)
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known) {
   std::string best;
-  // Two letters changed places in a short word, or up to half of a long one is off.
+  // Allows two swapped letters in a short word, and up to half of a long word to differ.
   std::size_t least = std::min(name.size(), std::max<std::size_t>(2, name.size() / 2) + 1);
   for (const std::string& candidate : known) {
     const std::size_t distance = edit_distance(name, candidate);

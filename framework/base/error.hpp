@@ -7,19 +7,19 @@
 
 namespace croon {
 
-/// One thing that is wrong with what the caller gave: the file, the place in it (a JSON pointer, a
-/// line or a byte; empty where there is none) and one sentence: what was expected and what was
-/// found.
+/// One mistake in the caller's input: the file, the position in it (a JSON pointer, a line or a
+/// byte; empty if there is none), and one sentence with what was expected and what was found.
 struct Fault {
   std::string file;
   std::string where;
   std::string message;
 
-  /// The fault as the one line that the user reads: `file: where: message`.
+  /// The fault as one line for the user: `file: where: message`.
   std::string line() const;
 };
 
-/// The caller's mistake: all faults that were found, not the first alone. The program exits with 2.
+/// The caller's input is wrong. Holds all faults that were found, not only the first. The program
+/// exits with 2.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Fault> faults);
@@ -31,10 +31,10 @@ class InputError : public std::runtime_error {
   std::vector<Fault> faults_;
 };
 
-/// Does `work` and notes in `faults` those of the InputError that it throws.
+/// Calls `work`. If it throws an InputError, appends its faults to `faults`.
 void collect_faults(std::vector<Fault>& faults, const std::function<void()>& work);
 
-/// `faults` with each line once, in order.
+/// `faults` without those whose line occurs earlier in the list.
 std::vector<Fault> without_repeats(const std::vector<Fault>& faults);
 
 /// The data defeated a stage (no ground, too few correspondences, ...). The trial is recorded as
@@ -69,12 +69,12 @@ auto with_stage_errors(const std::string& library, const Work& work) {
   }
 }
 
-/// The known name with the least edit distance to `name`, or nothing where none is near enough (all
-/// of it or more than half of a long name differs).
+/// The known name with the smallest edit distance to `name`. Empty if the nearest one is too far:
+/// the whole of a short name or more than half of a long one differs.
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known);
 
-/// `; did you mean "ransac"?`, or, where nothing is near, `; known: a, b, c`. Empty where nothing
-/// is known.
+/// `; did you mean "ransac"?`, or `; known: a, b, c` if no known name is near. Empty if `known` is
+/// empty.
 std::string name_hint(const std::string& name, const std::vector<std::string>& known);
 
 }  // namespace croon

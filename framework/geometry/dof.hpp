@@ -34,6 +34,7 @@ struct PoseError {
   double translation_m = 0.0;       ///< The distance between the two origins.
 };
 
+/// The error of `estimate` against `truth`, both `T_reference_sensor`.
 PoseError pose_error(const RigidTransform& estimate, const RigidTransform& truth);
 
 }  // namespace croon

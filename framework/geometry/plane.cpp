@@ -43,7 +43,7 @@ class Sample {
     return count;
   }
 
-  /// The plane through three points drawn at random; nothing where they lie on one line.
+  /// The plane through three points drawn at random; std::nullopt if they are on one line.
   std::optional<Plane> draw_plane(Rng& rng) const {
     constexpr double kMinSine = 1e-3;
     Eigen::Vector3d p[3];

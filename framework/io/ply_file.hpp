@@ -9,15 +9,15 @@
 namespace croon {
 
 /// The vertices of a PLY file (ascii or binary of either byte order; x, y, z of any type and in any
-/// order; other properties, lists and elements are skipped). Throws InputError where the file is
-/// not what its header says.
+/// order; other properties, lists and elements are skipped). Throws InputError if the file
+/// contradicts its header.
 LoadedCloud read_ply(const std::filesystem::path& path);
 
 /// How write_ply writes numbers.
 enum class PlyFormat { binary_little_endian, ascii };
 
 /// Writes a cloud as PLY with x, y, z; ascii numbers are the shortest that read back as the same
-/// floats. Throws InputError where the file cannot be written.
+/// floats. Throws InputError if the file cannot be written.
 void write_ply(const std::filesystem::path& path, const PointCloud& cloud,
                PlyFormat format = PlyFormat::binary_little_endian);
 

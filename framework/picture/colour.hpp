@@ -14,10 +14,10 @@ struct Colour {
 };
 
 /// The colour of the sensor `index`, the reference being 0: grey, then the palette of Okabe and Ito
-/// (2008), which colour-blind readers can tell apart; it starts again after eight.
+/// (2008), which colour-blind readers can distinguish; it repeats after eight.
 Colour sensor_colour(std::size_t index);
 
-/// One sensor's cloud in its own frame, to be drawn in the reference's.
+/// One sensor's cloud in its own frame, to be drawn in the reference's frame.
 struct ColouredCloud {
   std::string sensor;
   PointCloud points;

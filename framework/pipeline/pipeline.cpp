@@ -37,7 +37,7 @@ void advance(PipelineResult& result, const NamedStep& named, const StreamKey& ke
   Estimate before = std::move(result.estimate);
   const std::optional<std::string> rejection = std::exchange(before.rejection, std::nullopt);
   const std::optional<Matrix6d> information = std::exchange(before.information, std::nullopt);
-  before.figures.clear();
+  before.diagnostics.clear();
   result.estimate = before;
   try {
     result.estimate = step->advance(std::move(before), rng);
@@ -46,7 +46,7 @@ void advance(PipelineResult& result, const NamedStep& named, const StreamKey& ke
   }
   Estimate& after = result.estimate;
   result.records.push_back(
-      {name, own_seconds(step_start, shared_before), after.figures, after.information});
+      {name, own_seconds(step_start, shared_before), after.diagnostics, after.information});
   if (!after.information) after.information = information;
   after.rejection = after.rejection ? std::optional(name + ": " + *after.rejection) : rejection;
 }

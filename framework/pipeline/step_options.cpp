@@ -18,11 +18,11 @@ SelectedClouds selected_clouds(const Estimate& estimate, Points points) {
 const params::Table<NearestCostOptions>& nearest_cost_table() {
   static const params::Table<NearestCostOptions> table = {
       params::choice("points", &NearestCostOptions::points, kPointsWords,
-                     "Which points the cost looks at; ground says nothing of yaw, x and y."),
+                     "Which points the cost uses; the ground does not constrain yaw, x and y."),
       params::integer("max_points", &NearestCostOptions::max_points, {10, 1e9},
-                      "At most so many points of the sensor are looked at, evenly spaced."),
+                      "At most this many points of the sensor are used, evenly spaced."),
       params::number("max_distance_m", &NearestCostOptions::max_distance_m, {0.01, 1e6},
-                     "A nearest-neighbour distance counts for at most this."),
+                     "Nearest-neighbour distances are truncated at this."),
   };
   return table;
 }

@@ -26,7 +26,7 @@ struct SelectedClouds {
 /// found the ground. Throws StageError if a selected cloud is empty.
 SelectedClouds selected_clouds(const Estimate& estimate, Points points);
 
-/// The parameters of the steps that make the nearest-neighbour distances least. A step's own
+/// The parameters of the steps that minimise the nearest-neighbour distances. A step's own
 /// parameters derive from this and its table inherits nearest_cost_table().
 struct NearestCostOptions {
   Points points = Points::non_ground;
@@ -37,7 +37,7 @@ struct NearestCostOptions {
 /// The rows of NearestCostOptions.
 const params::Table<NearestCostOptions>& nearest_cost_table();
 
-/// The cost between the selected clouds of `estimate`. Throws StageError where one of them is
+/// The cost between the selected clouds of `estimate`. Throws StageError if one of them is
 /// empty.
 NearestDistanceCost nearest_cost(const Estimate& estimate, const NearestCostOptions& options);
 

@@ -12,7 +12,7 @@ struct Params {
 const params::Table<Params>& table() {
   static const params::Table<Params> table = {
       params::number("range_deg", &Params::range_deg, {0.01, 180.0},
-                     "How far the search looks to each side of the start."),
+                     "Half range of the search around the start."),
       params::number("step_deg", &Params::step_deg, {0.001, 180.0}, "Step of the grid."),
   };
   return table;
@@ -34,7 +34,7 @@ class Exhaustive final : public YawSearch {
 
 StageEntry exhaustive() {
   return stage_entry<Exhaustive>(
-      "exhaustive", "Looks at every yaw of a grid around the start; the measure of the others.",
+      "exhaustive", "Evaluates every yaw of a grid around the start; the baseline of the others.",
       "croon", table());
 }
 

@@ -17,11 +17,12 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table = [] {
     params::Table<Params> rows = {
         params::number("range_deg", &Params::range_deg, {0.01, 180.0},
-                       "How far the search looks to each side of the start."),
-        params::number("bracket_step_deg", &Params::bracket_step_deg, {0.001, 180.0},
-                       "Step of the grid whose best yaw and its two neighbours bracket the least."),
+                       "Half range of the search around the start."),
+        params::number(
+            "bracket_step_deg", &Params::bracket_step_deg, {0.001, 180.0},
+            "Step of the grid whose best yaw and its two neighbours bracket the minimum."),
         params::number("tolerance_deg", &Params::tolerance_deg, {1e-6, 180.0},
-                       "The search ends where the bracket is no wider than this."),
+                       "The search ends when the bracket is no wider than this."),
     };
     return rows.require([](const Params& p) { return p.bracket_step_deg <= p.range_deg; },
                         "bracket_step_deg must not be greater than range_deg");
@@ -29,7 +30,7 @@ const params::Table<Params>& table() {
   return table;
 }
 
-/// The share of a segment that a probe cuts off: `1 - 1 / golden ratio`.
+/// The share of a segment that is cut off: `1 - 1 / golden ratio`.
 constexpr double kGoldenShare = 0.38196601125010515;
 
 /// Golden section search (Kiefer 1953): of a bracket `low < best < high` whose middle costs least,
@@ -71,7 +72,7 @@ class GoldenSection final : public YawSearch {
 StageEntry golden_section() {
   return stage_entry<GoldenSection>(
       "golden_section",
-      "Brackets the least on a coarse grid, then narrows the bracket by the golden ratio.",
+      "Brackets the minimum on a coarse grid, then narrows the bracket by the golden ratio.",
       "Kiefer, Sequential minimax search for a maximum, 1953", table());
 }
 

@@ -114,7 +114,7 @@ Numbers advanced(const std::string& json, const CloudPair& clouds) {
   if (!result.failure.empty()) throw StageError(result.failure);
   Numbers numbers;
   add_pose(numbers, result.estimate.T_target_source);
-  for (const StepFigure& figure : result.estimate.figures) numbers.push_back(figure.second);
+  for (const auto& [name, value] : result.estimate.diagnostics) numbers.push_back(value);
   numbers.push_back(result.estimate.rejection ? 1.0 : 0.0);
   return numbers;
 }

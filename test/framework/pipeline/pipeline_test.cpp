@@ -22,7 +22,7 @@ class Move final : public Step {
     if (fails_) throw StageError("nothing to move");
     const double draw = rng.uniform();
     estimate.T_target_source.translation.x() += draw;
-    estimate.figures = {{"draw", draw}};
+    estimate.diagnostics = {{"draw", draw}};
     return estimate;
   }
 
@@ -45,23 +45,24 @@ TEST(RunPipeline, TakesTheEstimateThroughTheSteps) {
   ASSERT_EQ(result.records.size(), 2u);
   EXPECT_TRUE(result.failure.empty());
   EXPECT_EQ(result.estimate.T_target_source.translation.x(),
-            result.records[0].figures[0].second + result.records[1].figures[0].second);
+            result.records[0].diagnostics[0].second + result.records[1].diagnostics[0].second);
 }
 
 TEST(RunPipeline, StepsDrawFromStreamsOfTheirOwn) {
-  const double a = run({move("a"), move("b")}).records[0].figures[0].second;
-  const double b = run({move("a"), move("b")}).records[1].figures[0].second;
+  const double a = run({move("a"), move("b")}).records[0].diagnostics[0].second;
+  const double b = run({move("a"), move("b")}).records[1].diagnostics[0].second;
   EXPECT_NE(a, b);
-  EXPECT_EQ(run({move("a")}).records[0].figures[0].second, a);
-  EXPECT_EQ(run({move("other"), move("b")}).records[1].figures[0].second, b);
+  EXPECT_EQ(run({move("a")}).records[0].diagnostics[0].second, a);
+  EXPECT_EQ(run({move("other"), move("b")}).records[1].diagnostics[0].second, b);
 }
 
 TEST(RunPipeline, StopsWithAReasonAtTheStepThatIsDefeated) {
   const PipelineResult result = run({move("a"), move("b", true), move("c")});
   EXPECT_EQ(result.failure, "b: nothing to move");
   ASSERT_EQ(result.records.size(), 2u);
-  EXPECT_TRUE(result.records[1].figures.empty());
-  EXPECT_EQ(result.estimate.T_target_source.translation.x(), result.records[0].figures[0].second);
+  EXPECT_TRUE(result.records[1].diagnostics.empty());
+  EXPECT_EQ(result.estimate.T_target_source.translation.x(),
+            result.records[0].diagnostics[0].second);
 }
 
 /// A step that throws what `raise` throws.
