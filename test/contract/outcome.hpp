@@ -9,18 +9,18 @@
 
 namespace croon::test {
 
-/// What a stage made of two clouds: every number of its result, or why it could not go on.
+/// The result of a stage on two clouds: every number of it, or the StageError.
 struct Outcome {
   std::vector<double> numbers;
-  std::string stage_error;  ///< The StageError's words; empty where there was none.
+  std::string stage_error;  ///< The message of the StageError; empty if there was none.
 
-  /// All numbers, bit by bit, and the words: two outcomes with the same text are the same.
+  /// The bits of all numbers and the message: equal texts are equal outcomes.
   std::string bits() const;
-  /// True where no number is NaN or infinite.
+  /// True if no number is NaN or infinite.
   bool is_finite() const;
 };
 
-/// The two clouds that a stage works on, and what it draws for them.
+/// The two clouds that a stage works on, with their random streams.
 struct CloudPair {
   std::shared_ptr<const Cloud> target;
   std::shared_ptr<const Cloud> source;

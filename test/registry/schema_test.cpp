@@ -28,7 +28,7 @@ std::vector<std::string> required_keys(const std::vector<ParameterDoc>& paramete
   return keys;
 }
 
-/// Expects the ends of the range, or none where there are none.
+/// Expects the finite ends of the range and no others.
 void expect_range(const json& found, const params::Range& range) {
   EXPECT_EQ(found.contains("minimum"), std::isfinite(range.minimum));
   EXPECT_EQ(found.contains("maximum"), std::isfinite(range.maximum));
@@ -130,7 +130,7 @@ void expect_parameters(const json& properties, const std::vector<ParameterDoc>& 
   }
 }
 
-/// Expects that the stage's definition says what its table says.
+/// Expects that the stage's definition equals its table.
 void expect_stage(const json& stage, const StageEntry& entry) {
   SCOPED_TRACE(entry.name);
   EXPECT_EQ(stage["additionalProperties"], false);

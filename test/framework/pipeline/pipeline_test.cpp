@@ -83,7 +83,7 @@ PipelineResult run_throwing(std::function<void()> raise) {
   return run({{"a", params::Slot<Step>(params::BuiltStage{step, "throwing", "{}"})}});
 }
 
-/// A library's exception that knows nothing of std::runtime_error and std::logic_error.
+/// A library's exception that derives from std::exception directly.
 struct ForeignError : std::exception {};
 
 TEST(RunPipeline, OnlyAStageErrorEndsATrial) {
@@ -101,7 +101,7 @@ TEST(RunPipeline, OnlyAStageErrorEndsATrial) {
 }
 
 TEST(RunPipeline, AConvertedExceptionOfALibraryEndsATrial) {
-  const auto convert = [](const std::function<void()>& raise) {
+  const auto convert = [](auto raise) {
     return [raise] { with_stage_errors<std::domain_error>("LIB", raise); };
   };
   const auto degenerate = convert([] { throw std::domain_error("all points are equal"); });
