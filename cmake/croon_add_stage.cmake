@@ -1,8 +1,9 @@
 # croon_add_stage(<kind> <name> [SOURCE <file>] [NEEDS <target>...])
 #
 # Adds the stage that <kind>/<name>.cpp (or <file>) defines: compiles the file and adds one call of
-# croon::stages::<kind>::<name>() to the registry's list. Where a target that it needs does not exist
-# (an option turned its library off), the stage is left out and the configuration says so.
+# croon::stages::<kind>::<name>() to the registry's list. If a target that it needs does not exist (an
+# option turned its library off), the stage is left out and the configuration prints a line.
+# Headers are found from the root of this tree and from the folder that adds the stage.
 function(croon_add_stage kind name)
   cmake_parse_arguments(PARSE_ARGV 2 stage "" "SOURCE" "NEEDS")
   foreach(target IN LISTS stage_NEEDS)
@@ -16,6 +17,8 @@ function(croon_add_stage kind name)
   endif()
   set(library croon_stage_${kind}_${name})
   add_library(${library} OBJECT "${stage_SOURCE}")
+  # For the header of a kind of stage that comes with the folder.
+  target_include_directories(${library} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}")
   target_link_libraries(${library} PRIVATE croon_framework croon_warnings ${stage_NEEDS})
   set_property(GLOBAL APPEND PROPERTY CROON_STAGES "${kind}/${name}")
   set_property(GLOBAL APPEND PROPERTY CROON_STAGE_LIBRARIES ${library})

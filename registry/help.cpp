@@ -1,33 +1,33 @@
 #include "registry/help.hpp"
 
+#include <algorithm>
+
 #include "framework/base/error.hpp"
-#include "framework/base/nearest_name.hpp"
-#include "registry/help_formats.hpp"
-#include "registry/words.hpp"
+#include "registry/help_parts.hpp"
 
 namespace croon {
 namespace {
 
-/// What the caller asked for: everything where both are empty, a kind, or one stage of it.
+/// What the caller asked for: all stages (both empty), those of a kind of stage, or one stage.
 struct Selection {
   std::string kind;
   std::string name;
 };
 
-bool is_kind(const std::string& word) {
-  for (const std::string& kind : stage_kinds()) {
-    if (kind == word) return true;
-  }
-  return false;
+std::vector<std::string> kind_names(const Catalogue& catalogue) {
+  std::vector<std::string> names;
+  for (const StageKind& kind : catalogue.kinds()) names.push_back(kind.name);
+  return names;
 }
 
 Selection selection_from(const Catalogue& catalogue, const std::string& which) {
   const std::size_t slash = which.find('/');
   Selection selection{which.substr(0, slash), ""};
-  if (!which.empty() && !is_kind(selection.kind)) {
+  const std::vector<std::string> kinds = kind_names(catalogue);
+  if (!which.empty() && std::find(kinds.begin(), kinds.end(), selection.kind) == kinds.end()) {
     throw InputError("", "",
                      "expected a kind of stage, found \"" + selection.kind + "\"" +
-                         name_hint(selection.kind, stage_kinds()));
+                         name_hint(selection.kind, kinds));
   }
   if (slash == std::string::npos) return selection;
   selection.name = which.substr(slash + 1);
@@ -49,9 +49,45 @@ StageList selected(const Catalogue& catalogue, const Selection& selection) {
   return stages;
 }
 
+std::string padded(const std::string& text, std::size_t width) {
+  return text + std::string(width - std::min(width, text.size()), ' ');
+}
+
+std::string as_it_is(const std::string& word) { return word; }
+
+/// One line for each stage, in columns: kind, name, sentence.
+std::string text_table(const StageList& stages) {
+  std::size_t kind_width = 0;
+  std::size_t name_width = 0;
+  for (const StageEntry* stage : stages) {
+    kind_width = std::max(kind_width, stage->kind.size());
+    name_width = std::max(name_width, stage->name.size());
+  }
+  std::string text;
+  for (const StageEntry* stage : stages) {
+    text += padded(stage->kind, kind_width) + "  " + padded(stage->name, name_width) + "  " +
+            stage->summary + "\n";
+  }
+  return text;
+}
+
+/// One stage with its parameters, for a terminal.
+std::string text_page(const StageEntry& stage) {
+  std::string text =
+      stage.kind + "/" + stage.name + "\n  " + stage.summary + "\n  Source: " + stage.source + "\n";
+  for (const auto& [path, parameter] : placed_parameters(stage.parameters)) {
+    const std::string standard =
+        parameter->is_required ? "required" : "default " + default_words(*parameter);
+    text += "\n  " + path + ": " + type_words(*parameter, as_it_is) + "; " + standard + "\n      " +
+            parameter->sentence + "\n";
+  }
+  if (stage.parameters.empty()) text += "\n  It has no parameters.\n";
+  return text;
+}
+
 std::string markdown(const Selection& selection, const StageList& stages) {
   if (selection.kind.empty()) return markdown_index(stages);
-  if (selection.name.empty()) return markdown_page(selection.kind, stages);
+  if (selection.name.empty()) return markdown_page(stages);
   return markdown_section(*stages.front());
 }
 

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "registry/help_formats.hpp"
+#include "registry/help_parts.hpp"
 
 namespace croon {
 namespace {

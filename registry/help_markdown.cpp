@@ -1,5 +1,4 @@
-#include "registry/help_formats.hpp"
-#include "registry/words.hpp"
+#include "registry/help_parts.hpp"
 
 namespace croon {
 namespace {
@@ -37,21 +36,23 @@ std::string markdown_section(const StageEntry& stage) {
   return text;
 }
 
-std::string markdown_page(const std::string& kind, const StageList& stages) {
-  std::string text = kGenerated + ("# " + code(kind)) + "\n\n" + kind_summary(kind) + "\n";
+std::string markdown_page(const StageList& stages) {
+  const StageEntry& first = *stages.front();
+  std::string text = kGenerated + ("# " + code(first.kind)) + "\n\n" + first.kind_summary + "\n";
   for (const StageEntry* stage : stages) text += "\n" + markdown_section(*stage);
   return text;
 }
 
 std::string markdown_index(const StageList& stages) {
   std::string text = kGenerated + std::string("# Stages\n");
-  for (const std::string& kind : stage_kinds()) {
-    text += "\n## " + linked_kind(kind) + "\n\n" + kind_summary(kind) + "\n\n";
-    for (const StageEntry* stage : stages) {
-      if (stage->kind != kind) continue;
-      text += "- [" + code(stage->name) + "](" + kind + ".md#" + stage->name +
-              "): " + stage->summary + "\n";
+  std::string kind;
+  for (const StageEntry* stage : stages) {
+    if (stage->kind != kind) {
+      kind = stage->kind;
+      text += "\n## " + linked_kind(kind) + "\n\n" + stage->kind_summary + "\n\n";
     }
+    text += "- [" + code(stage->name) + "](" + kind + ".md#" + stage->name +
+            "): " + stage->summary + "\n";
   }
   return text;
 }

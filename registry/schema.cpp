@@ -212,7 +212,7 @@ ordered_json stage_schema(const StageEntry& entry) {
     properties["name"] = {
         {"type", "string"},
         {"pattern", params::kKeyName.pattern()},
-        {"description", "What variants and timings call the step; else its kind."}};
+        {"description", "The name of the step in variants and timings; by default its type."}};
   }
   add_parameters(entry.parameters, properties, required);
   return {{"type", "object"},
@@ -222,11 +222,27 @@ ordered_json stage_schema(const StageEntry& entry) {
           {"additionalProperties", false}};
 }
 
+/// The kinds that the schema refers to: those that have stages, those of an experiment's own keys,
+/// and those of slots.
+std::vector<std::string> referred_kinds(const Catalogue& catalogue) {
+  std::vector<std::string> kinds;
+  for (const StageKind& kind : catalogue.kinds()) kinds.push_back(kind.name);
+  kinds.insert(kinds.end(), {"dataset", "step"});
+  for (const StageEntry& entry : catalogue.entries()) {
+    for (const params::ParameterDoc& parameter : entry.parameters) {
+      if (!parameter.stage_kind.empty()) kinds.push_back(parameter.stage_kind);
+    }
+  }
+  return kinds;
+}
+
 }  // namespace
 
 ordered_json stage_definitions(const Catalogue& catalogue) {
   ordered_json all;
-  for (const std::string& kind : stage_kinds()) all[kind] = kind_schema(catalogue, kind);
+  for (const std::string& kind : referred_kinds(catalogue)) {
+    all[kind] = kind_schema(catalogue, kind);
+  }
   for (const StageEntry& entry : catalogue.entries()) {
     all[entry.kind + "." + entry.name] = stage_schema(entry);
   }

@@ -5,7 +5,6 @@
 
 #include "experiments/store/version.hpp"
 #include "framework/base/error.hpp"
-#include "framework/base/nearest_name.hpp"
 
 namespace croon::experiments {
 namespace {

@@ -8,7 +8,6 @@
 #include "experiments/cli/results_folder.hpp"
 #include "experiments/report/export_formats.hpp"
 #include "framework/base/error.hpp"
-#include "framework/base/nearest_name.hpp"
 
 namespace croon::experiments {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "experiments/run/sensor_pairs.hpp"
 #include "framework/base/error.hpp"
-#include "framework/io/ply_writer.hpp"
+#include "framework/io/ply_file.hpp"
 #include "framework/io/vdb_writer.hpp"
 
 namespace croon::experiments {

@@ -4,7 +4,7 @@
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/io/opencalib_files.hpp"
-#include "framework/io/pcd_writer.hpp"
+#include "framework/io/pcd_file.hpp"
 #include "framework/picture/top_view.hpp"
 
 namespace croon::experiments {

@@ -14,7 +14,7 @@
 #include "framework/base/threads.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
-#include "framework/stage/rig_poses.hpp"
+#include "framework/stage/rig_files.hpp"
 
 namespace croon::experiments {
 namespace {

@@ -5,7 +5,6 @@
 
 #include "experiments/file/experiment_keys.hpp"
 #include "framework/base/error.hpp"
-#include "framework/base/nearest_name.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/io/digest.hpp"
 #include "framework/params/json_file.hpp"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "framework/geometry/pose_error.hpp"
+#include "framework/geometry/dof.hpp"
 
 namespace croon::experiments {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "framework/base/nearest_name.hpp"
+#include "framework/base/error.hpp"
 #include "framework/params/group.hpp"
 
 namespace croon::experiments {

@@ -2,7 +2,7 @@
 
 #include "experiments/file/measures.hpp"
 #include "experiments/report/csv_row.hpp"
-#include "framework/geometry/unit_quaternion.hpp"
+#include "framework/geometry/rigid_transform.hpp"
 
 namespace croon::experiments {
 

@@ -5,7 +5,7 @@
 #include "experiments/report/statistic_names.hpp"
 #include "experiments/report/summary.hpp"
 #include "experiments/run/trial_record.hpp"
-#include "framework/geometry/unit_quaternion.hpp"
+#include "framework/geometry/rigid_transform.hpp"
 
 namespace croon::experiments {
 

@@ -9,7 +9,6 @@
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
 #include "framework/base/error.hpp"
-#include "framework/base/nearest_name.hpp"
 
 namespace croon::experiments {
 namespace {

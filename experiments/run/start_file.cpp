@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "framework/base/error.hpp"
-#include "framework/base/nearest_name.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/io/digest.hpp"
 #include "framework/io/text_scan.hpp"

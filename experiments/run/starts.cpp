@@ -9,7 +9,7 @@
 #include "framework/base/error.hpp"
 #include "framework/base/rng.hpp"
 #include "framework/geometry/dof.hpp"
-#include "framework/geometry/unit_quaternion.hpp"
+#include "framework/geometry/rigid_transform.hpp"
 
 namespace croon::experiments {
 namespace {

@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "framework/base/error.hpp"
-#include "framework/base/nearest_name.hpp"
 
 namespace croon::experiments {
 namespace {

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "framework/geometry/pose_error.hpp"
+#include "framework/geometry/dof.hpp"
 #include "framework/pipeline/pipeline.hpp"
 
 namespace croon::experiments {

@@ -37,7 +37,7 @@ ordered_json json_of(double value) {
 }
 
 /// `{"rmse_m": 0.02, ...}`
-std::string figures_text(const std::vector<StepFigure>& figures) {
+std::string figures_text(const std::vector<Diagnostic>& figures) {
   ordered_json object = ordered_json::object();
   for (const auto& [name, value] : figures) object[name] = json_of(value);
   return object.dump();
@@ -122,7 +122,7 @@ void RecordInserter::add(const TrialRow& row, const TrialRecord& record) {
     bind_key(step_, row);
     step_.bind(kKeyColumns, index++);
     step_.bind(kKeyColumns + 1, step.name);
-    step_.bind(kKeyColumns + 2, figures_text(step.figures));
+    step_.bind(kKeyColumns + 2, figures_text(step.diagnostics));
     if (step.information) step_.bind_bytes(kKeyColumns + 3, bytes_of(*step.information));
     step_.next();
     step_.reset();

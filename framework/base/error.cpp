@@ -1,5 +1,7 @@
 #include "framework/base/error.hpp"
 
+#include <algorithm>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -15,6 +17,22 @@ std::string joined_lines(const std::vector<Fault>& faults) {
   return text;
 }
 
+/// Levenshtein's edit distance, one row at a time.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+    }
+  }
+  return row.back();
+}
+
 }  // namespace
 
 std::string Fault::line() const {
@@ -22,7 +40,7 @@ std::string Fault::line() const {
   if (!file.empty()) text += file + ": ";
   if (!where.empty()) text += where + ": ";
   text += message;
-  // What the user wrote may hold line breaks; a fault is one line all the same.
+  // The user's text may contain line breaks; a fault is one line.
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20) c = '?';
   }
@@ -51,6 +69,29 @@ InputError::InputError(std::vector<Fault> faults)
 
 InputError::InputError(std::string file, std::string where, std::string message)
     : InputError(std::vector<Fault>{Fault{std::move(file), std::move(where), std::move(message)}}) {
+}
+
+std::string nearest_name(const std::string& name, const std::vector<std::string>& known) {
+  std::string best;
+  // Allows two swapped letters in a short word, and up to half of a long word to differ.
+  std::size_t least = std::min(name.size(), std::max<std::size_t>(2, name.size() / 2) + 1);
+  for (const std::string& candidate : known) {
+    const std::size_t distance = edit_distance(name, candidate);
+    if (distance < least) {
+      least = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+std::string name_hint(const std::string& name, const std::vector<std::string>& known) {
+  if (known.empty()) return "";
+  const std::string near = nearest_name(name, known);
+  if (!near.empty()) return "; did you mean \"" + near + "\"?";
+  std::string list;
+  for (const std::string& candidate : known) list += (list.empty() ? "" : ", ") + candidate;
+  return "; known: " + list;
 }
 
 }  // namespace croon

@@ -33,7 +33,7 @@ struct Interval {
   double high;
 };
 
-/// The 95 % score interval of a proportion, `successes` of `trials` (Wilson 1927); [0, 1] where
+/// The 95 % score interval of a proportion, `successes` of `trials` (Wilson 1927); [0, 1] if
 /// there were no trials.
 Interval wilson_interval(int successes, int trials);
 

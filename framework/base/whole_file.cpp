@@ -72,7 +72,7 @@ std::string read_whole_file(const fs::path& path) {
 
 void write_whole_file(const fs::path& path, std::string_view bytes) {
   std::error_code ignored;
-  // Renaming onto a device or a pipe would put a file in its place.
+  // Renaming onto a device or a pipe would replace it by a file.
   if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
     throw InputError(path.string(), "",
                      "expected a file that can be written, found something else");

@@ -6,7 +6,7 @@
 
 namespace croon {
 
-/// The bytes of the file `path`. Throws InputError where it is not a file or cannot be read.
+/// The bytes of the file `path`. Throws InputError if it is not a file or cannot be read.
 std::string read_whole_file(const std::filesystem::path& path);
 
 /// Makes `bytes` the content of the file `path`: writes a file beside it and renames that, so that

@@ -7,4 +7,13 @@ RigidTransform moved(const RigidTransform& T_target_source, const Vector6d& offs
           T_target_source.translation + offset.tail<3>()};
 }
 
+PoseError pose_error(const RigidTransform& estimate, const RigidTransform& truth) {
+  const Eigen::Matrix3d R = estimate.rotation * truth.rotation.transpose();
+  PoseError error;
+  error.dof << rpy_from_rotation(R), estimate.translation - truth.translation;
+  error.rotation_rad = rotation_angle(R);
+  error.translation_m = error.dof.tail<3>().norm();
+  return error;
+}
+
 }  // namespace croon

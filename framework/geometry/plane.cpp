@@ -1,11 +1,88 @@
 #include "framework/geometry/plane.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "framework/base/error.hpp"
 
 namespace croon {
+namespace {
+
+/// The points that planes are drawn from and counted on.
+class Sample {
+ public:
+  /// `count` of the cloud's points, drawn without replacement; all of a smaller cloud.
+  Sample(const PointCloud& cloud, int count, Rng& rng) : points_(cloud) {
+    const std::size_t size = std::min(cloud.size(), static_cast<std::size_t>(count));
+    // The front of a Fisher-Yates shuffle. Not every n-th point: a LiDAR's rings come in turn.
+    for (std::size_t i = 0; i < size && size < points_.size(); ++i) {
+      std::swap(points_[i], points_[i + rng.below(points_.size() - i)]);
+    }
+    points_.resize(size);
+    for (const Eigen::Vector3f& point : points_) {
+      x_.push_back(point.x());
+      y_.push_back(point.y());
+      z_.push_back(point.z());
+    }
+  }
+
+  /// How many points lie within `distance_m` of the plane. Axis by axis, so that the compiler can
+  /// take several points at once.
+  int count_within(const Plane& plane, double distance_m) const {
+    const Eigen::Vector3f n = plane.normal.cast<float>();
+    const float a = n.x(), b = n.y(), c = n.z();
+    const float d = static_cast<float>(plane.offset_m);
+    const float bound = static_cast<float>(distance_m);
+    int count = 0;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      count += std::abs(a * x_[i] + b * y_[i] + c * z_[i] + d) <= bound ? 1 : 0;
+    }
+    return count;
+  }
+
+  /// The plane through three points drawn at random; std::nullopt if they are on one line.
+  std::optional<Plane> draw_plane(Rng& rng) const {
+    constexpr double kMinSine = 1e-3;
+    Eigen::Vector3d p[3];
+    for (Eigen::Vector3d& point : p) point = points_[rng.below(points_.size())].cast<double>();
+    const Eigen::Vector3d u = p[1] - p[0];
+    const Eigen::Vector3d v = p[2] - p[0];
+    const Eigen::Vector3d across = u.cross(v);
+    if (!(across.norm() > kMinSine * u.norm() * v.norm())) return std::nullopt;
+    const Eigen::Vector3d normal = across.normalized();
+    return Plane{normal, -normal.dot(p[0])};
+  }
+
+  const PointCloud& points() const { return points_; }
+
+ private:
+  PointCloud points_;
+  std::vector<float> x_, y_, z_;
+};
+
+/// Fits the plane to its points for as long as that wins more of them.
+void optimise(const Sample& sample, const PlaneRansacOptions& options, Plane& plane, int& count) {
+  for (int round = 0; round < options.local_rounds; ++round) {
+    const Plane fitted =
+        fit_plane(sample.points(), points_within(sample.points(), plane, options.threshold_m));
+    const int fitted_count = sample.count_within(fitted, options.threshold_m);
+    if (fitted_count <= count) return;
+    plane = fitted;
+    count = fitted_count;
+  }
+}
+
+/// `log(1 - p) / log(1 - w^3)`: draws until three points of a plane that holds the share w of the
+/// points come together with probability p.
+double iterations_for(double confidence, int inliers, std::size_t points) {
+  const double share = static_cast<double>(inliers) / static_cast<double>(points);
+  return std::log1p(-confidence) / std::log1p(-share * share * share);
+}
+
+}  // namespace
 
 Plane fit_plane(const PointCloud& cloud, const std::vector<int>& indices) {
   if (indices.size() < 3) throw StageError("a plane needs three points");
@@ -32,6 +109,27 @@ std::vector<int> points_within(const PointCloud& cloud, const Plane& plane, doub
     }
   }
   return indices;
+}
+
+Plane plane_ransac(const PointCloud& cloud, const PlaneRansacOptions& options, Rng& rng) {
+  if (cloud.size() < 3) throw StageError("a plane needs three points");
+  const Sample sample(cloud, options.sample_points, rng);
+  std::optional<Plane> best;
+  int most = 0;
+  double iterations = options.max_iterations;
+  for (int i = 0; i < iterations; ++i) {
+    const std::optional<Plane> drawn = sample.draw_plane(rng);
+    if (!drawn) continue;
+    const int count = sample.count_within(*drawn, options.threshold_m);
+    if (count <= most) continue;
+    best = drawn;
+    most = count;
+    optimise(sample, options, *best, most);
+    iterations =
+        std::min(iterations, iterations_for(options.confidence, most, sample.points().size()));
+  }
+  if (!best) throw StageError("the points lie on one line");
+  return *best;
 }
 
 }  // namespace croon

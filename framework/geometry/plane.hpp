@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "framework/base/rng.hpp"
 #include "framework/geometry/point_cloud.hpp"
 
 namespace croon {
@@ -16,16 +17,30 @@ struct Plane {
   double signed_distance(const Eigen::Vector3d& point) const {
     return normal.dot(point) + offset_m;
   }
-  /// The same plane seen from its other side.
+  /// The same plane with the opposite normal.
   Plane flipped() const { return {-normal, -offset_m}; }
 };
 
-/// The least-squares plane through the points of `cloud` that `indices` names: through their mean,
-/// across the direction of their least variance. Needs three points that are not on one line;
-/// throws StageError.
+/// The least-squares plane through the points of `cloud` at `indices`: it contains their mean, and
+/// its normal is the direction of their smallest variance. Throws StageError if there are not three
+/// points off one line.
 Plane fit_plane(const PointCloud& cloud, const std::vector<int>& indices);
 
 /// The indices of the points of `cloud` within `distance_m` of the plane, in order.
 std::vector<int> points_within(const PointCloud& cloud, const Plane& plane, double distance_m);
+
+/// The parameters of plane_ransac.
+struct PlaneRansacOptions {
+  double threshold_m = 0.2;    ///< Points within this distance of a plane are its inliers.
+  double confidence = 0.9999;  ///< Probability of having drawn three inliers of the best plane.
+  int max_iterations = 10000;  ///< At most this many planes are drawn.
+  int local_rounds = 4;        ///< How often a new best plane is refitted to its inliers.
+  int sample_points = 5000;    ///< Planes are drawn from, and counted on, at most this many points.
+};
+
+/// The plane with the most inliers in `cloud`: RANSAC (Fischler and Bolles 1981) with a local
+/// optimisation of each new best plane (Chum, Matas and Kittler 2003). Throws StageError if no
+/// three points span a plane.
+Plane plane_ransac(const PointCloud& cloud, const PlaneRansacOptions& options, Rng& rng);
 
 }  // namespace croon

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "framework/base/statistics.hpp"
-#include "framework/geometry/pose_error.hpp"
+#include "framework/geometry/dof.hpp"
 
 namespace croon {
 
@@ -53,7 +53,7 @@ double distance_in_bounds(const QuaternionPose& a, const QuaternionPose& b,
                   multiple((a.translation - b.translation).norm(), bounds.translation_m));
 }
 
-/// Evenly spaced poses of those that are in their fixed order, all of them where they are few.
+/// Evenly spaced poses of the sorted ones; all of them if they are few.
 std::vector<RigidTransform> sample_of(const std::vector<RigidTransform>& ordered) {
   if (ordered.size() <= kMedoidSample) return ordered;
   std::vector<RigidTransform> sample;
@@ -63,7 +63,7 @@ std::vector<RigidTransform> sample_of(const std::vector<RigidTransform>& ordered
   return sample;
 }
 
-/// The place of the pose with the most others near it; see `consensus_pose`.
+/// The index of the pose with the most others near it; see `consensus_pose`.
 std::size_t medoid(const std::vector<RigidTransform>& poses, const PoseBounds& bounds) {
   std::vector<QuaternionPose> quaternions;
   for (const RigidTransform& pose : poses) {

@@ -39,12 +39,16 @@ double rotation_angle(const Eigen::Matrix3d& rotation);
 /// The nearest rotation to a matrix that rounding has moved off SO(3).
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix);
 
-/// The least rotation that turns the unit vector `from` into the unit vector `to` (axis `from x
-/// to`, Rodrigues; paper, rough calibration). Opposite vectors turn by pi about an axis across
-/// them.
+/// The smallest rotation that turns the unit vector `from` into the unit vector `to` (axis `from x
+/// to`, Rodrigues; paper, rough calibration). Opposite vectors turn by pi about an axis
+/// perpendicular to them.
 Eigen::Matrix3d rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 /// The points of `cloud` (source frame) in the target frame.
 PointCloud transformed(const PointCloud& cloud, const RigidTransform& T_target_source);
+
+/// The unit quaternion of a rotation with a unique sign: the first non-zero coefficient, in the
+/// order w, x, y, z, is positive.
+Eigen::Quaterniond unit_quaternion(const Eigen::Matrix3d& rotation);
 
 }  // namespace croon

@@ -23,7 +23,7 @@ fs::path path_in_data_root(const fs::path& data_root, const std::string& relativ
   const fs::path path = fs::weakly_canonical(root / relative, error);
   const std::string shown = (data_root / relative).string();
   if (error) throw InputError(shown, "", "cannot be looked at: " + error.message());
-  // Before whether it exists: what is outside is nobody's business.
+  // Checked before existence, so that the message does not reveal which files exist outside.
   if (!is_within(path, root)) {
     throw InputError(shown, "", "the path leads outside the data root " + data_root.string());
   }

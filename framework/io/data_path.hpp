@@ -5,9 +5,9 @@
 
 namespace croon {
 
-/// The real path of `relative` below the folder `data_root`, symbolic links and `..` resolved.
-/// Throws InputError where the root is not a folder, and where the path is not there or leads
-/// outside the root.
+/// The real path of `relative` below the folder `data_root`, with symbolic links and `..` resolved.
+/// Throws InputError if the root is not a folder, or if the path does not exist or leads outside
+/// the root.
 std::filesystem::path path_in_data_root(const std::filesystem::path& data_root,
                                         const std::string& relative);
 

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "framework/base/error.hpp"
-#include "framework/base/nearest_name.hpp"
 #include "framework/io/text_scan.hpp"
 
 namespace croon {
@@ -20,7 +19,7 @@ struct Entry {
   std::string place;
 };
 
-/// The lines of the header by keyword, and where the points start.
+/// The lines of the header by keyword, and the offset of the points.
 class HeaderLines {
  public:
   HeaderLines(std::string_view bytes, const std::string& file) : file_(file) {
@@ -46,7 +45,7 @@ class HeaderLines {
     return *entry;
   }
 
-  /// The only number of a line; nothing where the line is missing.
+  /// The only number of a line; std::nullopt if the line is missing.
   std::optional<std::uint64_t> number(const std::string& keyword) const {
     const Entry* entry = find(keyword);
     if (entry == nullptr) return std::nullopt;

@@ -15,14 +15,13 @@ struct PcdField {
   std::string name;
   ScalarType type;
   std::uint64_t count = 1;
-  std::uint64_t first_byte = 0;  ///< Where it starts in a point, bytes.
-  std::uint64_t first_word = 0;  ///< Where it starts in a line of text, words.
+  std::uint64_t first_byte = 0;  ///< Offset in a point, bytes.
+  std::uint64_t first_word = 0;  ///< Offset in a line of text, words.
 };
 
 enum class PcdEncoding { ascii, binary, binary_compressed };
 
-/// What the header of a PCD file says (versions .5 to .7), checked to be whole and consistent in
-/// itself.
+/// The header of a PCD file (versions .5 to .7), checked to be complete and consistent.
 struct PcdHeader {
   std::vector<PcdField> fields;
   std::array<std::size_t, 3> xyz{};  ///< Indices of the fields x, y, z.
@@ -48,8 +47,8 @@ constexpr std::size_t kPcdSizesBytes = 8;
 /// The sizes at the start of `body`, which must have kPcdSizesBytes.
 PcdCompressedSizes pcd_compressed_sizes(std::string_view body);
 
-/// Throws InputError where a file of `file_bytes` bytes cannot hold the points that its header
-/// promises. `head` is the file's start: the header and, for binary_compressed, at least the 8
+/// Throws InputError if a file of `file_bytes` bytes cannot hold the points that its header
+/// declares. `head` is the file's start: the header and, for binary_compressed, at least the 8
 /// bytes after it.
 void check_pcd_size(const PcdHeader& header, std::string_view head, std::uint64_t file_bytes,
                     const std::string& file);

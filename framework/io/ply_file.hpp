@@ -1,14 +1,28 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
-#include "framework/geometry/loaded_cloud.hpp"
+#include "framework/geometry/point_cloud.hpp"
+#include "framework/picture/colour.hpp"
 
 namespace croon {
 
 /// The vertices of a PLY file (ascii or binary of either byte order; x, y, z of any type and in any
-/// order; other properties, lists and elements are skipped). Throws InputError where the file is
-/// not what its header says.
+/// order; other properties, lists and elements are skipped). Throws InputError if the file
+/// contradicts its header.
 LoadedCloud read_ply(const std::filesystem::path& path);
+
+/// How write_ply writes numbers.
+enum class PlyFormat { binary_little_endian, ascii };
+
+/// Writes a cloud as PLY with x, y, z; ascii numbers are the shortest that read back as the same
+/// floats. Throws InputError if the file cannot be written.
+void write_ply(const std::filesystem::path& path, const PointCloud& cloud,
+               PlyFormat format = PlyFormat::binary_little_endian);
+
+/// Writes all clouds of a rig in the reference's frame into one PLY, each in the colour of its
+/// index in `clouds`; comments in the header name the sensors and their colours.
+void write_fused_ply(const std::filesystem::path& path, const std::vector<ColouredCloud>& clouds);
 
 }  // namespace croon

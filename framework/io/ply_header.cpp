@@ -4,7 +4,6 @@
 #include <map>
 
 #include "framework/base/error.hpp"
-#include "framework/base/nearest_name.hpp"
 #include "framework/io/text_scan.hpp"
 
 namespace croon {

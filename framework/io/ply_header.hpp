@@ -11,8 +11,8 @@
 
 namespace croon {
 
-/// One property of a PLY element: a number, or a list of them where `list_count` has the type of
-/// its length.
+/// One property of a PLY element: a number, or a list of numbers if `list_count` is set, the type
+/// of the list's length.
 struct PlyProperty {
   std::string name;
   ScalarType type;
@@ -28,7 +28,7 @@ struct PlyElement {
 
 enum class PlyEncoding { ascii, binary_little_endian, binary_big_endian };
 
-/// What the header of a PLY file says, checked to be whole and consistent in itself.
+/// The header of a PLY file, checked to be complete and consistent.
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::ascii;
   std::vector<PlyElement> elements;
@@ -42,8 +42,8 @@ struct PlyHeader {
 /// the line and what is wrong with it.
 PlyHeader parse_ply_header(std::string_view bytes, const std::string& file);
 
-/// Throws InputError where a file of `file_bytes` bytes cannot hold the elements that its header
-/// promises.
+/// Throws InputError if a file of `file_bytes` bytes cannot hold the elements that its header
+/// declares.
 void check_ply_size(const PlyHeader& header, std::uint64_t file_bytes, const std::string& file);
 
 }  // namespace croon

@@ -1,4 +1,4 @@
-#include "framework/io/ply_writer.hpp"
+#include "framework/io/ply_file.hpp"
 
 #include <array>
 #include <charconv>

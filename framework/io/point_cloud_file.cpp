@@ -7,11 +7,12 @@
 #include <string>
 
 #include "framework/base/error.hpp"
-#include "framework/io/kitti_file.hpp"
+#include "framework/base/whole_file.hpp"
 #include "framework/io/pcd_file.hpp"
 #include "framework/io/pcd_header.hpp"
 #include "framework/io/ply_file.hpp"
 #include "framework/io/ply_header.hpp"
+#include "framework/io/scalar_type.hpp"
 #include "framework/io/text_scan.hpp"
 
 namespace croon {
@@ -19,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One kind of point cloud file.
+/// One format of point cloud files.
 struct Format {
   const char* suffix;
   LoadedCloud (*read)(const fs::path& path);
@@ -35,8 +36,29 @@ void check_ply(std::string_view head, std::uint64_t file_bytes, const std::strin
   check_ply_size(parse_ply_header(head, file), file_bytes, file);
 }
 
+constexpr std::uint64_t kKittiRecordBytes = 16;
+
 void check_kitti(std::string_view, std::uint64_t file_bytes, const std::string& file) {
-  check_kitti_size(file_bytes, file);
+  if (file_bytes % kKittiRecordBytes == 0) return;
+  throw InputError(file, "",
+                   "expected records of 16 bytes (x, y, z, intensity), found " +
+                       std::to_string(file_bytes) + " bytes");
+}
+
+/// The points of a KITTI Velodyne file (Geiger et al. 2013): little-endian float32 x, y, z,
+/// intensity, no header.
+LoadedCloud read_kitti(const fs::path& path) {
+  const std::string bytes = read_whole_file(path);
+  check_kitti({}, bytes.size(), path.string());
+  LoadedCloud cloud;
+  cloud.points.reserve(bytes.size() / kKittiRecordBytes);
+  const auto number = [&](std::size_t at) {
+    return decode_scalar({ScalarKind::floating, 4}, ByteOrder::little, bytes.data() + at);
+  };
+  for (std::size_t record = 0; record < bytes.size(); record += kKittiRecordBytes) {
+    cloud.add({number(record), number(record + 4), number(record + 8)});
+  }
+  return cloud;
 }
 
 const Format& format_of(const fs::path& path) {

@@ -13,7 +13,8 @@ struct ScalarType {
   std::size_t size = 4;  ///< Bytes.
 };
 
-/// The number that starts at `bytes`, on any machine; integers of 8 bytes are rounded to double.
+/// The number that starts at `bytes`, on machines of any byte order; integers of 8 bytes are
+/// rounded to double.
 double decode_scalar(ScalarType type, ByteOrder order, const char* bytes);
 
 }  // namespace croon

@@ -30,7 +30,7 @@ openvdb::BoolGrid::Ptr occupancy_grid(const PointCloud& points, double leaf_size
   return grid;
 }
 
-/// OpenVDB gives each file a random UUID; puts one of the content in its place.
+/// OpenVDB gives each file a random UUID; replaces it by one that is derived from the content.
 void name_by_content(std::string& bytes) {
   // After the magic number, the version of the format, that of the library, and a flag.
   constexpr std::size_t kUuidOffset = 8 + 4 + 2 * 4 + 1;

@@ -8,8 +8,8 @@ namespace croon {
 
 /// Writes the leaves of LeafGrid that hold a point as the active voxels of an OpenVDB grid of
 /// bools, "occupancy", in the points' frame: voxel (i, j, k) is drawn where leaf (i, j, k) is. The
-/// same points give the same bytes. Throws InputError where the file cannot be written, StageError
-/// where LeafGrid refuses a point.
+/// same points give the same bytes. Throws InputError if the file cannot be written, StageError
+/// if LeafGrid refuses a point.
 void write_occupancy_vdb(const std::filesystem::path& path, const PointCloud& points,
                          double leaf_size_m);
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "framework/base/nearest_name.hpp"
+#include "framework/base/error.hpp"
 
 namespace croon::params {
 namespace {

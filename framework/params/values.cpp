@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "framework/base/nearest_name.hpp"
+#include "framework/base/error.hpp"
 
 namespace croon::params {
 namespace {

@@ -2,6 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+
+#include "framework/geometry/rigid_transform.hpp"
 
 namespace croon {
 
@@ -11,7 +14,14 @@ struct Colour {
 };
 
 /// The colour of the sensor `index`, the reference being 0: grey, then the palette of Okabe and Ito
-/// (2008), which colour-blind readers can tell apart; it starts again after eight.
+/// (2008), which colour-blind readers can distinguish; it repeats after eight.
 Colour sensor_colour(std::size_t index);
+
+/// One sensor's cloud in its own frame, to be drawn in the reference's frame.
+struct ColouredCloud {
+  std::string sensor;
+  PointCloud points;
+  RigidTransform T_reference_sensor;
+};
 
 }  // namespace croon

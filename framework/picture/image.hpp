@@ -31,10 +31,10 @@ class Image {
   std::vector<Colour> pixels_;
 };
 
-/// The pictures one beside the other, `gap` white pixels between; shorter ones end early.
+/// The pictures side by side with `gap` white pixels between them; shorter ones are padded below.
 Image side_by_side(const std::vector<Image>& images, int gap);
 
-/// Writes `image` as PNG. Throws InputError where the file cannot be written.
+/// Writes `image` as PNG. Throws InputError if the file cannot be written.
 void write_png(const std::filesystem::path& path, const Image& image);
 
 }  // namespace croon

@@ -1,10 +1,10 @@
 #include "framework/pipeline/pipeline.hpp"
 
 #include <chrono>
-#include <new>
 #include <optional>
-#include <stdexcept>
 #include <utility>
+
+#include "framework/base/error.hpp"
 
 namespace croon {
 namespace {
@@ -37,21 +37,16 @@ void advance(PipelineResult& result, const NamedStep& named, const StreamKey& ke
   Estimate before = std::move(result.estimate);
   const std::optional<std::string> rejection = std::exchange(before.rejection, std::nullopt);
   const std::optional<Matrix6d> information = std::exchange(before.information, std::nullopt);
-  before.figures.clear();
+  before.diagnostics.clear();
   result.estimate = before;
   try {
     result.estimate = step->advance(std::move(before), rng);
-  } catch (const std::logic_error&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    // Of this machine at this time, not of the data: must not become a result.
-    throw;
-  } catch (const std::exception& error) {
+  } catch (const StageError& error) {
     result.failure = name + ": " + error.what();
   }
   Estimate& after = result.estimate;
   result.records.push_back(
-      {name, own_seconds(step_start, shared_before), after.figures, after.information});
+      {name, own_seconds(step_start, shared_before), after.diagnostics, after.information});
   if (!after.information) after.information = information;
   after.rejection = after.rejection ? std::optional(name + ": " + *after.rejection) : rejection;
 }

@@ -9,7 +9,7 @@
 
 namespace croon {
 
-/// A step and what variants, reports and timings call it.
+/// A step and its name in variants, reports and timings.
 struct NamedStep {
   std::string name;
   params::Slot<Step> step;
@@ -18,29 +18,29 @@ struct NamedStep {
 /// The steps of a method, in order.
 using Pipeline = std::vector<NamedStep>;
 
-/// What one step of one trial did.
+/// The record of one step of one trial.
 struct StepRecord {
   std::string name;
-  double seconds = 0.0;  ///< Its own, without what was made once for all trials.
-  std::vector<StepFigure> figures;
-  std::optional<Matrix6d> information;  ///< Where this step found one, see Estimate.
+  double seconds = 0.0;  ///< Its own time, without what was computed once for all trials.
+  std::vector<Diagnostic> diagnostics;
+  std::optional<Matrix6d> information;  ///< If this step computed one, see Estimate.
 };
 
-/// What became of one start so far.
+/// The state of one trial after some of its steps.
 struct PipelineResult {
-  Estimate estimate;    ///< The last good one.
-  std::string failure;  ///< Empty, or which step was defeated and why.
+  Estimate estimate;    ///< Of the last step that did not fail.
+  std::string failure;  ///< Empty, or the step that failed and the reason.
   std::vector<StepRecord> records;
 };
 
-/// A start before its first step.
+/// The state before the first step.
 PipelineResult at_start(std::shared_ptr<const Cloud> target, std::shared_ptr<const Cloud> source,
                         const RigidTransform& start);
 
-/// Takes `result` one step further; nothing happens where a step before has failed. Each step draws
-/// from a stream of its own, named by `key` and its name, so one step's draws do not move another's
-/// and a step that is removed moves none. A StageError, or what a library throws, ends the trial
-/// and becomes its `failure`; a std::logic_error, which is a bug, and std::bad_alloc pass through.
+/// Takes `result` one step further; does nothing if an earlier step failed. Each step draws from a
+/// stream of its own, named by `key` and its name, so one step's draws do not move another's and a
+/// step that is removed moves none. A StageError ends the trial and becomes its `failure`; any
+/// other exception passes through (see `with_stage_errors` for those of libraries).
 void advance(PipelineResult& result, const NamedStep& step, const StreamKey& key);
 
 /// Takes `start` through the steps of `pipeline`.

@@ -6,13 +6,13 @@
 
 namespace croon {
 
-/// One pair of points that a registration pulls together, at the current pose.
+/// A pair of corresponding points at the current pose.
 struct Correspondence {
   Eigen::Vector3d arm;  ///< `R s`: the source point turned into the target's axes.
   Eigen::Vector3d
       offset;  ///< `R s + t - p`: from the target point to the source point, target frame.
-  Eigen::Vector3d target_normal;  ///< Unit; zero where there is none or it was not asked for.
-  Eigen::Vector3d source_normal;  ///< `R n`, in the target's axes; zero likewise.
+  Eigen::Vector3d target_normal;  ///< Unit; zero if it is undefined or not needed.
+  Eigen::Vector3d source_normal;  ///< `R n`, in the target's axes; zero in the same cases.
   float target_variation = 0.0F;  ///< LocalShape::surface_variation.
 };
 
@@ -42,8 +42,8 @@ struct NormalEquations {
   Matrix6d full_information() const {
     return Matrix6d(information.selfadjointView<Eigen::Lower>());
   }
-  /// The step that makes the linearised cost least, `-information^-1 gradient`. Directions that the
-  /// scene leaves open (an eigenvalue below 1e-9 of the greatest) do not move.
+  /// The step that minimises the linearised cost, `-information^-1 gradient`. The step is zero
+  /// along directions that the scene leaves unconstrained (eigenvalues below 1e-9 of the largest).
   Vector6d step() const;
 };
 

@@ -20,7 +20,7 @@ class Matcher {
         target_normals_(rule.target_normals > 0 ? &target.normals(rule.target_normals) : nullptr),
         source_normals_(rule.source_normals > 0 ? &source.normals(rule.source_normals) : nullptr) {}
 
-  /// The correspondence of source point `index`; false where it has none.
+  /// The correspondence of source point `index`; false if it has none.
   bool match(int index, const RigidTransform& T, float max_distance_m, Correspondence& pair) const {
     pair.arm = T.rotation * source_.points()[index].cast<double>();
     const Eigen::Vector3d point = pair.arm + T.translation;
@@ -81,7 +81,7 @@ class Loop {
     }
   }
 
-  /// Looks at the solution as it is: residuals, inliers, information.
+  /// Evaluates the solution without moving it: residuals, inliers, information.
   void judge(Registration& outcome, double max_distance_m) const {
     note(linearised(outcome.T_target_source, max_distance_m, source_size_), outcome);
   }
@@ -105,8 +105,8 @@ class Loop {
     return sums;
   }
 
-  /// (R, t) moved to (exp(w) R, t + d). Far from the solution a step is cut to half a radian: the
-  /// linearisation says nothing beyond.
+  /// (R, t) moved to (exp(w) R, t + d). A step is cut to half a radian, because the linearisation
+  /// is not valid beyond.
   static RigidTransform stepped(const RigidTransform& T, const Vector6d& step) {
     const double angle = step.head<3>().norm();
     const double share = angle > 0.5 ? 0.5 / angle : 1.0;

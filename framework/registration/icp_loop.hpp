@@ -5,22 +5,21 @@
 #include "framework/registration/gauss_newton.hpp"
 #include "framework/registration/icp_options.hpp"
 #include "framework/registration/registration.hpp"
-#include "framework/registration/robust_kernel.hpp"
 #include "framework/spatial/cloud.hpp"
 
 namespace croon {
 
-/// Which points correspond, beyond being nearest within the distance of the moment.
+/// Which points correspond, in addition to being nearest within the current distance.
 struct CorrespondenceRule {
-  int target_normals = 0;  ///< Neighbours for normals of the target; 0: none are needed.
+  int target_normals = 0;  ///< Neighbours for the target's normals; 0: no normals are needed.
   int source_normals = 0;  ///< Likewise for the source.
-  /// Least cosine between the two normals, where both are asked for; points without a normal do not
-  /// correspond where one is needed.
+  /// The smallest cosine between the two normals, if both are needed. Points without a needed
+  /// normal do not correspond.
   double min_normal_cosine = -2.0;
 };
 
-/// Adds what one correspondence contributes to the normal equations: a variant of ICP is this
-/// function and its CorrespondenceRule.
+/// Adds the contribution of one correspondence to the normal equations. A variant of ICP is such a
+/// function and a CorrespondenceRule.
 using Linearise = std::function<void(const Correspondence&, const RobustKernel&, NormalEquations&)>;
 
 /// The linearisation with the residual `n_t . (R s + t - p)` (Chen & Medioni 1992; paper,
@@ -29,7 +28,7 @@ void linearise_point_to_plane(const Correspondence& pair, const RobustKernel& ke
                               NormalEquations& equations);
 
 /// Iterates nearest-neighbour correspondences and Gauss-Newton steps (Besl & McKay 1992) over the
-/// schedule of distances. Throws StageError where too few points correspond.
+/// schedule of distances. Throws StageError if too few points correspond.
 Registration iterate_icp(const Cloud& target, const Cloud& source, const RigidTransform& start,
                          const IcpOptions& options, const CorrespondenceRule& rule,
                          const Linearise& linearise);

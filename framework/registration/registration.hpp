@@ -4,7 +4,7 @@
 
 namespace croon {
 
-/// What a registration found.
+/// The result of a registration.
 struct Registration {
   RigidTransform T_target_source;
   double rmse_m = 0.0;  ///< Root of the weighted mean of the squared residuals that were minimised.
@@ -13,8 +13,8 @@ struct Registration {
   int iterations = 0;
   bool converged = false;
   /// Gauss-Newton's `sum of w J^T J` at the solution, over the degrees of freedom of Dof (`moved`):
-  /// per m^2 for metres, per rad^2 for radians, for residuals in metres of unit variance. Its small
-  /// eigenvalues are the directions that the scene leaves open.
+  /// per m^2 for metres, per rad^2 for radians, for residuals in metres of unit variance. The
+  /// eigenvectors of its small eigenvalues are directions that the scene leaves unconstrained.
   Matrix6d information = Matrix6d::Zero();
 };
 

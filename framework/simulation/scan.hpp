@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "framework/base/rng.hpp"
-#include "framework/geometry/measured_cloud.hpp"
+#include "framework/geometry/point_cloud.hpp"
 #include "framework/simulation/ray_caster.hpp"
 #include "framework/simulation/sensor_model.hpp"
 

@@ -13,13 +13,12 @@
 
 namespace croon {
 
-/// One sensor's cloud, which is never changed, with all that is computed from it alone: kd-tree,
-/// normals, ground, a bound scorer, cropped and filtered clouds. Each is made once, when first
-/// asked for, and is shared by all starts, variants and sensors until the scene is done.
-/// Thread-safe.
+/// The immutable cloud of one sensor with a cache of everything that is computed from it alone:
+/// kd-tree, normals, ground, a bound scorer, cropped and filtered clouds. Each is computed on first
+/// use and shared by all starts, variants and sensors until the scene is done. Thread-safe.
 class Cloud {
  public:
-  /// `key` names the streams of whatever draws random numbers for this cloud alone.
+  /// `key` names the random streams of the computations on this cloud alone.
   Cloud(PointCloud points, const StreamKey& key)
       : Cloud(std::move(points), key, std::make_shared<OnceLog>(), "") {}
   Cloud(const Cloud&) = delete;
@@ -33,8 +32,8 @@ class Cloud {
   /// Normals from the `neighbours` nearest points, see Normals.
   const Normals& normals(int neighbours) const;
 
-  /// Anything else that depends on this cloud and on `parameters` alone, made once; `what` it is
-  /// stands in timings.csv.
+  /// Anything else that depends on this cloud and on `parameters` alone, made once. `what` is its
+  /// name in timings.csv.
   template <class T>
   std::shared_ptr<const T> once(const std::string& what, const std::string& parameters,
                                 const std::function<std::shared_ptr<const T>()>& make) const {
@@ -46,16 +45,16 @@ class Cloud {
     return once_.get<T>(what, "", make);
   }
 
-  /// A cloud that was made of this one for `purpose`: cropped, thinned, without its ground. Its
-  /// timings go to the same log.
+  /// A cloud that was derived from this one for `purpose`: cropped, thinned, without its ground.
+  /// Its timings go to the same log.
   std::shared_ptr<const Cloud> derived(PointCloud points, const std::string& purpose) const;
 
-  /// A generator for a computation on this cloud alone; the same for every trial. `purpose` names
-  /// the stage and not its parameters: variants of a stage are paired, and a new parameter moves no
-  /// draw.
+  /// The generator for a computation on this cloud alone; the same for every trial. `purpose` names
+  /// the stage and not its parameters, so that variants of a stage draw the same numbers and a new
+  /// parameter changes no draw.
   Rng rng(const std::string& purpose) const { return Rng(key_.with(purpose)); }
 
-  /// What was made once so far, for this cloud and those derived from it.
+  /// What has been made once so far, for this cloud and those derived from it.
   std::vector<OnceTiming> timings() const { return log_->timings(); }
 
  private:
@@ -69,7 +68,7 @@ class Cloud {
   PointCloud points_;
   StreamKey key_;
   std::shared_ptr<OnceLog> log_;
-  std::string prefix_;  ///< What this cloud was made for, "ground/ransac/", in the log.
+  std::string prefix_;  ///< The purpose of this cloud in the log: "ground/ransac/".
   OnceTable once_;
 };
 

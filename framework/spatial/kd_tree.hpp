@@ -9,7 +9,7 @@ namespace croon {
 
 /// One neighbour: the index of the point in its cloud and its squared distance in m^2.
 struct Neighbour {
-  int index = -1;  ///< -1 where there is none.
+  int index = -1;  ///< -1 if no point is near enough.
   float squared_distance_m2 = 0.0F;
   explicit operator bool() const { return index >= 0; }
 };

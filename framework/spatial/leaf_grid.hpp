@@ -1,12 +1,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <sstream>
+
+#include "framework/base/error.hpp"
 
 namespace croon {
 
 /// The grid of cubes that every volume scorer and the voxel filter share: leaf (i, j, k) holds the
-/// points p with `i = floor(x / leaf_size)` and so on, in the frame of the points. One function
-/// decides for all of them, so their counts are equal to the last leaf.
+/// points p with `i = floor(x / leaf_size)` and so on, in the frame of the points. All scorers use
+/// this one function, so their counts are exactly equal.
 class LeafGrid {
  public:
   /// Indices reach from -kMaxIndex to kMaxIndex: with leaves of 5 cm, 26 000 km from the origin.
@@ -14,23 +17,29 @@ class LeafGrid {
 
   explicit LeafGrid(double leaf_size_m) : leaf_size_m_(leaf_size_m), inverse_(1.0 / leaf_size_m) {}
 
-  /// The leaf that holds `point`. Throws StageError where an index would be beyond kMaxIndex, or
-  /// the point is not finite.
+  /// The leaf that holds `point`. Throws StageError if an index would exceed kMaxIndex or the
+  /// point is not finite.
   Eigen::Vector3i leaf_of(const Eigen::Vector3d& point) const {
     const Eigen::Array3d scaled = point.array() * inverse_;
-    // Written so that NaN is refused too.
+    // Negated, so that NaN is refused too.
     if (!(scaled.abs() <= kMaxIndex).all()) refuse(point);
     return {floor(scaled.x()), floor(scaled.y()), floor(scaled.z())};
   }
   double leaf_size_m() const { return leaf_size_m_; }
 
  private:
-  /// std::floor for what fits an int; without SSE 4.1 that one is a call into the C library.
+  /// std::floor for values that fit an int; without SSE 4.1 std::floor is a library call.
   static int floor(double value) {
     const int towards_zero = static_cast<int>(value);
     return towards_zero - static_cast<int>(value < towards_zero);
   }
-  [[noreturn]] void refuse(const Eigen::Vector3d& point) const;
+  [[noreturn]] void refuse(const Eigen::Vector3d& point) const {
+    std::ostringstream message;
+    message << "a point at (" << point.x() << ", " << point.y() << ", " << point.z()
+            << ") m is outside of the grid of leaves: with a leaf size of " << leaf_size_m_
+            << " m a coordinate reaches to " << kMaxIndex * leaf_size_m_ << " m";
+    throw StageError(message.str());
+  }
 
   double leaf_size_m_;
   double inverse_;

@@ -8,17 +8,17 @@
 
 namespace croon {
 
-/// The paper's cost of the rough calibration: the summed squared
-/// distances from the source's points to their nearest neighbours in the target. A distance counts
-/// for at most `max_distance_m`, because a point that the target does not see says nothing about
-/// the pose.
+/// The paper's cost of the rough calibration: the sum of the squared distances from the source's
+/// points to their nearest neighbours in the target. Distances are truncated at `max_distance_m`,
+/// because a point that the target does not see carries no information about the pose.
 class NearestDistanceCost {
  public:
-  /// At most `max_points` of the source are looked at, evenly spaced through the cloud.
+  /// Uses at most `max_points` of the source, evenly spaced through the cloud.
   NearestDistanceCost(std::shared_ptr<const Cloud> target, const Cloud& source, int max_points,
                       double max_distance_m);
 
-  /// The mean over the points, m^2 (the sum over a constant, so that costs compare between clouds).
+  /// The mean over the points, m^2. It is the sum divided by a constant, so costs of different
+  /// clouds can be compared.
   double operator()(const RigidTransform& T_target_source) const;
 
  private:

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "framework/geometry/point_cloud.hpp"
 #include "framework/spatial/kd_tree.hpp"
 
 namespace croon {
@@ -11,23 +12,23 @@ namespace croon {
 /// The shape of a cloud around one of its points, from principal component analysis.
 struct LocalShape {
   Eigen::Vector3f normal =
-      Eigen::Vector3f::Zero();  ///< Unit, towards the sensor; zero where undefined.
-  /// Least variance over the sum of the three (Pauly et al. 2002): 0 on a plane, 1/3 where it is
-  /// round.
+      Eigen::Vector3f::Zero();  ///< Unit, towards the sensor; zero if undefined.
+  /// The smallest variance over the sum of the three (Pauly et al. 2002): 0 on a plane, 1/3 for an
+  /// isotropic neighbourhood.
   float surface_variation = 0.0F;
 };
 
 /// Normals of a cloud by principal component analysis of each point's nearest neighbours (paper,
-/// refinement: 40 of them). A normal is computed when it is first asked for and then kept: a
-/// registration asks for few of a large target's. Any number of threads may ask; the answers do not
-/// depend on who asks first.
+/// refinement: 40 of them). A normal is computed on first use and cached, because a registration
+/// needs only a few of a large target's. Thread-safe; the results do not depend on the order of the
+/// calls.
 class Normals {
  public:
   /// `points` and `tree` (over the same points) must outlive this.
   Normals(const PointCloud& points, const KdTree& tree, int neighbours);
 
-  /// The shape around point `index`. Points with fewer than three neighbours apart have a zero
-  /// normal.
+  /// The shape around point `index`. The normal is zero if fewer than three of the neighbours are
+  /// distinct.
   LocalShape at(int index) const;
 
  private:
@@ -40,5 +41,17 @@ class Normals {
   std::unique_ptr<std::atomic<unsigned char>[]> states_;
   mutable std::vector<LocalShape> shapes_;
 };
+
+/// Points with a unit normal each, `normals[i]` at `points[i]`; a normal's sign is arbitrary.
+struct OrientedPoints {
+  PointCloud points;
+  PointCloud normals;
+};
+
+/// The first point of every cube of edge `leaf_size_m` that holds points of `cloud`, without
+/// duplicates, each with its normal from the `neighbours` nearest of these points. This evens out
+/// the density of a LiDAR's cloud, so that the neighbours of a distant point are not all on one
+/// ring. Points without a normal are left out.
+OrientedPoints oriented_sample(const PointCloud& cloud, double leaf_size_m, int neighbours);
 
 }  // namespace croon

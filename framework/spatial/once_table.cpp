@@ -42,7 +42,7 @@ std::any OnceTable::get_any(const std::string& what, const std::string& paramete
     try {
       // Isolated: a thread that waits inside `make` must not pick up a task that asks for this
       // entry.
-      tbb::this_task_arena::isolate([&] { entry->thing = make(); });
+      tbb::this_task_arena::isolate([&] { entry->value = make(); });
     } catch (...) {
       entry->error = std::current_exception();
     }
@@ -51,7 +51,7 @@ std::any OnceTable::get_any(const std::string& what, const std::string& paramete
   // All of the wall time was shared work, that inside nested calls too.
   shared_work_s = spent_before + (now_s() - start);
   if (entry->error) std::rethrow_exception(entry->error);
-  return entry->thing;
+  return entry->value;
 }
 
 }  // namespace croon

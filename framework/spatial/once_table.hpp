@@ -11,13 +11,13 @@
 
 namespace croon {
 
-/// What was computed once and how long that took, for the `-1` rows of timings.csv.
+/// A computation that was done once and its wall time, for the rows of timings.csv with trial -1.
 struct OnceTiming {
   std::string what;
   double seconds = 0.0;
 };
 
-/// What a cloud and the clouds that were made of it computed once, as it is done. Thread-safe.
+/// The log of what a cloud and the clouds derived from it computed once. Thread-safe.
 class OnceLog {
  public:
   void add(OnceTiming timing);
@@ -28,21 +28,21 @@ class OnceLog {
   std::vector<OnceTiming> timings_;
 };
 
-/// Seconds that this thread has spent so far inside OnceTable::get: making things that others
-/// share, or waiting for them. A step's own time is its wall time less the growth of this.
+/// The seconds that this thread has spent so far inside OnceTable::get: computing shared values or
+/// waiting for them. A step's own time is its wall time minus the growth of this number.
 double seconds_spent_on_shared_work();
 
-/// Things that depend on a cloud alone, each made when it is first asked for and then shared.
-/// Thread-safe: one thread makes a thing, others that ask meanwhile wait. What throws is remembered
-/// and thrown again.
+/// A cache of values that depend on a cloud alone, each computed on first use. Thread-safe: one
+/// thread computes a value, and others that ask for it wait. An exception is stored and rethrown at
+/// every later call.
 class OnceTable {
  public:
-  /// What is made goes to `log`, each thing's name behind `prefix`.
+  /// Writes each computation to `log`, its name with `prefix` in front.
   OnceTable(std::shared_ptr<OnceLog> log, std::string prefix)
       : log_(std::move(log)), prefix_(std::move(prefix)) {}
 
-  /// The thing that is `what` with these `parameters`, made by `make` at the first call. The two
-  /// belong to one type; the log knows it as `what`.
+  /// The value called `what` for these `parameters`; `make` computes it at the first call. A pair
+  /// of `what` and `parameters` always has the same type T; the log calls it `what`.
   template <class T>
   std::shared_ptr<const T> get(const std::string& what, const std::string& parameters,
                                const std::function<std::shared_ptr<const T>()>& make) const {
@@ -53,7 +53,7 @@ class OnceTable {
  private:
   struct Entry {
     std::once_flag once;
-    std::any thing;
+    std::any value;
     std::exception_ptr error;
   };
   std::any get_any(const std::string& what, const std::string& parameters,

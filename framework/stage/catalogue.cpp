@@ -5,16 +5,10 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "framework/base/nearest_name.hpp"
+#include "framework/base/error.hpp"
 
 namespace croon {
 namespace {
-
-/// Where a kind stands among stage_kinds().
-std::ptrdiff_t kind_rank(const std::string& kind) {
-  const std::vector<std::string>& kinds = stage_kinds();
-  return std::find(kinds.begin(), kinds.end(), kind) - kinds.begin();
-}
 
 /// "a step", "an icp".
 std::string with_article(const std::string& kind) {
@@ -23,27 +17,32 @@ std::string with_article(const std::string& kind) {
 }
 
 bool comes_before(const StageEntry& a, const StageEntry& b) {
-  return std::make_tuple(kind_rank(a.kind), a.name) < std::make_tuple(kind_rank(b.kind), b.name);
+  return std::tie(a.kind_order, a.kind, a.name) < std::tie(b.kind_order, b.kind, b.name);
 }
 
 }  // namespace
 
-const std::vector<std::string>& stage_kinds() {
-  static const std::vector<std::string> kinds = {"dataset",     "preprocessor", "ground_extractor",
-                                                 "yaw_search",  "icp",          "volume_scorer",
-                                                 "pose_search", "step"};
-  return kinds;
+void Catalogue::add(StageEntry entry) {
+  for (const StageEntry& other : entries_) {
+    if (other.kind != entry.kind) continue;
+    if (other.name == entry.name) {
+      throw std::logic_error("two stages " + entry.kind + "/" + entry.name);
+    }
+    if (other.kind_summary != entry.kind_summary || other.kind_order != entry.kind_order) {
+      throw std::logic_error("two kinds of stages are called " + entry.kind);
+    }
+  }
+  const auto next = std::upper_bound(entries_.begin(), entries_.end(), entry, comes_before);
+  entries_.insert(next, std::move(entry));
 }
 
-void Catalogue::add(StageEntry entry) {
-  if (kind_rank(entry.kind) == static_cast<std::ptrdiff_t>(stage_kinds().size())) {
-    throw std::logic_error("no kind of stage \"" + entry.kind + "\"");
+std::vector<StageKind> Catalogue::kinds() const {
+  std::vector<StageKind> kinds;
+  for (const StageEntry& entry : entries_) {
+    if (!kinds.empty() && kinds.back().name == entry.kind) continue;
+    kinds.push_back({entry.kind, entry.kind_summary, entry.kind_order});
   }
-  if (find(entry.kind, entry.name) != nullptr) {
-    throw std::logic_error("two stages " + entry.kind + "/" + entry.name);
-  }
-  const auto place = std::upper_bound(entries_.begin(), entries_.end(), entry, comes_before);
-  entries_.insert(place, std::move(entry));
+  return kinds;
 }
 
 const StageEntry* Catalogue::find(const std::string& kind, const std::string& name) const {

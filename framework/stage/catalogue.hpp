@@ -7,18 +7,17 @@
 
 namespace croon {
 
-/// The kinds of stages, in the order in which they take part in a calibration.
-const std::vector<std::string>& stage_kinds();
-
 /// The stages that exist, and how to build them from JSON. Plain data, filled once; a test may fill
 /// its own.
 class Catalogue final : public params::StageBuilder {
  public:
-  /// Adds a stage; a second one of the same kind and name, or an unknown kind, is a
-  /// std::logic_error.
+  /// Adds a stage. A second stage of the same kind and name is a std::logic_error, and so is a
+  /// second description of a kind.
   void add(StageEntry entry);
 
-  /// All entries, by kind and then by name.
+  /// The kinds that have a stage, in their order, kinds of equal order by name.
+  std::vector<StageKind> kinds() const;
+  /// All entries, in the order of kinds() and then by name.
   const std::vector<StageEntry>& entries() const { return entries_; }
   /// The entry, or null.
   const StageEntry* find(const std::string& kind, const std::string& name) const;

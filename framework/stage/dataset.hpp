@@ -6,37 +6,35 @@
 #include <string>
 #include <vector>
 
-#include "framework/geometry/loaded_cloud.hpp"
-#include "framework/geometry/measured_cloud.hpp"
+#include "framework/geometry/point_cloud.hpp"
 #include "framework/geometry/rigid_transform.hpp"
 #include "framework/picture/image.hpp"
 
 namespace croon {
 
-/// One sensor's cloud in one scene, read when it is needed, with the poses `T_reference_sensor`
-/// that are known.
+/// One sensor's cloud in one scene, read on demand, with the known poses `T_reference_sensor`.
 struct SensorScan {
-  std::string sensor;                   ///< The sensor's name, "front".
-  std::string file;                     ///< For messages and digests; empty where there is no file.
-  std::function<LoadedCloud()> load;    ///< Throws InputError where the file is not what it says.
-  std::optional<RigidTransform> truth;  ///< Ground truth.
-  std::optional<RigidTransform> nominal;  ///< The pose on the rig's drawing.
-  std::optional<RigidTransform> initial;  ///< The start that the recording came with.
-  /// The same points with all that the sensor tells of them; empty where the dataset only reads
-  /// clouds.
+  std::string sensor;                     ///< The sensor's name, "front".
+  std::string file;                       ///< For messages and digests; empty if there is no file.
+  std::function<LoadedCloud()> load;      ///< Throws InputError if the file is damaged.
+  std::optional<RigidTransform> truth;    ///< Ground truth.
+  std::optional<RigidTransform> nominal;  ///< The pose of the rig's design.
+  std::optional<RigidTransform> initial;  ///< The initial pose in the recording.
+  /// The same points with everything that the sensor measures; empty if the dataset has points
+  /// only.
   std::function<MeasuredCloud()> measure = {};
-  /// Datasets leave these empty. Where the engine calibrates one sensor to another, the names of
-  /// the two: the points are `source`'s, the poses `T_target_source`.
+  /// Datasets leave these empty. If one sensor is calibrated to another, the names of the two: the
+  /// points are those of `source`, the poses are `T_target_source`.
   std::string source = {}, target = {};
 };
 
 /// One recording of the rig: the reference LiDAR and the sensors to be calibrated to it.
 struct Scene {
   std::string name;
-  std::string kind;  ///< "urban", "narrow"; empty where the dataset tells none.
+  std::string kind;  ///< The kind of scene, "urban"; empty if it is not known.
   SensorScan reference;
   std::vector<SensorScan> sensors;
-  /// A picture of the place from behind and above the car; empty where the dataset cannot draw.
+  /// Draws the scene from behind and above the car; empty if the dataset cannot draw.
   std::function<Image()> draw = {};
 };
 
@@ -45,10 +43,13 @@ class Dataset {
  public:
   using Kind = Dataset;
   static constexpr const char* kKind = "dataset";
+  static constexpr const char* kKindSummary =
+      "The scenes of a rig: named clouds, with ground truth and initial poses if they are known.";
+  static constexpr int kKindOrder = 10;
   virtual ~Dataset() = default;
 
   /// The scenes, in a fixed order. Relative paths are resolved below `data_root` and must stay in
-  /// it. Looks at every file (that it is there, that its header is whole) but loads no cloud.
+  /// it. Checks that every file exists and has a valid header, but loads no cloud.
   /// Throws InputError.
   virtual std::vector<Scene> scenes(const std::filesystem::path& data_root) const = 0;
 };

@@ -9,11 +9,10 @@
 
 namespace croon {
 
-/// The ground of a cloud: its plane in the sensor's frame, and for each point whether it lies on
-/// it.
+/// The ground of a cloud: its plane in the sensor's frame and the points that lie on it.
 struct Ground {
   Plane plane;
-  std::vector<std::uint8_t> is_ground;  ///< One per point of the cloud.
+  std::vector<std::uint8_t> is_ground;  ///< One per point of the cloud: 1 if it is ground.
 };
 
 /// Finds the ground of one cloud (paper, rough calibration: the plane with the most points).
@@ -21,9 +20,12 @@ class GroundExtractor {
  public:
   using Kind = GroundExtractor;
   static constexpr const char* kKind = "ground_extractor";
+  static constexpr const char* kKindSummary =
+      "Finds the ground plane of a cloud and the points that lie on it.";
+  static constexpr int kKindOrder = 30;
   virtual ~GroundExtractor() = default;
 
-  /// The ground; its normal's sign is arbitrary. Draws only from `rng`. Throws StageError where no
+  /// The ground; its normal's sign is arbitrary. Draws only from `rng`. Throws StageError if no
   /// plane is found.
   virtual Ground extract(const PointCloud& cloud, Rng& rng) const = 0;
 };

@@ -4,12 +4,12 @@
 #include <sstream>
 
 #include "framework/base/error.hpp"
-#include "framework/geometry/plane_ransac.hpp"
+#include "framework/geometry/plane.hpp"
 
 namespace croon {
 namespace {
 
-/// The points near the plane of `planes` that has the most; the first of equals.
+/// The points near that plane of `planes` which has the most points near it; of equals the first.
 PointCloud fullest_slab(const PointCloud& cloud, const std::vector<Plane>& planes,
                         double threshold_m) {
   std::vector<int> most;
@@ -24,7 +24,7 @@ PointCloud fullest_slab(const PointCloud& cloud, const std::vector<Plane>& plane
 }
 
 /// The plane with the most points of a slab. A least-squares fit to the whole slab would follow a
-/// kerb in it, and would not let go of it where the slab is then made narrower.
+/// kerb in it, also after the slab is made narrower.
 Plane narrowed(const PointCloud& slab, double threshold_m, Rng& rng) {
   constexpr int kMaxRounds = 30;
   PlaneRansacOptions options;
@@ -46,11 +46,12 @@ const params::Table<GroundRule>& ground_rule_table() {
   static const params::Table<GroundRule> table = {
       params::number("threshold_m", &GroundRule::threshold_m, {1e-4, 10.0},
                      "A point within this distance of the plane is ground; the authors' 0.2."),
-      params::number("refit_threshold_m", &GroundRule::refit_threshold_m, {1e-4, 10.0},
-                     "The plane is last fitted to the points within this distance, which kerbs and "
-                     "wheels are not; never more than threshold_m."),
+      params::number(
+          "refit_threshold_m", &GroundRule::refit_threshold_m, {1e-4, 10.0},
+          "The final fit of the plane uses the points within this distance, without kerbs "
+          "and wheels; never more than threshold_m."),
       params::number("min_inlier_ratio", &GroundRule::min_inlier_ratio, {0.0, 1.0},
-                     "The stage fails where no plane holds this share of the points."),
+                     "The stage fails if no plane holds this share of the points."),
   };
   return table;
 }

@@ -7,15 +7,15 @@
 
 namespace croon {
 
-/// What makes a plane the ground; the same for every extractor, so that their non-ground points
-/// compare. An extractor's own parameters derive from this and its table inherits
+/// Which plane is the ground; the same for every extractor, so that their non-ground points can be
+/// compared. An extractor's own parameters derive from this and its table inherits
 /// ground_rule_table().
 struct GroundRule {
   /// A point is ground within this distance of the plane.
   double threshold_m = 0.2;
-  /// The plane is fitted to the points within this distance of it (at most `threshold_m`). Less
-  /// than that, because kerbs, wheels and the feet of walls stand in the wider slab and on one side
-  /// of the ground only.
+  /// The plane is fitted to the points within this distance of it (at most `threshold_m`). It is
+  /// smaller than `threshold_m`, because kerbs, wheels and the feet of walls are in the wider slab,
+  /// all above the ground.
   double refit_threshold_m = 0.05;
   /// The ground holds at least this share of the points.
   double min_inlier_ratio = 0.05;
@@ -24,9 +24,9 @@ struct GroundRule {
 /// The rows of GroundRule.
 const params::Table<GroundRule>& ground_rule_table();
 
-/// The ground of `cloud`, given planes that some search found in it: the one with the most points
-/// (paper, rough calibration), and within its slab the narrower one with the most points, fitted
-/// to them by least squares. Throws StageError where no plane holds enough points.
+/// The ground of `cloud` among candidate planes: the slab with the most points (paper, rough
+/// calibration), and within it the narrower slab with the most points, fitted to them by least
+/// squares. Throws StageError if no plane holds enough points.
 Ground ground_from_planes(const PointCloud& cloud, const std::vector<Plane>& planes,
                           const GroundRule& rule, Rng& rng);
 

@@ -10,9 +10,12 @@ class Icp {
  public:
   using Kind = Icp;
   static constexpr const char* kKind = "icp";
+  static constexpr const char* kKindSummary =
+      "Registers a source cloud to a target cloud from a start.";
+  static constexpr int kKindOrder = 50;
   virtual ~Icp() = default;
 
-  /// The pose of the source near `start`. Throws StageError where there are too few
+  /// The pose of the source near `start`. Throws StageError if there are too few
   /// correspondences.
   virtual Registration align(const Cloud& target, const Cloud& source,
                              const RigidTransform& start) const = 0;

@@ -9,13 +9,22 @@
 
 namespace croon {
 
-/// What the registry knows of one stage: where it stands, what it is for, its parameters, how to
+/// A kind of stage, as the class that declares it describes it (see `stage_entry`).
+struct StageKind {
+  std::string name;     ///< "ground_extractor", "icp", ...
+  std::string summary;  ///< What its stages do; one sentence.
+  int order = 0;  ///< Kinds are listed in this order, that in which they act in a calibration.
+};
+
+/// What the registry knows of one stage: its kind and name, its purpose, its parameters, and how to
 /// build it.
 struct StageEntry {
-  std::string kind;     ///< "ground_extractor", "icp", ...
-  std::string name;     ///< The JSON "type" ("step" for a step), the file's name.
-  std::string summary;  ///< One sentence.
-  std::string source;   ///< Where it comes from: the paper and section, or "croon".
+  std::string kind;          ///< The kind's name.
+  std::string name;          ///< The JSON "type" ("step" for a step), the file's name.
+  std::string summary;       ///< One sentence.
+  std::string source;        ///< Where it comes from: the paper and section, or "croon".
+  std::string kind_summary;  ///< See StageKind; the same for all stages of the kind.
+  int kind_order = 0;        ///< Likewise.
   std::vector<params::ParameterDoc> parameters;
   std::function<params::BuiltStage(const params::Node&, const params::StageBuilder&)> build;
 };
@@ -31,11 +40,15 @@ inline std::vector<std::string> reserved_keys(const std::string& kind) {
 }
 
 /// The entry of the stage class `Stage`, whose constructor takes the struct `P` that `table` reads.
+/// `Stage` derives from the class of its kind, which declares the kind: `Kind` (itself), `kKind`,
+/// `kKindSummary` and `kKindOrder`, see StageKind. Nothing else knows the kinds, so a header with
+/// such a class is a new kind of stage.
 template <class Stage, class P>
 StageEntry stage_entry(const std::string& name, const std::string& summary,
                        const std::string& source, const params::Table<P>& table) {
   using Kind = typename Stage::Kind;
-  StageEntry entry{Kind::kKind, name, summary, source, table.docs(), {}};
+  StageEntry entry{Kind::kKind,      name,         summary, source, Kind::kKindSummary,
+                   Kind::kKindOrder, table.docs(), {}};
   entry.build = [name, table](const params::Node& node, const params::StageBuilder& builder) {
     const P params = table.read(node, reserved_keys(Kind::kKind), builder);
     if (node.fault_count() > 0) return params::BuiltStage{};

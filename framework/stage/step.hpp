@@ -13,16 +13,16 @@
 
 namespace croon {
 
-/// The ground of a cloud, turned so that its normal points up, and what stands on it.
+/// The ground plane of a cloud with its normal pointing up, and the points off the ground.
 struct GroundSplit {
   Plane plane;                              ///< Normal towards the side of the non-ground points.
   std::shared_ptr<const Cloud> non_ground;  ///< The points off the ground, in the sensor's frame.
 };
 
 /// A number that a step reports of its work: ("inlier_ratio", 0.83).
-using StepFigure = std::pair<std::string, double>;
+using Diagnostic = std::pair<std::string, double>;
 
-/// What is known of one sensor's pose on its way through the pipeline.
+/// The estimate of one sensor's pose, passed from step to step of a pipeline.
 struct Estimate {
   std::shared_ptr<const Cloud> target;  ///< The reference's cloud, preprocessed so far.
   std::shared_ptr<const Cloud> source;  ///< The sensor's cloud, preprocessed so far.
@@ -30,23 +30,26 @@ struct Estimate {
   std::shared_ptr<const GroundSplit> target_ground;  ///< Null until a step has found it.
   std::shared_ptr<const GroundSplit> source_ground;  ///< Null until a step has found it.
   std::optional<Matrix6d> information;               ///< See Registration::information.
-  std::optional<std::string> rejection;  ///< Why the program says not to trust the pose.
-  std::vector<StepFigure> figures;       ///< The last step's report.
+  std::optional<std::string> rejection;              ///< Why the pose must not be trusted, if so.
+  std::vector<Diagnostic> diagnostics;               ///< What the last step reports of its work.
 
-  /// The axis that yaw turns about: up from the target's ground, else z.
+  /// The axis of yaw: the normal of the target's ground, or z if the ground is not known.
   Eigen::Vector3d up() const {
     return target_ground ? target_ground->plane.normal : Eigen::Vector3d::UnitZ();
   }
 };
 
-/// An element of the pipeline: takes an estimate and returns a better one.
+/// An element of a pipeline: takes an estimate and returns a better one.
 class Step {
  public:
   using Kind = Step;
   static constexpr const char* kKind = "step";
+  static constexpr const char* kKindSummary =
+      "An element of the pipeline: takes an estimate and returns a better one.";
+  static constexpr int kKindOrder = 80;
   virtual ~Step() = default;
 
-  /// The better estimate. Draws only from `rng`. Throws StageError where the data defeat it.
+  /// The better estimate. Draws only from `rng`. Throws StageError if the data defeat it.
   virtual Estimate advance(Estimate estimate, Rng& rng) const = 0;
 };
 

@@ -9,7 +9,7 @@
 
 namespace croon {
 
-/// Space that two clouds occupy together: leaves that hold a point of either.
+/// The volume that two clouds occupy together: the leaves that hold a point of either.
 struct OccupiedVolume {
   std::int64_t leaves = 0;
   double leaf_size_m = 0.0;
@@ -22,18 +22,21 @@ struct OccupiedVolume {
 /// Thread-safe.
 using VolumeFunction = std::function<OccupiedVolume(const RigidTransform& T_target_source)>;
 
-/// Measures how well two clouds lie on each other by the space they occupy (paper, refinement:
+/// Measures the alignment of two clouds by the volume that they occupy together (paper, refinement:
 /// aligned clouds occupy the least).
 class VolumeScorer {
  public:
   using Kind = VolumeScorer;
   static constexpr const char* kKind = "volume_scorer";
+  static constexpr const char* kKindSummary =
+      "Measures the volume that two clouds occupy together, as a function of pose.";
+  static constexpr int kKindOrder = 60;
   virtual ~VolumeScorer() = default;
 
-  /// The volume as a function of pose. What depends on the target alone is made once
-  /// (`Cloud::once`). Leaves are those of LeafGrid in the target's frame: all scorers count the
-  /// same. A cloud without points occupies nothing; a point outside of the grid throws StageError,
-  /// the target's here, the source's at its pose.
+  /// The volume as a function of pose. What depends on the target alone is computed once
+  /// (`Cloud::once`). The leaves are those of LeafGrid in the target's frame, so all scorers count
+  /// the same. A cloud without points occupies no leaf. A point outside of the grid throws
+  /// StageError: a point of the target here, one of the source in the function.
   virtual VolumeFunction bind(std::shared_ptr<const Cloud> target,
                               std::shared_ptr<const Cloud> source) const = 0;
 };

@@ -1,28 +1,61 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
+#include <vector>
+
+#include "framework/base/angles.hpp"
 
 namespace croon {
 
 /// Cost of a yaw angle, rad, relative to the start.
 using YawCost = std::function<double(double)>;
 
-/// Where a search found the least cost.
+/// The yaw of least cost that a search found.
 struct YawMinimum {
   double yaw_rad = 0.0;
   double cost = 0.0;
   int evaluations = 0;
 };
 
-/// Finds the least of a function of yaw (paper, rough calibration). Sees a function, never clouds.
+/// Minimises a function of yaw (paper, rough calibration). It never sees clouds.
 class YawSearch {
  public:
   using Kind = YawSearch;
   static constexpr const char* kKind = "yaw_search";
+  static constexpr const char* kKindSummary = "Minimises a function of yaw.";
+  static constexpr int kKindOrder = 40;
   virtual ~YawSearch() = default;
 
-  /// The yaw of least cost near zero. The costs of the yaws that it looks at must not be NaN.
+  /// The yaw of least cost near zero. The cost must not be NaN.
   virtual YawMinimum minimise(const YawCost& cost) const = 0;
 };
+
+/// The multiples of `step_deg` within +-`range_deg`, nearest to zero first: 0, 1, -1, 2, -2, ...
+/// With this order and a strict comparison, the smallest turn wins among equal costs. Of -180 and
+/// 180 degrees, which are the same yaw, the list has only 180.
+inline std::vector<int> yaw_grid(double range_deg, double step_deg) {
+  // The addend makes a range that is a multiple of the step, up to rounding, include its ends.
+  const int count = static_cast<int>(std::floor(range_deg / step_deg + 1e-9));
+  std::vector<int> grid = {0};
+  for (int i = 1; i <= count; ++i) {
+    grid.push_back(i);
+    if (i * step_deg < 180.0 - 1e-9) grid.push_back(-i);
+  }
+  return grid;
+}
+
+/// The least of `cost` on the grid of `yaw_grid`, of equal costs the first.
+inline YawMinimum least_on_grid(const YawCost& cost, double range_deg, double step_deg) {
+  YawMinimum least{0.0, cost(0.0), 1};
+  const std::vector<int> grid = yaw_grid(range_deg, step_deg);
+  for (std::size_t i = 1; i < grid.size(); ++i) {
+    const double yaw_rad = rad_from_deg(grid[i] * step_deg);
+    const double yaw_cost = cost(yaw_rad);
+    if (yaw_cost < least.cost) least = {yaw_rad, yaw_cost, 0};
+  }
+  least.evaluations = static_cast<int>(grid.size());
+  return least;
+}
 
 }  // namespace croon

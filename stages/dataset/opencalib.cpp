@@ -6,8 +6,7 @@
 #include "framework/io/opencalib_files.hpp"
 #include "framework/io/point_cloud_file.hpp"
 #include "framework/stage/dataset.hpp"
-#include "framework/stage/rig_poses.hpp"
-#include "framework/stage/scene_kinds_file.hpp"
+#include "framework/stage/rig_files.hpp"
 #include "framework/stage/stage_entry.hpp"
 
 namespace croon::stages::dataset {
@@ -32,35 +31,35 @@ const params::Table<Params>& table() {
 constexpr const char* kCloudList = "lidar_cloud_path.txt";
 constexpr const char* kPoseList = "initial_extrinsic.txt";
 
-/// Where a scene stands: its name, its real folder, and the real data root above it.
-struct ScenePlace {
+/// A scene on disk: its name, its real folder, and the real data root above it.
+struct SceneLocation {
   std::string name;
   fs::path folder;
   fs::path root;
 };
 
 /// The folder and those above it, up to the data root.
-std::vector<fs::path> folders_up(const ScenePlace& place) {
-  std::vector<fs::path> folders = {place.folder};
-  while (folders.back() != place.root) folders.push_back(folders.back().parent_path());
+std::vector<fs::path> folders_up(const SceneLocation& location) {
+  std::vector<fs::path> folders = {location.folder};
+  while (folders.back() != location.root) folders.push_back(folders.back().parent_path());
   return folders;
 }
 
 /// The real path of a listed cloud. Lists in circulation have paths relative to whatever folder
 /// their authors stood in: the scene's, any above it, or one that did not come along with the
 /// recording.
-fs::path find_cloud(const ListedCloud& cloud, const ScenePlace& place) {
+fs::path find_cloud(const ListedCloud& cloud, const SceneLocation& location) {
   std::string entry = cloud.path;
   std::replace(entry.begin(), entry.end(), '\\', '/');
   std::vector<fs::path> candidates;
-  for (const fs::path& folder : folders_up(place)) candidates.push_back(folder / entry);
-  candidates.push_back(place.folder / fs::path(entry).filename());
+  for (const fs::path& folder : folders_up(location)) candidates.push_back(folder / entry);
+  candidates.push_back(location.folder / fs::path(entry).filename());
   for (const fs::path& candidate : candidates) {
     std::error_code error;
     const fs::path real = fs::canonical(candidate, error);
-    if (!error && fs::is_regular_file(real, error) && is_within(real, place.root)) return real;
+    if (!error && fs::is_regular_file(real, error) && is_within(real, location.root)) return real;
   }
-  throw InputError((place.folder / kCloudList).string(), cloud.place,
+  throw InputError((location.folder / kCloudList).string(), cloud.place,
                    "the cloud \"" + cloud.path +
                        "\" is not below this folder, nor below one above it in the data root");
 }
@@ -72,16 +71,17 @@ std::string sensor_name(const fs::path& file) {
 }
 
 /// The file `name` beside the scene or above it, the nearest.
-std::optional<fs::path> file_above(const std::string& name, const ScenePlace& place) {
-  for (const fs::path& folder : folders_up(place)) {
-    if (fs::exists(folder / name)) return path_in_data_root(place.root, (folder / name).string());
+std::optional<fs::path> file_above(const std::string& name, const SceneLocation& location) {
+  for (const fs::path& folder : folders_up(location)) {
+    if (fs::exists(folder / name))
+      return path_in_data_root(location.root, (folder / name).string());
   }
   return std::nullopt;
 }
 
 /// The poses in `name` beside the scene or above it; none where there is no such file.
-RigPoses poses_above(const std::string& name, const ScenePlace& place) {
-  const std::optional<fs::path> file = file_above(name, place);
+RigPoses poses_above(const std::string& name, const SceneLocation& location) {
+  const std::optional<fs::path> file = file_above(name, location);
   return file ? read_rig_poses(*file) : RigPoses{};
 }
 
@@ -89,12 +89,12 @@ RigPoses poses_above(const std::string& name, const ScenePlace& place) {
 using KindFiles = std::map<fs::path, SceneKinds>;
 
 /// The kind that the file beside the scene or above it gives; empty where there is none.
-std::string kind_of(const ScenePlace& place, KindFiles& read) {
-  const std::optional<fs::path> file = file_above("scene_kinds.json", place);
+std::string kind_of(const SceneLocation& location, KindFiles& read) {
+  const std::optional<fs::path> file = file_above("scene_kinds.json", location);
   if (!file) return "";
   auto kinds = read.find(*file);
   if (kinds == read.end()) kinds = read.emplace(*file, read_scene_kinds(*file)).first;
-  const auto kind = kinds->second.find(place.name);
+  const auto kind = kinds->second.find(location.name);
   return kind == kinds->second.end() ? "" : kind->second;
 }
 
@@ -105,11 +105,11 @@ std::optional<RigidTransform> pose_of(const Poses& poses, const Key& key) {
 }
 
 /// The starts that the recording came with, by device; the reference's must be zero.
-std::map<int, RigidTransform> initial_poses(const ScenePlace& place) {
-  const fs::path file = place.folder / kPoseList;
+std::map<int, RigidTransform> initial_poses(const SceneLocation& location) {
+  const fs::path file = location.folder / kPoseList;
   if (!fs::exists(file)) return {};
   std::map<int, RigidTransform> poses;
-  for (const ListedPose& pose : read_pose_list(path_in_data_root(place.root, file.string()))) {
+  for (const ListedPose& pose : read_pose_list(path_in_data_root(location.root, file.string()))) {
     const bool is_zero = pose.T_reference_sensor.rotation.isIdentity(0.0) &&
                          pose.T_reference_sensor.translation.isZero(0.0);
     if (pose.device_id == 0 && !is_zero) {
@@ -121,14 +121,15 @@ std::map<int, RigidTransform> initial_poses(const ScenePlace& place) {
 }
 
 /// The scans by device, without poses; looks at every cloud's file.
-std::map<int, SensorScan> listed_scans(const ScenePlace& place) {
-  const fs::path list = place.folder / kCloudList;
+std::map<int, SensorScan> listed_scans(const SceneLocation& location) {
+  const fs::path list = location.folder / kCloudList;
   std::vector<Fault> faults;
   std::set<std::string> names;
   std::map<int, SensorScan> scans;
-  for (const ListedCloud& cloud : read_cloud_list(path_in_data_root(place.root, list.string()))) {
+  for (const ListedCloud& cloud :
+       read_cloud_list(path_in_data_root(location.root, list.string()))) {
     collect_faults(faults, [&] {
-      const fs::path file = find_cloud(cloud, place);
+      const fs::path file = find_cloud(cloud, location);
       check_point_cloud_file(file);
       // The listed name, not that of a file which a link points at.
       std::string entry = cloud.path;
@@ -150,19 +151,19 @@ std::map<int, SensorScan> listed_scans(const ScenePlace& place) {
   return scans;
 }
 
-Scene read_scene(const ScenePlace& place, KindFiles& kind_files) {
+Scene read_scene(const SceneLocation& location, KindFiles& kind_files) {
   std::vector<Fault> faults;
   std::string kind;
   std::map<int, SensorScan> scans;
   std::map<int, RigidTransform> initial;
   RigPoses truth, nominal;
-  collect_faults(faults, [&] { scans = listed_scans(place); });
-  collect_faults(faults, [&] { initial = initial_poses(place); });
-  collect_faults(faults, [&] { truth = poses_above("truth.json", place); });
-  collect_faults(faults, [&] { nominal = poses_above("nominal.json", place); });
-  collect_faults(faults, [&] { kind = kind_of(place, kind_files); });
+  collect_faults(faults, [&] { scans = listed_scans(location); });
+  collect_faults(faults, [&] { initial = initial_poses(location); });
+  collect_faults(faults, [&] { truth = poses_above("truth.json", location); });
+  collect_faults(faults, [&] { nominal = poses_above("nominal.json", location); });
+  collect_faults(faults, [&] { kind = kind_of(location, kind_files); });
   if (!faults.empty()) throw InputError(faults);
-  Scene scene{place.name, kind, scans.at(0), {}};
+  Scene scene{location.name, kind, scans.at(0), {}};
   scans.erase(0);
   for (auto& [device_id, scan] : scans) {
     scan.truth = pose_of(truth, scan.sensor);
@@ -174,23 +175,23 @@ Scene read_scene(const ScenePlace& place, KindFiles& kind_files) {
 }
 
 /// The scenes' folders in `folder`, by name; or `folder` itself where it is a scene.
-std::vector<ScenePlace> scene_places(const fs::path& folder, const fs::path& root) {
+std::vector<SceneLocation> scene_locations(const fs::path& folder, const fs::path& root) {
   if (!fs::is_directory(folder))
     throw InputError(folder.string(), "", "expected a folder of scenes");
   if (fs::exists(folder / kCloudList)) return {{folder.filename().string(), folder, root}};
-  std::vector<ScenePlace> places;
+  std::vector<SceneLocation> locations;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (!fs::exists(entry.path() / kCloudList)) continue;
-    places.push_back(
+    locations.push_back(
         {entry.path().filename().string(), path_in_data_root(root, entry.path().string()), root});
   }
-  if (places.empty()) {
+  if (locations.empty()) {
     throw InputError(folder.string(), "",
                      std::string("expected folders with ") + kCloudList + ", found none");
   }
-  std::sort(places.begin(), places.end(),
-            [](const ScenePlace& a, const ScenePlace& b) { return a.name < b.name; });
-  return places;
+  std::sort(locations.begin(), locations.end(),
+            [](const SceneLocation& a, const SceneLocation& b) { return a.name < b.name; });
+  return locations;
 }
 
 class OpenCalib final : public Dataset {
@@ -211,8 +212,8 @@ class OpenCalib final : public Dataset {
     std::vector<Scene> scenes;
     std::vector<Fault> faults;
     KindFiles kind_files;
-    for (const ScenePlace& place : scene_places(folder, fs::canonical(data_root))) {
-      collect_faults(faults, [&] { scenes.push_back(read_scene(place, kind_files)); });
+    for (const SceneLocation& location : scene_locations(folder, fs::canonical(data_root))) {
+      collect_faults(faults, [&] { scenes.push_back(read_scene(location, kind_files)); });
     }
     if (!faults.empty()) throw InputError(without_repeats(faults));
     return scenes;

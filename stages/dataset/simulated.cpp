@@ -4,7 +4,7 @@
 
 #include "framework/simulation/simulated_scene.hpp"
 #include "framework/stage/dataset.hpp"
-#include "framework/stage/rig_poses.hpp"
+#include "framework/stage/rig_files.hpp"
 #include "framework/stage/stage_entry.hpp"
 
 namespace croon::stages::dataset {
@@ -21,9 +21,9 @@ struct Params : Recipe {
 const params::Table<Params>& table() {
   static const params::Table<Params> table = [] {
     params::Table<Params> rows = {
-        params::integer("scenes", &Params::scenes, {1, 1000000}, "How many scenes."),
+        params::integer("scenes", &Params::scenes, {1, 1000000}, "The number of scenes."),
         params::integer("first_scene", &Params::first_scene, {0, 1000000},
-                        "Number of the first one: a scene is the same whichever come with it."),
+                        "Number of the first scene; a scene does not depend on the others."),
     };
     rows.inherit(simulation::recipe_table());
     return rows;
@@ -119,8 +119,8 @@ class Simulated final : public Dataset {
 StageEntry simulated() {
   return stage_entry<Simulated>(
       "simulated",
-      "Road scenes that are built and ray-cast when they are needed, with exact truth; nothing is "
-      "downloaded and nothing written.",
+      "Road scenes that are built and ray-cast on demand, with exact ground truth; nothing is "
+      "downloaded or written.",
       "croon, after the paper's simulated experiment", table());
 }
 

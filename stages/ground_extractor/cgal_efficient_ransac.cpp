@@ -9,7 +9,7 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
-#include "framework/spatial/oriented_sample.hpp"
+#include "framework/spatial/normals.hpp"
 #include "framework/stage/ground_from_planes.hpp"
 #include "framework/stage/stage_entry.hpp"
 
@@ -29,17 +29,17 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
           params::number("leaf_size_m", &Params::leaf_size_m, {1e-3, 10.0},
-                         "Planes are searched for among one point of each cube of this size."),
+                         "Planes are searched for among one point per cube of this size."),
           params::integer("neighbours", &Params::neighbours, {3, 1000},
-                          "A normal comes from this many nearest points."),
+                          "The number of nearest points that a normal is computed from."),
           params::number(
               "max_angle_deg", &Params::max_angle_deg, {0.0, 90.0},
               "The normals of a plane's points differ from the plane's by at most this."),
           params::number("cluster_distance_m", &Params::cluster_distance_m, {1e-3, 1000.0},
-                         "A plane's points hang together over gaps of about this size."),
+                         "The points of a plane are connected over gaps of about this size."),
           params::number(
               "miss_probability", &Params::miss_probability, {1e-9, 0.999},
-              "The search ends where the probability of having missed a plane is below this."),
+              "The search ends when the probability of having missed a plane is below this."),
           params::number("min_region_ratio", &Params::min_region_ratio, {0.0, 1.0},
                          "Planes of less than this share of the points are not searched for."),
       }
@@ -73,12 +73,8 @@ class CgalEfficientRansac final : public GroundExtractor {
   explicit CgalEfficientRansac(const Params& params) : params_(params) {}
 
   Ground extract(const PointCloud& cloud, Rng& rng) const override {
-    try {
-      return extracted(cloud, rng);
-    } catch (const CGAL::Failure_exception& error) {
-      // It is a std::logic_error, but of what the data are like.
-      throw StageError(std::string("CGAL: ") + error.what());
-    }
+    return with_stage_errors<CGAL::Failure_exception>("CGAL",
+                                                      [&] { return extracted(cloud, rng); });
   }
 
  private:
@@ -88,8 +84,8 @@ class CgalEfficientRansac final : public GroundExtractor {
   }
 
   std::vector<Plane> planes(const OrientedPoints& oriented, Rng& rng) const {
-    // CGAL permutes the points it is given, and draws from this thread's default generator, whose
-    // state is whatever the calls before left.
+    // CGAL permutes its input and draws from the default generator of this thread, whose state
+    // depends on earlier calls.
     Points points = cgal_points(oriented);
     CGAL::get_default_random() = CGAL::Random(static_cast<unsigned int>(rng.bits() >> 32));
     Search search;
@@ -124,7 +120,8 @@ class CgalEfficientRansac final : public GroundExtractor {
 StageEntry cgal_efficient_ransac() {
   return stage_entry<CgalEfficientRansac>(
       "cgal_efficient_ransac",
-      "Finds planes among points with normals by CGAL's Efficient RANSAC and takes the fullest.",
+      "Finds planes among points with normals by CGAL's Efficient RANSAC and takes the one with "
+      "the most points.",
       "Schnabel, Wahl and Klein 2007, in CGAL (GPL)", table());
 }
 

@@ -17,7 +17,7 @@
 #include <iterator>
 
 #include "framework/base/error.hpp"
-#include "framework/spatial/oriented_sample.hpp"
+#include "framework/spatial/normals.hpp"
 #include "framework/stage/ground_from_planes.hpp"
 #include "framework/stage/stage_entry.hpp"
 
@@ -37,12 +37,13 @@ const params::Table<Params>& table() {
           params::number("leaf_size_m", &Params::leaf_size_m, {1e-3, 10.0},
                          "Regions are grown over one point of each cube of this size."),
           params::integer("neighbours", &Params::neighbours, {3, 1000},
-                          "Regions grow to this many nearest points; normals come from as many."),
+                          "The number of nearest points that regions grow to and that normals are "
+                          "computed from."),
           params::number(
               "max_angle_deg", &Params::max_angle_deg, {0.0, 90.0},
               "The normals of a region's points differ from its plane's by at most this."),
           params::number("min_region_ratio", &Params::min_region_ratio, {0.0, 1.0},
-                         "Regions of less than this share of the points are not looked at."),
+                         "Regions of less than this share of the points are ignored."),
       }
           .inherit(ground_rule_table());
   return table;
@@ -62,8 +63,8 @@ PointSet cgal_points(const OrientedPoints& oriented) {
   return points;
 }
 
-/// The regions of all sizes. None is too small for CGAL: it grows a region that it then finds too
-/// small from each of its points again, which takes minutes where the limit is high.
+/// The regions of all sizes. CGAL's own limit on the size is not used: CGAL grows a region that it
+/// finds too small again from each of its points, which takes minutes if the limit is high.
 #if CROON_CGAL_REGIONS_OF_5_6
 std::vector<Region> grown_regions(const PointSet& points, const Params& params) {
   namespace on_points = CGAL::Shape_detection::Point_set;
@@ -111,19 +112,15 @@ std::vector<Region> grown_regions(const PointSet& points, const Params& params) 
 }
 #endif
 
-/// CGAL's region growing over points, with planes: a region takes in neighbours that lie on the
-/// plane fitted to it so far.
+/// CGAL's region growing over points with planes: a region absorbs neighbours that lie on the plane
+/// fitted to it so far.
 class CgalRegionGrowing final : public GroundExtractor {
  public:
   explicit CgalRegionGrowing(const Params& params) : params_(params) {}
 
   Ground extract(const PointCloud& cloud, Rng& rng) const override {
-    try {
-      return extracted(cloud, rng);
-    } catch (const CGAL::Failure_exception& error) {
-      // It is a std::logic_error, but of what the data are like.
-      throw StageError(std::string("CGAL: ") + error.what());
-    }
+    return with_stage_errors<CGAL::Failure_exception>("CGAL",
+                                                      [&] { return extracted(cloud, rng); });
   }
 
  private:
@@ -142,7 +139,7 @@ class CgalRegionGrowing final : public GroundExtractor {
       try {
         planes.push_back(fit_plane(oriented.points, region));
       } catch (const StageError&) {
-        // A region on one line has no plane; the next may.
+        // A region on one line has no plane.
       }
     }
     return planes;
@@ -154,10 +151,11 @@ class CgalRegionGrowing final : public GroundExtractor {
 }  // namespace
 
 StageEntry cgal_region_growing() {
-  return stage_entry<CgalRegionGrowing>(
-      "cgal_region_growing",
-      "Grows planar regions from neighbour to neighbour with CGAL and takes the fullest plane.",
-      "Lafarge and Mallet 2012, in CGAL (GPL)", table());
+  return stage_entry<CgalRegionGrowing>("cgal_region_growing",
+                                        "Grows planar regions from neighbour to neighbour with "
+                                        "CGAL and takes the plane with the most "
+                                        "points.",
+                                        "Lafarge and Mallet 2012, in CGAL (GPL)", table());
 }
 
 }  // namespace croon::stages::ground_extractor

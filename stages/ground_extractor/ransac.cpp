@@ -1,4 +1,4 @@
-#include "framework/geometry/plane_ransac.hpp"
+#include "framework/geometry/plane.hpp"
 #include "framework/stage/ground_from_planes.hpp"
 #include "framework/stage/stage_entry.hpp"
 
@@ -17,16 +17,14 @@ const params::Table<Params>& table() {
       params::Table<Params>{
           params::number(
               "confidence", &Params::confidence, {0.0, 0.999999999},
-              "Planes are drawn until one of ground points alone was among them with this "
-              "probability."),
+              "The probability of having drawn three ground points when the search ends."),
           params::integer("max_iterations", &Params::max_iterations, {1, 10000000},
-                          "At most so many planes are drawn."),
-          params::integer(
-              "local_rounds", &Params::local_rounds, {0, 100},
-              "How often a plane that is the best so far is fitted again to its points."),
+                          "At most this many planes are drawn."),
+          params::integer("local_rounds", &Params::local_rounds, {0, 100},
+                          "How often a new best plane is refitted to its points."),
           params::integer(
               "sample_points", &Params::sample_points, {3, 1e9},
-              "Planes are drawn from, and counted on, at most so many points of the cloud."),
+              "Planes are drawn from, and counted on, at most this many points of the cloud."),
       }
           .inherit(ground_rule_table());
   return table;

@@ -16,7 +16,7 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
           params::integer("normal_neighbours", &Params::normal_neighbours, {3, 1000},
-                          "Neighbours that a point's covariance is made of."),
+                          "The number of neighbours that a point's covariance is computed from."),
           params::number(
               "plane_variance_ratio", &Params::plane_variance_ratio, {1e-9, 1.0},
               "Variance across the surface over that along it, the epsilon of the paper."),

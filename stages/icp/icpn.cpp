@@ -16,10 +16,11 @@ struct Params : IcpOptions {
 const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
-          params::integer("normal_neighbours", &Params::normal_neighbours, {3, 1000},
-                          "Neighbours that a normal is made of; the paper takes 40."),
+          params::integer(
+              "normal_neighbours", &Params::normal_neighbours, {3, 1000},
+              "The number of neighbours that a normal is computed from; the paper takes 40."),
           params::number("max_normal_angle_deg", &Params::max_normal_angle_deg, {0.0, 180.0},
-                         "Points correspond where their normals differ by at most this."),
+                         "Points correspond if their normals differ by at most this."),
       }
           .inherit(icp_table());
   return table;

@@ -21,19 +21,19 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
           params::integer("normal_neighbours", &Params::normal_neighbours, {3, 1000},
-                          "Neighbours that a normal is made of."),
+                          "The number of neighbours that a normal is computed from."),
           params::number("max_normal_angle_deg", &Params::max_normal_angle_deg, {0.0, 180.0},
-                         "Points correspond where their normals differ by at most this."),
-          params::number(
-              "plane_surface_variation", &Params::plane_surface_variation, {0.0, 1.0},
-              "Up to this a point lies on a plane: its normal counts, and distances along the "
-              "surface hardly do."),
+                         "Points correspond if their normals differ by at most this."),
+          params::number("plane_surface_variation", &Params::plane_surface_variation, {0.0, 1.0},
+                         "Up to this value a point lies on a plane: its normal is used, and "
+                         "distances along the "
+                         "surface have little weight."),
           params::number("tangent_weight_ratio", &Params::tangent_weight_ratio, {1e-9, 1.0},
                          "Weight of a distance along a plane over that of one across it."),
-          params::number(
-              "rough_weight_ratio", &Params::rough_weight_ratio, {0.0, 1.0},
-              "Weight of a distance, in any direction, where the surface is not flat, over that of "
-              "one across a plane."),
+          params::number("rough_weight_ratio", &Params::rough_weight_ratio, {0.0, 1.0},
+                         "Weight of a distance, in any direction, at a point that is not on a "
+                         "plane, over that of "
+                         "one across a plane."),
           params::number("normal_weight_m", &Params::normal_weight_m, {0.0, 1e3},
                          "The distance that weighs as much as normals one radian apart."),
       }
@@ -41,16 +41,16 @@ const params::Table<Params>& table() {
   return table;
 }
 
-/// `[-[R n]x, 0]`: the Jacobian of a turned normal.
+/// `[-[R n]x, 0]`: the Jacobian of a rotated normal.
 Eigen::Matrix<double, 3, 6> normal_jacobian(const Eigen::Vector3d& normal) {
   Eigen::Matrix<double, 3, 6> J = point_jacobian(normal);
   J.rightCols<3>().setZero();
   return J;
 }
 
-/// The residuals `R s + t - p`, with the information of the target's surface (a flat one hardly
-/// says where along it a point lies, a rough one says little in any direction), and `R n_s - n_t`
-/// where it is flat (Serafin, Grisetti 2015, section III).
+/// The residuals `R s + t - p`, weighted by the information of the target's surface (a flat surface
+/// constrains little along itself, a rough one little in any direction), and `R n_s - n_t` if it is
+/// flat (Serafin, Grisetti 2015, section III).
 void linearise(const Params& params, const Correspondence& pair, const RobustKernel& kernel,
                NormalEquations& equations) {
   const bool is_flat = pair.target_variation <= params.plane_surface_variation;
@@ -94,7 +94,7 @@ class Nicp final : public Icp {
 StageEntry nicp() {
   return stage_entry<Nicp>(
       "nicp",
-      "Makes the distances of the points and the differences of their normals least together.",
+      "Minimises the distances of the points and the differences of their normals together.",
       "Serafin, Grisetti: NICP: Dense normal based point cloud registration, IROS 2015", table());
 }
 

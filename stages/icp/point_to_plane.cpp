@@ -11,9 +11,9 @@ struct Params : IcpOptions {
 
 const params::Table<Params>& table() {
   static const params::Table<Params> table =
-      params::Table<Params>{params::integer("normal_neighbours", &Params::normal_neighbours,
-                                            {3, 1000},
-                                            "Neighbours that a normal of the target is made of.")}
+      params::Table<Params>{
+          params::integer("normal_neighbours", &Params::normal_neighbours, {3, 1000},
+                          "The number of neighbours that a normal of the target is computed from.")}
           .inherit(icp_table());
   return table;
 }

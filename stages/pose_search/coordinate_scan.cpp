@@ -11,7 +11,7 @@
 namespace croon::stages::pose_search {
 namespace {
 
-/// Where a scan to one side ends.
+/// When a scan to one side ends.
 enum class Stop { first_rise, never };
 
 struct Params {
@@ -41,24 +41,24 @@ const params::Table<Params>& table() {
       params::number("rotation_step_deg", &Params::rotation_step_deg, {1e-6, 180.0},
                      "Step of roll, pitch and yaw."),
       params::integer("max_steps", &Params::max_steps, {1, 10000},
-                      "At most so many steps to each side in one scan."),
-      params::number(
-          "min_decrease_ratio", &Params::min_decrease_ratio, {0.0, 1.0},
-          "A step is taken only where it lowers the cost by more than this share of it."),
+                      "At most this many steps to each side in one scan."),
+      params::number("min_decrease_ratio", &Params::min_decrease_ratio, {0.0, 1.0},
+                     "A step is taken only if it lowers the cost by more than this share of it."),
       params::choice(
           "stop", &Params::stop, {{"first_rise", Stop::first_rise}, {"never", Stop::never}},
           "first_rise: to each side, plus first, the scan ends at the first step that does not "
-          "lower the cost; never: both sides are looked at as far as max_steps and the best is "
+          "lower the cost; never: both sides are scanned up to max_steps and the best pose is "
           "taken."),
-      params::integer("sweeps", &Params::sweeps, {1, 1000},
-                      "How often the list is gone through; a sweep that changes nothing ends it."),
+      params::integer(
+          "sweeps", &Params::sweeps, {1, 1000},
+          "At most this many passes over the list; a pass that changes nothing is the last."),
       params::integer("halvings", &Params::halvings, {0, 30},
-                      "How often the steps are halved and the sweeps repeated."),
+                      "How often the steps are halved and the passes repeated."),
   };
   return table;
 }
 
-/// One search: the best pose so far and how it is made better.
+/// One search: the best pose so far and the moves that improve it.
 class Scan {
  public:
   Scan(const Params& params, const PoseCost& cost, const RigidTransform& start)
@@ -66,8 +66,8 @@ class Scan {
 
   const PoseMinimum& best() const { return best_; }
 
-  /// Scans every degree of freedom once; true where one of them lowered the cost.
-  bool sweep(double step_scale) {
+  /// Scans every degree of freedom once; true if one of them lowered the cost.
+  bool pass(double step_scale) {
     bool lower = false;
     for (const Dof dof : params_.dofs) {
       const double step = step_scale * (is_rotation(dof) ? rad_from_deg(params_.rotation_step_deg)
@@ -91,7 +91,7 @@ class Scan {
     return moved(pose, offset);
   }
 
-  /// Goes one way from `origin` as long as each step lowers the least cost so far.
+  /// Steps in one direction from `origin` as long as each step lowers the least cost so far.
   bool descend(const RigidTransform& origin, Dof dof, double step) {
     for (int i = 1; i <= params_.max_steps; ++i) {
       if (!take_if_lower(stepped(origin, dof, i, step))) return i > 1;
@@ -99,7 +99,7 @@ class Scan {
     return true;
   }
 
-  /// Looks at the whole range, the nearest first, and takes the best.
+  /// Evaluates the whole range, the nearest poses first, and takes the best.
   bool scan_range(const RigidTransform& origin, Dof dof, double step) {
     bool lower = false;
     for (int i = 1; i <= params_.max_steps; ++i) {
@@ -135,7 +135,7 @@ class CoordinateScan final : public PoseSearch {
     Scan scan(params_, cost, start);
     for (int halving = 0; halving <= params_.halvings; ++halving) {
       const double step_scale = std::ldexp(1.0, -halving);
-      for (int i = 0; i < params_.sweeps && scan.sweep(step_scale); ++i) {
+      for (int i = 0; i < params_.sweeps && scan.pass(step_scale); ++i) {
       }
     }
     return scan.best();

@@ -30,10 +30,11 @@ const params::Table<Params>& table() {
                         "The box's upper corner x, y, z in the sensor's frame."),
         params::choice("keep", &Params::keep,
                        {{"outside", Keep::outside}, {"inside", Keep::inside}},
-                       "Which points stay; the box's faces are inside."),
+                       "Which points are kept; the faces of the box are inside."),
     };
-    rows.require(is_box,
-                 "min_m and max_m must have three numbers each, and min_m none above max_m's");
+    rows.require(
+        is_box,
+        "min_m and max_m must have three numbers each, and none of min_m may exceed that of max_m");
     return rows;
   }();
   return table;

@@ -43,13 +43,13 @@ class VoxelDownsample final : public Preprocessor {
   explicit VoxelDownsample(const Params& params) : grid_(params.leaf_size_m) {}
 
   PointCloud apply(const PointCloud& cloud) const override {
-    std::unordered_map<std::array<int, 3>, std::size_t, LeafHash> places;
-    std::vector<LeafSum> leaves;  // In the order in which the cloud comes to them.
+    std::unordered_map<std::array<int, 3>, std::size_t, LeafHash> indices;  // In `leaves`.
+    std::vector<LeafSum> leaves;  // In the order of their first points in the cloud.
     for (const Eigen::Vector3f& p : cloud) {
       const Eigen::Vector3d point = p.cast<double>();
-      const auto [place, is_new] = places.try_emplace(leaf_of(point), leaves.size());
+      const auto [entry, is_new] = indices.try_emplace(leaf_of(point), leaves.size());
       if (is_new) leaves.emplace_back();
-      LeafSum& leaf = leaves[place->second];
+      LeafSum& leaf = leaves[entry->second];
       leaf.sum += point;
       ++leaf.points;
     }
@@ -75,7 +75,7 @@ class VoxelDownsample final : public Preprocessor {
 StageEntry voxel_downsample() {
   return stage_entry<VoxelDownsample>(
       "voxel_downsample",
-      "Puts in place of the points of each leaf their mean, in the cloud's order.", "croon",
+      "Replaces the points of each leaf by their mean, in the order of the cloud.", "croon",
       table());
 }
 

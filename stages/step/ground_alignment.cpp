@@ -20,9 +20,9 @@ const params::Table<Params>& table() {
   return table;
 }
 
-/// The plane with its normal towards most of the points that are not ground: a normal's sign is
-/// arbitrary, and what is not ground stands on it (paper, rough calibration, the flip of roll and
-/// pitch by pi).
+/// The plane with its normal towards most of the non-ground points: the sign of a normal is
+/// arbitrary, and objects stand on the ground (paper, rough calibration, the flip of roll and pitch
+/// by pi).
 Plane facing_up(const Ground& ground, const PointCloud& cloud) {
   std::size_t above = 0;
   std::size_t below = 0;
@@ -33,8 +33,8 @@ Plane facing_up(const Ground& ground, const PointCloud& cloud) {
   return below > above ? ground.plane.flipped() : ground.plane;
 }
 
-/// Rotates the source's ground onto the target's by the least rotation, then lifts it to the same
-/// height (paper, rough calibration): roll, pitch and z.
+/// Rotates the source's ground onto the target's by the smallest rotation, then lifts it to the
+/// same height (paper, rough calibration): roll, pitch and z.
 RigidTransform aligned(const RigidTransform& T_target_source, const Plane& target,
                        const Plane& source) {
   const Eigen::Vector3d source_normal = T_target_source.rotation * source.normal;
@@ -55,8 +55,8 @@ class GroundAlignment final : public Step {
     estimate.source_ground = split(*estimate.source, "sensor");
     estimate.T_target_source = aligned(estimate.T_target_source, estimate.target_ground->plane,
                                        estimate.source_ground->plane);
-    estimate.figures = {{"target_ground_offset_m", estimate.target_ground->plane.offset_m},
-                        {"source_ground_offset_m", estimate.source_ground->plane.offset_m}};
+    estimate.diagnostics = {{"target_ground_offset_m", estimate.target_ground->plane.offset_m},
+                            {"source_ground_offset_m", estimate.source_ground->plane.offset_m}};
     return estimate;
   }
 

@@ -1,4 +1,4 @@
-#include "framework/pipeline/nearest_cost_options.hpp"
+#include "framework/pipeline/step_options.hpp"
 #include "framework/stage/pose_search.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/step.hpp"
@@ -30,8 +30,8 @@ class PlanarAlignment final : public Step {
     const NearestDistanceCost cost = nearest_cost(estimate, params_);
     const PoseMinimum minimum = params_.search->minimise(cost, estimate.T_target_source);
     estimate.T_target_source = minimum.pose;
-    estimate.figures = {{"cost_m2", minimum.cost},
-                        {"evaluations", static_cast<double>(minimum.evaluations)}};
+    estimate.diagnostics = {{"cost_m2", minimum.cost},
+                            {"evaluations", static_cast<double>(minimum.evaluations)}};
     return estimate;
   }
 

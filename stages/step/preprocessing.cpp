@@ -13,9 +13,9 @@ struct Params {
 const params::Table<Params>& table() {
   static const params::Table<Params> table = {
       params::slots("reference", &Params::reference,
-                    "What is done, in this order, to the reference's cloud."),
+                    "The filters of the reference's cloud, in this order."),
       params::slots("sensor", &Params::sensor,
-                    "What is done, in this order, to the cloud of each sensor."),
+                    "The filters of each sensor's cloud, in this order."),
   };
   return table;
 }
@@ -40,11 +40,12 @@ class Preprocessing final : public Step {
   Estimate advance(Estimate estimate, Rng&) const override {
     estimate.target = preprocessed(estimate.target, params_.reference);
     estimate.source = preprocessed(estimate.source, params_.sensor);
-    // What was known of the ground belongs to the clouds before.
+    // The ground that was found belongs to the clouds before.
     estimate.target_ground = nullptr;
     estimate.source_ground = nullptr;
-    estimate.figures = {{"target_points", static_cast<double>(estimate.target->points().size())},
-                        {"source_points", static_cast<double>(estimate.source->points().size())}};
+    estimate.diagnostics = {
+        {"target_points", static_cast<double>(estimate.target->points().size())},
+        {"source_points", static_cast<double>(estimate.source->points().size())}};
     return estimate;
   }
 

@@ -1,5 +1,5 @@
 #include "framework/base/error.hpp"
-#include "framework/pipeline/point_selection.hpp"
+#include "framework/pipeline/step_options.hpp"
 #include "framework/stage/icp.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/step.hpp"
@@ -17,9 +17,8 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table = {
       params::slot("icp", &Params::icp, R"({"type": "icpn"})", "Registers the two clouds."),
       params::choice("points", &Params::points, kPointsWords, "Which points are registered."),
-      params::number(
-          "min_inlier_ratio", &Params::min_inlier_ratio, {0.0, 1.0},
-          "The pose is rejected where fewer of the sensor's points find a correspondence."),
+      params::number("min_inlier_ratio", &Params::min_inlier_ratio, {0.0, 1.0},
+                     "The pose is rejected if fewer of the sensor's points have a correspondence."),
   };
   return table;
 }
@@ -38,11 +37,11 @@ class RegistrationStep final : public Step {
       estimate.rejection = "inlier ratio " + std::to_string(result.inlier_ratio) + " is below " +
                            std::to_string(params_.min_inlier_ratio);
     }
-    estimate.figures = {{"rmse_m", result.rmse_m},
-                        {"inlier_ratio", result.inlier_ratio},
-                        {"correspondences", static_cast<double>(result.correspondences)},
-                        {"iterations", static_cast<double>(result.iterations)},
-                        {"converged", result.converged ? 1.0 : 0.0}};
+    estimate.diagnostics = {{"rmse_m", result.rmse_m},
+                            {"inlier_ratio", result.inlier_ratio},
+                            {"correspondences", static_cast<double>(result.correspondences)},
+                            {"iterations", static_cast<double>(result.iterations)},
+                            {"converged", result.converged ? 1.0 : 0.0}};
     return estimate;
   }
 

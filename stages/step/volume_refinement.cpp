@@ -1,4 +1,4 @@
-#include "framework/pipeline/point_selection.hpp"
+#include "framework/pipeline/step_options.hpp"
 #include "framework/stage/pose_search.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/step.hpp"
@@ -19,7 +19,7 @@ const params::Table<Params>& table() {
                    "Measures the volume that the two clouds occupy together."),
       params::slot("search", &Params::search, R"({"type": "coordinate_scan"})",
                    "Finds the pose of least volume."),
-      params::choice("points", &Params::points, kPointsWords, "Which points occupy space."),
+      params::choice("points", &Params::points, kPointsWords, "Which points occupy volume."),
   };
   return table;
 }
@@ -35,9 +35,9 @@ class VolumeRefinement final : public Step {
     const PoseMinimum minimum = params_.search->minimise(
         [&](const RigidTransform& pose) { return volume(pose).m3(); }, estimate.T_target_source);
     estimate.T_target_source = minimum.pose;
-    estimate.figures = {{"volume_before_m3", before_m3},
-                        {"volume_m3", minimum.cost},
-                        {"evaluations", static_cast<double>(minimum.evaluations)}};
+    estimate.diagnostics = {{"volume_before_m3", before_m3},
+                            {"volume_m3", minimum.cost},
+                            {"evaluations", static_cast<double>(minimum.evaluations)}};
     return estimate;
   }
 
@@ -50,7 +50,7 @@ class VolumeRefinement final : public Step {
 StageEntry volume_refinement() {
   return stage_entry<VolumeRefinement>(
       "volume_refinement",
-      "Moves the sensor to where the two clouds occupy the least space together.",
+      "Moves the sensor to the pose at which the two clouds occupy the least volume together.",
       "CROON (arXiv 2203.03182), refinement", table());
 }
 

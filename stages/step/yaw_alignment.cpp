@@ -1,4 +1,4 @@
-#include "framework/pipeline/nearest_cost_options.hpp"
+#include "framework/pipeline/step_options.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/step.hpp"
 #include "framework/stage/yaw_search.hpp"
@@ -34,8 +34,8 @@ class YawAlignment final : public Step {
     const YawMinimum minimum =
         params_.search->minimise([&](double yaw_rad) { return cost(turned(yaw_rad)); });
     estimate.T_target_source = turned(minimum.yaw_rad);
-    estimate.figures = {{"cost_m2", minimum.cost},
-                        {"evaluations", static_cast<double>(minimum.evaluations)}};
+    estimate.diagnostics = {{"cost_m2", minimum.cost},
+                            {"evaluations", static_cast<double>(minimum.evaluations)}};
     return estimate;
   }
 

@@ -23,17 +23,18 @@ const params::Table<Params>& table() {
   return table;
 }
 
-/// A sparse grid of bits. Its nodes are 64 voxels wide (those of MaskTree: 4096), because a scan
+/// A sparse grid of bits. Its nodes are 64 voxels wide (those of MaskTree: 4096), because a cloud
 /// fills little of the space around it and a node's memory is cleared for every pose.
 using Tree = openvdb::tree::Tree3<openvdb::ValueMask, 3, 3>::Type;
 
-/// Registers with no tree: the trees here lose no nodes while one reads them.
+/// Not registered with its tree: no tree here loses nodes while it is read.
 template <class T>
 using Accessor = openvdb::tree::ValueAccessor<T, false>;
 
 openvdb::Coord coord(const Eigen::Vector3i& leaf) { return {leaf.x(), leaf.y(), leaf.z()}; }
 
-/// On one thread: a thread that waits inside a trial must not pick up another trial's work.
+/// Counts on one thread: a thread that waits inside a trial must not start the work of another
+/// trial.
 std::int64_t leaves(const Tree& tree) {
   return static_cast<std::int64_t>(openvdb::tools::countActiveVoxels(tree, false));
 }

@@ -17,7 +17,7 @@ struct Params {
 const params::Table<Params>& table() {
   static const params::Table<Params> table = {
       params::number("leaf_size_m", &Params::leaf_size_m, {1e-3, 1e3},
-                     "Edge of the smallest cubes, those that are counted."),
+                     "Edge of the smallest cubes, which are counted."),
   };
   return table;
 }
@@ -31,10 +31,10 @@ class Octree {
 
   bool contains(const Eigen::Vector3i& leaf) const {
     if (!covers(leaf)) return false;
-    const Vector3l place = leaf.cast<std::int64_t>() - corner_;
+    const Vector3l offset = leaf.cast<std::int64_t>() - corner_;
     std::uint32_t node = kRoot;
     for (int level = depth_ - 1; level >= 0; --level) {
-      node = nodes_[node][octant(place, level)];
+      node = nodes_[node][octant(offset, level)];
       if (node == kNone) return false;
     }
     return true;
@@ -43,10 +43,10 @@ class Octree {
   void insert(const Eigen::Vector3i& leaf) {
     if (leaves_ == 0) corner_ = leaf.cast<std::int64_t>();
     while (!covers(leaf)) grow_towards(leaf);
-    const Vector3l place = leaf.cast<std::int64_t>() - corner_;
+    const Vector3l offset = leaf.cast<std::int64_t>() - corner_;
     std::uint32_t node = kRoot;
-    for (int level = depth_ - 1; level > 0; --level) node = child(node, octant(place, level));
-    std::uint32_t& occupied = nodes_[node][octant(place, 0)];
+    for (int level = depth_ - 1; level > 0; --level) node = child(node, octant(offset, level));
+    std::uint32_t& occupied = nodes_[node][octant(offset, 0)];
     if (occupied == kLeaf) return;
     occupied = kLeaf;
     ++leaves_;
@@ -68,17 +68,17 @@ class Octree {
   static constexpr std::uint32_t kNone = 0;
   static constexpr std::uint32_t kLeaf = 1;
 
-  /// Which child of a cube of side 2^(level + 1) leaves holds the leaf `place` (from the root's
+  /// The child of a cube of side 2^(level + 1) leaves that holds the leaf `offset` (from the root's
   /// corner).
-  static std::size_t octant(const Vector3l& place, int level) {
-    return static_cast<std::size_t>((place.x() >> level & 1) | (place.y() >> level & 1) << 1 |
-                                    (place.z() >> level & 1) << 2);
+  static std::size_t octant(const Vector3l& offset, int level) {
+    return static_cast<std::size_t>((offset.x() >> level & 1) | (offset.y() >> level & 1) << 1 |
+                                    (offset.z() >> level & 1) << 2);
   }
 
   bool covers(const Eigen::Vector3i& leaf) const {
-    const Vector3l place = leaf.cast<std::int64_t>() - corner_;
-    // A negative place has high bits too.
-    return (place.x() | place.y() | place.z()) >> depth_ == 0;
+    const Vector3l offset = leaf.cast<std::int64_t>() - corner_;
+    // A negative offset has high bits too.
+    return (offset.x() | offset.y() | offset.z()) >> depth_ == 0;
   }
 
   std::uint32_t child(std::uint32_t node, std::size_t octant) {
@@ -91,15 +91,15 @@ class Octree {
 
   /// Makes the root one child of a root of twice the side.
   void grow_towards(const Eigen::Vector3i& leaf) {
-    Vector3l old_place = Vector3l::Zero();
+    Vector3l old_offset = Vector3l::Zero();
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      if (leaf(axis) < corner_(axis)) old_place(axis) = std::int64_t{1} << depth_;
+      if (leaf(axis) < corner_(axis)) old_offset(axis) = std::int64_t{1} << depth_;
     }
-    corner_ -= old_place;
+    corner_ -= old_offset;
     if (leaves_ > 0) {
       const Node old_root = nodes_[kRoot];
       nodes_[kRoot] = Node{};
-      nodes_[child(kRoot, octant(old_place, depth_))] = old_root;
+      nodes_[child(kRoot, octant(old_offset, depth_))] = old_root;
     }
     ++depth_;
   }
@@ -126,7 +126,7 @@ class PointerOctree final : public VolumeScorer {
       return tree;
     });
     return [grid, target_tree, source](const RigidTransform& T_target_source) {
-      // One per thread, because what takes time is the memory.
+      // One per thread: allocating its memory again for each pose would take most of the time.
       thread_local Octree added;
       added.clear();
       for (const Eigen::Vector3f& point : source->points()) {

@@ -4,7 +4,6 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/stage/stage_entry.hpp"
-#include "framework/stage/yaw_grid.hpp"
 #include "framework/stage/yaw_search.hpp"
 
 namespace croon::stages::yaw_search {
@@ -20,13 +19,13 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table = [] {
     params::Table<Params> rows = {
         params::number("range_deg", &Params::range_deg, {0.01, 180.0},
-                       "How far the first level looks to each side of the start; the authors' 50."),
+                       "Half range of the first level around the start; the authors' 50."),
         params::number("step_deg", &Params::step_deg, {0.001, 180.0},
                        "Step of the first level's grid; the authors' 5."),
         params::integer(
             "levels", &Params::levels, {1, 20},
-            "How many grids are looked at, each of half the range and half the step of the "
-            "one before; the authors' 5."),
+            "The number of grids, each of half the range and half the step of the one before; the "
+            "authors' 5."),
     };
     return rows.require([](const Params& p) { return p.step_deg <= p.range_deg; },
                         "step_deg must not be greater than range_deg");
@@ -43,8 +42,8 @@ class Binary final : public YawSearch {
 
   YawMinimum minimise(const YawCost& cost) const override {
     const double finest_step_deg = std::ldexp(params_.step_deg, 1 - params_.levels);
-    // Yaws are whole multiples of the last level's step, so every second yaw of a level was looked
-    // at in the level before, and is known.
+    // Yaws are integer multiples of the last level's step, so every second yaw of a level was
+    // evaluated in the level before.
     std::map<std::int64_t, double> costs;
     const auto cost_of = [&](std::int64_t yaw) {
       const auto [entry, is_new] = costs.try_emplace(yaw, 0.0);
@@ -78,7 +77,7 @@ class Binary final : public YawSearch {
 
 StageEntry binary() {
   return stage_entry<Binary>(
-      "binary", "Looks at a grid of yaws, then at ever finer and narrower ones around the best.",
+      "binary", "Evaluates a grid of yaws, then ever finer and narrower grids around the best yaw.",
       "CROON (arXiv 2203.03182), rough calibration; the grids are those of its public code "
       "(lidar2lidar, "
       "commit c0e1e2b)",

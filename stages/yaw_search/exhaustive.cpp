@@ -1,6 +1,4 @@
-#include "framework/base/angles.hpp"
 #include "framework/stage/stage_entry.hpp"
-#include "framework/stage/yaw_grid.hpp"
 #include "framework/stage/yaw_search.hpp"
 
 namespace croon::stages::yaw_search {
@@ -14,7 +12,7 @@ struct Params {
 const params::Table<Params>& table() {
   static const params::Table<Params> table = {
       params::number("range_deg", &Params::range_deg, {0.01, 180.0},
-                     "How far the search looks to each side of the start."),
+                     "Half range of the search around the start."),
       params::number("step_deg", &Params::step_deg, {0.001, 180.0}, "Step of the grid."),
   };
   return table;
@@ -25,15 +23,7 @@ class Exhaustive final : public YawSearch {
   explicit Exhaustive(const Params& params) : params_(params) {}
 
   YawMinimum minimise(const YawCost& cost) const override {
-    YawMinimum least{0.0, cost(0.0), 0};
-    const std::vector<int> grid = yaw_grid(params_.range_deg, params_.step_deg);
-    for (std::size_t i = 1; i < grid.size(); ++i) {
-      const double yaw_rad = rad_from_deg(grid[i] * params_.step_deg);
-      const double yaw_cost = cost(yaw_rad);
-      if (yaw_cost < least.cost) least = {yaw_rad, yaw_cost, 0};
-    }
-    least.evaluations = static_cast<int>(grid.size());
-    return least;
+    return least_on_grid(cost, params_.range_deg, params_.step_deg);
   }
 
  private:
@@ -44,7 +34,7 @@ class Exhaustive final : public YawSearch {
 
 StageEntry exhaustive() {
   return stage_entry<Exhaustive>(
-      "exhaustive", "Looks at every yaw of a grid around the start; the measure of the others.",
+      "exhaustive", "Evaluates every yaw of a grid around the start; the baseline of the others.",
       "croon", table());
 }
 

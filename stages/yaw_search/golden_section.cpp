@@ -2,7 +2,6 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/stage/stage_entry.hpp"
-#include "framework/stage/yaw_grid.hpp"
 #include "framework/stage/yaw_search.hpp"
 
 namespace croon::stages::yaw_search {
@@ -18,11 +17,12 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table = [] {
     params::Table<Params> rows = {
         params::number("range_deg", &Params::range_deg, {0.01, 180.0},
-                       "How far the search looks to each side of the start."),
-        params::number("bracket_step_deg", &Params::bracket_step_deg, {0.001, 180.0},
-                       "Step of the grid whose best yaw and its two neighbours bracket the least."),
+                       "Half range of the search around the start."),
+        params::number(
+            "bracket_step_deg", &Params::bracket_step_deg, {0.001, 180.0},
+            "Step of the grid whose best yaw and its two neighbours bracket the minimum."),
         params::number("tolerance_deg", &Params::tolerance_deg, {1e-6, 180.0},
-                       "The search ends where the bracket is no wider than this."),
+                       "The search ends when the bracket is no wider than this."),
     };
     return rows.require([](const Params& p) { return p.bracket_step_deg <= p.range_deg; },
                         "bracket_step_deg must not be greater than range_deg");
@@ -30,7 +30,7 @@ const params::Table<Params>& table() {
   return table;
 }
 
-/// The share of a segment that a probe cuts off: `1 - 1 / golden ratio`.
+/// The share of a segment that is cut off: `1 - 1 / golden ratio`.
 constexpr double kGoldenShare = 0.38196601125010515;
 
 /// Golden section search (Kiefer 1953): of a bracket `low < best < high` whose middle costs least,
@@ -40,7 +40,7 @@ class GoldenSection final : public YawSearch {
   explicit GoldenSection(const Params& params) : params_(params) {}
 
   YawMinimum minimise(const YawCost& cost) const override {
-    YawMinimum least = bracketed(cost);
+    YawMinimum least = least_on_grid(cost, params_.range_deg, params_.bracket_step_deg);
     const double tolerance_rad = rad_from_deg(params_.tolerance_deg);
     const double step_rad = rad_from_deg(params_.bracket_step_deg);
     double low_rad = least.yaw_rad - step_rad;
@@ -64,19 +64,6 @@ class GoldenSection final : public YawSearch {
   }
 
  private:
-  /// The yaw of least cost on the coarse grid.
-  YawMinimum bracketed(const YawCost& cost) const {
-    YawMinimum least{0.0, cost(0.0), 0};
-    const std::vector<int> grid = yaw_grid(params_.range_deg, params_.bracket_step_deg);
-    for (std::size_t i = 1; i < grid.size(); ++i) {
-      const double yaw_rad = rad_from_deg(grid[i] * params_.bracket_step_deg);
-      const double yaw_cost = cost(yaw_rad);
-      if (yaw_cost < least.cost) least = {yaw_rad, yaw_cost, 0};
-    }
-    least.evaluations = static_cast<int>(grid.size());
-    return least;
-  }
-
   Params params_;
 };
 
@@ -85,7 +72,7 @@ class GoldenSection final : public YawSearch {
 StageEntry golden_section() {
   return stage_entry<GoldenSection>(
       "golden_section",
-      "Brackets the least on a coarse grid, then narrows the bracket by the golden ratio.",
+      "Brackets the minimum on a coarse grid, then narrows the bracket by the golden ratio.",
       "Kiefer, Sequential minimax search for a maximum, 1953", table());
 }
 

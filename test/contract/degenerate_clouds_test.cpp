@@ -1,4 +1,4 @@
-// Clouds that say nothing: a StageError or finite numbers, never a crash, a hang or NaN.
+// Degenerate clouds give a StageError or finite numbers, never a crash, a hang or NaN.
 #include <nlohmann/json.hpp>
 
 #include "test/contract/every_stage.hpp"

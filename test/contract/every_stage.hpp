@@ -29,7 +29,7 @@ std::vector<StageEntry> every_stage_of(const std::string& kind);
 std::string stage_case_name(const testing::TestParamInfo<StageEntry>& info);
 
 /// A suite that runs over stages; its cases come from the registry, so a new stage is tested
-/// unasked.
+/// without an edit.
 class EveryStage : public testing::TestWithParam<StageEntry> {
  protected:
   const StageEntry& entry() const { return GetParam(); }

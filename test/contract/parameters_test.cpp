@@ -193,7 +193,7 @@ TEST_P(ContractOfParameters, MissingKeyIsAFault) {
 
 INSTANTIATE_TEST_SUITE_P(Registry, ContractOfParameters, testing::ValuesIn(every_stage()),
                          stage_case_name);
-// No stage of the registry need have objects in it: one that has every sort of them.
+// A stage with every type of object, because the registry need not have one.
 INSTANTIATE_TEST_SUITE_P(Nested, ContractOfParameters, testing::Values(nested_stage()),
                          stage_case_name);
 

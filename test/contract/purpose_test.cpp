@@ -1,11 +1,11 @@
 // Every stage does what its kind is for, on a street whose geometry is known. The bounds are loose:
-// they tell a stage that works from one that does not, not a good one from a better one.
+// they separate stages that work from stages that do not, not good ones from better ones.
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "framework/base/angles.hpp"
-#include "framework/geometry/pose_error.hpp"
+#include "framework/geometry/dof.hpp"
 #include "framework/stage/ground_extractor.hpp"
 #include "framework/stage/icp.hpp"
 #include "framework/stage/preprocessor.hpp"

@@ -50,10 +50,10 @@ class GeneratedPages : public testing::Test {
 TEST_F(GeneratedPages, ReferencePages) {
   EXPECT_EQ(bytes_of(kDocs + "stages/README.md"),
             stages_help(catalogue_, "", HelpFormat::markdown));
-  for (const std::string& kind : stage_kinds()) {
-    EXPECT_EQ(bytes_of(kDocs + "stages/" + kind + ".md"),
-              stages_help(catalogue_, kind, HelpFormat::markdown))
-        << kind << ": run make docs";
+  for (const StageKind& kind : catalogue_.kinds()) {
+    EXPECT_EQ(bytes_of(kDocs + "stages/" + kind.name + ".md"),
+              stages_help(catalogue_, kind.name, HelpFormat::markdown))
+        << kind.name << ": run make docs";
   }
 }
 

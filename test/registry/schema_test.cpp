@@ -28,7 +28,7 @@ std::vector<std::string> required_keys(const std::vector<ParameterDoc>& paramete
   return keys;
 }
 
-/// Expects the ends of the range, or none where there are none.
+/// Expects the finite ends of the range and no others.
 void expect_range(const json& found, const params::Range& range) {
   EXPECT_EQ(found.contains("minimum"), std::isfinite(range.minimum));
   EXPECT_EQ(found.contains("maximum"), std::isfinite(range.maximum));
@@ -130,7 +130,7 @@ void expect_parameters(const json& properties, const std::vector<ParameterDoc>& 
   }
 }
 
-/// Expects that the stage's definition says what its table says.
+/// Expects that the stage's definition equals its table.
 void expect_stage(const json& stage, const StageEntry& entry) {
   SCOPED_TRACE(entry.name);
   EXPECT_EQ(stage["additionalProperties"], false);
@@ -158,14 +158,25 @@ TEST(Schema, EqualsTheTablesOfObjectsInAStage) {
 TEST(Schema, OffersTheStagesOfEachKind) {
   const json definitions = definitions_of(registry());
   std::size_t stages = 0;
-  for (const std::string& kind : stage_kinds()) {
-    const std::vector<std::string> names = registry().names(kind);
+  const std::vector<StageKind> kinds = registry().kinds();
+  for (const StageKind& kind : kinds) {
+    const std::vector<std::string> names = registry().names(kind.name);
     stages += names.size();
-    ASSERT_FALSE(names.empty()) << kind;
-    EXPECT_EQ(definitions.at(kind)["properties"][name_key(kind)]["enum"], json(names));
-    EXPECT_EQ(definitions.at(kind)["oneOf"].size(), names.size());
+    ASSERT_FALSE(names.empty()) << kind.name;
+    const json& definition = definitions.at(kind.name);
+    EXPECT_EQ(definition["properties"][name_key(kind.name)]["enum"], json(names));
+    EXPECT_EQ(definition["oneOf"].size(), names.size());
   }
-  EXPECT_EQ(definitions.size(), stage_kinds().size() + stages);
+  EXPECT_EQ(definitions.size(), kinds.size() + stages);
+}
+
+TEST(Schema, AcceptsNoStageOfAKindThatHasNone) {
+  Catalogue catalogue;
+  catalogue.add(*registry().find("step", "registration"));
+  const json definitions = definitions_of(catalogue);
+  const json nothing = {{"not", json::object()}};
+  EXPECT_EQ(definitions.at("icp"), nothing);
+  EXPECT_EQ(definitions.at("dataset"), nothing);
 }
 
 }  // namespace

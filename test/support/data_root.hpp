@@ -8,7 +8,7 @@
 namespace croon::test {
 
 /// The folder of the authors' samples: CROON_DATA, else shared/data beside the checkout, else data/
-/// in it; empty where there is none.
+/// in it; empty if there is none.
 std::filesystem::path data_root();
 
 }  // namespace croon::test

@@ -22,7 +22,7 @@ class TempFolder {
   std::filesystem::path path_;
 };
 
-/// The message of the InputError that `work` throws; empty where it throws none.
+/// The message of the InputError that `work` throws; empty if it throws none.
 std::string input_error(const std::function<void()>& work);
 
 }  // namespace croon::test

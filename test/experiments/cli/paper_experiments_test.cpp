@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "framework/base/angles.hpp"
-#include "framework/geometry/pose_error.hpp"
+#include "framework/geometry/dof.hpp"
 #include "test/experiments/support/program.hpp"
 #include "test/support/data_root.hpp"
 #include "test/support/temp_folder.hpp"

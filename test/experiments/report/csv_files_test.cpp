@@ -8,7 +8,7 @@
 
 #include "experiments/report/csv_row.hpp"
 #include "framework/base/angles.hpp"
-#include "framework/geometry/unit_quaternion.hpp"
+#include "framework/geometry/rigid_transform.hpp"
 #include "test/experiments/report/sample_records.hpp"
 
 namespace croon::experiments {

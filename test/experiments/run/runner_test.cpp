@@ -85,7 +85,7 @@ void expect_same(const TrialRecord& a, const TrialRecord& b) {
   EXPECT_EQ(a.status, b.status);
   ASSERT_EQ(a.steps.size(), b.steps.size());
   for (std::size_t i = 0; i < a.steps.size(); ++i)
-    EXPECT_EQ(a.steps[i].figures, b.steps[i].figures);
+    EXPECT_EQ(a.steps[i].diagnostics, b.steps[i].diagnostics);
 }
 
 TEST(Runner, SameBitsOnAnyNumberOfThreads) {
@@ -164,7 +164,7 @@ TEST(Runner, AddingAVariantASceneOrASensorChangesNoNumber) {
       if (key_of(other.id) != key_of(record.id)) continue;
       ++found;
       // The fake truth of a sensor depends on how many there are; draws do not.
-      EXPECT_EQ(record.steps[0].figures[1], other.steps[0].figures[1]);
+      EXPECT_EQ(record.steps[0].diagnostics[1], other.steps[0].diagnostics[1]);
     }
   }
   EXPECT_EQ(found, few.records.size());

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/file/experiment.hpp"
-#include "framework/geometry/pose_error.hpp"
+#include "framework/geometry/dof.hpp"
 #include "test/experiments/support/fake_stages.hpp"
 #include "test/support/temp_folder.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
-#include "framework/geometry/pose_error.hpp"
+#include "framework/geometry/dof.hpp"
 #include "test/support/random_geometry.hpp"
 
 namespace croon::experiments {

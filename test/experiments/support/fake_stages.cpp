@@ -93,7 +93,7 @@ class Drift final : public Step {
     for (int i = 0; i < 3; ++i) {
       estimate.T_target_source.translation(i) += params_.size_m * (rng.normal() + shared);
     }
-    estimate.figures = {{"shared", shared}, {"draw", rng.uniform()}};
+    estimate.diagnostics = {{"shared", shared}, {"draw", rng.uniform()}};
     return estimate;
   }
 

@@ -1,4 +1,4 @@
-#include "framework/base/nearest_name.hpp"
+#include "framework/base/error.hpp"
 
 #include <gtest/gtest.h>
 

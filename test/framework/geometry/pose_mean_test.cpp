@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "framework/base/angles.hpp"
-#include "framework/geometry/pose_error.hpp"
+#include "framework/geometry/dof.hpp"
 #include "test/support/random_geometry.hpp"
 
 namespace croon {
@@ -142,7 +142,7 @@ TEST(ConsensusPose, IgnoresAMinorityThatAgreesOnSomethingElse) {
   Rng rng = test::test_rng();
   for (int i = 0; i < 50; ++i) {
     const RigidTransform centre = test::random_pose(rng, 3.0);
-    // As where a street looks the same both ways.
+    // As in a street that looks the same in both directions.
     const RigidTransform wrong = {rotation_exp(kPi * Eigen::Vector3d::UnitZ()) * centre.rotation,
                                   centre.translation};
     std::vector<RigidTransform> poses = poses_near(rng, centre, 60);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "framework/base/angles.hpp"
-#include "framework/geometry/pose_error.hpp"
+#include "framework/geometry/dof.hpp"
 #include "test/support/random_geometry.hpp"
 
 namespace croon {

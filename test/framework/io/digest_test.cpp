@@ -8,7 +8,7 @@ namespace croon {
 namespace {
 
 TEST(Digest, IsSha256) {
-  // FIPS 180-2, appendix B, and the digest of nothing.
+  // FIPS 180-2, appendix B, and the digest of the empty text.
   EXPECT_EQ(sha256_of_text("abc"),
             "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(sha256_of_text(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");

@@ -1,8 +1,7 @@
-#include "framework/io/pcd_writer.hpp"
+#include "framework/io/pcd_file.hpp"
 
 #include <gtest/gtest.h>
 
-#include "framework/io/pcd_file.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/temp_folder.hpp"
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "framework/base/whole_file.hpp"
-#include "framework/io/ply_writer.hpp"
+#include "framework/io/ply_file.hpp"
 #include "test/framework/io/cloud_bytes.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/temp_folder.hpp"

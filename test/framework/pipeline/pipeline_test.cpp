@@ -2,6 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <any>
+#include <functional>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <variant>
+
 #include "framework/base/error.hpp"
 
 namespace croon {
@@ -15,7 +22,7 @@ class Move final : public Step {
     if (fails_) throw StageError("nothing to move");
     const double draw = rng.uniform();
     estimate.T_target_source.translation.x() += draw;
-    estimate.figures = {{"draw", draw}};
+    estimate.diagnostics = {{"draw", draw}};
     return estimate;
   }
 
@@ -38,23 +45,69 @@ TEST(RunPipeline, TakesTheEstimateThroughTheSteps) {
   ASSERT_EQ(result.records.size(), 2u);
   EXPECT_TRUE(result.failure.empty());
   EXPECT_EQ(result.estimate.T_target_source.translation.x(),
-            result.records[0].figures[0].second + result.records[1].figures[0].second);
+            result.records[0].diagnostics[0].second + result.records[1].diagnostics[0].second);
 }
 
 TEST(RunPipeline, StepsDrawFromStreamsOfTheirOwn) {
-  const double a = run({move("a"), move("b")}).records[0].figures[0].second;
-  const double b = run({move("a"), move("b")}).records[1].figures[0].second;
+  const double a = run({move("a"), move("b")}).records[0].diagnostics[0].second;
+  const double b = run({move("a"), move("b")}).records[1].diagnostics[0].second;
   EXPECT_NE(a, b);
-  EXPECT_EQ(run({move("a")}).records[0].figures[0].second, a);
-  EXPECT_EQ(run({move("other"), move("b")}).records[1].figures[0].second, b);
+  EXPECT_EQ(run({move("a")}).records[0].diagnostics[0].second, a);
+  EXPECT_EQ(run({move("other"), move("b")}).records[1].diagnostics[0].second, b);
 }
 
 TEST(RunPipeline, StopsWithAReasonAtTheStepThatIsDefeated) {
   const PipelineResult result = run({move("a"), move("b", true), move("c")});
   EXPECT_EQ(result.failure, "b: nothing to move");
   ASSERT_EQ(result.records.size(), 2u);
-  EXPECT_TRUE(result.records[1].figures.empty());
-  EXPECT_EQ(result.estimate.T_target_source.translation.x(), result.records[0].figures[0].second);
+  EXPECT_TRUE(result.records[1].diagnostics.empty());
+  EXPECT_EQ(result.estimate.T_target_source.translation.x(),
+            result.records[0].diagnostics[0].second);
+}
+
+/// A step that throws what `raise` throws.
+class Throwing final : public Step {
+ public:
+  explicit Throwing(std::function<void()> raise) : raise_(std::move(raise)) {}
+  Estimate advance(Estimate estimate, Rng&) const override {
+    raise_();
+    return estimate;
+  }
+
+ private:
+  std::function<void()> raise_;
+};
+
+PipelineResult run_throwing(std::function<void()> raise) {
+  const std::shared_ptr<const Step> step = std::make_shared<const Throwing>(std::move(raise));
+  return run({{"a", params::Slot<Step>(params::BuiltStage{step, "throwing", "{}"})}});
+}
+
+/// A library's exception that derives from std::exception directly.
+struct ForeignError : std::exception {};
+
+TEST(RunPipeline, OnlyAStageErrorEndsATrial) {
+  EXPECT_EQ(run_throwing([] { throw StageError("no ground"); }).failure, "a: no ground");
+  EXPECT_THROW(run_throwing([] { std::any_cast<int>(std::any(1.0)); }), std::bad_any_cast);
+  EXPECT_THROW(run_throwing([] { std::optional<int>().value(); }), std::bad_optional_access);
+  EXPECT_THROW(run_throwing([] { std::get<int>(std::variant<int, double>(1.0)); }),
+               std::bad_variant_access);
+  EXPECT_THROW(run_throwing([] { std::function<void()>()(); }), std::bad_function_call);
+  EXPECT_THROW(run_throwing([] { std::vector<int>().at(0); }), std::logic_error);
+  EXPECT_THROW(run_throwing([] { throw std::bad_alloc(); }), std::bad_alloc);
+  EXPECT_THROW(run_throwing([] { throw std::runtime_error("the disc"); }), std::runtime_error);
+  EXPECT_THROW(run_throwing([] { throw ForeignError(); }), ForeignError);
+  EXPECT_THROW(run_throwing([] { throw InputError("", "", "no such file"); }), InputError);
+}
+
+TEST(RunPipeline, AConvertedExceptionOfALibraryEndsATrial) {
+  const auto convert = [](auto raise) {
+    return [raise] { with_stage_errors<std::domain_error>("LIB", raise); };
+  };
+  const auto degenerate = convert([] { throw std::domain_error("all points are equal"); });
+  EXPECT_EQ(run_throwing(degenerate).failure, "a: LIB: all points are equal");
+  EXPECT_EQ(run_throwing(convert([] { throw StageError("no plane"); })).failure, "a: no plane");
+  EXPECT_THROW(run_throwing(convert([] { throw std::length_error("a bug"); })), std::length_error);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "framework/spatial/oriented_sample.hpp"
+#include "framework/spatial/normals.hpp"
 
 #include <gtest/gtest.h>
 

@@ -93,8 +93,44 @@ TEST(Catalogue, RefusesTwoStagesOfOneName) {
   Catalogue all = catalogue();
   StageEntry twin = *all.find("step", "holder");
   EXPECT_THROW(all.add(twin), std::logic_error);
-  twin.kind = "stpe";
+  twin.name = "other";
+  EXPECT_NO_THROW(all.add(twin));
+}
+
+TEST(Catalogue, RefusesTwoDescriptionsOfOneKind) {
+  Catalogue all = catalogue();
+  StageEntry twin = *all.find("step", "holder");
+  twin.name = "other";
+  twin.kind_order = 75;
   EXPECT_THROW(all.add(twin), std::logic_error);
+  twin.kind_order = Step::kKindOrder;
+  twin.kind_summary = "Another kind.";
+  EXPECT_THROW(all.add(twin), std::logic_error);
+}
+
+/// A kind of stage that nothing but this file knows.
+class Judge {
+ public:
+  using Kind = Judge;
+  static constexpr const char* kKind = "judge";
+  static constexpr const char* kKindSummary = "Judges.";
+  static constexpr int kKindOrder = 25;
+  virtual ~Judge() = default;
+};
+
+class Strict final : public Judge {
+ public:
+  explicit Strict(KeepParams) {}
+};
+
+TEST(Catalogue, TakesItsKindsFromItsStages) {
+  Catalogue all = catalogue();
+  all.add(stage_entry<Strict>("strict", "Judges strictly.", "test", params::Table<KeepParams>{}));
+  std::vector<std::string> names;
+  for (const StageKind& kind : all.kinds()) names.push_back(kind.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"preprocessor", "judge", "step"}));
+  EXPECT_EQ(all.kinds()[1].summary, "Judges.");
+  EXPECT_EQ(all.names("judge"), std::vector<std::string>{"strict"});
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ Plane mapped(const RigidTransform& T_target_source, const Plane& plane) {
   return {normal, plane.offset_m - normal.dot(T_target_source.translation)};
 }
 
-/// `plane`, seen from the side from which it looks like `other`.
+/// `plane` with its normal on the side of that of `other`.
 Plane turned_to(const Plane& plane, const Plane& other) {
   return plane.normal.dot(other.normal) < 0.0 ? plane.flipped() : plane;
 }

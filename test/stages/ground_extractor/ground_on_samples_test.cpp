@@ -7,7 +7,7 @@
 #include "framework/base/angles.hpp"
 #include "framework/io/point_cloud_file.hpp"
 #include "framework/stage/ground_extractor.hpp"
-#include "framework/stage/rig_poses.hpp"
+#include "framework/stage/rig_files.hpp"
 #include "test/support/data_root.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"

@@ -6,7 +6,7 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
-#include "framework/geometry/pose_error.hpp"
+#include "framework/geometry/dof.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"
 

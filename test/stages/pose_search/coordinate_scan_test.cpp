@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "framework/base/angles.hpp"
-#include "framework/geometry/pose_error.hpp"
+#include "framework/geometry/dof.hpp"
 #include "framework/stage/pose_search.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"
@@ -160,7 +160,7 @@ TEST(CoordinateScan, ReturnsTheStartItselfWhereNothingIsLower) {
   const RigidTransform start = test::random_pose(rng, 5.0);
   const PoseMinimum minimum = search->minimise([](const RigidTransform&) { return 3.0; }, start);
   EXPECT_TRUE(same_bits(minimum.pose, start));
-  // One sweep of two scans that each look both ways, for each of the two step sizes.
+  // One pass of two scans to both sides, for each of the two step sizes.
   EXPECT_EQ(minimum.evaluations, 1 + 2 * 4);
 }
 

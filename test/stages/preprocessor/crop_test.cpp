@@ -72,7 +72,8 @@ TEST(Crops, RefuseBoundsThatAreNone) {
               HasSubstr("three numbers each"));
   EXPECT_THAT(error_of(R"({"type": "box_crop", "max_m": [1, 2, 3, 4]})"),
               HasSubstr("three numbers each"));
-  EXPECT_THAT(error_of(R"({"type": "box_crop", "min_m": [0, 2, 0]})"), HasSubstr("none above"));
+  EXPECT_THAT(error_of(R"({"type": "box_crop", "min_m": [0, 2, 0]})"),
+              HasSubstr("none of min_m may exceed"));
   EXPECT_THAT(error_of(R"({"type": "box_crop", "keep": "both"})"),
               HasSubstr("expected one of outside, inside"));
 }

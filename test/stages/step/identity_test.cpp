@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "framework/geometry/pose_error.hpp"
+#include "framework/geometry/dof.hpp"
 #include "framework/stage/step.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"

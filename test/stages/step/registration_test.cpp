@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "framework/base/angles.hpp"
-#include "framework/geometry/pose_error.hpp"
+#include "framework/geometry/dof.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"
 #include "test/support/street_estimate.hpp"
@@ -9,12 +9,12 @@
 namespace croon {
 namespace {
 
-/// A figure that a step reports.
-double figure(const Estimate& estimate, const std::string& name) {
-  for (const StepFigure& figure : estimate.figures) {
-    if (figure.first == name) return figure.second;
+/// A diagnostic that the last step reports, by its name.
+double diagnostic(const Estimate& estimate, const std::string& name) {
+  for (const auto& [found, value] : estimate.diagnostics) {
+    if (found == name) return value;
   }
-  ADD_FAILURE() << "no figure " << name;
+  ADD_FAILURE() << "no diagnostic " << name;
   return 0.0;
 }
 
@@ -29,8 +29,8 @@ TEST(Registration, RegistersAndReports) {
   EXPECT_LT(error.translation_m, 0.02);
   ASSERT_TRUE(after.information);
   EXPECT_FALSE(after.rejection);
-  EXPECT_GT(figure(after, "inlier_ratio"), 0.5);
-  EXPECT_EQ(figure(after, "converged"), 1.0);
+  EXPECT_GT(diagnostic(after, "inlier_ratio"), 0.5);
+  EXPECT_EQ(diagnostic(after, "converged"), 1.0);
 }
 
 TEST(Registration, RejectsWhatItShouldNotTrust) {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "framework/geometry/pose_error.hpp"
+#include "framework/geometry/dof.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"
 #include "test/support/street_estimate.hpp"
@@ -15,10 +15,10 @@ TEST(VolumeRefinement, NeverOccupiesMoreThanItsStart) {
     test::StreetEstimate street = test::street_estimate(6);
     street.estimate.T_target_source = test::pose_near(rng, street.truth, 0.1, 0.1);
     const Estimate after = step->advance(street.estimate, rng);
-    ASSERT_EQ(after.figures[0].first, "volume_before_m3");
-    ASSERT_EQ(after.figures[1].first, "volume_m3");
-    EXPECT_LE(after.figures[1].second, after.figures[0].second);
-    EXPECT_GT(after.figures[1].second, 0.0);
+    ASSERT_EQ(after.diagnostics[0].first, "volume_before_m3");
+    ASSERT_EQ(after.diagnostics[1].first, "volume_m3");
+    EXPECT_LE(after.diagnostics[1].second, after.diagnostics[0].second);
+    EXPECT_GT(after.diagnostics[1].second, 0.0);
   }
 }
 

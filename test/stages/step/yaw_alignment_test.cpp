@@ -2,7 +2,7 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
-#include "framework/geometry/pose_error.hpp"
+#include "framework/geometry/dof.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"
 #include "test/support/street_estimate.hpp"

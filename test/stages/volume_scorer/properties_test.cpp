@@ -104,7 +104,7 @@ TEST(VolumeScorers, FourThreadsAtOnceGetWhatOneGets) {
   for (const auto& [name, scorer] : test::all_scorers(0.05)) {
     SCOPED_TRACE(name);
     std::vector<std::vector<std::int64_t>> counts(4, std::vector<std::int64_t>(poses.size()));
-    // The clouds are new, so that the threads also meet where what belongs to a cloud is made.
+    // The clouds are new, so that the threads also compete for what is computed once per cloud.
     const auto target = test::cloud_of(split.target);
     const auto source = test::cloud_of(split.source);
     std::vector<std::thread> threads;

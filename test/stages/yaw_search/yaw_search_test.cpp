@@ -6,7 +6,6 @@
 #include <set>
 
 #include "framework/base/angles.hpp"
-#include "framework/stage/yaw_grid.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"
 

@@ -1,6 +1,5 @@
-#include "registry/words.hpp"
+#include "registry/help_parts.hpp"
 
-#include <map>
 #include <stdexcept>
 
 #include "framework/params/group.hpp"
@@ -31,23 +30,6 @@ std::string group_words(const ParameterDoc& doc, const Mark& mark) {
 }
 
 }  // namespace
-
-std::string kind_summary(const std::string& kind) {
-  static const std::map<std::string, std::string> summaries = {
-      {"dataset", "The scenes of a rig: named clouds, with truth and starts where they are known."},
-      {"preprocessor", "Makes another cloud of a cloud: crops it or thins it."},
-      {"ground_extractor",
-       "Finds the plane of the ground in a cloud and the points that lie on it."},
-      {"yaw_search", "Finds the least of a function of yaw."},
-      {"icp", "Registers a source cloud to a target cloud from a start."},
-      {"volume_scorer",
-       "Measures the volume that two clouds occupy together, as a function of pose."},
-      {"pose_search", "Finds the least of a function of pose near a start."},
-      {"step", "An element of the pipeline: takes an estimate and returns a better one."}};
-  const auto found = summaries.find(kind);
-  if (found == summaries.end()) throw std::logic_error("no summary of the kind " + kind);
-  return found->second;
-}
 
 std::string kind_phrase(const std::string& kind) { return with_article(kind, kind); }
 

@@ -15,12 +15,19 @@ using RigPoses = std::map<std::string, RigidTransform>;
 /// [x, y, z]}}` with `R = Rz(yaw) Ry(pitch) Rx(roll)`. Throws InputError with every fault.
 RigPoses read_rig_poses(const std::filesystem::path& file);
 
-/// The bytes of such a file; angles are rounded to 1e-9 degrees.
+/// The text of such a file; angles are rounded to 1e-9 degrees.
 std::string rig_poses_json(const RigPoses& poses);
 
-/// The pose that is read where `T_reference_sensor` was written: the same to 1e-9 degrees, and
-/// itself written and read without change. (Where the pitch is within a millidegree of 90 degrees,
-/// roll and yaw are not so exact.)
+/// The pose that is read back after `T_reference_sensor` was written: equal to 1e-9 degrees, and
+/// unchanged if it is written and read again. If the pitch is within a millidegree of 90 degrees,
+/// roll and yaw are less exact.
 RigidTransform pose_as_written(const RigidTransform& T_reference_sensor);
+
+/// The kind of scene by the scene's name.
+using SceneKinds = std::map<std::string, std::string>;
+
+/// Reads `{"000012": "urban"}`; a kind is a word of letters, digits, `_` and `-`. Throws InputError
+/// with every fault.
+SceneKinds read_scene_kinds(const std::filesystem::path& file);
 
 }  // namespace croon

@@ -1,4 +1,4 @@
-#include "framework/registration/robust_kernel.hpp"
+#include "framework/registration/icp_options.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,7 @@
-#include "framework/stage/rig_poses.hpp"
+#include "framework/stage/rig_files.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -48,6 +50,20 @@ nlohmann::ordered_json list_of(const Eigen::Vector3d& vector) {
   return {vector.x(), vector.y(), vector.z()};
 }
 
+bool is_word(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return c < 128 && (std::isalnum(c) != 0 || c == '_' || c == '-');
+  });
+}
+
+void read_kind(const params::Node& node, std::string& kind) {
+  if (!node.value().is_string() || !is_word(node.value().get<std::string>())) {
+    node.expected("a word of letters, digits, \"_\" and \"-\"");
+    return;
+  }
+  kind = node.value().get<std::string>();
+}
+
 }  // namespace
 
 RigPoses read_rig_poses(const std::filesystem::path& file) {
@@ -73,6 +89,18 @@ std::string rig_poses_json(const RigPoses& poses) {
 
 RigidTransform pose_as_written(const RigidTransform& T_reference_sensor) {
   return pose_of(rounded_rpy_deg(T_reference_sensor.rotation), T_reference_sensor.translation);
+}
+
+SceneKinds read_scene_kinds(const std::filesystem::path& file) {
+  std::vector<Fault> faults;
+  const nlohmann::json value = params::read_json_file(file, faults);
+  const params::Node root(value, file.string(), faults);
+  SceneKinds kinds;
+  if (root.is_object()) {
+    for (const auto& [scene, kind] : value.items()) read_kind(root.member(scene), kinds[scene]);
+  }
+  if (!faults.empty()) throw InputError(faults);
+  return kinds;
 }
 
 }  // namespace croon

@@ -8,13 +8,23 @@
 
 namespace croon {
 
-/// What a kind of stage is for; one sentence. An unknown kind is a std::logic_error.
-std::string kind_summary(const std::string& kind);
+/// Entries of a catalogue, by kind and then by name; they must outlive the list.
+using StageList = std::vector<const StageEntry*>;
+
+/// The stages with their parameters as a JSON array.
+std::string json_list(const StageList& stages);
+
+/// The index of the reference pages: the kinds and their stages, with links.
+std::string markdown_index(const StageList& stages);
+/// The reference page of a kind: each of its stages, `stages`, with its parameters.
+std::string markdown_page(const StageList& stages);
+/// One stage with its parameters.
+std::string markdown_section(const StageEntry& stage);
 
 /// "an icp stage", "a yaw_search stage".
 std::string kind_phrase(const std::string& kind);
 
-/// A parameter and where it stands in the stage's JSON: "noise.range_m", "sensors.<name>.model".
+/// A parameter and its path in the stage's JSON: "noise.range_m", "sensors.<name>.model".
 struct PlacedParameter {
   std::string path;
   const params::ParameterDoc* parameter;

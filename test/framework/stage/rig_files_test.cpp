@@ -1,4 +1,4 @@
-#include "framework/stage/rig_poses.hpp"
+#include "framework/stage/rig_files.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

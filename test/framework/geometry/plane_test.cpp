@@ -1,4 +1,4 @@
-#include "framework/geometry/plane_ransac.hpp"
+#include "framework/geometry/plane.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,6 +3,8 @@
 #include <memory>
 
 #include "framework/params/choice.hpp"
+#include "framework/params/table.hpp"
+#include "framework/spatial/nearest_distance_cost.hpp"
 #include "framework/stage/step.hpp"
 
 namespace croon {
@@ -23,5 +25,20 @@ struct SelectedClouds {
 /// The clouds with the selected points. Points::non_ground selects all points if no step before has
 /// found the ground. Throws StageError if a selected cloud is empty.
 SelectedClouds selected_clouds(const Estimate& estimate, Points points);
+
+/// The parameters of the steps that minimise the nearest-neighbour distances. A step's own
+/// parameters derive from this and its table inherits nearest_cost_table().
+struct NearestCostOptions {
+  Points points = Points::non_ground;
+  int max_points = 1500;
+  double max_distance_m = 2.0;
+};
+
+/// The rows of NearestCostOptions.
+const params::Table<NearestCostOptions>& nearest_cost_table();
+
+/// The cost between the selected clouds of `estimate`. Throws StageError if one of them is
+/// empty.
+NearestDistanceCost nearest_cost(const Estimate& estimate, const NearestCostOptions& options);
 
 }  // namespace croon
