@@ -108,8 +108,7 @@ Verdict verdict_of(const Claim& claim, const std::optional<double>& found) {
 
 }  // namespace
 
-std::vector<ClaimResult> check_claims(const std::vector<Claim>& claims,
-                                      const Summary& summary) {
+std::vector<ClaimResult> check_claims(const std::vector<Claim>& claims, const Summary& summary) {
   std::vector<ClaimResult> results;
   for (const Claim& claim : claims) {
     const std::optional<double> value = found(claim, summary);

@@ -34,8 +34,7 @@ const char* unit_of(const Claim& claim);
 /// degrees of freedom. Success is `main_share`. The spread of `rotation` (`translation`) is the
 /// root of the sum of the squares of those of its three degrees of freedom. Without truth,
 /// statistics that need it (`kStatistics`) are not measured.
-std::vector<ClaimResult> check_claims(const std::vector<Claim>& claims,
-                                      const Summary& summary);
+std::vector<ClaimResult> check_claims(const std::vector<Claim>& claims, const Summary& summary);
 
 /// The statistic of roll to z, pooled over all sensors of the summary's first variant, in the units
 /// of reports; std::nullopt if no trial counts or there is no truth.

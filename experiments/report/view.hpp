@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -50,8 +51,12 @@ class ShownCells {
 
   /// The content of a row, each of its cells written by `text_of(cell, column)`; "-" if none
   /// of them has a value, unless each is shown.
+  /// Throws std::logic_error if the row does not have a cell per column.
   template <class F>
   std::string content(const CellRow& row, const F& text_of) const {
+    if (row.size() != table_.columns.size()) {
+      throw std::logic_error("a row that does not fit its table");
+    }
     if (is_empty(row)) return "-";
     std::string text;
     for (const Piece& piece : pieces_) {

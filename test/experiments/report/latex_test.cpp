@@ -3,10 +3,10 @@
 
 #include <cstdlib>
 
-#include "experiments/report/export_formats.hpp"
+#include "experiments/report/export.hpp"
 #include "framework/base/whole_file.hpp"
-#include "test/experiments/report/sample_records.hpp"
 #include "test/support/temp_folder.hpp"
+#include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
 namespace {

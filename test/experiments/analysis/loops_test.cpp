@@ -1,18 +1,18 @@
-#include "experiments/report/loop_closure.hpp"
+#include "experiments/analysis/loops.hpp"
 
 #include <gtest/gtest.h>
 
-#include "experiments/report/table.hpp"
-#include "test/experiments/report/sample_records.hpp"
+#include "experiments/report/result_tables.hpp"
+#include "experiments/report/run_text.hpp"
 #include "test/support/random_geometry.hpp"
+#include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
 namespace {
 
 using croon::test::random_pose;
 using croon::test::test_rng;
-
-constexpr SuccessBounds kBounds{0.5, 0.1};
+using test::kBounds;
 
 /// Three links of `trials` loops in each of two scenes; the pair is off by `gap`, as the loop is.
 std::vector<TrialRecord> records_with(const Vector6d& gap, int trials) {
@@ -51,9 +51,9 @@ TEST(LoopClosure, FindsTheGapThatWasPutIn) {
     EXPECT_EQ(loop.pair.name, "left>front");
     EXPECT_EQ(loop.closed.count, 6);
     EXPECT_EQ(loop.counted, 6);
-    EXPECT_NEAR((*loop.statistics)[2].mean, yaw_deg, 1e-9);
-    EXPECT_NEAR((*loop.statistics)[kDofs].median, std::abs(yaw_deg), 1e-9);
-    EXPECT_NEAR((*loop.statistics)[kDofs + 1].median, 0.05, 1e-9);
+    EXPECT_NEAR((*loop.statistics)[2][statistic_index("mean")], yaw_deg, 1e-9);
+    EXPECT_NEAR((*loop.statistics)[kDofs][statistic_index("median")], std::abs(yaw_deg), 1e-9);
+    EXPECT_NEAR((*loop.statistics)[kDofs + 1][statistic_index("median")], 0.05, 1e-9);
   }
 }
 
@@ -86,7 +86,7 @@ TEST(LoopClosure, NeedsAllThreeLinks) {
 TEST(LoopClosure, IsInEveryReport) {
   const Vector6d gap = test::offset_of(0, 0, 0.25, 0.03, -0.04, 0.0);
   const Summary summary = summarise(records_with(gap, 3), kBounds, order());
-  const std::string table = summary_table(summary);
+  const std::string table = summary_text(summary);
   EXPECT_NE(table.find("left>front     6/6  100.0  [61.0, 100.0]  0.250, 0.250  0.0500, 0.0500"),
             std::string::npos)
       << table;

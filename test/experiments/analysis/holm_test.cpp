@@ -1,4 +1,4 @@
-#include "experiments/statistics/holm.hpp"
+#include "experiments/analysis/paired_tests.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,20 +1,20 @@
-#include "experiments/report/summary.hpp"
+#include "experiments/analysis/summary.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "experiments/report/result_tables.hpp"
 #include "framework/base/angles.hpp"
-#include "test/experiments/report/sample_records.hpp"
+#include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
 namespace {
 
 using croon::test::random_pose;
 using croon::test::test_rng;
-
-constexpr SuccessBounds kBounds = {0.5, 0.1};
+using test::kBounds;
 
 double in_report_unit(const Vector6d& offset, std::size_t dof) {
   const double value = offset(static_cast<Eigen::Index>(dof));
@@ -55,17 +55,18 @@ TEST(Summary, FindsTheBiasAndTheSpreadThatWerePutIn) {
         summarise(biased_records(truth, {bias}, spread, trials, true), kBounds, {});
     ASSERT_EQ(summary.rows.size(), 1U);
     const SummaryRow& row = summary.rows[0];
-    EXPECT_EQ(row.reference, Reference::truth);
+    EXPECT_EQ(row.deviations_from, DeviationsFrom::truth);
     EXPECT_EQ(row.counted, trials);
     for (std::size_t k = 0; k < kDofs; ++k) {
-      const MeasureStatistics& statistics = (*row.statistics)[k];
+      const Statistics& statistics = (*row.statistics)[k];
       const double mean = in_report_unit(bias, k);
       const double half = std::abs(in_report_unit(spread, k));
-      EXPECT_NEAR(statistics.mean, mean, 1e-9);
-      EXPECT_NEAR(statistics.median, mean, 1e-9);
-      EXPECT_NEAR(statistics.std, half * std::sqrt(trials / (trials - 1.0)), 1e-9);
-      EXPECT_NEAR(statistics.rmse, std::hypot(mean, half), 1e-9);
-      EXPECT_NEAR(statistics.p95, std::abs(mean) + half, 1e-9);
+      EXPECT_NEAR(statistics[statistic_index("mean")], mean, 1e-9);
+      EXPECT_NEAR(statistics[statistic_index("median")], mean, 1e-9);
+      EXPECT_NEAR(statistics[statistic_index("std")], half * std::sqrt(trials / (trials - 1.0)),
+                  1e-9);
+      EXPECT_NEAR(statistics[statistic_index("rmse")], std::hypot(mean, half), 1e-9);
+      EXPECT_NEAR(statistics[statistic_index("p95")], std::abs(mean) + half, 1e-9);
     }
   }
 }
@@ -125,7 +126,7 @@ TEST(Summary, TheMostFrequentReasonComesFirst) {
   ASSERT_EQ(summary.reasons.size(), 2U);
   EXPECT_EQ(summary.reasons[0].reason, "often");
   EXPECT_EQ(summary.reasons[0].count, 3);
-  EXPECT_EQ(summary.rows[0].reference, Reference::none);
+  EXPECT_EQ(summary.rows[0].deviations_from, DeviationsFrom::none);
   EXPECT_FALSE(summary.rows[0].statistics);
   EXPECT_FALSE(summary.rows[0].consensus);
 }
@@ -139,7 +140,7 @@ TEST(Summary, SplitsTheSpreadIntoWithinAndAcrossScenes) {
   for (const bool has_truth : {true, false}) {
     const auto records = biased_records(random_pose(rng, 3.0), biases, spread, trials, has_truth);
     const SummaryRow row = summarise(records, kBounds, {}).rows.at(0);
-    EXPECT_EQ(row.reference, has_truth ? Reference::truth : Reference::consensus);
+    EXPECT_EQ(row.deviations_from, has_truth ? DeviationsFrom::truth : DeviationsFrom::consensus);
     ASSERT_TRUE(row.within_scene_std && row.across_scenes_std);
     const double yaw_within_deg = 0.05 * std::sqrt(trials / (trials - 1.0));
     EXPECT_NEAR((*row.within_scene_std)[2], yaw_within_deg, 1e-9);
@@ -147,7 +148,7 @@ TEST(Summary, SplitsTheSpreadIntoWithinAndAcrossScenes) {
     EXPECT_NEAR((*row.within_scene_std)[3], yaw_within_deg / 5.0, 1e-9);
     EXPECT_NEAR((*row.across_scenes_std)[3], 0.02, 1e-9);
     EXPECT_NEAR((*row.within_scene_std)[0], 0.0, 1e-9);
-    EXPECT_NEAR((*row.scenes[2].statistics)[2].mean, 0.1, 1e-9);
+    EXPECT_NEAR((*row.scenes[2].statistics)[2][statistic_index("mean")], 0.1, 1e-9);
   }
 }
 
@@ -178,7 +179,8 @@ TEST(Summary, WithoutTruthTrialsThatGoAstrayDoNotCount) {
   EXPECT_EQ(after.counted, 20);
   EXPECT_LT(pose_error(*after.consensus, pose).rotation_rad, 1e-9);
   for (std::size_t k = 0; k < kDofs; ++k) {
-    EXPECT_NEAR((*after.statistics)[k].std, (*before.statistics)[k].std, 1e-9);
+    EXPECT_NEAR((*after.statistics)[k][statistic_index("std")],
+                (*before.statistics)[k][statistic_index("std")], 1e-9);
   }
 }
 
@@ -201,7 +203,8 @@ TEST(SummaryJson, SaysWhatTheSummarySays) {
   const auto& row = json["rows"][0];
   EXPECT_EQ(row["variant"], "base");
   EXPECT_EQ(row["success"]["count"], 6);
-  EXPECT_EQ(row["statistics"]["pitch_deg"]["mean"], (*summary.rows[0].statistics)[1].mean);
+  EXPECT_EQ(row["statistics"]["pitch_deg"]["mean"],
+            (*summary.rows[0].statistics)[1][statistic_index("mean")]);
   EXPECT_EQ(row["across_scenes_std"]["roll_deg"], (*summary.rows[0].across_scenes_std)[0]);
   EXPECT_EQ(row["scenes"][1]["scene"], "0002");
   EXPECT_EQ(row["scenes"][1]["counted"], 3);

@@ -1,4 +1,4 @@
-#include "experiments/report/comparison.hpp"
+#include "experiments/analysis/comparison.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,15 +6,16 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "experiments/report/table.hpp"
-#include "test/experiments/report/sample_records.hpp"
+#include "experiments/report/result_tables.hpp"
+#include "experiments/report/run_text.hpp"
+#include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
 namespace {
 
 using croon::test::test_rng;
+using test::kBounds;
 
-constexpr SuccessBounds kBounds = {0.5, 0.1};
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
 struct MadeUp {
@@ -88,7 +89,7 @@ TEST(Comparison, OfOneVariantThereIsNone) {
   EXPECT_TRUE(compared(records, {}).empty());
   const Summary summary = summarise(records, kBounds, {});
   EXPECT_EQ(summary_json(summary).find("comparison"), std::string::npos);
-  EXPECT_EQ(summary_table(summary).find("against"), std::string::npos);
+  EXPECT_EQ(summary_text(summary).find("against"), std::string::npos);
 }
 
 TEST(Comparison, WithoutCommonTrialsThereIsNone) {

@@ -1,4 +1,4 @@
-#include "experiments/report/claims.hpp"
+#include "experiments/analysis/claims.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,14 +6,16 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "test/experiments/report/sample_records.hpp"
+#include "experiments/report/claims_text.hpp"
+#include "experiments/report/result_tables.hpp"
+#include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
 namespace {
 
 using croon::test::test_rng;
+using test::kBounds;
 
-constexpr SuccessBounds kBounds = {0.5, 0.1};
 const std::vector<std::string> kSensors = {"left", "rear", "right"};
 
 /// Trials of two variants with truth, of which some fail and some sensors miss some scenes.
@@ -277,7 +279,7 @@ std::vector<ClaimResult> one_of_each() {
 
 TEST(Claims, TheTableHasALineForEachAndQuotedRowsBesideOurs) {
   const Summary summary = summary_of(test::few_records());
-  const std::string table = claims_table(one_of_each(), {board()}, summary);
+  const std::string table = claims_text(one_of_each(), {board()}, summary);
   EXPECT_NE(table.find("claims: 1 in, 1 out, 1 not measured\n"), std::string::npos) << table;
   EXPECT_NE(table.find("0 deg  [-1000, 1000]  0.25000            in\n"), std::string::npos)
       << table;
@@ -287,14 +289,14 @@ TEST(Claims, TheTableHasALineForEachAndQuotedRowsBesideOurs) {
   EXPECT_NE(table.find("mean        -0.02640  -1.04490  -0.30680", quoted), std::string::npos)
       << table;
   EXPECT_NE(table.find("ours, all sensors", quoted), std::string::npos) << table;
-  EXPECT_EQ(claims_table({}, {}, summary), "");
+  EXPECT_EQ(claims_text({}, {}, summary), "");
 }
 
 TEST(Claims, OutIsRedWhereThereAreColours) {
   TableStyle style;
-  EXPECT_EQ(claims_table(one_of_each(), {}, {}, style).find('\033'), std::string::npos);
+  EXPECT_EQ(claims_text(one_of_each(), {}, {}, style).find('\033'), std::string::npos);
   style.colours = true;
-  const std::string table = claims_table(one_of_each(), {}, {}, style);
+  const std::string table = claims_text(one_of_each(), {}, {}, style);
   const std::size_t red = table.find("\033[31m");
   ASSERT_NE(red, std::string::npos);
   EXPECT_EQ(table.substr(red, 13), "\033[31mout\033[0m\n");

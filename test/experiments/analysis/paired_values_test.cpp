@@ -1,11 +1,11 @@
-#include "experiments/statistics/bootstrap.hpp"
+#include "experiments/analysis/paired_values.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <stdexcept>
 
-#include "test/experiments/statistics/simulated_experiments.hpp"
+#include "test/experiments/analysis/simulated_experiments.hpp"
 #include "test/support/random_geometry.hpp"
 
 namespace croon::experiments {

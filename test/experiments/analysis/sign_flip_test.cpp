@@ -1,12 +1,10 @@
-#include "experiments/statistics/sign_flip.hpp"
+#include "experiments/analysis/paired_tests.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "experiments/statistics/mcnemar.hpp"
-#include "experiments/statistics/signed_rank.hpp"
-#include "test/experiments/statistics/simulated_experiments.hpp"
+#include "test/experiments/analysis/simulated_experiments.hpp"
 #include "test/support/random_geometry.hpp"
 
 namespace croon::experiments {

@@ -1,8 +1,11 @@
-#include "experiments/report/basin.hpp"
+#include "experiments/analysis/basin.hpp"
 
 #include <gtest/gtest.h>
 
-#include "test/experiments/report/sample_records.hpp"
+#include "experiments/report/plots.hpp"
+#include "experiments/report/result_tables.hpp"
+#include "experiments/report/run_text.hpp"
+#include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -79,7 +82,7 @@ TEST(Basin, IsTheseBytes) {
 }
 
 TEST(Basin, IsATable) {
-  const std::string table = basin_table(*basin_of(records_of({"left"}), kSweep, {}));
+  const std::string table = basin_text(*basin_of(records_of({"left"}), kSweep, {}));
   EXPECT_NE(table.find("95 % at each level"), std::string::npos);
   EXPECT_NE(table.find("variant    0   10  20  30  radius deg"), std::string::npos) << table;
   EXPECT_NE(table.find("base     100  100  95  92          20"), std::string::npos) << table;

@@ -1,24 +1,24 @@
-#include "experiments/report/kind_summary.hpp"
+#include "experiments/analysis/summary.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "experiments/report/table.hpp"
-#include "test/experiments/report/sample_records.hpp"
+#include "experiments/report/result_tables.hpp"
+#include "experiments/report/run_text.hpp"
+#include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
 namespace {
 
 using croon::test::test_rng;
-
-constexpr SuccessBounds kBounds = {0.5, 0.1};
+using test::kBounds;
 
 /// The sample records with a kind for each of their scenes.
 Summary two_kinds() {
   ReportOrder order;
-  order.kinds = {{"0001", "urban"}, {"0002", "narrow"}};
+  order.scene_kinds = {{"0001", "urban"}, {"0002", "narrow"}};
   return summarise(test::few_records(), kBounds, order);
 }
 
@@ -27,7 +27,7 @@ std::vector<TrialRecord> random_records(Rng& rng, ReportOrder& order, int scenes
   std::vector<TrialRecord> records;
   for (int i = 0; i < scenes; ++i) {
     const std::string scene = "s" + std::to_string(i);
-    if (rng.uniform() < 0.9) order.kinds[scene] = rng.uniform() < 0.5 ? "urban" : "highway";
+    if (rng.uniform() < 0.9) order.scene_kinds[scene] = rng.uniform() < 0.5 ? "urban" : "highway";
     for (const char* sensor : {"left", "right", "rear"}) {
       if (rng.uniform() < 0.2) continue;
       const TrialId id = {"base", scene, sensor, 0};
@@ -51,9 +51,9 @@ TEST(KindSummary, KindsTogetherAreTheSummary) {
     const Summary summary = summarise(random_records(rng, order, 30, i % 2 == 0), kBounds, order);
     for (const SummaryRow& row : summary.rows) {
       int trials = 0, successes = 0, agreeing = 0, counted = 0, scenes = 0;
-      for (const KindSummary& kind : summary.kinds) {
+      for (const SceneKindSummary& kind : summary.scene_kinds) {
         if (kind.sensor != row.sensor) continue;
-        EXPECT_EQ(kind.reference, row.reference);
+        EXPECT_EQ(kind.deviations_from, row.deviations_from);
         EXPECT_EQ(kind.success.trials, kind.outcomes.trials);
         trials += kind.outcomes.trials;
         successes += kind.success.count;
@@ -73,15 +73,15 @@ TEST(KindSummary, KindsTogetherAreTheSummary) {
 TEST(KindSummary, HasARowPerVariantKindAndSensorAndOneOverAllSensors) {
   const Summary summary = two_kinds();
   std::vector<std::string> names;
-  for (const KindSummary& kind : summary.kinds) {
-    names.push_back(kind.variant + "/" + kind.kind + "/" + kind.sensor);
+  for (const SceneKindSummary& kind : summary.scene_kinds) {
+    names.push_back(kind.variant + "/" + kind.scene_kind + "/" + kind.sensor);
   }
   EXPECT_EQ(names, (std::vector<std::string>{
                        "base/narrow/left", "base/narrow/right", "base/narrow/", "base/urban/left",
                        "base/urban/right", "base/urban/", "no volume/narrow/left",
                        "no volume/narrow/right", "no volume/narrow/", "no volume/urban/left",
                        "no volume/urban/right", "no volume/urban/"}));
-  const KindSummary& all = summary.kinds[2];
+  const SceneKindSummary& all = summary.scene_kinds[2];
   EXPECT_EQ(all.scenes, 1);
   EXPECT_EQ(all.outcomes.trials, 8);
   EXPECT_EQ(all.success.count, 6);
@@ -89,18 +89,18 @@ TEST(KindSummary, HasARowPerVariantKindAndSensorAndOneOverAllSensors) {
   EXPECT_EQ(all.outcomes.rejected, 1);
   EXPECT_EQ(all.counted, 6);
   // Yaw is 0, 0.01 and 0.02 deg on both sensors.
-  EXPECT_NEAR((*all.statistics)[2].median, 0.01, 1e-9);
+  EXPECT_NEAR((*all.statistics)[2][statistic_index("median")], 0.01, 1e-9);
 }
 
 TEST(KindSummary, ChangesNothingElse) {
   const Summary with = two_kinds(), without = summarise(test::few_records(), kBounds, {});
-  EXPECT_TRUE(without.kinds.empty());
+  EXPECT_TRUE(without.scene_kinds.empty());
   EXPECT_EQ(summary_csv(with), summary_csv(without));
   const std::string json = summary_json(without);
   EXPECT_EQ(json.find("kind"), std::string::npos);
   // A new last key: up to the closing brace all is as before.
   EXPECT_EQ(summary_json(with).compare(0, json.size() - 3, json, 0, json.size() - 3), 0);
-  EXPECT_EQ(summary_table(without).find("kind"), std::string::npos);
+  EXPECT_EQ(summary_text(without).find("kind"), std::string::npos);
 }
 
 TEST(KindSummary, IsInJson) {
@@ -128,7 +128,7 @@ TEST(KindSummary, IsInCsvWithEveryColumn) {
 }
 
 TEST(KindSummary, IsInTheTable) {
-  const std::string text = summary_table(two_kinds());
+  const std::string text = summary_text(two_kinds());
   EXPECT_NE(text.find(R"(
 by kind of scene: success in %
 variant    kind    scenes  trials   all  left  right
@@ -144,13 +144,8 @@ no volume  urban        1       7  85.7  75.0  100.0
 
 TEST(KindSummary, WithoutTruthTheTableShowsAgreement) {
   ReportOrder order;
-  std::vector<TrialRecord> records;
-  for (int trial = 0; trial < 4; ++trial) {
-    const RigidTransform pose = {Eigen::Matrix3d::Identity(), {trial == 3 ? 9.0 : 0.0, 0.0, 0.0}};
-    records.push_back(test::finished_without_truth({"base", "0001", "left", trial}, pose));
-  }
-  order.kinds = {{"0001", "urban"}};
-  const std::string text = summary_table(summarise(records, kBounds, order));
+  order.scene_kinds = {{"0001", "urban"}};
+  const std::string text = summary_text(summarise(test::one_of_four_astray(), kBounds, order));
   EXPECT_NE(text.find("\nurban       1       4  75.0  75.0\n"), std::string::npos) << text;
 }
 

@@ -1,10 +1,10 @@
-#include "experiments/statistics/mcnemar.hpp"
+#include "experiments/analysis/paired_tests.hpp"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-#include "test/experiments/statistics/simulated_experiments.hpp"
+#include "test/experiments/analysis/simulated_experiments.hpp"
 
 namespace croon::experiments {
 namespace {

@@ -1,4 +1,4 @@
-#include "test/experiments/report/sample_records.hpp"
+#include "test/support/trial_records.hpp"
 
 #include <utility>
 
@@ -68,6 +68,15 @@ std::vector<TrialRecord> few_records() {
                                  "ground_alignment: no plane, \"nothing\" is flat"));
   }
   records.push_back(unfinished({"base", "0002", "right", 3}, Status::rejected, "two yaws fit"));
+  return records;
+}
+
+std::vector<TrialRecord> one_of_four_astray() {
+  std::vector<TrialRecord> records;
+  for (int trial = 0; trial < 4; ++trial) {
+    const RigidTransform pose = {Eigen::Matrix3d::Identity(), {trial == 3 ? 9.0 : 0.0, 0.0, 0.0}};
+    records.push_back(finished_without_truth({"base", "0001", "left", trial}, pose));
+  }
   return records;
 }
 

@@ -1,4 +1,4 @@
-#include "experiments/report/csv_files.hpp"
+#include "experiments/report/result_tables.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,11 @@
 #include <cstdlib>
 #include <limits>
 
-#include "experiments/report/csv_row.hpp"
+#include "experiments/report/renderers.hpp"
+#include "experiments/report/text.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/geometry/unit_quaternion.hpp"
-#include "test/experiments/report/sample_records.hpp"
+#include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -34,18 +35,6 @@ TEST(ShortestNumber, IsShortAndZeroHasNoSign) {
   EXPECT_EQ(shortest_number(-2.0), "-2");
   EXPECT_EQ(shortest_number(-0.0), "0");
   EXPECT_EQ(shortest_number(-std::numeric_limits<double>::quiet_NaN()), "nan");
-}
-
-TEST(CsvRow, QuotesWhatNeedsIt) {
-  CsvRow row;
-  row.text("plain name")
-      .text("a,b")
-      .text("say \"a\"")
-      .text("two\nlines")
-      .text("")
-      .empty(2)
-      .count(-1);
-  EXPECT_EQ(row.line(), "plain name,\"a,b\",\"say \"\"a\"\"\",\"two\nlines\",,,,-1\n");
 }
 
 TEST(UnitQuaternion, IsTheRotationAndHasOneSign) {

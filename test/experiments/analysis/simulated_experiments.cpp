@@ -1,4 +1,4 @@
-#include "test/experiments/statistics/simulated_experiments.hpp"
+#include "test/experiments/analysis/simulated_experiments.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,12 +1,11 @@
-#include "experiments/statistics/signed_rank.hpp"
+#include "experiments/analysis/paired_tests.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "experiments/statistics/sign_flip.hpp"
-#include "test/experiments/statistics/simulated_experiments.hpp"
+#include "test/experiments/analysis/simulated_experiments.hpp"
 #include "test/support/random_geometry.hpp"
 
 namespace croon::experiments {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "experiments/statistics/pairs.hpp"
+#include "experiments/analysis/paired_values.hpp"
 #include "framework/base/rng.hpp"
 
 namespace croon::experiments::test {
