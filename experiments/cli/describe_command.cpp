@@ -4,11 +4,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/analysis/cloud_description.hpp"
 #include "experiments/file/experiment.hpp"
-#include "experiments/report/cloud_figures.hpp"
+#include "experiments/report/plots.hpp"
+#include "experiments/report/result_tables.hpp"
+#include "experiments/report/run_text.hpp"
 #include "experiments/run/run_request.hpp"
-#include "framework/base/threads.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/threads.hpp"
 #include "framework/base/whole_file.hpp"
 
 namespace croon::experiments {
@@ -46,16 +49,16 @@ params::Slot<GroundExtractor> extractor_of(const Catalogue& catalogue) {
   return extractor;
 }
 
-/// The figures of all clouds of a scene; one without points is left out.
-std::vector<CloudFigures> figures_of_scene(const NamedScene& named,
-                                           const GroundExtractor& extractor) {
-  std::vector<CloudFigures> figures;
+/// Describes all clouds of a scene that have points.
+std::vector<CloudDescription> describe_scene(const NamedScene& named,
+                                             const GroundExtractor& extractor) {
+  std::vector<CloudDescription> clouds;
   const auto add = [&](const SensorScan& scan, const PointCloud& points) {
-    figures.push_back(figures_of(points, extractor));
-    figures.back().dataset = named.dataset;
-    figures.back().scene = named.scene.name;
-    figures.back().kind = named.scene.kind;
-    figures.back().sensor = scan.sensor;
+    clouds.push_back(description_of(points, extractor));
+    clouds.back().dataset = named.dataset;
+    clouds.back().scene = named.scene.name;
+    clouds.back().kind = named.scene.kind;
+    clouds.back().sensor = scan.sensor;
   };
   const PointCloud reference = named.scene.reference.load().points;
   if (reference.empty()) return {};
@@ -65,17 +68,17 @@ std::vector<CloudFigures> figures_of_scene(const NamedScene& named,
     const PointCloud points = scan.load().points;
     if (points.empty()) continue;
     add(scan, points);
-    if (scan.truth) add_overlap(figures.back(), points, tree, *scan.truth);
+    if (scan.truth) add_overlap(clouds.back(), points, tree, *scan.truth);
   }
-  return figures;
+  return clouds;
 }
 
-void write_files(const std::filesystem::path& folder, const std::vector<CloudFigures>& figures) {
+void write_files(const std::filesystem::path& folder, const std::vector<CloudDescription>& clouds) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw InputError(folder.string(), "", "cannot be made: " + error.message());
-  write_whole_file(folder / "clouds.csv", figures_csv(figures));
-  write_whole_file(folder / "ranges.svg", ranges_svg(figures));
+  write_whole_file(folder / "clouds.csv", clouds_csv(clouds));
+  write_whole_file(folder / "ranges.svg", ranges_svg(clouds));
 }
 
 }  // namespace
@@ -84,21 +87,20 @@ int describe_command(const DescribeOptions& options, const Catalogue& catalogue,
                      std::ostream& out) {
   const std::vector<NamedScene> scenes = scenes_of(options, catalogue);
   const params::Slot<GroundExtractor> extractor = extractor_of(catalogue);
-  std::vector<std::vector<CloudFigures>> by_scene(scenes.size());
+  std::vector<std::vector<CloudDescription>> by_scene(scenes.size());
   on_threads(options.jobs > 0 ? options.jobs : tbb::info::default_concurrency(), [&] {
-    for_each_in_parallel(scenes.size(), [&](std::size_t i) {
-      by_scene[i] = figures_of_scene(scenes[i], *extractor);
-    });
+    for_each_in_parallel(
+        scenes.size(), [&](std::size_t i) { by_scene[i] = describe_scene(scenes[i], *extractor); });
   });
-  std::vector<CloudFigures> figures;
+  std::vector<CloudDescription> clouds;
   for (const auto& of_scene : by_scene) {
-    figures.insert(figures.end(), of_scene.begin(), of_scene.end());
+    clouds.insert(clouds.end(), of_scene.begin(), of_scene.end());
   }
-  if (!options.out.empty()) write_files(options.out, figures);
+  if (!options.out.empty()) write_files(options.out, clouds);
   out << "median over scenes (least to largest); ground: within 0.2 m of the largest plane;\n"
          "distance to the reference's nearest point, of points that have one within 1 m "
          "(overlap)\n\n"
-      << figures_table(figures);
+      << clouds_text(clouds);
   return 0;
 }
 

@@ -1,27 +1,22 @@
 #include "experiments/cli/export_command.hpp"
 
-#include <map>
 #include <vector>
 
-#include "experiments/cli/output_file.hpp"
-#include "experiments/cli/output_folder.hpp"
-#include "experiments/cli/results_folder.hpp"
-#include "experiments/report/export_formats.hpp"
+#include "experiments/analysis/results.hpp"
+#include "experiments/report/export.hpp"
+#include "experiments/report/output_folder.hpp"
 #include "framework/base/error.hpp"
 
 namespace croon::experiments {
 namespace {
 
-using Writer = std::string (*)(const ExportTable&);
-
-Writer writer_of(const std::string& format) {
-  static const std::map<std::string, Writer> writers = {
-      {"csv", export_csv}, {"json", export_json}, {"latex", export_latex}, {"md", export_markdown}};
-  const auto found = writers.find(format);
-  if (found != writers.end()) return found->second;
+const ExportFormat& format_called(const std::string& name) {
   std::vector<std::string> names;
-  for (const auto& [name, writer] : writers) names.push_back(name);
-  throw InputError("", "--format", "unknown format \"" + format + "\"" + name_hint(format, names));
+  for (const ExportFormat& format : export_formats()) {
+    if (name == format.name) return format;
+    names.emplace_back(format.name);
+  }
+  throw InputError("", "--format", "unknown format \"" + name + "\"" + name_hint(name, names));
 }
 
 ExportCaption caption_of(const Results& results) {
@@ -32,9 +27,9 @@ ExportCaption caption_of(const Results& results) {
 }  // namespace
 
 int export_command(const ExportOptions& options, std::ostream& out) {
-  const Writer write = writer_of(options.format);
+  const ExportFormat& format = format_called(options.format);
   const Results results = read_results(options.folder);
-  const std::string text = write(export_table(results.summary, caption_of(results)));
+  const std::string text = format.bytes(export_table(results.summary, caption_of(results)));
   if (options.out.empty()) {
     out << text;
   } else {

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <memory>
 
-#include "experiments/cli/output_folder.hpp"
-#include "experiments/cli/report_files.hpp"
-#include "experiments/cli/results_folder.hpp"
-#include "experiments/cli/timings_file.hpp"
+#include "experiments/analysis/results.hpp"
+#include "experiments/report/output_folder.hpp"
+#include "experiments/report/report_files.hpp"
+#include "experiments/report/run_text.hpp"
+#include "experiments/report/timings_file.hpp"
 #include "experiments/store/header_differences.hpp"
 #include "experiments/store/manifest.hpp"
 #include "experiments/store/store.hpp"

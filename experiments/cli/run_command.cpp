@@ -2,14 +2,14 @@
 
 #include <map>
 
-#include "experiments/cli/before_after.hpp"
-#include "experiments/cli/fused_clouds.hpp"
-#include "experiments/cli/output_folder.hpp"
-#include "experiments/cli/report_files.hpp"
-#include "experiments/cli/results_folder.hpp"
-#include "experiments/cli/timings_file.hpp"
-#include "experiments/report/plan_table.hpp"
+#include "experiments/analysis/results.hpp"
+#include "experiments/report/before_after.hpp"
+#include "experiments/report/fused_clouds.hpp"
+#include "experiments/report/output_folder.hpp"
 #include "experiments/report/progress.hpp"
+#include "experiments/report/report_files.hpp"
+#include "experiments/report/run_text.hpp"
+#include "experiments/report/timings_file.hpp"
 #include "experiments/run/run_request.hpp"
 #include "experiments/run/runner.hpp"
 #include "experiments/run/pipeline_tree.hpp"
@@ -45,13 +45,13 @@ Work work_of(const CheckedRun& run, StoreHeader header, bool is_fresh) {
   return work;
 }
 
-std::string plan_text(const CheckedRun& run, const Work& work, const RunOptions& options) {
-  PlanFigures figures{work.plan.starts.size(), work.plan.trials, work.done,
-                      count_steps(run.experiment, work.plan)};
+std::string text_of_plan(const CheckedRun& run, const Work& work, const RunOptions& options) {
+  PlanCounts counts{work.plan.starts.size(), work.plan.trials, work.done,
+                    count_steps(run.experiment, work.plan)};
   if (options.no_share) {
-    for (StepCount& count : figures.steps) count.runs = count.alone;
+    for (StepCount& count : counts.steps) count.runs = count.alone;
   }
-  return plan_table(figures, options.colours);
+  return plan_text(counts, options.colours);
 }
 
 /// The plan for each of the variants alone, one after the other.
@@ -129,7 +129,7 @@ int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostr
   const CheckedRun run = check_run(options, catalogue);
   StoreHeader header = header_of(run);
   if (options.plan) {
-    out << plan_text(run, work_of(run, std::move(header), options.fresh), options);
+    out << text_of_plan(run, work_of(run, std::move(header), options.fresh), options);
     return 0;
   }
   const OutputFolder folder(run.out);

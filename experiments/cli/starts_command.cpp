@@ -1,8 +1,8 @@
 #include "experiments/cli/starts_command.hpp"
 
-#include "experiments/cli/output_file.hpp"
 #include "experiments/file/experiment.hpp"
-#include "experiments/report/csv_row.hpp"
+#include "experiments/report/output_folder.hpp"
+#include "experiments/report/renderers.hpp"
 #include "experiments/run/run_request.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/start_file.hpp"
@@ -11,28 +11,43 @@
 namespace croon::experiments {
 namespace {
 
-std::string start_line(const std::string& scene, const std::string& sensor, int trial,
-                       const Start& start) {
-  CsvRow row;
-  row.text(scene).text(sensor).count(trial);
-  for (const double value : start.translation) row.number(value);
-  for (const double value : start.rotation.coeffs()) row.number(value);
-  return row.line();
+/// A row of the file; see kStartHeader.
+struct StartRow {
+  std::string scene;
+  std::string sensor;
+  int trial;
+  Start start;
+};
+
+Columns<StartRow> start_columns() {
+  Columns<StartRow> columns;
+  columns.add({"scene"}, &StartRow::scene)
+      .add({"sensor"}, &StartRow::sensor)
+      .add({"trial"}, &StartRow::trial);
+  for (const int i : {0, 1, 2}) {
+    columns.add({std::string("t") + "xyz"[i], "m"},
+                [i](const StartRow& row) { return row.start.translation(i); });
+  }
+  for (const int i : {0, 1, 2, 3}) {
+    columns.add({std::string("q") + "xyzw"[i]},
+                [i](const StartRow& row) { return row.start.rotation.coeffs()(i); });
+  }
+  return columns;
 }
 
 }  // namespace
 
 std::string starts_csv(const Experiment& experiment, const std::vector<Scene>& scenes) {
-  std::string bytes = std::string(kStartHeader) + "\n";
+  std::vector<StartRow> rows;
   for (const Scene& scene : scenes) {
     for (const SensorScan& scan : scene.sensors) {
       for (int trial = 0; trial < total_trials(experiment.starts); ++trial) {
-        bytes += start_line(scene.name, scan.sensor, trial,
-                            start_of(experiment, scene.name, scan, trial));
+        rows.push_back(
+            {scene.name, scan.sensor, trial, start_of(experiment, scene.name, scan, trial)});
       }
     }
   }
-  return bytes;
+  return csv_of(start_columns(), rows);
 }
 
 int starts_command(const StartsOptions& options, const Catalogue& catalogue, std::ostream& out) {

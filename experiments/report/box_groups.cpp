@@ -9,27 +9,27 @@ namespace croon::experiments {
 
 namespace {
 
-/// The place of `name` in `names`, where it is put if it is new.
-std::size_t place_of(std::vector<std::string>& names, const std::string& name) {
+/// The index of `name` in `names`; added if it is new.
+std::size_t index_of(std::vector<std::string>& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
-  const auto place = static_cast<std::size_t>(found - names.begin());
+  const auto index = static_cast<std::size_t>(found - names.begin());
   if (found == names.end()) names.push_back(name);
-  return place;
+  return index;
 }
 
-/// What the deviations of `scene` are gathered under.
+/// The label of the box that the deviations of `scene` are in.
 std::string label_of(const SummaryRow& row, const SceneSummary& scene, BoxOf of) {
   switch (of) {
     case BoxOf::variant:
       return row.variant;
     case BoxOf::scene:
       return scene.scene;
-    case BoxOf::kind:
-      return scene.kind;
+    case BoxOf::scene_kind:
+      return scene.scene_kind;
     case BoxOf::all_scenes:
       return "";
   }
-  throw std::logic_error("a box of nothing that exists");
+  throw std::logic_error("a box of an unknown kind");
 }
 
 }  // namespace
@@ -40,25 +40,25 @@ BoxOf box_of(const Summary& summary, std::size_t max_scenes, std::size_t max_kin
   for (const SummaryRow& row : summary.rows) {
     scenes = std::max(scenes, row.scenes.size());
   }
-  for (const KindSummary& kind : summary.kinds) kinds.insert(kind.kind);
+  for (const SceneKindSummary& kind : summary.scene_kinds) kinds.insert(kind.scene_kind);
   if (variants_of(summary).size() > 1) return BoxOf::variant;
   if (scenes > 1 && scenes <= max_scenes) return BoxOf::scene;
   const bool by_kind = scenes > 1 && !kinds.empty() && kinds.size() <= max_kinds;
-  return by_kind ? BoxOf::kind : BoxOf::all_scenes;
+  return by_kind ? BoxOf::scene_kind : BoxOf::all_scenes;
 }
 
 std::vector<BoxGroup> box_groups(const Summary& summary, BoxOf of) {
   // Kinds come in the order of their summaries, all else in that of the rows.
   std::vector<std::string> labels, sensors;
-  if (of == BoxOf::kind) {
-    for (const KindSummary& kind : summary.kinds) place_of(labels, kind.kind);
+  if (of == BoxOf::scene_kind) {
+    for (const SceneKindSummary& kind : summary.scene_kinds) index_of(labels, kind.scene_kind);
   }
   std::vector<std::map<std::size_t, std::vector<Measures>>> boxes;
   for (const SummaryRow& row : summary.rows) {
-    const std::size_t sensor = place_of(sensors, row.sensor);
+    const std::size_t sensor = index_of(sensors, row.sensor);
     boxes.resize(sensors.size());
     for (const SceneSummary& scene : row.scenes) {
-      std::vector<Measures>& box = boxes[sensor][place_of(labels, label_of(row, scene, of))];
+      std::vector<Measures>& box = boxes[sensor][index_of(labels, label_of(row, scene, of))];
       box.insert(box.end(), scene.deviations.begin(), scene.deviations.end());
     }
   }

@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "experiments/report/summary.hpp"
+#include "experiments/analysis/summary.hpp"
 
 namespace croon::experiments {
 
-/// One box per DOF: what it is called, where its colour comes from, its deviations.
+/// One box per DOF: its name, its colour, its deviations.
 struct BoxSeries {
-  std::string label;       ///< Scene, kind or variant; empty where a group has one box alone.
+  std::string label;       ///< Scene, kind or variant; empty if a group has one box alone.
   std::size_t colour = 0;  ///< The same for the same label in every group.
   std::vector<Measures> deviations;
 };
@@ -20,14 +20,15 @@ struct BoxGroup {
   std::vector<BoxSeries> boxes;
 };
 
-/// What the boxes of one sensor are.
-enum class BoxOf { variant, scene, kind, all_scenes };
+/// What each box of a sensor is for.
+enum class BoxOf { variant, scene, scene_kind, all_scenes };
 
 /// With several variants a box for each, else one for each scene; of more than `max_scenes`, one
-/// for each kind of scene; where there are no kinds, or more than `max_kinds`, one for all scenes.
+/// for each kind of scene; without kinds, or with more than
+/// `max_kinds`, one for all scenes.
 BoxOf box_of(const Summary& summary, std::size_t max_scenes, std::size_t max_kinds);
 
-/// The boxes of each sensor; of what has no value, without deviations.
+/// The boxes of each sensor; a box without values has no deviations.
 std::vector<BoxGroup> box_groups(const Summary& summary, BoxOf of);
 
 }  // namespace croon::experiments

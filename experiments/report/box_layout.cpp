@@ -60,7 +60,7 @@ BoxLayout layout_of(const std::vector<BoxGroup>& groups) {
   return {columns, std::max(kLeastPlotWidth, width), label_height};
 }
 
-BoxPanel panel_of(const BoxLayout& layout, const std::vector<BoxGroup>& groups, std::size_t place,
+BoxPanel panel_of(const BoxLayout& layout, const std::vector<BoxGroup>& groups, std::size_t index,
                   std::size_t measure) {
   double low = 0.0;
   double high = 0.0;
@@ -74,8 +74,8 @@ BoxPanel panel_of(const BoxLayout& layout, const std::vector<BoxGroup>& groups, 
   }
   // With two columns, rotations stand left and translations right.
   const std::size_t rows = kDofs / layout.columns;
-  const std::size_t row = layout.columns == 2 ? place % rows : place / layout.columns;
-  const std::size_t column = layout.columns == 2 ? place / rows : place % layout.columns;
+  const std::size_t row = layout.columns == 2 ? index % rows : index / layout.columns;
+  const std::size_t column = layout.columns == 2 ? index / rows : index % layout.columns;
   return {kMargin + static_cast<double>(column) * layout.panel_width() + kAxisWidth,
           kTitleHeight + static_cast<double>(row) * layout.panel_height() + kPanelTitle,
           layout.plot_width, round_axis(low, high, 5)};

@@ -15,7 +15,7 @@ inline constexpr double kPlotHeight = 190.0;
 inline constexpr double kBoxPitch = 22.0;  ///< From the middle of a box to that of the next.
 inline constexpr std::size_t kLabelColumns = 24;
 
-/// Where everything goes; all panels are alike.
+/// The sizes in the picture; all panels are alike.
 struct BoxLayout {
   std::size_t columns;  ///< Of panels.
   double plot_width;
@@ -34,19 +34,19 @@ struct BoxPanel {
   double width;
   Axis axis;
 
-  /// Where a value is drawn.
+  /// The height at which a value is drawn.
   double y(double value) const;
 };
 
-/// How wide a group is: its boxes, or its name where that is longer.
+/// How wide a group is: its boxes, or its name if that is longer.
 double group_width(const BoxGroup& group);
 
 /// The layout that has room for every group.
 BoxLayout layout_of(const std::vector<BoxGroup>& groups);
 
-/// The frame of the panel for `measure`, the `place`-th of six, with an axis that holds every value
+/// The frame of the panel for `measure`, the `index`-th of six, with an axis that holds every value
 /// and 0.
-BoxPanel panel_of(const BoxLayout& layout, const std::vector<BoxGroup>& groups, std::size_t place,
+BoxPanel panel_of(const BoxLayout& layout, const std::vector<BoxGroup>& groups, std::size_t index,
                   std::size_t measure);
 
 }  // namespace croon::experiments

@@ -1,8 +1,8 @@
 #include "experiments/report/svg.hpp"
 
-#include "experiments/report/csv_row.hpp"
-
 #include <cmath>
+
+#include "experiments/report/text.hpp"
 
 namespace croon::experiments {
 

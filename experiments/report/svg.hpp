@@ -6,7 +6,7 @@
 
 namespace croon::experiments {
 
-/// Which end of a text its place is.
+/// The part of a text that is at its position.
 enum class Anchor { start, middle, end };
 
 /// A picture under construction, in pixels, y down. `style` names classes of the style sheet.
@@ -20,7 +20,7 @@ class Svg {
   /// A closed area; its corners as x, y.
   void area(const std::vector<std::array<double, 2>>& corners, const std::string& style);
   void dot(double x, double y, double radius, const std::string& style);
-  /// `text` may hold anything. `turn_deg` turns it about its place, clockwise.
+  /// `text` may hold anything. `turn_deg` turns it about its position, clockwise.
   void text(double x, double y, const std::string& text, Anchor anchor, const std::string& style,
             double turn_deg = 0.0);
   /// The whole file.

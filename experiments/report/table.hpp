@@ -1,22 +1,160 @@
 #pragma once
 
-#include <cstddef>
+#include <functional>
+#include <optional>
 #include <string>
-
-#include "experiments/report/summary.hpp"
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
 
 namespace croon::experiments {
 
-/// How `croon run` shows a summary.
-struct TableStyle {
-  bool colours = false;         ///< Only where the output is a terminal.
-  std::size_t max_reasons = 5;  ///< Reasons for failures that are shown, the most frequent first.
-  std::size_t max_scenes = 12;  ///< Rows of the table per scene; the worst are kept.
+/// Which of two values of a column is the better one.
+enum class Better { neither, greater, nearer_to_zero };
+
+/// Text, a count, a number or nothing (std::monostate).
+using Value = std::variant<std::monostate, bool, long long, double, std::string>;
+
+/// `Column::decimals` for as many digits as a number takes.
+inline constexpr int kAllDigits = -1;
+
+/// A column of a table.
+struct Column {
+  std::string name;       ///< Without the unit: "pitch_mean".
+  std::string unit = {};  ///< "deg"; a "ratio" is shown in percent.
+  std::string path = {};  ///< JSON pointer to its value in a row; empty: "/" and the full name.
+  int decimals = 0;       ///< Of numbers, for readers; CSV and JSON have full precision.
+  Better better = Better::neither;
+  bool has_marks = false;          ///< Some cells may have a mark; CSV has a column for them.
+  bool is_all_if_nothing = false;  ///< A cell with nothing stands for all (sensors).
+
+  /// "pitch_mean_deg": the header in CSV files, and its name in views.
+  std::string full_name() const { return unit.empty() ? name : name + "_" + unit; }
 };
 
-/// What `croon run` prints on stdout, in UTF-8, within 120 columns for names of ordinary length:
-/// success and mean ± std per DOF of every variant and sensor, success per scene, reasons for
-/// failures. Ends with a newline.
-std::string summary_table(const Summary& summary, const TableStyle& style = {});
+/// A cell of a table.
+struct Cell {
+  Value value = {};
+  std::optional<int> decimals = {};  ///< Instead of those of the column.
+  bool is_best = false;              ///< Among the rows that it competes with.
+  std::string mark = {};             ///< Of significance: "+*", "-**".
+
+  bool is_nothing() const { return std::holds_alternative<std::monostate>(value); }
+};
+
+using CellRow = std::vector<Cell>;
+
+/// Numbers and names in rows and columns: what every text, CSV, JSON, Markdown and LaTeX table is
+/// rendered from.
+struct Table {
+  std::vector<Column> columns;
+  std::vector<CellRow> rows;  ///< A cell per column.
+  bool is_ranked = false;     ///< Rows compete: JSON names the best and the marked cells of each.
+
+  /// The index of the column with this full name. Throws std::logic_error if there is none.
+  std::size_t index_of(const std::string& full_name) const;
+  const Cell& at(std::size_t row, const std::string& full_name) const {
+    return rows[row][index_of(full_name)];
+  }
+  /// The text in a cell; empty if there is nothing.
+  const std::string& text_at(std::size_t row, const std::string& full_name) const;
+};
+
+/// The cell as readers see it: with the decimals of its column, ratios in percent, without its
+/// mark; "-" for nothing, "all sensors" in a column in which nothing stands for all.
+std::string shown_text(const Cell& cell, const Column& column);
+
+/// `value` as a cell: text, an integer, a number (NaN stays), an optional of them, or a Cell.
+template <class T>
+Cell to_cell(const T& value) {
+  if constexpr (std::is_same_v<T, Cell>) {
+    return value;
+  } else if constexpr (std::is_constructible_v<std::string, T>) {
+    return {Value(std::string(value))};
+  } else if constexpr (std::is_same_v<T, bool>) {
+    return {Value(value)};
+  } else if constexpr (std::is_integral_v<T>) {
+    return {Value(static_cast<long long>(value))};
+  } else if constexpr (std::is_same_v<T, double>) {
+    return {Value(value)};
+  } else {
+    return value ? to_cell(*value) : Cell();
+  }
+}
+
+/// Text, or nothing if it is empty.
+inline std::optional<std::string> nothing_if_empty(const std::string& text) {
+  return text.empty() ? std::nullopt : std::optional<std::string>(text);
+}
+
+/// The columns of tables whose rows come from objects of type `Row`.
+template <class Row>
+class Columns {
+ public:
+  using Function = std::function<Cell(const Row&)>;
+
+  /// Adds a column; `value` is a member of `Row` or a function of a row, see `to_cell`.
+  template <class F>
+  Columns& add(Column column, F value) {
+    columns_.push_back(std::move(column));
+    functions_.push_back([value](const Row& row) { return to_cell(std::invoke(value, row)); });
+    return *this;
+  }
+
+  /// Adds the columns of a part of each row: of a member or of the result of a function.
+  template <class Part, class F>
+  Columns& add(const Columns<Part>& of_part, F part) {
+    for (std::size_t k = 0; k < of_part.columns().size(); ++k) {
+      columns_.push_back(of_part.columns()[k]);
+      functions_.push_back([part, value = of_part.functions()[k]](const Row& row) {
+        return value(std::invoke(part, row));
+      });
+    }
+    return *this;
+  }
+
+  /// Adds columns of the same row, or of a base class of it.
+  template <class Base>
+  Columns& add(const Columns<Base>& others) {
+    return add(others, [](const Row& row) -> const Base& { return row; });
+  }
+
+  /// The columns with these full names, in this order. Throws std::logic_error if one is missing.
+  Columns selected(const std::vector<std::string>& full_names) const {
+    const Table header{columns_, {}, false};
+    Columns selection;
+    for (const std::string& name : full_names) {
+      selection.columns_.push_back(columns_[header.index_of(name)]);
+      selection.functions_.push_back(functions_[header.index_of(name)]);
+    }
+    return selection;
+  }
+
+  /// The column with this full name. Throws std::logic_error if there is none.
+  Column& column(const std::string& full_name) {
+    return columns_[Table{columns_, {}, false}.index_of(full_name)];
+  }
+
+  CellRow cells(const Row& row) const {
+    CellRow cells;
+    cells.reserve(functions_.size());
+    for (const Function& function : functions_) cells.push_back(function(row));
+    return cells;
+  }
+
+  Table table(const std::vector<Row>& rows) const {
+    Table table{columns_, {}, false};
+    for (const Row& row : rows) table.rows.push_back(cells(row));
+    return table;
+  }
+
+  const std::vector<Column>& columns() const { return columns_; }
+  const std::vector<Function>& functions() const { return functions_; }
+
+ private:
+  std::vector<Column> columns_;
+  std::vector<Function> functions_;
+};
 
 }  // namespace croon::experiments

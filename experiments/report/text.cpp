@@ -65,12 +65,24 @@ std::string fixed_number(double value, int decimals) {
                                                                               : text;
 }
 
+std::string shortest_number(double value) {
+  if (value == 0.0) return "0";
+  if (std::isnan(value)) return "nan";
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  return std::string(digits.data(), end);
+}
+
 std::string plain_number(double value) {
   std::array<char, 400> digits;  // The least number has more than 300 behind the point.
   const auto format = std::abs(value) < 1e9 ? std::chars_format::fixed : std::chars_format::general;
   const auto end =
       std::to_chars(digits.data(), digits.data() + digits.size(), value + 0.0, format).ptr;
   return {digits.data(), end};
+}
+
+std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
 std::string clock_text(double seconds) {

@@ -5,10 +5,10 @@
 
 namespace croon::experiments {
 
-/// How many columns UTF-8 text takes: its code points.
+/// The number of columns that UTF-8 text takes: its code points.
 std::size_t text_columns(const std::string& text);
 
-/// The first `columns` columns of UTF-8 text; where something is cut off, the last of them is "…".
+/// The first `columns` columns of UTF-8 text; if something is cut off, the last of them is "…".
 std::string cut_to_columns(const std::string& text, std::size_t columns);
 
 /// The same with "…" in the middle: names of one grid differ at their ends.
@@ -17,14 +17,21 @@ std::string cut_in_the_middle(const std::string& text, std::size_t columns);
 /// `text` with spaces before it, to fill `columns`.
 std::string right_aligned(const std::string& text, std::size_t columns);
 
-/// `text` with spaces behind it, to fill `columns`.
+/// `text` with spaces after it, to fill `columns`.
 std::string left_aligned(const std::string& text, std::size_t columns);
 
 /// `value` with so many decimals, the same in every locale; what rounds to zero has no sign.
 std::string fixed_number(double value, int decimals);
 
+/// `value` in the fewest digits that read back as the same bits (std::to_chars); zero and
+/// "nan" never have a sign.
+std::string shortest_number(double value);
+
 /// `value` with as many digits as it takes, and no exponent below 1e9: "-0.0005".
 std::string plain_number(double value);
+
+/// "1 trial", "2 trials".
+std::string counted(std::size_t count, const std::string& what);
 
 /// Hours, minutes and seconds: "3:07", "1:02:03".
 std::string clock_text(double seconds);

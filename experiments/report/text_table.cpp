@@ -1,9 +1,7 @@
-#include "experiments/report/text_table.hpp"
-
 #include <algorithm>
-#include <stdexcept>
-#include <utility>
 
+#include "experiments/report/export.hpp"
+#include "experiments/report/renderers.hpp"
 #include "experiments/report/text.hpp"
 
 namespace croon::experiments {
@@ -12,41 +10,69 @@ namespace {
 
 constexpr const char* kGap = "  ";
 
-}  // namespace
+/// A row as text, below its heading if that changes here.
+struct Line {
+  std::string heading;
+  std::vector<std::string> cells;
+};
 
-TextTable::TextTable(std::vector<std::string> header, std::size_t names)
-    : header_(std::move(header)), names_(names) {
-  if (header_.size() < 2) throw std::logic_error("a table of less than two columns");
-  for (const std::string& cell : header_) widths_.push_back(text_columns(cell));
+std::string cell_text(const Cell& cell, const Column& column) {
+  std::string text = shown_text(cell, column) + cell.mark;
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
 }
 
-void TextTable::add(std::vector<std::string> cells) {
-  if (cells.size() != header_.size()) throw std::logic_error("a row that does not fit its table");
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    widths_[i] = std::max(widths_[i], text_columns(cells[i]));
+std::vector<Line> lines_of(const Table& table, const View& view) {
+  const std::vector<ShownCells> columns = shown_cells(table, view);
+  std::vector<Line> lines;
+  std::string last_heading;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    Line line;
+    if (!view.heading.empty() && (i == 0 || table.text_at(i, view.heading) != last_heading)) {
+      line.heading = last_heading = table.text_at(i, view.heading);
+    }
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const std::string text = columns[k].content(table.rows[i], cell_text);
+      line.cells.push_back(k < view.names ? cut_to_columns(text, view.widest_name) : text);
+    }
+    lines.push_back(std::move(line));
   }
-  rows_.push_back(std::move(cells));
+  return lines;
 }
 
-void TextTable::add_heading(std::string text) { rows_.push_back({std::move(text)}); }
-
-std::string TextTable::line(const std::vector<std::string>& cells) const {
+/// The cells side by side, without spaces at the end.
+std::string joined(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths,
+                   std::size_t names) {
   std::string line;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (i > 0) line += kGap;
-    line += i < names_ ? left_aligned(cells[i], widths_[i]) : right_aligned(cells[i], widths_[i]);
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    if (k > 0) line += kGap;
+    line += k < names ? left_aligned(cells[k], widths[k]) : right_aligned(cells[k], widths[k]);
   }
   line.erase(line.find_last_not_of(' ') + 1);
   return line;
 }
 
-std::string TextTable::text(bool bold_header) const {
+}  // namespace
+
+std::string text_table(const Table& table, const View& view, bool bold_header) {
+  const std::vector<std::string> titles = titles_of(view);
+  const std::vector<Line> lines = lines_of(table, view);
+  std::vector<std::size_t> widths;
   std::vector<std::string> rules;
-  for (const std::size_t width : widths_) rules.emplace_back(width, '-');
-  std::string text = bold_header ? "\033[1m" + line(header_) + "\033[0m" : line(header_);
-  text += "\n" + line(rules) + "\n";
-  for (const std::vector<std::string>& row : rows_) {
-    text += (row.size() == 1 ? row.front() : line(row)) + "\n";
+  for (std::size_t k = 0; k < titles.size(); ++k) {
+    widths.push_back(text_columns(titles[k]));
+    for (const Line& line : lines) {
+      widths[k] = std::max(widths[k], text_columns(line.cells[k]));
+    }
+    rules.emplace_back(widths[k], '-');
+  }
+  const std::string header = joined(titles, widths, view.names);
+  std::string text = bold_header ? "\033[1m" + header + "\033[0m" : header;
+  text += "\n" + joined(rules, widths, view.names) + "\n";
+  for (const Line& line : lines) {
+    if (!line.heading.empty()) text += line.heading + "\n";
+    text += joined(line.cells, widths, view.names) + "\n";
   }
   return text;
 }

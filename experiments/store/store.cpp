@@ -202,6 +202,8 @@ void replace_store(const fs::path& path, const fs::path& by) {
   if (error) throw InputError(path.string(), "", "cannot be replaced: " + error.message());
 }
 
+fs::path store_path(const fs::path& folder) { return folder / "store.sqlite"; }
+
 std::vector<fs::path> store_files(const fs::path& path) {
   std::vector<fs::path> files;
   for (const char* ending : {"", "-wal", "-shm", "-journal", ".new", ".new-journal"}) {

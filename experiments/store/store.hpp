@@ -78,6 +78,9 @@ void rewrite_in_order(const std::filesystem::path& path);
 /// of them exists at every moment.
 void replace_store(const std::filesystem::path& path, const std::filesystem::path& by);
 
+/// The store of a folder of results.
+std::filesystem::path store_path(const std::filesystem::path& folder);
+
 /// The files of a store: its own, and those that SQLite keeps beside it while it is open.
 std::vector<std::filesystem::path> store_files(const std::filesystem::path& path);
 

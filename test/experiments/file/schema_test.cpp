@@ -10,7 +10,6 @@
 #include <sstream>
 #include <tuple>
 
-#include "experiments/file/experiment.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
 #include "registry/registry.hpp"

@@ -1,4 +1,4 @@
-#include "experiments/report/box_plots.hpp"
+#include "experiments/report/plots.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,14 +7,13 @@
 #include "experiments/report/axis.hpp"
 #include "experiments/report/box_groups.hpp"
 #include "experiments/report/svg.hpp"
-#include "test/experiments/report/sample_records.hpp"
+#include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
 namespace {
 
 using croon::test::test_rng;
-
-constexpr SuccessBounds kBounds = {0.5, 0.1};
+using test::kBounds;
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t found = 0;
@@ -76,7 +75,7 @@ TEST(BoxGroups, OfManyScenesAreByKind) {
   const char* kinds[] = {"urban", "narrow", "highway"};
   for (int i = 0; i < 60; ++i) {
     const std::string scene = std::to_string(i);
-    order.kinds[scene] = kinds[i % 3];
+    order.scene_kinds[scene] = kinds[i % 3];
     records.push_back(test::finished({"base", scene, "left", 0}, Status::success, {},
                                      test::offset_of(0, 0, 0, 0.01 * (i % 3), 0, 0)));
   }

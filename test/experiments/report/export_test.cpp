@@ -1,16 +1,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "experiments/report/export_formats.hpp"
-#include "test/experiments/report/sample_records.hpp"
+#include "experiments/report/export.hpp"
+#include "experiments/report/renderers.hpp"
+#include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
 namespace {
 
-constexpr SuccessBounds kBounds = {0.5, 0.1};
+using test::kBounds;
+
 const std::string kCommit = "0123456789abcdef0123456789abcdef01234567";
 
 ExportTable table_of(const std::vector<TrialRecord>& records) {
@@ -24,21 +27,35 @@ TrialRecord trial_at(const std::string& variant, int trial, double x_m) {
                         test::offset_of(0.0, 0.0, 0.0, x_m, 0.0, 0.0));
 }
 
+/// "left/base"; "/base" for all sensors.
+std::string name_of(const ExportTable& table, std::size_t row) {
+  return table.table.text_at(row, "sensor") + "/" + table.table.text_at(row, "variant");
+}
+
 /// The variants whose value is the best of a column, sensor by sensor.
 std::vector<std::string> best_of(const ExportTable& table, std::size_t column) {
   std::vector<std::string> best;
-  for (const ExportRow& row : table.rows) {
-    if (row.cells[column].is_best) best.push_back(row.sensor + "/" + row.variant);
+  for (std::size_t i = 0; i < table.table.rows.size(); ++i) {
+    if (table.table.rows[i][column].is_best) best.push_back(name_of(table, i));
   }
   return best;
 }
 
-std::size_t column(const std::string& name) {
-  const auto& columns = export_columns();
-  const auto found = std::find_if(columns.begin(), columns.end(),
-                                  [&](const ExportColumn& c) { return c.name == name; });
-  EXPECT_NE(found, columns.end()) << name;
-  return static_cast<std::size_t>(found - columns.begin());
+std::size_t column(const std::string& name) { return export_table({}, {}).table.index_of(name); }
+
+/// A number of the table; NaN if there is none.
+double number(const ExportTable& table, std::size_t row, const std::string& name) {
+  const Value& value = table.table.at(row, name).value;
+  if (const auto* count = std::get_if<long long>(&value)) return static_cast<double>(*count);
+  const auto* number = std::get_if<double>(&value);
+  return number == nullptr ? std::nan("") : *number;
+}
+
+/// The names of the columns with results.
+std::vector<std::string> result_names(const ExportTable& table) {
+  std::vector<std::string> names;
+  for (const Column& column : table.table.columns) names.push_back(column.full_name());
+  return {names.begin() + 6, names.end()};
 }
 
 bool has(const std::string& text, const std::string& part) {
@@ -50,16 +67,15 @@ using Names = std::vector<std::string>;
 TEST(ExportTable, HasARowPerSensorAndVariantAndOneOfAllSensors) {
   const ExportTable table = table_of(test::few_records());
   Names rows;
-  for (const ExportRow& row : table.rows) {
-    rows.push_back(row.sensor + "/" + row.variant);
-    EXPECT_EQ(row.cells.size(), export_columns().size());
+  for (std::size_t i = 0; i < table.table.rows.size(); ++i) {
+    rows.push_back(name_of(table, i));
+    EXPECT_EQ(table.table.rows[i].size(), table.table.columns.size());
   }
   EXPECT_EQ(rows, (Names{"left/base", "left/no volume", "right/base", "right/no volume", "/base",
                          "/no volume"}));
-  const ExportRow& all = table.rows[4];
-  EXPECT_EQ(all.trials, 15);
-  EXPECT_EQ(all.success, 12);
-  EXPECT_EQ(all.cells[kSuccessColumn].value, 80.0);
+  EXPECT_EQ(number(table, 4, "trials"), 15);
+  EXPECT_EQ(number(table, 4, "success"), 12);
+  EXPECT_EQ(number(table, 4, "success_percent"), 80.0);
 }
 
 TEST(ExportTable, PoolsTheTrialsOfAllSensors) {
@@ -73,10 +89,12 @@ TEST(ExportTable, PoolsTheTrialsOfAllSensors) {
     as_one_sensor.push_back(
         test::finished({"base", "0001", "one", trial}, Status::success, {}, offset));
   }
-  const ExportRow pooled = table_of(records).rows.back();
-  const ExportRow one = table_of(as_one_sensor).rows.back();
-  for (std::size_t k = 0; k < one.cells.size(); ++k) {
-    EXPECT_NEAR(*pooled.cells[k].value, *one.cells[k].value, 1e-12) << export_columns()[k].name;
+  const ExportTable pooled = table_of(records);
+  const ExportTable one = table_of(as_one_sensor);
+  ASSERT_EQ(result_names(one).size(), 19U);
+  for (const std::string& name : result_names(one)) {
+    EXPECT_NEAR(number(pooled, pooled.table.rows.size() - 1, name), number(one, 0, name), 1e-12)
+        << name;
   }
 }
 
@@ -100,7 +118,7 @@ TEST(ExportTable, AllThatLookEquallyGoodAreTheBest) {
 
 TEST(ExportTable, OneVariantAloneIsNotTheBest) {
   const ExportTable table = table_of({trial_at("a", 0, 0.01), trial_at("a", 1, 0.02)});
-  for (const ExportCell& cell : table.rows.front().cells) EXPECT_FALSE(cell.is_best);
+  for (const Cell& cell : table.table.rows.front()) EXPECT_FALSE(cell.is_best);
   EXPECT_FALSE(has(export_latex(table), "\\bfseries 0"));
   EXPECT_FALSE(has(export_markdown(table), "**"));
 }
@@ -109,15 +127,15 @@ TEST(ExportTable, LacksWhatTooFewTrialsTell) {
   const TrialId id = {"none", "0001", "left", 0};
   const ExportTable table =
       table_of({trial_at("one", 0, 0.01), test::unfinished(id, Status::failed, "no ground")});
-  const ExportRow& none = table.rows[0].variant == "none" ? table.rows[0] : table.rows[1];
-  const ExportRow& one = table.rows[0].variant == "none" ? table.rows[1] : table.rows[0];
-  EXPECT_EQ(none.cells[kSuccessColumn].value, 0.0);
-  for (std::size_t k = kDistanceColumn; k < none.cells.size(); ++k) {
-    EXPECT_FALSE(none.cells[k].value);
-    EXPECT_FALSE(none.cells[k].is_best);
+  const std::size_t none = table.table.text_at(0, "variant") == "none" ? 0 : 1;
+  const std::size_t one = 1 - none;
+  EXPECT_EQ(number(table, none, "success_percent"), 0.0);
+  for (std::size_t k = column("rotation_median_deg"); k < table.table.columns.size(); ++k) {
+    EXPECT_TRUE(table.table.rows[none][k].is_nothing());
+    EXPECT_FALSE(table.table.rows[none][k].is_best);
   }
-  EXPECT_EQ(one.cells[column("x_mean_m")].value, 0.01);
-  EXPECT_FALSE(one.cells[column("x_std_m")].value);
+  EXPECT_EQ(number(table, one, "x_mean_m"), 0.01);
+  EXPECT_TRUE(table.table.at(one, "x_std_m").is_nothing());
   EXPECT_TRUE(has(export_latex(table), "& {--} & {--} \\\\"));
   EXPECT_TRUE(has(export_markdown(table), "| - | - |"));
   EXPECT_TRUE(has(export_csv(table), ",,,,,,\n"));
@@ -125,15 +143,10 @@ TEST(ExportTable, LacksWhatTooFewTrialsTell) {
 }
 
 TEST(ExportTable, WithoutTruthTellsOfTheConsensus) {
-  std::vector<TrialRecord> records;
-  for (int trial = 0; trial < 4; ++trial) {
-    const RigidTransform pose = {Eigen::Matrix3d::Identity(), {trial == 3 ? 9.0 : 0.0, 0.0, 0.0}};
-    records.push_back(test::finished_without_truth({"base", "0001", "left", trial}, pose));
-  }
-  const ExportTable table = table_of(records);
-  EXPECT_EQ(table.rows.front().reference, Reference::consensus);
-  EXPECT_EQ(table.rows.front().success, 3);
-  EXPECT_EQ(table.rows.front().cells[kSuccessColumn].value, 75.0);
+  const ExportTable table = table_of(test::one_of_four_astray());
+  EXPECT_EQ(table.table.text_at(0, "reference"), "consensus");
+  EXPECT_EQ(number(table, 0, "success"), 3);
+  EXPECT_EQ(number(table, 0, "success_percent"), 75.0);
   const std::string text = export_markdown(table);
   EXPECT_TRUE(has(text, "where there is no truth"));
   EXPECT_FALSE(has(text, "of the truth"));
@@ -148,11 +161,11 @@ TEST(ExportTable, MarksWhatDiffersFromTheBase) {
   comparison.translation_m.test = {true, 1e-4, 1e-3, 0.4, 0.4};
   summary.comparisons = {comparison};
   const ExportTable table = export_table(summary, {"few", kCommit, 7, 2, 4, 29, 32});
-  const ExportRow& all = table.rows.back();
-  EXPECT_EQ(all.cells[column("success_percent")].mark, "");
-  EXPECT_EQ(all.cells[column("rotation_median_deg")].mark, "-**");
-  EXPECT_EQ(all.cells[column("translation_median_m")].mark, "+*");
-  EXPECT_EQ(table.rows[1].cells[column("rotation_median_deg")].mark, "");
+  const std::size_t all = table.table.rows.size() - 1;
+  EXPECT_EQ(table.table.at(all, "success_percent").mark, "");
+  EXPECT_EQ(table.table.at(all, "rotation_median_deg").mark, "-**");
+  EXPECT_EQ(table.table.at(all, "translation_median_m").mark, "+*");
+  EXPECT_EQ(table.table.at(1, "rotation_median_deg").mark, "");
   EXPECT_TRUE(has(caption_sentences(table).back(), "differs from base"));
   EXPECT_TRUE(has(export_markdown(table), "| 0.035 -\\*\\* |"));
   EXPECT_TRUE(has(export_latex(table), "& 0.035 & -** & 0.060"));
@@ -182,8 +195,7 @@ TEST(ExportTable, SurvivorsOfFewerTrialsAreNotTheBest) {
   const std::size_t k = column("translation_median_m");
   const auto is_best = [&](double p, std::size_t row) {
     return export_table(with_survivors(p), {"few", kCommit, 7, 1, 8, 16, 16})
-        .rows[row]
-        .cells[k]
+        .table.rows[row][k]
         .is_best;
   };
   EXPECT_TRUE(is_best(0.01, 0));  // The base; the other succeeds significantly less often.
@@ -204,8 +216,8 @@ TEST(ExportTable, WithoutTruthMarksNoErrors) {
     comparison.success.p_holm = comparison.rotation_deg.test.p_holm = 0.001;
   }
   const ExportTable table = export_table(summary, {"few", kCommit, 7, 1, 4, 8, 8});
-  EXPECT_EQ(table.rows[1].cells[column("success_percent")].mark, "-*");
-  EXPECT_EQ(table.rows[1].cells[column("rotation_median_deg")].mark, "");
+  EXPECT_EQ(table.table.at(1, "success_percent").mark, "-*");
+  EXPECT_EQ(table.table.at(1, "rotation_median_deg").mark, "");
 }
 
 TEST(ExportTable, WithoutComparisonsExplainsNoMarks) {
@@ -269,7 +281,7 @@ TEST(ExportCsv, HoldsFullPrecisionInAsManyFieldsPerLine) {
   for (; std::getline(text, line); ++lines) {
     EXPECT_EQ(std::count(line.begin(), line.end(), ','), 5 + 19 + 3) << line;
   }
-  EXPECT_EQ(lines, 1 + table.rows.size());
+  EXPECT_EQ(lines, 1 + table.table.rows.size());
   EXPECT_TRUE(has(text.str(), "\nno volume,all,truth,14,12,12,85.71428571428571,"));
 }
 
@@ -278,10 +290,10 @@ TEST(ExportJson, HoldsTheSameNumbers) {
   const auto json = nlohmann::json::parse(export_json(table));
   EXPECT_EQ(json["commit"], kCommit);
   EXPECT_EQ(json["seed"], 7);
-  ASSERT_EQ(json["rows"].size(), table.rows.size());
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    for (std::size_t k = 0; k < export_columns().size(); ++k) {
-      EXPECT_EQ(json["rows"][i][export_columns()[k].name], *table.rows[i].cells[k].value);
+  ASSERT_EQ(json["rows"].size(), table.table.rows.size());
+  for (std::size_t i = 0; i < table.table.rows.size(); ++i) {
+    for (const std::string& name : result_names(table)) {
+      EXPECT_EQ(json["rows"][i][name], number(table, i, name));
     }
   }
   EXPECT_TRUE(json["rows"].back()["sensor"].is_null());
@@ -290,7 +302,7 @@ TEST(ExportJson, HoldsTheSameNumbers) {
 
 TEST(Export, OfNoTrialsIsAnEmptyTable) {
   const ExportTable table = table_of({});
-  EXPECT_TRUE(table.rows.empty());
+  EXPECT_TRUE(table.table.rows.empty());
   EXPECT_TRUE(nlohmann::json::parse(export_json(table))["rows"].empty());
   EXPECT_TRUE(has(export_latex(table), "\\bottomrule"));
 }

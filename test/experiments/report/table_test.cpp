@@ -2,150 +2,143 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <sstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
 
-#include "experiments/report/text.hpp"
-#include "test/experiments/report/sample_records.hpp"
+#include "experiments/report/renderers.hpp"
+#include "experiments/report/run_text.hpp"
 
 namespace croon::experiments {
 namespace {
 
-constexpr SuccessBounds kBounds = {0.5, 0.1};
+constexpr double kInf = std::numeric_limits<double>::infinity();
 
-// Checked by hand: x of base/left is 0, 1, 2 cm in one scene and 0, -1, -2 cm in the other.
-constexpr const char* kTableOfFewRecords =
-    R"(success: within 0.5 deg and 0.1 m of the truth; errors of those trials
-rotation, translation: median, 95th percentile
+struct Part {
+  double low;
+  std::optional<double> high;
+};
 
-variant    sensor  success      %  95 % interval  inaccurate  rejected  failed  rotation deg   translation m
----------  ------  -------  -----  -------------  ----------  --------  ------  ------------  --------------
-base       left        6/8   75.0   [40.9, 92.9]           1         0       1  0.024, 0.035  0.0104, 0.0202
-base       right       6/7   85.7   [48.7, 97.4]           0         1       0  0.024, 0.035  0.0104, 0.0202
-no volume  left        6/8   75.0   [40.9, 92.9]           1         0       1  0.035, 0.060  0.0202, 0.0401
-no volume  right       6/6  100.0  [61.0, 100.0]           0         0       0  0.035, 0.060  0.0202, 0.0401
+struct Whole {
+  std::string name;
+  int count;
+  Part part;
+};
 
-mean ± std
-variant    sensor      pitch deg      roll deg       yaw deg             x m             y m             z m
----------  ------  -------------  ------------  ------------  --------------  --------------  --------------
-base       left    -0.010 ±0.009  0.000 ±0.022  0.010 ±0.009  0.0000 ±0.0141  0.0000 ±0.0000  0.0030 ±0.0000
-base       right   -0.010 ±0.009  0.000 ±0.022  0.010 ±0.009  0.0000 ±0.0141  0.0000 ±0.0000  0.0030 ±0.0000
-no volume  left    -0.020 ±0.018  0.000 ±0.022  0.020 ±0.018  0.0000 ±0.0283  0.0000 ±0.0000  0.0030 ±0.0000
-no volume  right   -0.020 ±0.018  0.000 ±0.022  0.020 ±0.018  0.0000 ±0.0283  0.0000 ±0.0000  0.0030 ±0.0000
-
-std within scenes / across scenes
-variant    sensor      pitch deg       roll deg        yaw deg              x m              y m              z m
----------  ------  -------------  -------------  -------------  ---------------  ---------------  ---------------
-base       left    0.010 / 0.000  0.000 / 0.028  0.010 / 0.000  0.0100 / 0.0141  0.0000 / 0.0000  0.0000 / 0.0000
-base       right   0.010 / 0.000  0.000 / 0.028  0.010 / 0.000  0.0100 / 0.0141  0.0000 / 0.0000  0.0000 / 0.0000
-no volume  left    0.020 / 0.000  0.000 / 0.028  0.020 / 0.000  0.0200 / 0.0283  0.0000 / 0.0000  0.0000 / 0.0000
-no volume  right   0.020 / 0.000  0.000 / 0.028  0.020 / 0.000  0.0200 / 0.0283  0.0000 / 0.0000  0.0000 / 0.0000
-
-against base, pair by pair: difference of medians [95 % interval], failures as infinite
-variant    pairs  won  lost      p          rotation deg       p            translation m       p
----------  -----  ---  ----  -----  --------------------  ------  -----------------------  ------
-no volume     14    0     0  1.000  0.010 [0.005, 0.025]  0.023*  0.0098 [0.0049, 0.0199]  0.023*
-* p < 0.05 over trials (McNemar, Wilcoxon; Holm), ** also with scenes as units
-
-success per scene
-variant    scene  left  right
----------  -----  ----  -----
-base       0001    3/4    3/3
-base       0002    3/4    3/4
-no volume  0001    3/4    3/3
-no volume  0002    3/4    3/3
-
-variant    status    reason                                         trials
----------  --------  ---------------------------------------------  ------
-base       rejected  two yaws fit                                        1
-base       failed    ground_alignment: no plane, "nothing" is flat       1
-no volume  failed    ground_alignment: no plane, "nothing" is flat       1
-)";
-
-TEST(SummaryTable, ShowsWhatAResearcherLooksForFirst) {
-  EXPECT_EQ(summary_table(summarise(test::few_records(), kBounds, {})), kTableOfFewRecords);
+/// A column of each kind of value, the last two below "range" in JSON.
+Columns<Whole> columns() {
+  Columns<Part> part;
+  part.add({"low", "ratio", "/range/0", 1}, &Part::low)
+      .add({"high", "m", "/range/1", 2}, &Part::high);
+  Columns<Whole> columns;
+  return columns.add({"name"}, &Whole::name)
+      .add({"count"}, &Whole::count)
+      .add({"is_many"}, [](const Whole& whole) { return whole.count > 1; })
+      .add(part, &Whole::part);
 }
 
-TEST(SummaryTable, KeepsWithin120Columns) {
-  std::istringstream text(summary_table(summarise(test::few_records(), kBounds, {})));
-  for (std::string line; std::getline(text, line);) EXPECT_LE(text_columns(line), 120U) << line;
+Table two_rows() { return columns().table({{"a,b", 2, {0.25, 1.0}}, {"*c*", 1, {kInf, {}}}}); }
+
+TEST(Columns, AreSelectedByFullName) {
+  const Columns<Whole> selected = columns().selected({"high_m", "name"});
+  ASSERT_EQ(selected.columns().size(), 2U);
+  EXPECT_EQ(std::get<double>(selected.cells({"x", 1, {0.0, 2.5}})[0].value), 2.5);
+  EXPECT_THROW(columns().selected({"high"}), std::logic_error);
 }
 
-TEST(SummaryTable, WithoutTruthSuccessIsAgreement) {
-  std::vector<TrialRecord> records;
-  for (int trial = 0; trial < 4; ++trial) {
-    const RigidTransform pose = {Eigen::Matrix3d::Identity(), {trial == 3 ? 9.0 : 0.0, 0.0, 0.0}};
-    records.push_back(test::finished_without_truth({"base", "0001", "left", trial}, pose));
-  }
-  const std::string text = summary_table(summarise(records, kBounds, {}));
-  EXPECT_NE(text.find("success (no truth)"), std::string::npos);
-  EXPECT_NE(text.find("\nleft        3/4  75.0"), std::string::npos);
-  EXPECT_EQ(text.find("across"), std::string::npos);  // One scene alone.
+TEST(CsvTable, QuotesWhatNeedsIt) {
+  const std::vector<Column> columns(8);
+  const CellRow row = {to_cell("plain name"),
+                       to_cell("a,b"),
+                       to_cell("say \"a\""),
+                       to_cell("two\nlines"),
+                       to_cell(""),
+                       {},
+                       {},
+                       to_cell(-1)};
+  EXPECT_EQ(csv_line(columns, row), "plain name,\"a,b\",\"say \"\"a\"\"\",\"two\nlines\",,,,-1\n");
 }
 
-TEST(SummaryTable, LongVariantNamesStandAboveTheirRows) {
-  auto records = test::few_records();
-  const std::string name = "base, volume_refinement.scorer = openvdb_grid";
-  for (TrialRecord& record : records) {
-    if (record.id.variant == "no volume") record.id.variant = name;
-  }
-  const std::string text = summary_table(summarise(records, kBounds, {}));
-  EXPECT_NE(text.find("\n" + name + "\nleft "), std::string::npos);
-  EXPECT_NE(text.find("\nbase\nleft "), std::string::npos);
+TEST(CsvTable, HasAColumnForMarksBehindTheOthers) {
+  Table table = two_rows();
+  table.columns[1].has_marks = true;
+  table.rows[0][1].mark = "+*";
+  EXPECT_EQ(csv_table(table),
+            "name,count,is_many,low_ratio,high_m,count_mark\n"
+            "\"a,b\",2,1,0.25,1,+*\n"
+            "*c*,1,0,inf,,\n");
 }
 
-TEST(SummaryTable, OfManyScenesAndReasonsShowsTheWorst) {
-  std::vector<TrialRecord> records;
-  for (int scene = 0; scene < 9; ++scene) {
-    const std::string name = "s" + std::to_string(scene);
-    if (scene % 4 == 1) {
-      records.push_back(test::unfinished({"base", name, "left", 0}, Status::failed, "why " + name));
-    } else {
-      records.push_back(
-          test::finished({"base", name, "left", 0}, Status::success, {}, Vector6d::Zero()));
-    }
-  }
-  TableStyle style;
-  style.max_scenes = 2;
-  style.max_reasons = 1;
-  const std::string text = summary_table(summarise(records, kBounds, {}), style);
-  EXPECT_NE(text.find("s1      0/1\ns5      0/1\nthe worst 2 of 9 rows\n"), std::string::npos);
-  EXPECT_NE(text.find("why s1"), std::string::npos);
-  EXPECT_EQ(text.find("why s5"), std::string::npos);
-  EXPECT_NE(text.find("and 1 other reason of 1 trial\n"), std::string::npos);
+TEST(JsonRows, NestByPathAndHaveNoInfiniteNumbers) {
+  const auto rows = json_rows(two_rows());
+  EXPECT_EQ(rows.dump(), R"([{"name":"a,b","count":2,"is_many":true,"range":[0.25,1.0]},)"
+                         R"({"name":"*c*","count":1,"is_many":false,"range":["inf",null]}])");
 }
 
-TEST(SummaryTable, OfThousandsOfScenesIsNotLonger) {
-  Rng rng = croon::test::test_rng();
-  std::vector<TrialRecord> records;
-  for (int scene = 0; scene < 2000; ++scene) {
-    for (const char* sensor : {"left", "right"}) {
-      const TrialId id = {"base", std::to_string(scene), sensor, 0};
-      // Both sensors fail in one scene of a hundred alone: those are the worst.
-      const bool is_bad = scene % 100 == 7 || (*sensor == 'l' && rng.uniform() < 0.1);
-      records.push_back(test::finished(id, is_bad ? Status::inaccurate : Status::success, {},
-                                       test::random_offset(rng, 0.1, 0.02)));
-    }
-  }
-  const std::string text = summary_table(summarise(records, kBounds, {}));
-  EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 40);
-  EXPECT_NE(text.find("-----\n1007    0/1    0/1\n107     0/1    0/1\n"), std::string::npos)
-      << text;
-  EXPECT_NE(text.find("\nthe worst 12 of 2000 rows\n"), std::string::npos);
-  // One trial per scene has no spread within.
-  EXPECT_EQ(text.find("within scenes"), std::string::npos);
-  EXPECT_EQ(text.find("nan"), std::string::npos);
+TEST(JsonRows, WhatHoldsNullsAloneIsNull) {
+  Table table = two_rows();
+  table.rows[1][3] = {};
+  EXPECT_TRUE(json_rows(table)[1]["range"].is_null());
+  EXPECT_FALSE(json_rows(table)[0]["range"].is_null());
 }
 
-TEST(SummaryTable, ColoursOnlyWhereAsked) {
-  const Summary summary = summarise(test::few_records(), kBounds, {});
-  EXPECT_EQ(summary_table(summary).find('\033'), std::string::npos);
-  TableStyle style;
-  style.colours = true;
-  EXPECT_NE(summary_table(summary, style).find('\033'), std::string::npos);
+TEST(TextTable, AlignsNamesLeftAndNumbersRight) {
+  Table table{{{"group"}, {"sensor"}, {"mean ±"}, {"n"}},
+              {{to_cell(""), to_cell("front"), to_cell("±0.5"), to_cell(100)},
+               {to_cell("a longer line than any row"), to_cell("left-hand"), {}, to_cell(7)}}};
+  View view{{{"sensor"}, {"mean ±"}, {"n"}}};
+  view.heading = "group";
+  EXPECT_EQ(text_table(table, view),
+            "sensor     mean ±    n\n"
+            "---------  ------  ---\n"
+            "front        ±0.5  100\n"
+            "a longer line than any row\n"
+            "left-hand       -    7\n");
+  EXPECT_EQ(text_table(table, view, true).substr(0, 30), "\033[1msensor     mean ±    n\033[0");
+  table.rows[0].pop_back();
+  EXPECT_THROW(text_table(table, view), std::logic_error);
 }
 
-TEST(SummaryTable, NoTrials) { EXPECT_EQ(summary_table(Summary{}), "no trials\n"); }
+TEST(View, ShowsSeveralColumnsAsOne) {
+  const Table table = two_rows();
+  Shown shown{"range", "[<low_ratio> to <high_m>]"};
+  const auto content = [&](const CellRow& row) {
+    return ShownCells(table, shown).content(row, shown_text);
+  };
+  EXPECT_EQ(content(table.rows[0]), "[25.0 to 1.00]");
+  EXPECT_EQ(content(table.rows[1]), "[inf to -]");
+  const CellRow nothing(5);
+  EXPECT_EQ(content(nothing), "-");
+  shown.shows_each = true;
+  EXPECT_EQ(content(nothing), "[- to -]");
+  EXPECT_THROW(ShownCells(table, {"range", "<width>"}), std::logic_error);
+}
+
+TEST(MarkdownTable, EscapesCellsAndBoldsTheBest) {
+  Table table = two_rows();
+  table.rows[0][3].is_best = true;
+  table.rows[0][3].mark = "+*";
+  EXPECT_EQ(markdown_table(table, {{{"name"}, {"low", "<low_ratio>"}}}),
+            "| name | low |\n"
+            "|---|---:|\n"
+            "| a,b | **25.0** +\\* |\n"
+            "| \\*c\\* | inf |\n");
+}
+
+TEST(PlanText, ListsWhatIsSaved) {
+  const PlanCounts plan = {20, 60, 3, {{"first", 60, 20}, {"second", 60, 40}}};
+  EXPECT_EQ(plan_text(plan, false),
+            R"(60 trials to run from 20 starts; 3 are in the store
+
+step       one by one  runs  saved  saved %
+---------  ----------  ----  -----  -------
+first              60    20     40     66.7
+second             60    40     20     33.3
+all steps         120    60     60     50.0
+)");
+  EXPECT_EQ(plan_text({0, 0, 60, {}}, false),
+            "0 trials to run from 0 starts; 60 are in the store\n");
+}
 
 }  // namespace
 }  // namespace croon::experiments

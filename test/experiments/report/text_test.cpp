@@ -5,8 +5,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "experiments/report/text_table.hpp"
-
 namespace croon::experiments {
 namespace {
 
@@ -54,21 +52,6 @@ TEST(Text, Clock) {
   EXPECT_EQ(clock_text(59.6), "1:00");
   EXPECT_EQ(clock_text(3723.0), "1:02:03");
   EXPECT_EQ(clock_text(std::numeric_limits<double>::infinity()), "277777:46:40");
-}
-
-TEST(TextTable, AlignsNamesLeftAndNumbersRight) {
-  TextTable table({"sensor", "mean ±", "n"}, 1);
-  table.add({"front", "±0.5", "100"});
-  table.add_heading("a longer line than any row");
-  table.add({"left-hand", "-", "7"});
-  EXPECT_EQ(table.text(false),
-            "sensor     mean ±    n\n"
-            "---------  ------  ---\n"
-            "front        ±0.5  100\n"
-            "a longer line than any row\n"
-            "left-hand       -    7\n");
-  EXPECT_EQ(table.text(true).substr(0, 30), "\033[1msensor     mean ±    n\033[0");
-  EXPECT_THROW(table.add({"too", "short"}), std::logic_error);
 }
 
 }  // namespace

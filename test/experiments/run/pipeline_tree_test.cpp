@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "experiments/file/experiment.hpp"
-#include "experiments/report/plan_table.hpp"
 #include "experiments/run/pipeline_tree.hpp"
 #include "framework/base/rng.hpp"
 #include "test/experiments/support/fake_stages.hpp"
@@ -148,21 +147,6 @@ TEST(StepCounts, AreThoseOfTheTree) {
     EXPECT_EQ(counts[i].runs, runs[i] * starts);
   }
   EXPECT_EQ(counts[0].step, "first");
-}
-
-TEST(PlanTable, TellsWhatIsSaved) {
-  const PlanFigures plan = {20, 60, 3, {{"first", 60, 20}, {"second", 60, 40}}};
-  EXPECT_EQ(plan_table(plan, false),
-            R"(60 trials to run from 20 starts; 3 are in the store
-
-step       one by one  runs  saved  saved %
----------  ----------  ----  -----  -------
-first              60    20     40     66.7
-second             60    40     20     33.3
-all steps         120    60     60     50.0
-)");
-  EXPECT_EQ(plan_table({0, 0, 60, {}}, false),
-            "0 trials to run from 0 starts; 60 are in the store\n");
 }
 
 }  // namespace

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/analysis/summary.hpp"
+#include "experiments/file/start_rule.hpp"
+
+namespace croon::experiments {
+
+/// The share of successful trials from which a level belongs to the basin.
+inline constexpr double kBasinRatio = 0.95;
+
+/// The success of one variant over the levels of a sweep.
+struct BasinRow {
+  std::string variant;
+  std::string sensor;         ///< Empty for all sensors together.
+  std::vector<Share> levels;  ///< From the smallest size.
+};
+
+/// The success of every variant over the levels of a sweep.
+struct Basin {
+  Sweep sweep;
+  std::vector<BasinRow> rows;  ///< By variant, then sensor, all together last.
+};
+
+/// The basin of the records of a sweep; all trials count, those that failed too. Sensors without
+/// truth are left out, because their success says nothing about the pose; std::nullopt if all are.
+/// The order of the records makes no difference.
+std::optional<Basin> basin_of(const std::vector<TrialRecord>& records, const Sweep& sweep,
+                              const ReportOrder& order);
+
+/// The basin's radius, deg or m: the largest size up to which, at every level, at least
+/// `kBasinRatio` of the trials succeed; std::nullopt if fewer do at the first level.
+std::optional<double> basin_radius(const Sweep& sweep, const BasinRow& row);
+
+/// The size of a level without the rounding error of equal steps.
+double rounded_size(const Sweep& sweep, int level);
+
+/// "deg" or "m".
+const char* size_unit(const Sweep& sweep);
+
+}  // namespace croon::experiments

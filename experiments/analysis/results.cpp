@@ -1,0 +1,83 @@
+#include "experiments/analysis/results.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "experiments/store/store.hpp"
+
+namespace croon::experiments {
+namespace {
+
+using nlohmann::json;
+
+/// The names that are current.
+std::vector<std::string> current(const std::vector<StoredName>& stored) {
+  std::vector<std::string> names;
+  for (const StoredName& name : stored) {
+    if (name.is_current) names.push_back(name.name);
+  }
+  return names;
+}
+
+ReportOrder report_order(const StoreHeader& header) {
+  ReportOrder order;
+  order.variants = current(header.variants);
+  order.sensors = current(header.sensors);
+  order.scenes = current(header.scenes);
+  for (const StoredName& sensor : header.sensors) {
+    const auto is_target = [&](const StoredName& other) { return other.name == sensor.detail; };
+    if (sensor.is_current && std::any_of(header.sensors.begin(), header.sensors.end(), is_target)) {
+      order.pairs.push_back(named_pair(sensor.name, sensor.detail));
+    }
+  }
+  for (const StoredName& scene : header.scenes) {
+    if (!scene.detail.empty()) order.scene_kinds[scene.name] = scene.detail;
+  }
+  return order;
+}
+
+/// The trials that were asked for. A variant that has none at all was not: `--only` left it out.
+std::size_t asked_trials(const json& manifest, const Summary& summary) {
+  const std::size_t run = variants_of(summary).size();
+  const std::size_t planned = manifest.at("planned");
+  const std::size_t variants = manifest.at("experiment").at("variants").size();
+  return run == 0 ? planned : planned / variants * run;
+}
+
+Results results_of(StoredRun run, const std::string& file) {
+  const json manifest = json::parse(run.header.manifest);
+  const Experiment experiment = read_experiment_json(manifest.at("experiment").dump(), file);
+  Results results;
+  results.name = experiment.name;
+  results.description = experiment.description;
+  results.commit = manifest.at("croon").at("commit");
+  results.seed = experiment.seed;
+  results.trials = run.header.trials;
+  results.manifest = run.header.manifest;
+  const ReportOrder order = report_order(run.header);
+  results.scenes = order.scenes.size();
+  results.records = std::move(run.records);
+  results.summary = summarise(results.records, experiment.success, order);
+  results.planned = asked_trials(manifest, results.summary);
+  const std::optional<Sweep>& sweep = experiment.starts.sweep;
+  if (sweep) results.basin = basin_of(results.records, *sweep, order);
+  results.claims = check_claims(experiment.claims, results.summary);
+  results.quoted = experiment.quoted;
+  return results;
+}
+
+}  // namespace
+
+bool has_failed_trials(const Results& results) {
+  return std::any_of(results.records.begin(), results.records.end(),
+                     [](const TrialRecord& record) { return record.status == Status::failed; });
+}
+
+Results read_results(const std::filesystem::path& folder) {
+  const std::filesystem::path path = store_path(folder);
+  StoredRun run = read_store(path);
+  return reading(path, [&] { return results_of(std::move(run), path.string()); });
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/analysis/basin.hpp"
+#include "experiments/analysis/claims.hpp"
+#include "experiments/analysis/summary.hpp"
+#include "experiments/run/trial_record.hpp"
+
+namespace croon::experiments {
+
+/// A folder of results, read from its store alone: neither the experiment file nor the data need to
+/// be there.
+struct Results {
+  std::string name;         ///< The experiment's.
+  std::string description;  ///< The question it answers; may be empty.
+  std::string commit;       ///< Of the program that made the trials.
+  std::uint64_t seed = 1;
+  int trials = 0;  ///< Starts per variant, scene and sensor.
+  std::size_t scenes = 0;
+  std::size_t planned = 0;           ///< Trials of the variants that were run; fewer may be there.
+  std::string manifest;              ///< JSON of manifest.json, without its host.
+  std::vector<TrialRecord> records;  ///< In report order, without their steps.
+  Summary summary;
+  std::optional<Basin> basin;       ///< Of a sweep.
+  std::vector<ClaimResult> claims;  ///< The claims of the experiment, checked.
+  std::vector<Quoted> quoted;       ///< Rows of other methods.
+};
+
+/// Whether a stage failed in one of the trials.
+bool has_failed_trials(const Results& results);
+
+/// Throws InputError if the folder has no store, or one of an unknown version.
+Results read_results(const std::filesystem::path& folder);
+
+}  // namespace croon::experiments

@@ -1,0 +1,127 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "experiments/file/experiment.hpp"
+#include "experiments/file/measures.hpp"
+#include "experiments/file/statistics.hpp"
+#include "experiments/run/trial_record.hpp"
+#include "framework/geometry/pose_mean.hpp"
+
+namespace croon::experiments {
+
+/// A share of a number of trials, with its 95 % interval (Wilson 1927).
+struct Share {
+  int count = 0;
+  int trials = 0;
+  double ratio = 0.0;  ///< 0 if there are no trials.
+  Interval interval{0.0, 1.0};
+};
+
+/// `count` of `trials` with its interval.
+Share share_of(int count, int trials);
+
+/// The number of trials by how they ended.
+struct Outcomes {
+  int trials = 0;
+  int success = 0;
+  int inaccurate = 0;
+  int rejected = 0;
+  int failed = 0;
+};
+
+/// The values of one measure.
+std::vector<double> values_of(const std::vector<Measures>& rows, std::size_t measure);
+
+/// The statistics of each of `kMeasures`, in its unit.
+using StatisticsTable = std::array<Statistics, kMeasures.size()>;
+
+/// The statistics of each measure; `deviations` must not be empty.
+StatisticsTable statistics_of(const std::vector<Measures>& deviations);
+
+/// One of the statistics of measure `measure`; std::nullopt if too few trials count.
+std::optional<double> value_of(const std::optional<StatisticsTable>& table, std::size_t measure,
+                               std::size_t statistic);
+
+/// One value per DOF, in the units of `kMeasures`.
+using DofValues = std::array<double, kDofs>;
+
+/// The pose that deviations are taken from.
+enum class DeviationsFrom {
+  truth,      ///< Ground truth.
+  consensus,  ///< There is no truth: the pose that the trials of all scenes agree on.
+  none        ///< No trial finished.
+};
+
+/// "truth", "consensus" or "none".
+const char* name_of(DeviationsFrom from);
+
+/// The results of a set of trials.
+struct TrialSummary {
+  DeviationsFrom deviations_from = DeviationsFrom::none;  ///< Truth if one sensor has it.
+  Outcomes outcomes;
+  Share success;    ///< Trials with status `success`.
+  Share agreement;  ///< Successful trials within the success bounds of their scene's consensus.
+  int counted = 0;  ///< Trials that `statistics` are over.
+  std::optional<StatisticsTable> statistics;
+};
+
+/// One variant and sensor in one scene.
+struct SceneSummary : TrialSummary {
+  std::string scene;
+  std::string scene_kind;  ///< "urban"; empty if the dataset names none.
+  std::optional<RigidTransform>
+      consensus;                     ///< `T_reference_sensor` that its successful trials agree on.
+  std::vector<Measures> deviations;  ///< Of the trials that count, by trial.
+  std::vector<Measures> spread;      ///< The deviations of the same trials from `consensus`.
+};
+
+/// One variant and sensor over all scenes.
+///
+/// Statistics are over the trials that count: with truth those with status `success`; without truth
+/// those within the success bounds of their scene's consensus. Deviations are from the truth, else
+/// from `consensus`, by `pose_error`.
+struct SummaryRow : TrialSummary {
+  std::string variant;
+  std::string sensor;                       ///< Empty for all sensors together.
+  std::optional<RigidTransform> consensus;  ///< The pose that the scenes' consensus poses agree on.
+  /// The sample std of the trials that count about their scene's consensus, pooled over scenes by
+  /// degrees of freedom; std::nullopt if no scene has two such trials.
+  std::optional<DofValues> within_scene_std;
+  /// The sample std of the scenes' mean errors (no truth: of their consensus poses about the
+  /// consensus of all); std::nullopt for fewer than two scenes.
+  std::optional<DofValues> across_scenes_std;
+  std::vector<SceneSummary> scenes;
+};
+
+/// The share that counts as success: with truth that of the trials near it, else that of the trials
+/// that agree.
+const Share& main_share(const TrialSummary& summary);
+
+/// The trials of several scenes (of one sensor or more) as one set.
+TrialSummary pooled(const std::vector<const SceneSummary*>& scenes);
+
+/// The scenes of all `rows`.
+std::vector<const SceneSummary*> scenes_of(const std::vector<const SummaryRow*>& rows);
+
+/// The trials of one variant, sensor and scene, by trial.
+using SceneRecords = std::vector<const TrialRecord*>;
+
+/// The records of each (variant, sensor, scene).
+using RecordGroups = std::map<std::tuple<std::string, std::string, std::string>, SceneRecords>;
+
+/// The bounds in the units that geometry uses.
+PoseBounds pose_bounds(const SuccessBounds& bounds);
+
+/// The pose of a trial that finished and is not rejected; else null.
+const RigidTransform* usable_pose(const TrialRecord& record);
+
+/// The row of the trials in `scenes`, which are of one variant and sensor; not empty.
+SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds& bounds);
+
+}  // namespace croon::experiments

@@ -1,0 +1,105 @@
+#include <algorithm>
+
+#include "experiments/report/axis.hpp"
+#include "experiments/report/chart_style.hpp"
+#include "experiments/report/plots.hpp"
+#include "experiments/report/svg.hpp"
+#include "experiments/report/text.hpp"
+
+namespace croon::experiments {
+namespace {
+
+constexpr double kWidth = 560.0;  // Pixels, all of them.
+constexpr double kHeight = 300.0;
+constexpr double kLeft = 56.0;
+constexpr double kTop = 60.0;
+constexpr double kBelow = 50.0;
+constexpr double kLegendLine = 20.0;
+constexpr double kLegendWidth = 250.0;
+
+using Corner = std::array<double, 2>;
+
+/// The axes: sizes to the right, ratios up.
+struct BasinPanel {
+  Axis sizes;
+
+  double x(double size) const {
+    return kLeft + kWidth * (size - sizes.low) / (sizes.high - sizes.low);
+  }
+  static double y(double ratio) { return kTop + kHeight * (1.0 - ratio); }
+};
+
+void draw_frame(Svg& svg, const BasinPanel& panel, const Sweep& sweep) {
+  for (const double ratio : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
+    const double y = BasinPanel::y(ratio);
+    svg.line(kLeft, y, kLeft + kWidth, y, ratio == 0.0 ? "zero" : "grid");
+    svg.text(kLeft - 8.0, y + 4.0, fixed_number(100.0 * ratio, 0), Anchor::end, "small");
+  }
+  for (const double size : panel.sizes.ticks) {
+    const double x = panel.x(size);
+    svg.line(x, kTop, x, kTop + kHeight, "grid");
+    svg.text(x, kTop + kHeight + 18.0, fixed_number(size, panel.sizes.decimals), Anchor::middle,
+             "small");
+  }
+  const std::string what = sweep.of == SweepOf::rotation ? "rotation" : "translation";
+  svg.text(kLeft + kWidth / 2.0, kTop + kHeight + 38.0,
+           what + " of the start from its centre, " + size_unit(sweep), Anchor::middle, "small");
+}
+
+void draw_row(Svg& svg, const BasinPanel& panel, const Sweep& sweep, const BasinRow& row,
+              const std::string& colour) {
+  std::vector<Corner> upper, lower, curve;
+  for (std::size_t level = 0; level < row.levels.size(); ++level) {
+    const Share& share = row.levels[level];
+    if (share.trials == 0) continue;
+    const double x = panel.x(level_size(sweep, static_cast<int>(level)));
+    upper.push_back({x, BasinPanel::y(share.interval.high)});
+    lower.push_back({x, BasinPanel::y(share.interval.low)});
+    curve.push_back({x, BasinPanel::y(share.ratio)});
+  }
+  upper.insert(upper.end(), lower.rbegin(), lower.rend());
+  svg.area(upper, colour + " band");
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    svg.dot(curve[i][0], curve[i][1], 3.0, colour);
+    if (i > 0) {
+      svg.line(curve[i - 1][0], curve[i - 1][1], curve[i][0], curve[i][1], colour + " curve");
+    }
+  }
+}
+
+void draw_legend(Svg& svg, std::size_t index, const std::string& variant,
+                 const std::string& colour) {
+  const double left = kLeft + kWidth + 24.0;
+  const double y = kTop + 8.0 + kLegendLine * static_cast<double>(index);
+  constexpr std::size_t kColumns = 30;
+  svg.line(left, y, left + 24.0, y, colour + " curve");
+  svg.text(left + 32.0, y + 4.0, cut_in_the_middle(variant, kColumns), Anchor::start, "name");
+}
+
+}  // namespace
+
+std::string basin_svg(const Basin& basin) {
+  const BasinPanel panel{round_axis(basin.sweep.first, basin.sweep.last, 9)};
+  const auto rows =
+      static_cast<double>(std::count_if(basin.rows.begin(), basin.rows.end(),
+                                        [](const BasinRow& row) { return row.sensor.empty(); }));
+  const double width = kLeft + kWidth + 24.0 + kLegendWidth;
+  const double height = kTop + std::max(kHeight, kLegendLine * rows) + kBelow;
+  Svg svg(width, height, kChartStyle);
+  svg.rectangle(0.0, 0.0, width, height, "page");
+  svg.text(kLeft, 24.0, "Success in % over the size of the start's perturbation", Anchor::start,
+           "title");
+  svg.text(kLeft, 42.0, "All sensors and scenes together; the band is the 95 % interval",
+           Anchor::start, "small");
+  draw_frame(svg, panel, basin.sweep);
+  std::size_t index = 0;
+  for (const BasinRow& row : basin.rows) {
+    if (!row.sensor.empty()) continue;
+    const std::string colour = "c" + std::to_string(index % kChartColours);
+    draw_row(svg, panel, basin.sweep, row, colour);
+    draw_legend(svg, index++, row.variant, colour);
+  }
+  return svg.bytes();
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,177 @@
+#include "experiments/report/claims_text.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <sstream>
+
+#include "experiments/report/renderers.hpp"
+#include "experiments/report/result_tables.hpp"
+
+namespace croon::experiments {
+
+namespace {
+
+constexpr std::size_t kWidestName = 44;
+
+/// Claim, source, expected, band, found and verdict; the band is in the brackets of the format.
+View claims_view(const std::string& open, const std::string& close) {
+  return {{{"claim"},
+           {"source"},
+           {"expected", "<expected> <unit>"},
+           {"band", open + "<low>, <high>" + close},
+           {"found"},
+           {"verdict"}},
+          2};
+}
+
+/// A row of the table of quoted numbers: theirs or ours.
+struct QuotedRow {
+  std::string method;
+  std::string source;
+  std::string statistic;
+  std::optional<DofValues> dofs;
+};
+
+/// The quoted rows; after those of each statistic, ours: that of this run's first variant over all
+/// sensors.
+std::vector<QuotedRow> with_ours(const std::vector<Quoted>& quoted, const Summary& summary) {
+  std::vector<QuotedRow> rows;
+  for (std::size_t i = 0; i < quoted.size(); ++i) {
+    const Quoted& q = quoted[i];
+    rows.push_back({q.method, q.source, q.statistic,
+                    DofValues{q.roll_deg, q.pitch_deg, q.yaw_deg, q.x_m, q.y_m, q.z_m}});
+    const bool has_later =
+        std::any_of(quoted.begin() + static_cast<std::ptrdiff_t>(i) + 1, quoted.end(),
+                    [&](const Quoted& later) { return later.statistic == q.statistic; });
+    if (has_later) continue;
+    const std::string variant = summary.rows.empty() ? "" : summary.rows.front().variant;
+    rows.push_back(
+        {"ours, all sensors", "this run, " + variant, q.statistic, row_beside(q, summary)});
+  }
+  return rows;
+}
+
+/// Method, source and statistic in words, the DOFs in the paper's order.
+Table quoted_table(const std::vector<Quoted>& quoted, const Summary& summary) {
+  constexpr int kDecimals = 5;
+  Columns<QuotedRow> columns;
+  columns.add({"method"}, &QuotedRow::method)
+      .add({"source"}, &QuotedRow::source)
+      .add({"statistic"}, &QuotedRow::statistic);
+  for (const std::size_t k : kPaperOrder) {
+    columns.add({kMeasures[k].name + (" " + std::string(kMeasures[k].unit)), "", "", kDecimals},
+                [k](const QuotedRow& row) {
+                  return row.dofs ? std::optional<double>((*row.dofs)[k]) : std::nullopt;
+                });
+  }
+  return columns.table(with_ours(quoted, summary));
+}
+
+/// "50 in, 2 out, 1 not measured".
+std::string verdict_counts(const std::vector<ClaimResult>& results) {
+  std::string text;
+  for (const Verdict verdict : {Verdict::in, Verdict::out, Verdict::not_measured}) {
+    const auto count = std::count_if(results.begin(), results.end(), [&](const ClaimResult& one) {
+      return one.verdict == verdict;
+    });
+    if (count == 0) continue;
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + verdict_name(verdict);
+  }
+  return text;
+}
+
+/// `text` with `word` in red at the end of each line that ends in it.
+std::string reddened(const std::string& text, const std::string& word) {
+  std::string coloured;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t start = line.size() - std::min(line.size(), word.size());
+    if (line.substr(start) == word) line = line.substr(0, start) + "\033[31m" + word + "\033[0m";
+    coloured += line + "\n";
+  }
+  return coloured;
+}
+
+/// The table of claims, with the numbers of the reasons below it.
+std::string results_markdown(const std::vector<ClaimResult>& results) {
+  std::vector<std::string> reasons;
+  Columns<ClaimResult> columns = claim_columns();
+  columns.add({"why ours may differ"}, [&](const ClaimResult& result) -> std::string {
+    if (result.claim.why.empty()) return "";
+    const auto known = std::find(reasons.begin(), reasons.end(), result.claim.why);
+    const auto index = known - reasons.begin();
+    if (known == reasons.end()) reasons.push_back(result.claim.why);
+    return std::to_string(index + 1);
+  });
+  View view = claims_view("\\[", "\\]");
+  view.columns.push_back({"why ours may differ"});
+  view.names = view.columns.size();
+  std::string text =
+      "Claims: " + verdict_counts(results) + ".\n\n" + markdown_table(columns.table(results), view);
+  if (!reasons.empty()) text += "\nWhy ours may differ:\n\n";
+  for (std::size_t i = 0; i < reasons.size(); ++i) {
+    text += std::to_string(i + 1) + ". " + markdown_escaped(reasons[i]) + "\n";
+  }
+  return text;
+}
+
+/// What was run, as a table of one row.
+std::string run_markdown(const Results& results) {
+  const auto all = [](const Results& r) {
+    return std::to_string(r.records.size()) + " of " + std::to_string(r.planned);
+  };
+  Columns<Results> columns;
+  columns.add({"scenes"}, &Results::scenes)
+      .add({"sensors"}, [](const Results& r) { return sensors_of(r.summary).size(); })
+      .add({"starts of each"}, &Results::trials)
+      .add({"trials"}, all)
+      .add({"seed"}, [](const Results& r) { return std::to_string(r.seed); })
+      .add({"commit"}, &Results::commit);
+  const Table table{columns.columns(), {columns.cells(results)}};
+  return markdown_table(table, whole_view(table, table.columns.size()));
+}
+
+}  // namespace
+
+std::string claims_text(const std::vector<ClaimResult>& results, const std::vector<Quoted>& quoted,
+                        const Summary& summary, const TableStyle& style) {
+  std::string text;
+  if (!results.empty()) {
+    View view = claims_view("[", "]");
+    view.widest_name = kWidestName;
+    const std::string table = text_table(claim_columns().table(results), view, style.colours);
+    text += "\nclaims: " + verdict_counts(results) + "\n";
+    text += style.colours ? reddened(table, verdict_name(Verdict::out)) : table;
+  }
+  if (!quoted.empty()) {
+    const Table table = quoted_table(quoted, summary);
+    View view = whole_view(table, 3);
+    view.widest_name = kWidestName;
+    text += "\nother methods, as their sources have them, and ours\n" +
+            text_table(table, view, style.colours);
+  }
+  return text;
+}
+
+std::string claims_markdown(const std::vector<ClaimResult>& results,
+                            const std::vector<Quoted>& quoted, const Summary& summary) {
+  std::string text;
+  if (!results.empty()) text += results_markdown(results);
+  if (!quoted.empty()) {
+    const Table table = quoted_table(quoted, summary);
+    text += std::string(text.empty() ? "" : "\n") +
+            "Other methods, as their sources have them, and ours:\n\n" +
+            markdown_table(table, whole_view(table, table.columns.size()));
+  }
+  return text;
+}
+
+std::string claims_section(const Results& results) {
+  std::string text = "\n## " + markdown_escaped(results.name) + "\n\n";
+  if (!results.description.empty()) text += markdown_escaped(results.description) + "\n\n";
+  text += run_markdown(results) + "\n";
+  const std::string tables = claims_markdown(results.claims, results.quoted, results.summary);
+  return text + (tables.empty() ? "The experiment expects nothing.\n" : tables);
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "experiments/report/export.hpp"
+#include "experiments/report/renderers.hpp"
+#include "experiments/report/text.hpp"
+
+namespace croon::experiments {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct ValueJson {
+  Json operator()(std::monostate) const { return nullptr; }
+  Json operator()(double value) const {
+    return std::isfinite(value) ? Json(value) : Json(shortest_number(value));
+  }
+  template <class T>
+  Json operator()(const T& value) const {
+    return value;
+  }
+};
+
+/// Replaces objects and lists of nulls alone by null.
+void collapse(Json& json) {
+  if (!json.is_structured()) return;
+  for (Json& member : json) collapse(member);
+  const auto is_null = [](const Json& member) { return member.is_null(); };
+  if (std::all_of(json.begin(), json.end(), is_null)) json = nullptr;
+}
+
+/// Lists the best and the marked cells of a row.
+void add_ranks(Json& json, const Table& table, const CellRow& row) {
+  Json best = Json::array();
+  Json marks = Json::object();
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    const std::string name = table.columns[k].full_name();
+    if (row[k].is_best) best.push_back(name);
+    if (!row[k].mark.empty()) marks[name] = row[k].mark;
+  }
+  json["best"] = std::move(best);
+  json["marks"] = std::move(marks);
+}
+
+}  // namespace
+
+Json json_rows(const Table& table) {
+  std::vector<Json::json_pointer> paths;
+  for (const Column& column : table.columns) {
+    paths.emplace_back(column.path.empty() ? "/" + column.full_name() : column.path);
+  }
+  Json rows = Json::array();
+  for (const CellRow& row : table.rows) {
+    Json json = Json::object();
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      json[paths[k]] = std::visit(ValueJson(), row[k].value);
+    }
+    for (Json& member : json) collapse(member);
+    if (table.is_ranked) add_ranks(json, table, row);
+    rows.push_back(std::move(json));
+  }
+  return rows;
+}
+
+std::string json_bytes(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string export_json(const ExportTable& table) {
+  const ExportCaption& caption = table.caption;
+  return json_bytes({{"name", caption.name},
+                     {"commit", caption.commit},
+                     {"seed", caption.seed},
+                     {"scenes", caption.scenes},
+                     {"sensors", table.sensors.size()},
+                     {"starts", caption.starts},
+                     {"trials", caption.found},
+                     {"planned", caption.planned},
+                     {"success_bounds",
+                      {{"rotation_deg", table.bounds.rotation_deg},
+                       {"translation_m", table.bounds.translation_m}}},
+                     {"caption", caption_sentences(table)},
+                     {"rows", json_rows(table.table)}});
+}
+
+}  // namespace croon::experiments

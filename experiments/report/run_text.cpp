@@ -1,0 +1,136 @@
+#include "experiments/report/run_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "experiments/report/claims_text.hpp"
+#include "experiments/report/renderers.hpp"
+#include "experiments/report/result_tables.hpp"
+#include "experiments/report/text.hpp"
+#include "framework/base/statistics.hpp"
+
+namespace croon::experiments {
+
+namespace {
+
+/// "21.6 (14.0 to 30.2)": the median, least and largest of column `k` in `rows`; nothing if all
+/// cells are empty.
+Cell range_cell(const Table& table, const std::vector<std::size_t>& rows, std::size_t k) {
+  std::vector<double> values;
+  for (const std::size_t row : rows) {
+    const Value& value = table.rows[row][k].value;
+    if (const auto* number = std::get_if<double>(&value)) values.push_back(*number);
+    if (const auto* count = std::get_if<long long>(&value)) {
+      values.push_back(static_cast<double>(*count));
+    }
+  }
+  if (values.empty()) return {};
+  const auto text = [&](double value) { return fixed_number(value, table.columns[k].decimals); };
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const std::string range = " (" + text(*least) + " to " + text(*most) + ")";
+  return to_cell(text(median(values)) + (values.size() > 1 ? range : ""));
+}
+
+/// The texts of a column, each once.
+std::vector<std::string> texts_of(const Table& table, const std::string& column) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const std::string& text = table.text_at(i, column);
+    if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(text);
+  }
+  return texts;
+}
+
+}  // namespace
+
+std::string result_text(const Results& results, bool colours) {
+  TableStyle style;
+  style.colours = colours;
+  std::string text = summary_text(results.summary, style);
+  if (results.basin) text += "\n" + basin_text(*results.basin, style);
+  const std::string claims = claims_text(results.claims, results.quoted, results.summary, style);
+  return claims.empty() ? text : text + "\n" + claims;
+}
+
+std::string basin_text(const Basin& basin, const TableStyle& style) {
+  constexpr std::size_t kMaxColumns = 19;
+  const auto levels = static_cast<std::size_t>(basin.sweep.levels);
+  const std::size_t step = (levels + kMaxColumns - 1) / kMaxColumns;
+  const std::string unit = size_unit(basin.sweep);
+  Columns<BasinRow> columns;
+  columns.add({"variant"}, &BasinRow::variant);
+  for (std::size_t level = 0; level < levels; level += step) {
+    const std::string size = shortest_number(rounded_size(basin.sweep, static_cast<int>(level)));
+    columns.add({size}, [level](const BasinRow& row) {
+      const Share& share = row.levels[level];
+      return share.trials == 0 ? std::nullopt : std::optional<double>(100.0 * share.ratio);
+    });
+  }
+  columns.add({"radius " + unit, "", "", kAllDigits}, [&](const BasinRow& row) {
+    const std::optional<double> radius = basin_radius(basin.sweep, row);
+    return radius ? std::optional<double>(std::round(1e6 * *radius) / 1e6) : std::nullopt;
+  });
+  std::vector<BasinRow> rows;
+  for (const BasinRow& row : basin.rows) {
+    if (row.sensor.empty()) rows.push_back(row);
+  }
+  const Table table = columns.table(rows);
+  const char* const what = basin.sweep.of == SweepOf::rotation ? "rotated by" : "moved by";
+  return "success in % of starts " + std::string(what) + " ... " + unit +
+         "; radius: up to there, at least " + fixed_number(100.0 * kBasinRatio, 0) +
+         " % at each level\n" + text_table(table, whole_view(table), style.colours);
+}
+
+std::string clouds_text(const std::vector<CloudDescription>& clouds) {
+  const Table all = cloud_columns().table(clouds);
+  const std::size_t first = all.index_of("points");
+  Table table{{{"sensor"}, {"dataset"}}, {}};
+  table.columns.insert(table.columns.end(),
+                       all.columns.begin() + static_cast<std::ptrdiff_t>(first), all.columns.end());
+  for (const std::string& sensor : texts_of(all, "sensor")) {
+    for (const std::string& dataset : texts_of(all, "dataset")) {
+      std::vector<std::size_t> rows;
+      for (std::size_t i = 0; i < all.rows.size(); ++i) {
+        const bool is_of_both =
+            all.text_at(i, "sensor") == sensor && all.text_at(i, "dataset") == dataset;
+        if (is_of_both) rows.push_back(i);
+      }
+      if (rows.empty()) continue;
+      CellRow row = {to_cell(sensor), to_cell(dataset)};
+      for (std::size_t k = first; k < all.columns.size(); ++k) {
+        row.push_back(range_cell(all, rows, k));
+      }
+      table.rows.push_back(std::move(row));
+    }
+  }
+  return text_table(table, whole_view(table, 2));
+}
+
+std::string plan_text(const PlanCounts& plan, bool colours) {
+  std::string text = std::to_string(plan.trials) + " trials to run from " +
+                     std::to_string(plan.starts) + " starts; " + std::to_string(plan.done) +
+                     " are in the store\n";
+  if (plan.steps.empty()) return text;
+  std::vector<StepCount> steps = plan.steps;
+  StepCount all{"all steps"};
+  for (const StepCount& step : plan.steps) {
+    all.alone += step.alone;
+    all.runs += step.runs;
+  }
+  steps.push_back(all);
+  Columns<StepCount> columns;
+  columns.add({"step"}, &StepCount::step)
+      .add({"one by one"}, &StepCount::alone)
+      .add({"runs"}, &StepCount::runs)
+      .add({"saved"}, [](const StepCount& step) { return step.alone - step.runs; })
+      .add({"saved %", "", "", 1}, [](const StepCount& step) {
+        const double ratio = static_cast<double>(step.runs) / static_cast<double>(step.alone);
+        return step.alone == 0 ? 0.0 : 100.0 * (1.0 - ratio);
+      });
+  const Table table = columns.table(steps);
+  return text + "\n" + text_table(table, whole_view(table), colours);
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,106 @@
+#include "experiments/analysis/basin.hpp"
+
+#include <gtest/gtest.h>
+
+#include "experiments/report/plots.hpp"
+#include "experiments/report/result_tables.hpp"
+#include "experiments/report/run_text.hpp"
+#include "test/support/trial_records.hpp"
+
+namespace croon::experiments {
+namespace {
+
+const Sweep kSweep{SweepOf::rotation, 0.0, 30.0, 4};
+
+/// 40 trials per level: `base` fails at none, none, 2 and 3 of them, `lost` at all.
+std::vector<TrialRecord> records_of(const std::vector<std::string>& sensors) {
+  constexpr std::array<int, 4> kFailures = {0, 0, 2, 3};
+  std::vector<TrialRecord> records;
+  for (const std::string& sensor : sensors) {
+    for (int trial = 0; trial < 160; ++trial) {
+      const bool is_good = trial / 4 >= kFailures[trial % 4];
+      records.push_back(test::finished({"base", "a", sensor, trial},
+                                       is_good ? Status::success : Status::inaccurate, {},
+                                       Vector6d::Zero()));
+      records.push_back(
+          test::unfinished({"lost", "a", sensor, trial}, Status::failed, "no ground"));
+    }
+  }
+  return records;
+}
+
+TEST(Basin, CountsEveryTrialOfEachLevel) {
+  Rng rng = croon::test::test_rng();
+  const auto basin = basin_of(test::shuffled(rng, records_of({"left", "right"})), kSweep,
+                              {{"base", "lost"}, {"right", "left"}, {}, {}});
+  ASSERT_TRUE(basin);
+  ASSERT_EQ(basin->rows.size(), 6U);
+  EXPECT_EQ(basin->rows[0].sensor, "right");
+  EXPECT_EQ(basin->rows[1].sensor, "left");
+  const BasinRow& all = basin->rows[2];
+  EXPECT_EQ(all.variant, "base");
+  EXPECT_EQ(all.sensor, "");
+  const std::vector<int> success = {80, 80, 76, 74};
+  ASSERT_EQ(all.levels.size(), 4U);
+  for (std::size_t level = 0; level < 4; ++level) {
+    EXPECT_EQ(all.levels[level].trials, 80);
+    EXPECT_EQ(all.levels[level].count, success[level]);
+    EXPECT_EQ(basin->rows[0].levels[level].count, success[level] / 2);
+    EXPECT_EQ(basin->rows[5].levels[level].trials, 80);
+    EXPECT_EQ(basin->rows[5].levels[level].count, 0);
+  }
+}
+
+TEST(Basin, EndsBeforeTheFirstLevelBelow95Percent) {
+  const auto basin = basin_of(records_of({"left"}), kSweep, {});
+  ASSERT_TRUE(basin);
+  EXPECT_EQ(basin_radius(kSweep, basin->rows[0]), 20.0);
+  EXPECT_EQ(basin_radius(kSweep, basin->rows[2]), std::nullopt);
+  BasinRow gap = basin->rows[0];
+  gap.levels[1].count = 37;
+  EXPECT_EQ(basin_radius(kSweep, gap), 0.0);
+}
+
+TEST(Basin, LeavesOutSensorsWithoutTruth) {
+  std::vector<TrialRecord> records = records_of({"left"});
+  records.push_back(test::finished_without_truth({"base", "a", "right", 0}, {}));
+  const auto basin = basin_of(records, kSweep, {});
+  ASSERT_TRUE(basin);
+  for (const BasinRow& row : basin->rows) EXPECT_NE(row.sensor, "right");
+  EXPECT_EQ(basin->rows[1].levels[0].trials, 40);
+  EXPECT_FALSE(basin_of({records.back()}, kSweep, {}));
+  EXPECT_FALSE(basin_of({}, kSweep, {}));
+}
+
+TEST(Basin, IsTheseBytes) {
+  const auto basin = basin_of(records_of({"left"}), kSweep, {});
+  const std::string csv = basin_csv(*basin);
+  EXPECT_EQ(csv.substr(0, csv.find("base,left,1")),
+            "variant,sensor,level,size,unit,trials,success,success_ratio,low,high\n"
+            "base,left,0,0,deg,40,40,1,0.9123783988027134,1\n");
+  EXPECT_NE(csv.find("\nlost,all,3,30,deg,40,0,0,0,"), std::string::npos);
+}
+
+TEST(Basin, IsATable) {
+  const std::string table = basin_text(*basin_of(records_of({"left"}), kSweep, {}));
+  EXPECT_NE(table.find("95 % at each level"), std::string::npos);
+  EXPECT_NE(table.find("variant    0   10  20  30  radius deg"), std::string::npos) << table;
+  EXPECT_NE(table.find("base     100  100  95  92          20"), std::string::npos) << table;
+  EXPECT_NE(table.find("lost       0    0   0   0           -"), std::string::npos) << table;
+}
+
+TEST(Basin, IsAPictureOfEveryVariant) {
+  const std::string svg = basin_svg(*basin_of(records_of({"left"}), kSweep, {}));
+  EXPECT_EQ(svg.substr(0, 4), "<svg");
+  EXPECT_NE(svg.find(">base</text>"), std::string::npos);
+  EXPECT_NE(svg.find(">lost</text>"), std::string::npos);
+  std::size_t bands = 0;
+  for (std::size_t at = svg.find("<polygon"); at != std::string::npos;
+       at = svg.find("<polygon", at + 1)) {
+    ++bands;
+  }
+  EXPECT_EQ(bands, 2U);
+}
+
+}  // namespace
+}  // namespace croon::experiments

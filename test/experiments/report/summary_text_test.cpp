@@ -1,0 +1,146 @@
+#include "experiments/report/run_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "experiments/report/text.hpp"
+#include "test/support/trial_records.hpp"
+
+namespace croon::experiments {
+namespace {
+
+using test::kBounds;
+
+// Checked by hand: x of base/left is 0, 1, 2 cm in one scene and 0, -1, -2 cm in the other.
+constexpr const char* kTableOfFewRecords =
+    R"(success: within 0.5 deg and 0.1 m of the truth; errors of those trials
+rotation, translation: median, 95th percentile
+
+variant    sensor  success      %  95 % interval  inaccurate  rejected  failed  rotation deg   translation m
+---------  ------  -------  -----  -------------  ----------  --------  ------  ------------  --------------
+base       left        6/8   75.0   [40.9, 92.9]           1         0       1  0.024, 0.035  0.0104, 0.0202
+base       right       6/7   85.7   [48.7, 97.4]           0         1       0  0.024, 0.035  0.0104, 0.0202
+no volume  left        6/8   75.0   [40.9, 92.9]           1         0       1  0.035, 0.060  0.0202, 0.0401
+no volume  right       6/6  100.0  [61.0, 100.0]           0         0       0  0.035, 0.060  0.0202, 0.0401
+
+mean ± std
+variant    sensor      pitch deg      roll deg       yaw deg             x m             y m             z m
+---------  ------  -------------  ------------  ------------  --------------  --------------  --------------
+base       left    -0.010 ±0.009  0.000 ±0.022  0.010 ±0.009  0.0000 ±0.0141  0.0000 ±0.0000  0.0030 ±0.0000
+base       right   -0.010 ±0.009  0.000 ±0.022  0.010 ±0.009  0.0000 ±0.0141  0.0000 ±0.0000  0.0030 ±0.0000
+no volume  left    -0.020 ±0.018  0.000 ±0.022  0.020 ±0.018  0.0000 ±0.0283  0.0000 ±0.0000  0.0030 ±0.0000
+no volume  right   -0.020 ±0.018  0.000 ±0.022  0.020 ±0.018  0.0000 ±0.0283  0.0000 ±0.0000  0.0030 ±0.0000
+
+std within scenes / across scenes
+variant    sensor      pitch deg       roll deg        yaw deg              x m              y m              z m
+---------  ------  -------------  -------------  -------------  ---------------  ---------------  ---------------
+base       left    0.010 / 0.000  0.000 / 0.028  0.010 / 0.000  0.0100 / 0.0141  0.0000 / 0.0000  0.0000 / 0.0000
+base       right   0.010 / 0.000  0.000 / 0.028  0.010 / 0.000  0.0100 / 0.0141  0.0000 / 0.0000  0.0000 / 0.0000
+no volume  left    0.020 / 0.000  0.000 / 0.028  0.020 / 0.000  0.0200 / 0.0283  0.0000 / 0.0000  0.0000 / 0.0000
+no volume  right   0.020 / 0.000  0.000 / 0.028  0.020 / 0.000  0.0200 / 0.0283  0.0000 / 0.0000  0.0000 / 0.0000
+
+against base, pair by pair: difference of medians [95 % interval], failures as infinite
+variant    pairs  won  lost      p          rotation deg       p            translation m       p
+---------  -----  ---  ----  -----  --------------------  ------  -----------------------  ------
+no volume     14    0     0  1.000  0.010 [0.005, 0.025]  0.023*  0.0098 [0.0049, 0.0199]  0.023*
+* p < 0.05 over trials (McNemar, Wilcoxon; Holm), ** also with scenes as units
+
+success per scene
+variant    scene  left  right
+---------  -----  ----  -----
+base       0001    3/4    3/3
+base       0002    3/4    3/4
+no volume  0001    3/4    3/3
+no volume  0002    3/4    3/3
+
+variant    status    reason                                         trials
+---------  --------  ---------------------------------------------  ------
+base       rejected  two yaws fit                                        1
+base       failed    ground_alignment: no plane, "nothing" is flat       1
+no volume  failed    ground_alignment: no plane, "nothing" is flat       1
+)";
+
+TEST(SummaryTable, ShowsWhatAResearcherLooksForFirst) {
+  EXPECT_EQ(summary_text(summarise(test::few_records(), kBounds, {})), kTableOfFewRecords);
+}
+
+TEST(SummaryTable, KeepsWithin120Columns) {
+  std::istringstream text(summary_text(summarise(test::few_records(), kBounds, {})));
+  for (std::string line; std::getline(text, line);) EXPECT_LE(text_columns(line), 120U) << line;
+}
+
+TEST(SummaryTable, WithoutTruthSuccessIsAgreement) {
+  const std::string text = summary_text(summarise(test::one_of_four_astray(), kBounds, {}));
+  EXPECT_NE(text.find("success (no truth)"), std::string::npos);
+  EXPECT_NE(text.find("\nleft        3/4  75.0"), std::string::npos);
+  EXPECT_EQ(text.find("across"), std::string::npos);  // One scene alone.
+}
+
+TEST(SummaryTable, LongVariantNamesStandAboveTheirRows) {
+  auto records = test::few_records();
+  const std::string name = "base, volume_refinement.scorer = openvdb_grid";
+  for (TrialRecord& record : records) {
+    if (record.id.variant == "no volume") record.id.variant = name;
+  }
+  const std::string text = summary_text(summarise(records, kBounds, {}));
+  EXPECT_NE(text.find("\n" + name + "\nleft "), std::string::npos);
+  EXPECT_NE(text.find("\nbase\nleft "), std::string::npos);
+}
+
+TEST(SummaryTable, OfManyScenesAndReasonsShowsTheWorst) {
+  std::vector<TrialRecord> records;
+  for (int scene = 0; scene < 9; ++scene) {
+    const std::string name = "s" + std::to_string(scene);
+    if (scene % 4 == 1) {
+      records.push_back(test::unfinished({"base", name, "left", 0}, Status::failed, "why " + name));
+    } else {
+      records.push_back(
+          test::finished({"base", name, "left", 0}, Status::success, {}, Vector6d::Zero()));
+    }
+  }
+  TableStyle style;
+  style.max_scenes = 2;
+  style.max_reasons = 1;
+  const std::string text = summary_text(summarise(records, kBounds, {}), style);
+  EXPECT_NE(text.find("s1      0/1\ns5      0/1\nthe worst 2 of 9 rows\n"), std::string::npos);
+  EXPECT_NE(text.find("why s1"), std::string::npos);
+  EXPECT_EQ(text.find("why s5"), std::string::npos);
+  EXPECT_NE(text.find("and 1 other reason of 1 trial\n"), std::string::npos);
+}
+
+TEST(SummaryTable, OfThousandsOfScenesIsNotLonger) {
+  Rng rng = croon::test::test_rng();
+  std::vector<TrialRecord> records;
+  for (int scene = 0; scene < 2000; ++scene) {
+    for (const char* sensor : {"left", "right"}) {
+      const TrialId id = {"base", std::to_string(scene), sensor, 0};
+      // Both sensors fail in one scene of a hundred alone: those are the worst.
+      const bool is_bad = scene % 100 == 7 || (*sensor == 'l' && rng.uniform() < 0.1);
+      records.push_back(test::finished(id, is_bad ? Status::inaccurate : Status::success, {},
+                                       test::random_offset(rng, 0.1, 0.02)));
+    }
+  }
+  const std::string text = summary_text(summarise(records, kBounds, {}));
+  EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 40);
+  EXPECT_NE(text.find("-----\n1007    0/1    0/1\n107     0/1    0/1\n"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("\nthe worst 12 of 2000 rows\n"), std::string::npos);
+  // One trial per scene has no spread within.
+  EXPECT_EQ(text.find("within scenes"), std::string::npos);
+  EXPECT_EQ(text.find("nan"), std::string::npos);
+}
+
+TEST(SummaryTable, ColoursOnlyWhereAsked) {
+  const Summary summary = summarise(test::few_records(), kBounds, {});
+  EXPECT_EQ(summary_text(summary).find('\033'), std::string::npos);
+  TableStyle style;
+  style.colours = true;
+  EXPECT_NE(summary_text(summary, style).find('\033'), std::string::npos);
+}
+
+TEST(SummaryTable, NoTrials) { EXPECT_EQ(summary_text(Summary{}), "no trials\n"); }
+
+}  // namespace
+}  // namespace croon::experiments
