@@ -5,8 +5,8 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "framework/base/threads.hpp"
 #include "framework/base/rng.hpp"
+#include "framework/base/threads.hpp"
 
 namespace croon::experiments {
 

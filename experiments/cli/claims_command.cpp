@@ -1,4 +1,4 @@
-#include "experiments/cli/claims_command.hpp"
+#include "experiments/cli/commands.hpp"
 
 #include <algorithm>
 #include <string>

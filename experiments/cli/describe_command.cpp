@@ -1,4 +1,4 @@
-#include "experiments/cli/describe_command.hpp"
+#include "experiments/cli/commands.hpp"
 
 #include <tbb/info.h>
 
@@ -9,7 +9,6 @@
 #include "experiments/report/plots.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "experiments/report/run_text.hpp"
-#include "experiments/run/run_request.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/base/whole_file.hpp"

@@ -1,4 +1,4 @@
-#include "experiments/cli/export_command.hpp"
+#include "experiments/cli/commands.hpp"
 
 #include <vector>
 

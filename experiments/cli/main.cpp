@@ -1,15 +1,16 @@
+// The program: reads the command line, which only this file does, and runs the command.
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <exception>
-#include <filesystem>
+#include <functional>
 #include <iostream>
+#include <map>
 #include <new>
 
-#include "experiments/cli/claims_command.hpp"
-#include "experiments/cli/command_line.hpp"
-#include "experiments/cli/fault_lines.hpp"
-#include "experiments/cli/validate_command.hpp"
-#include "experiments/file/experiment.hpp"
+#include "experiments/cli/commands.hpp"
+#include "experiments/store/version.hpp"
+#include "framework/base/error.hpp"
 #include "registry/help.hpp"
 #include "registry/registry.hpp"
 
@@ -18,52 +19,212 @@ namespace {
 
 constexpr int kRequestIsWrong = 2;
 
-int run_chosen(const CommandLine& line) {
-  if (line.command == "run") {
-    RunOptions options = line.run;
-    options.colours = ::isatty(STDOUT_FILENO) != 0;
-    return run_command(options, registry(), std::cout, std::cerr);
-  }
-  if (line.command == "merge") {
-    MergeOptions options = line.merge;
-    options.colours = ::isatty(STDOUT_FILENO) != 0;
-    return merge_command(options, std::cout);
-  }
-  if (line.command == "simulate") {
-    return simulate_command(line.simulate, registry(), std::cout, std::cerr);
-  }
-  if (line.command == "describe") {
-    return describe_command(line.describe, registry(), std::cout);
-  }
-  if (line.command == "export") return export_command(line.to_export, std::cout);
-  if (line.command == "claims") return claims_command(line.with_claims, std::cout);
-  if (line.command == "validate") {
-    return validate_command(line.to_validate, registry(), std::cout, std::cerr);
-  }
-  if (line.command == "starts") {
-    starts_command(line.starts, registry(), std::cout);
-  } else if (line.command == "schema") {
-    std::cout << experiment_schema(registry());
-  } else if (line.command == "stages") {
-    const HelpFormat plain = line.as_json ? HelpFormat::json : HelpFormat::text;
-    std::cout << stages_help(registry(), line.stages,
-                             line.as_markdown ? HelpFormat::markdown : plain);
-  } else {
-    std::cout << line.text;
-  }
-  return 0;
-}
+/// Runs a command and returns its exit code.
+using Action = std::function<int()>;
 
-/// Output that did not get through, to a full disc or a pipe that is gone, is no success.
-int run_and_flush(const CommandLine& line) {
-  const int code = run_chosen(line);
+/// The commands with their options, and what each of them does.
+class Program {
+ public:
+  Program() : app_("A bench for target-less multi-LiDAR calibration.", "croon") {
+    app_.set_version_flag("--version", std::string("croon ") + croon_version());
+    app_.allow_extras();
+    add_run();
+    add_merge();
+    add_export();
+    add_simulate();
+    add_describe();
+    add_starts();
+    add_validate_and_claims();
+    add_stages_and_schema();
+  }
+
+  /// Throws InputError if the words are wrong.
+  int run(int argc, char** argv) {
+    try {
+      app_.parse(argc, argv);
+    } catch (const CLI::Success& success) {
+      return app_.exit(success, std::cout, std::cout);
+    } catch (const CLI::ParseError& error) {
+      throw InputError("", "", error.what());
+    }
+    refuse_leftovers();
+    const std::vector<CLI::App*> commands = app_.get_subcommands();
+    if (!commands.empty()) return actions_.at(commands.front())();
+    std::cout << app_.help();
+    return 0;
+  }
+
+ private:
+  CLI::App& add(const std::string& name, const std::string& sentence, Action action) {
+    CLI::App* command = app_.add_subcommand(name, sentence);
+    actions_[command] = std::move(action);
+    return *command;
+  }
+
+  template <class T>
+  static void add_experiment(CLI::App& command, T& option) {
+    command.add_option("EXPERIMENT", option, "The experiment, a JSON file.")->required();
+  }
+
+  static void add_data(CLI::App& command, std::filesystem::path& option) {
+    command.add_option("--data", option, "The data root; default $CROON_DATA, else data.");
+  }
+
+  static void add_jobs(CLI::App& command, int& option) {
+    command.add_option("--jobs", option, "Threads; default all cores.")->check(CLI::Range(1, 4096));
+  }
+
+  static void add_trials(CLI::App& command, int& option, const std::string& sentence) {
+    command.add_option("--trials", option, sentence)
+        ->check(CLI::Range(1, 1000000000).description(""));
+  }
+
+  void add_run() {
+    CLI::App& run = add("run", "Run an experiment, or what of it is missing.", [this] {
+      run_.colours = ::isatty(STDOUT_FILENO) != 0;
+      return run_command(run_, registry(), std::cout, std::cerr);
+    });
+    add_experiment(run, run_.experiment);
+    run.add_option("--out", run_.out, "Folder to write to; default results/<name>.");
+    add_data(run, run_.data);
+    add_jobs(run, run_.jobs);
+    add_trials(run, run_.trials, "Starts per variant, scene and sensor.");
+    run.add_option("--only", run_.only, "Run these variants alone.");
+    run.add_option("--shard", run_.shard, "Run part K of N of the trials, K/N.");
+    run.add_flag("--plan", run_.plan, "Show what there is to run, and how much variants share.");
+    run.add_flag("--no-share", run_.no_share, "Run the variants one by one, to compare.");
+    run.add_flag("--fresh", run_.fresh, "Delete what is in the folder and start over.");
+    run.add_flag("--quiet", run_.quiet, "Do not show progress.");
+    run.add_flag("--clouds", run_.clouds, "Write the rig's clouds, fused by the estimates.");
+    run.add_flag("--png", run_.png, "Draw the first scene from above, before and after.");
+  }
+
+  void add_merge() {
+    CLI::App& merge = add("merge", "Put the results of shards together.", [this] {
+      merge_.colours = ::isatty(STDOUT_FILENO) != 0;
+      return merge_command(merge_, std::cout);
+    });
+    merge.add_option("DIR", merge_.folders, "Folders of results.")->required();
+    merge.add_option("--out", merge_.out, "Folder to write to.")->required();
+  }
+
+  void add_export() {
+    CLI::App& exporting = add("export", "Write results as a table for a paper.",
+                              [this] { return export_command(export_, std::cout); });
+    exporting.add_option("DIR", export_.folder, "A folder of results.")->required();
+    exporting.add_option("--format", export_.format, "csv, md (the default), latex or json.");
+    exporting.add_option("--out", export_.out, "The file to write; default the output.");
+  }
+
+  void add_simulate() {
+    CLI::App& simulate =
+        add("simulate", "Write the simulated scenes of an experiment as a dataset.",
+            [this] { return simulate_command(simulate_, registry(), std::cout, std::cerr); });
+    add_experiment(simulate, simulate_.experiment);
+    simulate.add_option("--out", simulate_.out, "Folder to write the dataset to.")->required();
+    add_jobs(simulate, simulate_.jobs);
+    simulate.add_flag("--png", simulate_.png,
+                      "Draw each scene, from behind the car and from above.");
+    simulate.add_flag("--quiet", simulate_.quiet, "Do not show progress.");
+  }
+
+  void add_describe() {
+    CLI::App& describe = add("describe", "Describe the clouds of experiments' datasets.",
+                             [this] { return describe_command(describe_, registry(), std::cout); });
+    describe.add_option("EXPERIMENT", describe_.experiments, "Experiments, JSON files.")
+        ->required();
+    add_data(describe, describe_.data);
+    describe.add_option("--out", describe_.out, "Folder for clouds.csv and ranges.svg.");
+    describe.add_option("--scenes", describe_.scenes, "Look at so many scenes of each dataset.")
+        ->check(CLI::Range(1, 1000000));
+    add_jobs(describe, describe_.jobs);
+  }
+
+  void add_starts() {
+    CLI::App& starts = add("starts", "Write the list of an experiment's starts.",
+                           [this] { return starts_command(starts_, registry(), std::cout); });
+    add_experiment(starts, starts_.experiment);
+    starts.add_option("--out", starts_.out, "File to write; default standard output.");
+    add_data(starts, starts_.data);
+    add_trials(starts, starts_.trials, "Starts per scene and sensor.");
+  }
+
+  void add_validate_and_claims() {
+    add("validate", "Check experiment files; the data need not be there.",
+        [this] { return validate_command(paths_, registry(), std::cout, std::cerr); })
+        .add_option("PATH", paths_, "Files, or folders of *.json.")
+        ->required();
+    add("claims", "Hold results against the claims of their experiments.",
+        [this] { return claims_command(paths_, std::cout); })
+        .add_option("DIR", paths_, "Folders of results.")
+        ->required();
+  }
+
+  void add_stages_and_schema() {
+    CLI::App& stages = add("stages", "List the stages.", [this] {
+      std::cout << stages_help(registry(), stages_,
+                               as_markdown_ ? HelpFormat::markdown
+                               : as_json_   ? HelpFormat::json
+                                            : HelpFormat::text);
+      return 0;
+    });
+    stages.add_option("KIND/NAME", stages_, "A kind of stage, or one stage with its parameters.");
+    CLI::Option* json = stages.add_flag("--json", as_json_, "As JSON.");
+    stages.add_flag("--markdown", as_markdown_, "As Markdown.")->excludes(json);
+    add("schema", "Print the JSON Schema of experiment files.", [] {
+      std::cout << experiment_schema(registry());
+      return 0;
+    });
+  }
+
+  /// Throws InputError for words that no option or command took.
+  void refuse_leftovers() const {
+    const std::vector<CLI::App*> commands = app_.get_subcommands();
+    const CLI::App& command = commands.empty() ? app_ : *commands.front();
+    for (const std::string& word : app_.remaining(true)) {
+      if (word.compare(0, 1, "-") == 0) {
+        throw InputError("", "",
+                         "unknown option \"" + word + "\"" + name_hint(word, options_of(command)));
+      }
+      if (!commands.empty()) throw InputError("", "", "unexpected \"" + word + "\"");
+      std::vector<std::string> names;
+      for (const CLI::App* known : app_.get_subcommands({})) names.push_back(known->get_name());
+      throw InputError("", "", "unknown command \"" + word + "\"" + name_hint(word, names));
+    }
+  }
+
+  static std::vector<std::string> options_of(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options()) {
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    return names;
+  }
+
+  CLI::App app_;
+  std::map<const CLI::App*, Action> actions_;
+  RunOptions run_;
+  MergeOptions merge_;
+  ExportOptions export_;
+  SimulateOptions simulate_;
+  DescribeOptions describe_;
+  StartsOptions starts_;
+  std::vector<std::filesystem::path> paths_;
+  std::string stages_;
+  bool as_json_ = false;
+  bool as_markdown_ = false;
+};
+
+/// Output that was not written, to a full disk or a closed pipe, is an error.
+int run_and_flush(int argc, char** argv) {
+  const int code = Program().run(argc, argv);
   if (!std::cout.flush()) throw InputError("", "standard output", "cannot be written");
   return code;
 }
 
 int croon_main(int argc, char** argv) {
   try {
-    return run_and_flush(read_command_line(argc, argv));
+    return run_and_flush(argc, argv);
   } catch (const InputError& error) {
     print_faults(error, std::cerr);
   } catch (const std::filesystem::filesystem_error& error) {

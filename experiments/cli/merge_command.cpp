@@ -1,4 +1,4 @@
-#include "experiments/cli/merge_command.hpp"
+#include "experiments/cli/commands.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -8,9 +8,9 @@
 #include "experiments/report/report_files.hpp"
 #include "experiments/report/run_text.hpp"
 #include "experiments/report/timings_file.hpp"
-#include "experiments/store/header_differences.hpp"
 #include "experiments/store/manifest.hpp"
 #include "experiments/store/store.hpp"
+#include "experiments/store/store_header.hpp"
 #include "framework/base/error.hpp"
 
 namespace croon::experiments {

@@ -1,4 +1,4 @@
-#include "experiments/cli/run_command.hpp"
+#include "experiments/cli/commands.hpp"
 
 #include <map>
 
@@ -10,11 +10,9 @@
 #include "experiments/report/report_files.hpp"
 #include "experiments/report/run_text.hpp"
 #include "experiments/report/timings_file.hpp"
-#include "experiments/run/run_request.hpp"
-#include "experiments/run/runner.hpp"
 #include "experiments/run/pipeline_tree.hpp"
+#include "experiments/run/runner.hpp"
 #include "experiments/store/manifest.hpp"
-#include "experiments/store/provenance.hpp"
 #include "experiments/store/store_writer.hpp"
 
 namespace croon::experiments {

@@ -1,19 +1,19 @@
-#include "experiments/cli/simulate_command.hpp"
+#include "experiments/cli/commands.hpp"
 
 #include <tbb/info.h>
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/cli/scene_writer.hpp"
-#include "experiments/cli/starts_command.hpp"
 #include "experiments/file/experiment.hpp"
 #include "experiments/report/progress.hpp"
-#include "experiments/run/run_request.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
-#include "framework/base/threads.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/threads.hpp"
 #include "framework/base/whole_file.hpp"
+#include "framework/io/opencalib_files.hpp"
+#include "framework/io/pcd_file.hpp"
+#include "framework/picture/top_view.hpp"
 #include "framework/stage/rig_files.hpp"
 
 namespace croon::experiments {
@@ -26,6 +26,56 @@ constexpr const char* kRecipe = "simulation.json";
 
 /// The starts of an experiment that reads them, beside the scenes.
 constexpr const char* kStarts = "starts.csv";
+
+constexpr const char* kCloudList = "lidar_cloud_path.txt";
+
+/// The path of a cloud as its list has it: relative to the dataset.
+std::string cloud_path(const Scene& scene, const SensorScan& scan) {
+  return scene.name + "/" + scan.sensor + ".pcd";
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw InputError(folder.string(), "", "cannot be made: " + error.message());
+}
+
+/// Writes the folder of `scene` below `dataset`: a PCD per sensor, `initial_extrinsic.txt` with the
+/// starts of trial 0, and last `lidar_cloud_path.txt`, which marks the scene as complete.
+void write_scene(const Experiment& experiment, const Scene& scene, const fs::path& dataset) {
+  const fs::path folder = dataset / scene.name;
+  make_folder(folder);
+  write_pcd(dataset / cloud_path(scene, scene.reference), scene.reference.measure());
+  std::vector<ListedCloud> clouds = {{0, cloud_path(scene, scene.reference), ""}};
+  std::vector<ListedPose> starts = {{0, {}, ""}};
+  for (const SensorScan& scan : scene.sensors) {
+    const int device_id = static_cast<int>(clouds.size());
+    write_pcd(dataset / cloud_path(scene, scan), scan.measure());
+    clouds.push_back({device_id, cloud_path(scene, scan), ""});
+    starts.push_back({device_id, start_of(experiment, scene.name, scan, 0), ""});
+  }
+  write_whole_file(folder / "initial_extrinsic.txt", pose_list_text(starts));
+  write_whole_file(folder / kCloudList, cloud_list_text(clouds));
+}
+
+/// Whether the scene is complete.
+bool is_written(const Scene& scene, const fs::path& dataset) {
+  return fs::exists(dataset / scene.name / kCloudList);
+}
+
+/// Draws `scene` beside its folder: a view from behind the car if the dataset has one, and the
+/// clouds from above, by the truth.
+void draw_scene(const Scene& scene, const fs::path& dataset) {
+  std::vector<ColouredCloud> clouds = {{scene.reference.sensor, scene.reference.load().points, {}}};
+  for (const SensorScan& scan : scene.sensors) {
+    clouds.push_back({scan.sensor, scan.load().points, scan.truth.value_or(RigidTransform{})});
+  }
+  std::vector<Image> images;
+  if (scene.draw) images.push_back(scene.draw());
+  images.push_back(top_view(clouds, {25.0, 15.0, 0.06}));
+  constexpr int kGap_px = 8;
+  write_png(dataset / (scene.name + ".png"), side_by_side(images, kGap_px));
+}
 
 std::vector<Scene> scenes_to_write(Experiment& experiment) {
   std::vector<Scene> scenes = scenes_of(experiment, fs::path());
@@ -43,7 +93,8 @@ std::vector<Scene> scenes_to_write(Experiment& experiment) {
 std::string recipe_json(const Experiment& experiment) {
   nlohmann::ordered_json json = {
       {"dataset", nlohmann::ordered_json::parse(experiment.dataset.resolved())},
-      {"starts", nlohmann::ordered_json::parse(deciding_starts_json(experiment.starts))},
+      {"starts", nlohmann::ordered_json::parse(
+                     "{" + start_table().members_json(experiment.starts, {"trials"}) + "}")},
       {"seed", experiment.seed}};
   return json.dump(2) + "\n";
 }

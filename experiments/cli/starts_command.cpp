@@ -1,11 +1,9 @@
-#include "experiments/cli/starts_command.hpp"
+#include "experiments/cli/commands.hpp"
 
 #include "experiments/file/experiment.hpp"
 #include "experiments/report/output_folder.hpp"
 #include "experiments/report/renderers.hpp"
-#include "experiments/run/run_request.hpp"
 #include "experiments/run/sensor_pairs.hpp"
-#include "experiments/run/start_file.hpp"
 #include "experiments/run/starts.hpp"
 
 namespace croon::experiments {

@@ -1,8 +1,7 @@
-#include "experiments/cli/validate_command.hpp"
+#include "experiments/cli/commands.hpp"
 
 #include <algorithm>
 
-#include "experiments/cli/fault_lines.hpp"
 #include "experiments/file/experiment.hpp"
 
 namespace croon::experiments {
@@ -35,6 +34,10 @@ std::vector<fs::path> all_files(const std::vector<fs::path>& paths) {
 }
 
 }  // namespace
+
+void print_faults(const InputError& error, std::ostream& err) {
+  for (const Fault& fault : error.faults()) err << "croon: " << fault.line() << "\n";
+}
 
 int validate_command(const std::vector<fs::path>& paths, const Catalogue& catalogue,
                      std::ostream& out, std::ostream& err) {

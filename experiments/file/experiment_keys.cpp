@@ -1,8 +1,5 @@
 #include "experiments/file/experiment_keys.hpp"
 
-#include "experiments/file/names.hpp"
-#include "framework/params/group.hpp"
-
 namespace croon::experiments {
 namespace {
 

@@ -1,12 +1,13 @@
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "experiments/file/experiment_keys.hpp"
-#include "experiments/file/grid.hpp"
-#include "experiments/file/patched_pipeline.hpp"
+#include "framework/pipeline/patched_pipeline.hpp"
 
 namespace croon::experiments {
 namespace {
 
+using nlohmann::json;
 using params::Node;
 
 constexpr std::size_t kMostVariants = 10000;
@@ -62,6 +63,109 @@ std::vector<NamedPipeline> read_pipelines(const ExperimentKeys& keys, const Node
         {variant.name, changed(pipelines.front().pipeline, variant, node, catalogue)});
   }
   return pipelines;
+}
+
+/// One value of an axis of a grid.
+struct GridPoint {
+  std::string label;  ///< Different for each point of the axis.
+  Node value;
+};
+
+/// A part of the pipeline and the values that the grid gives it, one after the other.
+struct GridAxis {
+  std::string path;
+  Node node;  ///< The list in the file.
+  std::vector<GridPoint> points;
+};
+
+/// The name of the stage that `value` describes; empty where it describes none.
+std::string type_of(const json& value) {
+  for (const char* key : {"type", "step"}) {
+    if (value.is_object() && value.contains(key) && value.at(key).is_string()) {
+      return value.at(key).get<std::string>();
+    }
+  }
+  return "";
+}
+
+/// A value as a part of a variant's name: what may not stand in one becomes `_`.
+std::string text_of(const json& value) {
+  std::string text = type_of(value);
+  if (value.is_string()) text = value.get<std::string>();
+  if (value.is_number()) text = params::value_json(value.get<double>());
+  if (value.is_array()) {
+    for (const json& element : value) text += (text.empty() ? "" : "+") + text_of(element);
+  }
+  if (text.empty()) text = value.dump();
+  for (char& c : text) {
+    if (!kVariantName.allows({'x', c, 'x'})) c = '_';
+  }
+  return text;
+}
+
+/// The keys in which stages of the type of `value` differ on this axis.
+std::vector<std::string> differing_keys(const json& values, const json& value) {
+  std::vector<std::string> keys;
+  for (const json& other : values) {
+    if (type_of(other) != type_of(value)) continue;
+    for (const auto& item : other.items()) {
+      const bool differs = std::any_of(values.begin(), values.end(), [&](const json& third) {
+        return type_of(third) == type_of(value) && third.value(item.key(), json()) != item.value();
+      });
+      const bool is_new = std::find(keys.begin(), keys.end(), item.key()) == keys.end();
+      if (differs && is_new) keys.push_back(item.key());
+    }
+  }
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+std::string label_of(const std::string& key, const json& values, const json& value) {
+  const std::string type = type_of(value);
+  if (type.empty()) return key + "=" + text_of(value);
+  std::string parameters;
+  for (const std::string& differing : differing_keys(values, value)) {
+    if (!value.contains(differing)) continue;
+    parameters += (parameters.empty() ? "" : " ") + differing + "=" + text_of(value[differing]);
+  }
+  return text_of(type) + (parameters.empty() ? "" : "(" + parameters + ")");
+}
+
+std::string last_key(const std::string& path) { return path.substr(path.rfind('.') + 1); }
+
+/// The shortest key that no other axis has.
+std::string axis_key(const json& grid, const std::string& path) {
+  int axes = 0;
+  for (const auto& [other, values] : grid.items()) axes += last_key(other) == last_key(path);
+  return axes == 1 ? last_key(path) : path;
+}
+
+/// The axes of the object `grid`, by path. A stage is labelled by its type ("pointer_octree"), with
+/// the parameters in which it differs from others of that type ("pointer_octree(leaf_size_m=0.1)");
+/// any other value by its key ("leaf_size_m=0.1"). Notes faults in the node.
+std::vector<GridAxis> read_grid(const Node& grid) {
+  std::vector<GridAxis> axes;
+  if (!grid.is_object()) return axes;
+  for (const auto& [path, values] : grid.value().items()) {
+    GridAxis axis{path, grid.member(path), {}};
+    if (!axis.node.is_array()) continue;
+    if (values.empty()) axis.node.expected("a list of at least one value");
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      GridPoint point{label_of(axis_key(grid.value(), path), values, values[i]),
+                      axis.node.element(i)};
+      if (std::find(values.begin(), values.begin() + i, values[i]) != values.begin() + i) {
+        point.value.fault("\"" + point.label + "\" stands in this list twice");
+      }
+      const auto is_same = [&](const GridPoint& other) { return other.label == point.label; };
+      // Lists of stages may differ in what a label does not show. Then the index is added.
+      if (std::any_of(axis.points.begin(), axis.points.end(), is_same)) {
+        point.label += " (" + std::to_string(i + 1) + ")";
+      }
+      axis.points.push_back(point);
+    }
+    axes.push_back(std::move(axis));
+  }
+  return axes;
 }
 
 /// The product of the axes from `axis` on, applied to `point`. An axis whose path leads nowhere in

@@ -1,12 +1,37 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "experiments/store/provenance.hpp"
+#include "experiments/file/experiment.hpp"
+#include "experiments/store/store_header.hpp"
 
 namespace croon::experiments {
+
+/// A file that results depend on.
+struct InputFile {
+  std::string path;  ///< Relative to the data root where it lies below it.
+  std::string sha256;
+  /// The numbers of finite points and of points that were dropped as not finite; std::nullopt if
+  /// the file could not be loaded.
+  std::optional<std::size_t> points, dropped_non_finite;
+};
+
+/// The files of the clouds of `scenes`, in order, each once; read on `jobs` threads. Throws
+/// InputError if a file cannot be read.
+std::vector<InputFile> input_files(const std::vector<Scene>& scenes,
+                                   const std::filesystem::path& data_root, int jobs);
+
+/// Everything that decides the result of a trial except its pipeline: dataset, inputs (files and
+/// the rig's poses), starts (but not their number), seed, success bounds, and the program itself.
+Provenance provenance_of(const Experiment& experiment, const std::vector<Scene>& scenes,
+                         const std::vector<InputFile>& inputs);
+
+/// The header of the store of a run; `manifest` comes from manifest_json.
+StoreHeader header_of(const Experiment& experiment, const std::vector<Scene>& scenes,
+                      const Provenance& provenance, const std::string& manifest);
 
 /// JSON of what was run: the experiment with every default, the files that it was read from,
 /// versions, digests of the inputs, and `planned`, the number of trials of the whole experiment.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "experiments/store/header_differences.hpp"
+#include "experiments/store/store_header.hpp"
 #include "experiments/store/trial_rows.hpp"
 #include "framework/base/error.hpp"
 

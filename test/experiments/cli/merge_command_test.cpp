@@ -1,11 +1,10 @@
-#include "experiments/cli/merge_command.hpp"
+#include "experiments/cli/commands.hpp"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "experiments/cli/run_command.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
 #include "test/experiments/support/fake_stages.hpp"

@@ -1,4 +1,4 @@
-#include "experiments/cli/run_command.hpp"
+#include "experiments/cli/commands.hpp"
 
 #include <gtest/gtest.h>
 

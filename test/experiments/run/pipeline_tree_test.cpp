@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "experiments/file/experiment.hpp"
-#include "experiments/run/pipeline_tree.hpp"
 #include "framework/base/rng.hpp"
 #include "test/experiments/support/fake_stages.hpp"
 #include "test/support/random_geometry.hpp"

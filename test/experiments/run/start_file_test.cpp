@@ -1,4 +1,4 @@
-#include "experiments/run/start_file.hpp"
+#include "experiments/run/starts.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,10 @@
-#include "experiments/store/provenance.hpp"
+#include "experiments/store/manifest.hpp"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "experiments/file/experiment.hpp"
-#include "experiments/store/manifest.hpp"
 #include "test/experiments/support/fake_stages.hpp"
 #include "test/support/temp_folder.hpp"
 

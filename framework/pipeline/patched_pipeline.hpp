@@ -8,7 +8,7 @@
 #include "framework/pipeline/pipeline.hpp"
 #include "framework/stage/catalogue.hpp"
 
-namespace croon::experiments {
+namespace croon {
 
 /// Where a part of a step's JSON was written.
 struct Origin {
@@ -24,7 +24,8 @@ struct PatchedStep {
   std::vector<Origin> origins;
 };
 
-/// A pipeline as JSON that knows where each part was written. Cheap to copy.
+/// A pipeline as JSON that knows where each part was written: it is read from a list of steps,
+/// changed part by part, and then built. Cheap to copy.
 using PatchedPipeline = std::vector<PatchedStep>;
 
 /// The steps of the list `pipeline` with their names. Notes faults in the node.
@@ -50,4 +51,4 @@ std::string replace_value(PatchedPipeline& pipeline, const std::string& path,
 Pipeline build_pipeline(const PatchedPipeline& pipeline, const Catalogue& catalogue,
                         std::vector<Fault>& faults, std::string& resolved);
 
-}  // namespace croon::experiments
+}  // namespace croon

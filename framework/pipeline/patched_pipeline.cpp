@@ -1,4 +1,4 @@
-#include "experiments/file/patched_pipeline.hpp"
+#include "framework/pipeline/patched_pipeline.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 #include "framework/base/error.hpp"
 #include "framework/params/group.hpp"
 
-namespace croon::experiments {
+namespace croon {
 namespace {
 
 using nlohmann::json;
@@ -209,4 +209,4 @@ Pipeline build_pipeline(const PatchedPipeline& pipeline, const Catalogue& catalo
   return built;
 }
 
-}  // namespace croon::experiments
+}  // namespace croon

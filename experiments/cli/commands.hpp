@@ -1,0 +1,105 @@
+#pragma once
+
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "experiments/run/run_request.hpp"
+#include "framework/base/error.hpp"
+#include "framework/stage/catalogue.hpp"
+
+namespace croon::experiments {
+
+// The commands of the program, each in a file of its own. A command writes its answer to `out` and
+// returns the exit code: 0, or 3 if it is done but something in it failed. It throws InputError,
+// before anything is written, if the request is wrong.
+
+struct RunOptions : RunRequest {
+  bool plan = false;      ///< Only show what there is to run.
+  bool no_share = false;  ///< Run the variants one by one.
+  bool fresh = false;     ///< Delete the results in the folder and start over.
+  bool quiet = false;     ///< No progress.
+  bool colours = false;   ///< Colours in the tables.
+  bool clouds = false;    ///< Write fused clouds.
+  bool png = false;       ///< Draw a scene before and after.
+};
+
+/// Runs the experiment, or the trials that are missing, and writes the results; progress goes to
+/// `err`.
+int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostream& out,
+                std::ostream& err);
+
+struct MergeOptions {
+  std::vector<std::filesystem::path> folders;  ///< Results of shards.
+  std::filesystem::path out;
+  bool colours = false;
+};
+
+/// Merges the trials of several folders of results of one experiment and writes all files that a
+/// run writes: the same bytes as one run of them all. Returns 3 if a trial failed or is missing. If
+/// the folders do not belong together, nothing is added to `options.out`.
+int merge_command(const MergeOptions& options, std::ostream& out);
+
+struct ExportOptions {
+  std::filesystem::path folder;  ///< Of results.
+  std::string format = "md";     ///< One of export_formats().
+  std::filesystem::path out;     ///< The file to write; empty: `out`.
+};
+
+/// Writes the table of a folder of results for a paper.
+int export_command(const ExportOptions& options, std::ostream& out);
+
+/// Writes a page of Markdown: for each folder of results what was run, every claim of its
+/// experiment beside our number, and the quoted rows of other methods. Returns 3 if a number is out
+/// of its band or was not measured.
+int claims_command(const std::vector<std::filesystem::path>& folders, std::ostream& out);
+
+struct SimulateOptions {
+  std::filesystem::path experiment;
+  std::filesystem::path out;  ///< The folder of the dataset.
+  int jobs = 0;               ///< 0: all cores.
+  bool png = false;           ///< Draw each scene.
+  bool quiet = false;         ///< No progress.
+};
+
+/// Writes the simulated scenes of an experiment in the layout of the paper's authors: binary PCD
+/// clouds, lists, `truth.json`, `scene_kinds.json`, and `experiment.json`, which gives the same
+/// results on them. Scenes that are complete are kept; a folder with anything else is refused.
+int simulate_command(const SimulateOptions& options, const Catalogue& catalogue, std::ostream& out,
+                     std::ostream& err);
+
+struct DescribeOptions {
+  std::vector<std::filesystem::path> experiments;
+  std::filesystem::path data;  ///< See `data_root`.
+  std::filesystem::path out;   ///< A folder for clouds.csv and ranges.svg; empty: none.
+  int jobs = 0;                ///< 0: all cores.
+  int scenes = 0;              ///< The first so many scenes of each dataset; 0: all.
+};
+
+/// Describes the clouds of the experiments' datasets, side by side.
+int describe_command(const DescribeOptions& options, const Catalogue& catalogue, std::ostream& out);
+
+struct StartsOptions {
+  std::filesystem::path experiment;
+  std::filesystem::path out;   ///< The file to write; empty: `out`.
+  std::filesystem::path data;  ///< See `data_root`.
+  int trials = 0;              ///< 0: those of the experiment.
+};
+
+/// Writes the starts of the experiment, by scene, sensor and trial, as a file that an experiment
+/// can name in "starts": with it, trials have the same bits.
+int starts_command(const StartsOptions& options, const Catalogue& catalogue, std::ostream& out);
+
+/// The content of that file. Call `resolve_starts` before.
+std::string starts_csv(const Experiment& experiment, const std::vector<Scene>& scenes);
+
+/// Checks experiment files; a folder stands for every *.json below it. The data need not be there.
+/// Writes `FILE: ok`, or all faults to `err`. Returns 2 if a file has faults.
+int validate_command(const std::vector<std::filesystem::path>& paths, const Catalogue& catalogue,
+                     std::ostream& out, std::ostream& err);
+
+/// Writes each fault as one line, `croon: FILE: WHERE: MESSAGE`.
+void print_faults(const InputError& error, std::ostream& err);
+
+}  // namespace croon::experiments
