@@ -123,7 +123,7 @@ TEST(ExampleStage, StandsInThePage) {
       EXPECT_NE(sources.find(block.text()), std::string::npos) << block.place();
     }
   }
-  EXPECT_NE(registry().find("yaw_search", "ternary"), nullptr);
+  EXPECT_NE(registry().find("step", "overlap_alignment"), nullptr);
 }
 
 INSTANTIATE_TEST_SUITE_P(Pages, Docs, testing::ValuesIn(written_pages()), page_name);
