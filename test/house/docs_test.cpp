@@ -77,8 +77,11 @@ TEST_P(Docs, SetUpCommandsAreRunByTheContinuousIntegration) {
 
 TEST_P(Docs, ExperimentsAreValid) {
   const TempFolder folder;
+  link_tree(folder.path());
   for (const FencedBlock& block : fenced_blocks(GetParam(), "json")) {
-    if (block.text().find("\"pipeline\"") == std::string::npos) continue;
+    const bool is_experiment = block.text().find("\"pipeline\"") != std::string::npos ||
+                               block.text().find("\"extends\"") != std::string::npos;
+    if (!is_experiment) continue;
     const fs::path file = folder.write("experiment.json", block.text());
     EXPECT_NO_THROW(experiments::load_experiment(file, registry())) << block.place();
   }
