@@ -1,4 +1,4 @@
-# The commands of the house. `demo` and `test` install what is missing, configure, build and run.
+# The commands of the project. `demo` and `test` install missing packages, configure, build and run.
 SHELL := /bin/bash
 PRESET_BUILD = cmake --preset $(1) && cmake --build --preset $(1)
 CLANG_FORMAT ?= $(shell command -v clang-format-14 || echo clang-format)

@@ -1,4 +1,4 @@
-# Every library that croon uses; docs/design.md says what each is for.
+# Every library that croon uses; docs/design.md has the purpose of each.
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(nlohmann_json REQUIRED)
 find_package(TBB REQUIRED)
@@ -17,7 +17,7 @@ find_package(OpenVDB REQUIRED)
 find_library(LZF_LIBRARY NAMES lzf liblzf REQUIRED)
 find_library(MD_LIBRARY NAMES md REQUIRED)
 
-# Where CGAL is off, the target does not exist and the stages that need it are left out.
+# If CGAL is off, the target does not exist and the stages that need it are left out.
 if(CROON_WITH_CGAL)
   find_package(CGAL REQUIRED)
   add_library(croon_cgal INTERFACE)

@@ -1,4 +1,4 @@
-# Language, warnings and where things go; included once by the root CMakeLists.txt.
+# Language, warnings and output folders; included once by the root CMakeLists.txt.
 set(CMAKE_CXX_STANDARD 17)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -15,7 +15,7 @@ if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE}")
 endif()
 
-# Results are bits: no fused multiply-adds that one compiler makes and another does not.
+# Results are the same bits with any compiler: no fused multiply-adds, which only some compilers generate.
 add_compile_options(-ffp-contract=off)
 
 add_library(croon_warnings INTERFACE)

@@ -77,8 +77,11 @@ TEST_P(Docs, SetUpCommandsAreRunByTheContinuousIntegration) {
 
 TEST_P(Docs, ExperimentsAreValid) {
   const TempFolder folder;
+  link_tree(folder.path());
   for (const FencedBlock& block : fenced_blocks(GetParam(), "json")) {
-    if (block.text().find("\"pipeline\"") == std::string::npos) continue;
+    const bool is_experiment = block.text().find("\"pipeline\"") != std::string::npos ||
+                               block.text().find("\"extends\"") != std::string::npos;
+    if (!is_experiment) continue;
     const fs::path file = folder.write("experiment.json", block.text());
     EXPECT_NO_THROW(experiments::load_experiment(file, registry())) << block.place();
   }
@@ -123,7 +126,7 @@ TEST(ExampleStage, StandsInThePage) {
       EXPECT_NE(sources.find(block.text()), std::string::npos) << block.place();
     }
   }
-  EXPECT_NE(registry().find("yaw_search", "ternary"), nullptr);
+  EXPECT_NE(registry().find("step", "overlap_alignment"), nullptr);
 }
 
 INSTANTIATE_TEST_SUITE_P(Pages, Docs, testing::ValuesIn(written_pages()), page_name);
