@@ -5,7 +5,6 @@
 #include <set>
 
 namespace croon::experiments {
-
 namespace {
 
 std::optional<double> percent_of(int count, int trials) {

@@ -10,7 +10,6 @@
 #include "framework/base/angles.hpp"
 
 namespace croon::experiments {
-
 namespace {
 
 constexpr double kLevel = 0.05;

@@ -15,7 +15,6 @@
 #include "framework/base/threads.hpp"
 
 namespace croon::experiments {
-
 namespace {
 
 /// Wilcoxon's test is exact for so many ranks; beyond, the normal distribution is off by less than

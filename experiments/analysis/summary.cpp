@@ -6,18 +6,15 @@
 #include "framework/base/angles.hpp"
 
 namespace croon::experiments {
-
 namespace {
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 /// The names that rows have, in their order.
 std::vector<std::string> each_once(const Summary& summary, std::string SummaryRow::*name) {
   std::vector<std::string> names;
   for (const SummaryRow& row : summary.rows) {
-    if (!contains(names, row.*name)) names.push_back(row.*name);
+    if (std::find(names.begin(), names.end(), row.*name) == names.end()) {
+      names.push_back(row.*name);
+    }
   }
   return names;
 }
@@ -79,9 +76,8 @@ std::vector<std::string> completed(std::vector<std::string> names,
                                    std::string TrialId::*name) {
   std::set<std::string> others;
   for (const TrialRecord& record : records) others.insert(record.id.*name);
-  for (const std::string& other : others) {
-    if (!contains(names, other)) names.push_back(other);
-  }
+  for (const std::string& known : names) others.erase(known);
+  names.insert(names.end(), others.begin(), others.end());
   return names;
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 namespace croon::experiments {
-
 namespace {
 
 constexpr std::size_t kMean = statistic_index("mean");
@@ -26,9 +25,11 @@ SceneSummary without_deviations(const SceneRecords& records, const PoseBounds& b
   for (const TrialRecord* record : records) {
     ++scene.outcomes.trials;
     ++(scene.outcomes.*kByStatus.at(static_cast<std::size_t>(record->status)));
+    if (record->error) scene.deviations_from = DeviationsFrom::truth;
     if (has_good_pose(*record)) poses.push_back(*record->T_reference_sensor);
   }
   if (poses.empty()) return scene;
+  scene.deviations_from = std::min(scene.deviations_from, DeviationsFrom::consensus);
   scene.consensus = consensus_pose(poses, bounds);
   for (const RigidTransform& pose : poses) {
     scene.agreement.count += agree(pose, *scene.consensus, bounds);
@@ -52,16 +53,6 @@ void add_deviations(SceneSummary& scene, const SceneRecords& records,
     }
     scene.spread.push_back(measures_of(pose_error(pose, *scene.consensus)));
   }
-}
-
-/// Truth if one trial has it, else the consensus of the scenes.
-DeviationsFrom deviations_from(const std::vector<SceneRecords>& scenes, bool has_consensus) {
-  for (const SceneRecords& scene : scenes) {
-    for (const TrialRecord* record : scene) {
-      if (record->error) return DeviationsFrom::truth;
-    }
-  }
-  return has_consensus ? DeviationsFrom::consensus : DeviationsFrom::none;
 }
 
 /// See `SummaryRow::within_scene_std`; the scenes of `row` are complete.
@@ -183,7 +174,8 @@ SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds
     if (row.scenes.back().consensus) consensus.push_back(*row.scenes.back().consensus);
   }
   if (!consensus.empty()) row.consensus = consensus_pose(consensus, bounds);
-  const DeviationsFrom from = deviations_from(scenes, row.consensus.has_value());
+  // Truth if one trial of any scene has it.
+  const DeviationsFrom from = pooled(scenes_of({&row})).deviations_from;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     SceneSummary& scene = row.scenes[i];
     scene.deviations_from = from;
