@@ -14,18 +14,18 @@ namespace {
 
 constexpr double kLevel = 0.05;
 
-/// The trials that both of two variants have, pair by pair.
-struct PairedTrials {
-  Clusters scenes;     ///< The index of each pair's scene.
-  Pairs rotation_deg;  ///< Errors; infinite if the trial has no usable result.
-  Pairs translation_m;
-  std::vector<double> success;  ///< 1 where the variant alone won, -1 where the base did, else 0.
-};
-
+/// The numbers of a trial that are compared; errors are infinite if it has no usable result.
 struct TrialResult {
   double rotation_deg = std::numeric_limits<double>::infinity();
   double translation_m = std::numeric_limits<double>::infinity();
-  bool is_won = false;
+  double success = 0.0;  ///< 1 if it succeeded.
+};
+
+/// The trials that both of two variants have, pair by pair.
+struct PairedTrials {
+  Clusters scenes;  ///< The index of each pair's scene.
+  std::vector<TrialResult> base;
+  std::vector<TrialResult> variant;
 };
 
 TrialResult result_of(const TrialRecord& record, const SceneSummary& scene,
@@ -34,19 +34,9 @@ TrialResult result_of(const TrialRecord& record, const SceneSummary& scene,
   if (pose == nullptr || (!record.error && !scene.consensus)) return {};
   const PoseError error = record.error ? *record.error : pose_error(*pose, *scene.consensus);
   // Without truth every trial that finished is a success: it must agree too, as in the tables.
-  const bool is_won =
+  const bool is_success =
       record.status == Status::success && (record.error || agree(*pose, *scene.consensus, bounds));
-  return {deg_from_rad(error.rotation_rad), error.translation_m, is_won};
-}
-
-void add_pair(PairedTrials& to, std::size_t scene, const TrialResult& base,
-              const TrialResult& variant) {
-  to.scenes.push_back(scene);
-  to.rotation_deg.base.push_back(base.rotation_deg);
-  to.rotation_deg.variant.push_back(variant.rotation_deg);
-  to.translation_m.base.push_back(base.translation_m);
-  to.translation_m.variant.push_back(variant.translation_m);
-  to.success.push_back((variant.is_won ? 1.0 : 0.0) - (base.is_won ? 1.0 : 0.0));
+  return {deg_from_rad(error.rotation_rad), error.translation_m, is_success ? 1.0 : 0.0};
 }
 
 /// The trials of `rows`, which are of one variant, that the base has too. `base` are all rows of
@@ -69,11 +59,20 @@ PairedTrials paired(const Rows& base, const Rows& rows, const RecordGroups& grou
         const TrialRecord* const other = find_trial(base_records, record->id.trial);
         if (other == nullptr) continue;
         const SceneSummary& base_scene = *base_scenes.at({row->sensor, scene.scene});
-        add_pair(pairs, numbers.at(scene.scene), result_of(*other, base_scene, bounds),
-                 result_of(*record, scene, bounds));
+        pairs.scenes.push_back(numbers.at(scene.scene));
+        pairs.base.push_back(result_of(*other, base_scene, bounds));
+        pairs.variant.push_back(result_of(*record, scene, bounds));
       }
     }
   }
+  return pairs;
+}
+
+/// One number of each pair of trials.
+Pairs pairs_of(const PairedTrials& trials, double TrialResult::*number) {
+  Pairs pairs;
+  for (const TrialResult& result : trials.base) pairs.base.push_back(result.*number);
+  for (const TrialResult& result : trials.variant) pairs.variant.push_back(result.*number);
   return pairs;
 }
 
@@ -93,19 +92,21 @@ ErrorComparison compared(const Pairs& pairs, const Clusters& scenes) {
 
 Comparison compared(const PairedTrials& trials) {
   Comparison comparison;
+  // 1 where the variant alone won, -1 where the base did, else 0.
+  const std::vector<double> wins = differences(pairs_of(trials, &TrialResult::success));
   const auto count = [&](double outcome) {
-    return static_cast<int>(std::count(trials.success.begin(), trials.success.end(), outcome));
+    return static_cast<int>(std::count(wins.begin(), wins.end(), outcome));
   };
   comparison.pairs = static_cast<int>(trials.scenes.size());
   comparison.scenes =
       static_cast<int>(std::set<std::size_t>(trials.scenes.begin(), trials.scenes.end()).size());
   comparison.only_base = count(-1.0);
   comparison.only_variant = count(1.0);
-  comparison.rotation_deg = compared(trials.rotation_deg, trials.scenes);
-  comparison.translation_m = compared(trials.translation_m, trials.scenes);
+  comparison.rotation_deg = compared(pairs_of(trials, &TrialResult::rotation_deg), trials.scenes);
+  comparison.translation_m = compared(pairs_of(trials, &TrialResult::translation_m), trials.scenes);
   comparison.success.favours_variant = comparison.only_variant > comparison.only_base;
   comparison.success.p = mcnemar_p(comparison.only_base, comparison.only_variant);
-  comparison.success.p_by_scene = sign_flip_p(cluster_sums(trials.success, trials.scenes));
+  comparison.success.p_by_scene = sign_flip_p(cluster_sums(wins, trials.scenes));
   return comparison;
 }
 
