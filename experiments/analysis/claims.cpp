@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <stdexcept>
+#include <set>
 
 namespace croon::experiments {
-
 namespace {
-
-using Rows = std::vector<const SummaryRow*>;
 
 std::optional<double> percent_of(int count, int trials) {
   if (trials == 0) return std::nullopt;
@@ -28,15 +24,15 @@ std::optional<double> successful_trials(const Rows& rows) {
 
 /// A scene counts if every trial of each of its sensors succeeds.
 std::optional<double> successful_scenes(const Rows& rows) {
-  std::map<std::string, bool> succeeds;
+  std::set<std::string> all;
+  std::set<std::string> without_success;
   for (const SceneSummary* scene : scenes_of(rows)) {
     const Share& share = main_share(*scene);
-    bool& all = succeeds.emplace(scene->scene, true).first->second;
-    all = all && share.count == share.trials;
+    all.insert(scene->scene);
+    if (share.count < share.trials) without_success.insert(scene->scene);
   }
-  const auto count = std::count_if(succeeds.begin(), succeeds.end(),
-                                   [](const auto& scene) { return scene.second; });
-  return percent_of(static_cast<int>(count), static_cast<int>(succeeds.size()));
+  return percent_of(static_cast<int>(all.size() - without_success.size()),
+                    static_cast<int>(all.size()));
 }
 
 /// Whether the deviations of all rows are errors.
@@ -46,27 +42,15 @@ bool have_truth(const Rows& rows) {
   });
 }
 
-double trials_beyond_one(const SummaryRow& row) {
-  double freedom = 0.0;
-  for (const SceneSummary& scene : row.scenes) freedom += std::max(0, scene.counted - 1);
-  return freedom;
-}
-
-double scenes_beyond_one(const SummaryRow& row) {
-  const auto counted = std::count_if(row.scenes.begin(), row.scenes.end(),
-                                     [](const SceneSummary& scene) { return scene.counted > 0; });
-  return static_cast<double>(counted) - 1.0;
-}
-
 /// The spread of all rows together: variances weighted by their degrees of freedom.
 std::optional<DofValues> pooled_spread(const Rows& rows,
                                        std::optional<DofValues> SummaryRow::*spread,
-                                       double (*freedom_of)(const SummaryRow&)) {
+                                       double SummaryRow::*freedom_of) {
   double freedom = 0.0;
   DofValues pooled = {};
   for (const SummaryRow* row : rows) {
     if (!(row->*spread)) continue;
-    const double weight = freedom_of(*row);
+    const double weight = row->*freedom_of;
     freedom += weight;
     for (std::size_t k = 0; k < kDofs; ++k) pooled[k] += weight * std::pow((*(row->*spread))[k], 2);
   }
@@ -89,9 +73,10 @@ std::optional<double> found(const Claim& claim, const Summary& summary) {
   const std::size_t measure = measure_index(claim.measure);
   const bool is_within = claim.statistic == kWithinSceneStd;
   if (is_within || claim.statistic == kAcrossScenesStd) {
-    const auto spread =
-        is_within ? pooled_spread(rows, &SummaryRow::within_scene_std, trials_beyond_one)
-                  : pooled_spread(rows, &SummaryRow::across_scenes_std, scenes_beyond_one);
+    const auto spread = is_within ? pooled_spread(rows, &SummaryRow::within_scene_std,
+                                                  &SummaryRow::within_scene_freedom)
+                                  : pooled_spread(rows, &SummaryRow::across_scenes_std,
+                                                  &SummaryRow::across_scenes_freedom);
     if (!spread) return std::nullopt;
     return spread_of(*spread, measure);
   }
@@ -118,15 +103,7 @@ std::vector<ClaimResult> check_claims(const std::vector<Claim>& claims, const Su
 }
 
 const char* verdict_name(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::in:
-      return "in";
-    case Verdict::out:
-      return "out";
-    case Verdict::not_measured:
-      return "not measured";
-  }
-  throw std::logic_error("a verdict that does not exist");
+  return std::array{"in", "out", "not measured"}.at(static_cast<std::size_t>(verdict));
 }
 
 const char* unit_of(const Claim& claim) {

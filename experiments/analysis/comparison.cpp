@@ -1,53 +1,82 @@
-#include "experiments/analysis/comparison.hpp"
-
+// Variants against the base, trial by trial.
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
 
 #include "experiments/analysis/paired_tests.hpp"
-#include "experiments/analysis/paired_trials.hpp"
+#include "experiments/analysis/summary.hpp"
+#include "framework/base/angles.hpp"
 
 namespace croon::experiments {
-
 namespace {
 
 constexpr double kLevel = 0.05;
 
-/// The base's side of every comparison.
-struct BaseTrials {
-  std::map<std::string, std::size_t> scene_numbers;
-  std::map<std::pair<std::string, std::string>, SceneTrials> by_sensor_and_scene;
+/// The numbers of a trial that are compared; errors are infinite if it has no usable result.
+struct TrialResult {
+  double rotation_deg = std::numeric_limits<double>::infinity();
+  double translation_m = std::numeric_limits<double>::infinity();
+  double success = 0.0;  ///< 1 if it succeeded.
 };
 
-BaseTrials trials_of_base(const std::string& base, const RecordGroups& groups,
-                          const std::vector<SummaryRow>& rows) {
-  BaseTrials trials;
-  for (const SummaryRow& row : rows) {
-    if (row.variant != base) continue;
-    for (const SceneSummary& scene : row.scenes) {
-      trials.scene_numbers.emplace(scene.scene, trials.scene_numbers.size());
-      trials.by_sensor_and_scene.emplace(
-          std::pair(row.sensor, scene.scene),
-          SceneTrials{groups.at({base, row.sensor, scene.scene}), scene});
-    }
-  }
-  return trials;
+/// The trials that both of two variants have, pair by pair.
+struct PairedTrials {
+  Clusters scenes;  ///< The index of each pair's scene.
+  std::vector<TrialResult> base;
+  std::vector<TrialResult> variant;
+};
+
+TrialResult result_of(const TrialRecord& record, const SceneSummary& scene,
+                      const PoseBounds& bounds) {
+  const RigidTransform* const pose = usable_pose(record);
+  if (pose == nullptr || (!record.error && !scene.consensus)) return {};
+  const PoseError error = record.error ? *record.error : pose_error(*pose, *scene.consensus);
+  // Without truth every trial that finished is a success: it must agree too, as in the tables.
+  const bool is_success =
+      record.status == Status::success && (record.error || agree(*pose, *scene.consensus, bounds));
+  return {deg_from_rad(error.rotation_rad), error.translation_m, is_success ? 1.0 : 0.0};
 }
 
-PairedTrials paired_with(const BaseTrials& base, const SummaryRow& row, const RecordGroups& groups,
-                         const PoseBounds& bounds) {
+/// The trials of `rows`, which are of one variant, that the base has too. `base` are all rows of
+/// the base: scenes are numbered as they come in them.
+PairedTrials paired(const Rows& base, const Rows& rows, const RecordGroups& groups,
+                    const PoseBounds& bounds) {
+  std::map<std::string, std::size_t> numbers;
+  std::map<std::pair<std::string, std::string>, const SceneSummary*> base_scenes;
+  for (const SummaryRow* row : base) {
+    for (const SceneSummary& scene : row->scenes) {
+      numbers.emplace(scene.scene, numbers.size());
+      base_scenes[{row->sensor, scene.scene}] = &scene;
+    }
+  }
   PairedTrials pairs;
-  for (const SceneSummary& scene : row.scenes) {
-    const auto other = base.by_sensor_and_scene.find({row.sensor, scene.scene});
-    if (other == base.by_sensor_and_scene.end()) continue;
-    const SceneTrials variant = {groups.at({row.variant, row.sensor, scene.scene}), scene};
-    add_pairs(pairs, base.scene_numbers.at(scene.scene), other->second, variant, bounds);
+  for (const SummaryRow* row : rows) {
+    for (const SceneSummary& scene : row->scenes) {
+      const auto& base_records = groups.of(base.front()->variant, row->sensor, scene.scene);
+      for (const TrialRecord* record : groups.of(row->variant, row->sensor, scene.scene)) {
+        const TrialRecord* const other = find_trial(base_records, record->id.trial);
+        if (other == nullptr) continue;
+        const SceneSummary& base_scene = *base_scenes.at({row->sensor, scene.scene});
+        pairs.scenes.push_back(numbers.at(scene.scene));
+        pairs.base.push_back(result_of(*other, base_scene, bounds));
+        pairs.variant.push_back(result_of(*record, scene, bounds));
+      }
+    }
   }
   return pairs;
 }
 
-ErrorComparison compared(const Pairs& pairs, const std::vector<std::size_t>& scenes) {
+/// One number of each pair of trials.
+Pairs pairs_of(const PairedTrials& trials, double TrialResult::*number) {
+  Pairs pairs;
+  for (const TrialResult& result : trials.base) pairs.base.push_back(result.*number);
+  for (const TrialResult& result : trials.variant) pairs.variant.push_back(result.*number);
+  return pairs;
+}
+
+ErrorComparison compared(const Pairs& pairs, const Clusters& scenes) {
   ErrorComparison comparison;
   comparison.base_median = median_with_failures(pairs.base);
   comparison.variant_median = median_with_failures(pairs.variant);
@@ -63,19 +92,21 @@ ErrorComparison compared(const Pairs& pairs, const std::vector<std::size_t>& sce
 
 Comparison compared(const PairedTrials& trials) {
   Comparison comparison;
+  // 1 where the variant alone won, -1 where the base did, else 0.
+  const std::vector<double> wins = differences(pairs_of(trials, &TrialResult::success));
   const auto count = [&](double outcome) {
-    return static_cast<int>(std::count(trials.success.begin(), trials.success.end(), outcome));
+    return static_cast<int>(std::count(wins.begin(), wins.end(), outcome));
   };
   comparison.pairs = static_cast<int>(trials.scenes.size());
   comparison.scenes =
       static_cast<int>(std::set<std::size_t>(trials.scenes.begin(), trials.scenes.end()).size());
   comparison.only_base = count(-1.0);
   comparison.only_variant = count(1.0);
-  comparison.rotation_deg = compared(trials.rotation_deg, trials.scenes);
-  comparison.translation_m = compared(trials.translation_m, trials.scenes);
+  comparison.rotation_deg = compared(pairs_of(trials, &TrialResult::rotation_deg), trials.scenes);
+  comparison.translation_m = compared(pairs_of(trials, &TrialResult::translation_m), trials.scenes);
   comparison.success.favours_variant = comparison.only_variant > comparison.only_base;
   comparison.success.p = mcnemar_p(comparison.only_base, comparison.only_variant);
-  comparison.success.p_by_scene = sign_flip_p(cluster_sums(trials.success, trials.scenes));
+  comparison.success.p_by_scene = sign_flip_p(cluster_sums(wins, trials.scenes));
   return comparison;
 }
 
@@ -90,10 +121,10 @@ void correct(const std::vector<PairedTest*>& family, double PairedTest::*p,
 void correct_by_sensor(std::vector<Comparison>& comparisons) {
   std::map<std::string, std::vector<PairedTest*>> families;
   for (Comparison& comparison : comparisons) {
-    std::vector<PairedTest*>& family = families[comparison.sensor];
-    family.push_back(&comparison.rotation_deg.test);
-    family.push_back(&comparison.translation_m.test);
-    family.push_back(&comparison.success);
+    for (PairedTest* test :
+         {&comparison.rotation_deg.test, &comparison.translation_m.test, &comparison.success}) {
+      families[comparison.sensor].push_back(test);
+    }
   }
   for (const auto& [sensor, family] : families) {
     correct(family, &PairedTest::p, &PairedTest::p_holm);
@@ -109,29 +140,24 @@ bool holds_by_scene(const PairedTest& test) {
   return is_significant(test) && test.p_by_scene_holm < kLevel;
 }
 
-std::vector<Comparison> compare_with_base(const std::string& base, const RecordGroups& groups,
-                                          const std::vector<SummaryRow>& rows,
-                                          const SuccessBounds& bounds) {
-  const BaseTrials base_trials = trials_of_base(base, groups, rows);
+std::vector<Comparison> compare_with_base(const std::string& base, const Summary& summary,
+                                          const RecordGroups& groups, const PoseBounds& bounds) {
   std::vector<Comparison> comparisons;
-  const auto add = [&](const std::string& variant, const std::string& sensor,
-                       const PairedTrials& trials) {
-    if (trials.scenes.empty()) return;
-    comparisons.push_back(compared(trials));
-    comparisons.back().variant = variant;
-    comparisons.back().base = base;
-    comparisons.back().sensor = sensor;
-  };
-  for (auto row = rows.begin(); row != rows.end();) {
-    const std::string& variant = row->variant;
-    PairedTrials all;
-    for (; row != rows.end() && row->variant == variant; ++row) {
-      if (variant == base) continue;
-      const PairedTrials trials = paired_with(base_trials, *row, groups, pose_bounds(bounds));
-      add(variant, row->sensor, trials);
-      append(all, trials);
+  const Rows base_rows = rows_of(summary, base);
+  if (base_rows.empty()) return comparisons;
+  for (const std::string& variant : variants_of(summary)) {
+    if (variant == base) continue;
+    std::vector<std::string> sensors;
+    for (const SummaryRow* row : rows_of(summary, variant)) sensors.push_back(row->sensor);
+    sensors.emplace_back();  // All together.
+    for (const std::string& sensor : sensors) {
+      const auto trials = paired(base_rows, rows_of(summary, variant, sensor), groups, bounds);
+      if (trials.scenes.empty()) continue;
+      Comparison& comparison = comparisons.emplace_back(compared(trials));
+      comparison.variant = variant;
+      comparison.base = base;
+      comparison.sensor = sensor;
     }
-    add(variant, "", all);
   }
   correct_by_sensor(comparisons);
   return comparisons;

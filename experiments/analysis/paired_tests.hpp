@@ -3,7 +3,37 @@
 #include <cstddef>
 #include <vector>
 
+#include "framework/base/statistics.hpp"
+
 namespace croon::experiments {
+
+/// The errors of two variants in the same trials; the i-th of both belong together. The error of a
+/// trial without a usable result is +infinity.
+struct Pairs {
+  std::vector<double> base;
+  std::vector<double> variant;
+};
+
+/// The cluster of each pair or score, numbered from 0: the trials of one scene are alike.
+using Clusters = std::vector<std::size_t>;
+
+/// `variant - base`; 0 if both are infinite, for then neither is better.
+double difference(double variant, double base);
+
+/// The differences of all pairs.
+std::vector<double> differences(const Pairs& pairs);
+
+/// The middle value, or the mean of the middle two, of values that may be infinite. Throws
+/// std::logic_error if there are none.
+double median_with_failures(std::vector<double> values);
+
+/// The 95 % percentile bootstrap interval (Efron and Tibshirani 1993, chapter 13) of
+/// `median(variant) - median(base)`, from 2e7 / n resamples within [200, 2000]. Clusters are
+/// resampled, and within each its pairs, because pairs of one cluster are alike (Davison and
+/// Hinkley 1997, section 3.8). Medians are over all trials, failures as +infinity, so an end may be
+/// infinite; if both medians are infinite the difference is 0. The same bits for the same pairs in
+/// the same order. Throws std::logic_error if there are no pairs.
+Interval median_difference_interval(const Pairs& pairs, const Clusters& clusters);
 
 /// The exact two-sided p of McNemar's test (1947): of the pairs that one side alone won, each side
 /// won either with equal chance, so the lesser number is binomial. 1 if there are none. Throws
@@ -20,9 +50,8 @@ std::vector<double> signed_ranks(const std::vector<double>& differences);
 /// zeros; for more it is `normal_sign_p`. 1 if all are 0.
 double wilcoxon_p(const std::vector<double>& ranks);
 
-/// The sums of the scores of each cluster; `clusters[i]` in {0, 1, ...} is that of `scores[i]`.
-std::vector<double> cluster_sums(const std::vector<double>& scores,
-                                 const std::vector<std::size_t>& clusters);
+/// The sums of the scores of each cluster; 0 for a cluster without scores.
+std::vector<double> cluster_sums(const std::vector<double>& scores, const Clusters& clusters);
 
 /// The two-sided p of the sum of `scores`, if each has either sign with equal chance, by the normal
 /// distribution: `z = (|S| - c) / sqrt(sum s_i^2)`. The continuity correction `c` is the least

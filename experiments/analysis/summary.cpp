@@ -2,43 +2,33 @@
 
 #include <algorithm>
 #include <set>
-#include <tuple>
+
+#include "framework/base/angles.hpp"
 
 namespace croon::experiments {
-
 namespace {
 
-RecordGroups grouped(const std::vector<TrialRecord>& records) {
-  RecordGroups groups;
-  for (const TrialRecord& record : records) {
-    groups[{record.id.variant, record.id.sensor, record.id.scene}].push_back(&record);
-  }
-  for (auto& [key, group] : groups) {
-    std::sort(group.begin(), group.end(),
-              [](const TrialRecord* a, const TrialRecord* b) { return a->id.trial < b->id.trial; });
-  }
-  return groups;
-}
-
-void set_scene_kinds(std::vector<SummaryRow>& rows,
-                     const std::map<std::string, std::string>& kinds) {
-  for (SummaryRow& row : rows) {
-    for (SceneSummary& scene : row.scenes) {
-      const auto kind = kinds.find(scene.scene);
-      if (kind != kinds.end()) scene.scene_kind = kind->second;
+/// The names that rows have, in their order.
+std::vector<std::string> each_once(const Summary& summary, std::string SummaryRow::*name) {
+  std::vector<std::string> names;
+  for (const SummaryRow& row : summary.rows) {
+    if (std::find(names.begin(), names.end(), row.*name) == names.end()) {
+      names.push_back(row.*name);
     }
   }
+  return names;
 }
 
 /// The trials of all `rows`, which are of one variant, in the scenes of one kind.
-SceneKindSummary summary_of_kind(const std::vector<const SummaryRow*>& rows,
-                                 const std::string& kind, const std::string& sensor) {
-  std::vector<const SceneSummary*> scenes = scenes_of(rows);
-  scenes.erase(std::remove_if(scenes.begin(), scenes.end(),
-                              [&](const auto* scene) { return scene->scene_kind != kind; }),
-               scenes.end());
+SceneKindSummary summary_of_kind(const Rows& rows, const std::string& kind,
+                                 const std::string& sensor) {
+  std::vector<const SceneSummary*> scenes;
   std::set<std::string> names;
-  for (const SceneSummary* scene : scenes) names.insert(scene->scene);
+  for (const SceneSummary* scene : scenes_of(rows)) {
+    if (scene->scene_kind != kind) continue;
+    scenes.push_back(scene);
+    names.insert(scene->scene);
+  }
   return {pooled(scenes), rows.front()->variant, kind, sensor, static_cast<int>(names.size())};
 }
 
@@ -48,7 +38,7 @@ std::vector<SceneKindSummary> summarise_scene_kinds(const Summary& summary) {
   std::vector<SceneKindSummary> summaries;
   bool has_kinds = false;
   for (const std::string& variant : variants_of(summary)) {
-    const std::vector<const SummaryRow*> rows = rows_of(summary, variant);
+    const Rows rows = rows_of(summary, variant);
     std::set<std::string> kinds;
     for (const SceneSummary* scene : scenes_of(rows)) kinds.insert(scene->scene_kind);
     has_kinds = has_kinds || kinds != std::set<std::string>{""};
@@ -71,22 +61,12 @@ std::vector<ReasonCount> count_reasons(const std::vector<TrialRecord>& records) 
   }
   std::vector<ReasonCount> reasons;
   for (const auto& [key, count] : counts) {
-    reasons.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), count});
+    const auto& [variant, status, reason] = key;
+    reasons.push_back({variant, status, reason, count});
   }
   std::stable_sort(reasons.begin(), reasons.end(),
                    [](const ReasonCount& a, const ReasonCount& b) { return a.count > b.count; });
   return reasons;
-}
-
-/// The names that rows have, in their order.
-std::vector<std::string> each_once(const Summary& summary, std::string SummaryRow::*name) {
-  std::vector<std::string> names;
-  for (const SummaryRow& row : summary.rows) {
-    if (std::find(names.begin(), names.end(), row.*name) == names.end()) {
-      names.push_back(row.*name);
-    }
-  }
-  return names;
 }
 
 }  // namespace
@@ -96,9 +76,8 @@ std::vector<std::string> completed(std::vector<std::string> names,
                                    std::string TrialId::*name) {
   std::set<std::string> others;
   for (const TrialRecord& record : records) others.insert(record.id.*name);
-  for (const std::string& other : others) {
-    if (std::find(names.begin(), names.end(), other) == names.end()) names.push_back(other);
-  }
+  for (const std::string& known : names) others.erase(known);
+  names.insert(names.end(), others.begin(), others.end());
   return names;
 }
 
@@ -110,43 +89,60 @@ std::vector<std::string> sensors_of(const Summary& summary) {
   return each_once(summary, &SummaryRow::sensor);
 }
 
-std::vector<const SummaryRow*> rows_of(const Summary& summary, const std::string& variant,
-                                       const std::string& sensor) {
-  std::vector<const SummaryRow*> rows;
+Rows rows_of(const Summary& summary, const std::string& variant, const std::string& sensor) {
+  Rows rows;
   for (const SummaryRow& row : summary.rows) {
     if (row.variant == variant && (sensor.empty() || row.sensor == sensor)) rows.push_back(&row);
   }
   return rows;
 }
 
-Summary summarise(const std::vector<TrialRecord>& records, const SuccessBounds& bounds,
+RecordGroups::RecordGroups(const std::vector<TrialRecord>& records) {
+  for (const TrialRecord& record : records) {
+    groups_[{record.id.variant, record.id.sensor, record.id.scene}].push_back(&record);
+  }
+  for (auto& [key, group] : groups_) {
+    std::sort(group.begin(), group.end(),
+              [](const TrialRecord* a, const TrialRecord* b) { return a->id.trial < b->id.trial; });
+  }
+}
+
+const SceneRecords& RecordGroups::of(const std::string& variant, const std::string& sensor,
+                                     const std::string& scene) const {
+  static const SceneRecords none;
+  const auto found = groups_.find({variant, sensor, scene});
+  return found == groups_.end() ? none : found->second;
+}
+
+Summary summarise(const std::vector<TrialRecord>& records, const SuccessBounds& success,
                   const ReportOrder& order) {
-  const RecordGroups groups = grouped(records);
+  const RecordGroups groups(records);
+  const PoseBounds bounds = {rad_from_deg(success.rotation_deg), success.translation_m};
   const std::vector<std::string> scene_names = completed(order.scenes, records, &TrialId::scene);
   const std::vector<std::string> sensors = completed(order.sensors, records, &TrialId::sensor);
   const std::vector<std::string> variants = completed(order.variants, records, &TrialId::variant);
+  std::map<std::string, std::string> kinds = order.scene_kinds;
   Summary summary;
-  summary.bounds = bounds;
+  summary.bounds = success;
   for (const std::string& variant : variants) {
     for (const std::string& sensor : sensors) {
       std::vector<SceneRecords> scenes;
       for (const std::string& scene : scene_names) {
-        const auto group = groups.find({variant, sensor, scene});
-        if (group != groups.end()) scenes.push_back(group->second);
+        const SceneRecords& group = groups.of(variant, sensor, scene);
+        if (!group.empty()) scenes.push_back(group);
       }
-      if (!scenes.empty()) summary.rows.push_back(summary_row(scenes, pose_bounds(bounds)));
+      if (scenes.empty()) continue;
+      SummaryRow& row = summary.rows.emplace_back(summary_row(scenes, bounds));
+      for (SceneSummary& scene : row.scenes) scene.scene_kind = kinds[scene.scene];
     }
-  }
-  set_scene_kinds(summary.rows, order.scene_kinds);
-  summary.scene_kinds = summarise_scene_kinds(summary);
-  if (variants.size() > 1) {
-    summary.comparisons = compare_with_base(variants.front(), groups, summary.rows, bounds);
-  }
-  for (const std::string& variant : variants) {
     for (const SensorPair& pair : order.pairs) {
-      const LoopClosure loop = close_loops(groups, variant, pair, scene_names, pose_bounds(bounds));
-      if (loop.closed.trials > 0) summary.loops.push_back(loop);
+      LoopClosure loop = close_loops(groups, variant, pair, scene_names, bounds);
+      if (loop.closed.trials > 0) summary.loops.push_back(std::move(loop));
     }
+  }
+  summary.scene_kinds = summarise_scene_kinds(summary);
+  if (!variants.empty()) {
+    summary.comparisons = compare_with_base(variants.front(), summary, groups, bounds);
   }
   summary.reasons = count_reasons(records);
   return summary;

@@ -2,10 +2,9 @@
 
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
-#include "experiments/analysis/comparison.hpp"
-#include "experiments/analysis/loops.hpp"
 #include "experiments/analysis/trial_summary.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 
@@ -32,6 +31,57 @@ struct SceneKindSummary : TrialSummary {
   std::string scene_kind;
   std::string sensor;  ///< Empty for all sensors together.
   int scenes = 0;
+};
+
+/// The result of a paired test; its p values are two-sided.
+struct PairedTest {
+  bool favours_variant = false;  ///< Whether the sum of the test's scores is on its side.
+  double p = 1.0;                ///< If every trial is independent.
+  double p_holm = 1.0;           ///< The same, corrected for all tests of the sensor (Holm 1979).
+  double p_by_scene = 1.0;       ///< If scenes are the independent units.
+  double p_by_scene_holm = 1.0;
+};
+
+/// Whether the difference is significant over trials: corrected p below 0.05.
+bool is_significant(const PairedTest& test);
+
+/// Whether the difference is significant over trials and with scenes as units.
+bool holds_by_scene(const PairedTest& test);
+
+/// An error of both sides over the same trials; infinite for trials without a usable result.
+struct ErrorComparison {
+  double base_median = 0.0;
+  double variant_median = 0.0;
+  double difference = 0.0;      ///< Of the medians, variant - base; 0 if both are infinite.
+  Interval interval{0.0, 0.0};  ///< 95 % bootstrap interval of `difference`, over scenes.
+  PairedTest test;              ///< Wilcoxon's signed-rank test.
+};
+
+/// A variant against the base, over the trials that both have. Errors are from the truth; if
+/// there is none, from the pose that the side's own trials of the scene agree on.
+struct Comparison {
+  std::string variant;
+  std::string base;
+  std::string sensor;  ///< Empty for all sensors together.
+  int pairs = 0;
+  int scenes = 0;
+  int only_base = 0;     ///< Pairs that the base alone won (no truth: in which it alone agreed).
+  int only_variant = 0;  ///< Pairs that the variant alone won.
+  ErrorComparison rotation_deg;
+  ErrorComparison translation_m;
+  PairedTest success;  ///< McNemar's test.
+};
+
+/// How far loops over the reference and two sensors, T_ref_target T_target_source T_source_ref, are
+/// from the identity. That needs no truth: the three poses are found independently, each from its
+/// own start.
+struct LoopClosure {
+  std::string variant;
+  SensorPair pair;
+  Share closed;     ///< Of all loops, those within the success bounds of the identity.
+  int counted = 0;  ///< Loops of three usable poses, the loops that `statistics` are over.
+  std::optional<StatisticsTable>
+      statistics;  ///< Of T_ref_target T_target_source from T_ref_source.
 };
 
 /// A reason why trials ended as `rejected` or `failed`, and their number.
@@ -62,7 +112,30 @@ std::vector<std::string> variants_of(const Summary& summary);
 std::vector<std::string> sensors_of(const Summary& summary);
 
 /// The rows of a variant, of all its sensors if `sensor` is empty.
-std::vector<const SummaryRow*> rows_of(const Summary& summary, const std::string& variant,
-                                       const std::string& sensor = "");
+Rows rows_of(const Summary& summary, const std::string& variant, const std::string& sensor = "");
+
+/// The records of each (variant, sensor, scene); a group that is not there is empty.
+class RecordGroups {
+ public:
+  explicit RecordGroups(const std::vector<TrialRecord>& records);
+  const SceneRecords& of(const std::string& variant, const std::string& sensor,
+                         const std::string& scene) const;
+
+ private:
+  std::map<std::tuple<std::string, std::string, std::string>, SceneRecords> groups_;
+};
+
+/// Every variant against `base` over the trials that both have: by variant, then sensor as in the
+/// rows of `summary`, then all sensors together. `groups` are the records of the rows. Without
+/// common trials there is no comparison. p values are corrected over the three tests of all
+/// variants with the same sensor.
+std::vector<Comparison> compare_with_base(const std::string& base, const Summary& summary,
+                                          const RecordGroups& groups, const PoseBounds& bounds);
+
+/// The loops of one variant and pair over `scenes`: trial i of the pair, of its source and of its
+/// target are a loop if all three are in `groups`.
+LoopClosure close_loops(const RecordGroups& groups, const std::string& variant,
+                        const SensorPair& pair, const std::vector<std::string>& scenes,
+                        const PoseBounds& bounds);
 
 }  // namespace croon::experiments

@@ -2,11 +2,96 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-
-#include "framework/base/angles.hpp"
 
 namespace croon::experiments {
+namespace {
+
+constexpr std::size_t kMean = statistic_index("mean");
+
+/// The numbers of trials by their status, in the order of Status.
+constexpr std::array kByStatus = {&Outcomes::success, &Outcomes::inaccurate, &Outcomes::rejected,
+                                  &Outcomes::failed};
+
+bool has_good_pose(const TrialRecord& record) {
+  return record.status == Status::success && record.T_reference_sensor;
+}
+
+/// The outcomes of a scene and the pose that its successful trials agree on: all that does not need
+/// the other scenes.
+SceneSummary without_deviations(const SceneRecords& records, const PoseBounds& bounds) {
+  SceneSummary scene;
+  scene.scene = records.front()->id.scene;
+  std::vector<RigidTransform> poses;
+  for (const TrialRecord* record : records) {
+    ++scene.outcomes.trials;
+    ++(scene.outcomes.*kByStatus.at(static_cast<std::size_t>(record->status)));
+    if (record->error) scene.deviations_from = DeviationsFrom::truth;
+    if (has_good_pose(*record)) poses.push_back(*record->T_reference_sensor);
+  }
+  if (poses.empty()) return scene;
+  scene.deviations_from = std::min(scene.deviations_from, DeviationsFrom::consensus);
+  scene.consensus = consensus_pose(poses, bounds);
+  for (const RigidTransform& pose : poses) {
+    scene.agreement.count += agree(pose, *scene.consensus, bounds);
+  }
+  return scene;
+}
+
+/// Adds the deviations of the trials that count (see `SummaryRow`) from the truth or from
+/// `consensus`, that of all scenes.
+void add_deviations(SceneSummary& scene, const SceneRecords& records,
+                    const std::optional<RigidTransform>& consensus, const PoseBounds& bounds) {
+  for (const TrialRecord* record : records) {
+    if (!has_good_pose(*record)) continue;
+    const RigidTransform& pose = *record->T_reference_sensor;
+    if (scene.deviations_from == DeviationsFrom::truth) {
+      if (!record->error) continue;
+      scene.deviations.push_back(measures_of(*record->error));
+    } else {
+      if (!agree(pose, *scene.consensus, bounds)) continue;
+      scene.deviations.push_back(measures_of(pose_error(pose, *consensus)));
+    }
+    scene.spread.push_back(measures_of(pose_error(pose, *scene.consensus)));
+  }
+}
+
+/// See `SummaryRow::within_scene_std`; the scenes of `row` are complete.
+void set_within_scene_std(SummaryRow& row) {
+  std::array<std::vector<double>, kDofs> squares;
+  for (const SceneSummary& scene : row.scenes) {
+    if (scene.counted < 2) continue;
+    row.within_scene_freedom += scene.counted - 1;
+    for (std::size_t k = 0; k < kDofs; ++k) {
+      const double std = standard_deviation(values_of(scene.spread, k));
+      squares[k].push_back(std * std * (scene.counted - 1));
+    }
+  }
+  if (row.within_scene_freedom == 0.0) return;
+  DofValues& spread = row.within_scene_std.emplace();
+  for (std::size_t k = 0; k < kDofs; ++k) {
+    spread[k] = std::sqrt(compensated_sum(squares[k]) / row.within_scene_freedom);
+  }
+}
+
+/// See `SummaryRow::across_scenes_std`; the scenes and the consensus of `row` are complete.
+void set_across_scenes_std(SummaryRow& row) {
+  std::vector<Measures> centres;
+  for (const SceneSummary& scene : row.scenes) {
+    if (!scene.statistics) continue;
+    Measures& centre = centres.emplace_back();
+    if (row.deviations_from == DeviationsFrom::consensus) {
+      centre = measures_of(pose_error(*scene.consensus, *row.consensus));
+    } else {
+      for (std::size_t k = 0; k < centre.size(); ++k) centre[k] = (*scene.statistics)[k][kMean];
+    }
+  }
+  if (centres.size() < 2) return;
+  row.across_scenes_freedom = static_cast<double>(centres.size() - 1);
+  DofValues& spread = row.across_scenes_std.emplace();
+  for (std::size_t k = 0; k < kDofs; ++k) spread[k] = standard_deviation(values_of(centres, k));
+}
+
+}  // namespace
 
 Share share_of(int count, int trials) {
   const double ratio = trials == 0 ? 0.0 : static_cast<double>(count) / trials;
@@ -33,15 +118,7 @@ std::optional<double> value_of(const std::optional<StatisticsTable>& table, std:
 }
 
 const char* name_of(DeviationsFrom from) {
-  switch (from) {
-    case DeviationsFrom::truth:
-      return "truth";
-    case DeviationsFrom::consensus:
-      return "consensus";
-    case DeviationsFrom::none:
-      return "none";
-  }
-  throw std::logic_error("deviations from a pose that does not exist");
+  return std::array{"truth", "consensus", "none"}.at(static_cast<std::size_t>(from));
 }
 
 const Share& main_share(const TrialSummary& summary) {
@@ -55,10 +132,7 @@ TrialSummary pooled(const std::vector<const SceneSummary*>& scenes) {
   for (const SceneSummary* scene : scenes) {
     sum.deviations_from = std::min(sum.deviations_from, scene->deviations_from);
     sum.outcomes.trials += scene->outcomes.trials;
-    sum.outcomes.success += scene->outcomes.success;
-    sum.outcomes.inaccurate += scene->outcomes.inaccurate;
-    sum.outcomes.rejected += scene->outcomes.rejected;
-    sum.outcomes.failed += scene->outcomes.failed;
+    for (const auto count : kByStatus) sum.outcomes.*count += scene->outcomes.*count;
     agreeing += scene->agreement.count;
     deviations.insert(deviations.end(), scene->deviations.begin(), scene->deviations.end());
   }
@@ -69,7 +143,7 @@ TrialSummary pooled(const std::vector<const SceneSummary*>& scenes) {
   return sum;
 }
 
-std::vector<const SceneSummary*> scenes_of(const std::vector<const SummaryRow*>& rows) {
+std::vector<const SceneSummary*> scenes_of(const Rows& rows) {
   std::vector<const SceneSummary*> scenes;
   for (const SummaryRow* row : rows) {
     for (const SceneSummary& scene : row->scenes) scenes.push_back(&scene);
@@ -77,13 +151,41 @@ std::vector<const SceneSummary*> scenes_of(const std::vector<const SummaryRow*>&
   return scenes;
 }
 
-PoseBounds pose_bounds(const SuccessBounds& bounds) {
-  return {rad_from_deg(bounds.rotation_deg), bounds.translation_m};
+const TrialRecord* find_trial(const SceneRecords& records, int trial) {
+  const auto is_before = [](const TrialRecord* record, int number) {
+    return record->id.trial < number;
+  };
+  const auto found = std::lower_bound(records.begin(), records.end(), trial, is_before);
+  return found != records.end() && (*found)->id.trial == trial ? *found : nullptr;
 }
 
 const RigidTransform* usable_pose(const TrialRecord& record) {
   const bool is_usable = record.status == Status::success || record.status == Status::inaccurate;
   return is_usable && record.T_reference_sensor ? &*record.T_reference_sensor : nullptr;
+}
+
+SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds& bounds) {
+  SummaryRow row;
+  row.variant = scenes.front().front()->id.variant;
+  row.sensor = scenes.front().front()->id.sensor;
+  std::vector<RigidTransform> consensus;
+  for (const SceneRecords& records : scenes) {
+    row.scenes.push_back(without_deviations(records, bounds));
+    if (row.scenes.back().consensus) consensus.push_back(*row.scenes.back().consensus);
+  }
+  if (!consensus.empty()) row.consensus = consensus_pose(consensus, bounds);
+  // Truth if one trial of any scene has it.
+  const DeviationsFrom from = pooled(scenes_of({&row})).deviations_from;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    SceneSummary& scene = row.scenes[i];
+    scene.deviations_from = from;
+    add_deviations(scene, scenes[i], row.consensus, bounds);
+    static_cast<TrialSummary&>(scene) = pooled({&scene});
+  }
+  static_cast<TrialSummary&>(row) = pooled(scenes_of({&row}));
+  set_within_scene_std(row);
+  set_across_scenes_std(row);
+  return row;
 }
 
 }  // namespace croon::experiments

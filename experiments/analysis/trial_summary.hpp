@@ -1,10 +1,8 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "experiments/file/experiment.hpp"
@@ -93,11 +91,16 @@ struct SummaryRow : TrialSummary {
   /// The sample std of the trials that count about their scene's consensus, pooled over scenes by
   /// degrees of freedom; std::nullopt if no scene has two such trials.
   std::optional<DofValues> within_scene_std;
+  double within_scene_freedom = 0.0;
   /// The sample std of the scenes' mean errors (no truth: of their consensus poses about the
   /// consensus of all); std::nullopt for fewer than two scenes.
   std::optional<DofValues> across_scenes_std;
+  double across_scenes_freedom = 0.0;
   std::vector<SceneSummary> scenes;
 };
+
+/// Rows of a summary.
+using Rows = std::vector<const SummaryRow*>;
 
 /// The share that counts as success: with truth that of the trials near it, else that of the trials
 /// that agree.
@@ -107,16 +110,13 @@ const Share& main_share(const TrialSummary& summary);
 TrialSummary pooled(const std::vector<const SceneSummary*>& scenes);
 
 /// The scenes of all `rows`.
-std::vector<const SceneSummary*> scenes_of(const std::vector<const SummaryRow*>& rows);
+std::vector<const SceneSummary*> scenes_of(const Rows& rows);
 
 /// The trials of one variant, sensor and scene, by trial.
 using SceneRecords = std::vector<const TrialRecord*>;
 
-/// The records of each (variant, sensor, scene).
-using RecordGroups = std::map<std::tuple<std::string, std::string, std::string>, SceneRecords>;
-
-/// The bounds in the units that geometry uses.
-PoseBounds pose_bounds(const SuccessBounds& bounds);
+/// The record of trial `trial`; null if there is none.
+const TrialRecord* find_trial(const SceneRecords& records, int trial);
 
 /// The pose of a trial that finished and is not rejected; else null.
 const RigidTransform* usable_pose(const TrialRecord& record);

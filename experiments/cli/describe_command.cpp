@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/analysis/cloud_description.hpp"
 #include "experiments/file/experiment.hpp"
 #include "experiments/report/plots.hpp"
 #include "experiments/report/result_tables.hpp"
@@ -12,6 +11,7 @@
 #include "framework/base/error.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/base/whole_file.hpp"
+#include "framework/pipeline/cloud_description.hpp"
 
 namespace croon::experiments {
 namespace {

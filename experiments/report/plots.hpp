@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "experiments/analysis/basin.hpp"
-#include "experiments/analysis/cloud_description.hpp"
 #include "experiments/analysis/summary.hpp"
+#include "framework/pipeline/cloud_description.hpp"
 
 namespace croon::experiments {
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "experiments/analysis/basin.hpp"
-#include "experiments/analysis/cloud_description.hpp"
 #include "experiments/analysis/results.hpp"
 #include "experiments/run/pipeline_tree.hpp"
+#include "framework/pipeline/cloud_description.hpp"
 
 namespace croon::experiments {
 

@@ -1,4 +1,4 @@
-#include "experiments/analysis/comparison.hpp"
+#include "experiments/analysis/summary.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "experiments/analysis/paired_values.hpp"
+#include "experiments/analysis/paired_tests.hpp"
 #include "framework/base/rng.hpp"
 
 namespace croon::experiments::test {
@@ -23,7 +23,7 @@ struct MadeUp {
 struct Experiment {
   Pairs pairs;
   std::vector<std::size_t> scenes;
-  std::vector<double> success;  ///< As PairedTrials has it.
+  std::vector<double> success;  ///< 1 where the variant alone won, -1 where the base did, else 0.
   int only_base = 0;
   int only_variant = 0;
 };

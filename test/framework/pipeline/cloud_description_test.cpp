@@ -1,4 +1,4 @@
-#include "experiments/analysis/cloud_description.hpp"
+#include "framework/pipeline/cloud_description.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"
 
-namespace croon::experiments {
+namespace croon {
 namespace {
 
 params::Slot<GroundExtractor> ransac() {
@@ -57,4 +57,4 @@ TEST(CloudDescription, OverlapIsThatOfTheTruth) {
 }
 
 }  // namespace
-}  // namespace croon::experiments
+}  // namespace croon

@@ -1,4 +1,4 @@
-#include "experiments/analysis/cloud_description.hpp"
+#include "framework/pipeline/cloud_description.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "framework/base/statistics.hpp"
 #include "framework/spatial/leaf_grid.hpp"
 
-namespace croon::experiments {
+namespace croon {
 namespace {
 
 constexpr double kLeast_m = 0.1;
@@ -79,4 +79,4 @@ void add_overlap(CloudDescription& description, const PointCloud& points, const 
   if (!distances_m.empty()) description.median_distance_m = median(std::move(distances_m));
 }
 
-}  // namespace croon::experiments
+}  // namespace croon

@@ -1,4 +1,4 @@
-#include "experiments/analysis/paired_values.hpp"
+#include "experiments/analysis/paired_tests.hpp"
 
 #include <gtest/gtest.h>
 

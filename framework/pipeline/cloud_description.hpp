@@ -9,14 +9,14 @@
 #include "framework/stage/dataset.hpp"
 #include "framework/stage/ground_extractor.hpp"
 
-namespace croon::experiments {
+namespace croon {
 
 /// Bins of the histogram of ranges, from 0.1 m to 316 m, each 10^(1/8) times as wide as the last.
 constexpr std::size_t kRangeBins = 28;
 
 /// Numbers that describe one sensor's cloud in one scene.
 struct CloudDescription {
-  std::string dataset;  ///< The experiment's name.
+  std::string dataset;  ///< The name that reports have for it.
   std::string scene;
   std::string kind;  ///< Of the scene; may be empty.
   std::string sensor;
@@ -41,4 +41,4 @@ CloudDescription description_of(const PointCloud& points, const GroundExtractor&
 void add_overlap(CloudDescription& description, const PointCloud& points, const KdTree& reference,
                  const RigidTransform& T_reference_sensor);
 
-}  // namespace croon::experiments
+}  // namespace croon
