@@ -6,7 +6,6 @@
 #include "experiments/report/before_after.hpp"
 #include "experiments/report/fused_clouds.hpp"
 #include "experiments/report/output_folder.hpp"
-#include "experiments/report/progress.hpp"
 #include "experiments/report/report_files.hpp"
 #include "experiments/report/run_text.hpp"
 #include "experiments/report/timings_file.hpp"
@@ -14,6 +13,7 @@
 #include "experiments/run/runner.hpp"
 #include "experiments/store/manifest.hpp"
 #include "experiments/store/store_writer.hpp"
+#include "framework/base/progress.hpp"
 
 namespace croon::experiments {
 namespace {

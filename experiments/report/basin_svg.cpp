@@ -1,10 +1,9 @@
 #include <algorithm>
 
-#include "experiments/report/axis.hpp"
-#include "experiments/report/chart_style.hpp"
 #include "experiments/report/plots.hpp"
-#include "experiments/report/svg.hpp"
-#include "experiments/report/text.hpp"
+#include "framework/base/text.hpp"
+#include "framework/picture/chart.hpp"
+#include "framework/picture/svg.hpp"
 
 namespace croon::experiments {
 namespace {

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "experiments/report/axis.hpp"
 #include "experiments/report/box_groups.hpp"
+#include "framework/picture/chart.hpp"
 
 namespace croon::experiments {
 

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "experiments/report/plots.hpp"
-#include "experiments/report/svg.hpp"
-#include "experiments/report/text.hpp"
+#include "framework/base/text.hpp"
+#include "framework/picture/svg.hpp"
 
 namespace croon::experiments {
 namespace {

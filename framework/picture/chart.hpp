@@ -1,8 +1,20 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
-namespace croon::experiments {
+namespace croon {
+
+/// A linear axis with ticks at round numbers.
+struct Axis {
+  double low;
+  double high;
+  std::vector<double> ticks;
+  int decimals;  ///< That the ticks need.
+};
+
+/// The axis that holds [low, high] with about `ticks` steps of 1, 2 or 5 times a power of ten.
+Axis round_axis(double low, double high, int ticks);
 
 /// How many colours the classes c0, c1, ... of `kChartStyle` have.
 inline constexpr std::size_t kChartColours = 8;
@@ -40,4 +52,4 @@ inline constexpr const char* kChartStyle =
 }
 )css";
 
-}  // namespace croon::experiments
+}  // namespace croon

@@ -1,9 +1,9 @@
-#include "experiments/report/axis.hpp"
+#include "framework/picture/chart.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace croon::experiments {
+namespace croon {
 
 Axis round_axis(double low, double high, int ticks) {
   // A flat range still needs a height; what differs by less than rounding is flat.
@@ -30,4 +30,4 @@ Axis round_axis(double low, double high, int ticks) {
   return axis;
 }
 
-}  // namespace croon::experiments
+}  // namespace croon
