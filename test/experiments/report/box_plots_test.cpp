@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "experiments/report/box_groups.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
