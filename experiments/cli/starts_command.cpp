@@ -2,6 +2,7 @@
 
 #include "experiments/file/experiment.hpp"
 #include "experiments/report/renderers.hpp"
+#include "experiments/report/result_files.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
 
