@@ -4,7 +4,7 @@
 
 #include "experiments/analysis/results.hpp"
 #include "experiments/report/export.hpp"
-#include "experiments/report/output_folder.hpp"
+#include "experiments/report/result_files.hpp"
 #include "framework/base/error.hpp"
 
 namespace croon::experiments {

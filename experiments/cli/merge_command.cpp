@@ -4,10 +4,8 @@
 #include <memory>
 
 #include "experiments/analysis/results.hpp"
-#include "experiments/report/output_folder.hpp"
-#include "experiments/report/report_files.hpp"
+#include "experiments/report/result_files.hpp"
 #include "experiments/report/run_text.hpp"
-#include "experiments/report/timings_file.hpp"
 #include "experiments/store/manifest.hpp"
 #include "experiments/store/store.hpp"
 #include "experiments/store/store_header.hpp"
@@ -141,7 +139,7 @@ int merge_command(const MergeOptions& options, std::ostream& out) {
   std::vector<fs::path> all = folders;
   if (!is_among(all, options.out)) all.push_back(options.out);
   const Results results = read_results(options.out);
-  write_reports(options.out, results, merged_manifest(results.manifest, all));
+  folder.write_reports(results, merged_manifest(results.manifest, all));
   merge_timings(all, options.out / kTimings);
   const std::string missing = missing_text(results);
   out << result_text(results, options.colours) << missing << "Results are in "

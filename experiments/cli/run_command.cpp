@@ -3,17 +3,14 @@
 #include <map>
 
 #include "experiments/analysis/results.hpp"
-#include "experiments/report/before_after.hpp"
-#include "experiments/report/fused_clouds.hpp"
-#include "experiments/report/output_folder.hpp"
-#include "experiments/report/progress.hpp"
-#include "experiments/report/report_files.hpp"
+#include "experiments/report/result_clouds.hpp"
+#include "experiments/report/result_files.hpp"
 #include "experiments/report/run_text.hpp"
-#include "experiments/report/timings_file.hpp"
 #include "experiments/run/pipeline_tree.hpp"
 #include "experiments/run/runner.hpp"
 #include "experiments/store/manifest.hpp"
 #include "experiments/store/store_writer.hpp"
+#include "framework/base/progress.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -73,7 +70,7 @@ void fill_store(const CheckedRun& run, const OutputFolder& folder, const Work& w
                 const std::vector<Plan>& plans, Progress& progress) {
   progress.skip(work.done);
   Store store(folder.store(), work.header);
-  TimingsFile timings(folder.timings());
+  TimingsFile timings(folder.file(kTimings));
   StoreWriter writer(store, [&](const std::vector<Done>& batch) {
     for (const Done& done : batch) {
       timings.add(done.timings);
@@ -134,10 +131,11 @@ int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostr
   if (options.fresh) folder.clear();
   const Work work = work_of(run, std::move(header), options.fresh);
   const Results results = run_missing(run, folder, work, options, progress_out);
-  write_reports(run.out, results, manifest_with_host(results.manifest, run.data_root, run.jobs));
+  folder.write_reports(results, manifest_with_host(results.manifest, run.data_root, run.jobs));
   std::vector<std::string> complaints;
   if (options.clouds) {
-    complaints = write_fused_clouds(run.experiment, run.scenes, results.records, folder.clouds());
+    complaints =
+        write_fused_clouds(run.experiment, run.scenes, results.records, folder.file(kClouds));
   }
   for (const std::string& complaint : complaints) progress_out << "croon: " << complaint << "\n";
   out << result_text(results, options.colours) << "Results are in " << run.out.string() << "\n";

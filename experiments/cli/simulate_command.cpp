@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/file/experiment.hpp"
-#include "experiments/report/progress.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/progress.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/io/opencalib_files.hpp"

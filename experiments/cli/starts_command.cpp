@@ -1,8 +1,8 @@
 #include "experiments/cli/commands.hpp"
 
 #include "experiments/file/experiment.hpp"
-#include "experiments/report/output_folder.hpp"
 #include "experiments/report/renderers.hpp"
+#include "experiments/report/result_files.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
 

@@ -1,10 +1,9 @@
 #include <algorithm>
 
-#include "experiments/report/axis.hpp"
-#include "experiments/report/chart_style.hpp"
 #include "experiments/report/plots.hpp"
-#include "experiments/report/svg.hpp"
-#include "experiments/report/text.hpp"
+#include "framework/base/text.hpp"
+#include "framework/picture/chart.hpp"
+#include "framework/picture/svg.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -19,43 +18,29 @@ constexpr double kLegendWidth = 250.0;
 
 using Corner = std::array<double, 2>;
 
-/// The axes: sizes to the right, ratios up.
-struct BasinPanel {
-  Axis sizes;
-
-  double x(double size) const {
-    return kLeft + kWidth * (size - sizes.low) / (sizes.high - sizes.low);
-  }
-  static double y(double ratio) { return kTop + kHeight * (1.0 - ratio); }
-};
-
-void draw_frame(Svg& svg, const BasinPanel& panel, const Sweep& sweep) {
+void draw_frame(Svg& svg, const Plot& plot, const Axis& sizes, const Sweep& sweep) {
   for (const double ratio : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
-    const double y = BasinPanel::y(ratio);
-    svg.line(kLeft, y, kLeft + kWidth, y, ratio == 0.0 ? "zero" : "grid");
-    svg.text(kLeft - 8.0, y + 4.0, fixed_number(100.0 * ratio, 0), Anchor::end, "small");
+    plot.draw_y_tick(svg, ratio, fixed_number(100.0 * ratio, 0), 8.0,
+                     ratio == 0.0 ? "zero" : "grid");
   }
-  for (const double size : panel.sizes.ticks) {
-    const double x = panel.x(size);
-    svg.line(x, kTop, x, kTop + kHeight, "grid");
-    svg.text(x, kTop + kHeight + 18.0, fixed_number(size, panel.sizes.decimals), Anchor::middle,
-             "small");
+  for (const double size : sizes.ticks) {
+    plot.draw_x_tick(svg, size, fixed_number(size, sizes.decimals), 18.0);
   }
   const std::string what = sweep.of == SweepOf::rotation ? "rotation" : "translation";
   svg.text(kLeft + kWidth / 2.0, kTop + kHeight + 38.0,
            what + " of the start from its centre, " + size_unit(sweep), Anchor::middle, "small");
 }
 
-void draw_row(Svg& svg, const BasinPanel& panel, const Sweep& sweep, const BasinRow& row,
+void draw_row(Svg& svg, const Plot& plot, const Sweep& sweep, const BasinRow& row,
               const std::string& colour) {
   std::vector<Corner> upper, lower, curve;
   for (std::size_t level = 0; level < row.levels.size(); ++level) {
     const Share& share = row.levels[level];
     if (share.trials == 0) continue;
-    const double x = panel.x(level_size(sweep, static_cast<int>(level)));
-    upper.push_back({x, BasinPanel::y(share.interval.high)});
-    lower.push_back({x, BasinPanel::y(share.interval.low)});
-    curve.push_back({x, BasinPanel::y(share.ratio)});
+    const double x = plot.x(level_size(sweep, static_cast<int>(level)));
+    upper.push_back({x, plot.y(share.interval.high)});
+    lower.push_back({x, plot.y(share.interval.low)});
+    curve.push_back({x, plot.y(share.ratio)});
   }
   upper.insert(upper.end(), lower.rbegin(), lower.rend());
   svg.area(upper, colour + " band");
@@ -79,7 +64,8 @@ void draw_legend(Svg& svg, std::size_t index, const std::string& variant,
 }  // namespace
 
 std::string basin_svg(const Basin& basin) {
-  const BasinPanel panel{round_axis(basin.sweep.first, basin.sweep.last, 9)};
+  const Axis sizes = round_axis(basin.sweep.first, basin.sweep.last, 9);
+  const Plot plot = {kLeft, kTop, kWidth, kHeight, {sizes.low, sizes.high}, {0.0, 1.0}};
   const auto rows =
       static_cast<double>(std::count_if(basin.rows.begin(), basin.rows.end(),
                                         [](const BasinRow& row) { return row.sensor.empty(); }));
@@ -91,12 +77,12 @@ std::string basin_svg(const Basin& basin) {
            "title");
   svg.text(kLeft, 42.0, "All sensors and scenes together; the band is the 95 % interval",
            Anchor::start, "small");
-  draw_frame(svg, panel, basin.sweep);
+  draw_frame(svg, plot, sizes, basin.sweep);
   std::size_t index = 0;
   for (const BasinRow& row : basin.rows) {
     if (!row.sensor.empty()) continue;
     const std::string colour = "c" + std::to_string(index % kChartColours);
-    draw_row(svg, panel, basin.sweep, row, colour);
+    draw_row(svg, plot, basin.sweep, row, colour);
     draw_legend(svg, index++, row.variant, colour);
   }
   return svg.bytes();

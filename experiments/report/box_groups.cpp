@@ -1,4 +1,4 @@
-#include "experiments/report/box_groups.hpp"
+#include "experiments/report/plots.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,65 +1,138 @@
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <stdexcept>
 
-#include "experiments/report/box_groups.hpp"
-#include "experiments/report/box_layout.hpp"
-#include "experiments/report/chart_style.hpp"
 #include "experiments/report/plots.hpp"
-#include "experiments/report/svg.hpp"
-#include "experiments/report/text.hpp"
+#include "framework/base/text.hpp"
+#include "framework/picture/chart.hpp"
 
 namespace croon::experiments {
 
 namespace {
 
-constexpr double kBoxWidth = 13.0;  // Pixels.
+// Pixels.
+constexpr double kMargin = 16.0;
+constexpr double kTitleHeight = 62.0;
+constexpr double kPanelTitle = 26.0;
+constexpr double kAxisWidth = 58.0;
+constexpr double kLeastPlotWidth = 260.0;
+constexpr double kPlotHeight = 190.0;
+constexpr double kBoxWidth = 13.0;
+constexpr double kBoxPitch = 22.0;  // From the middle of a box to that of the next.
+constexpr double kGroupGap = 18.0;
+constexpr double kSensorHeight = 22.0;
+constexpr double kLetterWidth = 6.2;
+
+constexpr std::size_t kLabelColumns = 24;
 constexpr std::size_t kMaxScenes = 12;
 constexpr std::size_t kMaxKinds = 20;
 
-void draw_frame(Svg& svg, const BoxPanel& panel, const Measure& measure) {
-  for (const double tick : panel.axis.ticks) {
-    const double y = panel.y(tick);
-    svg.line(panel.left, y, panel.left + panel.width, y, tick == 0.0 ? "zero" : "grid");
-    svg.text(panel.left - 6.0, y + 4.0, fixed_number(tick, panel.axis.decimals), Anchor::end,
-             "small");
+/// The sizes in the picture; all panels are alike.
+struct Layout {
+  std::size_t columns;  ///< Of panels.
+  double plot_width;
+  double label_height;  ///< Of the names below the boxes.
+
+  double panel_width() const { return kAxisWidth + plot_width + kMargin; }
+  double panel_height() const {
+    return kPanelTitle + kPlotHeight + label_height + kSensorHeight + kMargin;
   }
-  svg.text(panel.left, panel.top - 10.0, std::string(measure.name) + ", " + measure.unit,
-           Anchor::start, "title");
+  double width() const { return 2.0 * kMargin + static_cast<double>(columns) * panel_width(); }
+  double height() const {
+    return kTitleHeight + static_cast<double>(kDofs / columns) * panel_height() + kMargin;
+  }
+};
+
+/// How wide a group is: its boxes, or its name if that is longer.
+double group_width(const BoxGroup& group) {
+  return std::max(kBoxPitch * static_cast<double>(group.boxes.size()),
+                  kLetterWidth * static_cast<double>(text_columns(group.sensor)));
 }
 
-void draw_box(Svg& svg, const BoxPanel& panel, double x, const BoxSeries& series,
-              std::size_t measure) {
+/// The layout that has room for every group.
+Layout layout_of(const std::vector<BoxGroup>& groups) {
+  std::size_t boxes = 0;
+  std::size_t label_columns = 0;
+  double width = 0.0;
+  for (const BoxGroup& group : groups) {
+    boxes += group.boxes.size();
+    width += group_width(group) + kGroupGap;
+    for (const BoxSeries& box : group.boxes) {
+      label_columns = std::max(label_columns, std::min(text_columns(box.label), kLabelColumns));
+    }
+  }
+  const double label_height =
+      label_columns == 0 ? 0.0 : kLetterWidth * static_cast<double>(label_columns) + 6.0;
+  // Many boxes make wide panels: two rows, three rows or six of them.
+  const std::size_t columns = boxes <= 20 ? 3 : boxes <= 48 ? 2 : 1;
+  return {columns, std::max(kLeastPlotWidth, width), label_height};
+}
+
+/// The axis of a measure, which holds every value and 0.
+Axis axis_of(const std::vector<BoxGroup>& groups, std::size_t measure) {
+  double low = 0.0;
+  double high = 0.0;
+  for (const BoxGroup& group : groups) {
+    for (const BoxSeries& box : group.boxes) {
+      for (const Measures& deviation : box.deviations) {
+        low = std::min(low, deviation[measure]);
+        high = std::max(high, deviation[measure]);
+      }
+    }
+  }
+  return round_axis(low, high, 5);
+}
+
+/// Draws the frame of the panel for `measure`, the `index`-th of six, and returns its plot.
+Plot draw_frame(Svg& svg, const Layout& layout, std::size_t index, const Measure& measure,
+                const Axis& axis) {
+  // With two columns, rotations stand left and translations right.
+  const std::size_t rows = kDofs / layout.columns;
+  const std::size_t row = layout.columns == 2 ? index % rows : index / layout.columns;
+  const std::size_t column = layout.columns == 2 ? index / rows : index % layout.columns;
+  const double left = kMargin + static_cast<double>(column) * layout.panel_width() + kAxisWidth;
+  const double top = kTitleHeight + static_cast<double>(row) * layout.panel_height() + kPanelTitle;
+  const Plot plot = {left, top, layout.plot_width, kPlotHeight, {0.0, 1.0}, {axis.low, axis.high}};
+  for (const double tick : axis.ticks) {
+    plot.draw_y_tick(svg, tick, fixed_number(tick, axis.decimals), 6.0,
+                     tick == 0.0 ? "zero" : "grid");
+  }
+  svg.text(left, top - 10.0, std::string(measure.name) + ", " + measure.unit, Anchor::start,
+           "title");
+  return plot;
+}
+
+void draw_box(Svg& svg, const Plot& plot, double x, const BoxSeries& series, std::size_t measure) {
   const BoxPlot box = box_plot(values_of(series.deviations, measure));
   const std::string colour = " c" + std::to_string(series.colour % kChartColours);
   const double left = x - kBoxWidth / 2.0;
   const double right = x + kBoxWidth / 2.0;
-  const double top = panel.y(box.upper_quartile);
-  const double bottom = panel.y(box.lower_quartile);
-  svg.line(x, panel.y(box.upper_whisker), x, top, "line" + colour);
-  svg.line(x, bottom, x, panel.y(box.lower_whisker), "line" + colour);
+  const double top = plot.y(box.upper_quartile);
+  const double bottom = plot.y(box.lower_quartile);
+  svg.line(x, plot.y(box.upper_whisker), x, top, "line" + colour);
+  svg.line(x, bottom, x, plot.y(box.lower_whisker), "line" + colour);
   for (const double end : {box.lower_whisker, box.upper_whisker}) {
-    svg.line(left + 3.0, panel.y(end), right - 3.0, panel.y(end), "line" + colour);
+    svg.line(left + 3.0, plot.y(end), right - 3.0, plot.y(end), "line" + colour);
   }
   svg.rectangle(left, top, kBoxWidth, bottom - top, "box" + colour);
-  svg.line(left, panel.y(box.median), right, panel.y(box.median), "median" + colour);
+  svg.line(left, plot.y(box.median), right, plot.y(box.median), "median" + colour);
   // Of dots that look the same one is enough, or a long run makes a file of many megabytes.
   std::set<double> rows;
-  for (const double outlier : box.outliers) rows.insert(std::round(2.0 * panel.y(outlier)) / 2.0);
+  for (const double outlier : box.outliers) rows.insert(std::round(2.0 * plot.y(outlier)) / 2.0);
   for (const double y : rows) svg.dot(x, y, 1.8, "dot" + colour);
 }
 
-void draw_panel(Svg& svg, const BoxLayout& layout, const std::vector<BoxGroup>& groups,
+void draw_panel(Svg& svg, const Layout& layout, const std::vector<BoxGroup>& groups,
                 std::size_t index) {
   const std::size_t measure = kPaperOrder[index];
-  const BoxPanel panel = panel_of(layout, groups, index, measure);
-  draw_frame(svg, panel, kMeasures[measure]);
+  const Plot plot = draw_frame(svg, layout, index, kMeasures[measure], axis_of(groups, measure));
   double used = 0.0;
   for (const BoxGroup& group : groups) used += group_width(group);
   // What width is left over goes between the groups.
   const double gap = (layout.plot_width - used) / static_cast<double>(groups.size());
-  const double below = panel.top + kPlotHeight + 8.0;
-  double left = panel.left + gap / 2.0;
+  const double below = plot.top + kPlotHeight + 8.0;
+  double left = plot.left + gap / 2.0;
   for (const BoxGroup& group : groups) {
     const double width = group_width(group);
     const double boxes = kBoxPitch * static_cast<double>(group.boxes.size());
@@ -68,7 +141,7 @@ void draw_panel(Svg& svg, const BoxLayout& layout, const std::vector<BoxGroup>& 
       if (box.deviations.empty()) {
         svg.text(x + 4.0, below - 12.0, "none", Anchor::start, "small", -90.0);
       } else {
-        draw_box(svg, panel, x, box, measure);
+        draw_box(svg, plot, x, box, measure);
       }
       svg.text(x + 4.0, below, cut_in_the_middle(box.label, kLabelColumns), Anchor::end, "small",
                -90.0);
@@ -115,7 +188,7 @@ std::string explanation_of(BoxOf of) {
 std::string box_plots_svg(const Summary& summary) {
   const BoxOf of = box_of(summary, kMaxScenes, kMaxKinds);
   const std::vector<BoxGroup> groups = box_groups(summary, of);
-  const BoxLayout layout = layout_of(groups);
+  const Layout layout = layout_of(groups);
   Svg svg(layout.width(), layout.height(), kChartStyle);
   svg.rectangle(0.0, 0.0, layout.width(), layout.height(), "page");
   svg.text(kMargin, kTitleHeight - 34.0, title_of(summary), Anchor::start, "title");

@@ -1,6 +1,6 @@
 #include "experiments/report/columns.hpp"
 
-#include "experiments/report/text.hpp"
+#include "framework/base/text.hpp"
 #include "framework/geometry/rigid_transform.hpp"
 
 namespace croon::experiments {

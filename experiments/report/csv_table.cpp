@@ -1,6 +1,6 @@
 #include "experiments/report/export.hpp"
 #include "experiments/report/renderers.hpp"
-#include "experiments/report/text.hpp"
+#include "framework/base/text.hpp"
 
 namespace croon::experiments {
 

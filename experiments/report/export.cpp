@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "experiments/report/text.hpp"
+#include "framework/base/text.hpp"
 
 namespace croon::experiments {
 

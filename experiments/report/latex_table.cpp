@@ -2,7 +2,7 @@
 #include <string_view>
 
 #include "experiments/report/renderers.hpp"
-#include "experiments/report/text.hpp"
+#include "framework/base/text.hpp"
 
 namespace croon::experiments {
 

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "experiments/report/plots.hpp"
-#include "experiments/report/svg.hpp"
-#include "experiments/report/text.hpp"
+#include "framework/base/text.hpp"
+#include "framework/picture/chart.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -26,6 +26,7 @@ constexpr double kHeight = 170.0;
 constexpr double kLeft = 46.0;
 constexpr double kTop = 56.0;
 constexpr double kGap = 60.0;
+constexpr double kMost = 0.25;  // Of the points in one bin.
 
 using Shares = std::array<double, kRangeBins>;
 
@@ -50,26 +51,28 @@ struct Histograms {
 
 std::string colour(std::size_t index) { return "c" + std::to_string(index % kColours); }
 
-double x_of(double left, double bin) { return left + kWidth * bin / kRangeBins; }
-
-double y_of(double top, double share) {
-  constexpr double kMost = 0.25;  // Of the points in one bin.
-  return top + kHeight * (1.0 - std::min(share, kMost) / kMost);
-}
-
-void draw_frame(Svg& svg, double left, double top, const std::string& sensor) {
+/// Draws the frame of the panel at (left, top) and returns its plot: bins to the right, upwards
+/// shares of `kMost`.
+Plot draw_panel(Svg& svg, double left, double top, const std::string& sensor) {
+  const Plot plot = {left, top, kWidth, kHeight, {0.0, kRangeBins}, {0.0, 1.0}};
   svg.text(left, top - 8.0, sensor, Anchor::start, "title");
   for (const double share : {0.0, 0.05, 0.1, 0.15, 0.2, 0.25}) {
-    svg.line(left, y_of(top, share), left + kWidth, y_of(top, share), "grid");
-    svg.text(left - 6.0, y_of(top, share) + 4.0, fixed_number(100.0 * share, 0) + " %", Anchor::end,
-             "small");
+    plot.draw_y_tick(svg, share / kMost, fixed_number(100.0 * share, 0) + " %", 6.0);
   }
   for (std::size_t bin = 0; bin < kRangeBins; bin += 8) {
-    const double x = x_of(left, static_cast<double>(bin));
-    svg.line(x, top, x, top + kHeight, "grid");
     const double range_m = range_bin_m(bin);
-    svg.text(x, top + kHeight + 16.0, fixed_number(range_m, range_m < 0.5 ? 1 : 0) + " m",
-             Anchor::middle, "small");
+    plot.draw_x_tick(svg, static_cast<double>(bin),
+                     fixed_number(range_m, range_m < 0.5 ? 1 : 0) + " m", 16.0);
+  }
+  return plot;
+}
+
+/// Draws a mean histogram: the sum of `count` of them.
+void draw_line(Svg& svg, const Plot& plot, const Shares& sum, int count, const std::string& style) {
+  const auto y = [&](std::size_t bin) { return plot.y(std::min(sum[bin] / count, kMost) / kMost); };
+  for (std::size_t bin = 0; bin + 1 < kRangeBins; ++bin) {
+    const double middle = static_cast<double>(bin) + 0.5;
+    svg.line(plot.x(middle), y(bin), plot.x(middle + 1.0), y(bin + 1), style);
   }
 }
 
@@ -91,18 +94,11 @@ std::string ranges_svg(const std::vector<CloudDescription>& clouds) {
   for (std::size_t s = 0; s < histograms.sensors.size(); ++s) {
     const double left = kLeft + static_cast<double>(s % 2) * (kWidth + kLeft + 20.0);
     const double top = kTop + std::floor(static_cast<double>(s) / 2.0) * (kHeight + kGap);
-    draw_frame(svg, left, top, histograms.sensors[s]);
+    const Plot plot = draw_panel(svg, left, top, histograms.sensors[s]);
     for (std::size_t d = 0; d < histograms.datasets.size(); ++d) {
       const auto found = histograms.sums.find({histograms.datasets[d], histograms.sensors[s]});
       if (found == histograms.sums.end()) continue;
-      const auto& [sum, count] = found->second;
-      const auto y = [&, &shares = sum, n = count](std::size_t bin) {
-        return y_of(top, shares[bin] / n);
-      };
-      for (std::size_t bin = 0; bin + 1 < kRangeBins; ++bin) {
-        const double middle = static_cast<double>(bin) + 0.5;
-        svg.line(x_of(left, middle), y(bin), x_of(left, middle + 1.0), y(bin + 1), colour(d));
-      }
+      draw_line(svg, plot, found->second.first, found->second.second, colour(d));
     }
   }
   return svg.bytes();

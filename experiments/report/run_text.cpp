@@ -8,8 +8,8 @@
 #include "experiments/report/claims_text.hpp"
 #include "experiments/report/renderers.hpp"
 #include "experiments/report/result_tables.hpp"
-#include "experiments/report/text.hpp"
 #include "framework/base/statistics.hpp"
+#include "framework/base/text.hpp"
 
 namespace croon::experiments {
 

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "experiments/report/text.hpp"
+#include "framework/base/text.hpp"
 
 namespace croon::experiments {
 

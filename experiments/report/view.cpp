@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "experiments/report/text.hpp"
+#include "framework/base/text.hpp"
 
 namespace croon::experiments {
 

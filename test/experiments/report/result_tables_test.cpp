@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "experiments/report/renderers.hpp"
-#include "experiments/report/text.hpp"
 #include "framework/base/angles.hpp"
+#include "framework/base/text.hpp"
 #include "framework/geometry/rigid_transform.hpp"
 #include "test/support/trial_records.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "experiments/report/text.hpp"
+#include "framework/base/text.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {

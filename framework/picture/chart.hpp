@@ -1,8 +1,41 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
-namespace croon::experiments {
+#include "framework/base/statistics.hpp"
+#include "framework/picture/svg.hpp"
+
+namespace croon {
+
+/// A linear axis with ticks at round numbers.
+struct Axis {
+  double low;
+  double high;
+  std::vector<double> ticks;
+  int decimals;  ///< That the ticks need.
+};
+
+/// The axis that holds [low, high] with about `ticks` steps of 1, 2 or 5 times a power of ten.
+Axis round_axis(double low, double high, int ticks);
+
+/// A rectangle of a picture in pixels, with a linear scale from left to right and one from bottom
+/// to top.
+struct Plot {
+  double left, top, width, height;
+  Interval x_range, y_range;  ///< The values at its sides.
+
+  /// Where a value is in the picture.
+  double x(double value) const;
+  double y(double value) const;
+
+  /// Draws a line across the plot at the value of a tick, and `text` `gap` pixels to the left of
+  /// the plot, or with its base line `gap` pixels below it.
+  void draw_x_tick(Svg& svg, double value, const std::string& text, double gap) const;
+  void draw_y_tick(Svg& svg, double value, const std::string& text, double gap,
+                   const std::string& style = "grid") const;
+};
 
 /// How many colours the classes c0, c1, ... of `kChartStyle` have.
 inline constexpr std::size_t kChartColours = 8;
@@ -40,4 +73,4 @@ inline constexpr const char* kChartStyle =
 }
 )css";
 
-}  // namespace croon::experiments
+}  // namespace croon

@@ -1,4 +1,4 @@
-#include "experiments/report/progress.hpp"
+#include "framework/base/progress.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace croon::experiments {
+namespace croon::test {
 namespace {
 
 /// A progress whose time the test sets.
@@ -110,4 +110,4 @@ TEST(Progress, ThreadsLoseNoTrial) {
 }
 
 }  // namespace
-}  // namespace croon::experiments
+}  // namespace croon::test

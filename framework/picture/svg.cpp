@@ -1,10 +1,10 @@
-#include "experiments/report/svg.hpp"
+#include "framework/picture/svg.hpp"
 
 #include <cmath>
 
-#include "experiments/report/text.hpp"
+#include "framework/base/text.hpp"
 
-namespace croon::experiments {
+namespace croon {
 
 namespace {
 
@@ -85,4 +85,4 @@ void Svg::text(double x, double y, const std::string& text, Anchor anchor, const
   bytes_ += ">" + escaped(text) + "</text>\n";
 }
 
-}  // namespace croon::experiments
+}  // namespace croon

@@ -1,11 +1,11 @@
-#include "experiments/report/text.hpp"
+#include "framework/base/text.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <stdexcept>
 
-namespace croon::experiments {
+namespace croon::test {
 namespace {
 
 TEST(Text, ColumnsAreCodePoints) {
@@ -55,4 +55,4 @@ TEST(Text, Clock) {
 }
 
 }  // namespace
-}  // namespace croon::experiments
+}  // namespace croon::test

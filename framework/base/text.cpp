@@ -1,11 +1,11 @@
-#include "experiments/report/text.hpp"
+#include "framework/base/text.hpp"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 
-namespace croon::experiments {
+namespace croon {
 
 namespace {
 
@@ -93,4 +93,4 @@ std::string clock_text(double seconds) {
          ":" + two_digits(whole % 60);
 }
 
-}  // namespace croon::experiments
+}  // namespace croon

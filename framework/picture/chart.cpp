@@ -1,9 +1,9 @@
-#include "experiments/report/axis.hpp"
+#include "framework/picture/chart.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace croon::experiments {
+namespace croon {
 
 Axis round_axis(double low, double high, int ticks) {
   // A flat range still needs a height; what differs by less than rounding is flat.
@@ -30,4 +30,23 @@ Axis round_axis(double low, double high, int ticks) {
   return axis;
 }
 
-}  // namespace croon::experiments
+double Plot::x(double value) const {
+  return left + width * (value - x_range.low) / (x_range.high - x_range.low);
+}
+
+double Plot::y(double value) const {
+  return top + height * (y_range.high - value) / (y_range.high - y_range.low);
+}
+
+void Plot::draw_x_tick(Svg& svg, double value, const std::string& text, double gap) const {
+  svg.line(x(value), top, x(value), top + height, "grid");
+  svg.text(x(value), top + height + gap, text, Anchor::middle, "small");
+}
+
+void Plot::draw_y_tick(Svg& svg, double value, const std::string& text, double gap,
+                       const std::string& style) const {
+  svg.line(left, y(value), left + width, y(value), style);
+  svg.text(left - gap, y(value) + 4.0, text, Anchor::end, "small");
+}
+
+}  // namespace croon

@@ -1,4 +1,4 @@
-#include "experiments/report/progress.hpp"
+#include "framework/base/progress.hpp"
 
 #include <unistd.h>
 
@@ -6,9 +6,9 @@
 #include <chrono>
 #include <utility>
 
-#include "experiments/report/text.hpp"
+#include "framework/base/text.hpp"
 
-namespace croon::experiments {
+namespace croon {
 
 namespace {
 
@@ -109,4 +109,4 @@ std::string Progress::state(double now_s) const {
   return scene_.empty() ? text : text + "  " + scene_;
 }
 
-}  // namespace croon::experiments
+}  // namespace croon

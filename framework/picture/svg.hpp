@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace croon::experiments {
+namespace croon {
 
 /// The part of a text that is at its position.
 enum class Anchor { start, middle, end };
@@ -30,4 +30,4 @@ class Svg {
   std::string bytes_;
 };
 
-}  // namespace croon::experiments
+}  // namespace croon

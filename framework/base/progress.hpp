@@ -6,7 +6,7 @@
 #include <ostream>
 #include <string>
 
-namespace croon::experiments {
+namespace croon {
 
 /// How progress is shown.
 enum class ProgressStyle {
@@ -64,4 +64,4 @@ class Progress {
   std::string scene_;
 };
 
-}  // namespace croon::experiments
+}  // namespace croon

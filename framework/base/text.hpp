@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-namespace croon::experiments {
+namespace croon {
 
 /// The number of columns that UTF-8 text takes: its code points.
 std::size_t text_columns(const std::string& text);
@@ -36,4 +36,4 @@ std::string counted(std::size_t count, const std::string& what);
 /// Hours, minutes and seconds: "3:07", "1:02:03".
 std::string clock_text(double seconds);
 
-}  // namespace croon::experiments
+}  // namespace croon

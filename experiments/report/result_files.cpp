@@ -1,0 +1,161 @@
+#include "experiments/report/result_files.hpp"
+
+#include <unistd.h>
+
+#include <optional>
+#include <sstream>
+#include <unordered_set>
+
+#include "experiments/report/plots.hpp"
+#include "experiments/report/result_tables.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
+
+namespace croon::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Bytes = std::optional<std::string>;
+
+/// A file of a folder of results.
+struct ResultFile {
+  const char* name;
+  /// Its bytes, std::nullopt if these results have no such file; null if another function writes
+  /// it.
+  Bytes (*bytes)(const Results& results);
+};
+
+constexpr const char* kManifest = "manifest.json";
+
+/// `bytes` of a summary if `rows` is not empty.
+template <class Rows>
+Bytes if_any(const Rows& rows, std::string (*bytes)(const Summary&), const Summary& summary) {
+  return rows.empty() ? std::nullopt : Bytes(bytes(summary));
+}
+
+Bytes if_basin(const Results& results, std::string (*bytes)(const Basin&)) {
+  return results.basin ? Bytes(bytes(*results.basin)) : std::nullopt;
+}
+
+/// Every file that a run writes beside its store: what it must be able to write, and what `--fresh`
+/// deletes. A new one is a row here.
+const std::vector<ResultFile>& result_files() {
+  using R = Results;
+  static const std::vector<ResultFile> files = {
+      {"trials.csv", [](const R& r) -> Bytes { return trials_csv(r.records); }},
+      {"summary.csv", [](const R& r) -> Bytes { return summary_csv(r.summary); }},
+      {"summary.json", [](const R& r) -> Bytes { return summary_json(r.summary, r.claims); }},
+      {"summary_by_kind.csv",
+       [](const R& r) { return if_any(r.summary.scene_kinds, summary_by_kind_csv, r.summary); }},
+      {"comparison.csv",
+       [](const R& r) { return if_any(r.summary.comparisons, comparison_csv, r.summary); }},
+      {"loops.csv", [](const R& r) { return if_any(r.summary.loops, loops_csv, r.summary); }},
+      {"basin.csv", [](const R& r) { return if_basin(r, basin_csv); }},
+      {"basin.svg", [](const R& r) { return if_basin(r, basin_svg); }},
+      {"box_plots.svg", [](const R& r) -> Bytes { return box_plots_svg(r.summary); }},
+      {kManifest, nullptr},
+      {kTimings, nullptr},
+      {kPicture, nullptr}};
+  return files;
+}
+
+/// The paths of the store and of all other files of a folder of results.
+std::vector<fs::path> paths_in(const fs::path& folder) {
+  std::vector<fs::path> paths = store_files(store_path(folder));
+  for (const ResultFile& file : result_files()) paths.push_back(folder / file.name);
+  return paths;
+}
+
+/// The folder, made if it is missing. Throws InputError if a run cannot write to it.
+fs::path writable(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error || !fs::is_directory(path, error)) {
+    throw InputError(path.string(), "", "expected a folder to write to: " + error.message());
+  }
+  if (::access(path.c_str(), W_OK | X_OK) != 0) {
+    throw InputError(path.string(), "", "expected a folder that may be written to");
+  }
+  for (const fs::path& to_write : paths_in(path)) {
+    if (!fs::is_directory(to_write, error)) continue;
+    throw InputError(to_write.string(), "", "expected a file or nothing, found a folder");
+  }
+  return path;
+}
+
+/// Deletes the file or folder `path` if there is one.
+void delete_path(const fs::path& path) {
+  std::error_code error;
+  fs::remove_all(path, error);
+  if (error) throw InputError(path.string(), "", "cannot be deleted: " + error.message());
+}
+
+/// Makes timings.csv end after its last whole line, or hold the header alone.
+void repair(const fs::path& path) {
+  const std::string header = timings_csv({});
+  std::string bytes;
+  if (fs::exists(path)) bytes = read_whole_file(path);
+  if (bytes.compare(0, header.size(), header) != 0) return write_whole_file(path, header);
+  if (bytes.back() != '\n') write_whole_file(path, bytes.substr(0, bytes.rfind('\n') + 1));
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(const fs::path& path) : path_(writable(path)), lock_(path_) {}
+
+void OutputFolder::clear() const {
+  for (const fs::path& path : paths_in(path_)) delete_path(path);
+  delete_path(file(kClouds));
+}
+
+void OutputFolder::write_reports(const Results& results, const std::string& manifest) const {
+  for (const ResultFile& result : result_files()) {
+    if (result.bytes == nullptr) continue;
+    const Bytes bytes = result.bytes(results);
+    bytes ? write_whole_file(file(result.name), *bytes) : delete_path(file(result.name));
+  }
+  write_whole_file(file(kManifest), manifest);
+}
+
+TimingsFile::TimingsFile(const fs::path& path) : path_(path) {
+  repair(path);
+  stream_.open(path, std::ios::binary | std::ios::app);
+  if (!stream_) throw InputError(path.string(), "", "cannot be written");
+}
+
+void TimingsFile::add(const std::vector<TimingRow>& rows) {
+  stream_ << timings_csv(rows).substr(timings_csv({}).size());
+}
+
+void TimingsFile::flush() {
+  stream_ << std::flush;
+  if (!stream_) throw InputError(path_.string(), "", "cannot be written");
+}
+
+void merge_timings(const std::vector<fs::path>& folders, const fs::path& path) {
+  std::string merged = timings_csv({});
+  std::unordered_set<std::string> rows = {merged.substr(0, merged.size() - 1)};
+  for (const fs::path& folder : folders) {
+    if (!fs::exists(folder / kTimings)) continue;
+    std::istringstream bytes(read_whole_file(folder / kTimings));
+    for (std::string row; std::getline(bytes, row);) {
+      if (!bytes.eof() && rows.insert(row).second) merged += row + "\n";
+    }
+  }
+  write_whole_file(path, merged);
+}
+
+void write_output_file(const fs::path& path, const std::string& bytes, const fs::path& input) {
+  std::error_code error;
+  const bool is_input = fs::equivalent(path, input, error);
+  const bool is_store = path.filename() == store_path("").filename();
+  if (is_input || (is_store && fs::exists(path, error))) {
+    throw InputError("", "--out",
+                     "expected a file to write, found " + path.string() + ", " +
+                         (is_store ? "the store of a run" : "which is read"));
+  }
+  write_whole_file(path, bytes);
+}
+
+}  // namespace croon::experiments

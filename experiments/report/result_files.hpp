@@ -1,0 +1,67 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "experiments/analysis/results.hpp"
+#include "experiments/store/store.hpp"
+#include "framework/base/folder_lock.hpp"
+
+namespace croon::experiments {
+
+// The files of a folder of results.
+
+/// The names that more than one command knows; the clouds are a folder.
+inline constexpr const char* kTimings = "timings.csv";
+inline constexpr const char* kPicture = "before_after.png";
+inline constexpr const char* kClouds = "clouds";
+
+/// The folder that a run writes into, made if it is missing and locked while this object lives.
+class OutputFolder {
+ public:
+  /// Throws InputError if the folder cannot be made or written to, or another croon works in it.
+  explicit OutputFolder(const std::filesystem::path& path);
+
+  std::filesystem::path store() const { return store_path(path_); }
+  std::filesystem::path file(const char* name) const { return path_ / name; }
+
+  /// Deletes the files that an earlier run left here, and nothing else.
+  void clear() const;
+
+  /// Writes the tables and the pictures of `results`, and removes those that an earlier run left
+  /// and this one lacks. `manifest` are the bytes of manifest.json.
+  void write_reports(const Results& results, const std::string& manifest) const;
+
+ private:
+  std::filesystem::path path_;
+  FolderLock lock_;
+};
+
+/// timings.csv, which grows as trials are done. When the file is opened again, a last line that a
+/// kill cut off is removed.
+class TimingsFile {
+ public:
+  /// Throws InputError if the file cannot be written.
+  explicit TimingsFile(const std::filesystem::path& path);
+
+  void add(const std::vector<TimingRow>& rows);
+  /// After this, the rows that were added outlive a kill of the process.
+  void flush();
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream stream_;
+};
+
+/// Writes to `path` the rows of timings.csv of all `folders` that have one, each row once.
+void merge_timings(const std::vector<std::filesystem::path>& folders,
+                   const std::filesystem::path& path);
+
+/// Writes `bytes` to the file `path`, whole or not at all. Throws InputError if it cannot be
+/// written, and if it would replace `input`, which the bytes were made from, or a store.
+void write_output_file(const std::filesystem::path& path, const std::string& bytes,
+                       const std::filesystem::path& input);
+
+}  // namespace croon::experiments
