@@ -3,7 +3,7 @@
 # Adds the stage that <kind>/<name>.cpp (or <file>) defines: compiles the file and adds one call of
 # croon::stages::<kind>::<name>() to the registry's list. If a target that it needs does not exist (an
 # option turned its library off), the stage is left out and the configuration prints a line.
-# Headers are found from the root of this tree and from the folder that adds the stage.
+# It sees the headers of framework, of what it needs, and of the folder that adds it.
 function(croon_add_stage kind name)
   cmake_parse_arguments(PARSE_ARGV 2 stage "" "SOURCE" "NEEDS")
   foreach(target IN LISTS stage_NEEDS)
