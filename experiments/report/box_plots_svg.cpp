@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
-#include <stdexcept>
 
 #include "experiments/report/plots.hpp"
 #include "framework/base/text.hpp"
@@ -166,24 +166,70 @@ std::string title_of(const Summary& summary) {
 
 /// The meaning of a box.
 std::string explanation_of(BoxOf of) {
-  const auto of_what = [&] {
-    switch (of) {
-      case BoxOf::variant:
-        return "one variant and sensor, all scenes together";
-      case BoxOf::scene:
-        return "one sensor in one scene";
-      case BoxOf::scene_kind:
-        return "one sensor in all scenes of one kind";
-      case BoxOf::all_scenes:
-        return "one sensor, all scenes together";
-    }
-    throw std::logic_error("a box of nothing that exists");
-  };
-  return std::string("A box is ") + of_what() +
+  static const std::map<BoxOf, const char*> what = {
+      {BoxOf::variant, "one variant and sensor, all scenes together"},
+      {BoxOf::scene, "one sensor in one scene"},
+      {BoxOf::scene_kind, "one sensor in all scenes of one kind"},
+      {BoxOf::all_scenes, "one sensor, all scenes together"}};
+  return std::string("A box is ") + what.at(of) +
          ": quartiles and median; dots lie beyond 1.5 interquartile ranges";
 }
 
+/// The index of `name` in `names`; added if it is new.
+std::size_t index_of(std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  const auto index = static_cast<std::size_t>(found - names.begin());
+  if (found == names.end()) names.push_back(name);
+  return index;
+}
+
+/// The label of the box that the deviations of `scene` are in.
+std::string label_of(const SummaryRow& row, const SceneSummary& scene, BoxOf of) {
+  return of == BoxOf::variant      ? row.variant
+         : of == BoxOf::scene      ? scene.scene
+         : of == BoxOf::scene_kind ? scene.scene_kind
+                                   : "";
+}
+
 }  // namespace
+
+BoxOf box_of(const Summary& summary, std::size_t max_scenes, std::size_t max_kinds) {
+  std::set<std::string> kinds;
+  std::size_t scenes = 0;
+  for (const SummaryRow& row : summary.rows) {
+    scenes = std::max(scenes, row.scenes.size());
+  }
+  for (const SceneKindSummary& kind : summary.scene_kinds) kinds.insert(kind.scene_kind);
+  if (variants_of(summary).size() > 1) return BoxOf::variant;
+  if (scenes > 1 && scenes <= max_scenes) return BoxOf::scene;
+  const bool by_kind = scenes > 1 && !kinds.empty() && kinds.size() <= max_kinds;
+  return by_kind ? BoxOf::scene_kind : BoxOf::all_scenes;
+}
+
+std::vector<BoxGroup> box_groups(const Summary& summary, BoxOf of) {
+  // Kinds come in the order of their summaries, all else in that of the rows.
+  std::vector<std::string> labels, sensors;
+  if (of == BoxOf::scene_kind) {
+    for (const SceneKindSummary& kind : summary.scene_kinds) index_of(labels, kind.scene_kind);
+  }
+  std::vector<std::map<std::size_t, std::vector<Measures>>> boxes;
+  for (const SummaryRow& row : summary.rows) {
+    const std::size_t sensor = index_of(sensors, row.sensor);
+    boxes.resize(sensors.size());
+    for (const SceneSummary& scene : row.scenes) {
+      std::vector<Measures>& box = boxes[sensor][index_of(labels, label_of(row, scene, of))];
+      box.insert(box.end(), scene.deviations.begin(), scene.deviations.end());
+    }
+  }
+  std::vector<BoxGroup> groups;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    groups.push_back({sensors[i], {}});
+    for (const auto& [label, deviations] : boxes[i]) {
+      groups[i].boxes.push_back({labels[label], label, deviations});
+    }
+  }
+  return groups;
+}
 
 std::string box_plots_svg(const Summary& summary) {
   const BoxOf of = box_of(summary, kMaxScenes, kMaxKinds);
