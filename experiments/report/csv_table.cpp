@@ -6,51 +6,40 @@ namespace croon::experiments {
 
 namespace {
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
 struct ValueText {
   std::string operator()(std::monostate) const { return ""; }
   std::string operator()(bool value) const { return value ? "1" : "0"; }
   std::string operator()(long long value) const { return std::to_string(value); }
   std::string operator()(double value) const { return shortest_number(value); }
-  std::string operator()(const std::string& value) const { return quoted(value); }
+  std::string operator()(const std::string& value) const {
+    if (value.find_first_of(",\"\r\n") == std::string::npos) return value;
+    std::string quoted = "\"";
+    for (const char c : value) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return quoted + "\"";
+  }
 };
-
-std::string field(const Cell& cell, const Column& column) {
-  const bool is_all = column.is_all_if_nothing && cell.is_nothing();
-  return is_all ? "all" : std::visit(ValueText(), cell.value);
-}
-
-/// The line of `fields`, which must not be empty.
-std::string line_of(const std::vector<std::string>& fields) {
-  std::string line = fields.front();
-  for (std::size_t k = 1; k < fields.size(); ++k) line += "," + fields[k];
-  return line + "\n";
-}
 
 }  // namespace
 
-std::string csv_header(const std::vector<Column>& columns) {
-  std::vector<std::string> fields;
-  for (const Column& column : columns) fields.push_back(quoted(column.full_name()));
-  for (const Column& column : columns) {
-    if (column.has_marks) fields.push_back(column.full_name() + "_mark");
+std::string csv_line(const std::vector<Column>& columns, const CellRow& row) {
+  std::string line;
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    const bool is_all = columns[k].is_all_if_nothing && row[k].is_nothing();
+    line += (k > 0 ? "," : "") + (is_all ? "all" : std::visit(ValueText(), row[k].value));
   }
-  return line_of(fields);
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    if (columns[k].has_marks) line += "," + row[k].mark;
+  }
+  return line + "\n";
 }
 
-std::string csv_line(const std::vector<Column>& columns, const CellRow& row) {
-  std::vector<std::string> fields;
-  for (std::size_t k = 0; k < row.size(); ++k) fields.push_back(field(row[k], columns[k]));
-  for (std::size_t k = 0; k < row.size(); ++k) {
-    if (columns[k].has_marks) fields.push_back(row[k].mark);
+std::string csv_header(const std::vector<Column>& columns) {
+  CellRow names;
+  for (const Column& column : columns) {
+    names.push_back(to_cell(column.full_name()));
+    names.back().mark = column.full_name() + "_mark";
   }
-  return line_of(fields);
+  return csv_line(columns, names);
 }
 
 std::string csv_table(const Table& table) {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "experiments/analysis/summary.hpp"
-#include "experiments/report/columns.hpp"
 #include "experiments/report/table.hpp"
 
 namespace croon::experiments {

@@ -51,6 +51,8 @@ Json json_rows(const Table& table) {
   for (const Column& column : table.columns) {
     paths.emplace_back(column.path.empty() ? "/" + column.full_name() : column.path);
   }
+  const bool is_ranked = std::any_of(table.columns.begin(), table.columns.end(),
+                                     [](const Column& column) { return column.has_marks; });
   Json rows = Json::array();
   for (const CellRow& row : table.rows) {
     Json json = Json::object();
@@ -58,7 +60,7 @@ Json json_rows(const Table& table) {
       json[paths[k]] = std::visit(ValueJson(), row[k].value);
     }
     for (Json& member : json) collapse(member);
-    if (table.is_ranked) add_ranks(json, table, row);
+    if (is_ranked) add_ranks(json, table, row);
     rows.push_back(std::move(json));
   }
   return rows;

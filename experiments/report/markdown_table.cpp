@@ -3,6 +3,7 @@
 
 #include "experiments/report/export.hpp"
 #include "experiments/report/renderers.hpp"
+#include "experiments/report/result_tables.hpp"
 
 namespace croon::experiments {
 
@@ -12,12 +13,6 @@ std::string cell_text(const Cell& cell, const Column& column) {
   const std::string text = markdown_escaped(shown_text(cell, column));
   return (cell.is_best ? "**" + text + "**" : text) +
          (cell.mark.empty() ? "" : " " + markdown_escaped(cell.mark));
-}
-
-std::string line_of(const std::vector<std::string>& cells) {
-  std::string text = "|";
-  for (const std::string& cell : cells) text += " " + cell + " |";
-  return text + "\n";
 }
 
 }  // namespace
@@ -32,14 +27,18 @@ std::string markdown_escaped(const std::string& text) {
 }
 
 std::string markdown_table(const Table& table, const View& view) {
-  std::string text = line_of(titles_of(view)) + "|";
-  for (std::size_t k = 0; k < view.columns.size(); ++k) text += k < view.names ? "---|" : "---:|";
-  text += "\n";
+  std::string text = "|";
+  std::string rule = "|";
+  for (std::size_t k = 0; k < view.columns.size(); ++k) {
+    text += " " + view.columns[k].title + " |";
+    rule += k < view.names ? "---|" : "---:|";
+  }
+  text += "\n" + rule + "\n";
   const std::vector<ShownCells> columns = shown_cells(table, view);
   for (const CellRow& row : table.rows) {
-    std::vector<std::string> cells;
-    for (const ShownCells& column : columns) cells.push_back(column.content(row, cell_text));
-    text += line_of(cells);
+    text += "|";
+    for (const ShownCells& column : columns) text += " " + column.content(row, cell_text) + " |";
+    text += "\n";
   }
   return text;
 }
@@ -49,14 +48,14 @@ std::string export_markdown(const ExportTable& table) {
              {"sensor"},
              {"success %", "<success_percent> [<success_low_percent>, <success_high_percent>]"}},
             2};
-  for (const std::size_t k : {kRotation, kTranslation}) {
+  for (const std::size_t k : kDistances) {
     for (const char* statistic : {"median", "p95"}) {
       const Measure& measure = kMeasures[k];
       view.columns.push_back({std::string(measure.name) + " " + statistic + " " + measure.unit,
                               content_of(measure, std::string("<") + statistic + ">")});
     }
   }
-  add_dofs(view, "<mean> ± <std>");
+  add_measures(view, kPaperOrder, "<mean> ± <std>");
   std::string text;
   for (const std::string& sentence : caption_sentences(table)) {
     text += markdown_escaped(sentence) + "\n";

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "experiments/report/table.hpp"
-#include "experiments/report/view.hpp"
 
 namespace croon::experiments {
 
@@ -33,7 +32,7 @@ std::string csv_of(const Columns<Row>& columns, const std::vector<Row>& rows) {
 
 /// The rows as a list of objects, each value at the path of its column; null for nothing, and for
 /// an object or a list that would hold nulls alone. JSON has no infinite numbers: they are the
-/// texts "inf" and "-inf". Of a ranked table, the names of the best and the marked columns too.
+/// texts "inf" and "-inf". If a column has marks, the names of the best and the marked columns too.
 nlohmann::ordered_json json_rows(const Table& table);
 
 /// `json` as the bytes of a file; bytes that are not UTF-8 are replaced.
@@ -44,19 +43,6 @@ std::string markdown_table(const Table& table, const View& view);
 
 /// `text` as Markdown shows it in a cell or a sentence.
 std::string markdown_escaped(const std::string& text);
-
-/// Rows of a table from `begin` to before `end`.
-struct RowRange {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-};
-
-/// A tabular with booktabs rules and siunitx columns (version 2 or 3), the best values bold, marks
-/// in columns of their own. The first column of the view is names, the others have numbers.
-std::string latex_tabular(const Table& table, const View& view, const RowRange& rows);
-
-/// The lines that the row takes, with the heading above it if it has one.
-std::size_t latex_lines(const Table& table, const View& view, std::size_t row);
 
 /// `text` as LaTeX prints it, in a cell or a sentence.
 std::string latex_escaped(const std::string& text);

@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "experiments/report/claims_text.hpp"
+#include "experiments/report/run_text.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "test/support/trial_records.hpp"
 

@@ -25,25 +25,34 @@ struct Whole {
   Part part;
 };
 
+Columns<Part> part_columns() {
+  Columns<Part> columns;
+  return columns.add({"low", "ratio", "/range/0", 1}, &Part::low)
+      .add({"high", "m", "/range/1", 2}, &Part::high);
+}
+
 /// A column of each kind of value, the last two below "range" in JSON.
 Columns<Whole> columns() {
-  Columns<Part> part;
-  part.add({"low", "ratio", "/range/0", 1}, &Part::low)
-      .add({"high", "m", "/range/1", 2}, &Part::high);
   Columns<Whole> columns;
   return columns.add({"name"}, &Whole::name)
       .add({"count"}, &Whole::count)
       .add({"is_many"}, [](const Whole& whole) { return whole.count > 1; })
-      .add(part, &Whole::part);
+      .add(part_columns(), &Whole::part);
 }
 
 Table two_rows() { return columns().table({{"a,b", 2, {0.25, 1.0}}, {"*c*", 1, {kInf, {}}}}); }
 
-TEST(Columns, AreSelectedByFullName) {
-  const Columns<Whole> selected = columns().selected({"high_m", "name"});
-  ASSERT_EQ(selected.columns().size(), 2U);
-  EXPECT_EQ(std::get<double>(selected.cells({"x", 1, {0.0, 2.5}})[0].value), 2.5);
-  EXPECT_THROW(columns().selected({"high"}), std::logic_error);
+TEST(Columns, AreFoundByFullName) {
+  EXPECT_EQ(std::get<double>(two_rows().at(0, "high_m").value), 1.0);
+  EXPECT_THROW(two_rows().at(0, "high"), std::logic_error);
+}
+
+TEST(Columns, OfAMissingPartHaveNothing) {
+  using Maybe = std::optional<Part>;
+  Columns<Maybe> columns;
+  columns.add(part_columns(), [](const Maybe& part) { return part; });
+  EXPECT_TRUE(columns.cells(std::nullopt)[0].is_nothing());
+  EXPECT_EQ(std::get<double>(columns.cells(Part{0.25, {}})[0].value), 0.25);
 }
 
 TEST(CsvTable, QuotesWhatNeedsIt) {
