@@ -130,7 +130,7 @@ Columns<SummaryRow> export_columns() {
            [](const SummaryRow& row) { return 100.0 * main_share(row).interval.high; });
   const auto add = [&](std::size_t k, const char* statistic) {
     const std::size_t s = statistic_index(statistic);
-    columns.add(statistic_column(k, s),
+    columns.add(statistic_column(kMeasures[k], statistic),
                 [k, s](const SummaryRow& row) { return value_of(row.statistics, k, s); });
   };
   for (const std::size_t k : kDistances) {

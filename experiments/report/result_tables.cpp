@@ -13,9 +13,59 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Column of_measure(const Measure& measure, const std::string& name, const std::string& path) {
-  return {measure.name + ("_" + name), measure.unit, path, measure.decimals,
-          Better::nearer_to_zero};
+/// Ratio, low and high end of a share called `name`.
+Columns<Share> share_columns(const std::string& name) {
+  Columns<Share> columns;
+  return columns.add({name, "ratio", "/" + name + "/ratio", 1}, &Share::ratio)
+      .add({name + "_low", "ratio", "/" + name + "/low_ratio", 1},
+           [](const Share& share) { return share.interval.low; })
+      .add({name + "_high", "ratio", "/" + name + "/high_ratio", 1},
+           [](const Share& share) { return share.interval.high; });
+}
+
+/// Trials by outcome, the shares of success and agreement.
+Columns<TrialSummary> outcome_columns() {
+  Columns<Outcomes> outcomes;
+  outcomes.add({"trials"}, &Outcomes::trials)
+      .add({"success", "", "/success/count"}, &Outcomes::success)
+      .add({"inaccurate"}, &Outcomes::inaccurate)
+      .add({"rejected"}, &Outcomes::rejected)
+      .add({"failed"}, &Outcomes::failed);
+  Columns<TrialSummary> columns;
+  return columns.add(outcomes, &TrialSummary::outcomes)
+      .add(share_columns("success"), &TrialSummary::success)
+      .add({"agreement", "", "/agreement/count"},
+           [](const TrialSummary& summary) { return summary.agreement.count; })
+      .add(share_columns("agreement"), &TrialSummary::agreement);
+}
+
+/// Every statistic of every measure.
+Columns<std::optional<StatisticsTable>> statistics_columns() {
+  Columns<std::optional<StatisticsTable>> columns;
+  for (std::size_t k = 0; k < kMeasures.size(); ++k) {
+    for (std::size_t s = 0; s < kStatistics.size(); ++s) {
+      const std::string name = kStatistics[s].name;
+      const std::string path = "/statistics/" + name_with_unit(kMeasures[k]) + "/" + name;
+      columns.add(statistic_column(kMeasures[k], name, path),
+                  [k, s](const auto& table) { return value_of(table, k, s); });
+    }
+  }
+  return columns;
+}
+
+/// Translation and quaternion (qw >= 0), in JSON below `path`.
+Columns<RigidTransform> pose_columns(const std::string& path = "") {
+  using Pose = RigidTransform;
+  Columns<Pose> columns;
+  for (const int i : {0, 1, 2}) {
+    columns.add({std::string("t") + "xyz"[i], "m", path + "/translation_m/" + std::to_string(i)},
+                [i](const Pose& pose) { return pose.translation(i); });
+  }
+  for (const int i : {0, 1, 2, 3}) {
+    columns.add({std::string("q") + "xyzw"[i], "", path + "/rotation_xyzw/" + std::to_string(i)},
+                [i](const Pose& pose) { return unit_quaternion(pose.rotation).coeffs()(i); });
+  }
+  return columns;
 }
 
 Columns<TrialId> id_columns() {
@@ -106,65 +156,18 @@ Json scenes_json(const SummaryRow& row) {
 
 }  // namespace
 
-Columns<Share> share_columns(const std::string& name) {
-  Columns<Share> columns;
-  return columns.add({name, "ratio", "/" + name + "/ratio", 1}, &Share::ratio)
-      .add({name + "_low", "ratio", "/" + name + "/low_ratio", 1},
-           [](const Share& share) { return share.interval.low; })
-      .add({name + "_high", "ratio", "/" + name + "/high_ratio", 1},
-           [](const Share& share) { return share.interval.high; });
-}
-
-Columns<TrialSummary> outcome_columns() {
-  Columns<Outcomes> outcomes;
-  outcomes.add({"trials"}, &Outcomes::trials)
-      .add({"success", "", "/success/count"}, &Outcomes::success)
-      .add({"inaccurate"}, &Outcomes::inaccurate)
-      .add({"rejected"}, &Outcomes::rejected)
-      .add({"failed"}, &Outcomes::failed);
-  Columns<TrialSummary> columns;
-  return columns.add(outcomes, &TrialSummary::outcomes)
-      .add(share_columns("success"), &TrialSummary::success)
-      .add({"agreement", "", "/agreement/count"},
-           [](const TrialSummary& summary) { return summary.agreement.count; })
-      .add(share_columns("agreement"), &TrialSummary::agreement);
-}
-
-Column statistic_column(std::size_t measure, std::size_t statistic, const std::string& path) {
-  return of_measure(kMeasures[measure], kStatistics[statistic].name, path);
-}
-
-Columns<std::optional<StatisticsTable>> statistics_columns() {
-  Columns<std::optional<StatisticsTable>> columns;
-  for (std::size_t k = 0; k < kMeasures.size(); ++k) {
-    for (std::size_t s = 0; s < kStatistics.size(); ++s) {
-      const std::string path = "/statistics/" + name_with_unit(kMeasures[k]) + "/";
-      columns.add(statistic_column(k, s, path + kStatistics[s].name),
-                  [k, s](const auto& table) { return value_of(table, k, s); });
-    }
-  }
-  return columns;
+Column statistic_column(const Measure& measure, const std::string& statistic,
+                        const std::string& path) {
+  return {measure.name + ("_" + statistic), measure.unit, path, measure.decimals,
+          Better::nearer_to_zero};
 }
 
 Columns<DofValues> dof_columns(const std::string& name) {
   Columns<DofValues> columns;
   for (std::size_t k = 0; k < kDofs; ++k) {
-    columns.add(of_measure(kMeasures[k], name, "/" + name + "/" + name_with_unit(kMeasures[k])),
-                [k](const DofValues& values) { return values[k]; });
-  }
-  return columns;
-}
-
-Columns<RigidTransform> pose_columns(const std::string& path) {
-  using Pose = RigidTransform;
-  Columns<Pose> columns;
-  for (const int i : {0, 1, 2}) {
-    columns.add({std::string("t") + "xyz"[i], "m", path + "/translation_m/" + std::to_string(i)},
-                [i](const Pose& pose) { return pose.translation(i); });
-  }
-  for (const int i : {0, 1, 2, 3}) {
-    columns.add({std::string("q") + "xyzw"[i], "", path + "/rotation_xyzw/" + std::to_string(i)},
-                [i](const Pose& pose) { return unit_quaternion(pose.rotation).coeffs()(i); });
+    columns.add(
+        statistic_column(kMeasures[k], name, "/" + name + "/" + name_with_unit(kMeasures[k])),
+        [k](const DofValues& values) { return values[k]; });
   }
   return columns;
 }

@@ -13,9 +13,6 @@
 
 namespace croon::experiments {
 
-// Columns that several tables have in common, each described once. In JSON, the values of
-// `statistics_columns` are below "statistics", and so on.
-
 /// The column "sensor" of an object with that member; empty for all sensors.
 template <class Row>
 void add_sensor(Columns<Row>& columns) {
@@ -23,23 +20,12 @@ void add_sensor(Columns<Row>& columns) {
               [](const Row& row) { return nothing_if_empty(row.sensor); });
 }
 
-/// Ratio, low and high end of a share called `name`.
-Columns<Share> share_columns(const std::string& name);
-
-/// Trials by outcome, the shares of success and agreement.
-Columns<TrialSummary> outcome_columns();
-
-/// Every statistic of every measure.
-Columns<std::optional<StatisticsTable>> statistics_columns();
-
-/// The statistic `statistic` of `kMeasures[measure]`; `path` as in `Column`.
-Column statistic_column(std::size_t measure, std::size_t statistic, const std::string& path = "");
+/// The column "pitch_mean_deg" of a measure and a statistic; `path` as in `Column`.
+Column statistic_column(const Measure& measure, const std::string& statistic,
+                        const std::string& path = "");
 
 /// Values of the DOFs that are called `name`, "roll_within_scene_std_deg".
 Columns<DofValues> dof_columns(const std::string& name);
-
-/// Translation and quaternion (qw >= 0), in JSON below `path`.
-Columns<RigidTransform> pose_columns(const std::string& path = "");
 
 /// The columns of comparison.csv and of "comparisons" in summary.json; those of loops.csv; those of
 /// clouds.csv; those of "claims" and of "reasons" in summary.json.

@@ -3,6 +3,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <tuple>
 
 #include "experiments/report/export.hpp"
 #include "experiments/report/renderers.hpp"
@@ -14,8 +15,9 @@ namespace croon::experiments {
 
 namespace {
 
-/// A table whose rows belong to variants: the variant of each row is in a column in front; in a
-/// heading if a name is long; not shown if there is one variant.
+/// A table whose rows belong to variants: the variant of each row is in a
+/// column in front; in a heading if a name is long; not shown if there is one
+/// variant.
 std::string text_by_variant(const Table& table, View view, const Summary& summary,
                             const TableStyle& style) {
   constexpr std::size_t kLongName = 16;
@@ -65,7 +67,8 @@ std::string comparison_text(const Summary& summary, const TableStyle& style) {
     view.columns.push_back({"p", std::string("<p_") + kMeasures[k].name + ">"});
   }
   return text_by_variant(of_all_sensors, view, summary, style) +
-         "* p < 0.05 over trials (McNemar, Wilcoxon; Holm), ** also with scenes as units\n";
+         "* p < 0.05 over trials (McNemar, Wilcoxon; Holm), ** also with "
+         "scenes as units\n";
 }
 
 std::string loop_text(const Summary& summary, const TableStyle& style) {
@@ -109,74 +112,60 @@ std::string scene_kind_text(const Summary& summary, const TableStyle& style) {
   return text_by_variant(table, view, summary, style);
 }
 
-/// Success of one variant in one scene, by sensor.
-struct SceneRow {
-  std::string variant;
-  std::string scene;
-  std::map<std::string, const Share*> by_sensor;
-
-  /// The least share of all sensors, then their sum: the worst come first.
-  std::pair<double, double> worst() const {
-    std::pair<double, double> ratio = {std::numeric_limits<double>::infinity(), 0.0};
-    for (const auto& [sensor, share] : by_sensor) {
-      ratio.first = std::min(ratio.first, share->ratio);
-      ratio.second += share->ratio;
+/// The indices of the `count` worst scenes, ascending. `ratios` are the success
+/// ratios of each scene by sensor; the worst has the least ratio of all
+/// sensors, then the least sum.
+std::vector<std::size_t> worst_of(const std::vector<std::map<std::string, double>>& ratios,
+                                  std::size_t count) {
+  std::vector<std::tuple<double, double, std::size_t>> order;
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    double least = std::numeric_limits<double>::infinity();
+    double sum = 0.0;
+    for (const auto& [sensor, ratio] : ratios[i]) {
+      least = std::min(least, ratio);
+      sum += ratio;
     }
-    return ratio;
+    order.emplace_back(least, sum, i);
   }
-};
-
-std::vector<SceneRow> scene_rows(const Summary& summary) {
-  std::vector<SceneRow> rows;
-  std::map<std::pair<std::string, std::string>, std::size_t> indices;
-  for (const SummaryRow& row : summary.rows) {
-    for (const SceneSummary& scene : row.scenes) {
-      const auto [entry, is_new] = indices.insert({{row.variant, scene.scene}, rows.size()});
-      if (is_new) rows.push_back({row.variant, scene.scene, {}});
-      rows[entry->second].by_sensor[row.sensor] = &main_share(scene);
-    }
+  std::sort(order.begin(), order.end());
+  std::vector<std::size_t> worst;
+  for (std::size_t k = 0; k < std::min(count, order.size()); ++k) {
+    worst.push_back(std::get<2>(order[k]));
   }
-  return rows;
+  std::sort(worst.begin(), worst.end());
+  return worst;
 }
 
-/// Keeps the `count` worst rows, in their order.
-void keep_worst(std::vector<SceneRow>& rows, std::size_t count) {
-  if (rows.size() <= count) return;
-  std::vector<std::size_t> kept(rows.size());
-  std::iota(kept.begin(), kept.end(), 0U);
-  std::stable_sort(kept.begin(), kept.end(),
-                   [&](std::size_t a, std::size_t b) { return rows[a].worst() < rows[b].worst(); });
-  kept.resize(count);
-  std::sort(kept.begin(), kept.end());
-  for (std::size_t i = 0; i < count; ++i) rows[i] = rows[kept[i]];
-  rows.resize(count);
-}
-
-/// Success per variant, scene (rows) and sensor (columns). Of more than `style.max_scenes` rows the
-/// worst are shown, in their order.
+/// Success per variant, scene (rows) and sensor (columns). Of more than
+/// `style.max_scenes` rows the worst are shown, in their order.
 std::string scene_text(const Summary& summary, const TableStyle& style) {
-  std::vector<SceneRow> rows = scene_rows(summary);
-  const std::size_t total = rows.size();
-  keep_worst(rows, style.max_scenes);
-  const std::vector<std::string> sensors = sensors_of(summary);
-  Table table{{{"variant"}, {"scene"}}, {}};
+  Table all{{{"variant"}, {"scene"}}, {}};
   View view{{{"scene"}}};
-  add_titled(table, view, sensors, 0);
-  for (const SceneRow& scene : rows) {
-    CellRow row = cells_of(scene.variant, scene.scene);
-    for (const std::string& sensor : sensors) {
-      const auto share = scene.by_sensor.find(sensor);
-      row.push_back(share == scene.by_sensor.end()
-                        ? Cell()
-                        : to_cell(std::to_string(share->second->count) + "/" +
-                                  std::to_string(share->second->trials)));
+  const std::vector<std::string> sensors = sensors_of(summary);
+  add_titled(all, view, sensors, 0);
+  std::vector<std::map<std::string, double>> ratios;
+  std::map<std::pair<std::string, std::string>, std::size_t> rows;
+  for (const SummaryRow& row : summary.rows) {
+    const auto sensor = std::find(sensors.begin(), sensors.end(), row.sensor) - sensors.begin();
+    for (const SceneSummary& scene : row.scenes) {
+      const auto [entry, is_new] = rows.insert({{row.variant, scene.scene}, all.rows.size()});
+      if (is_new) {
+        all.rows.push_back(cells_of(row.variant, scene.scene));
+        all.rows.back().resize(all.columns.size());
+        ratios.emplace_back();
+      }
+      const Share& share = main_share(scene);
+      all.rows[entry->second][2 + static_cast<std::size_t>(sensor)] =
+          to_cell(std::to_string(share.count) + "/" + std::to_string(share.trials));
+      ratios[entry->second][row.sensor] = share.ratio;
     }
-    table.rows.push_back(std::move(row));
   }
-  const std::string text = text_by_variant(table, view, summary, style);
-  if (rows.size() == total) return text;
-  return text + "the worst " + std::to_string(rows.size()) + " of " + std::to_string(total) +
-         " rows\n";
+  Table shown{all.columns, {}};
+  for (const std::size_t i : worst_of(ratios, style.max_scenes)) shown.rows.push_back(all.rows[i]);
+  const std::string text = text_by_variant(shown, view, summary, style);
+  if (shown.rows.size() == all.rows.size()) return text;
+  return text + "the worst " + std::to_string(shown.rows.size()) + " of " +
+         std::to_string(all.rows.size()) + " rows\n";
 }
 
 std::string reason_text(const Summary& summary, const TableStyle& style) {
@@ -226,7 +215,8 @@ std::string summary_text(const Summary& summary, const TableStyle& style) {
   }
   if (has_consensus) {
     text += "success (no truth): " + bounds +
-            "what the trials of the scene agree on;\n  deviations of those trials from what all "
+            "what the trials of the scene agree on;\n  deviations of those "
+            "trials from what all "
             "scenes agree on\n";
   }
   View outcomes{{{"sensor"},
@@ -245,10 +235,12 @@ std::string summary_text(const Summary& summary, const TableStyle& style) {
   }
   if (!summary.comparisons.empty()) {
     text += "\nagainst " + summary.comparisons.front().base +
-            ", pair by pair: difference of medians [95 % interval], failures as infinite\n";
+            ", pair by pair: difference of medians [95 % interval], failures "
+            "as infinite\n";
     if (has_consensus) {
       text +=
-          "  (no truth: of the distances to what the variant's own trials of the scene agree "
+          "  (no truth: of the distances to what the variant's own trials "
+          "of the scene agree "
           "on, so of how\n  repeatable it is, not how accurate)\n";
     }
     text += comparison_text(summary, style);
