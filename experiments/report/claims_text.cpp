@@ -2,9 +2,9 @@
 #include <optional>
 #include <regex>
 
-#include "experiments/report/renderers.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "experiments/report/run_text.hpp"
+#include "framework/table/renderers.hpp"
 
 namespace croon::experiments {
 
@@ -33,7 +33,7 @@ Table quoted_table(const std::vector<Quoted>& quoted, const Summary& summary) {
   }
   const auto add = [&](const std::string& method, const std::string& source,
                        const std::string& statistic, const std::optional<DofValues>& dofs) {
-    CellRow row = cells_of(method, source, statistic);
+    CellRow row = cell_row(method, source, statistic);
     for (const std::size_t k : kPaperOrder) row.push_back(dofs ? to_cell((*dofs)[k]) : Cell());
     table.rows.push_back(std::move(row));
   };
@@ -90,7 +90,7 @@ std::string run_markdown(const Results& results) {
   const std::string trials =
       std::to_string(results.records.size()) + " of " + std::to_string(results.planned);
   const Table table{{{"scenes"}, {"sensors"}, {"starts of each"}, {"trials"}, {"seed"}, {"commit"}},
-                    {cells_of(results.scenes, sensors_of(results.summary).size(), results.trials,
+                    {cell_row(results.scenes, sensors_of(results.summary).size(), results.trials,
                               trials, std::to_string(results.seed), results.commit)}};
   return markdown_table(table, whole_view(table, table.columns.size()));
 }

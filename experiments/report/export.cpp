@@ -4,10 +4,11 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <nlohmann/json.hpp>
 
 #include "experiments/report/result_tables.hpp"
 #include "framework/base/text.hpp"
+#include "framework/table/renderers.hpp"
 
 namespace croon::experiments {
 
@@ -193,6 +194,45 @@ std::vector<std::string> caption_sentences(const ExportTable& table) {
                         "worse; **: also with scenes as units.");
   }
   return sentences;
+}
+
+std::string export_csv(const ExportTable& table) { return csv_table(table.table); }
+
+std::string export_json(const ExportTable& table) {
+  const ExportCaption& caption = table.caption;
+  return json_bytes({{"name", caption.name},
+                     {"commit", caption.commit},
+                     {"seed", caption.seed},
+                     {"scenes", caption.scenes},
+                     {"sensors", table.sensors.size()},
+                     {"starts", caption.starts},
+                     {"trials", caption.found},
+                     {"planned", caption.planned},
+                     {"success_bounds",
+                      {{"rotation_deg", table.bounds.rotation_deg},
+                       {"translation_m", table.bounds.translation_m}}},
+                     {"caption", caption_sentences(table)},
+                     {"rows", json_rows(table.table)}});
+}
+
+std::string export_markdown(const ExportTable& table) {
+  View view{{{"variant"},
+             {"sensor"},
+             {"success %", "<success_percent> [<success_low_percent>, <success_high_percent>]"}},
+            2};
+  for (const std::size_t k : kDistances) {
+    for (const char* statistic : {"median", "p95"}) {
+      const Measure& measure = kMeasures[k];
+      view.columns.push_back({std::string(measure.name) + " " + statistic + " " + measure.unit,
+                              content_of(measure, std::string("<") + statistic + ">")});
+    }
+  }
+  add_measures(view, kPaperOrder, "<mean> ± <std>");
+  std::string text;
+  for (const std::string& sentence : caption_sentences(table)) {
+    text += markdown_escaped(sentence) + "\n";
+  }
+  return text + "Degrees of freedom: mean ± std.\n\n" + markdown_table(table.table, view);
 }
 
 const std::vector<ExportFormat>& export_formats() {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "experiments/report/renderers.hpp"
 #include "framework/base/text.hpp"
 #include "framework/geometry/rigid_transform.hpp"
+#include "framework/table/renderers.hpp"
 
 namespace croon::experiments {
 
@@ -308,7 +308,7 @@ std::string basin_csv(const Basin& basin) {
   for (const BasinRow& row : basin.rows) {
     for (int level = 0; level < static_cast<int>(row.levels.size()); ++level) {
       const Share& share = row.levels[static_cast<std::size_t>(level)];
-      table.rows.push_back(cells_of(row.variant, row.sensor.empty() ? "all" : row.sensor, level,
+      table.rows.push_back(cell_row(row.variant, row.sensor.empty() ? "all" : row.sensor, level,
                                     rounded_size(basin.sweep, level), size_unit(basin.sweep),
                                     share.trials, share.count, share.ratio, share.interval.low,
                                     share.interval.high));

@@ -7,9 +7,9 @@
 #include "experiments/analysis/basin.hpp"
 #include "experiments/analysis/claims.hpp"
 #include "experiments/analysis/summary.hpp"
-#include "experiments/report/table.hpp"
 #include "experiments/run/trial_record.hpp"
 #include "framework/pipeline/cloud_description.hpp"
+#include "framework/table/table.hpp"
 
 namespace croon::experiments {
 

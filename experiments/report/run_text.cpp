@@ -5,10 +5,10 @@
 #include <optional>
 #include <utility>
 
-#include "experiments/report/renderers.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "framework/base/statistics.hpp"
 #include "framework/base/text.hpp"
+#include "framework/table/renderers.hpp"
 
 namespace croon::experiments {
 
@@ -96,7 +96,7 @@ std::string clouds_text(const std::vector<CloudDescription>& clouds) {
         if (is_of_both) rows.push_back(all.rows[i]);
       }
       if (rows.empty()) continue;
-      CellRow row = cells_of(sensor, dataset);
+      CellRow row = cell_row(sensor, dataset);
       for (std::size_t k = first; k < all.columns.size(); ++k) {
         row.push_back(range_cell(rows, k, all.columns[k].decimals));
       }
@@ -114,7 +114,7 @@ std::string plan_text(const PlanCounts& plan, bool colours) {
   Table table{{{"step"}, {"one by one"}, {"runs"}, {"saved"}, {"saved %", "", "", 1}}, {}};
   const auto add = [&](const StepCount& step) {
     const double ratio = static_cast<double>(step.runs) / static_cast<double>(step.alone);
-    table.rows.push_back(cells_of(step.step, step.alone, step.runs, step.alone - step.runs,
+    table.rows.push_back(cell_row(step.step, step.alone, step.runs, step.alone - step.runs,
                                   step.alone == 0 ? 0.0 : 100.0 * (1.0 - ratio)));
   };
   StepCount all{"all steps"};

@@ -6,10 +6,10 @@
 #include <tuple>
 
 #include "experiments/report/export.hpp"
-#include "experiments/report/renderers.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "experiments/report/run_text.hpp"
 #include "framework/base/text.hpp"
+#include "framework/table/renderers.hpp"
 
 namespace croon::experiments {
 
@@ -101,7 +101,7 @@ std::string scene_kind_text(const Summary& summary, const TableStyle& style) {
     percents[kind.sensor] = 100.0 * main_share(kind).ratio;
     if (!kind.sensor.empty()) continue;
     // The row over all sensors is the last of its kind.
-    CellRow row = cells_of(kind.variant, nothing_if_empty(kind.scene_kind), kind.scenes,
+    CellRow row = cell_row(kind.variant, nothing_if_empty(kind.scene_kind), kind.scenes,
                            kind.outcomes.trials, percents[""]);
     for (const std::string& sensor : sensors) {
       row.push_back(percents.count(sensor) > 0 ? to_cell(percents[sensor]) : Cell());
@@ -150,7 +150,7 @@ std::string scene_text(const Summary& summary, const TableStyle& style) {
     for (const SceneSummary& scene : row.scenes) {
       const auto [entry, is_new] = rows.insert({{row.variant, scene.scene}, all.rows.size()});
       if (is_new) {
-        all.rows.push_back(cells_of(row.variant, scene.scene));
+        all.rows.push_back(cell_row(row.variant, scene.scene));
         all.rows.back().resize(all.columns.size());
         ratios.emplace_back();
       }

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "experiments/report/export.hpp"
-#include "experiments/report/renderers.hpp"
+#include "framework/table/renderers.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {

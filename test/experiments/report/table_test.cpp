@@ -1,4 +1,4 @@
-#include "experiments/report/table.hpp"
+#include "framework/table/table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "experiments/report/renderers.hpp"
+#include "framework/table/renderers.hpp"
 #include "experiments/report/run_text.hpp"
 
 namespace croon::experiments {

@@ -1,10 +1,9 @@
 #include <algorithm>
 
-#include "experiments/report/export.hpp"
-#include "experiments/report/renderers.hpp"
 #include "framework/base/text.hpp"
+#include "framework/table/renderers.hpp"
 
-namespace croon::experiments {
+namespace croon {
 
 namespace {
 
@@ -52,4 +51,4 @@ std::string text_table(const Table& table, const View& view, bool bold_header) {
   return text;
 }
 
-}  // namespace croon::experiments
+}  // namespace croon

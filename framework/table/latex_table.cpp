@@ -1,14 +1,11 @@
 #include <algorithm>
-#include <array>
 #include <map>
 #include <string_view>
 
-#include "experiments/report/export.hpp"
-#include "experiments/report/renderers.hpp"
-#include "experiments/report/result_tables.hpp"
 #include "framework/base/text.hpp"
+#include "framework/table/renderers.hpp"
 
-namespace croon::experiments {
+namespace croon {
 
 namespace {
 
@@ -83,19 +80,19 @@ class Tabular {
   }
 
   /// The rows, as many together as a page holds.
-  std::vector<RowRange> floats() const {
-    constexpr std::size_t kLinesPerFloat = 28;  // With two panels, their heads and a caption.
-    std::vector<RowRange> floats = {{0, 0}};
+  std::vector<RowRange> pages() const {
+    constexpr std::size_t kLinesPerPage = 28;  // With two panels, their heads and a caption.
+    std::vector<RowRange> pages = {{0, 0}};
     std::size_t total = 0;
     for (std::size_t row = 0; row < names_.size(); ++row) {
       total += lines(row);
-      if (total > kLinesPerFloat && floats.back().end > floats.back().begin) {
-        floats.push_back({row, row});
+      if (total > kLinesPerPage && pages.back().end > pages.back().begin) {
+        pages.push_back({row, row});
         total = lines(row);
       }
-      floats.back().end = row + 1;
+      pages.back().end = row + 1;
     }
-    return floats;
+    return pages;
   }
 
  private:
@@ -196,55 +193,6 @@ class Tabular {
   bool has_long_name_ = false;
 };
 
-/// The two panels of an export, one above the other, because a page is too narrow for all columns.
-std::array<View, 2> panels_of(const ExportTable& table) {
-  const bool has_several = table.variants.size() > 1;
-  View success{{{has_several || table.sensors.size() == 1 ? "variant" : "sensor"}}};
-  if (has_several && table.sensors.size() > 1) success.heading = "sensor";
-  View dofs = success;
-  const auto add = [](View& view, std::size_t k, const char* title, const char* content) {
-    const Measure& measure = kMeasures[k];
-    const std::string unit = measure.unit == std::string("m") ? " (m)" : " ($^\\circ$)";
-    view.columns.push_back({title, content_of(measure, content), false, measure.name + unit});
-  };
-  const std::string group = "success (\\%)";
-  success.columns.push_back({"rate", "<success_percent>", false, group});
-  success.columns.push_back(
-      {"95\\,\\% interval", "<success_low_percent>\\,--\\,<success_high_percent>", false, group});
-  for (const std::size_t k : kDistances) {
-    add(success, k, "median", "<median>");
-    add(success, k, "p95", "<p95>");
-  }
-  for (const std::size_t k : kPaperOrder) {
-    add(dofs, k, "mean $\\pm$ std", "<mean>\\,${}\\pm{}$\\,<std>");
-  }
-  return {success, dofs};
-}
-
-/// Letters, digits and what labels may have besides.
-std::string label(std::string name) {
-  for (char& c : name) {
-    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                          (c >= '0' && c <= '9') ||
-                          std::string_view("_.:-").find(c) != std::string_view::npos;
-    if (!is_plain) c = '-';
-  }
-  return "tab:" + name;
-}
-
-/// The first float has the caption and the label; the others have its number.
-std::string caption_of(const ExportTable& table, const RowRange& rows) {
-  if (rows.begin > 0) {
-    return "\\addtocounter{table}{-1}\n\\caption{" + latex_escaped(table.caption.name) +
-           ", continued.}\n";
-  }
-  std::string text;
-  for (const std::string& sentence : caption_sentences(table)) {
-    text += (text.empty() ? "" : "\n  ") + latex_escaped(sentence);
-  }
-  return "\\caption{" + text + "}\n\\label{" + label(table.caption.name) + "}\n";
-}
-
 }  // namespace
 
 std::string latex_escaped(const std::string& text) {
@@ -253,25 +201,17 @@ std::string latex_escaped(const std::string& text) {
   return latex;
 }
 
-std::string export_latex(const ExportTable& table) {
-  const auto panels = panels_of(table);
-  const Tabular success(table.table, panels[0]);
-  const Tabular dofs(table.table, panels[1]);
-  std::string text =
-      "% Wants in the preamble: \\usepackage{booktabs,etoolbox,siunitx}\n"
-      "% siunitx 2 or 3. Spans both columns of a page that has two.\n";
-  for (const RowRange& rows : success.floats()) {
-    text +=
-        "\\begin{table*}[tbp]\n"
-        "\\centering\n"
-        "\\scriptsize\n"
-        "\\setlength{\\tabcolsep}{2.5pt}\n"
-        "\\robustify\\bfseries\n"
-        "\\sisetup{detect-weight=true}\n" +
-        caption_of(table, rows) + success.text(rows) + "\n\\medskip\n\n" + dofs.text(rows) +
-        "\\end{table*}\n";
+std::vector<std::string> latex_pages(const Table& table, const std::vector<View>& panels) {
+  std::vector<Tabular> tabulars;
+  for (const View& panel : panels) tabulars.emplace_back(table, panel);
+  std::vector<std::string> pages;
+  for (const RowRange& rows : tabulars.front().pages()) {
+    std::string& page = pages.emplace_back();
+    for (const Tabular& tabular : tabulars) {
+      page += (page.empty() ? "" : "\n\\medskip\n\n") + tabular.text(rows);
+    }
   }
-  return text;
+  return pages;
 }
 
-}  // namespace croon::experiments
+}  // namespace croon

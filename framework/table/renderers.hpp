@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "experiments/report/table.hpp"
+#include "framework/table/table.hpp"
 
-namespace croon::experiments {
+namespace croon {
 
 // The formats of a table, each in a file of its own: text_table.cpp, csv_table.cpp, json_table.cpp,
 // markdown_table.cpp and latex_table.cpp.
@@ -44,7 +44,13 @@ std::string markdown_table(const Table& table, const View& view);
 /// `text` as Markdown shows it in a cell or a sentence.
 std::string markdown_escaped(const std::string& text);
 
+/// A LaTeX table as one or more pages, each with the rows that it holds in one tabular per view,
+/// one above the other. Tabulars have booktabs rules and siunitx columns (version 2 or 3), the best
+/// values bold, marks in columns of their own. The first column of a view is names, the others have
+/// numbers.
+std::vector<std::string> latex_pages(const Table& table, const std::vector<View>& panels);
+
 /// `text` as LaTeX prints it, in a cell or a sentence.
 std::string latex_escaped(const std::string& text);
 
-}  // namespace croon::experiments
+}  // namespace croon

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-namespace croon::experiments {
+namespace croon {
 
 /// Which of two values of a column is the better one.
 enum class Better { neither, greater, nearer_to_zero };
@@ -85,7 +85,7 @@ Cell to_cell(const T& value) {
 
 /// The values as the cells of a row.
 template <class... T>
-CellRow cells_of(const T&... values) {
+CellRow cell_row(const T&... values) {
   return {to_cell(values)...};
 }
 
@@ -203,4 +203,4 @@ class ShownCells {
 /// The columns of `view`, looked up in `table`.
 std::vector<ShownCells> shown_cells(const Table& table, const View& view);
 
-}  // namespace croon::experiments
+}  // namespace croon

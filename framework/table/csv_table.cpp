@@ -1,8 +1,7 @@
-#include "experiments/report/export.hpp"
-#include "experiments/report/renderers.hpp"
 #include "framework/base/text.hpp"
+#include "framework/table/renderers.hpp"
 
-namespace croon::experiments {
+namespace croon {
 
 namespace {
 
@@ -48,6 +47,4 @@ std::string csv_table(const Table& table) {
   return bytes;
 }
 
-std::string export_csv(const ExportTable& table) { return csv_table(table.table); }
-
-}  // namespace croon::experiments
+}  // namespace croon

@@ -1,11 +1,11 @@
-#include "experiments/report/table.hpp"
+#include "framework/table/table.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 
 #include "framework/base/text.hpp"
 
-namespace croon::experiments {
+namespace croon {
 
 std::size_t Table::index_of(const std::string& full_name) const {
   for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -68,4 +68,4 @@ std::vector<ShownCells> shown_cells(const Table& table, const View& view) {
   return cells;
 }
 
-}  // namespace croon::experiments
+}  // namespace croon

@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <string_view>
 
-#include "experiments/report/export.hpp"
-#include "experiments/report/renderers.hpp"
-#include "experiments/report/result_tables.hpp"
+#include "framework/table/renderers.hpp"
 
-namespace croon::experiments {
+namespace croon {
 
 namespace {
 
@@ -43,24 +41,4 @@ std::string markdown_table(const Table& table, const View& view) {
   return text;
 }
 
-std::string export_markdown(const ExportTable& table) {
-  View view{{{"variant"},
-             {"sensor"},
-             {"success %", "<success_percent> [<success_low_percent>, <success_high_percent>]"}},
-            2};
-  for (const std::size_t k : kDistances) {
-    for (const char* statistic : {"median", "p95"}) {
-      const Measure& measure = kMeasures[k];
-      view.columns.push_back({std::string(measure.name) + " " + statistic + " " + measure.unit,
-                              content_of(measure, std::string("<") + statistic + ">")});
-    }
-  }
-  add_measures(view, kPaperOrder, "<mean> ± <std>");
-  std::string text;
-  for (const std::string& sentence : caption_sentences(table)) {
-    text += markdown_escaped(sentence) + "\n";
-  }
-  return text + "Degrees of freedom: mean ± std.\n\n" + markdown_table(table.table, view);
-}
-
-}  // namespace croon::experiments
+}  // namespace croon

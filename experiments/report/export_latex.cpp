@@ -1,0 +1,81 @@
+#include <string_view>
+
+#include "experiments/report/export.hpp"
+#include "experiments/report/result_tables.hpp"
+#include "framework/table/renderers.hpp"
+
+namespace croon::experiments {
+
+namespace {
+
+/// The two panels of an export, one above the other, because a page is too narrow for all columns.
+std::vector<View> panels_of(const ExportTable& table) {
+  const bool has_several = table.variants.size() > 1;
+  View success{{{has_several || table.sensors.size() == 1 ? "variant" : "sensor"}}};
+  if (has_several && table.sensors.size() > 1) success.heading = "sensor";
+  View dofs = success;
+  const auto add = [](View& view, std::size_t k, const char* title, const char* content) {
+    const Measure& measure = kMeasures[k];
+    const std::string unit = measure.unit == std::string("m") ? " (m)" : " ($^\\circ$)";
+    view.columns.push_back({title, content_of(measure, content), false, measure.name + unit});
+  };
+  const std::string group = "success (\\%)";
+  success.columns.push_back({"rate", "<success_percent>", false, group});
+  success.columns.push_back(
+      {"95\\,\\% interval", "<success_low_percent>\\,--\\,<success_high_percent>", false, group});
+  for (const std::size_t k : kDistances) {
+    add(success, k, "median", "<median>");
+    add(success, k, "p95", "<p95>");
+  }
+  for (const std::size_t k : kPaperOrder) {
+    add(dofs, k, "mean $\\pm$ std", "<mean>\\,${}\\pm{}$\\,<std>");
+  }
+  return {success, dofs};
+}
+
+/// Letters, digits and what labels may have besides.
+std::string label(std::string name) {
+  for (char& c : name) {
+    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                          (c >= '0' && c <= '9') ||
+                          std::string_view("_.:-").find(c) != std::string_view::npos;
+    if (!is_plain) c = '-';
+  }
+  return "tab:" + name;
+}
+
+/// The first float has the caption and the label; the others have its number.
+std::string caption_of(const ExportTable& table, bool is_first) {
+  if (!is_first) {
+    return "\\addtocounter{table}{-1}\n\\caption{" + latex_escaped(table.caption.name) +
+           ", continued.}\n";
+  }
+  std::string text;
+  for (const std::string& sentence : caption_sentences(table)) {
+    text += (text.empty() ? "" : "\n  ") + latex_escaped(sentence);
+  }
+  return "\\caption{" + text + "}\n\\label{" + label(table.caption.name) + "}\n";
+}
+
+}  // namespace
+
+std::string export_latex(const ExportTable& table) {
+  std::string text =
+      "% Wants in the preamble: \\usepackage{booktabs,etoolbox,siunitx}\n"
+      "% siunitx 2 or 3. Spans both columns of a page that has two.\n";
+  bool is_first = true;
+  for (const std::string& page : latex_pages(table.table, panels_of(table))) {
+    text +=
+        "\\begin{table*}[tbp]\n"
+        "\\centering\n"
+        "\\scriptsize\n"
+        "\\setlength{\\tabcolsep}{2.5pt}\n"
+        "\\robustify\\bfseries\n"
+        "\\sisetup{detect-weight=true}\n" +
+        caption_of(table, is_first) + page + "\\end{table*}\n";
+    is_first = false;
+  }
+  return text;
+}
+
+}  // namespace croon::experiments
