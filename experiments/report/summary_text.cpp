@@ -112,9 +112,8 @@ std::string scene_kind_text(const Summary& summary, const TableStyle& style) {
   return text_by_variant(table, view, summary, style);
 }
 
-/// The indices of the `count` worst scenes, ascending. `ratios` are the success
-/// ratios of each scene by sensor; the worst has the least ratio of all
-/// sensors, then the least sum.
+/// The indices of the `count` worst scenes, ascending. `ratios` has the success of each scene by
+/// sensor; the worst has the least ratio of all sensors, then the least sum.
 std::vector<std::size_t> worst_of(const std::vector<std::map<std::string, double>>& ratios,
                                   std::size_t count) {
   std::vector<std::tuple<double, double, std::size_t>> order;
@@ -136,8 +135,8 @@ std::vector<std::size_t> worst_of(const std::vector<std::map<std::string, double
   return worst;
 }
 
-/// Success per variant, scene (rows) and sensor (columns). Of more than
-/// `style.max_scenes` rows the worst are shown, in their order.
+/// Success per variant, scene (rows) and sensor (columns). Of more than `style.max_scenes` rows the
+/// worst are shown, in their order.
 std::string scene_text(const Summary& summary, const TableStyle& style) {
   Table all{{{"variant"}, {"scene"}}, {}};
   View view{{{"scene"}}};

@@ -15,8 +15,8 @@ namespace croon {
 /// terminal.
 std::string text_table(const Table& table, const View& view, bool bold_header = false);
 
-/// A CSV file (RFC 4180, but lines end in "\n"): a header and a line per row. After the columns,
-/// one
+/// A CSV file: a header and a line per row, as in RFC 4180, but lines end in "\n". Nothing is an
+/// empty field, or "all" in a column in which it stands for all. After the columns, there is one
 /// "_mark" column for each of those with marks.
 std::string csv_table(const Table& table);
 std::string csv_header(const std::vector<Column>& columns);

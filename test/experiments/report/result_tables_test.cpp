@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <limits>
 
-#include "framework/table/renderers.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/base/text.hpp"
 #include "framework/geometry/rigid_transform.hpp"

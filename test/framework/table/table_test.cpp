@@ -7,9 +7,8 @@
 #include <stdexcept>
 
 #include "framework/table/renderers.hpp"
-#include "experiments/report/run_text.hpp"
 
-namespace croon::experiments {
+namespace croon {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -134,20 +133,12 @@ TEST(MarkdownTable, EscapesCellsAndBoldsTheBest) {
             "| \\*c\\* | inf |\n");
 }
 
-TEST(PlanText, ListsWhatIsSaved) {
-  const PlanCounts plan = {20, 60, 3, {{"first", 60, 20}, {"second", 60, 40}}};
-  EXPECT_EQ(plan_text(plan, false),
-            R"(60 trials to run from 20 starts; 3 are in the store
-
-step       one by one  runs  saved  saved %
----------  ----------  ----  -----  -------
-first              60    20     40     66.7
-second             60    40     20     33.3
-all steps         120    60     60     50.0
-)");
-  EXPECT_EQ(plan_text({0, 0, 60, {}}, false),
-            "0 trials to run from 0 starts; 60 are in the store\n");
+TEST(LatexEscaped, EscapesEverything) {
+  EXPECT_EQ(latex_escaped("a_b & 100 %"), "a\\_b \\& 100 \\%");
+  EXPECT_EQ(latex_escaped("#1 ~ ^ \\ {x} $"),
+            "\\#1 \\textasciitilde{} \\textasciicircum{} \\textbackslash{} \\{x\\} \\$");
+  EXPECT_EQ(latex_escaped("[a]--<b>*"), "{[}a{]}{-}{-}\\textless{}b\\textgreater{}{*}");
 }
 
 }  // namespace
-}  // namespace croon::experiments
+}  // namespace croon
