@@ -19,7 +19,7 @@ namespace {
 
 using Row = std::map<std::string, std::string>;
 
-std::vector<std::string> cell_row(const std::string& line) {
+std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
   std::istringstream stream(line);
   for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
@@ -31,10 +31,10 @@ std::vector<Row> rows_of(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::string line;
   std::getline(file, line);
-  const std::vector<std::string> names = cell_row(line);
+  const std::vector<std::string> names = cells_of(line);
   std::vector<Row> rows;
   while (std::getline(file, line)) {
-    const std::vector<std::string> cells = cell_row(line);
+    const std::vector<std::string> cells = cells_of(line);
     Row row;
     for (std::size_t i = 0; i < cells.size(); ++i) row[names[i]] = cells[i];
     rows.push_back(row);
