@@ -4,7 +4,7 @@
 #include <string>
 
 #include "experiments/analysis/results.hpp"
-#include "experiments/report/claims_text.hpp"
+#include "experiments/report/run_text.hpp"
 
 namespace croon::experiments {
 namespace {

@@ -1,10 +1,10 @@
 #include "experiments/cli/commands.hpp"
 
 #include "experiments/file/experiment.hpp"
-#include "experiments/report/renderers.hpp"
 #include "experiments/report/result_files.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
+#include "framework/table/renderers.hpp"
 
 namespace croon::experiments {
 namespace {

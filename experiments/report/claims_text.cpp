@@ -1,11 +1,10 @@
-#include "experiments/report/claims_text.hpp"
-
 #include <algorithm>
 #include <optional>
-#include <sstream>
+#include <regex>
 
-#include "experiments/report/renderers.hpp"
 #include "experiments/report/result_tables.hpp"
+#include "experiments/report/run_text.hpp"
+#include "framework/table/renderers.hpp"
 
 namespace croon::experiments {
 
@@ -24,47 +23,30 @@ View claims_view(const std::string& open, const std::string& close) {
           2};
 }
 
-/// A row of the table of quoted numbers: theirs or ours.
-struct QuotedRow {
-  std::string method;
-  std::string source;
-  std::string statistic;
-  std::optional<DofValues> dofs;
-};
-
-/// The quoted rows; after those of each statistic, ours: that of this run's first variant over all
-/// sensors.
-std::vector<QuotedRow> with_ours(const std::vector<Quoted>& quoted, const Summary& summary) {
-  std::vector<QuotedRow> rows;
-  for (std::size_t i = 0; i < quoted.size(); ++i) {
-    const Quoted& q = quoted[i];
-    rows.push_back({q.method, q.source, q.statistic,
-                    DofValues{q.roll_deg, q.pitch_deg, q.yaw_deg, q.x_m, q.y_m, q.z_m}});
-    const bool has_later =
-        std::any_of(quoted.begin() + static_cast<std::ptrdiff_t>(i) + 1, quoted.end(),
-                    [&](const Quoted& later) { return later.statistic == q.statistic; });
-    if (has_later) continue;
-    const std::string variant = summary.rows.empty() ? "" : summary.rows.front().variant;
-    rows.push_back(
-        {"ours, all sensors", "this run, " + variant, q.statistic, row_beside(q, summary)});
-  }
-  return rows;
-}
-
-/// Method, source and statistic in words, the DOFs in the paper's order.
+/// The quoted rows, the DOFs in the paper's order; after those of each statistic, ours: that of
+/// this run's first variant over all sensors.
 Table quoted_table(const std::vector<Quoted>& quoted, const Summary& summary) {
   constexpr int kDecimals = 5;
-  Columns<QuotedRow> columns;
-  columns.add({"method"}, &QuotedRow::method)
-      .add({"source"}, &QuotedRow::source)
-      .add({"statistic"}, &QuotedRow::statistic);
+  Table table{{{"method"}, {"source"}, {"statistic"}}, {}};
   for (const std::size_t k : kPaperOrder) {
-    columns.add({kMeasures[k].name + (" " + std::string(kMeasures[k].unit)), "", "", kDecimals},
-                [k](const QuotedRow& row) {
-                  return row.dofs ? std::optional<double>((*row.dofs)[k]) : std::nullopt;
-                });
+    table.columns.push_back({title_of(kMeasures[k]), "", "", kDecimals});
   }
-  return columns.table(with_ours(quoted, summary));
+  const auto add = [&](const std::string& method, const std::string& source,
+                       const std::string& statistic, const std::optional<DofValues>& dofs) {
+    CellRow row = cell_row(method, source, statistic);
+    for (const std::size_t k : kPaperOrder) row.push_back(dofs ? to_cell((*dofs)[k]) : Cell());
+    table.rows.push_back(std::move(row));
+  };
+  for (auto q = quoted.begin(); q != quoted.end(); ++q) {
+    add(q->method, q->source, q->statistic,
+        DofValues{q->roll_deg, q->pitch_deg, q->yaw_deg, q->x_m, q->y_m, q->z_m});
+    const bool has_later = std::any_of(
+        q + 1, quoted.end(), [&](const Quoted& later) { return later.statistic == q->statistic; });
+    if (has_later) continue;
+    const std::string variant = summary.rows.empty() ? "" : summary.rows.front().variant;
+    add("ours, all sensors", "this run, " + variant, q->statistic, row_beside(*q, summary));
+  }
+  return table;
 }
 
 /// "50 in, 2 out, 1 not measured".
@@ -78,18 +60,6 @@ std::string verdict_counts(const std::vector<ClaimResult>& results) {
     text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + verdict_name(verdict);
   }
   return text;
-}
-
-/// `text` with `word` in red at the end of each line that ends in it.
-std::string reddened(const std::string& text, const std::string& word) {
-  std::string coloured;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t start = line.size() - std::min(line.size(), word.size());
-    if (line.substr(start) == word) line = line.substr(0, start) + "\033[31m" + word + "\033[0m";
-    coloured += line + "\n";
-  }
-  return coloured;
 }
 
 /// The table of claims, with the numbers of the reasons below it.
@@ -117,17 +87,11 @@ std::string results_markdown(const std::vector<ClaimResult>& results) {
 
 /// What was run, as a table of one row.
 std::string run_markdown(const Results& results) {
-  const auto all = [](const Results& r) {
-    return std::to_string(r.records.size()) + " of " + std::to_string(r.planned);
-  };
-  Columns<Results> columns;
-  columns.add({"scenes"}, &Results::scenes)
-      .add({"sensors"}, [](const Results& r) { return sensors_of(r.summary).size(); })
-      .add({"starts of each"}, &Results::trials)
-      .add({"trials"}, all)
-      .add({"seed"}, [](const Results& r) { return std::to_string(r.seed); })
-      .add({"commit"}, &Results::commit);
-  const Table table{columns.columns(), {columns.cells(results)}};
+  const std::string trials =
+      std::to_string(results.records.size()) + " of " + std::to_string(results.planned);
+  const Table table{{{"scenes"}, {"sensors"}, {"starts of each"}, {"trials"}, {"seed"}, {"commit"}},
+                    {cell_row(results.scenes, sensors_of(results.summary).size(), results.trials,
+                              trials, std::to_string(results.seed), results.commit)}};
   return markdown_table(table, whole_view(table, table.columns.size()));
 }
 
@@ -140,8 +104,9 @@ std::string claims_text(const std::vector<ClaimResult>& results, const std::vect
     View view = claims_view("[", "]");
     view.widest_name = kWidestName;
     const std::string table = text_table(claim_columns().table(results), view, style.colours);
+    const std::regex out("out\n");  // In red.
     text += "\nclaims: " + verdict_counts(results) + "\n";
-    text += style.colours ? reddened(table, verdict_name(Verdict::out)) : table;
+    text += style.colours ? std::regex_replace(table, out, "\033[31mout\033[0m\n") : table;
   }
   if (!quoted.empty()) {
     const Table table = quoted_table(quoted, summary);

@@ -4,46 +4,24 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <nlohmann/json.hpp>
 
+#include "experiments/report/result_tables.hpp"
 #include "framework/base/text.hpp"
+#include "framework/table/renderers.hpp"
 
 namespace croon::experiments {
 
 namespace {
 
+/// The columns with marks.
 constexpr const char* kSuccessColumn = "success_percent";
-
-/// The columns with marks, and the tests that these are of.
-struct MarkedColumn {
-  const char* name;
-  const PairedTest& (*test)(const Comparison& comparison);
-  bool needs_truth;  ///< Without truth the test is of repeatability, which no column shows.
-};
-
-const std::vector<MarkedColumn>& marked_columns() {
-  using C = Comparison;
-  static const std::vector<MarkedColumn> columns = {
-      {kSuccessColumn, [](const C& c) -> const PairedTest& { return c.success; }, false},
-      {"rotation_median_deg", [](const C& c) -> const PairedTest& { return c.rotation_deg.test; },
-       true},
-      {"translation_median_m", [](const C& c) -> const PairedTest& { return c.translation_m.test; },
-       true}};
-  return columns;
-}
-
-/// All sensors of a variant as one row, without scenes.
-SummaryRow all_sensors(const Summary& summary, const std::string& variant) {
-  SummaryRow all;
-  static_cast<TrialSummary&>(all) = pooled(scenes_of(rows_of(summary, variant)));
-  all.variant = variant;
-  return all;
-}
+constexpr const char* kRotationColumn = "rotation_median_deg";
+constexpr const char* kTranslationColumn = "translation_median_m";
 
 /// Less is better. Of the digits that are shown: a reader who sees two equal numbers, one of them
 /// bold, would look for a reason.
 double rank(const Cell& cell, const Column& column) {
-  if (cell.is_nothing()) return std::numeric_limits<double>::infinity();
   const std::string text = shown_text(cell, column);
   double shown = 0.0;
   std::from_chars(text.data(), text.data() + text.size(), shown);
@@ -51,57 +29,36 @@ double rank(const Cell& cell, const Column& column) {
 }
 
 /// Marks the best of each column among the rows [begin, end) of one sensor.
-class Ranking {
- public:
-  Ranking(Table& table, std::size_t begin, std::size_t end)
-      : table_(table), begin_(begin), end_(end), success_(table.index_of(kSuccessColumn)) {}
-
-  void mark_best() {
-    for (std::size_t k = 0; k < table_.columns.size(); ++k) {
-      if (table_.columns[k].better != Better::neither) mark_best(k);
-    }
-  }
-
- private:
-  void mark_best(std::size_t k) {
-    double best = std::numeric_limits<double>::infinity();
-    for (std::size_t i = begin_; i < end_; ++i) {
-      if (is_rival(i, k)) best = std::min(best, rank(table_.rows[i][k], table_.columns[k]));
-    }
-    for (std::size_t i = begin_; i < end_; ++i) {
-      Cell& cell = table_.rows[i][k];
-      cell.is_best = is_rival(i, k) && rank(cell, table_.columns[k]) == best;
-    }
-  }
-
-  bool is_rival(std::size_t row, std::size_t k) const {
-    const Cell& cell = table_.rows[row][k];
-    const bool is_worse_than_base = !cell.mark.empty() && cell.mark[0] == '-';
-    if (cell.is_nothing() || is_worse_than_base) return false;
-    return k == success_ || !is_of_easier_trials(row);
-  }
-
-  /// Whether the row succeeds significantly less often than another: its errors are then those of
-  /// the easier trials.
-  bool is_of_easier_trials(std::size_t row) const {
-    if (sign(row) != ' ') return sign(row) == '-';
-    // Neither better nor worse than the base: worse than what is better than the base.
-    for (std::size_t i = begin_; i < end_; ++i) {
-      if (sign(i) == '+') return true;
-    }
-    return false;
-  }
-
-  char sign(std::size_t row) const {
-    const std::string& mark = table_.rows[row][success_].mark;
+void mark_best(Table& table, std::size_t begin, std::size_t end) {
+  const std::size_t success = table.index_of(kSuccessColumn);
+  const auto sign = [&](std::size_t row, std::size_t k) {
+    const std::string& mark = table.rows[row][k].mark;
     return mark.empty() ? ' ' : mark[0];
+  };
+  bool one_beats_base = false;
+  for (std::size_t i = begin; i < end; ++i) {
+    one_beats_base = one_beats_base || sign(i, success) == '+';
   }
-
-  Table& table_;
-  std::size_t begin_;
-  std::size_t end_;
-  std::size_t success_;
-};
+  // If a row succeeds significantly less often than another, its errors are those of the easier
+  // trials. What is neither better nor worse than the base is worse than what beats the base.
+  const auto is_of_easier_trials = [&](std::size_t row) {
+    return sign(row, success) == '-' || (sign(row, success) == ' ' && one_beats_base);
+  };
+  for (std::size_t k = 0; k < table.columns.size(); ++k) {
+    const Column& column = table.columns[k];
+    if (column.better == Better::neither) continue;
+    std::vector<Cell*> rivals;
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t i = begin; i < end; ++i) {
+      Cell& cell = table.rows[i][k];
+      if (cell.is_nothing() || sign(i, k) == '-') continue;
+      if (k != success && is_of_easier_trials(i)) continue;
+      rivals.push_back(&cell);
+      best = std::min(best, rank(cell, column));
+    }
+    for (Cell* cell : rivals) cell->is_best = rank(*cell, column) == best;
+  }
+}
 
 void mark_best_of_each_sensor(Table& table) {
   for (std::size_t begin = 0, end = 0; begin < table.rows.size(); begin = end) {
@@ -109,7 +66,7 @@ void mark_best_of_each_sensor(Table& table) {
            table.text_at(end, "sensor") == table.text_at(begin, "sensor")) {
       ++end;
     }
-    Ranking(table, begin, end).mark_best();
+    mark_best(table, begin, end);
   }
 }
 
@@ -119,15 +76,21 @@ std::string mark_of(const PairedTest& test) {
 }
 
 void set_marks(Table& table, const std::vector<Comparison>& comparisons) {
+  for (const char* name : {kSuccessColumn, kRotationColumn, kTranslationColumn}) {
+    table.columns[table.index_of(name)].has_marks = true;
+  }
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const auto mark = [&](const char* column, const PairedTest& test) {
+      table.rows[i][table.index_of(column)].mark = mark_of(test);
+    };
     for (const Comparison& comparison : comparisons) {
       if (comparison.variant != table.text_at(i, "variant")) continue;
       if (comparison.sensor != table.text_at(i, "sensor")) continue;
-      const bool has_truth = table.text_at(i, "reference") == name_of(DeviationsFrom::truth);
-      for (const MarkedColumn& marked : marked_columns()) {
-        if (marked.needs_truth && !has_truth) continue;
-        table.rows[i][table.index_of(marked.name)].mark = mark_of(marked.test(comparison));
-      }
+      mark(kSuccessColumn, comparison.success);
+      // Without truth these are tests of repeatability, which no column shows.
+      if (table.text_at(i, "reference") != name_of(DeviationsFrom::truth)) continue;
+      mark(kRotationColumn, comparison.rotation_deg.test);
+      mark(kTranslationColumn, comparison.translation_m.test);
     }
   }
 }
@@ -150,13 +113,6 @@ std::string counts_sentence(const ExportTable& table) {
   return text + counted(caption.planned, "trial") + ".";
 }
 
-bool has_deviations_from(const Table& table, DeviationsFrom from) {
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    if (table.text_at(i, "reference") == name_of(from)) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 Columns<SummaryRow> export_columns() {
@@ -173,18 +129,19 @@ Columns<SummaryRow> export_columns() {
            [](const SummaryRow& row) { return 100.0 * main_share(row).interval.low; })
       .add({"success_high", "percent", "", 1},
            [](const SummaryRow& row) { return 100.0 * main_share(row).interval.high; });
-  std::vector<std::string> names;
-  for (const std::size_t k : {kRotation, kTranslation}) {
-    names.push_back(column_name(kMeasures[k], "median"));
-    names.push_back(column_name(kMeasures[k], "p95"));
+  const auto add = [&](std::size_t k, const char* statistic) {
+    const std::size_t s = statistic_index(statistic);
+    columns.add(statistic_column(kMeasures[k], statistic),
+                [k, s](const SummaryRow& row) { return value_of(row.statistics, k, s); });
+  };
+  for (const std::size_t k : kDistances) {
+    add(k, "median");
+    add(k, "p95");
   }
   for (const std::size_t k : kPaperOrder) {
-    names.push_back(column_name(kMeasures[k], "mean"));
-    names.push_back(column_name(kMeasures[k], "std"));
+    add(k, "mean");
+    add(k, "std");
   }
-  columns.add(statistics_columns().selected(names), &SummaryRow::statistics);
-  for (const std::string& name : names) columns.column(name).path.clear();
-  for (const MarkedColumn& marked : marked_columns()) columns.column(marked.name).has_marks = true;
   return columns;
 }
 
@@ -198,11 +155,13 @@ ExportTable export_table(const Summary& summary, const ExportCaption& caption) {
   }
   if (table.sensors.size() > 1) {
     for (const std::string& variant : table.variants) {
-      rows.push_back(all_sensors(summary, variant));
+      SummaryRow all;
+      static_cast<TrialSummary&>(all) = pooled(scenes_of(rows_of(summary, variant)));
+      all.variant = variant;
+      rows.push_back(all);
     }
   }
   table.table = export_columns().table(rows);
-  table.table.is_ranked = true;
   if (!summary.comparisons.empty()) table.base = summary.comparisons.front().base;
   set_marks(table.table, summary.comparisons);
   if (table.variants.size() > 1) mark_best_of_each_sensor(table.table);
@@ -235,6 +194,45 @@ std::vector<std::string> caption_sentences(const ExportTable& table) {
                         "worse; **: also with scenes as units.");
   }
   return sentences;
+}
+
+std::string export_csv(const ExportTable& table) { return csv_table(table.table); }
+
+std::string export_json(const ExportTable& table) {
+  const ExportCaption& caption = table.caption;
+  return json_bytes({{"name", caption.name},
+                     {"commit", caption.commit},
+                     {"seed", caption.seed},
+                     {"scenes", caption.scenes},
+                     {"sensors", table.sensors.size()},
+                     {"starts", caption.starts},
+                     {"trials", caption.found},
+                     {"planned", caption.planned},
+                     {"success_bounds",
+                      {{"rotation_deg", table.bounds.rotation_deg},
+                       {"translation_m", table.bounds.translation_m}}},
+                     {"caption", caption_sentences(table)},
+                     {"rows", json_rows(table.table)}});
+}
+
+std::string export_markdown(const ExportTable& table) {
+  View view{{{"variant"},
+             {"sensor"},
+             {"success %", "<success_percent> [<success_low_percent>, <success_high_percent>]"}},
+            2};
+  for (const std::size_t k : kDistances) {
+    for (const char* statistic : {"median", "p95"}) {
+      const Measure& measure = kMeasures[k];
+      view.columns.push_back({std::string(measure.name) + " " + statistic + " " + measure.unit,
+                              content_of(measure, std::string("<") + statistic + ">")});
+    }
+  }
+  add_measures(view, kPaperOrder, "<mean> ± <std>");
+  std::string text;
+  for (const std::string& sentence : caption_sentences(table)) {
+    text += markdown_escaped(sentence) + "\n";
+  }
+  return text + "Degrees of freedom: mean ± std.\n\n" + markdown_table(table.table, view);
 }
 
 const std::vector<ExportFormat>& export_formats() {

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "experiments/analysis/summary.hpp"
-#include "experiments/report/columns.hpp"
-#include "experiments/report/table.hpp"
+#include "framework/table/table.hpp"
 
 namespace croon::experiments {
 

@@ -1,16 +1,72 @@
 #include "experiments/report/result_tables.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "experiments/report/columns.hpp"
-#include "experiments/report/renderers.hpp"
+#include "framework/base/text.hpp"
+#include "framework/geometry/rigid_transform.hpp"
+#include "framework/table/renderers.hpp"
 
 namespace croon::experiments {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Ratio, low and high end of a share called `name`.
+Columns<Share> share_columns(const std::string& name) {
+  Columns<Share> columns;
+  return columns.add({name, "ratio", "/" + name + "/ratio", 1}, &Share::ratio)
+      .add({name + "_low", "ratio", "/" + name + "/low_ratio", 1},
+           [](const Share& share) { return share.interval.low; })
+      .add({name + "_high", "ratio", "/" + name + "/high_ratio", 1},
+           [](const Share& share) { return share.interval.high; });
+}
+
+/// Trials by outcome, the shares of success and agreement.
+Columns<TrialSummary> outcome_columns() {
+  Columns<Outcomes> outcomes;
+  outcomes.add({"trials"}, &Outcomes::trials)
+      .add({"success", "", "/success/count"}, &Outcomes::success)
+      .add({"inaccurate"}, &Outcomes::inaccurate)
+      .add({"rejected"}, &Outcomes::rejected)
+      .add({"failed"}, &Outcomes::failed);
+  Columns<TrialSummary> columns;
+  return columns.add(outcomes, &TrialSummary::outcomes)
+      .add(share_columns("success"), &TrialSummary::success)
+      .add({"agreement", "", "/agreement/count"},
+           [](const TrialSummary& summary) { return summary.agreement.count; })
+      .add(share_columns("agreement"), &TrialSummary::agreement);
+}
+
+/// Every statistic of every measure.
+Columns<std::optional<StatisticsTable>> statistics_columns() {
+  Columns<std::optional<StatisticsTable>> columns;
+  for (std::size_t k = 0; k < kMeasures.size(); ++k) {
+    for (std::size_t s = 0; s < kStatistics.size(); ++s) {
+      const std::string name = kStatistics[s].name;
+      const std::string path = "/statistics/" + name_with_unit(kMeasures[k]) + "/" + name;
+      columns.add(statistic_column(kMeasures[k], name, path),
+                  [k, s](const auto& table) { return value_of(table, k, s); });
+    }
+  }
+  return columns;
+}
+
+/// Translation and quaternion (qw >= 0), in JSON below `path`.
+Columns<RigidTransform> pose_columns(const std::string& path = "") {
+  using Pose = RigidTransform;
+  Columns<Pose> columns;
+  for (const int i : {0, 1, 2}) {
+    columns.add({std::string("t") + "xyz"[i], "m", path + "/translation_m/" + std::to_string(i)},
+                [i](const Pose& pose) { return pose.translation(i); });
+  }
+  for (const int i : {0, 1, 2, 3}) {
+    columns.add({std::string("q") + "xyzw"[i], "", path + "/rotation_xyzw/" + std::to_string(i)},
+                [i](const Pose& pose) { return unit_quaternion(pose.rotation).coeffs()(i); });
+  }
+  return columns;
+}
 
 Columns<TrialId> id_columns() {
   Columns<TrialId> columns;
@@ -21,20 +77,24 @@ Columns<TrialId> id_columns() {
 }
 
 Columns<TrialRecord> trial_columns() {
-  Columns<TrialRecord> columns;
-  columns.add(id_columns(), &TrialRecord::id).add({"status"}, [](const TrialRecord& record) {
-    return status_name(record.status);
-  });
-  // The two distances first, then the DOFs.
-  constexpr std::size_t kOrder[] = {kRotation, kTranslation, 0, 1, 2, 3, 4, 5};
-  for (const std::size_t k : kOrder) {
-    columns.add({std::string(kMeasures[k].name) + "_error", kMeasures[k].unit},
-                [k](const TrialRecord& record) {
-                  return record.error ? std::optional<double>(measures_of(*record.error)[k])
-                                      : std::nullopt;
-                });
+  Columns<PoseError> errors;  // The two distances first, then the DOFs.
+  for (const std::size_t k : {kRotation, kTranslation, 0UL, 1UL, 2UL, 3UL, 4UL, 5UL}) {
+    errors.add({std::string(kMeasures[k].name) + "_error", kMeasures[k].unit},
+               [k](const PoseError& error) { return measures_of(error)[k]; });
   }
-  return columns.add(pose_columns(), &TrialRecord::T_reference_sensor);
+  using R = TrialRecord;
+  Columns<R> columns;
+  return columns.add(id_columns(), &R::id)
+      .add({"status"}, [](const R& record) { return status_name(record.status); })
+      .add(errors, &R::error)
+      .add(pose_columns(), &R::T_reference_sensor);
+}
+
+/// The trials that count, and their statistics.
+Columns<TrialSummary> counted_columns() {
+  Columns<TrialSummary> columns;
+  return columns.add({"counted"}, &TrialSummary::counted)
+      .add(statistics_columns(), &TrialSummary::statistics);
 }
 
 /// The columns of summary.csv; `consensus` is in JSON alone.
@@ -94,23 +154,23 @@ Json scenes_json(const SummaryRow& row) {
   return json_rows(columns.table(row.scenes));
 }
 
-Columns<ReasonCount> reason_columns() {
-  Columns<ReasonCount> columns;
-  return columns.add({"variant"}, &ReasonCount::variant)
-      .add({"status"}, [](const ReasonCount& reason) { return status_name(reason.status); })
-      .add({"reason"}, &ReasonCount::reason)
-      .add({"count"}, &ReasonCount::count);
+}  // namespace
+
+Column statistic_column(const Measure& measure, const std::string& statistic,
+                        const std::string& path) {
+  return {measure.name + ("_" + statistic), measure.unit, path, measure.decimals,
+          Better::nearer_to_zero};
 }
 
-/// A level of a row of a basin.
-struct BasinLevel {
-  const BasinRow& row;
-  int level;
-  double size;
-  const char* unit;
-};
-
-}  // namespace
+Columns<DofValues> dof_columns(const std::string& name) {
+  Columns<DofValues> columns;
+  for (std::size_t k = 0; k < kDofs; ++k) {
+    columns.add(
+        statistic_column(kMeasures[k], name, "/" + name + "/" + name_with_unit(kMeasures[k])),
+        [k](const DofValues& values) { return values[k]; });
+  }
+  return columns;
+}
 
 Columns<Comparison> comparison_columns() {
   Columns<Comparison> columns;
@@ -159,27 +219,62 @@ Columns<ClaimResult> claim_columns() {
   // which side it is.
   constexpr int kDecimals = 5;
   static constexpr int kPercentDecimals = 2;
-  using R = ClaimResult;
-  Columns<R> columns;
-  columns.add({"claim"}, [](const R& result) { return result.claim.claim; })
-      .add({"source"}, [](const R& result) { return result.claim.source; })
-      .add({"variant"}, [](const R& result) { return result.claim.variant; })
-      .add({"sensor"}, [](const R& result) { return nothing_if_empty(result.claim.sensor); })
-      .add({"measure"}, [](const R& result) { return nothing_if_empty(result.claim.measure); })
-      .add({"statistic"}, [](const R& result) { return result.claim.statistic; });
-  return columns.add({"unit"}, [](const R& result) { return unit_of(result.claim); })
-      .add({"expected", "", "", kAllDigits}, [](const R& result) { return result.claim.value; })
+  Columns<Claim> of_claim;
+  of_claim.add({"claim"}, &Claim::claim)
+      .add({"source"}, &Claim::source)
+      .add({"variant"}, &Claim::variant)
+      .add({"sensor"}, [](const Claim& claim) { return nothing_if_empty(claim.sensor); })
+      .add({"measure"}, [](const Claim& claim) { return nothing_if_empty(claim.measure); })
+      .add({"statistic"}, &Claim::statistic)
+      .add({"unit"}, unit_of)
+      .add({"expected", "", "", kAllDigits}, &Claim::value)
       .add({"low", "", "/band/0", kAllDigits},
-           [](const R& result) { return result.claim.band.front(); })
+           [](const Claim& claim) { return claim.band.front(); })
       .add({"high", "", "/band/1", kAllDigits},
-           [](const R& result) { return result.claim.band.back(); })
-      .add({"found", "", "", kDecimals},
-           [](const R& result) {
-             Cell cell = to_cell(result.found);
-             if (is_share(result.claim.statistic)) cell.decimals = kPercentDecimals;
-             return cell;
-           })
+           [](const Claim& claim) { return claim.band.back(); });
+  using R = ClaimResult;
+  const auto found = [](const R& result) {
+    Cell cell = to_cell(result.found);
+    if (is_share(result.claim.statistic)) cell.decimals = kPercentDecimals;
+    return cell;
+  };
+  Columns<R> columns;
+  return columns.add(of_claim, &R::claim)
+      .add({"found", "", "", kDecimals}, found)
       .add({"verdict"}, [](const R& result) { return verdict_name(result.verdict); });
+}
+
+Columns<ReasonCount> reason_columns() {
+  Columns<ReasonCount> columns;
+  return columns.add({"variant"}, &ReasonCount::variant)
+      .add({"status"}, [](const ReasonCount& reason) { return status_name(reason.status); })
+      .add({"reason"}, &ReasonCount::reason)
+      .add({"count"}, &ReasonCount::count);
+}
+
+bool has_deviations_from(const Table& table, DeviationsFrom from) {
+  const std::size_t k = table.index_of("reference");
+  return std::any_of(table.rows.begin(), table.rows.end(), [&](const CellRow& row) {
+    return row[k].value == Value(std::string(name_of(from)));
+  });
+}
+
+std::string bounds_text(const SuccessBounds& bounds) {
+  return shortest_number(bounds.rotation_deg) + " deg and " +
+         shortest_number(bounds.translation_m) + " m of ";
+}
+
+std::string title_of(const Measure& measure) {
+  return std::string(measure.name) + " " + measure.unit;
+}
+
+std::string content_of(const Measure& measure, std::string content) {
+  for (std::size_t begin = 0; (begin = content.find('<', begin)) != std::string::npos;) {
+    content.insert(begin + 1, std::string(measure.name) + "_");
+    begin = content.find('>', begin);
+    content.insert(begin, std::string("_") + measure.unit);
+  }
+  return content;
 }
 
 std::string trials_csv(const std::vector<TrialRecord>& records) {
@@ -207,30 +302,19 @@ std::string comparison_csv(const Summary& summary) {
 std::string loops_csv(const Summary& summary) { return csv_of(loop_columns(), summary.loops); }
 
 std::string basin_csv(const Basin& basin) {
-  Columns<BasinLevel> columns;
-  const auto share = [](const BasinLevel& level) {
-    return level.row.levels[static_cast<std::size_t>(level.level)];
-  };
-  columns.add({"variant"}, [](const BasinLevel& level) { return level.row.variant; })
-      .add({"sensor"},
-           [](const BasinLevel& level) {
-             return level.row.sensor.empty() ? "all" : level.row.sensor;
-           })
-      .add({"level"}, &BasinLevel::level)
-      .add({"size"}, &BasinLevel::size)
-      .add({"unit"}, &BasinLevel::unit)
-      .add({"trials"}, [=](const BasinLevel& level) { return share(level).trials; })
-      .add({"success"}, [=](const BasinLevel& level) { return share(level).count; })
-      .add({"success_ratio"}, [=](const BasinLevel& level) { return share(level).ratio; })
-      .add({"low"}, [=](const BasinLevel& level) { return share(level).interval.low; })
-      .add({"high"}, [=](const BasinLevel& level) { return share(level).interval.high; });
-  std::vector<BasinLevel> levels;
+  Table table{{{"variant"}, {"sensor"}, {"level"}, {"size"}, {"unit"}, {"trials"}, {"success"}},
+              {}};
+  for (const char* name : {"success_ratio", "low", "high"}) table.columns.push_back({name});
   for (const BasinRow& row : basin.rows) {
     for (int level = 0; level < static_cast<int>(row.levels.size()); ++level) {
-      levels.push_back({row, level, rounded_size(basin.sweep, level), size_unit(basin.sweep)});
+      const Share& share = row.levels[static_cast<std::size_t>(level)];
+      table.rows.push_back(cell_row(row.variant, row.sensor.empty() ? "all" : row.sensor, level,
+                                    rounded_size(basin.sweep, level), size_unit(basin.sweep),
+                                    share.trials, share.count, share.ratio, share.interval.low,
+                                    share.interval.high));
     }
   }
-  return csv_of(columns, levels);
+  return csv_table(table);
 }
 
 std::string clouds_csv(const std::vector<CloudDescription>& clouds) {

@@ -1,23 +1,62 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include "experiments/analysis/basin.hpp"
 #include "experiments/analysis/claims.hpp"
 #include "experiments/analysis/summary.hpp"
-#include "experiments/report/table.hpp"
 #include "experiments/run/trial_record.hpp"
 #include "framework/pipeline/cloud_description.hpp"
+#include "framework/table/table.hpp"
 
 namespace croon::experiments {
 
+/// The column "sensor" of an object with that member; empty for all sensors.
+template <class Row>
+void add_sensor(Columns<Row>& columns) {
+  columns.add({"sensor", "", "", 0, Better::neither, false, true},
+              [](const Row& row) { return nothing_if_empty(row.sensor); });
+}
+
+/// The column "pitch_mean_deg" of a measure and a statistic; `path` as in `Column`.
+Column statistic_column(const Measure& measure, const std::string& statistic,
+                        const std::string& path = "");
+
+/// Values of the DOFs that are called `name`, "roll_within_scene_std_deg".
+Columns<DofValues> dof_columns(const std::string& name);
+
 /// The columns of comparison.csv and of "comparisons" in summary.json; those of loops.csv; those of
-/// clouds.csv; those of "claims" in summary.json.
+/// clouds.csv; those of "claims" and of "reasons" in summary.json.
 Columns<Comparison> comparison_columns();
 Columns<LoopClosure> loop_columns();
 Columns<CloudDescription> cloud_columns();
 Columns<ClaimResult> claim_columns();
+Columns<ReasonCount> reason_columns();
+
+/// Whether a row of a table with a column "reference" has this one.
+bool has_deviations_from(const Table& table, DeviationsFrom from);
+
+/// "0.5 deg and 0.1 m of ", for a sentence.
+std::string bounds_text(const SuccessBounds& bounds);
+
+/// "pitch deg", for a title.
+std::string title_of(const Measure& measure);
+
+/// `content` of a view for one measure: "<mean>" becomes "<pitch_mean_deg>".
+std::string content_of(const Measure& measure, std::string content);
+
+inline constexpr std::array<std::size_t, 2> kDistances = {kRotation, kTranslation};
+
+/// Adds a column for each of these of `kMeasures`; see `content_of`.
+template <std::size_t n>
+void add_measures(View& view, const std::array<std::size_t, n>& measures,
+                  const std::string& content) {
+  for (const std::size_t k : measures) {
+    view.columns.push_back({title_of(kMeasures[k]), content_of(kMeasures[k], content)});
+  }
+}
 
 // The bytes of files.
 

@@ -5,29 +5,27 @@
 #include <optional>
 #include <utility>
 
-#include "experiments/report/claims_text.hpp"
-#include "experiments/report/renderers.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "framework/base/statistics.hpp"
 #include "framework/base/text.hpp"
+#include "framework/table/renderers.hpp"
 
 namespace croon::experiments {
 
 namespace {
 
-/// "21.6 (14.0 to 30.2)": the median, least and largest of column `k` in `rows`; nothing if all
+/// "21.6 (14.0 to 30.2)": the median, least and largest of the column `k` of `rows`; nothing if all
 /// cells are empty.
-Cell range_cell(const Table& table, const std::vector<std::size_t>& rows, std::size_t k) {
+Cell range_cell(const std::vector<CellRow>& rows, std::size_t k, int decimals) {
   std::vector<double> values;
-  for (const std::size_t row : rows) {
-    const Value& value = table.rows[row][k].value;
+  for (const CellRow& row : rows) {
+    const Value& value = row[k].value;
     if (const auto* number = std::get_if<double>(&value)) values.push_back(*number);
-    if (const auto* count = std::get_if<long long>(&value)) {
+    if (const auto* count = std::get_if<long long>(&value))
       values.push_back(static_cast<double>(*count));
-    }
   }
   if (values.empty()) return {};
-  const auto text = [&](double value) { return fixed_number(value, table.columns[k].decimals); };
+  const auto text = [&](double value) { return fixed_number(value, decimals); };
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   const std::string range = " (" + text(*least) + " to " + text(*most) + ")";
   return to_cell(text(median(values)) + (values.size() > 1 ? range : ""));
@@ -91,16 +89,16 @@ std::string clouds_text(const std::vector<CloudDescription>& clouds) {
                        all.columns.begin() + static_cast<std::ptrdiff_t>(first), all.columns.end());
   for (const std::string& sensor : texts_of(all, "sensor")) {
     for (const std::string& dataset : texts_of(all, "dataset")) {
-      std::vector<std::size_t> rows;
+      std::vector<CellRow> rows;
       for (std::size_t i = 0; i < all.rows.size(); ++i) {
         const bool is_of_both =
             all.text_at(i, "sensor") == sensor && all.text_at(i, "dataset") == dataset;
-        if (is_of_both) rows.push_back(i);
+        if (is_of_both) rows.push_back(all.rows[i]);
       }
       if (rows.empty()) continue;
-      CellRow row = {to_cell(sensor), to_cell(dataset)};
+      CellRow row = cell_row(sensor, dataset);
       for (std::size_t k = first; k < all.columns.size(); ++k) {
-        row.push_back(range_cell(all, rows, k));
+        row.push_back(range_cell(rows, k, all.columns[k].decimals));
       }
       table.rows.push_back(std::move(row));
     }
@@ -113,23 +111,19 @@ std::string plan_text(const PlanCounts& plan, bool colours) {
                      std::to_string(plan.starts) + " starts; " + std::to_string(plan.done) +
                      " are in the store\n";
   if (plan.steps.empty()) return text;
-  std::vector<StepCount> steps = plan.steps;
+  Table table{{{"step"}, {"one by one"}, {"runs"}, {"saved"}, {"saved %", "", "", 1}}, {}};
+  const auto add = [&](const StepCount& step) {
+    const double ratio = static_cast<double>(step.runs) / static_cast<double>(step.alone);
+    table.rows.push_back(cell_row(step.step, step.alone, step.runs, step.alone - step.runs,
+                                  step.alone == 0 ? 0.0 : 100.0 * (1.0 - ratio)));
+  };
   StepCount all{"all steps"};
   for (const StepCount& step : plan.steps) {
+    add(step);
     all.alone += step.alone;
     all.runs += step.runs;
   }
-  steps.push_back(all);
-  Columns<StepCount> columns;
-  columns.add({"step"}, &StepCount::step)
-      .add({"one by one"}, &StepCount::alone)
-      .add({"runs"}, &StepCount::runs)
-      .add({"saved"}, [](const StepCount& step) { return step.alone - step.runs; })
-      .add({"saved %", "", "", 1}, [](const StepCount& step) {
-        const double ratio = static_cast<double>(step.runs) / static_cast<double>(step.alone);
-        return step.alone == 0 ? 0.0 : 100.0 * (1.0 - ratio);
-      });
-  const Table table = columns.table(steps);
+  add(all);
   return text + "\n" + text_table(table, whole_view(table), colours);
 }
 

@@ -27,16 +27,22 @@ std::string result_text(const Results& results, bool colours);
 /// per kind of scene and per scene, reasons for failures. Ends with a newline.
 std::string summary_text(const Summary& summary, const TableStyle& style = {});
 
-/// Success in % per variant, kind of scene (rows) and sensor (columns).
-std::string scene_kind_text(const Summary& summary, const TableStyle& style);
-
-/// Success per variant, scene (rows) and sensor (columns). Of more than `style.max_scenes` rows the
-/// worst are shown, in their order.
-std::string scene_text(const Summary& summary, const TableStyle& style);
-
 /// Success in % per variant (rows) and level (columns), all sensors together, and the radius; of
 /// many levels every second, third, ... is shown. Ends with a newline.
 std::string basin_text(const Basin& basin, const TableStyle& style = {});
+
+/// What `croon run` prints of the claims: claim, source, expected, band, found and verdict, then
+/// the quoted rows with ours beside them. Empty if there are none of either.
+std::string claims_text(const std::vector<ClaimResult>& results, const std::vector<Quoted>& quoted,
+                        const Summary& summary, const TableStyle& style = {});
+
+/// The same as Markdown, with the reasons why ours may differ below the table.
+std::string claims_markdown(const std::vector<ClaimResult>& results,
+                            const std::vector<Quoted>& quoted, const Summary& summary);
+
+/// The page of `croon claims` on one folder of results, a section of Markdown: what was run, its
+/// claims, and the quoted rows of other methods.
+std::string claims_section(const Results& results);
 
 /// A table of clouds with a row per sensor and dataset: the medians over scenes, with the least and
 /// the largest after them if there are several scenes.

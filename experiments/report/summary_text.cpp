@@ -1,42 +1,37 @@
 #include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
 #include <optional>
-#include <utility>
+#include <tuple>
 
-#include "experiments/report/columns.hpp"
 #include "experiments/report/export.hpp"
-#include "experiments/report/renderers.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "experiments/report/run_text.hpp"
 #include "framework/base/text.hpp"
+#include "framework/table/renderers.hpp"
 
 namespace croon::experiments {
 
 namespace {
 
-/// Adds median and 95th percentile of the two distances.
-void add_distances(View& view) {
-  for (const std::size_t k : {kRotation, kTranslation}) {
-    view.columns.push_back({kMeasures[k].name + (" " + std::string(kMeasures[k].unit)),
-                            content_of(kMeasures[k], "<median>, <p95>")});
+/// A table whose rows belong to variants: the variant of each row is in a
+/// column in front; in a heading if a name is long; not shown if there is one
+/// variant.
+std::string text_by_variant(const Table& table, View view, const Summary& summary,
+                            const TableStyle& style) {
+  constexpr std::size_t kLongName = 16;
+  const std::vector<std::string> variants = variants_of(summary);
+  const bool has_long_name =
+      std::any_of(variants.begin(), variants.end(),
+                  [](const std::string& name) { return text_columns(name) > kLongName; });
+  if (variants.size() > 1 && has_long_name) {
+    view.heading = "variant";
+  } else if (variants.size() > 1) {
+    view.columns.insert(view.columns.begin(), {"variant"});
+    ++view.names;
   }
-}
-
-View outcome_view() {
-  View view{{{"sensor"},
-             {"success", "<success>/<trials>"},
-             {"%", "<success_percent>"},
-             {"95 % interval", "[<success_low_percent>, <success_high_percent>]"},
-             {"inaccurate"},
-             {"rejected"},
-             {"failed"}}};
-  add_distances(view);
-  return view;
-}
-
-View dof_view(const std::string& content) {
-  View view{{{"sensor"}}};
-  add_dofs(view, content);
-  return view;
+  return text_table(table, view, style.colours);
 }
 
 /// The columns of the tables with a row per variant and sensor.
@@ -61,23 +56,19 @@ std::string comparison_text(const Summary& summary, const TableStyle& style) {
   columns.add({"p_success"}, [](const C& c) { return p_text(c.success); })
       .add({"p_rotation"}, [](const C& c) { return p_text(c.rotation_deg.test); })
       .add({"p_translation"}, [](const C& c) { return p_text(c.translation_m.test); });
-  std::vector<C> of_all_sensors;
+  Table of_all_sensors{columns.columns(), {}};
   for (const C& comparison : summary.comparisons) {
-    if (comparison.sensor.empty()) of_all_sensors.push_back(comparison);
+    if (comparison.sensor.empty()) of_all_sensors.rows.push_back(columns.cells(comparison));
   }
-  const char* const difference = "<difference> [<low>, <high>]";
-  const View view{{{"pairs"},
-                   {"won", "<only_variant>"},
-                   {"lost", "<only_base>"},
-                   {"p", "<p_success>"},
-                   {"rotation deg", content_of(kMeasures[kRotation], difference)},
-                   {"p", "<p_rotation>"},
-                   {"translation m", content_of(kMeasures[kTranslation], difference)},
-                   {"p", "<p_translation>"}},
-                  0};
-  return text_table(columns.table(of_all_sensors), view_by_variant(view, variants_of(summary)),
-                    style.colours) +
-         "* p < 0.05 over trials (McNemar, Wilcoxon; Holm), ** also with scenes as units\n";
+  View view{{{"pairs"}, {"won", "<only_variant>"}, {"lost", "<only_base>"}, {"p", "<p_success>"}},
+            0};
+  for (const std::size_t k : kDistances) {
+    add_measures(view, std::array{k}, "<difference> [<low>, <high>]");
+    view.columns.push_back({"p", std::string("<p_") + kMeasures[k].name + ">"});
+  }
+  return text_by_variant(of_all_sensors, view, summary, style) +
+         "* p < 0.05 over trials (McNemar, Wilcoxon; Holm), ** also with "
+         "scenes as units\n";
 }
 
 std::string loop_text(const Summary& summary, const TableStyle& style) {
@@ -85,65 +76,114 @@ std::string loop_text(const Summary& summary, const TableStyle& style) {
              {"closed", "<closed>/<loops>"},
              {"%", "<closed_ratio>"},
              {"95 % interval", "[<closed_low_ratio>, <closed_high_ratio>]"}}};
-  add_distances(view);
-  return text_table(loop_columns().table(summary.loops),
-                    view_by_variant(view, variants_of(summary)), style.colours);
+  add_measures(view, kDistances, "<median>, <p95>");
+  return text_by_variant(loop_columns().table(summary.loops), view, summary, style);
+}
+
+/// Adds a column for each title, which may be the name of another column too.
+void add_titled(Table& table, View& view, const std::vector<std::string>& titles, int decimals) {
+  for (const std::string& title : titles) {
+    const std::string name = "column " + std::to_string(table.columns.size());
+    table.columns.push_back({name, "", "", decimals});
+    view.columns.push_back({title, "<" + name + ">"});
+  }
+}
+
+/// Success in % per variant, kind of scene (rows) and sensor (columns).
+std::string scene_kind_text(const Summary& summary, const TableStyle& style) {
+  const std::vector<std::string> sensors = sensors_of(summary);
+  Table table{{{"variant"}, {"kind"}, {"scenes"}, {"trials"}}, {}};
+  View view{{{"kind"}, {"scenes"}, {"trials"}}};
+  add_titled(table, view, {"all"}, 1);
+  add_titled(table, view, sensors, 1);
+  std::map<std::string, double> percents;  // By sensor.
+  for (const SceneKindSummary& kind : summary.scene_kinds) {
+    percents[kind.sensor] = 100.0 * main_share(kind).ratio;
+    if (!kind.sensor.empty()) continue;
+    // The row over all sensors is the last of its kind.
+    CellRow row = cell_row(kind.variant, nothing_if_empty(kind.scene_kind), kind.scenes,
+                           kind.outcomes.trials, percents[""]);
+    for (const std::string& sensor : sensors) {
+      row.push_back(percents.count(sensor) > 0 ? to_cell(percents[sensor]) : Cell());
+    }
+    table.rows.push_back(std::move(row));
+    percents.clear();
+  }
+  return text_by_variant(table, view, summary, style);
+}
+
+/// The indices of the `count` worst scenes, ascending. `ratios` has the success of each scene by
+/// sensor; the worst has the least ratio of all sensors, then the least sum.
+std::vector<std::size_t> worst_of(const std::vector<std::map<std::string, double>>& ratios,
+                                  std::size_t count) {
+  std::vector<std::tuple<double, double, std::size_t>> order;
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    double least = std::numeric_limits<double>::infinity();
+    double sum = 0.0;
+    for (const auto& [sensor, ratio] : ratios[i]) {
+      least = std::min(least, ratio);
+      sum += ratio;
+    }
+    order.emplace_back(least, sum, i);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::size_t> worst;
+  for (std::size_t k = 0; k < std::min(count, order.size()); ++k) {
+    worst.push_back(std::get<2>(order[k]));
+  }
+  std::sort(worst.begin(), worst.end());
+  return worst;
+}
+
+/// Success per variant, scene (rows) and sensor (columns). Of more than `style.max_scenes` rows the
+/// worst are shown, in their order.
+std::string scene_text(const Summary& summary, const TableStyle& style) {
+  Table all{{{"variant"}, {"scene"}}, {}};
+  View view{{{"scene"}}};
+  const std::vector<std::string> sensors = sensors_of(summary);
+  add_titled(all, view, sensors, 0);
+  std::vector<std::map<std::string, double>> ratios;
+  std::map<std::pair<std::string, std::string>, std::size_t> rows;
+  for (const SummaryRow& row : summary.rows) {
+    const auto sensor = std::find(sensors.begin(), sensors.end(), row.sensor) - sensors.begin();
+    for (const SceneSummary& scene : row.scenes) {
+      const auto [entry, is_new] = rows.insert({{row.variant, scene.scene}, all.rows.size()});
+      if (is_new) {
+        all.rows.push_back(cell_row(row.variant, scene.scene));
+        all.rows.back().resize(all.columns.size());
+        ratios.emplace_back();
+      }
+      const Share& share = main_share(scene);
+      all.rows[entry->second][2 + static_cast<std::size_t>(sensor)] =
+          to_cell(std::to_string(share.count) + "/" + std::to_string(share.trials));
+      ratios[entry->second][row.sensor] = share.ratio;
+    }
+  }
+  Table shown{all.columns, {}};
+  for (const std::size_t i : worst_of(ratios, style.max_scenes)) shown.rows.push_back(all.rows[i]);
+  const std::string text = text_by_variant(shown, view, summary, style);
+  if (shown.rows.size() == all.rows.size()) return text;
+  return text + "the worst " + std::to_string(shown.rows.size()) + " of " +
+         std::to_string(all.rows.size()) + " rows\n";
 }
 
 std::string reason_text(const Summary& summary, const TableStyle& style) {
   if (summary.reasons.empty()) return "";
   const std::size_t shown = std::min(style.max_reasons, summary.reasons.size());
   const auto first_left = summary.reasons.begin() + static_cast<std::ptrdiff_t>(shown);
-  Columns<ReasonCount> columns;
-  columns.add({"variant"}, &ReasonCount::variant)
-      .add({"status"}, [](const ReasonCount& reason) { return status_name(reason.status); })
-      .add({"reason"}, &ReasonCount::reason)
-      .add({"trials"}, &ReasonCount::count);
-  View view{{{"status"}, {"reason"}, {"trials"}}, 2};
+  View view{{{"status"}, {"reason"}, {"trials", "<count>"}}, 2};
   view.widest_name = 80;
-  std::string text = "\n" + text_table(columns.table({summary.reasons.begin(), first_left}),
-                                       view_by_variant(view, variants_of(summary)), style.colours);
-  std::size_t trials_left = 0;
-  for (auto reason = first_left; reason != summary.reasons.end(); ++reason) {
-    trials_left += static_cast<std::size_t>(reason->count);
-  }
+  std::string text =
+      "\n" + text_by_variant(reason_columns().table({summary.reasons.begin(), first_left}), view,
+                             summary, style);
+  const int trials_left =
+      std::accumulate(first_left, summary.reasons.end(), 0,
+                      [](int count, const ReasonCount& reason) { return count + reason.count; });
   if (trials_left > 0) {
     text += "and " + counted(summary.reasons.size() - shown, "other reason") + " of " +
-            counted(trials_left, "trial") + "\n";
+            counted(static_cast<std::size_t>(trials_left), "trial") + "\n";
   }
   return text;
-}
-
-bool has_deviations_from(const Summary& summary, DeviationsFrom from) {
-  return std::any_of(summary.rows.begin(), summary.rows.end(),
-                     [&](const SummaryRow& row) { return row.deviations_from == from; });
-}
-
-/// The meaning of the numbers, in a few lines.
-std::string explanation(const Summary& summary) {
-  std::string text;
-  if (has_deviations_from(summary, DeviationsFrom::truth)) {
-    text +=
-        "success: within " + bounds_text(summary.bounds) + "the truth; errors of those trials\n";
-  }
-  if (has_deviations_from(summary, DeviationsFrom::consensus)) {
-    text += "success (no truth): within " + bounds_text(summary.bounds) +
-            "what the trials of the scene agree on;\n  deviations of those trials from what all "
-            "scenes agree on\n";
-  }
-  return text + "rotation, translation: median, 95th percentile\n";
-}
-
-std::string against_base_text(const Summary& summary, const TableStyle& style) {
-  std::string text =
-      "\nagainst " + summary.comparisons.front().base +
-      ", pair by pair: difference of medians [95 % interval], failures as infinite\n";
-  if (has_deviations_from(summary, DeviationsFrom::consensus)) {
-    text +=
-        "  (no truth: of the distances to what the variant's own trials of the scene agree "
-        "on, so of how\n  repeatable it is, not how accurate)\n";
-  }
-  return text + comparison_text(summary, style);
 }
 
 }  // namespace
@@ -152,23 +192,60 @@ std::string summary_text(const Summary& summary, const TableStyle& style) {
   if (summary.rows.empty()) return "no trials\n";
   const Table table = row_columns().table(summary.rows);
   const auto rows_text = [&](const View& view) {
-    return text_table(table, view_by_variant(view, variants_of(summary)), style.colours);
+    return text_by_variant(table, view, summary, style);
+  };
+  const auto dofs_text = [&](const std::string& content, bool shows_each) {
+    View view{{{"sensor"}}};
+    add_measures(view, kPaperOrder, content);
+    for (Shown& shown : view.columns) shown.shows_each = shows_each;
+    return rows_text(view);
   };
   const auto any_row = [&](auto condition) {
     return std::any_of(summary.rows.begin(), summary.rows.end(), condition);
   };
+  const bool has_consensus = has_deviations_from(table, DeviationsFrom::consensus);
   const bool has_scenes = any_row([](const SummaryRow& row) { return row.scenes.size() > 1; });
   const bool has_spread = any_row([](const SummaryRow& row) { return !!row.within_scene_std; });
-  std::string text = explanation(summary) + "\n" + rows_text(outcome_view()) + "\nmean ± std\n" +
-                     rows_text(dof_view("<mean> ±<std>"));
-  if (has_scenes && has_spread) {
-    View spreads = dof_view("<within_scene_std> / <across_scenes_std>");
-    for (Shown& shown : spreads.columns) shown.shows_each = true;
-    text += "\nstd within scenes / across scenes\n" + rows_text(spreads);
+  const std::string bounds = "within " + bounds_text(summary.bounds);
+
+  std::string text;
+  if (has_deviations_from(table, DeviationsFrom::truth)) {
+    text += "success: " + bounds + "the truth; errors of those trials\n";
   }
-  if (!summary.comparisons.empty()) text += against_base_text(summary, style);
+  if (has_consensus) {
+    text += "success (no truth): " + bounds +
+            "what the trials of the scene agree on;\n  deviations of those "
+            "trials from what all "
+            "scenes agree on\n";
+  }
+  View outcomes{{{"sensor"},
+                 {"success", "<success>/<trials>"},
+                 {"%", "<success_percent>"},
+                 {"95 % interval", "[<success_low_percent>, <success_high_percent>]"},
+                 {"inaccurate"},
+                 {"rejected"},
+                 {"failed"}}};
+  add_measures(outcomes, kDistances, "<median>, <p95>");
+  text += "rotation, translation: median, 95th percentile\n\n" + rows_text(outcomes) +
+          "\nmean ± std\n" + dofs_text("<mean> ±<std>", false);
+  if (has_scenes && has_spread) {
+    text += "\nstd within scenes / across scenes\n" +
+            dofs_text("<within_scene_std> / <across_scenes_std>", true);
+  }
+  if (!summary.comparisons.empty()) {
+    text += "\nagainst " + summary.comparisons.front().base +
+            ", pair by pair: difference of medians [95 % interval], failures "
+            "as infinite\n";
+    if (has_consensus) {
+      text +=
+          "  (no truth: of the distances to what the variant's own trials "
+          "of the scene agree "
+          "on, so of how\n  repeatable it is, not how accurate)\n";
+    }
+    text += comparison_text(summary, style);
+  }
   if (!summary.loops.empty()) {
-    text += "\nloops over the reference: closed within " + bounds_text(summary.bounds) +
+    text += "\nloops over the reference: closed " + bounds +
             "the identity; how far loops are from it\n" + loop_text(summary, style);
   }
   if (!summary.scene_kinds.empty()) {

@@ -18,6 +18,7 @@ const Layers& layers() {
       {"framework/geometry", {"framework/base"}},
       {"framework/spatial", {"framework/base", "framework/geometry"}},
       {"framework/picture", {"framework/base", "framework/geometry"}},
+      {"framework/table", {"framework/base"}},
       {"framework/io",
        {"framework/base", "framework/geometry", "framework/spatial", "framework/picture"}},
       {"framework/simulation",

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "experiments/report/export.hpp"
-#include "experiments/report/renderers.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
@@ -238,13 +237,6 @@ TEST(ExportCaption, KeepsThatTheProgramHadBeenChanged) {
   EXPECT_TRUE(has(caption_sentences(table).at(0), "commit 0123456789ab-dirty,"));
   table.caption.commit = "unknown";
   EXPECT_TRUE(has(caption_sentences(table).at(0), "commit unknown,"));
-}
-
-TEST(ExportLatex, EscapesEverything) {
-  EXPECT_EQ(latex_escaped("a_b & 100 %"), "a\\_b \\& 100 \\%");
-  EXPECT_EQ(latex_escaped("#1 ~ ^ \\ {x} $"),
-            "\\#1 \\textasciitilde{} \\textasciicircum{} \\textbackslash{} \\{x\\} \\$");
-  EXPECT_EQ(latex_escaped("[a]--<b>*"), "{[}a{]}{-}{-}\\textless{}b\\textgreater{}{*}");
 }
 
 TEST(ExportLatex, BoldsTheBestAndAlignsTheDigits) {

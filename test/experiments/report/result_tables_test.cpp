@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <limits>
 
-#include "experiments/report/renderers.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/base/text.hpp"
 #include "framework/geometry/rigid_transform.hpp"

@@ -142,5 +142,20 @@ TEST(SummaryTable, ColoursOnlyWhereAsked) {
 
 TEST(SummaryTable, NoTrials) { EXPECT_EQ(summary_text(Summary{}), "no trials\n"); }
 
+TEST(PlanText, ListsWhatIsSaved) {
+  const PlanCounts plan = {20, 60, 3, {{"first", 60, 20}, {"second", 60, 40}}};
+  EXPECT_EQ(plan_text(plan, false),
+            R"(60 trials to run from 20 starts; 3 are in the store
+
+step       one by one  runs  saved  saved %
+---------  ----------  ----  -----  -------
+first              60    20     40     66.7
+second             60    40     20     33.3
+all steps         120    60     60     50.0
+)");
+  EXPECT_EQ(plan_text({0, 0, 60, {}}, false),
+            "0 trials to run from 0 starts; 60 are in the store\n");
+}
+
 }  // namespace
 }  // namespace croon::experiments

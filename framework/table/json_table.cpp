@@ -2,11 +2,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "experiments/report/export.hpp"
-#include "experiments/report/renderers.hpp"
 #include "framework/base/text.hpp"
+#include "framework/table/renderers.hpp"
 
-namespace croon::experiments {
+namespace croon {
 
 namespace {
 
@@ -51,6 +50,8 @@ Json json_rows(const Table& table) {
   for (const Column& column : table.columns) {
     paths.emplace_back(column.path.empty() ? "/" + column.full_name() : column.path);
   }
+  const bool is_ranked = std::any_of(table.columns.begin(), table.columns.end(),
+                                     [](const Column& column) { return column.has_marks; });
   Json rows = Json::array();
   for (const CellRow& row : table.rows) {
     Json json = Json::object();
@@ -58,7 +59,7 @@ Json json_rows(const Table& table) {
       json[paths[k]] = std::visit(ValueJson(), row[k].value);
     }
     for (Json& member : json) collapse(member);
-    if (table.is_ranked) add_ranks(json, table, row);
+    if (is_ranked) add_ranks(json, table, row);
     rows.push_back(std::move(json));
   }
   return rows;
@@ -68,21 +69,4 @@ std::string json_bytes(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string export_json(const ExportTable& table) {
-  const ExportCaption& caption = table.caption;
-  return json_bytes({{"name", caption.name},
-                     {"commit", caption.commit},
-                     {"seed", caption.seed},
-                     {"scenes", caption.scenes},
-                     {"sensors", table.sensors.size()},
-                     {"starts", caption.starts},
-                     {"trials", caption.found},
-                     {"planned", caption.planned},
-                     {"success_bounds",
-                      {{"rotation_deg", table.bounds.rotation_deg},
-                       {"translation_m", table.bounds.translation_m}}},
-                     {"caption", caption_sentences(table)},
-                     {"rows", json_rows(table.table)}});
-}
-
-}  // namespace croon::experiments
+}  // namespace croon

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -8,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-namespace croon::experiments {
+namespace croon {
 
 /// Which of two values of a column is the better one.
 enum class Better { neither, greater, nearer_to_zero };
@@ -50,7 +51,6 @@ using CellRow = std::vector<Cell>;
 struct Table {
   std::vector<Column> columns;
   std::vector<CellRow> rows;  ///< A cell per column.
-  bool is_ranked = false;     ///< Rows compete: JSON names the best and the marked cells of each.
 
   /// The index of the column with this full name. Throws std::logic_error if there is none.
   std::size_t index_of(const std::string& full_name) const;
@@ -83,6 +83,12 @@ Cell to_cell(const T& value) {
   }
 }
 
+/// The values as the cells of a row.
+template <class... T>
+CellRow cell_row(const T&... values) {
+  return {to_cell(values)...};
+}
+
 /// Text, or nothing if it is empty.
 inline std::optional<std::string> nothing_if_empty(const std::string& text) {
   return text.empty() ? std::nullopt : std::optional<std::string>(text);
@@ -102,13 +108,19 @@ class Columns {
     return *this;
   }
 
-  /// Adds the columns of a part of each row: of a member or of the result of a function.
+  /// Adds the columns of a part of each row: of a member or of the result of a function. If that
+  /// is a std::optional without a value, the cells have nothing.
   template <class Part, class F>
   Columns& add(const Columns<Part>& of_part, F part) {
     for (std::size_t k = 0; k < of_part.columns().size(); ++k) {
       columns_.push_back(of_part.columns()[k]);
       functions_.push_back([part, value = of_part.functions()[k]](const Row& row) {
-        return value(std::invoke(part, row));
+        if constexpr (std::is_convertible_v<std::invoke_result_t<F, const Row&>, const Part&>) {
+          return value(std::invoke(part, row));
+        } else {
+          const std::optional<Part>& found = std::invoke(part, row);
+          return found ? value(*found) : Cell();
+        }
       });
     }
     return *this;
@@ -120,22 +132,6 @@ class Columns {
     return add(others, [](const Row& row) -> const Base& { return row; });
   }
 
-  /// The columns with these full names, in this order. Throws std::logic_error if one is missing.
-  Columns selected(const std::vector<std::string>& full_names) const {
-    const Table header{columns_, {}, false};
-    Columns selection;
-    for (const std::string& name : full_names) {
-      selection.columns_.push_back(columns_[header.index_of(name)]);
-      selection.functions_.push_back(functions_[header.index_of(name)]);
-    }
-    return selection;
-  }
-
-  /// The column with this full name. Throws std::logic_error if there is none.
-  Column& column(const std::string& full_name) {
-    return columns_[Table{columns_, {}, false}.index_of(full_name)];
-  }
-
   CellRow cells(const Row& row) const {
     CellRow cells;
     cells.reserve(functions_.size());
@@ -144,7 +140,7 @@ class Columns {
   }
 
   Table table(const std::vector<Row>& rows) const {
-    Table table{columns_, {}, false};
+    Table table{columns_, {}};
     for (const Row& row : rows) table.rows.push_back(cells(row));
     return table;
   }
@@ -157,4 +153,54 @@ class Columns {
   std::vector<Function> functions_;
 };
 
-}  // namespace croon::experiments
+/// A column as a reader sees it, of one or several columns of the table.
+struct Shown {
+  std::string title;
+  /// What stands in a cell: "<pitch_mean_deg> ± <pitch_std_deg>" is the cells of two columns with
+  /// text between; empty for the column that is called as the title is. Text is written as it is,
+  /// in the language of the format.
+  std::string content = {};
+  bool shows_each = false;  ///< Shows "-" for each cell without a value, not one "-" for all.
+  std::string group = {};   ///< A title above this and its neighbours of the same group (LaTeX).
+};
+
+/// The columns of a table that readers see, in their order.
+struct View {
+  std::vector<Shown> columns;
+  std::size_t names = 1;     ///< The first columns, which are aligned to the left.
+  std::string heading = {};  ///< A column whose text stands above the rows that share it.
+  /// Longer names are cut (text only).
+  std::size_t widest_name = std::numeric_limits<std::size_t>::max();
+};
+
+/// All columns of the table, under their own names.
+View whole_view(const Table& table, std::size_t names = 1);
+
+/// A `Shown` whose columns were looked up in its table.
+class ShownCells {
+ public:
+  struct Piece {
+    std::string before;  ///< Text.
+    std::size_t column;
+  };
+
+  /// Throws std::logic_error if the table lacks a column.
+  ShownCells(const Table& table, const Shown& shown);
+
+  const std::vector<Piece>& pieces() const { return pieces_; }
+
+  /// The content of a row, each of its cells written by `text_of`; "-" if none of them has a value,
+  /// unless each is shown. Throws std::logic_error if the row does not have a cell per column.
+  std::string content(const CellRow& row, std::string (*text_of)(const Cell&, const Column&)) const;
+
+ private:
+  const Table& table_;
+  bool shows_each_;
+  std::vector<Piece> pieces_;
+  std::string after_;
+};
+
+/// The columns of `view`, looked up in `table`.
+std::vector<ShownCells> shown_cells(const Table& table, const View& view);
+
+}  // namespace croon

@@ -1,4 +1,4 @@
-#include "experiments/report/table.hpp"
+#include "framework/table/table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "experiments/report/renderers.hpp"
-#include "experiments/report/run_text.hpp"
+#include "framework/table/renderers.hpp"
 
-namespace croon::experiments {
+namespace croon {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -25,25 +24,34 @@ struct Whole {
   Part part;
 };
 
+Columns<Part> part_columns() {
+  Columns<Part> columns;
+  return columns.add({"low", "ratio", "/range/0", 1}, &Part::low)
+      .add({"high", "m", "/range/1", 2}, &Part::high);
+}
+
 /// A column of each kind of value, the last two below "range" in JSON.
 Columns<Whole> columns() {
-  Columns<Part> part;
-  part.add({"low", "ratio", "/range/0", 1}, &Part::low)
-      .add({"high", "m", "/range/1", 2}, &Part::high);
   Columns<Whole> columns;
   return columns.add({"name"}, &Whole::name)
       .add({"count"}, &Whole::count)
       .add({"is_many"}, [](const Whole& whole) { return whole.count > 1; })
-      .add(part, &Whole::part);
+      .add(part_columns(), &Whole::part);
 }
 
 Table two_rows() { return columns().table({{"a,b", 2, {0.25, 1.0}}, {"*c*", 1, {kInf, {}}}}); }
 
-TEST(Columns, AreSelectedByFullName) {
-  const Columns<Whole> selected = columns().selected({"high_m", "name"});
-  ASSERT_EQ(selected.columns().size(), 2U);
-  EXPECT_EQ(std::get<double>(selected.cells({"x", 1, {0.0, 2.5}})[0].value), 2.5);
-  EXPECT_THROW(columns().selected({"high"}), std::logic_error);
+TEST(Columns, AreFoundByFullName) {
+  EXPECT_EQ(std::get<double>(two_rows().at(0, "high_m").value), 1.0);
+  EXPECT_THROW(two_rows().at(0, "high"), std::logic_error);
+}
+
+TEST(Columns, OfAMissingPartHaveNothing) {
+  using Maybe = std::optional<Part>;
+  Columns<Maybe> columns;
+  columns.add(part_columns(), [](const Maybe& part) { return part; });
+  EXPECT_TRUE(columns.cells(std::nullopt)[0].is_nothing());
+  EXPECT_EQ(std::get<double>(columns.cells(Part{0.25, {}})[0].value), 0.25);
 }
 
 TEST(CsvTable, QuotesWhatNeedsIt) {
@@ -125,20 +133,12 @@ TEST(MarkdownTable, EscapesCellsAndBoldsTheBest) {
             "| \\*c\\* | inf |\n");
 }
 
-TEST(PlanText, ListsWhatIsSaved) {
-  const PlanCounts plan = {20, 60, 3, {{"first", 60, 20}, {"second", 60, 40}}};
-  EXPECT_EQ(plan_text(plan, false),
-            R"(60 trials to run from 20 starts; 3 are in the store
-
-step       one by one  runs  saved  saved %
----------  ----------  ----  -----  -------
-first              60    20     40     66.7
-second             60    40     20     33.3
-all steps         120    60     60     50.0
-)");
-  EXPECT_EQ(plan_text({0, 0, 60, {}}, false),
-            "0 trials to run from 0 starts; 60 are in the store\n");
+TEST(LatexEscaped, EscapesEverything) {
+  EXPECT_EQ(latex_escaped("a_b & 100 %"), "a\\_b \\& 100 \\%");
+  EXPECT_EQ(latex_escaped("#1 ~ ^ \\ {x} $"),
+            "\\#1 \\textasciitilde{} \\textasciicircum{} \\textbackslash{} \\{x\\} \\$");
+  EXPECT_EQ(latex_escaped("[a]--<b>*"), "{[}a{]}{-}{-}\\textless{}b\\textgreater{}{*}");
 }
 
 }  // namespace
-}  // namespace croon::experiments
+}  // namespace croon

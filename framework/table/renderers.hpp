@@ -4,10 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "experiments/report/table.hpp"
-#include "experiments/report/view.hpp"
+#include "framework/table/table.hpp"
 
-namespace croon::experiments {
+namespace croon {
 
 // The formats of a table, each in a file of its own: text_table.cpp, csv_table.cpp, json_table.cpp,
 // markdown_table.cpp and latex_table.cpp.
@@ -16,8 +15,8 @@ namespace croon::experiments {
 /// terminal.
 std::string text_table(const Table& table, const View& view, bool bold_header = false);
 
-/// A CSV file (RFC 4180, but lines end in "\n"): a header and a line per row. After the columns,
-/// one
+/// A CSV file: a header and a line per row, as in RFC 4180, but lines end in "\n". Nothing is an
+/// empty field, or "all" in a column in which it stands for all. After the columns, there is one
 /// "_mark" column for each of those with marks.
 std::string csv_table(const Table& table);
 std::string csv_header(const std::vector<Column>& columns);
@@ -33,7 +32,7 @@ std::string csv_of(const Columns<Row>& columns, const std::vector<Row>& rows) {
 
 /// The rows as a list of objects, each value at the path of its column; null for nothing, and for
 /// an object or a list that would hold nulls alone. JSON has no infinite numbers: they are the
-/// texts "inf" and "-inf". Of a ranked table, the names of the best and the marked columns too.
+/// texts "inf" and "-inf". If a column has marks, the names of the best and the marked columns too.
 nlohmann::ordered_json json_rows(const Table& table);
 
 /// `json` as the bytes of a file; bytes that are not UTF-8 are replaced.
@@ -45,20 +44,13 @@ std::string markdown_table(const Table& table, const View& view);
 /// `text` as Markdown shows it in a cell or a sentence.
 std::string markdown_escaped(const std::string& text);
 
-/// Rows of a table from `begin` to before `end`.
-struct RowRange {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-};
-
-/// A tabular with booktabs rules and siunitx columns (version 2 or 3), the best values bold, marks
-/// in columns of their own. The first column of the view is names, the others have numbers.
-std::string latex_tabular(const Table& table, const View& view, const RowRange& rows);
-
-/// The lines that the row takes, with the heading above it if it has one.
-std::size_t latex_lines(const Table& table, const View& view, std::size_t row);
+/// A LaTeX table as one or more pages, each with the rows that it holds in one tabular per view,
+/// one above the other. Tabulars have booktabs rules and siunitx columns (version 2 or 3), the best
+/// values bold, marks in columns of their own. The first column of a view is names, the others have
+/// numbers.
+std::vector<std::string> latex_pages(const Table& table, const std::vector<View>& panels);
 
 /// `text` as LaTeX prints it, in a cell or a sentence.
 std::string latex_escaped(const std::string& text);
 
-}  // namespace croon::experiments
+}  // namespace croon

@@ -1,0 +1,54 @@
+#include <algorithm>
+
+#include "framework/base/text.hpp"
+#include "framework/table/renderers.hpp"
+
+namespace croon {
+
+namespace {
+
+constexpr const char* kGap = "  ";
+
+std::string cell_text(const Cell& cell, const Column& column) {
+  std::string text = shown_text(cell, column) + cell.mark;
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
+
+}  // namespace
+
+std::string text_table(const Table& table, const View& view, bool bold_header) {
+  // The titles, the rule and a line per row, one column after the other.
+  std::vector<std::string> lines(2 + table.rows.size());
+  const std::vector<ShownCells> columns = shown_cells(table, view);
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const bool is_name = k < view.names;
+    std::vector<std::string> cells = {view.columns[k].title, ""};
+    for (const CellRow& row : table.rows) {
+      const std::string text = columns[k].content(row, cell_text);
+      cells.push_back(is_name ? cut_to_columns(text, view.widest_name) : text);
+    }
+    std::size_t width = 0;
+    for (const std::string& cell : cells) width = std::max(width, text_columns(cell));
+    cells[1] = std::string(width, '-');
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      lines[i] += k > 0 ? kGap : "";
+      lines[i] += is_name ? left_aligned(cells[i], width) : right_aligned(cells[i], width);
+    }
+  }
+  for (std::string& line : lines) line.erase(line.find_last_not_of(' ') + 1);
+  std::string text = bold_header ? "\033[1m" + lines[0] + "\033[0m" : lines[0];
+  text += "\n" + lines[1] + "\n";
+  std::string heading;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    if (!view.heading.empty() && (i == 0 || table.text_at(i, view.heading) != heading)) {
+      heading = table.text_at(i, view.heading);
+      if (!heading.empty()) text += heading + "\n";
+    }
+    text += lines[i + 2] + "\n";
+  }
+  return text;
+}
+
+}  // namespace croon
