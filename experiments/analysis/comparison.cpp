@@ -92,7 +92,7 @@ ErrorComparison compared(const Pairs& pairs, const Clusters& scenes) {
 
 Comparison compared(const PairedTrials& trials) {
   Comparison comparison;
-  // 1 where the variant alone won, -1 where the base did, else 0.
+  // 1 if the variant alone won, -1 if the base did, else 0.
   const std::vector<double> wins = differences(pairs_of(trials, &TrialResult::success));
   const auto count = [&](double outcome) {
     return static_cast<int>(std::count(wins.begin(), wins.end(), outcome));

@@ -75,7 +75,7 @@ void Progress::show_if_due() {
   const double since_s = now_s - shown_s_;
   const bool is_tenth = done_ * kLinesPerRun / std::max<std::size_t>(total_, 1) >
                         shown_done_ * kLinesPerRun / std::max<std::size_t>(total_, 1);
-  // finish() tells of the end, in either style.
+  // finish() shows the end, in either style.
   if (style_ == ProgressStyle::bar ? since_s >= kRedraw_s
                                    : (since_s >= kLine_s || is_tenth) && done_ < total_) {
     show(now_s);

@@ -15,11 +15,10 @@ enum class ProgressStyle {
   lines  ///< A line every 10 s or 10 %, whichever comes first: for a log.
 };
 
-/// `none` where `quiet`, `bar` where standard error is a terminal, else `lines`.
+/// `none` if `quiet`, `bar` if standard error is a terminal, else `lines`.
 ProgressStyle progress_style_of_stderr(bool quiet);
 
-/// Tells how far a run has come: done, total, rate, time left. All functions may be called from any
-/// thread.
+/// Shows the progress of a run: done, total, rate, time left. Thread-safe.
 class Progress {
  public:
   /// Seconds since some fixed point.
@@ -37,8 +36,7 @@ class Progress {
   void advance(std::size_t count = 1);
   /// Trials that need no work (the store has them): done, but not part of the rate.
   void skip(std::size_t count);
-  /// Draws the last state and ends the line. Called by the destructor where it was not called
-  /// before.
+  /// Draws the last state and ends the line. The destructor calls it too.
   void finish();
 
   /// The steady clock of the machine.

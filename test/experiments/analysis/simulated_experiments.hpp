@@ -23,7 +23,7 @@ struct MadeUp {
 struct Experiment {
   Pairs pairs;
   std::vector<std::size_t> scenes;
-  std::vector<double> success;  ///< 1 where the variant alone won, -1 where the base did, else 0.
+  std::vector<double> success;  ///< 1 if the variant alone won, -1 if the base did, else 0.
   int only_base = 0;
   int only_variant = 0;
 };
