@@ -63,7 +63,8 @@ TEST(AddParkedRow, HasGapsBetweenItsCars) {
     positions_m.push_back(static_cast<double>(vertex.x()));
   }
   std::sort(positions_m.begin(), positions_m.end());
-  // All parking spaces are taken: no hole of the length of a car, but gaps of half a metre and more.
+  // All parking spaces are taken: no hole of the length of a car, but gaps of half a metre and
+  // more.
   int gaps = 0;
   for (std::size_t i = 1; i < positions_m.size(); ++i) {
     const double gap_m = positions_m[i] - positions_m[i - 1];
