@@ -39,13 +39,10 @@ CloudPair street(int target_count, int source_count) {
   Rng rng(StreamKey(1).with("street pair"));
   // Askew, as a sensor sees a street: walls along the axes would be a special case.
   const RigidTransform T_target_street = test::random_pose(rng, 0.5);
-  CloudPair pair;
-  pair.name = "street_" + std::to_string(source_count);
-  pair.T_target_source = test::random_pose(rng, 1.0);
-  pair.target = transformed(test::random_street(rng, 1, target_count, 0.01), T_target_street);
-  pair.source = transformed(test::random_street(rng, 1, source_count, 0.01),
-                            pair.T_target_source.inverse() * T_target_street);
-  return pair;
+  const RigidTransform T_target_source = test::random_pose(rng, 1.0);
+  const test::StreetPair pair =
+      test::street_pair(rng, 1, T_target_source, target_count, source_count, 0.01, T_target_street);
+  return {"street_" + std::to_string(source_count), pair.target, pair.source, T_target_source};
 }
 
 std::vector<CloudPair> samples() {

@@ -9,6 +9,7 @@
 #include <new>
 
 #include "experiments/cli/commands.hpp"
+#include "experiments/report/export.hpp"
 #include "experiments/store/version.hpp"
 #include "framework/base/error.hpp"
 #include "registry/help.hpp"
@@ -112,7 +113,11 @@ class Program {
     CLI::App& exporting = add("export", "Write results as a table for a paper.",
                               [this] { return export_command(export_, std::cout); });
     exporting.add_option("DIR", export_.folder, "A folder of results.")->required();
-    exporting.add_option("--format", export_.format, "csv, md (the default), latex or json.");
+    std::string formats;
+    for (const ExportFormat& format : export_formats()) {
+      formats += (formats.empty() ? "" : ", ") + std::string(format.name);
+    }
+    exporting.add_option("--format", export_.format, formats + "; default " + export_.format + ".");
     exporting.add_option("--out", export_.out, "The file to write; default the output.");
   }
 

@@ -54,8 +54,8 @@ StoreHeader header_in(const fs::path& folder) {
   throw InputError(folder.string(), "", "expected a folder with the results of a run");
 }
 
-/// The header of all the folders; the differences of each from the first are faults. Of folders
-/// in which the experiment grew, that with the most trials to run tells its latest state.
+/// The header of all the folders. The differences of each from the first are faults. If the
+/// experiment grew between the folders, the header with the most planned trials is the latest one.
 StoreHeader header_of_all(const std::vector<fs::path>& folders) {
   std::vector<Fault> faults;
   StoreHeader header;

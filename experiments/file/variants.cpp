@@ -78,7 +78,7 @@ struct GridAxis {
   std::vector<GridPoint> points;
 };
 
-/// The name of the stage that `value` describes; empty where it describes none.
+/// The name of the stage that `value` describes; empty if it describes none.
 std::string type_of(const json& value) {
   for (const char* key : {"type", "step"}) {
     if (value.is_object() && value.contains(key) && value.at(key).is_string()) {

@@ -12,7 +12,7 @@ namespace croon::experiments {
 
 /// A file that results depend on.
 struct InputFile {
-  std::string path;  ///< Relative to the data root where it lies below it.
+  std::string path;  ///< Relative to the data root if it is below it.
   std::string sha256;
   /// The numbers of finite points and of points that were dropped as not finite; std::nullopt if
   /// the file could not be loaded.

@@ -23,14 +23,13 @@ constexpr const char* kLikeKey = "like";
 /// The names of steps and of the keys of maps.
 extern const NameRule kKeyName;
 
-/// The keys of the object `node`, in order. Notes a fault where there is none, where one has
-/// other characters than letters, digits, _ and -, and where the node is no object. `name_words`
-/// says what a key is: "a sensor's name".
+/// The keys of the object `node`, in order. Notes a fault if there are none, for each that is not a
+/// name (kKeyName), and if the node is not an object. `name_words` says what a key is: "a sensor's
+/// name".
 std::vector<std::string> read_names(const Node& node, const std::string& name_words);
 
 /// The JSON object of the values by name, `named_json` their texts. Names that are not in
-/// alphabetical order are a std::logic_error: the file that says the same would be read in that
-/// order.
+/// alphabetical order are a std::logic_error: a file is read in that order.
 std::string map_json(const std::vector<std::pair<std::string, std::string>>& named_json);
 
 /// The JSON object that `table` reads as `value`.
@@ -39,7 +38,7 @@ std::string object_json(const Table<G>& table, const G& value) {
   return "{" + table.members_json(value) + "}";
 }
 
-/// What is known of a parameter that holds objects which `table` reads. A stage in `table` is a
+/// The document of a parameter that holds objects which `table` reads. A stage in `table` is a
 /// std::logic_error: presets and defaults are values, and a stage must be built.
 template <class G>
 ParameterDoc object_doc(const std::string& key, ParameterType type, const Table<G>& table,
@@ -135,7 +134,7 @@ Parameter<P> list(const std::string& key, std::vector<G> P::*member, const Table
 }
 
 /// An object with names of the user's choosing as keys, each value an object that `table` reads.
-/// Not empty: where the struct's own value is, the key must be there. Kept in the order of the
+/// Not empty: if the struct's own value is empty, the key must be there. Kept in the order of the
 /// names.
 template <class P, class G>
 Parameter<P> map(const std::string& key, std::vector<std::pair<std::string, G>> P::*member,

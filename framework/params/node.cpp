@@ -26,7 +26,7 @@ std::string escaped(const std::string& key) {
   return text;
 }
 
-/// The value as the user wrote it, cut where it is long.
+/// The value as the user wrote it, cut if it is long.
 std::string shown(const nlohmann::json& value) {
   constexpr std::size_t kLongest = 60;
   const std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

@@ -19,9 +19,9 @@ struct MemberOrigin {
 /// The origins of members by their keys in the merged object.
 using MemberOrigins = std::map<std::string, MemberOrigin>;
 
-/// A value in a JSON file that knows where it stands, so that whoever reads it can say what is
-/// wrong with it. Faults are collected, not thrown: the user sees all of them at once. Cheap to
-/// copy; the JSON value and the list of faults must outlive it.
+/// A value in a JSON file, with its file and pointer, so that a reader can report what is wrong
+/// with it. Faults are collected, not thrown: the user sees all of them at once. Cheap to copy; the
+/// JSON value and the list of faults must outlive it.
 class Node {
  public:
   Node(const nlohmann::json& value, std::string file, std::vector<Fault>& faults);
@@ -47,7 +47,7 @@ class Node {
   /// Notes `expected WHAT, found VALUE`.
   void expected(const std::string& what) const;
 
-  /// How many faults were noted so far, here and elsewhere.
+  /// The number of faults so far, in this node and elsewhere.
   std::size_t fault_count() const { return faults_->size(); }
 
   /// True for an object; else notes a fault.
@@ -56,7 +56,7 @@ class Node {
   bool is_array() const;
   /// Notes a fault for each key of this object that is not in `known`, with the nearest known one.
   void refuse_unknown_keys(const std::vector<std::string>& known) const;
-  /// Notes a fault where the member `key` is missing.
+  /// Notes a fault if the member `key` is missing.
   bool require(const std::string& key) const;
 
   /// The value at `path`, "sweep/rotation_deg", below this object; null if there is none.

@@ -10,7 +10,7 @@ namespace croon::params {
 /// A stage that was built from JSON, with the JSON that builds it again: all its parameters,
 /// defaults too, keys in order. Two slots with the same `resolved` text compute the same.
 struct BuiltStage {
-  std::shared_ptr<const void> stage;  ///< Points at the stage's kind; null where there were faults.
+  std::shared_ptr<const void> stage;  ///< Points at the stage's kind; null if there were faults.
   std::string name;                   ///< "ransac".
   std::string resolved;
 };

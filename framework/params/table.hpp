@@ -94,7 +94,7 @@ class Table {
   void read_members(const Node& node, const std::vector<std::string>& other_keys,
                     const StageBuilder& builder, P& params) const;
 
-  /// True where `params` has a value for every required key.
+  /// True if `params` has a value for every required key.
   bool is_whole(const P& params) const;
 
   /// `"key":value` for each parameter that has a value, comma-separated, for the resolved JSON.
@@ -233,7 +233,7 @@ Parameter<P> number(const std::string& key, double P::*member, Range range,
   return value_parameter<P>({key, ParameterType::number, "", range, {}, "", sentence}, member);
 }
 
-/// Any words but none: a path, a name. Where the struct's own value is empty, the key must be
+/// A string that is not empty: a path, a name. If the struct's own value is empty, the key must be
 /// there.
 template <class P>
 Parameter<P> text(const std::string& key, std::string P::*member, const std::string& sentence) {
@@ -296,7 +296,7 @@ Parameter<P> choice(const std::string& key, std::string P::*member,
   return value_parameter<P>({key, ParameterType::choice, "", {}, choices, "", sentence}, member);
 }
 
-/// A stage of the kind `Kind`; `default_json` describes the one that is built where the key is
+/// A stage of the kind `Kind`; `default_json` describes the one that is built if the key is
 /// missing.
 template <class Kind, class P>
 Parameter<P> slot(const std::string& key, Slot<Kind> P::*member, const std::string& default_json,
@@ -316,7 +316,7 @@ Parameter<P> required_slot(const std::string& key, Slot<Kind> P::*member,
   return required(slot<Kind>(key, member, "", sentence));
 }
 
-/// A list of stages of the kind `Kind`, empty where the key is missing.
+/// A list of stages of the kind `Kind`, empty if the key is missing.
 template <class Kind, class P>
 Parameter<P> slots(const std::string& key, std::vector<Slot<Kind>> P::*member,
                    const std::string& sentence) {

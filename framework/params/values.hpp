@@ -13,8 +13,8 @@
 
 namespace croon::params {
 
-/// Reads the value of `node` into `out` and checks it against `doc`; notes a fault and leaves `out`
-/// where it does not fit.
+/// Reads the value of `node` into `out` and checks it against `doc`. If it does not fit, notes a
+/// fault and keeps `out`.
 void read_value(const Node& node, const ParameterDoc& doc, bool& out);
 void read_value(const Node& node, const ParameterDoc& doc, int& out);
 void read_value(const Node& node, const ParameterDoc& doc, std::uint64_t& out);
@@ -24,8 +24,8 @@ void read_value(const Node& node, const ParameterDoc& doc, std::string& out);
 void read_value(const Node& node, const ParameterDoc& doc, std::vector<double>& out);
 void read_value(const Node& node, const ParameterDoc& doc, std::vector<std::string>& out);
 
-/// Which of `words` the node is; notes a fault, with the nearest of them, where it is none.
-/// `or_else` names what else may stand there: " or an object".
+/// The index of the node's word in `words`. If it is not one of them, notes a fault with the
+/// nearest one. `or_else` names other values that are allowed: " or an object".
 std::optional<std::size_t> read_word(const Node& node, const std::vector<std::string>& words,
                                      const std::string& or_else = "");
 

@@ -115,7 +115,7 @@ std::string replace_inside(PatchedStep& step, const std::vector<std::string>& ke
   std::string kind = Step::kKind;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const StageEntry* entry = entry_of(kind, *at, catalogue);
-    // A stage that does not exist is noted where it stands; nothing is known of its parameters.
+    // The fault of an unknown stage is noted when it is built; its parameters are not known.
     if (entry == nullptr) return "";
     const params::ParameterDoc* doc = find_parameter(*entry, keys[i]);
     if (doc == nullptr) return no_parameter(*entry, keys[i]);

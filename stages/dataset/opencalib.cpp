@@ -79,7 +79,7 @@ std::optional<fs::path> file_above(const std::string& name, const SceneLocation&
   return std::nullopt;
 }
 
-/// The poses in `name` beside the scene or above it; none where there is no such file.
+/// The poses in `name` beside the scene or above it; none if there is no such file.
 RigPoses poses_above(const std::string& name, const SceneLocation& location) {
   const std::optional<fs::path> file = file_above(name, location);
   return file ? read_rig_poses(*file) : RigPoses{};
@@ -88,7 +88,7 @@ RigPoses poses_above(const std::string& name, const SceneLocation& location) {
 /// The files with kinds of scenes that were read: one file may be about thousands of scenes.
 using KindFiles = std::map<fs::path, SceneKinds>;
 
-/// The kind that the file beside the scene or above it gives; empty where there is none.
+/// The kind that the file beside the scene or above it gives; empty if there is none.
 std::string kind_of(const SceneLocation& location, KindFiles& read) {
   const std::optional<fs::path> file = file_above("scene_kinds.json", location);
   if (!file) return "";
@@ -174,7 +174,7 @@ Scene read_scene(const SceneLocation& location, KindFiles& kind_files) {
   return scene;
 }
 
-/// The scenes' folders in `folder`, by name; or `folder` itself where it is a scene.
+/// The scenes' folders in `folder`, by name; or `folder` itself if it is a scene.
 std::vector<SceneLocation> scene_locations(const fs::path& folder, const fs::path& root) {
   if (!fs::is_directory(folder))
     throw InputError(folder.string(), "", "expected a folder of scenes");

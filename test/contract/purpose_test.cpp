@@ -81,9 +81,8 @@ TEST_P(ContractOfIcps, ConvergeFromNearTheTruth) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     Rng rng = test_rng(50 + seed);
     const RigidTransform truth = random_pose(rng, 2.0);
-    const PointCloud target = random_street(rng, seed, 8000, 0.005);
-    const PointCloud source = transformed(random_street(rng, seed, 4000, 0.005), truth.inverse());
-    const CloudPair clouds = cloud_pair(target, source);
+    const StreetPair pair = street_pair(rng, seed, truth, 8000, 4000, 0.005);
+    const CloudPair clouds = cloud_pair(pair.target, pair.source);
     const RigidTransform start = pose_near(rng, truth, 1.5, 0.1);
     const Registration result = icp->align(*clouds.target, *clouds.source, start);
     const PoseError error = pose_error(result.T_target_source, truth);

@@ -93,4 +93,15 @@ PointCloud random_street(Rng& rng, std::uint64_t scene_seed, int count, double n
   return cloud;
 }
 
+StreetPair street_pair(Rng& rng, std::uint64_t scene_seed, const RigidTransform& T_target_source,
+                       int target_count, int source_count, double noise_m,
+                       const RigidTransform& T_target_street) {
+  StreetPair pair;
+  pair.T_target_source = T_target_source;
+  pair.target = transformed(random_street(rng, scene_seed, target_count, noise_m), T_target_street);
+  pair.source = transformed(random_street(rng, scene_seed, source_count, noise_m),
+                            T_target_source.inverse() * T_target_street);
+  return pair;
+}
+
 }  // namespace croon::test

@@ -25,4 +25,17 @@ PointCloud random_cloud(Rng& rng, int count, double extent_m);
 /// normal noise. Two calls with the same `scene_seed` sample the same street at different points.
 PointCloud random_street(Rng& rng, std::uint64_t scene_seed, int count, double noise_m);
 
+/// One street seen by two sensors.
+struct StreetPair {
+  RigidTransform T_target_source;  ///< The truth.
+  PointCloud target;               ///< In the target's frame.
+  PointCloud source;               ///< In the source's frame.
+};
+
+/// The street `scene_seed` (see random_street) seen by two sensors, each at other points.
+/// `T_target_street` is the pose of the street in the target's frame.
+StreetPair street_pair(Rng& rng, std::uint64_t scene_seed, const RigidTransform& T_target_source,
+                       int target_count, int source_count, double noise_m,
+                       const RigidTransform& T_target_street = {});
+
 }  // namespace croon::test

@@ -8,11 +8,10 @@ StreetEstimate street_estimate(std::uint64_t seed) {
   Rng rng = test_rng(seed);
   StreetEstimate street;
   street.truth = pose_near(rng, {}, 40.0, 1.0);
-  const PointCloud target = random_street(rng, seed, 20000, 0.01);
-  const PointCloud source =
-      transformed(random_street(rng, seed, 6000, 0.01), street.truth.inverse());
-  street.estimate.target = std::make_shared<const Cloud>(target, StreamKey(seed).with("target"));
-  street.estimate.source = std::make_shared<const Cloud>(source, StreamKey(seed).with("source"));
+  const StreetPair pair = street_pair(rng, seed, street.truth, 20000, 6000, 0.01);
+  const StreamKey key(seed);
+  street.estimate.target = std::make_shared<const Cloud>(pair.target, key.with("target"));
+  street.estimate.source = std::make_shared<const Cloud>(pair.source, key.with("source"));
   street.estimate.T_target_source = street.truth;
   return street;
 }

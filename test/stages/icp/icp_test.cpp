@@ -27,34 +27,23 @@ const std::vector<Expectation> kVariants = {
     {R"({"type": "gicp"})", 0.1, 0.02},
 };
 
-/// The street seen from two sensors: the truth T_target_source and both clouds in their sensor's
-/// frame.
-struct Pair {
-  RigidTransform truth;
-  PointCloud target;
-  PointCloud source;
-};
-
-Pair street_pair(std::uint64_t seed, double noise_m) {
+test::StreetPair street_pair(std::uint64_t seed, double noise_m) {
   Rng rng = test::test_rng(seed);
-  Pair pair;
-  pair.truth = test::pose_near(rng, {}, 180.0, 1.0);
-  pair.target = test::random_street(rng, seed, 20000, noise_m);
-  pair.source = transformed(test::random_street(rng, seed, 8000, noise_m), pair.truth.inverse());
-  return pair;
+  const RigidTransform truth = test::pose_near(rng, {}, 180.0, 1.0);
+  return test::street_pair(rng, seed, truth, 20000, 8000, noise_m);
 }
 
 TEST(Icp, EveryVariantReturnsToTheTruth) {
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const Pair pair = street_pair(seed, 0.01);
+    const test::StreetPair pair = street_pair(seed, 0.01);
     const Cloud target(pair.target, StreamKey(1));
     const Cloud source(pair.source, StreamKey(2));
     for (const Expectation& variant : kVariants) {
       const params::Slot<Icp> icp = test::stage<Icp>(variant.json);
       Rng rng = test::test_rng(seed);
-      const RigidTransform start = test::pose_near(rng, pair.truth, 2.0, 0.2);
+      const RigidTransform start = test::pose_near(rng, pair.T_target_source, 2.0, 0.2);
       const Registration result = icp->align(target, source, start);
-      const PoseError error = pose_error(result.T_target_source, pair.truth);
+      const PoseError error = pose_error(result.T_target_source, pair.T_target_source);
       EXPECT_LT(deg_from_rad(error.rotation_rad), variant.rotation_deg) << variant.json << seed;
       EXPECT_LT(error.translation_m, variant.translation_m) << variant.json << seed;
       EXPECT_GT(result.inlier_ratio, 0.5) << variant.json;
@@ -63,32 +52,32 @@ TEST(Icp, EveryVariantReturnsToTheTruth) {
 }
 
 TEST(Icp, EveryKernelReturnsToTheTruthAmongStrayPoints) {
-  Pair pair = street_pair(4, 0.01);
+  test::StreetPair pair = street_pair(4, 0.01);
   Rng rng = test::test_rng(9);
   const PointCloud stray = test::random_cloud(rng, 1500, 8.0);
   pair.source.insert(pair.source.end(), stray.begin(), stray.end());
   const Cloud target(pair.target, StreamKey(1));
   const Cloud source(pair.source, StreamKey(2));
-  const RigidTransform start = test::pose_near(rng, pair.truth, 2.0, 0.2);
+  const RigidTransform start = test::pose_near(rng, pair.T_target_source, 2.0, 0.2);
   for (const char* kernel : {"none", "huber", "cauchy", "geman_mcclure"}) {
     const auto icp =
         test::stage<Icp>(std::string(R"({"type": "icpn", "kernel": ")") + kernel + "\"}");
     const PoseError error =
-        pose_error(icp->align(target, source, start).T_target_source, pair.truth);
+        pose_error(icp->align(target, source, start).T_target_source, pair.T_target_source);
     EXPECT_LT(deg_from_rad(error.rotation_rad), 0.2) << kernel;
     EXPECT_LT(error.translation_m, 0.04) << kernel;
   }
 }
 
 TEST(Icp, IsEquivariantUnderMotionsOfTheTarget) {
-  const Pair pair = street_pair(5, 0.01);
+  const test::StreetPair pair = street_pair(5, 0.01);
   Rng rng = test::test_rng(5);
   // A turn about the sensor keeps its origin, towards which normals are turned.
   RigidTransform T_moved_target = test::random_pose(rng, 0.0);
   const Cloud source(pair.source, StreamKey(2));
   const Cloud target(pair.target, StreamKey(1));
   const Cloud moved_target(transformed(pair.target, T_moved_target), StreamKey(1));
-  const RigidTransform start = test::pose_near(rng, pair.truth, 1.0, 0.1);
+  const RigidTransform start = test::pose_near(rng, pair.T_target_source, 1.0, 0.1);
   for (const Expectation& variant : kVariants) {
     const auto icp = test::stage<Icp>(variant.json);
     const RigidTransform T = icp->align(target, source, start).T_target_source;
