@@ -119,7 +119,7 @@ ordered_json text_schema(const ParameterDoc& parameter) {
   ordered_json schema = {{"type", "string"}};
   if (parameter.name_rule) {
     schema["pattern"] = parameter.name_rule->pattern();
-  } else if (!parameter.is_optional) {
+  } else if (!parameter.may_be_empty) {
     schema["minLength"] = 1;
   }
   return schema;

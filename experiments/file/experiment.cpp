@@ -55,48 +55,53 @@ fs::path extended_file(const json& keys, const fs::path& path, std::vector<Fault
   return {};
 }
 
+MergedFile read_merged(const fs::path& path, std::vector<fs::path> chain,
+                       std::vector<Fault>& faults);
+
+/// Reads the file that `own`, the keys of the file `path`, extends; without keys if there is none
+/// or if it has faults. `chain` are the files that led here, `path` the last of them.
+MergedFile read_extended(const json& own, const fs::path& path, const std::vector<fs::path>& chain,
+                         std::vector<Fault>& faults) {
+  MergedFile none{json::object(), {}, {}};
+  const fs::path extended = extended_file(own, path, faults);
+  if (extended.empty()) return none;
+  const auto refused = [&](const std::string& message) {
+    faults.push_back({path.string(), std::string("/") + kExtends, message});
+    return none;
+  };
+  if (std::find(chain.begin(), chain.end(), fs::weakly_canonical(extended)) != chain.end()) {
+    return refused("expected another file, found " + extended.string() +
+                   ", which extends this one");
+  }
+  if (chain.size() >= kMostFiles) {
+    return refused("expected at most " + std::to_string(kMostFiles) +
+                   " files that extend each other");
+  }
+  if (!fs::is_regular_file(extended)) {
+    return refused("expected an experiment file, found none at " + extended.string());
+  }
+  MergedFile base = read_merged(extended, chain, faults);
+  if (!base.keys.is_object()) {
+    faults.push_back({extended.string(), "/", "expected an object"});
+    return none;
+  }
+  base.files.front().path = own.at(kExtends);
+  return base;
+}
+
 /// Reads the file `path` and those that it extends. `chain` are the files that led here.
 MergedFile read_merged(const fs::path& path, std::vector<fs::path> chain,
                        std::vector<Fault>& faults) {
-  MergedFile merged;
   const std::string text = read_whole_file(path);
-  merged.files.push_back({path.filename().string(), sha256_of_text(text)});
+  const ExperimentFile file = {path.filename().string(), sha256_of_text(text)};
   const json own = params::parse_json(text, path.string(), faults);
-  if (!own.is_object()) {
-    merged.keys = own;
-    return merged;
-  }
+  if (!own.is_object()) return {own, {}, {file}};
   chain.push_back(fs::weakly_canonical(path));
-  const fs::path extended = extended_file(own, path, faults);
-  MergedFile base;
-  if (!extended.empty()) {
-    const auto refuse = [&](const std::string& message) {
-      faults.push_back({path.string(), std::string("/") + kExtends, message});
-    };
-    const fs::path canonical = fs::weakly_canonical(extended);
-    if (std::find(chain.begin(), chain.end(), canonical) != chain.end()) {
-      refuse("expected another file, found " + extended.string() + ", which extends this one");
-    } else if (chain.size() >= kMostFiles) {
-      refuse("expected at most " + std::to_string(kMostFiles) + " files that extend each other");
-    } else if (!fs::is_regular_file(extended)) {
-      refuse("expected an experiment file, found none at " + extended.string());
-    } else {
-      base = read_merged(extended, chain, faults);
-      if (!base.keys.is_object()) {
-        faults.push_back({extended.string(), "/", "expected an object"});
-        base = {};
-      } else {
-        base.files.front().path = own.at(kExtends);
-      }
-    }
-  }
-  merged.keys = std::move(base.keys);
-  if (merged.keys.is_null()) merged.keys = json::object();
-  merged.origins = std::move(base.origins);
+  MergedFile merged = read_extended(own, path, chain, faults);
   json renamed = with_present_names(own, path.string(), faults, merged.origins);
   renamed.erase(kExtends);
   merged.keys.update(renamed);
-  merged.files.insert(merged.files.end(), base.files.begin(), base.files.end());
+  merged.files.insert(merged.files.begin(), file);
   return merged;
 }
 

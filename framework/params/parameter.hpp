@@ -75,6 +75,7 @@ struct ParameterDoc {
   std::vector<std::string> preset_json = {};  ///< group: the object that each preset stands for.
   std::string name_words = "";                ///< map: what its keys are, "a sensor's name".
   std::optional<NameRule> name_rule = {};     ///< text: which names are allowed.
+  bool may_be_empty = false;                  ///< text: the empty string is allowed.
   std::string definition = "";  ///< json: the definition of the JSON Schema that describes it.
 };
 

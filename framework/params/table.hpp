@@ -39,7 +39,7 @@ class Table {
     return *this;
   }
 
-  /// Adds the rows, conditions and rules of a base of `P`: parameters that several stages share.
+  /// Adds all that the table of a base of `P` has: parameters that several stages share.
   /// `P` may give them defaults of its own.
   template <class Base>
   Table& inherit(const Table<Base>& base) {
@@ -57,6 +57,7 @@ class Table {
       conditions_.push_back({[holds = holds](const P& params) { return holds(params); }, message});
     }
     rules_.insert(rules_.end(), base.rules().begin(), base.rules().end());
+    finishes_.insert(finishes_.end(), base.finishes().begin(), base.finishes().end());
     return *this;
   }
 
@@ -84,6 +85,7 @@ class Table {
     finishes_.push_back(std::move(finish));
     return *this;
   }
+  const std::vector<std::function<void(P&, const Node&)>>& finishes() const { return finishes_; }
 
   /// Reads the object `node` over the values that `params` begins with, and checks the conditions;
   /// `other_keys` ("type", "step") are the caller's. Notes all faults in the node.
@@ -248,6 +250,7 @@ Parameter<P> free_text(const std::string& key, std::string P::*member,
                        const std::string& sentence) {
   ParameterDoc doc{key, ParameterType::text, "", {}, {}, "", sentence};
   doc.is_optional = true;
+  doc.may_be_empty = true;
   return value_parameter<P>(doc, member);
 }
 

@@ -28,7 +28,7 @@ void read_text(const Node& node, const ParameterDoc& doc, std::string& out) {
   std::string text;
   if (!node.read(text)) return;
   if (doc.name_rule && !doc.name_rule->allows(text)) return node.expected(doc.name_rule->words);
-  if (text.empty() && !doc.is_optional) return node.expected("a string that is not empty");
+  if (text.empty() && !doc.may_be_empty) return node.expected("a string that is not empty");
   out = text;
 }
 

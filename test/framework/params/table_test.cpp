@@ -56,6 +56,22 @@ Sample read(const std::string& text, std::vector<std::string>& lines) {
   return sample;
 }
 
+TEST(Table, InheritsRulesAndLastSteps) {
+  Table<Base> base = {integer("count", &Base::count, {1, 9}, "Count.")};
+  base.rule({"count", {}, false, {"flag"}, {}});
+  base.finish([](Base& b, const Node&) { b.count *= 2; });
+  Table<Sample> heir = {boolean("flag", &Sample::flag, "Flag.")};
+  heir.inherit(base);
+  std::vector<Fault> faults;
+  const nlohmann::json whole = {{"count", 4}, {"flag", true}};
+  EXPECT_EQ(heir.read(Node(whole, "f", faults), {}, NoStages()).count, 8);
+  EXPECT_TRUE(faults.empty());
+  const nlohmann::json without_flag = {{"count", 4}};
+  heir.read(Node(without_flag, "f", faults), {}, NoStages());
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].message, "the key \"flag\" is missing");
+}
+
 TEST(Table, GivesDefaultsWhereNothingIsSaid) {
   std::vector<std::string> lines;
   const Sample sample = read(R"({"type": "t"})", lines);
