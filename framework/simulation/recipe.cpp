@@ -154,7 +154,10 @@ const params::Table<Recipe>& recipe_table() {
                     "How often each kind of scene comes, as weights; kinds that are not named do "
                     "not come."),
       params::group("noise", &Recipe::noise, noise_table(),
-                    {{"none", Noise{}}, {"carla", carla_noise()}, {"real", real_noise()}},
+                    {{"none", Noise{}},
+                     {"carla", carla_noise()},
+                     {"real_still", real_still_noise()},
+                     {"real", real_noise()}},
                     "What the sensors do wrong."),
       integer("seed", &Recipe::seed, {0, std::numeric_limits<int>::max()},
               "Other scenes for another seed; the experiment's own seed moves starts alone."),

@@ -97,12 +97,17 @@ Noise carla_noise() {
   return noise;
 }
 
-Noise real_noise() {
+Noise real_still_noise() {
   Noise noise;
   noise.range_std_m = 0.02;
   noise.angle_std_deg = 0.02;
   noise.dropout_ratio = 0.005;
   noise.detection_range_m = 200.0;
+  return noise;
+}
+
+Noise real_noise() {
+  Noise noise = real_still_noise();
   noise.moves_during_scan = true;
   return noise;
 }

@@ -41,8 +41,11 @@ struct Noise {
 /// 1800 rays of a ring that meets the ground all around, 1520 come back).
 Noise carla_noise();
 
-/// The noise of a spinning automotive LiDAR: 2 cm, 0.02 degrees, 0.5 % of the rays, detection of
-/// 10 % targets at 200 m, motion during a scan.
+/// The noise of a spinning automotive LiDAR on a car that stands among others that stand: 2 cm,
+/// 0.02 degrees, 0.5 % of the rays, detection of 10 % targets at 200 m.
+Noise real_still_noise();
+
+/// The same, and the car and others drive during a scan.
 Noise real_noise();
 
 /// The probability that a ray comes back from a surface at `range_m` that sends the share

@@ -16,10 +16,10 @@ enum class Stop { first_rise, never };
 
 struct Params {
   std::vector<Dof> dofs = {Dof::x, Dof::y};
-  double translation_step_m = 0.02;
+  double translation_step_m = 0.005;
   double rotation_step_deg = 0.1;
   int max_steps = 9;
-  double min_decrease_ratio = 1e-4;
+  double min_decrease_ratio = 1e-3;
   Stop stop = Stop::first_rise;
   int sweeps = 1;
   int halvings = 0;
@@ -37,13 +37,15 @@ const params::Table<Params>& table() {
       params::choices("dofs", &Params::dofs, dof_words,
                       "The degrees of freedom that are scanned, in this order."),
       params::number("translation_step_m", &Params::translation_step_m, {1e-6, 100.0},
-                     "Step along x, y and z."),
+                     "Step along x, y and z; the authors' 0.02."),
       params::number("rotation_step_deg", &Params::rotation_step_deg, {1e-6, 180.0},
                      "Step of roll, pitch and yaw."),
       params::integer("max_steps", &Params::max_steps, {1, 10000},
                       "At most this many steps to each side in one scan."),
-      params::number("min_decrease_ratio", &Params::min_decrease_ratio, {0.0, 1.0},
-                     "A step is taken only if it lowers the cost by more than this share of it."),
+      params::number(
+          "min_decrease_ratio", &Params::min_decrease_ratio, {0.0, 1.0},
+          "A step is taken only if it lowers the cost by more than this share of it; the authors' "
+          "0.0001."),
       params::choice(
           "stop", &Params::stop, {{"first_rise", Stop::first_rise}, {"never", Stop::never}},
           "first_rise: to each side, plus first, the scan ends at the first step that does not "

@@ -15,7 +15,8 @@ const params::Table<Params>& table() {
       params::Table<Params>{
           params::slot(
               "search", &Params::search,
-              R"({"type": "coordinate_scan", "dofs": ["x", "y"], "translation_step_m": 0.1})",
+              R"({"type": "coordinate_scan", "dofs": ["x", "y"], "translation_step_m": 0.1, )"
+              R"("min_decrease_ratio": 0.0001})",
               "Finds the pose of least cost; the paper searches x, then y."),
       }
           .inherit(nearest_cost_table());

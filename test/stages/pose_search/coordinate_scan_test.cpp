@@ -29,8 +29,8 @@ PoseCost planar_bowl(const RigidTransform& start, const Eigen::Vector2d& least_m
 }
 
 TEST(CoordinateScan, AuthorsSettingsStepAlongXThenY) {
-  const auto search =
-      test::stage<PoseSearch>(R"({"type": "coordinate_scan", "min_decrease_ratio": 0})");
+  const auto search = test::stage<PoseSearch>(
+      R"({"type": "coordinate_scan", "translation_step_m": 0.02, "min_decrease_ratio": 0})");
   Rng rng = test::test_rng();
   for (int i = 0; i < 200; ++i) {
     const RigidTransform start = test::random_pose(rng, 5.0);
@@ -47,7 +47,9 @@ TEST(CoordinateScan, AuthorsSettingsStepAlongXThenY) {
 }
 
 TEST(CoordinateScan, LooksToBothSidesAsFarAsTheCostFalls) {
-  const auto search = test::stage<PoseSearch>(R"({"type": "coordinate_scan", "dofs": ["x"]})");
+  const auto search = test::stage<PoseSearch>(
+      R"({"type": "coordinate_scan", "dofs": ["x"], "translation_step_m": 0.02,
+          "min_decrease_ratio": 1e-4})");
   const auto evaluations = [&](double least_m) {
     return search->minimise(planar_bowl({}, {least_m, 0.0}), {}).evaluations;
   };
@@ -65,7 +67,8 @@ TEST(CoordinateScan, TakesNoStepThatLowersTheCostTooLittle) {
     };
   };
   const auto search = test::stage<PoseSearch>(
-      R"({"type": "coordinate_scan", "dofs": ["x"], "min_decrease_ratio": 1e-4})");
+      R"({"type": "coordinate_scan", "dofs": ["x"], "translation_step_m": 0.02,
+          "min_decrease_ratio": 1e-4})");
   EXPECT_TRUE(same_bits(search->minimise(slope(0.9e-4), {}).pose, {}));
   EXPECT_NEAR(search->minimise(slope(1.1e-4), {}).pose.translation.x(), 9 * 0.02, 1e-12);
 }
@@ -97,7 +100,9 @@ TEST(CoordinateScan, LookingAtTheWholeRangeGetsOverARise) {
     return 1.0 + std::min(std::abs(x), std::abs(x - 0.14) - 0.02);
   };
   const auto at = [&](const std::string& stop) {
-    return test::stage<PoseSearch>(R"({"type": "coordinate_scan", "stop": ")" + stop + R"("})")
+    return test::stage<PoseSearch>(
+               R"({"type": "coordinate_scan", "translation_step_m": 0.02, "stop": ")" + stop +
+               R"("})")
         ->minimise(two_bowls, {})
         .pose.translation.x();
   };

@@ -28,7 +28,8 @@ TEST(VolumeRefinement, ComesNearerAcrossTheSurfaces) {
   const auto step = test::stage<Step>(
       R"({"step": "volume_refinement", "points": "all",
           "scorer": {"type": "openvdb_grid", "leaf_size_m": 0.1},
-          "search": {"type": "coordinate_scan", "sweeps": 3}})");
+          "search": {"type": "coordinate_scan", "translation_step_m": 0.02,
+                     "min_decrease_ratio": 1e-4, "sweeps": 3}})");
   Rng rng = test::test_rng();
   PointCloud dense = test::random_street(rng, 7, 150000, 0.0);
   PointCloud sparse = test::random_street(rng, 7, 5000, 0.0);
