@@ -15,6 +15,7 @@ list(APPEND CMAKE_MODULE_PATH ${openvdb_modules})
 find_package(OpenVDB REQUIRED)
 
 find_library(LZF_LIBRARY NAMES lzf liblzf REQUIRED)
+find_library(SLEEF_LIBRARY NAMES sleef REQUIRED)
 find_library(MD_LIBRARY NAMES md REQUIRED)
 
 # If CGAL is off, the target does not exist and the stages that need it are left out.
