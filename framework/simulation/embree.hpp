@@ -1,7 +1,7 @@
 #pragma once
 
-// A thin layer over Embree's C interface, included by ray_caster.cpp alone. Embree 3 (Debian 12)
-// and Embree 4 (Ubuntu 24.04) differ in the name of the header and in the call for a packet of
+// A thin layer over Embree's C interface, included by ray_caster.cpp and its test. Embree 3 (Debian
+// 12) and Embree 4 (Ubuntu 24.04) differ in the name of the header and in the call for a packet of
 // rays.
 
 #if __has_include(<embree4/rtcore.h>)
@@ -64,8 +64,7 @@ inline void intersect_coherent(RTCScene scene, Packet& packet) {
 
 /// The device that all scenes share. Embree has code for several generations of processors, and
 /// they decide differently where two triangles meet. This is the code that every x86-64 runs,
-/// whatever the user's configuration files of Embree say.
-/// Throws std::runtime_error if Embree finds none.
+/// whatever Embree's configuration files say. Throws std::runtime_error if Embree finds no device.
 inline RTCDevice embree_device() {
   static const struct Device {
     RTCDevice handle = rtcNewDevice("isa=sse2,ignore_config_files=1");

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "framework/simulation/embree.hpp"
 #include "framework/simulation/objects/shapes.hpp"
 #include "test/support/random_geometry.hpp"
 
@@ -44,6 +45,12 @@ double range_m(const Ray& ray, const Vector3d& a, const Vector3d& b, const Vecto
   if (std::abs(inside) < kNearEdge) return std::numeric_limits<double>::quiet_NaN();
   const double t = (c - a).dot(q) / determinant;
   return inside > 0.0 && t > 0.0 ? t : std::numeric_limits<double>::infinity();
+}
+
+/// Processors with AVX have packets of eight rays, which are not the code of every processor.
+TEST(RayCaster, RunsTheCodeOfEveryProcessor) {
+  EXPECT_EQ(rtcGetDeviceProperty(embree_device(), RTC_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED), 1);
+  EXPECT_EQ(rtcGetDeviceProperty(embree_device(), RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED), 0);
 }
 
 TEST(RayCaster, AgreesWithBruteForce) {
