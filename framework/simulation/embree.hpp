@@ -20,9 +20,10 @@ namespace croon::simulation {
 
 constexpr std::size_t kPacketSize = 8;
 
-/// Eight rays in Embree's layout. `valid` is -1 for the rays that exist, else 0.
+/// Eight rays in Embree's layout. `valid` is -1 for the rays that exist, else 0. The others are
+/// zero, because Debian's Embree checks their values as well.
 struct alignas(32) Packet {
-  RTCRayHit8 rays;
+  RTCRayHit8 rays = {};
   int valid[kPacketSize] = {};
 
   /// Sets the ray `i`.
