@@ -1,3 +1,7 @@
+// Boost.Math would compute in long double, and the long double functions of the C library use
+// instructions whose last bits depend on the processor.
+#define BOOST_MATH_PROMOTE_DOUBLE_POLICY false
+
 #include "experiments/analysis/paired_tests.hpp"
 
 #include <algorithm>
@@ -27,10 +31,6 @@ constexpr std::size_t kMostExactSums = 16;
 /// Resamples that share a stream of random numbers; seeding a stream costs as much as some hundred
 /// draws.
 constexpr std::size_t kBlock = 50;
-
-/// Boost.Math in double: by default it computes in long double, and the long double functions of
-/// the C library use instructions whose last bits depend on the processor.
-using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
 /// The indices of `values` in ascending order of the values; equal ones by index.
 std::vector<std::size_t> ascending(const std::vector<double>& values) {
@@ -158,7 +158,7 @@ double mcnemar_p(int only_base, int only_variant) {
   if (only_base < 0 || only_variant < 0) throw std::logic_error("a negative number of pairs");
   if (only_base == only_variant) return 1.0;
   const double trials = static_cast<double>(only_base) + only_variant;
-  const boost::math::binomial_distribution<double, InDouble> lesser(trials, 0.5);
+  const boost::math::binomial lesser(trials, 0.5);
   return std::min(1.0, 2.0 * boost::math::cdf(lesser, std::min(only_base, only_variant)));
 }
 
@@ -210,8 +210,7 @@ double normal_sign_p(const std::vector<double>& scores) {
   }
   if (squares == 0.0) return 1.0;
   const double z = std::max(0.0, std::abs(sum) - least) / std::sqrt(squares);
-  return 2.0 * boost::math::cdf(boost::math::complement(
-                   boost::math::normal_distribution<double, InDouble>(), z));
+  return 2.0 * boost::math::cdf(boost::math::complement(boost::math::normal(), z));
 }
 
 double sign_flip_p(const std::vector<double>& sums) {
