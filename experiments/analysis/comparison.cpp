@@ -33,9 +33,8 @@ TrialResult result_of(const TrialRecord& record, const SceneSummary& scene,
   const RigidTransform* const pose = usable_pose(record);
   if (pose == nullptr || (!record.error && !scene.consensus)) return {};
   const PoseError error = record.error ? *record.error : pose_error(*pose, *scene.consensus);
-  // Without truth every trial that finished is a success: it must agree too, as in the tables.
-  const bool is_success =
-      record.status == Status::success && (record.error || agree(*pose, *scene.consensus, bounds));
+  const bool is_success = record.error ? record.status == Status::success
+                                       : agrees(record, scene, bounds).value_or(false);
   return {deg_from_rad(error.rotation_rad), error.translation_m, is_success ? 1.0 : 0.0};
 }
 

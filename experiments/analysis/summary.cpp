@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "framework/base/angles.hpp"
-
 namespace croon::experiments {
 namespace {
 
@@ -117,7 +115,7 @@ const SceneRecords& RecordGroups::of(const std::string& variant, const std::stri
 Summary summarise(const std::vector<TrialRecord>& records, const SuccessBounds& success,
                   const ReportOrder& order) {
   const RecordGroups groups(records);
-  const PoseBounds bounds = {rad_from_deg(success.rotation_deg), success.translation_m};
+  const PoseBounds bounds = pose_bounds(success);
   const std::vector<std::string> scene_names = completed(order.scenes, records, &TrialId::scene);
   const std::vector<std::string> sensors = completed(order.sensors, records, &TrialId::sensor);
   const std::vector<std::string> variants = completed(order.variants, records, &TrialId::variant);

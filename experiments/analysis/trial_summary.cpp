@@ -3,21 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/base/angles.hpp"
+
 namespace croon::experiments {
 namespace {
 
 constexpr std::size_t kMean = statistic_index("mean");
 
 /// The numbers of trials by their status, in the order of Status.
-constexpr std::array kByStatus = {&Outcomes::success, &Outcomes::inaccurate, &Outcomes::rejected,
-                                  &Outcomes::failed};
+constexpr std::array kByStatus = {&Outcomes::success, &Outcomes::inaccurate, &Outcomes::finished,
+                                  &Outcomes::rejected, &Outcomes::failed};
 
-bool has_good_pose(const TrialRecord& record) {
-  return record.status == Status::success && record.T_reference_sensor;
-}
-
-/// The outcomes of a scene and the pose that its successful trials agree on: all that does not need
-/// the other scenes.
+/// The outcomes of a scene and the pose that its trials agree on: all that does not need the other
+/// scenes.
 SceneSummary without_deviations(const SceneRecords& records, const PoseBounds& bounds) {
   SceneSummary scene;
   scene.scene = records.front()->id.scene;
@@ -26,32 +24,40 @@ SceneSummary without_deviations(const SceneRecords& records, const PoseBounds& b
     ++scene.outcomes.trials;
     ++(scene.outcomes.*kByStatus.at(static_cast<std::size_t>(record->status)));
     if (record->error) scene.deviations_from = DeviationsFrom::truth;
-    if (has_good_pose(*record)) poses.push_back(*record->T_reference_sensor);
+    if (const RigidTransform* pose = usable_pose(*record)) poses.push_back(*pose);
   }
   if (poses.empty()) return scene;
   scene.deviations_from = std::min(scene.deviations_from, DeviationsFrom::consensus);
   scene.consensus = consensus_pose(poses, bounds);
-  for (const RigidTransform& pose : poses) {
-    scene.agreement.count += agree(pose, *scene.consensus, bounds);
+  for (const TrialRecord* record : records) {
+    scene.agreement.count += agrees(*record, scene, bounds).value_or(false);
   }
   return scene;
 }
 
-/// Adds the deviations of the trials that count (see `SummaryRow`) from the truth or from
-/// `consensus`, that of all scenes.
+/// Whether the trial counts (see `SummaryRow`).
+bool counts(const TrialRecord& record, const SceneSummary& scene, const PoseBounds& bounds) {
+  if (lacks_truth(scene)) return agrees(record, scene, bounds).value_or(false);
+  return record.status == Status::success && record.error;
+}
+
+/// Adds the deviations of the trials that count from the truth or from `consensus`, that of all
+/// scenes.
 void add_deviations(SceneSummary& scene, const SceneRecords& records,
                     const std::optional<RigidTransform>& consensus, const PoseBounds& bounds) {
+  std::vector<RigidTransform> poses;
   for (const TrialRecord* record : records) {
-    if (!has_good_pose(*record)) continue;
-    const RigidTransform& pose = *record->T_reference_sensor;
-    if (scene.deviations_from == DeviationsFrom::truth) {
-      if (!record->error) continue;
-      scene.deviations.push_back(measures_of(*record->error));
-    } else {
-      if (!agree(pose, *scene.consensus, bounds)) continue;
-      scene.deviations.push_back(measures_of(pose_error(pose, *consensus)));
-    }
-    scene.spread.push_back(measures_of(pose_error(pose, *scene.consensus)));
+    if (!counts(*record, scene, bounds)) continue;
+    poses.push_back(*record->T_reference_sensor);
+    scene.deviations.push_back(measures_of(
+        lacks_truth(scene) ? pose_error(poses.back(), *consensus) : *record->error));
+  }
+  if (poses.empty()) return;
+  // With truth trials may count that do not agree with most others.
+  const RigidTransform centre =
+      lacks_truth(scene) ? *scene.consensus : consensus_pose(poses, bounds);
+  for (const RigidTransform& pose : poses) {
+    scene.spread.push_back(measures_of(pose_error(pose, centre)));
   }
 }
 
@@ -122,7 +128,11 @@ const char* name_of(DeviationsFrom from) {
 }
 
 const Share& main_share(const TrialSummary& summary) {
-  return summary.deviations_from == DeviationsFrom::consensus ? summary.agreement : summary.success;
+  return lacks_truth(summary) ? summary.agreement : summary.success;
+}
+
+PoseBounds pose_bounds(const SuccessBounds& bounds) {
+  return {rad_from_deg(bounds.rotation_deg), bounds.translation_m};
 }
 
 TrialSummary pooled(const std::vector<const SceneSummary*>& scenes) {
@@ -160,8 +170,15 @@ const TrialRecord* find_trial(const SceneRecords& records, int trial) {
 }
 
 const RigidTransform* usable_pose(const TrialRecord& record) {
-  const bool is_usable = record.status == Status::success || record.status == Status::inaccurate;
+  const bool is_usable = record.status != Status::rejected && record.status != Status::failed;
   return is_usable && record.T_reference_sensor ? &*record.T_reference_sensor : nullptr;
+}
+
+std::optional<bool> agrees(const TrialRecord& record, const SceneSummary& scene,
+                           const PoseBounds& bounds) {
+  const RigidTransform* const pose = usable_pose(record);
+  if (pose == nullptr || !scene.consensus) return std::nullopt;
+  return agree(*pose, *scene.consensus, bounds);
 }
 
 SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds& bounds) {

@@ -29,6 +29,7 @@ struct Outcomes {
   int trials = 0;
   int success = 0;
   int inaccurate = 0;
+  int finished = 0;
   int rejected = 0;
   int failed = 0;
 };
@@ -63,8 +64,8 @@ const char* name_of(DeviationsFrom from);
 struct TrialSummary {
   DeviationsFrom deviations_from = DeviationsFrom::none;  ///< Truth if one sensor has it.
   Outcomes outcomes;
-  Share success;    ///< Trials with status `success`.
-  Share agreement;  ///< Successful trials within the success bounds of their scene's consensus.
+  Share success;    ///< Trials with status `success`; means nothing without truth.
+  Share agreement;  ///< Trials that `agrees` is true for.
   int counted = 0;  ///< Trials that `statistics` are over.
   std::optional<StatisticsTable> statistics;
 };
@@ -74,15 +75,16 @@ struct SceneSummary : TrialSummary {
   std::string scene;
   std::string scene_kind;  ///< "urban"; empty if the dataset names none.
   std::optional<RigidTransform>
-      consensus;                     ///< `T_reference_sensor` that its successful trials agree on.
+      consensus;                     ///< `T_reference_sensor` that its usable poses agree on.
   std::vector<Measures> deviations;  ///< Of the trials that count, by trial.
-  std::vector<Measures> spread;      ///< The deviations of the same trials from `consensus`.
+  /// The deviations of the same trials from what they agree on.
+  std::vector<Measures> spread;
 };
 
 /// One variant and sensor over all scenes.
 ///
 /// Statistics are over the trials that count: with truth those with status `success`; without truth
-/// those within the success bounds of their scene's consensus. Deviations are from the truth, else
+/// those that agree. Deviations are from the truth, else
 /// from `consensus`, by `pose_error`.
 struct SummaryRow : TrialSummary {
   std::string variant;
@@ -102,9 +104,16 @@ struct SummaryRow : TrialSummary {
 /// Rows of a summary.
 using Rows = std::vector<const SummaryRow*>;
 
-/// The share that counts as success: with truth that of the trials near it, else that of the trials
-/// that agree.
+/// The share of the trials that count: with truth success, else agreement.
 const Share& main_share(const TrialSummary& summary);
+
+/// Whether success is not known, because deviations are from a consensus.
+inline bool lacks_truth(const TrialSummary& summary) {
+  return summary.deviations_from == DeviationsFrom::consensus;
+}
+
+/// The success bounds in radians and metres.
+PoseBounds pose_bounds(const SuccessBounds& bounds);
 
 /// The trials of several scenes (of one sensor or more) as one set.
 TrialSummary pooled(const std::vector<const SceneSummary*>& scenes);
@@ -120,6 +129,11 @@ const TrialRecord* find_trial(const SceneRecords& records, int trial);
 
 /// The pose of a trial that finished and is not rejected; else null.
 const RigidTransform* usable_pose(const TrialRecord& record);
+
+/// Whether the usable pose of a trial is within `bounds` of the consensus of its scene; std::nullopt
+/// if it has none. The only place that decides it.
+std::optional<bool> agrees(const TrialRecord& record, const SceneSummary& scene,
+                           const PoseBounds& bounds);
 
 /// The row of the trials in `scenes`, which are of one variant and sensor; not empty.
 SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds& bounds);

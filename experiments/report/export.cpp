@@ -14,10 +14,32 @@ namespace croon::experiments {
 
 namespace {
 
-/// The columns with marks.
+/// The columns with marks. Of the first two a row has one, see `share_column`.
 constexpr const char* kSuccessColumn = "success_percent";
+constexpr const char* kAgreementColumn = "agreement_percent";
 constexpr const char* kRotationColumn = "rotation_median_deg";
 constexpr const char* kTranslationColumn = "translation_median_m";
+
+/// The index of the column with the share that counts for a row.
+std::size_t share_column(const Table& table, std::size_t row) {
+  const bool lacks_truth = table.text_at(row, "reference") == name_of(DeviationsFrom::consensus);
+  return table.index_of(lacks_truth ? kAgreementColumn : kSuccessColumn);
+}
+
+/// Ratio, low and high end of a share in percent; `share` is a function of a row whose result may
+/// be nothing.
+template <class F>
+void add_percents(Columns<SummaryRow>& columns, const std::string& name, F share) {
+  const auto add = [&](const std::string& end, Better better, auto value) {
+    columns.add({name + end, "percent", "", 1, better}, [=](const SummaryRow& row) {
+      const Share* const found = share(row);
+      return found ? std::optional<double>(100.0 * value(*found)) : std::nullopt;
+    });
+  };
+  add("", Better::greater, [](const Share& found) { return found.ratio; });
+  add("_low", Better::neither, [](const Share& found) { return found.interval.low; });
+  add("_high", Better::neither, [](const Share& found) { return found.interval.high; });
+}
 
 /// Less is better. Of the digits that are shown: a reader who sees two equal numbers, one of them
 /// bold, would look for a reason.
@@ -30,7 +52,7 @@ double rank(const Cell& cell, const Column& column) {
 
 /// Marks the best of each column among the rows [begin, end) of one sensor.
 void mark_best(Table& table, std::size_t begin, std::size_t end) {
-  const std::size_t success = table.index_of(kSuccessColumn);
+  const std::size_t success = share_column(table, begin);
   const auto sign = [&](std::size_t row, std::size_t k) {
     const std::string& mark = table.rows[row][k].mark;
     return mark.empty() ? ' ' : mark[0];
@@ -76,17 +98,19 @@ std::string mark_of(const PairedTest& test) {
 }
 
 void set_marks(Table& table, const std::vector<Comparison>& comparisons) {
-  for (const char* name : {kSuccessColumn, kRotationColumn, kTranslationColumn}) {
+  for (const char* name :
+       {kSuccessColumn, kAgreementColumn, kRotationColumn, kTranslationColumn}) {
     table.columns[table.index_of(name)].has_marks = true;
   }
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const auto mark = [&](const char* column, const PairedTest& test) {
       table.rows[i][table.index_of(column)].mark = mark_of(test);
     };
+    const std::size_t share = share_column(table, i);
     for (const Comparison& comparison : comparisons) {
       if (comparison.variant != table.text_at(i, "variant")) continue;
       if (comparison.sensor != table.text_at(i, "sensor")) continue;
-      mark(kSuccessColumn, comparison.success);
+      table.rows[i][share].mark = mark_of(comparison.success);
       // Without truth these are tests of repeatability, which no column shows.
       if (table.text_at(i, "reference") != name_of(DeviationsFrom::truth)) continue;
       mark(kRotationColumn, comparison.rotation_deg.test);
@@ -121,14 +145,16 @@ Columns<SummaryRow> export_columns() {
   add_sensor(columns);
   columns.add({"reference"}, [](const SummaryRow& row) { return name_of(row.deviations_from); })
       .add({"trials"}, [](const SummaryRow& row) { return row.outcomes.trials; })
-      .add({"success"}, [](const SummaryRow& row) { return main_share(row).count; })
-      .add({"counted"}, &SummaryRow::counted)
-      .add({"success", "percent", "", 1, Better::greater},
-           [](const SummaryRow& row) { return 100.0 * main_share(row).ratio; })
-      .add({"success_low", "percent", "", 1},
-           [](const SummaryRow& row) { return 100.0 * main_share(row).interval.low; })
-      .add({"success_high", "percent", "", 1},
-           [](const SummaryRow& row) { return 100.0 * main_share(row).interval.high; });
+      .add({"success"},
+           [](const SummaryRow& row) {
+             return lacks_truth(row) ? std::nullopt : std::optional<int>(row.success.count);
+           })
+      .add({"counted"}, &SummaryRow::counted);
+  add_percents(columns, "success", [](const SummaryRow& row) {
+    return lacks_truth(row) ? nullptr : &row.success;
+  });
+  columns.add({"agreement"}, [](const SummaryRow& row) { return row.agreement.count; });
+  add_percents(columns, "agreement", [](const SummaryRow& row) { return &row.agreement; });
   const auto add = [&](std::size_t k, const char* statistic) {
     const std::size_t s = statistic_index(statistic);
     columns.add(statistic_column(kMeasures[k], statistic),
@@ -178,7 +204,7 @@ std::vector<std::string> caption_sentences(const ExportTable& table) {
     sentences.push_back("Success: " + bounds + "the truth; errors are those of these trials.");
   }
   if (has_deviations_from(table.table, DeviationsFrom::consensus)) {
-    sentences.push_back("Success, where there is no truth: " + bounds +
+    sentences.push_back("Agreement, if there is no truth: " + bounds +
                         "what the trials of the scene agree on; deviations of these trials from "
                         "what all scenes agree on.");
   }
@@ -216,10 +242,11 @@ std::string export_json(const ExportTable& table) {
 }
 
 std::string export_markdown(const ExportTable& table) {
-  View view{{{"variant"},
-             {"sensor"},
-             {"success %", "<success_percent> [<success_low_percent>, <success_high_percent>]"}},
-            2};
+  View view{{{"variant"}, {"sensor"}}, 2};
+  for (const std::string& share : share_names(table.table)) {
+    view.columns.push_back({share + " %", "<" + share + "_percent> [<" + share +
+                                              "_low_percent>, <" + share + "_high_percent>]"});
+  }
   for (const std::size_t k : kDistances) {
     for (const char* statistic : {"median", "p95"}) {
       const Measure& measure = kMeasures[k];

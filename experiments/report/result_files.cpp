@@ -43,7 +43,7 @@ Bytes if_basin(const Results& results, std::string (*bytes)(const Basin&)) {
 const std::vector<ResultFile>& result_files() {
   using R = Results;
   static const std::vector<ResultFile> files = {
-      {"trials.csv", [](const R& r) -> Bytes { return trials_csv(r.records); }},
+      {"trials.csv", [](const R& r) -> Bytes { return trials_csv(r.records, r.summary); }},
       {"summary.csv", [](const R& r) -> Bytes { return summary_csv(r.summary); }},
       {"summary.json", [](const R& r) -> Bytes { return summary_json(r.summary, r.claims); }},
       {"summary_by_kind.csv",

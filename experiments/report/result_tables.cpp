@@ -1,7 +1,11 @@
 #include "experiments/report/result_tables.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <tuple>
+#include <type_traits>
 
 #include "framework/base/text.hpp"
 #include "framework/geometry/rigid_transform.hpp"
@@ -23,17 +27,28 @@ Columns<Share> share_columns(const std::string& name) {
            [](const Share& share) { return share.interval.high; });
 }
 
+/// `value` of a summary; nothing if it is known with truth alone and there is none.
+template <class T>
+auto with_truth(T value) {
+  return [value](const TrialSummary& summary) {
+    using Result = std::decay_t<decltype(std::invoke(value, summary))>;
+    return lacks_truth(summary) ? std::nullopt
+                                : std::optional<Result>(std::invoke(value, summary));
+  };
+}
+
 /// Trials by outcome, the shares of success and agreement.
 Columns<TrialSummary> outcome_columns() {
-  Columns<Outcomes> outcomes;
-  outcomes.add({"trials"}, &Outcomes::trials)
-      .add({"success", "", "/success/count"}, &Outcomes::success)
-      .add({"inaccurate"}, &Outcomes::inaccurate)
-      .add({"rejected"}, &Outcomes::rejected)
-      .add({"failed"}, &Outcomes::failed);
-  Columns<TrialSummary> columns;
-  return columns.add(outcomes, &TrialSummary::outcomes)
-      .add(share_columns("success"), &TrialSummary::success)
+  using S = TrialSummary;
+  Columns<S> columns;
+  return columns.add({"trials"}, [](const S& s) { return s.outcomes.trials; })
+      .add({"success", "", "/success/count"},
+           with_truth([](const S& s) { return s.outcomes.success; }))
+      .add({"inaccurate"}, with_truth([](const S& s) { return s.outcomes.inaccurate; }))
+      .add({"finished"}, [](const S& s) { return s.outcomes.finished; })
+      .add({"rejected"}, [](const S& s) { return s.outcomes.rejected; })
+      .add({"failed"}, [](const S& s) { return s.outcomes.failed; })
+      .add(share_columns("success"), with_truth(&S::success))
       .add({"agreement", "", "/agreement/count"},
            [](const TrialSummary& summary) { return summary.agreement.count; })
       .add(share_columns("agreement"), &TrialSummary::agreement);
@@ -76,7 +91,31 @@ Columns<TrialId> id_columns() {
       .add({"trial"}, &TrialId::trial);
 }
 
-Columns<TrialRecord> trial_columns() {
+/// The scenes of a summary by variant, sensor and scene.
+class ScenesByName {
+ public:
+  explicit ScenesByName(const Summary& summary) : bounds_(pose_bounds(summary.bounds)) {
+    for (const SummaryRow& row : summary.rows) {
+      for (const SceneSummary& scene : row.scenes) {
+        scenes_[{row.variant, row.sensor, scene.scene}] = &scene;
+      }
+    }
+  }
+
+  /// Whether a trial agrees with its scene; nothing if it has no usable pose.
+  std::optional<bool> agrees(const TrialRecord& record) const {
+    const TrialId& id = record.id;
+    const auto scene = scenes_.find({id.variant, id.sensor, id.scene});
+    if (scene == scenes_.end()) return std::nullopt;
+    return experiments::agrees(record, *scene->second, bounds_);
+  }
+
+ private:
+  PoseBounds bounds_;
+  std::map<std::tuple<std::string, std::string, std::string>, const SceneSummary*> scenes_;
+};
+
+Columns<TrialRecord> trial_columns(const ScenesByName& scenes) {
   Columns<PoseError> errors;  // The two distances first, then the DOFs.
   for (const std::size_t k : {kRotation, kTranslation, 0UL, 1UL, 2UL, 3UL, 4UL, 5UL}) {
     errors.add({std::string(kMeasures[k].name) + "_error", kMeasures[k].unit},
@@ -87,7 +126,8 @@ Columns<TrialRecord> trial_columns() {
   return columns.add(id_columns(), &R::id)
       .add({"status"}, [](const R& record) { return status_name(record.status); })
       .add(errors, &R::error)
-      .add(pose_columns(), &R::T_reference_sensor);
+      .add(pose_columns(), &R::T_reference_sensor)
+      .add({"agrees"}, [&](const R& record) { return scenes.agrees(record); });
 }
 
 /// The trials that count, and their statistics.
@@ -259,6 +299,16 @@ bool has_deviations_from(const Table& table, DeviationsFrom from) {
   });
 }
 
+std::vector<std::string> share_names(const Table& table) {
+  std::vector<std::string> names;
+  const bool has_consensus = has_deviations_from(table, DeviationsFrom::consensus);
+  if (!has_consensus || has_deviations_from(table, DeviationsFrom::truth)) {
+    names.emplace_back("success");
+  }
+  if (has_consensus) names.emplace_back("agreement");
+  return names;
+}
+
 std::string bounds_text(const SuccessBounds& bounds) {
   return shortest_number(bounds.rotation_deg) + " deg and " +
          shortest_number(bounds.translation_m) + " m of ";
@@ -277,8 +327,8 @@ std::string content_of(const Measure& measure, std::string content) {
   return content;
 }
 
-std::string trials_csv(const std::vector<TrialRecord>& records) {
-  return csv_of(trial_columns(), records);
+std::string trials_csv(const std::vector<TrialRecord>& records, const Summary& summary) {
+  return csv_of(trial_columns(ScenesByName(summary)), records);
 }
 
 std::string timings_csv(const std::vector<TimingRow>& rows) {

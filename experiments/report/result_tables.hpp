@@ -38,6 +38,10 @@ Columns<ReasonCount> reason_columns();
 /// Whether a row of a table with a column "reference" has this one.
 bool has_deviations_from(const Table& table, DeviationsFrom from);
 
+/// The shares that a table with a column "reference" shows: "success", and "agreement" if a row has
+/// no truth.
+std::vector<std::string> share_names(const Table& table);
+
 /// "0.5 deg and 0.1 m of ", for a sentence.
 std::string bounds_text(const SuccessBounds& bounds);
 
@@ -61,8 +65,9 @@ void add_measures(View& view, const std::array<std::size_t, n>& measures,
 // The bytes of files.
 
 /// trials.csv: a header and a row per record in the order given. Error columns are empty without
-/// truth, pose columns if the trial did not finish; quaternions have qw >= 0.
-std::string trials_csv(const std::vector<TrialRecord>& records);
+/// truth, pose columns if the trial did not finish; quaternions have qw >= 0. The last column is
+/// whether the trial agrees with the consensus of its scene in `summary`, which is of the records.
+std::string trials_csv(const std::vector<TrialRecord>& records, const Summary& summary);
 
 /// timings.csv: a header and a row per timing in the order given.
 std::string timings_csv(const std::vector<TimingRow>& rows);

@@ -186,6 +186,25 @@ std::string reason_text(const Summary& summary, const TableStyle& style) {
   return text;
 }
 
+/// The share, its interval, and how the other trials ended.
+View outcomes_view(const Table& table) {
+  View view{{{"sensor"}}};
+  const auto add = [&](const std::string& title, const std::string& content = "") {
+    view.columns.push_back({title, content});
+  };
+  const std::vector<std::string> shares = share_names(table);
+  for (const std::string& share : shares) {
+    add(share, "<" + share + ">/<trials>");
+    add("%", "<" + share + "_percent>");
+    add("95 % interval", "[<" + share + "_low_percent>, <" + share + "_high_percent>]");
+  }
+  if (shares.front() == "success") add("inaccurate");
+  add("rejected");
+  add("failed");
+  add_measures(view, kDistances, "<median>, <p95>");
+  return view;
+}
+
 }  // namespace
 
 std::string summary_text(const Summary& summary, const TableStyle& style) {
@@ -213,20 +232,14 @@ std::string summary_text(const Summary& summary, const TableStyle& style) {
     text += "success: " + bounds + "the truth; errors of those trials\n";
   }
   if (has_consensus) {
-    text += "success (no truth): " + bounds +
+    text += "agreement (no truth): " + bounds +
             "what the trials of the scene agree on;\n  deviations of those "
             "trials from what all "
             "scenes agree on\n";
   }
-  View outcomes{{{"sensor"},
-                 {"success", "<success>/<trials>"},
-                 {"%", "<success_percent>"},
-                 {"95 % interval", "[<success_low_percent>, <success_high_percent>]"},
-                 {"inaccurate"},
-                 {"rejected"},
-                 {"failed"}}};
-  add_measures(outcomes, kDistances, "<median>, <p95>");
-  text += "rotation, translation: median, 95th percentile\n\n" + rows_text(outcomes) +
+  const std::vector<std::string> shares = share_names(table);
+  const std::string share = shares.size() == 1 ? shares.front() : "success (no truth: agreement)";
+  text += "rotation, translation: median, 95th percentile\n\n" + rows_text(outcomes_view(table)) +
           "\nmean ± std\n" + dofs_text("<mean> ±<std>", false);
   if (has_scenes && has_spread) {
     text += "\nstd within scenes / across scenes\n" +
@@ -249,9 +262,9 @@ std::string summary_text(const Summary& summary, const TableStyle& style) {
             "the identity; how far loops are from it\n" + loop_text(summary, style);
   }
   if (!summary.scene_kinds.empty()) {
-    text += "\nby kind of scene: success in %\n" + scene_kind_text(summary, style);
+    text += "\nby kind of scene: " + share + " in %\n" + scene_kind_text(summary, style);
   }
-  if (has_scenes) text += "\nsuccess per scene\n" + scene_text(summary, style);
+  if (has_scenes) text += "\n" + share + " per scene\n" + scene_text(summary, style);
   return text + reason_text(summary, style);
 }
 

@@ -175,7 +175,8 @@ TEST(Summary, WithoutTruthTrialsThatGoAstrayDoNotCount) {
   EXPECT_EQ(before.agreement.count, 20);
   EXPECT_EQ(after.agreement.count, 20);
   EXPECT_EQ(after.agreement.trials, 25);
-  EXPECT_EQ(after.success.count, 25);
+  EXPECT_EQ(after.success.count, 0);
+  EXPECT_EQ(after.outcomes.finished, 25);
   EXPECT_EQ(after.counted, 20);
   EXPECT_LT(pose_error(*after.consensus, pose).rotation_rad, 1e-9);
   for (std::size_t k = 0; k < kDofs; ++k) {
@@ -247,7 +248,7 @@ TEST(SummaryCsv, EveryRowHasEveryColumn) {
   const std::vector<std::string> lines = split(summary_csv(summary), '\n');
   ASSERT_EQ(lines.size(), summary.rows.size() + 2);
   const std::vector<std::string> header = split(lines[0], ',');
-  EXPECT_EQ(header.size(), 16U + 8U * 5U + 2U * 6U);
+  EXPECT_EQ(header.size(), 17U + 8U * 5U + 2U * 6U);
   for (std::size_t i = 0; i < summary.rows.size(); ++i) {
     const std::vector<std::string> cells = split(lines[i + 1], ',');
     ASSERT_EQ(cells.size(), header.size());
@@ -265,7 +266,7 @@ TEST(SummaryCsv, EveryRowHasEveryColumn) {
 TEST(SummaryCsv, HeaderIsStable) {
   EXPECT_EQ(
       summary_csv(Summary{}),
-      "variant,sensor,reference,trials,success,inaccurate,rejected,failed,success_ratio,"
+      "variant,sensor,reference,trials,success,inaccurate,finished,rejected,failed,success_ratio,"
       "success_low_ratio,success_high_ratio,agreement,agreement_ratio,agreement_low_ratio,"
       "agreement_high_ratio,counted,"
       "roll_mean_deg,roll_std_deg,roll_median_deg,roll_rmse_deg,roll_p95_deg,"

@@ -144,11 +144,15 @@ TEST(ExportTable, LacksWhatTooFewTrialsTell) {
 TEST(ExportTable, WithoutTruthTellsOfTheConsensus) {
   const ExportTable table = table_of(test::one_of_four_astray());
   EXPECT_EQ(table.table.text_at(0, "reference"), "consensus");
-  EXPECT_EQ(number(table, 0, "success"), 3);
-  EXPECT_EQ(number(table, 0, "success_percent"), 75.0);
+  EXPECT_TRUE(table.table.at(0, "success").is_nothing());
+  EXPECT_TRUE(table.table.at(0, "success_percent").is_nothing());
+  EXPECT_EQ(number(table, 0, "agreement"), 3);
+  EXPECT_EQ(number(table, 0, "agreement_percent"), 75.0);
   const std::string text = export_markdown(table);
-  EXPECT_TRUE(has(text, "where there is no truth"));
+  EXPECT_TRUE(has(text, "if there is no truth"));
   EXPECT_FALSE(has(text, "of the truth"));
+  EXPECT_FALSE(has(text, "uccess"));
+  EXPECT_TRUE(has(export_latex(table), "agreement (\\%)"));
 }
 
 TEST(ExportTable, MarksWhatDiffersFromTheBase) {
@@ -215,7 +219,7 @@ TEST(ExportTable, WithoutTruthMarksNoErrors) {
     comparison.success.p_holm = comparison.rotation_deg.test.p_holm = 0.001;
   }
   const ExportTable table = export_table(summary, {"few", kCommit, 7, 1, 4, 8, 8});
-  EXPECT_EQ(table.table.at(1, "success_percent").mark, "-*");
+  EXPECT_EQ(table.table.at(1, "agreement_percent").mark, "-*");
   EXPECT_EQ(table.table.at(1, "rotation_median_deg").mark, "");
 }
 

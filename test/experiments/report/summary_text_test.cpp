@@ -71,10 +71,11 @@ TEST(SummaryTable, KeepsWithin120Columns) {
   for (std::string line; std::getline(text, line);) EXPECT_LE(text_columns(line), 120U) << line;
 }
 
-TEST(SummaryTable, WithoutTruthSuccessIsAgreement) {
+TEST(SummaryTable, WithoutTruthShowsAgreement) {
   const std::string text = summary_text(summarise(test::one_of_four_astray(), kBounds, {}));
-  EXPECT_NE(text.find("success (no truth)"), std::string::npos);
-  EXPECT_NE(text.find("\nleft        3/4  75.0"), std::string::npos);
+  EXPECT_NE(text.find("agreement (no truth)"), std::string::npos);
+  EXPECT_EQ(text.find("success"), std::string::npos);
+  EXPECT_NE(text.find("\nleft          3/4  75.0"), std::string::npos);
   EXPECT_EQ(text.find("across"), std::string::npos);  // One scene alone.
 }
 
