@@ -134,7 +134,8 @@ Summary summarise(const std::vector<TrialRecord>& records, const SuccessBounds& 
       for (SceneSummary& scene : row.scenes) scene.scene_kind = kinds[scene.scene];
     }
     for (const SensorPair& pair : order.pairs) {
-      LoopClosure loop = close_loops(groups, variant, pair, scene_names, bounds);
+      LoopClosure loop =
+          close_loops(groups, rows_of(summary, variant), variant, pair, scene_names, bounds);
       if (loop.closed.trials > 0) summary.loops.push_back(std::move(loop));
     }
   }
@@ -142,6 +143,8 @@ Summary summarise(const std::vector<TrialRecord>& records, const SuccessBounds& 
   if (!variants.empty()) {
     summary.comparisons = compare_with_base(variants.front(), summary, groups, bounds);
   }
+  summary.curve = success_curve(summary, groups);
+  summary.below_best = below_best(summary, groups, bounds);
   summary.reasons = count_reasons(records);
   return summary;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,16 +14,35 @@
 
 namespace croon::experiments {
 
-/// A share of a number of trials, with its 95 % interval (Wilson 1927).
+/// With fewer scenes a share and a difference have no interval: in simulated experiments with five
+/// scenes or less it holds the truth in as few as 86 % of them (docs/statistics.md).
+inline constexpr int kLeastScenes = 6;
+
+/// A share of a number of trials, with its 95 % interval.
 struct Share {
   int count = 0;
   int trials = 0;
-  double ratio = 0.0;  ///< 0 if there are no trials.
-  Interval interval{0.0, 1.0};
+  double ratio = 0.0;                     ///< 0 if there are no trials.
+  std::optional<Interval> interval = {};  ///< Over scenes, see `share_of`.
 };
 
-/// `count` of `trials` with its interval.
-Share share_of(int count, int trials);
+/// Trials by scene: all, and those that are counted.
+class SceneCounts {
+ public:
+  void add(const std::string& scene, int count, int trials);
+  /// Their share. Trials of one scene are alike, so the interval is Wilson's (1927) for as many
+  /// trials as there are scenes: the design effect (Kish 1965) at its largest. Scenes of
+  /// unequal numbers n_i of trials are (sum n_i)^2 / sum n_i^2 scenes. None for fewer than
+  /// `kLeastScenes` scenes.
+  Share share() const;
+
+ private:
+  struct Counts {
+    int count = 0;
+    int trials = 0;
+  };
+  std::map<std::string, Counts> scenes_;
+};
 
 /// The number of trials by how they ended.
 struct Outcomes {
@@ -60,6 +80,13 @@ enum class DeviationsFrom {
 /// "truth", "consensus" or "none".
 const char* name_of(DeviationsFrom from);
 
+/// The trials whose usable poses are within the success bounds of a pose.
+struct Agreeing {
+  int count = 0;
+  double rotation_deg = 0.0;   ///< The root mean square of their angles from it.
+  double translation_m = 0.0;  ///< The root mean square of their distances from it.
+};
+
 /// The results of a set of trials.
 struct TrialSummary {
   DeviationsFrom deviations_from = DeviationsFrom::none;  ///< Truth if one sensor has it.
@@ -68,6 +95,8 @@ struct TrialSummary {
   Share agreement;  ///< Trials that `agrees` is true for.
   int counted = 0;  ///< Trials that `statistics` are over.
   std::optional<StatisticsTable> statistics;
+  int usable = 0;  ///< Trials with a `usable_pose`, successful or not.
+  std::optional<StatisticsTable> usable_statistics;
 };
 
 /// One variant and sensor in one scene.
@@ -76,7 +105,9 @@ struct SceneSummary : TrialSummary {
   std::string scene_kind;  ///< "urban"; empty if the dataset names none.
   std::optional<RigidTransform>
       consensus;                     ///< `T_reference_sensor` that its usable poses agree on.
+  Agreeing agreeing;                 ///< The trials that `agrees` is true for.
   std::vector<Measures> deviations;  ///< Of the trials that count, by trial.
+  std::vector<Measures> usable_deviations;  ///< Of the trials with a usable pose.
   /// The deviations of the same trials from what they agree on.
   std::vector<Measures> spread;
 };
@@ -88,8 +119,11 @@ struct SceneSummary : TrialSummary {
 /// from `consensus`, by `pose_error`.
 struct SummaryRow : TrialSummary {
   std::string variant;
-  std::string sensor;                       ///< Empty for all sensors together.
-  std::optional<RigidTransform> consensus;  ///< The pose that the scenes' consensus poses agree on.
+  std::string sensor;  ///< Empty for all sensors together.
+  /// The pose that the consensus poses of the scenes agree on, each with as many votes as trials of
+  /// its scene agree with it.
+  std::optional<RigidTransform> consensus;
+  Agreeing agreeing;  ///< The trials of all scenes that are near `consensus`.
   /// The sample std of the trials that count about their scene's consensus, pooled over scenes by
   /// degrees of freedom; std::nullopt if no scene has two such trials.
   std::optional<DofValues> within_scene_std;
@@ -130,8 +164,8 @@ const TrialRecord* find_trial(const SceneRecords& records, int trial);
 /// The pose of a trial that finished and is not rejected; else null.
 const RigidTransform* usable_pose(const TrialRecord& record);
 
-/// Whether the usable pose of a trial is within `bounds` of the consensus of its scene; std::nullopt
-/// if it has none. The only place that decides it.
+/// Whether the usable pose of a trial is within `bounds` of the consensus of its scene;
+/// std::nullopt if it has none. The only place that decides it.
 std::optional<bool> agrees(const TrialRecord& record, const SceneSummary& scene,
                            const PoseBounds& bounds);
 
