@@ -14,8 +14,9 @@ namespace {
 
 constexpr double kLevel = 0.05;
 
-/// A variant that succeeds in so much less of the trials is below the best, significantly or not.
-constexpr double kLargeDifference = 0.1;
+/// A variant that succeeds in so many trials less, as a share of all, is below the best even if too
+/// few trials were run for a significant difference.
+constexpr double kLargeDifference = 0.25;
 
 /// The numbers of a trial that are compared; errors are infinite if it has no usable result.
 struct TrialResult {

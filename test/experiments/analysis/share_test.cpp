@@ -50,8 +50,8 @@ TEST(ShareInterval, CoversTheTruthThoughTrialsOfASceneAreAlike) {
     for (const int scenes : {kLeastScenes, 10, 20, 50}) {
       for (const int trials : {1, 10, 50}) {
         const double covered = coverage(world, scenes, trials);
-        // Wilson's own coverage of few trials is 93 % for some shares.
-        EXPECT_GE(covered, 0.92) << world.hopeless << " " << world.chance << ": " << scenes
+        // Wilson's own coverage of six trials is 89 % for some shares, 96 % on average.
+        EXPECT_GE(covered, 0.91) << world.hopeless << " " << world.chance << ": " << scenes
                                  << " scenes of " << trials;
         RecordProperty("coverage_" + std::to_string(world.hopeless) + "_" +
                            std::to_string(world.chance) + "_" + std::to_string(scenes) + "_" +

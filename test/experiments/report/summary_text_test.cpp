@@ -45,7 +45,7 @@ no volume  right   0.020 / 0.000  0.000 / 0.028  0.020 / 0.000  0.0200 / 0.0283 
 against base, pair by pair: median difference [95 % interval over scenes], failures as infinite
 variant    pairs  won  lost      p  rotation deg       p  translation m       p
 ---------  -----  ---  ----  -----  ------------  ------  -------------  ------
-no volume     14    0     0  1.000        0.0061  0.023*        0.00493  0.023*
+no volume     14    0     0  1.000        0.0101  0.023*        0.00978  0.023*
 * p < 0.05 over trials (McNemar, Wilcoxon; Holm), ** also with scenes as units
 
 success per scene
