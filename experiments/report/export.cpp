@@ -280,8 +280,9 @@ std::string export_json(const ExportTable& table) {
 std::string export_markdown(const ExportTable& table) {
   View view{{{"variant"}, {"sensor"}}, 2};
   for (const std::string& share : share_names(table.table)) {
-    view.columns.push_back({share + " %", "<" + share + "_percent> [<" + share +
-                                              "_low_percent>, <" + share + "_high_percent>]"});
+    view.columns.push_back({share + " %", "<" + share + "_percent>"});
+    view.columns.push_back(
+        {"95 % interval", "[<" + share + "_low_percent>, <" + share + "_high_percent>]"});
   }
   for (const std::size_t k : kDistances) {
     for (const char* statistic : {"median", "p95"}) {

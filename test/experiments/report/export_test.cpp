@@ -309,7 +309,7 @@ TEST(ExportMarkdown, IsATableOfEqualRows) {
     for (std::size_t at = 0; (at = line.find("\\|", at)) != std::string::npos; ++at) ++escaped;
     bars.push_back(std::count(line.begin(), line.end(), '|') - escaped);
   }
-  EXPECT_EQ(bars, std::vector<std::ptrdiff_t>(8, 16));
+  EXPECT_EQ(bars, std::vector<std::ptrdiff_t>(8, 17));
   EXPECT_TRUE(has(text.str(), "| a\\|b \\*c\\* | left |"));
 }
 
