@@ -9,7 +9,7 @@
 
 namespace croon::experiments {
 
-/// The share of successful trials from which a level belongs to the basin.
+/// The success of a level that belongs to the basin, as a share of that of the first level.
 inline constexpr double kBasinRatio = 0.95;
 
 /// The success of one variant over the levels of a sweep.
@@ -31,8 +31,9 @@ struct Basin {
 std::optional<Basin> basin_of(const std::vector<TrialRecord>& records, const Sweep& sweep,
                               const ReportOrder& order);
 
-/// The basin's radius, deg or m: the largest size up to which, at every level, at least
-/// `kBasinRatio` of the trials succeed; std::nullopt if fewer do at the first level.
+/// The basin's radius, deg or m: the largest size up to which, at every level, the share of trials
+/// that succeed is at least `kBasinRatio` of that at the first level. So scenes that fail from
+/// every start do not count. std::nullopt if no trial succeeds at the first level.
 std::optional<double> basin_radius(const Sweep& sweep, const BasinRow& row);
 
 /// The size of a level without the rounding error of equal steps.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace croon::experiments {
@@ -12,14 +13,8 @@ std::optional<double> percent_of(int count, int trials) {
   return 100.0 * count / trials;
 }
 
-std::optional<double> successful_trials(const Rows& rows) {
-  int count = 0;
-  int trials = 0;
-  for (const SummaryRow* row : rows) {
-    count += main_share(*row).count;
-    trials += main_share(*row).trials;
-  }
-  return percent_of(count, trials);
+std::optional<double> percent_of(const Share& share) {
+  return percent_of(share.count, share.trials);
 }
 
 /// A scene counts if every trial of each of its sensors succeeds.
@@ -27,7 +22,7 @@ std::optional<double> successful_scenes(const Rows& rows) {
   std::set<std::string> all;
   std::set<std::string> without_success;
   for (const SceneSummary* scene : scenes_of(rows)) {
-    const Share& share = main_share(*scene);
+    const Share& share = scene->success;
     all.insert(scene->scene);
     if (share.count < share.trials) without_success.insert(scene->scene);
   }
@@ -40,6 +35,16 @@ bool have_truth(const Rows& rows) {
   return std::all_of(rows.begin(), rows.end(), [](const SummaryRow* row) {
     return row->deviations_from == DeviationsFrom::truth;
   });
+}
+
+/// Whether success is known of all rows: none was summed up without truth.
+bool have_success(const Rows& rows) {
+  return std::none_of(rows.begin(), rows.end(),
+                      [](const SummaryRow* row) { return lacks_truth(*row); });
+}
+
+bool is_spread(const Claim& claim) {
+  return claim.statistic == kWithinSceneStd || claim.statistic == kAcrossScenesStd;
 }
 
 /// The spread of all rows together: variances weighted by their degrees of freedom.
@@ -66,44 +71,99 @@ double spread_of(const DofValues& spread, std::size_t measure) {
   return std::hypot(spread[first], spread[first + 1], spread[first + 2]);
 }
 
-std::optional<double> found(const Claim& claim, const Summary& summary) {
-  const Rows rows = rows_of(summary, claim.variant, claim.sensor);
-  if (claim.statistic == kSuccess) return successful_trials(rows);
-  if (claim.statistic == kScenes) return successful_scenes(rows);
+std::optional<double> found(const Claim& claim, const Rows& rows, const TrialSummary& all) {
+  if (claim.statistic == kAgreement) return percent_of(all.agreement);
+  if (is_share(claim.statistic)) {
+    if (!have_success(rows)) return std::nullopt;
+    return claim.statistic == kSuccess ? percent_of(all.success) : successful_scenes(rows);
+  }
   const std::size_t measure = measure_index(claim.measure);
-  const bool is_within = claim.statistic == kWithinSceneStd;
-  if (is_within || claim.statistic == kAcrossScenesStd) {
-    const auto spread = is_within ? pooled_spread(rows, &SummaryRow::within_scene_std,
-                                                  &SummaryRow::within_scene_freedom)
-                                  : pooled_spread(rows, &SummaryRow::across_scenes_std,
-                                                  &SummaryRow::across_scenes_freedom);
+  if (is_spread(claim)) {
+    const auto spread =
+        claim.statistic == kWithinSceneStd
+            ? pooled_spread(rows, &SummaryRow::within_scene_std, &SummaryRow::within_scene_freedom)
+            : pooled_spread(rows, &SummaryRow::across_scenes_std,
+                            &SummaryRow::across_scenes_freedom);
     if (!spread) return std::nullopt;
     return spread_of(*spread, measure);
   }
   const std::size_t statistic = statistic_index(claim.statistic);
   if (kStatistics[statistic].needs_truth && !have_truth(rows)) return std::nullopt;
-  return value_of(pooled(scenes_of(rows)).statistics, measure, statistic);
+  const auto& statistics = claim.over == Over::usable ? all.usable_statistics : all.statistics;
+  return value_of(statistics, measure, statistic);
 }
 
-Verdict verdict_of(const Claim& claim, const std::optional<double>& found) {
-  if (!found) return Verdict::not_measured;
-  const bool is_in = *found >= claim.band.front() && *found <= claim.band.back();
-  return is_in ? Verdict::in : Verdict::out;
+/// Sets the trials and scenes that the number of a claim is over.
+void set_counts(ClaimResult& result, const Rows& rows, const TrialSummary& all) {
+  const bool is_over_all = is_share(result.claim.statistic);
+  const bool is_over_usable = !is_spread(result.claim) && result.claim.over == Over::usable;
+  const auto trials_of = [&](const TrialSummary& summary) {
+    if (is_over_all) return summary.outcomes.trials;
+    return is_over_usable ? summary.usable : summary.counted;
+  };
+  std::set<std::string> scenes;
+  for (const SceneSummary* scene : scenes_of(rows)) {
+    if (trials_of(*scene) > 0) scenes.insert(scene->scene);
+  }
+  result.trials = trials_of(all);
+  result.scenes = static_cast<int>(scenes.size());
+}
+
+/// The least and the greatest number that trials can lead to; `n` values are summed up.
+Interval attainable(const Claim& claim, const SuccessBounds& bounds, bool has_truth, int n) {
+  if (is_share(claim.statistic)) return {0.0, 100.0};
+  double most = std::numeric_limits<double>::infinity();
+  if (has_truth && claim.over == Over::successful) {
+    const std::string unit = kMeasures[measure_index(claim.measure)].unit;
+    most = unit == "deg" ? bounds.rotation_deg : bounds.translation_m;
+  }
+  const bool is_statistic = !is_spread(claim);
+  if (is_statistic && kStatistics[statistic_index(claim.statistic)].is_signed) {
+    return {-most, most};
+  }
+  // Half of the values at each end have the largest std.
+  const bool is_std = !is_statistic || claim.statistic == "std";
+  return {0.0, is_std && n > 1 ? most * std::sqrt(n / (n - 1.0)) : most};
+}
+
+bool is_verdict_possible(const ClaimResult& result) {
+  const bool needs_scenes = result.claim.statistic != kWithinSceneStd;
+  return result.trials >= kLeastClaimTrials && (!needs_scenes || result.scenes >= kLeastScenes);
+}
+
+Verdict verdict_of(const ClaimResult& result) {
+  if (!result.found) return Verdict::not_measured;
+  if (!result.can_fail) return Verdict::shown;
+  if (!is_verdict_possible(result)) return Verdict::not_enough;
+  const auto& [low, high] = result.claim.band;
+  return *result.found >= low && *result.found <= high ? Verdict::in : Verdict::out;
+}
+
+ClaimResult check(const Claim& claim, const Summary& summary) {
+  const Rows rows = rows_of(summary, claim.variant, claim.sensor);
+  const TrialSummary all = pooled(scenes_of(rows));
+  ClaimResult result;
+  result.claim = claim;
+  result.found = found(claim, rows, all);
+  set_counts(result, rows, all);
+  result.success_percent = percent_of(main_share(all));
+  const Interval possible = attainable(claim, summary.bounds, have_truth(rows), result.trials);
+  result.can_fail = claim.band.front() > possible.low || claim.band.back() < possible.high;
+  result.verdict = verdict_of(result);
+  return result;
 }
 
 }  // namespace
 
 std::vector<ClaimResult> check_claims(const std::vector<Claim>& claims, const Summary& summary) {
   std::vector<ClaimResult> results;
-  for (const Claim& claim : claims) {
-    const std::optional<double> value = found(claim, summary);
-    results.push_back({claim, value, verdict_of(claim, value)});
-  }
+  for (const Claim& claim : claims) results.push_back(check(claim, summary));
   return results;
 }
 
 const char* verdict_name(Verdict verdict) {
-  return std::array{"in", "out", "not measured"}.at(static_cast<std::size_t>(verdict));
+  return std::array{"in", "out", "shown", "not enough trials", "not measured"}.at(
+      static_cast<std::size_t>(verdict));
 }
 
 const char* unit_of(const Claim& claim) {

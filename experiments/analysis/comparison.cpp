@@ -14,6 +14,10 @@ namespace {
 
 constexpr double kLevel = 0.05;
 
+/// A variant that succeeds in so many trials less, as a share of all, is below the best even if too
+/// few trials were run for a significant difference.
+constexpr double kLargeDifference = 0.25;
+
 /// The numbers of a trial that are compared; errors are infinite if it has no usable result.
 struct TrialResult {
   double rotation_deg = std::numeric_limits<double>::infinity();
@@ -33,9 +37,8 @@ TrialResult result_of(const TrialRecord& record, const SceneSummary& scene,
   const RigidTransform* const pose = usable_pose(record);
   if (pose == nullptr || (!record.error && !scene.consensus)) return {};
   const PoseError error = record.error ? *record.error : pose_error(*pose, *scene.consensus);
-  // Without truth every trial that finished is a success: it must agree too, as in the tables.
-  const bool is_success =
-      record.status == Status::success && (record.error || agree(*pose, *scene.consensus, bounds));
+  const bool is_success = record.error ? record.status == Status::success
+                                       : agrees(record, scene, bounds).value_or(false);
   return {deg_from_rad(error.rotation_rad), error.translation_m, is_success ? 1.0 : 0.0};
 }
 
@@ -81,8 +84,14 @@ ErrorComparison compared(const Pairs& pairs, const Clusters& scenes) {
   comparison.base_median = median_with_failures(pairs.base);
   comparison.variant_median = median_with_failures(pairs.variant);
   comparison.difference = difference(comparison.variant_median, comparison.base_median);
-  comparison.interval = median_difference_interval(pairs, scenes);
-  const std::vector<double> ranks = signed_ranks(differences(pairs));
+  const std::vector<double> paired = differences(pairs);
+  comparison.paired_difference = median_with_failures(paired);
+  if (std::set<std::size_t>(scenes.begin(), scenes.end()).size() >= kLeastScenes) {
+    comparison.interval = median_difference_interval(pairs, scenes);
+    const std::vector<double> zeros(paired.size(), 0.0);
+    comparison.paired_interval = median_difference_interval({zeros, paired}, scenes);
+  }
+  const std::vector<double> ranks = signed_ranks(paired);
   // Smaller errors are better.
   comparison.test.favours_variant = std::accumulate(ranks.begin(), ranks.end(), 0.0) < 0.0;
   comparison.test.p = wilcoxon_p(ranks);
@@ -90,7 +99,8 @@ ErrorComparison compared(const Pairs& pairs, const Clusters& scenes) {
   return comparison;
 }
 
-Comparison compared(const PairedTrials& trials) {
+/// Success alone, without errors.
+Comparison compared_success(const PairedTrials& trials) {
   Comparison comparison;
   // 1 if the variant alone won, -1 if the base did, else 0.
   const std::vector<double> wins = differences(pairs_of(trials, &TrialResult::success));
@@ -102,11 +112,16 @@ Comparison compared(const PairedTrials& trials) {
       static_cast<int>(std::set<std::size_t>(trials.scenes.begin(), trials.scenes.end()).size());
   comparison.only_base = count(-1.0);
   comparison.only_variant = count(1.0);
-  comparison.rotation_deg = compared(pairs_of(trials, &TrialResult::rotation_deg), trials.scenes);
-  comparison.translation_m = compared(pairs_of(trials, &TrialResult::translation_m), trials.scenes);
   comparison.success.favours_variant = comparison.only_variant > comparison.only_base;
   comparison.success.p = mcnemar_p(comparison.only_base, comparison.only_variant);
   comparison.success.p_by_scene = sign_flip_p(cluster_sums(wins, trials.scenes));
+  return comparison;
+}
+
+Comparison compared(const PairedTrials& trials) {
+  Comparison comparison = compared_success(trials);
+  comparison.rotation_deg = compared(pairs_of(trials, &TrialResult::rotation_deg), trials.scenes);
+  comparison.translation_m = compared(pairs_of(trials, &TrialResult::translation_m), trials.scenes);
   return comparison;
 }
 
@@ -130,6 +145,20 @@ void correct_by_sensor(std::vector<Comparison>& comparisons) {
     correct(family, &PairedTest::p, &PairedTest::p_holm);
     correct(family, &PairedTest::p_by_scene, &PairedTest::p_by_scene_holm);
   }
+}
+
+/// The share that counts, of all `rows`.
+double success_ratio(const Rows& rows) { return main_share(pooled(scenes_of(rows))).ratio; }
+
+bool is_below(const Rows& best, const Rows& rows, const RecordGroups& groups,
+              const PoseBounds& bounds) {
+  const double difference = success_ratio(best) - success_ratio(rows);
+  if (difference <= 0.0) return false;
+  if (difference > kLargeDifference) return true;
+  const PairedTrials trials = paired(best, rows, groups, bounds);
+  if (trials.scenes.empty()) return false;
+  const Comparison comparison = compared_success(trials);
+  return comparison.only_base > comparison.only_variant && comparison.success.p < kLevel;
 }
 
 }  // namespace
@@ -161,6 +190,28 @@ std::vector<Comparison> compare_with_base(const std::string& base, const Summary
   }
   correct_by_sensor(comparisons);
   return comparisons;
+}
+
+std::set<VariantSensor> below_best(const Summary& summary, const RecordGroups& groups,
+                                   const PoseBounds& bounds) {
+  std::set<VariantSensor> below;
+  std::vector<std::string> sensors = sensors_of(summary);
+  sensors.emplace_back();  // All together.
+  const std::vector<std::string> variants = variants_of(summary);
+  for (const std::string& sensor : sensors) {
+    Rows best;
+    for (const std::string& variant : variants) {
+      const Rows rows = rows_of(summary, variant, sensor);
+      if (rows.empty()) continue;
+      if (best.empty() || success_ratio(rows) > success_ratio(best)) best = rows;
+    }
+    for (const std::string& variant : variants) {
+      const Rows rows = rows_of(summary, variant, sensor);
+      if (rows.empty() || !is_below(best, rows, groups, bounds)) continue;
+      below.insert({variant, sensor});
+    }
+  }
+  return below;
 }
 
 }  // namespace croon::experiments

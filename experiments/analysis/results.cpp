@@ -57,6 +57,9 @@ Results results_of(StoredRun run, const std::string& file) {
   results.manifest = run.header.manifest;
   const ReportOrder order = report_order(run.header);
   results.scenes = order.scenes.size();
+  for (const StoredName& sensor : run.header.sensors) {
+    if (sensor.is_current) results.references[sensor.name] = sensor.detail;
+  }
   results.records = std::move(run.records);
   results.summary = summarise(results.records, experiment.success, order);
   results.planned = asked_trials(manifest, results.summary);

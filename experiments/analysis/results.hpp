@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,9 +27,10 @@ struct Results {
   std::string manifest;              ///< JSON of manifest.json, without its host.
   std::vector<TrialRecord> records;  ///< In report order, without their steps.
   Summary summary;
-  std::optional<Basin> basin;       ///< Of a sweep.
-  std::vector<ClaimResult> claims;  ///< The claims of the experiment, checked.
-  std::vector<Quoted> quoted;       ///< Rows of other methods.
+  std::map<std::string, std::string> references;  ///< The sensor that each is calibrated to.
+  std::optional<Basin> basin;                     ///< Of a sweep.
+  std::vector<ClaimResult> claims;                ///< The claims of the experiment, checked.
+  std::vector<Quoted> quoted;                     ///< Rows of other methods.
 };
 
 /// Whether a stage failed in one of the trials.

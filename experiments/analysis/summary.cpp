@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "framework/base/angles.hpp"
-
 namespace croon::experiments {
 namespace {
 
@@ -117,7 +115,7 @@ const SceneRecords& RecordGroups::of(const std::string& variant, const std::stri
 Summary summarise(const std::vector<TrialRecord>& records, const SuccessBounds& success,
                   const ReportOrder& order) {
   const RecordGroups groups(records);
-  const PoseBounds bounds = {rad_from_deg(success.rotation_deg), success.translation_m};
+  const PoseBounds bounds = pose_bounds(success);
   const std::vector<std::string> scene_names = completed(order.scenes, records, &TrialId::scene);
   const std::vector<std::string> sensors = completed(order.sensors, records, &TrialId::sensor);
   const std::vector<std::string> variants = completed(order.variants, records, &TrialId::variant);
@@ -136,7 +134,8 @@ Summary summarise(const std::vector<TrialRecord>& records, const SuccessBounds& 
       for (SceneSummary& scene : row.scenes) scene.scene_kind = kinds[scene.scene];
     }
     for (const SensorPair& pair : order.pairs) {
-      LoopClosure loop = close_loops(groups, variant, pair, scene_names, bounds);
+      LoopClosure loop =
+          close_loops(groups, rows_of(summary, variant), variant, pair, scene_names, bounds);
       if (loop.closed.trials > 0) summary.loops.push_back(std::move(loop));
     }
   }
@@ -144,6 +143,8 @@ Summary summarise(const std::vector<TrialRecord>& records, const SuccessBounds& 
   if (!variants.empty()) {
     summary.comparisons = compare_with_base(variants.front(), summary, groups, bounds);
   }
+  summary.curve = success_curve(summary, groups);
+  summary.below_best = below_best(summary, groups, bounds);
   summary.reasons = count_reasons(records);
   return summary;
 }

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "experiments/analysis/trial_summary.hpp"
@@ -52,9 +55,12 @@ bool holds_by_scene(const PairedTest& test);
 struct ErrorComparison {
   double base_median = 0.0;
   double variant_median = 0.0;
-  double difference = 0.0;      ///< Of the medians, variant - base; 0 if both are infinite.
-  Interval interval{0.0, 0.0};  ///< 95 % bootstrap interval of `difference`, over scenes.
-  PairedTest test;              ///< Wilcoxon's signed-rank test.
+  double difference = 0.0;           ///< Of the medians, variant - base; 0 if both are infinite.
+  std::optional<Interval> interval;  ///< 95 % bootstrap interval of `difference`, over scenes; none
+                                     ///< for fewer than `kLeastScenes`.
+  double paired_difference = 0.0;    ///< The median of the differences of the pairs.
+  std::optional<Interval> paired_interval;  ///< That of `paired_difference`, as `interval`.
+  PairedTest test;                          ///< Wilcoxon's signed-rank test.
 };
 
 /// A variant against the base, over the trials that both have. Errors are from the truth; if
@@ -72,6 +78,12 @@ struct Comparison {
   PairedTest success;  ///< McNemar's test.
 };
 
+/// How far one loop is from the identity.
+struct LoopGap {
+  bool is_closed = false;    ///< Within the success bounds.
+  Measures deviations = {};  ///< Of T_ref_target T_target_source from T_ref_source.
+};
+
 /// How far loops over the reference and two sensors, T_ref_target T_target_source T_source_ref, are
 /// from the identity. That needs no truth: the three poses are found independently, each from its
 /// own start.
@@ -81,7 +93,10 @@ struct LoopClosure {
   Share closed;     ///< Of all loops, those within the success bounds of the identity.
   int counted = 0;  ///< Loops of three usable poses, the loops that `statistics` are over.
   std::optional<StatisticsTable>
-      statistics;  ///< Of T_ref_target T_target_source from T_ref_source.
+      statistics;                 ///< Of T_ref_target T_target_source from T_ref_source.
+  std::optional<LoopGap> agreed;  ///< Of the loop over the poses that all scenes agree on.
+  int scenes = 0;                 ///< With trials of all three calibrations.
+  int scenes_closed = 0;          ///< Whose loop over their consensus poses is closed.
 };
 
 /// A reason why trials ended as `rejected` or `failed`, and their number.
@@ -92,6 +107,31 @@ struct ReasonCount {
   int count = 0;
 };
 
+/// What a success curve bounds.
+enum class CurveOf { rotation, translation, both };
+
+/// "rotation", "translation" or "both".
+const char* name_of(CurveOf of);
+
+/// The share of all trials that end within each of some thresholds of the truth.
+struct CurveRow {
+  std::string variant;
+  std::string sensor;  ///< Empty for all together.
+  CurveOf of = CurveOf::both;
+  std::vector<Share> shares;  ///< By threshold.
+};
+
+/// Success as a curve over the threshold. Thresholds are the success bounds times a factor; at 1
+/// the curve of both is the success.
+struct SuccessCurve {
+  std::vector<SuccessBounds> thresholds;  ///< Ascending.
+  std::vector<CurveRow> rows;  ///< By variant, then sensor (all together last), then `CurveOf`;
+                               ///< none without truth or with a bound of zero.
+};
+
+/// Variant and sensor; the sensor is empty for all together.
+using VariantSensor = std::pair<std::string, std::string>;
+
 /// The results of an experiment.
 struct Summary {
   SuccessBounds bounds;
@@ -99,8 +139,10 @@ struct Summary {
   std::vector<SceneKindSummary> scene_kinds;  ///< By variant, kind and sensor, all together last;
                                               ///< empty if no scene has a kind.
   std::vector<Comparison> comparisons;  ///< With the first variant: by variant, then sensor, all.
+  std::set<VariantSensor> below_best;   ///< See `below_best`.
   std::vector<LoopClosure> loops;       ///< By variant, then pair.
-  std::vector<ReasonCount> reasons;     ///< The most frequent first.
+  SuccessCurve curve;
+  std::vector<ReasonCount> reasons;  ///< The most frequent first.
 };
 
 /// Sums the records up. The order of the records makes no difference.
@@ -132,9 +174,20 @@ class RecordGroups {
 std::vector<Comparison> compare_with_base(const std::string& base, const Summary& summary,
                                           const RecordGroups& groups, const PoseBounds& bounds);
 
+/// The variants whose success with a sensor is below that of the best: significantly by McNemar's
+/// test over the trials that both have (p < 0.05), or by more than a quarter of the trials. Their
+/// errors are those of easier trials, so tables do not show them as the best. `groups` are the
+/// records of the rows.
+std::set<VariantSensor> below_best(const Summary& summary, const RecordGroups& groups,
+                                   const PoseBounds& bounds);
+
+/// The curves of the rows of `summary` that have truth. Trials without a usable pose are beyond
+/// every threshold. `groups` are the records of the rows.
+SuccessCurve success_curve(const Summary& summary, const RecordGroups& groups);
+
 /// The loops of one variant and pair over `scenes`: trial i of the pair, of its source and of its
-/// target are a loop if all three are in `groups`.
-LoopClosure close_loops(const RecordGroups& groups, const std::string& variant,
+/// target are a loop if all three are in `groups`. `rows` are those of the variant.
+LoopClosure close_loops(const RecordGroups& groups, const Rows& rows, const std::string& variant,
                         const SensorPair& pair, const std::vector<std::string>& scenes,
                         const PoseBounds& bounds);
 

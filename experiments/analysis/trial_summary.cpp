@@ -3,21 +3,41 @@
 #include <algorithm>
 #include <cmath>
 
+#include "framework/base/angles.hpp"
+
 namespace croon::experiments {
 namespace {
 
 constexpr std::size_t kMean = statistic_index("mean");
 
 /// The numbers of trials by their status, in the order of Status.
-constexpr std::array kByStatus = {&Outcomes::success, &Outcomes::inaccurate, &Outcomes::rejected,
-                                  &Outcomes::failed};
+constexpr std::array kByStatus = {&Outcomes::success, &Outcomes::inaccurate, &Outcomes::finished,
+                                  &Outcomes::rejected, &Outcomes::failed};
 
-bool has_good_pose(const TrialRecord& record) {
-  return record.status == Status::success && record.T_reference_sensor;
+/// Whether the usable pose of a trial is within `bounds` of `pose`; std::nullopt if it has none.
+std::optional<bool> is_near(const TrialRecord& record, const RigidTransform& pose,
+                            const PoseBounds& bounds) {
+  const RigidTransform* const usable = usable_pose(record);
+  if (usable == nullptr) return std::nullopt;
+  return agree(*usable, pose, bounds);
 }
 
-/// The outcomes of a scene and the pose that its successful trials agree on: all that does not need
-/// the other scenes.
+Agreeing agreeing_with(const RigidTransform& pose, const SceneRecords& records,
+                       const PoseBounds& bounds) {
+  std::vector<double> rotations, translations;
+  for (const TrialRecord* record : records) {
+    if (!is_near(*record, pose, bounds).value_or(false)) continue;
+    const Measures distances = measures_of(pose_error(*record->T_reference_sensor, pose));
+    rotations.push_back(distances[kRotation]);
+    translations.push_back(distances[kTranslation]);
+  }
+  if (rotations.empty()) return {};
+  return {static_cast<int>(rotations.size()), root_mean_square(rotations),
+          root_mean_square(translations)};
+}
+
+/// The outcomes of a scene and the pose that its trials agree on: all that does not need the other
+/// scenes.
 SceneSummary without_deviations(const SceneRecords& records, const PoseBounds& bounds) {
   SceneSummary scene;
   scene.scene = records.front()->id.scene;
@@ -26,32 +46,42 @@ SceneSummary without_deviations(const SceneRecords& records, const PoseBounds& b
     ++scene.outcomes.trials;
     ++(scene.outcomes.*kByStatus.at(static_cast<std::size_t>(record->status)));
     if (record->error) scene.deviations_from = DeviationsFrom::truth;
-    if (has_good_pose(*record)) poses.push_back(*record->T_reference_sensor);
+    if (const RigidTransform* pose = usable_pose(*record)) poses.push_back(*pose);
   }
   if (poses.empty()) return scene;
   scene.deviations_from = std::min(scene.deviations_from, DeviationsFrom::consensus);
   scene.consensus = consensus_pose(poses, bounds);
-  for (const RigidTransform& pose : poses) {
-    scene.agreement.count += agree(pose, *scene.consensus, bounds);
-  }
+  scene.agreeing = agreeing_with(*scene.consensus, records, bounds);
   return scene;
 }
 
-/// Adds the deviations of the trials that count (see `SummaryRow`) from the truth or from
-/// `consensus`, that of all scenes.
+/// Whether the trial counts (see `SummaryRow`).
+bool counts(const TrialRecord& record, const SceneSummary& scene, const PoseBounds& bounds) {
+  if (lacks_truth(scene)) return agrees(record, scene, bounds).value_or(false);
+  return record.status == Status::success && record.error;
+}
+
+/// Adds the deviations of the trials that count from the truth or from `consensus`, that of all
+/// scenes.
 void add_deviations(SceneSummary& scene, const SceneRecords& records,
                     const std::optional<RigidTransform>& consensus, const PoseBounds& bounds) {
+  std::vector<RigidTransform> poses;
   for (const TrialRecord* record : records) {
-    if (!has_good_pose(*record)) continue;
-    const RigidTransform& pose = *record->T_reference_sensor;
-    if (scene.deviations_from == DeviationsFrom::truth) {
-      if (!record->error) continue;
-      scene.deviations.push_back(measures_of(*record->error));
-    } else {
-      if (!agree(pose, *scene.consensus, bounds)) continue;
-      scene.deviations.push_back(measures_of(pose_error(pose, *consensus)));
-    }
-    scene.spread.push_back(measures_of(pose_error(pose, *scene.consensus)));
+    const RigidTransform* const pose = usable_pose(*record);
+    if (pose == nullptr || (!lacks_truth(scene) && !record->error)) continue;
+    const Measures deviations =
+        measures_of(lacks_truth(scene) ? pose_error(*pose, *consensus) : *record->error);
+    scene.usable_deviations.push_back(deviations);
+    if (!counts(*record, scene, bounds)) continue;
+    poses.push_back(*pose);
+    scene.deviations.push_back(deviations);
+  }
+  if (poses.empty()) return;
+  // With truth trials may count that do not agree with most others.
+  const RigidTransform centre =
+      lacks_truth(scene) ? *scene.consensus : consensus_pose(poses, bounds);
+  for (const RigidTransform& pose : poses) {
+    scene.spread.push_back(measures_of(pose_error(pose, centre)));
   }
 }
 
@@ -93,9 +123,29 @@ void set_across_scenes_std(SummaryRow& row) {
 
 }  // namespace
 
-Share share_of(int count, int trials) {
-  const double ratio = trials == 0 ? 0.0 : static_cast<double>(count) / trials;
-  return {count, trials, ratio, wilson_interval(count, trials)};
+void SceneCounts::add(const std::string& scene, int count, int trials) {
+  Counts& counts = scenes_[scene];
+  counts.count += count;
+  counts.trials += trials;
+}
+
+Share SceneCounts::share() const {
+  Share share;
+  double squares = 0.0;
+  int scenes = 0;
+  for (const auto& [scene, counts] : scenes_) {
+    share.count += counts.count;
+    share.trials += counts.trials;
+    squares += static_cast<double>(counts.trials) * counts.trials;
+    scenes += counts.trials > 0;
+  }
+  if (share.trials == 0) return share;
+  const double trials = share.trials;
+  share.ratio = share.count / trials;
+  if (scenes >= kLeastScenes) {
+    share.interval = wilson_interval(share.ratio, trials * trials / squares);
+  }
+  return share;
 }
 
 std::vector<double> values_of(const std::vector<Measures>& rows, std::size_t measure) {
@@ -122,24 +172,32 @@ const char* name_of(DeviationsFrom from) {
 }
 
 const Share& main_share(const TrialSummary& summary) {
-  return summary.deviations_from == DeviationsFrom::consensus ? summary.agreement : summary.success;
+  return lacks_truth(summary) ? summary.agreement : summary.success;
+}
+
+PoseBounds pose_bounds(const SuccessBounds& bounds) {
+  return {rad_from_deg(bounds.rotation_deg), bounds.translation_m};
 }
 
 TrialSummary pooled(const std::vector<const SceneSummary*>& scenes) {
   TrialSummary sum;
-  int agreeing = 0;
-  std::vector<Measures> deviations;
+  SceneCounts successes, agreements;
+  std::vector<Measures> deviations, usable;
   for (const SceneSummary* scene : scenes) {
     sum.deviations_from = std::min(sum.deviations_from, scene->deviations_from);
     sum.outcomes.trials += scene->outcomes.trials;
     for (const auto count : kByStatus) sum.outcomes.*count += scene->outcomes.*count;
-    agreeing += scene->agreement.count;
+    successes.add(scene->scene, scene->outcomes.success, scene->outcomes.trials);
+    agreements.add(scene->scene, scene->agreeing.count, scene->outcomes.trials);
     deviations.insert(deviations.end(), scene->deviations.begin(), scene->deviations.end());
+    usable.insert(usable.end(), scene->usable_deviations.begin(), scene->usable_deviations.end());
   }
-  sum.success = share_of(sum.outcomes.success, sum.outcomes.trials);
-  sum.agreement = share_of(agreeing, sum.outcomes.trials);
+  sum.success = successes.share();
+  sum.agreement = agreements.share();
   sum.counted = static_cast<int>(deviations.size());
   if (sum.counted > 0) sum.statistics = statistics_of(deviations);
+  sum.usable = static_cast<int>(usable.size());
+  if (sum.usable > 0) sum.usable_statistics = statistics_of(usable);
   return sum;
 }
 
@@ -160,8 +218,13 @@ const TrialRecord* find_trial(const SceneRecords& records, int trial) {
 }
 
 const RigidTransform* usable_pose(const TrialRecord& record) {
-  const bool is_usable = record.status == Status::success || record.status == Status::inaccurate;
+  const bool is_usable = record.status != Status::rejected && record.status != Status::failed;
   return is_usable && record.T_reference_sensor ? &*record.T_reference_sensor : nullptr;
+}
+
+std::optional<bool> agrees(const TrialRecord& record, const SceneSummary& scene,
+                           const PoseBounds& bounds) {
+  return scene.consensus ? is_near(record, *scene.consensus, bounds) : std::nullopt;
 }
 
 SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds& bounds) {
@@ -169,11 +232,19 @@ SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds
   row.variant = scenes.front().front()->id.variant;
   row.sensor = scenes.front().front()->id.sensor;
   std::vector<RigidTransform> consensus;
+  std::vector<double> votes;
+  SceneRecords all;
   for (const SceneRecords& records : scenes) {
     row.scenes.push_back(without_deviations(records, bounds));
-    if (row.scenes.back().consensus) consensus.push_back(*row.scenes.back().consensus);
+    all.insert(all.end(), records.begin(), records.end());
+    if (!row.scenes.back().consensus) continue;
+    consensus.push_back(*row.scenes.back().consensus);
+    votes.push_back(row.scenes.back().agreeing.count);
   }
-  if (!consensus.empty()) row.consensus = consensus_pose(consensus, bounds);
+  if (!consensus.empty()) {
+    row.consensus = consensus_pose(consensus, bounds, votes);
+    row.agreeing = agreeing_with(*row.consensus, all, bounds);
+  }
   // Truth if one trial of any scene has it.
   const DeviationsFrom from = pooled(scenes_of({&row})).deviations_from;
   for (std::size_t i = 0; i < scenes.size(); ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,22 +14,42 @@
 
 namespace croon::experiments {
 
-/// A share of a number of trials, with its 95 % interval (Wilson 1927).
+/// With fewer scenes a share and a difference have no interval: six are the fewest with which a test
+/// over scenes can be significant (docs/statistics.md).
+inline constexpr int kLeastScenes = 6;
+
+/// A share of a number of trials, with its 95 % interval.
 struct Share {
   int count = 0;
   int trials = 0;
-  double ratio = 0.0;  ///< 0 if there are no trials.
-  Interval interval{0.0, 1.0};
+  double ratio = 0.0;                     ///< 0 if there are no trials.
+  std::optional<Interval> interval = {};  ///< Over scenes, see `share_of`.
 };
 
-/// `count` of `trials` with its interval.
-Share share_of(int count, int trials);
+/// Trials by scene: all, and those that are counted.
+class SceneCounts {
+ public:
+  void add(const std::string& scene, int count, int trials);
+  /// Their share. Trials of one scene are alike, so the interval is Wilson's (1927) for as many
+  /// trials as there are scenes: the design effect (Kish 1965) at its largest. Scenes of
+  /// unequal numbers n_i of trials are (sum n_i)^2 / sum n_i^2 scenes. None for fewer than
+  /// `kLeastScenes` scenes.
+  Share share() const;
+
+ private:
+  struct Counts {
+    int count = 0;
+    int trials = 0;
+  };
+  std::map<std::string, Counts> scenes_;
+};
 
 /// The number of trials by how they ended.
 struct Outcomes {
   int trials = 0;
   int success = 0;
   int inaccurate = 0;
+  int finished = 0;
   int rejected = 0;
   int failed = 0;
 };
@@ -59,14 +80,23 @@ enum class DeviationsFrom {
 /// "truth", "consensus" or "none".
 const char* name_of(DeviationsFrom from);
 
+/// The trials whose usable poses are within the success bounds of a pose.
+struct Agreeing {
+  int count = 0;
+  double rotation_deg = 0.0;   ///< The root mean square of their angles from it.
+  double translation_m = 0.0;  ///< The root mean square of their distances from it.
+};
+
 /// The results of a set of trials.
 struct TrialSummary {
   DeviationsFrom deviations_from = DeviationsFrom::none;  ///< Truth if one sensor has it.
   Outcomes outcomes;
-  Share success;    ///< Trials with status `success`.
-  Share agreement;  ///< Successful trials within the success bounds of their scene's consensus.
+  Share success;    ///< Trials with status `success`; means nothing without truth.
+  Share agreement;  ///< Trials that `agrees` is true for.
   int counted = 0;  ///< Trials that `statistics` are over.
   std::optional<StatisticsTable> statistics;
+  int usable = 0;  ///< Trials with a `usable_pose`, successful or not.
+  std::optional<StatisticsTable> usable_statistics;
 };
 
 /// One variant and sensor in one scene.
@@ -74,20 +104,26 @@ struct SceneSummary : TrialSummary {
   std::string scene;
   std::string scene_kind;  ///< "urban"; empty if the dataset names none.
   std::optional<RigidTransform>
-      consensus;                     ///< `T_reference_sensor` that its successful trials agree on.
+      consensus;                     ///< `T_reference_sensor` that its usable poses agree on.
+  Agreeing agreeing;                 ///< The trials that `agrees` is true for.
   std::vector<Measures> deviations;  ///< Of the trials that count, by trial.
-  std::vector<Measures> spread;      ///< The deviations of the same trials from `consensus`.
+  std::vector<Measures> usable_deviations;  ///< Of the trials with a usable pose.
+  /// The deviations of the same trials from what they agree on.
+  std::vector<Measures> spread;
 };
 
 /// One variant and sensor over all scenes.
 ///
 /// Statistics are over the trials that count: with truth those with status `success`; without truth
-/// those within the success bounds of their scene's consensus. Deviations are from the truth, else
+/// those that agree. Deviations are from the truth, else
 /// from `consensus`, by `pose_error`.
 struct SummaryRow : TrialSummary {
   std::string variant;
-  std::string sensor;                       ///< Empty for all sensors together.
-  std::optional<RigidTransform> consensus;  ///< The pose that the scenes' consensus poses agree on.
+  std::string sensor;  ///< Empty for all sensors together.
+  /// The pose that the consensus poses of the scenes agree on, each with as many votes as trials of
+  /// its scene agree with it.
+  std::optional<RigidTransform> consensus;
+  Agreeing agreeing;  ///< The trials of all scenes that are near `consensus`.
   /// The sample std of the trials that count about their scene's consensus, pooled over scenes by
   /// degrees of freedom; std::nullopt if no scene has two such trials.
   std::optional<DofValues> within_scene_std;
@@ -102,9 +138,16 @@ struct SummaryRow : TrialSummary {
 /// Rows of a summary.
 using Rows = std::vector<const SummaryRow*>;
 
-/// The share that counts as success: with truth that of the trials near it, else that of the trials
-/// that agree.
+/// The share of the trials that count: with truth success, else agreement.
 const Share& main_share(const TrialSummary& summary);
+
+/// Whether success is not known, because deviations are from a consensus.
+inline bool lacks_truth(const TrialSummary& summary) {
+  return summary.deviations_from == DeviationsFrom::consensus;
+}
+
+/// The success bounds in radians and metres.
+PoseBounds pose_bounds(const SuccessBounds& bounds);
 
 /// The trials of several scenes (of one sensor or more) as one set.
 TrialSummary pooled(const std::vector<const SceneSummary*>& scenes);
@@ -120,6 +163,11 @@ const TrialRecord* find_trial(const SceneRecords& records, int trial);
 
 /// The pose of a trial that finished and is not rejected; else null.
 const RigidTransform* usable_pose(const TrialRecord& record);
+
+/// Whether the usable pose of a trial is within `bounds` of the consensus of its scene;
+/// std::nullopt if it has none. The only place that decides it.
+std::optional<bool> agrees(const TrialRecord& record, const SceneSummary& scene,
+                           const PoseBounds& bounds);
 
 /// The row of the trials in `scenes`, which are of one variant and sensor; not empty.
 SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds& bounds);

@@ -109,9 +109,9 @@ Results run_missing(const CheckedRun& run, const OutputFolder& folder, const Wor
 }
 
 /// Draws the picture of `--png` and says what it shows.
-std::string draw_picture(const CheckedRun& run, const std::vector<TrialRecord>& records,
+std::string draw_picture(const CheckedRun& run, const Summary& summary,
                          const std::filesystem::path& path) {
-  const std::string scene = draw_before_after(run.experiment, run.scenes, records, path);
+  const std::string scene = draw_before_after(run.experiment, run.scenes, summary, path);
   if (scene.empty()) return "There is no scene to draw: none has all its sensors.\n";
   return "Scene " + scene + " from above, before (left) and after (right), is in " + path.string() +
          "\n";
@@ -135,11 +135,11 @@ int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostr
   std::vector<std::string> complaints;
   if (options.clouds) {
     complaints =
-        write_fused_clouds(run.experiment, run.scenes, results.records, folder.file(kClouds));
+        write_fused_clouds(run.experiment, run.scenes, results.summary, folder.file(kClouds));
   }
   for (const std::string& complaint : complaints) progress_out << "croon: " << complaint << "\n";
   out << result_text(results, options.colours) << "Results are in " << run.out.string() << "\n";
-  if (options.png) out << draw_picture(run, results.records, folder.file(kPicture));
+  if (options.png) out << draw_picture(run, results.summary, folder.file(kPicture));
   return complaints.empty() && !has_failed_trials(results) ? 0 : 3;
 }
 

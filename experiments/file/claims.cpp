@@ -25,7 +25,9 @@ class NoStages final : public params::StageBuilder {
   }
 };
 
-const std::vector<std::string> kShares = {kSuccess, kScenes};
+const std::vector<std::string> kShares = {kSuccess, kAgreement, kScenes};
+
+const params::Words<Over> kOver = {{"successful", Over::successful}, {"usable", Over::usable}};
 
 /// How the bands of a table of claims follow from its values.
 enum class BandRule {
@@ -65,7 +67,11 @@ const Table<Claim>& claim_table() {
         optional(params::choice("measure", &P::measure, measure_names(),
                                 "What is measured, in deg or m; shares have none.")),
         optional(params::choice("statistic", &P::statistic, claim_statistics(),
-                                "Which statistic; success and scenes are shares in %.")),
+                                "Which statistic; success, agreement and scenes are shares in %.")),
+        params::choice("over", &P::over, kOver,
+                       "The trials of a mean, std, median, rmse or p95: the successful ones (no "
+                       "truth: those that agree), or all usable ones, which finished and were not "
+                       "rejected."),
         optional(params::number("value", &P::value, {}, "What the source says, in deg, m or %.")),
         optional(params::interval("band", &P::band, {}, "Lowest and highest of ours.")),
         optional(params::text("why", &P::why, "Why ours may differ.")),
@@ -216,6 +222,7 @@ class ClaimExpander {
     claim.statistic = kStatistics[statistic].name;
     claim.claim += ", " + (claim.sensor.empty() ? std::string("all sensors") : sensor) + ": " +
                    claim.statistic + " of " + claim.measure;
+    if (claim.over == Over::usable) claim.claim += ", all usable trials";
     claim.value = values.by_statistic[statistic][column];
     claim.sensor_file = at.file();
     claim.sensor_pointer = claim.sensor.empty() ? "" : at.pointer();
@@ -259,6 +266,8 @@ const std::vector<std::string>& claim_statistics() {
   }();
   return names;
 }
+
+const std::string& word_of_over(Over over) { return params::word_of(kOver, over); }
 
 bool is_share(const std::string& statistic) {
   return std::find(kShares.begin(), kShares.end(), statistic) != kShares.end();

@@ -9,6 +9,12 @@
 
 namespace croon::experiments {
 
+/// The trials that a statistic is over.
+enum class Over {
+  successful,  ///< Those that count: with truth the successful ones, else those that agree.
+  usable       ///< All that finished and were not rejected.
+};
+
 /// A number that a source claims, and the band in which ours must lie. Units are those of reports:
 /// deg, m, and % for shares. A claim decides no trial.
 struct Claim {
@@ -18,6 +24,7 @@ struct Claim {
   std::string sensor;     ///< Empty for all sensors together.
   std::string measure;    ///< One of measure_names(); empty for shares.
   std::string statistic;  ///< One of claim_statistics().
+  Over over = Over::successful;
   double value = std::numeric_limits<double>::quiet_NaN();  ///< What the source says.
   /// Closed: the lowest and the highest value of ours.
   std::array<double, 2> band = {std::numeric_limits<double>::quiet_NaN(),
@@ -41,15 +48,20 @@ struct Quoted {
   double z_m = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Percent of the trials, and percent of the scenes in which every trial succeeds.
+/// Percent of the trials that succeed, of those that agree with the consensus of their scene, and
+/// percent of the scenes in which every trial succeeds.
 inline constexpr const char* kSuccess = "success";
+inline constexpr const char* kAgreement = "agreement";
 inline constexpr const char* kScenes = "scenes";
 /// Standard deviation inside scenes and between them, as in the summary.
 inline constexpr const char* kWithinSceneStd = "within_scene_std";
 inline constexpr const char* kAcrossScenesStd = "across_scenes_std";
 
-/// What a claim may be about: the two shares, the statistics of trials, the two spreads.
+/// What a claim may be about: the shares, the statistics of trials, the two spreads.
 const std::vector<std::string>& claim_statistics();
+
+/// "successful" or "usable".
+const std::string& word_of_over(Over over);
 
 /// True for the statistics that are shares of trials or scenes and have no measure.
 bool is_share(const std::string& statistic);

@@ -38,12 +38,14 @@ void draw_row(Svg& svg, const Plot& plot, const Sweep& sweep, const BasinRow& ro
     const Share& share = row.levels[level];
     if (share.trials == 0) continue;
     const double x = plot.x(level_size(sweep, static_cast<int>(level)));
-    upper.push_back({x, plot.y(share.interval.high)});
-    lower.push_back({x, plot.y(share.interval.low)});
+    if (share.interval) {
+      upper.push_back({x, plot.y(share.interval->high)});
+      lower.push_back({x, plot.y(share.interval->low)});
+    }
     curve.push_back({x, plot.y(share.ratio)});
   }
   upper.insert(upper.end(), lower.rbegin(), lower.rend());
-  svg.area(upper, colour + " band");
+  if (!upper.empty()) svg.area(upper, colour + " band");
   for (std::size_t i = 0; i < curve.size(); ++i) {
     svg.dot(curve[i][0], curve[i][1], 3.0, colour);
     if (i > 0) {
@@ -75,7 +77,9 @@ std::string basin_svg(const Basin& basin) {
   svg.rectangle(0.0, 0.0, width, height, "page");
   svg.text(kLeft, 24.0, "Success in % over the size of the start's perturbation", Anchor::start,
            "title");
-  svg.text(kLeft, 42.0, "All sensors and scenes together; the band is the 95 % interval",
+  svg.text(kLeft, 42.0,
+           "All sensors and scenes together; the band is the 95 % interval, none for fewer than " +
+               std::to_string(kLeastScenes) + " scenes",
            Anchor::start, "small");
   draw_frame(svg, plot, sizes, basin.sweep);
   std::size_t index = 0;

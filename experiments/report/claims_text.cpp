@@ -16,6 +16,9 @@ constexpr std::size_t kWidestName = 44;
 View claims_view(const std::string& open, const std::string& close) {
   return {{{"claim"},
            {"source"},
+           {"trials"},
+           {"scenes"},
+           {"success %", "<success_percent>"},
            {"expected", "<expected> <unit>"},
            {"band", open + "<low>, <high>" + close},
            {"found"},
@@ -49,10 +52,20 @@ Table quoted_table(const std::vector<Quoted>& quoted, const Summary& summary) {
   return table;
 }
 
+/// What the verdicts mean that are no verdict on a number.
+std::string verdicts_explained() {
+  return "trials, scenes: what the number is over; success: the share of all trials (no truth: of "
+         "those that agree).\nshown: no result within the success bounds could be outside the "
+         "band. "
+         "not enough trials: fewer than " +
+         std::to_string(kLeastClaimTrials) + " trials or " + std::to_string(kLeastScenes) +
+         " scenes.\n";
+}
+
 /// "50 in, 2 out, 1 not measured".
 std::string verdict_counts(const std::vector<ClaimResult>& results) {
   std::string text;
-  for (const Verdict verdict : {Verdict::in, Verdict::out, Verdict::not_measured}) {
+  for (const Verdict verdict : kVerdicts) {
     const auto count = std::count_if(results.begin(), results.end(), [&](const ClaimResult& one) {
       return one.verdict == verdict;
     });
@@ -76,8 +89,8 @@ std::string results_markdown(const std::vector<ClaimResult>& results) {
   View view = claims_view("\\[", "\\]");
   view.columns.push_back({"why ours may differ"});
   view.names = view.columns.size();
-  std::string text =
-      "Claims: " + verdict_counts(results) + ".\n\n" + markdown_table(columns.table(results), view);
+  std::string text = "Claims: " + verdict_counts(results) + ".\n\n" + verdicts_explained() + "\n" +
+                     markdown_table(columns.table(results), view);
   if (!reasons.empty()) text += "\nWhy ours may differ:\n\n";
   for (std::size_t i = 0; i < reasons.size(); ++i) {
     text += std::to_string(i + 1) + ". " + markdown_escaped(reasons[i]) + "\n";
@@ -107,6 +120,7 @@ std::string claims_text(const std::vector<ClaimResult>& results, const std::vect
     const std::regex out("out\n");  // In red.
     text += "\nclaims: " + verdict_counts(results) + "\n";
     text += style.colours ? std::regex_replace(table, out, "\033[31mout\033[0m\n") : table;
+    text += verdicts_explained();
   }
   if (!quoted.empty()) {
     const Table table = quoted_table(quoted, summary);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "experiments/report/result_tables.hpp"
 #include "framework/base/text.hpp"
@@ -14,10 +15,36 @@ namespace croon::experiments {
 
 namespace {
 
-/// The columns with marks.
+/// The columns with marks. Of the first two a row has one, see `share_column`.
 constexpr const char* kSuccessColumn = "success_percent";
+constexpr const char* kAgreementColumn = "agreement_percent";
 constexpr const char* kRotationColumn = "rotation_median_deg";
 constexpr const char* kTranslationColumn = "translation_median_m";
+
+/// The index of the column with the share that counts for a row.
+std::size_t share_column(const Table& table, std::size_t row) {
+  const bool lacks_truth = table.text_at(row, "reference") == name_of(DeviationsFrom::consensus);
+  return table.index_of(lacks_truth ? kAgreementColumn : kSuccessColumn);
+}
+
+/// Ratio, low and high end of a share in percent; `share` is a function of a row whose result may
+/// be nothing.
+template <class F>
+void add_percents(Columns<SummaryRow>& columns, const std::string& name, F share) {
+  columns.add({name, "percent", "", 1, Better::greater}, [=](const SummaryRow& row) {
+    const Share* const found = share(row);
+    return found ? std::optional<double>(100.0 * found->ratio) : std::nullopt;
+  });
+  const auto add_end = [&](const std::string& end, double Interval::*value) {
+    columns.add({name + end, "percent", "", 1}, [=](const SummaryRow& row) {
+      const Share* const found = share(row);
+      const bool is_known = found && found->interval;
+      return is_known ? std::optional<double>(100.0 * ((*found->interval).*value)) : std::nullopt;
+    });
+  };
+  add_end("_low", &Interval::low);
+  add_end("_high", &Interval::high);
+}
 
 /// Less is better. Of the digits that are shown: a reader who sees two equal numbers, one of them
 /// bold, would look for a reason.
@@ -28,9 +55,11 @@ double rank(const Cell& cell, const Column& column) {
   return column.better == Better::greater ? -shown : std::abs(shown);
 }
 
-/// Marks the best of each column among the rows [begin, end) of one sensor.
-void mark_best(Table& table, std::size_t begin, std::size_t end) {
-  const std::size_t success = table.index_of(kSuccessColumn);
+/// Marks the best of each column among the rows [begin, end) of one sensor; `below` are the
+/// variants whose success is below the best.
+void mark_best(Table& table, std::size_t begin, std::size_t end,
+               const std::set<VariantSensor>& below) {
+  const std::size_t success = share_column(table, begin);
   const auto sign = [&](std::size_t row, std::size_t k) {
     const std::string& mark = table.rows[row][k].mark;
     return mark.empty() ? ' ' : mark[0];
@@ -42,7 +71,8 @@ void mark_best(Table& table, std::size_t begin, std::size_t end) {
   // If a row succeeds significantly less often than another, its errors are those of the easier
   // trials. What is neither better nor worse than the base is worse than what beats the base.
   const auto is_of_easier_trials = [&](std::size_t row) {
-    return sign(row, success) == '-' || (sign(row, success) == ' ' && one_beats_base);
+    return sign(row, success) == '-' || (sign(row, success) == ' ' && one_beats_base) ||
+           below.count({table.text_at(row, "variant"), table.text_at(row, "sensor")}) > 0;
   };
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
     const Column& column = table.columns[k];
@@ -60,13 +90,13 @@ void mark_best(Table& table, std::size_t begin, std::size_t end) {
   }
 }
 
-void mark_best_of_each_sensor(Table& table) {
+void mark_best_of_each_sensor(Table& table, const std::set<VariantSensor>& below) {
   for (std::size_t begin = 0, end = 0; begin < table.rows.size(); begin = end) {
     while (end < table.rows.size() &&
            table.text_at(end, "sensor") == table.text_at(begin, "sensor")) {
       ++end;
     }
-    mark_best(table, begin, end);
+    mark_best(table, begin, end, below);
   }
 }
 
@@ -75,22 +105,43 @@ std::string mark_of(const PairedTest& test) {
   return std::string(test.favours_variant ? "+" : "-") + (holds_by_scene(test) ? "**" : "*");
 }
 
+/// The name of a column with the paired difference of a distance, or with an end of its interval.
+std::string paired_name(std::size_t measure, const std::string& what) {
+  return std::string(kMeasures[measure].name) + "_paired_" + what;
+}
+
+/// Sets the paired difference of a row, and its interval.
+void set_paired(Table& table, std::size_t row, std::size_t measure,
+                const ErrorComparison& comparison) {
+  const auto set = [&](const char* what, double value) {
+    const std::string name = paired_name(measure, what) + "_" + kMeasures[measure].unit;
+    table.rows[row][table.index_of(name)].value = value;
+  };
+  set("difference", comparison.paired_difference);
+  if (!comparison.paired_interval) return;
+  set("low", comparison.paired_interval->low);
+  set("high", comparison.paired_interval->high);
+}
+
 void set_marks(Table& table, const std::vector<Comparison>& comparisons) {
-  for (const char* name : {kSuccessColumn, kRotationColumn, kTranslationColumn}) {
+  for (const char* name : {kSuccessColumn, kAgreementColumn, kRotationColumn, kTranslationColumn}) {
     table.columns[table.index_of(name)].has_marks = true;
   }
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const auto mark = [&](const char* column, const PairedTest& test) {
       table.rows[i][table.index_of(column)].mark = mark_of(test);
     };
+    const std::size_t share = share_column(table, i);
     for (const Comparison& comparison : comparisons) {
       if (comparison.variant != table.text_at(i, "variant")) continue;
       if (comparison.sensor != table.text_at(i, "sensor")) continue;
-      mark(kSuccessColumn, comparison.success);
+      table.rows[i][share].mark = mark_of(comparison.success);
       // Without truth these are tests of repeatability, which no column shows.
       if (table.text_at(i, "reference") != name_of(DeviationsFrom::truth)) continue;
       mark(kRotationColumn, comparison.rotation_deg.test);
       mark(kTranslationColumn, comparison.translation_m.test);
+      set_paired(table, i, kRotation, comparison.rotation_deg);
+      set_paired(table, i, kTranslation, comparison.translation_m);
     }
   }
 }
@@ -121,14 +172,15 @@ Columns<SummaryRow> export_columns() {
   add_sensor(columns);
   columns.add({"reference"}, [](const SummaryRow& row) { return name_of(row.deviations_from); })
       .add({"trials"}, [](const SummaryRow& row) { return row.outcomes.trials; })
-      .add({"success"}, [](const SummaryRow& row) { return main_share(row).count; })
-      .add({"counted"}, &SummaryRow::counted)
-      .add({"success", "percent", "", 1, Better::greater},
-           [](const SummaryRow& row) { return 100.0 * main_share(row).ratio; })
-      .add({"success_low", "percent", "", 1},
-           [](const SummaryRow& row) { return 100.0 * main_share(row).interval.low; })
-      .add({"success_high", "percent", "", 1},
-           [](const SummaryRow& row) { return 100.0 * main_share(row).interval.high; });
+      .add({"success"},
+           [](const SummaryRow& row) {
+             return lacks_truth(row) ? std::nullopt : std::optional<int>(row.success.count);
+           })
+      .add({"counted"}, &SummaryRow::counted);
+  add_percents(columns, "success",
+               [](const SummaryRow& row) { return lacks_truth(row) ? nullptr : &row.success; });
+  columns.add({"agreement"}, [](const SummaryRow& row) { return row.agreement.count; });
+  add_percents(columns, "agreement", [](const SummaryRow& row) { return &row.agreement; });
   const auto add = [&](std::size_t k, const char* statistic) {
     const std::size_t s = statistic_index(statistic);
     columns.add(statistic_column(kMeasures[k], statistic),
@@ -141,6 +193,14 @@ Columns<SummaryRow> export_columns() {
   for (const std::size_t k : kPaperOrder) {
     add(k, "mean");
     add(k, "std");
+  }
+  for (const std::size_t k : kDistances) {
+    for (const char* what : {"difference", "low", "high"}) {
+      // Set after the comparison with the base. A digit more than the medians have, which may be
+      // equal.
+      columns.add({paired_name(k, what), kMeasures[k].unit, "", kMeasures[k].decimals + 1},
+                  [](const SummaryRow&) { return Cell(); });
+    }
   }
   return columns;
 }
@@ -164,7 +224,7 @@ ExportTable export_table(const Summary& summary, const ExportCaption& caption) {
   table.table = export_columns().table(rows);
   if (!summary.comparisons.empty()) table.base = summary.comparisons.front().base;
   set_marks(table.table, summary.comparisons);
-  if (table.variants.size() > 1) mark_best_of_each_sensor(table.table);
+  if (table.variants.size() > 1) mark_best_of_each_sensor(table.table, summary.below_best);
   return table;
 }
 
@@ -178,11 +238,12 @@ std::vector<std::string> caption_sentences(const ExportTable& table) {
     sentences.push_back("Success: " + bounds + "the truth; errors are those of these trials.");
   }
   if (has_deviations_from(table.table, DeviationsFrom::consensus)) {
-    sentences.push_back("Success, where there is no truth: " + bounds +
+    sentences.push_back("Agreement, if there is no truth: " + bounds +
                         "what the trials of the scene agree on; deviations of these trials from "
                         "what all scenes agree on.");
   }
-  sentences.emplace_back("Interval: 95 % (Wilson).");
+  sentences.push_back("Interval: 95 %, over scenes (Wilson); none for fewer than " +
+                      std::to_string(kLeastScenes) + " scenes.");
   if (table.variants.size() > 1) {
     sentences.emplace_back(
         "Bold: the best of the sensor, for errors among those that no other beats in success.");
@@ -191,7 +252,8 @@ std::vector<std::string> caption_sentences(const ExportTable& table) {
     sentences.push_back("*: differs from " + table.base +
                         " over the same trials, those without a usable result as infinite errors "
                         "(McNemar, Wilcoxon; p < 0.05 after Holm), + for the better, - for the "
-                        "worse; **: also with scenes as units.");
+                        "worse; **: also with scenes as units. Paired: the 95 % interval of the "
+                        "median difference from it, over scenes.");
   }
   return sentences;
 }
@@ -216,15 +278,21 @@ std::string export_json(const ExportTable& table) {
 }
 
 std::string export_markdown(const ExportTable& table) {
-  View view{{{"variant"},
-             {"sensor"},
-             {"success %", "<success_percent> [<success_low_percent>, <success_high_percent>]"}},
-            2};
+  View view{{{"variant"}, {"sensor"}}, 2};
+  for (const std::string& share : share_names(table.table)) {
+    view.columns.push_back({share + " %", "<" + share + "_percent>"});
+    view.columns.push_back(
+        {"95 % interval", "[<" + share + "_low_percent>, <" + share + "_high_percent>]"});
+  }
   for (const std::size_t k : kDistances) {
     for (const char* statistic : {"median", "p95"}) {
       const Measure& measure = kMeasures[k];
       view.columns.push_back({std::string(measure.name) + " " + statistic + " " + measure.unit,
                               content_of(measure, std::string("<") + statistic + ">")});
+    }
+    if (!table.base.empty()) {
+      view.columns.push_back({std::string(kMeasures[k].name) + " paired " + kMeasures[k].unit,
+                              content_of(kMeasures[k], "[<paired_low>, <paired_high>]")});
     }
   }
   add_measures(view, kPaperOrder, "<mean> ± <std>");

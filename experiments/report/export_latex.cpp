@@ -19,13 +19,17 @@ std::vector<View> panels_of(const ExportTable& table) {
     const std::string unit = measure.unit == std::string("m") ? " (m)" : " ($^\\circ$)";
     view.columns.push_back({title, content_of(measure, content), false, measure.name + unit});
   };
-  const std::string group = "success (\\%)";
-  success.columns.push_back({"rate", "<success_percent>", false, group});
-  success.columns.push_back(
-      {"95\\,\\% interval", "<success_low_percent>\\,--\\,<success_high_percent>", false, group});
+  for (const std::string& share : share_names(table.table)) {
+    const std::string group = share + " (\\%)";
+    success.columns.push_back({"rate", "<" + share + "_percent>", false, group});
+    success.columns.push_back({"95\\,\\% interval",
+                               "<" + share + "_low_percent>\\,--\\,<" + share + "_high_percent>",
+                               false, group});
+  }
   for (const std::size_t k : kDistances) {
     add(success, k, "median", "<median>");
     add(success, k, "p95", "<p95>");
+    if (!table.base.empty()) add(success, k, "paired", "<paired_low>\\,--\\,<paired_high>");
   }
   for (const std::size_t k : kPaperOrder) {
     add(dofs, k, "mean $\\pm$ std", "<mean>\\,${}\\pm{}$\\,<std>");

@@ -45,6 +45,11 @@ std::vector<BoxGroup> box_groups(const Summary& summary, BoxOf of);
 /// 95 % interval.
 std::string basin_svg(const Basin& basin);
 
+/// The bytes of success_curve.svg: the share of trials over the threshold, one panel for rotation
+/// and one for translation, the threshold on a logarithmic axis. A line per variant, all sensors
+/// together; of one variant alone a line per sensor.
+std::string success_curve_svg(const SuccessCurve& curve);
+
 /// The bytes of ranges.svg: for each sensor the share of points over the range, a line per dataset,
 /// mean over scenes.
 std::string ranges_svg(const std::vector<CloudDescription>& clouds);

@@ -1,8 +1,7 @@
 #include "experiments/report/result_clouds.hpp"
 
 #include <algorithm>
-#include <map>
-#include <tuple>
+#include <optional>
 
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
@@ -16,41 +15,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The first trial with an estimate of each variant, scene and sensor.
-using FirstTrials = std::map<std::tuple<std::string, std::string, std::string>, const TrialRecord*>;
+using Pose = std::optional<RigidTransform>;
 
-FirstTrials first_trials(const std::vector<TrialRecord>& records) {
-  FirstTrials trials;
-  for (const TrialRecord& record : records) {
-    if (!record.T_reference_sensor) continue;
-    // emplace keeps the first, and records are sorted by trial.
-    trials.emplace(std::tuple(record.id.variant, record.id.scene, record.id.sensor), &record);
-  }
-  return trials;
-}
-
-/// The trial of each sensor of `scene`; null for a sensor that has none.
-std::vector<const TrialRecord*> trials_in(const FirstTrials& trials, const Variant& variant,
-                                          const Scene& scene) {
-  std::vector<const TrialRecord*> of_scene;
+/// The pose that all scenes agree on, of each sensor of `scene`; std::nullopt for a sensor without
+/// a usable pose in this scene, whose cloud may not be readable.
+std::vector<Pose> agreed_poses(const Summary& summary, const Variant& variant, const Scene& scene) {
+  std::vector<Pose> poses;
   for (const SensorScan& scan : scene.sensors) {
-    const auto found = trials.find(std::tuple(variant.name, scene.name, scan.sensor));
-    of_scene.push_back(found == trials.end() ? nullptr : found->second);
+    Pose& pose = poses.emplace_back();
+    for (const SummaryRow* row : rows_of(summary, variant.name, scan.sensor)) {
+      const auto is_it = [&](const SceneSummary& of) {
+        return of.scene == scene.name && of.consensus;
+      };
+      if (std::any_of(row->scenes.begin(), row->scenes.end(), is_it)) pose = row->consensus;
+    }
   }
-  return of_scene;
+  return poses;
 }
 
-/// The picture of a scene whose sensors ended at `trials`.
-Image drawn(const Experiment& experiment, const Scene& scene,
-            const std::vector<const TrialRecord*>& trials) {
+/// The picture of a scene whose sensors are at `poses`.
+Image drawn(const Experiment& experiment, const Scene& scene, const std::vector<Pose>& poses) {
   std::vector<ColouredCloud> before = {{scene.reference.sensor, scene.reference.load().points, {}}};
   std::vector<ColouredCloud> after = before;
-  for (std::size_t i = 0; i < trials.size(); ++i) {
+  for (std::size_t i = 0; i < poses.size(); ++i) {
     const SensorScan& scan = scene.sensors[i];
     const PointCloud points = scan.load().points;
-    const int trial = trials[i]->id.trial;
-    before.push_back({scan.sensor, points, start_of(experiment, scene.name, scan, trial)});
-    after.push_back({scan.sensor, points, *trials[i]->T_reference_sensor});
+    before.push_back({scan.sensor, points, start_of(experiment, scene.name, scan, 0)});
+    after.push_back({scan.sensor, points, *poses[i]});
   }
   constexpr TopView kView = {20.0, 20.0, 0.05};
   constexpr int kGap_px = 8;
@@ -83,12 +74,11 @@ void write_clouds(const std::vector<ColouredCloud>& clouds, const fs::path& stem
 }  // namespace
 
 std::string draw_before_after(const Experiment& experiment, const std::vector<Scene>& scenes,
-                              const std::vector<TrialRecord>& records, const fs::path& path) {
-  const FirstTrials first = first_trials(records);
+                              const Summary& summary, const fs::path& path) {
   for (const Scene& scene : without_pairs(scenes)) {
-    const auto trials = trials_in(first, experiment.variants.front(), scene);
-    if (std::count(trials.begin(), trials.end(), nullptr) > 0) continue;
-    write_png(path, drawn(experiment, scene, trials));
+    const std::vector<Pose> poses = agreed_poses(summary, experiment.variants.front(), scene);
+    if (std::count(poses.begin(), poses.end(), std::nullopt) > 0) continue;
+    write_png(path, drawn(experiment, scene, poses));
     return scene.name;
   }
   return "";
@@ -96,20 +86,17 @@ std::string draw_before_after(const Experiment& experiment, const std::vector<Sc
 
 std::vector<std::string> write_fused_clouds(const Experiment& experiment,
                                             const std::vector<Scene>& scenes,
-                                            const std::vector<TrialRecord>& records,
-                                            const fs::path& folder) {
-  const FirstTrials first = first_trials(records);
+                                            const Summary& summary, const fs::path& folder) {
   std::vector<std::string> complaints;
   for (const Scene& scene : without_pairs(scenes)) {
     const PointCloud reference = points_of(scene.reference);
     std::vector<PointCloud> points;
     for (const SensorScan& scan : scene.sensors) points.push_back(points_of(scan));
     for (const Variant& variant : experiment.variants) {
-      const auto trials = trials_in(first, variant, scene);
+      const std::vector<Pose> poses = agreed_poses(summary, variant, scene);
       std::vector<ColouredCloud> clouds = {{scene.reference.sensor, reference, {}}};
-      for (std::size_t i = 0; i < trials.size(); ++i) {
-        if (trials[i] == nullptr) continue;
-        clouds.push_back({scene.sensors[i].sensor, points[i], *trials[i]->T_reference_sensor});
+      for (std::size_t i = 0; i < poses.size(); ++i) {
+        if (poses[i]) clouds.push_back({scene.sensors[i].sensor, points[i], *poses[i]});
       }
       if (clouds.size() == 1) continue;
       const fs::path stem = folder / variant.name / scene.name;

@@ -4,29 +4,29 @@
 #include <string>
 #include <vector>
 
+#include "experiments/analysis/summary.hpp"
 #include "experiments/file/experiment.hpp"
-#include "experiments/run/trial_record.hpp"
 #include "framework/stage/dataset.hpp"
 
 namespace croon::experiments {
 
-// The clouds of a rig at its results, as a picture and as files. `records` are in report order.
+// The clouds of a rig at its results, as a picture and as files: at the poses that the trials of
+// all scenes agree on, as extrinsics.json has them.
 
 /// Draws one scene from above as PNG: on the left each sensor's cloud at the start of its first
-/// trial, on the right at the result of that trial of the first variant. The scene is the first in
-/// which all sensors have a result. Returns its name, or "" if there is none; then no picture is
+/// trial, on the right at the agreed pose of the first variant. The scene is the first in which all
+/// sensors have a result. Returns its name, or "" if there is none; then no picture is
 /// written. Throws InputError if the file cannot be written or a cloud cannot be read.
 std::string draw_before_after(const Experiment& experiment, const std::vector<Scene>& scenes,
-                              const std::vector<TrialRecord>& records,
-                              const std::filesystem::path& path);
+                              const Summary& summary, const std::filesystem::path& path);
 
 /// Writes, for each variant and scene, the clouds of the rig in the reference's frame, each sensor
-/// at the estimate of its first trial that finished: `folder/<variant>/<scene>.ply`, coloured by
+/// at its agreed pose if it has a result in the scene: `folder/<variant>/<scene>.ply`, coloured by
 /// sensor, and `<scene>.vdb`, the leaves of 0.05 m that they occupy. Returns the files that could
 /// not be written and why, a line each.
 std::vector<std::string> write_fused_clouds(const Experiment& experiment,
                                             const std::vector<Scene>& scenes,
-                                            const std::vector<TrialRecord>& records,
+                                            const Summary& summary,
                                             const std::filesystem::path& folder);
 
 }  // namespace croon::experiments

@@ -38,19 +38,29 @@ Bytes if_basin(const Results& results, std::string (*bytes)(const Basin&)) {
   return results.basin ? Bytes(bytes(*results.basin)) : std::nullopt;
 }
 
+Bytes if_curve(const SuccessCurve& curve, std::string (*bytes)(const SuccessCurve&)) {
+  return curve.rows.empty() ? std::nullopt : Bytes(bytes(curve));
+}
+
 /// Every file that a run writes beside its store: what it must be able to write, and what `--fresh`
 /// deletes. A new one is a row here.
 const std::vector<ResultFile>& result_files() {
   using R = Results;
   static const std::vector<ResultFile> files = {
-      {"trials.csv", [](const R& r) -> Bytes { return trials_csv(r.records); }},
+      {"trials.csv", [](const R& r) -> Bytes { return trials_csv(r.records, r.summary); }},
       {"summary.csv", [](const R& r) -> Bytes { return summary_csv(r.summary); }},
       {"summary.json", [](const R& r) -> Bytes { return summary_json(r.summary, r.claims); }},
+      {"extrinsics.json",
+       [](const R& r) -> Bytes { return extrinsics_json(r.summary, r.references); }},
       {"summary_by_kind.csv",
        [](const R& r) { return if_any(r.summary.scene_kinds, summary_by_kind_csv, r.summary); }},
       {"comparison.csv",
        [](const R& r) { return if_any(r.summary.comparisons, comparison_csv, r.summary); }},
       {"loops.csv", [](const R& r) { return if_any(r.summary.loops, loops_csv, r.summary); }},
+      {"success_curve.csv",
+       [](const R& r) { return if_curve(r.summary.curve, success_curve_csv); }},
+      {"success_curve.svg",
+       [](const R& r) { return if_curve(r.summary.curve, success_curve_svg); }},
       {"basin.csv", [](const R& r) { return if_basin(r, basin_csv); }},
       {"basin.svg", [](const R& r) { return if_basin(r, basin_svg); }},
       {"box_plots.svg", [](const R& r) -> Bytes { return box_plots_svg(r.summary); }},

@@ -1,8 +1,13 @@
 #include "experiments/report/result_tables.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <tuple>
+#include <type_traits>
 
+#include "framework/base/angles.hpp"
 #include "framework/base/text.hpp"
 #include "framework/geometry/rigid_transform.hpp"
 #include "framework/table/renderers.hpp"
@@ -13,56 +18,76 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// The ends of an interval that may not be there.
+std::optional<double> low_of(const std::optional<Interval>& interval) {
+  return interval ? std::optional<double>(interval->low) : std::nullopt;
+}
+std::optional<double> high_of(const std::optional<Interval>& interval) {
+  return interval ? std::optional<double>(interval->high) : std::nullopt;
+}
+
 /// Ratio, low and high end of a share called `name`.
 Columns<Share> share_columns(const std::string& name) {
   Columns<Share> columns;
   return columns.add({name, "ratio", "/" + name + "/ratio", 1}, &Share::ratio)
       .add({name + "_low", "ratio", "/" + name + "/low_ratio", 1},
-           [](const Share& share) { return share.interval.low; })
+           [](const Share& share) { return low_of(share.interval); })
       .add({name + "_high", "ratio", "/" + name + "/high_ratio", 1},
-           [](const Share& share) { return share.interval.high; });
+           [](const Share& share) { return high_of(share.interval); });
+}
+
+/// `value` of a summary; nothing if it is known with truth alone and there is none.
+template <class T>
+auto with_truth(T value) {
+  return [value](const TrialSummary& summary) {
+    using Result = std::decay_t<decltype(std::invoke(value, summary))>;
+    return lacks_truth(summary) ? std::nullopt : std::optional<Result>(std::invoke(value, summary));
+  };
 }
 
 /// Trials by outcome, the shares of success and agreement.
 Columns<TrialSummary> outcome_columns() {
-  Columns<Outcomes> outcomes;
-  outcomes.add({"trials"}, &Outcomes::trials)
-      .add({"success", "", "/success/count"}, &Outcomes::success)
-      .add({"inaccurate"}, &Outcomes::inaccurate)
-      .add({"rejected"}, &Outcomes::rejected)
-      .add({"failed"}, &Outcomes::failed);
-  Columns<TrialSummary> columns;
-  return columns.add(outcomes, &TrialSummary::outcomes)
-      .add(share_columns("success"), &TrialSummary::success)
+  using S = TrialSummary;
+  Columns<S> columns;
+  return columns.add({"trials"}, [](const S& s) { return s.outcomes.trials; })
+      .add({"success", "", "/success/count"},
+           with_truth([](const S& s) { return s.outcomes.success; }))
+      .add({"inaccurate"}, with_truth([](const S& s) { return s.outcomes.inaccurate; }))
+      .add({"finished"}, [](const S& s) { return s.outcomes.finished; })
+      .add({"rejected"}, [](const S& s) { return s.outcomes.rejected; })
+      .add({"failed"}, [](const S& s) { return s.outcomes.failed; })
+      .add(share_columns("success"), with_truth(&S::success))
       .add({"agreement", "", "/agreement/count"},
            [](const TrialSummary& summary) { return summary.agreement.count; })
       .add(share_columns("agreement"), &TrialSummary::agreement);
 }
 
-/// Every statistic of every measure.
-Columns<std::optional<StatisticsTable>> statistics_columns() {
+/// Every statistic of every measure. `of` is put before the names: "usable_".
+Columns<std::optional<StatisticsTable>> statistics_columns(const std::string& of = "") {
   Columns<std::optional<StatisticsTable>> columns;
   for (std::size_t k = 0; k < kMeasures.size(); ++k) {
     for (std::size_t s = 0; s < kStatistics.size(); ++s) {
       const std::string name = kStatistics[s].name;
-      const std::string path = "/statistics/" + name_with_unit(kMeasures[k]) + "/" + name;
-      columns.add(statistic_column(kMeasures[k], name, path),
-                  [k, s](const auto& table) { return value_of(table, k, s); });
+      const std::string path = "/" + of + "statistics/" + name_with_unit(kMeasures[k]) + "/" + name;
+      Column column = statistic_column(kMeasures[k], name, path);
+      column.name = of + column.name;
+      columns.add(column, [k, s](const auto& table) { return value_of(table, k, s); });
     }
   }
   return columns;
 }
 
 /// Translation and quaternion (qw >= 0), in JSON below `path`.
-Columns<RigidTransform> pose_columns(const std::string& path = "") {
+Columns<RigidTransform> pose_columns(const std::string& path = "",
+                                     const std::string& rotation = "/rotation_xyzw") {
   using Pose = RigidTransform;
   Columns<Pose> columns;
   for (const int i : {0, 1, 2}) {
-    columns.add({std::string("t") + "xyz"[i], "m", path + "/translation_m/" + std::to_string(i)},
+    columns.add({std::string("t") + "xyz"[i], "m", path + "/translation_m/" + std::to_string(i), 4},
                 [i](const Pose& pose) { return pose.translation(i); });
   }
   for (const int i : {0, 1, 2, 3}) {
-    columns.add({std::string("q") + "xyzw"[i], "", path + "/rotation_xyzw/" + std::to_string(i)},
+    columns.add({std::string("q") + "xyzw"[i], "", path + rotation + "/" + std::to_string(i), 6},
                 [i](const Pose& pose) { return unit_quaternion(pose.rotation).coeffs()(i); });
   }
   return columns;
@@ -76,7 +101,31 @@ Columns<TrialId> id_columns() {
       .add({"trial"}, &TrialId::trial);
 }
 
-Columns<TrialRecord> trial_columns() {
+/// The scenes of a summary by variant, sensor and scene.
+class ScenesByName {
+ public:
+  explicit ScenesByName(const Summary& summary) : bounds_(pose_bounds(summary.bounds)) {
+    for (const SummaryRow& row : summary.rows) {
+      for (const SceneSummary& scene : row.scenes) {
+        scenes_[{row.variant, row.sensor, scene.scene}] = &scene;
+      }
+    }
+  }
+
+  /// Whether a trial agrees with its scene; nothing if it has no usable pose.
+  std::optional<bool> agrees(const TrialRecord& record) const {
+    const TrialId& id = record.id;
+    const auto scene = scenes_.find({id.variant, id.sensor, id.scene});
+    if (scene == scenes_.end()) return std::nullopt;
+    return experiments::agrees(record, *scene->second, bounds_);
+  }
+
+ private:
+  PoseBounds bounds_;
+  std::map<std::tuple<std::string, std::string, std::string>, const SceneSummary*> scenes_;
+};
+
+Columns<TrialRecord> trial_columns(const ScenesByName& scenes) {
   Columns<PoseError> errors;  // The two distances first, then the DOFs.
   for (const std::size_t k : {kRotation, kTranslation, 0UL, 1UL, 2UL, 3UL, 4UL, 5UL}) {
     errors.add({std::string(kMeasures[k].name) + "_error", kMeasures[k].unit},
@@ -87,7 +136,8 @@ Columns<TrialRecord> trial_columns() {
   return columns.add(id_columns(), &R::id)
       .add({"status"}, [](const R& record) { return status_name(record.status); })
       .add(errors, &R::error)
-      .add(pose_columns(), &R::T_reference_sensor);
+      .add(pose_columns(), &R::T_reference_sensor)
+      .add({"agrees"}, [&](const R& record) { return scenes.agrees(record); });
 }
 
 /// The trials that count, and their statistics.
@@ -105,7 +155,9 @@ Columns<SummaryRow> summary_columns(const Columns<SummaryRow>& consensus = {}) {
       .add({"reference"}, [](const SummaryRow& row) { return name_of(row.deviations_from); });
   columns.add(outcome_columns()).add(consensus).add(counted_columns());
   return columns.add(dof_columns("within_scene_std"), &SummaryRow::within_scene_std)
-      .add(dof_columns("across_scenes_std"), &SummaryRow::across_scenes_std);
+      .add(dof_columns("across_scenes_std"), &SummaryRow::across_scenes_std)
+      .add({"usable"}, &SummaryRow::usable)
+      .add(statistics_columns("usable_"), &SummaryRow::usable_statistics);
 }
 
 Columns<SceneKindSummary> scene_kind_columns() {
@@ -141,9 +193,33 @@ Columns<ErrorComparison> error_columns(const Measure& measure) {
   add("base_median", &E::base_median);
   add("variant_median", &E::variant_median);
   add("difference", &E::difference);
-  add("low", [](const E& error) { return error.interval.low; });
-  add("high", [](const E& error) { return error.interval.high; });
+  add("low", [](const E& error) { return low_of(error.interval); });
+  add("high", [](const E& error) { return high_of(error.interval); });
+  add("paired_difference", &E::paired_difference);
+  add("paired_low", [](const E& error) { return low_of(error.paired_interval); });
+  add("paired_high", [](const E& error) { return high_of(error.paired_interval); });
   return columns.add(test_columns(measure.name, path + "wilcoxon"), &E::test);
+}
+
+/// The 4x4 matrix of a pose.
+Eigen::Matrix4d homogeneous(const RigidTransform& T) {
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  matrix.topLeftCorner<3, 3>() = T.rotation;
+  matrix.topRightCorner<3, 1>() = T.translation;
+  return matrix;
+}
+
+/// The loop over the poses that all scenes agree on.
+Columns<LoopGap> gap_columns() {
+  Columns<LoopGap> columns;
+  columns.add({"agreed_closed", "", "/agreed/is_closed"}, &LoopGap::is_closed);
+  for (const std::size_t k : kDistances) {
+    const Measure& measure = kMeasures[k];
+    columns.add({std::string("agreed_") + measure.name, measure.unit,
+                 "/agreed/" + name_with_unit(measure), measure.decimals},
+                [k](const LoopGap& gap) { return gap.deviations[k]; });
+  }
+  return columns;
 }
 
 Json scenes_json(const SummaryRow& row) {
@@ -196,7 +272,51 @@ Columns<LoopClosure> loop_columns() {
       .add({"closed", "", "/closed/count"}, [](const L& loop) { return loop.closed.count; })
       .add(share_columns("closed"), &L::closed)
       .add({"counted"}, &L::counted)
-      .add(statistics_columns(), &L::statistics);
+      .add(statistics_columns(), &L::statistics)
+      .add({"scenes"}, &L::scenes)
+      .add({"scenes_closed"}, &L::scenes_closed)
+      .add(gap_columns(), &L::agreed);
+}
+
+Columns<AgreedPose> agreed_pose_columns() {
+  using A = AgreedPose;
+  const std::string path = "/T_reference_sensor";
+  Columns<RigidTransform> matrix;
+  for (const int i : {0, 1, 2, 3}) {
+    for (const int j : {0, 1, 2, 3}) {
+      const std::string index = std::to_string(i) + "/" + std::to_string(j);
+      matrix.add({"m" + std::to_string(i) + std::to_string(j), "", path + "/matrix/" + index},
+                 [=](const RigidTransform& T) { return homogeneous(T)(i, j); });
+    }
+  }
+  Columns<RigidTransform> angles;
+  for (const int i : {0, 1, 2}) {
+    angles.add(
+        {kMeasures[static_cast<std::size_t>(i)].name, "deg",
+         path + "/roll_pitch_yaw_deg/" + std::to_string(i), 3},
+        [=](const RigidTransform& T) { return deg_from_rad(rpy_from_rotation(T.rotation)(i)); });
+  }
+  const auto spread = [](double Agreeing::*of) {
+    return [=](const A& agreed) {
+      return agreed.agreeing.count > 0 ? std::optional<double>(agreed.agreeing.*of) : std::nullopt;
+    };
+  };
+  Columns<A> columns;
+  return columns.add(matrix, &A::pose)
+      .add(pose_columns(path, "/quaternion_xyzw"), &A::pose)
+      .add(angles, &A::pose)
+      .add({"trials"}, &A::trials)
+      .add({"agreeing"}, [](const A& agreed) { return agreed.agreeing.count; })
+      .add({"spread", "deg", "/spread/rotation_deg", 3}, spread(&Agreeing::rotation_deg))
+      .add({"spread", "m", "/spread/translation_m", 4}, spread(&Agreeing::translation_m));
+}
+
+AgreedPose agreed_pose(const SummaryRow& row) {
+  return {row.consensus, row.outcomes.trials, row.agreeing};
+}
+
+AgreedPose agreed_pose(const SceneSummary& scene) {
+  return {scene.consensus, scene.outcomes.trials, scene.agreeing};
 }
 
 Columns<CloudDescription> cloud_columns() {
@@ -226,6 +346,7 @@ Columns<ClaimResult> claim_columns() {
       .add({"sensor"}, [](const Claim& claim) { return nothing_if_empty(claim.sensor); })
       .add({"measure"}, [](const Claim& claim) { return nothing_if_empty(claim.measure); })
       .add({"statistic"}, &Claim::statistic)
+      .add({"over"}, [](const Claim& claim) { return word_of_over(claim.over); })
       .add({"unit"}, unit_of)
       .add({"expected", "", "", kAllDigits}, &Claim::value)
       .add({"low", "", "/band/0", kAllDigits},
@@ -241,7 +362,11 @@ Columns<ClaimResult> claim_columns() {
   Columns<R> columns;
   return columns.add(of_claim, &R::claim)
       .add({"found", "", "", kDecimals}, found)
-      .add({"verdict"}, [](const R& result) { return verdict_name(result.verdict); });
+      .add({"verdict"}, [](const R& result) { return verdict_name(result.verdict); })
+      .add({"trials"}, &R::trials)
+      .add({"scenes"}, &R::scenes)
+      .add({"success", "percent", "", 1}, &R::success_percent)
+      .add({"can_fail"}, &R::can_fail);
 }
 
 Columns<ReasonCount> reason_columns() {
@@ -257,6 +382,16 @@ bool has_deviations_from(const Table& table, DeviationsFrom from) {
   return std::any_of(table.rows.begin(), table.rows.end(), [&](const CellRow& row) {
     return row[k].value == Value(std::string(name_of(from)));
   });
+}
+
+std::vector<std::string> share_names(const Table& table) {
+  std::vector<std::string> names;
+  const bool has_consensus = has_deviations_from(table, DeviationsFrom::consensus);
+  if (!has_consensus || has_deviations_from(table, DeviationsFrom::truth)) {
+    names.emplace_back("success");
+  }
+  if (has_consensus) names.emplace_back("agreement");
+  return names;
 }
 
 std::string bounds_text(const SuccessBounds& bounds) {
@@ -277,8 +412,8 @@ std::string content_of(const Measure& measure, std::string content) {
   return content;
 }
 
-std::string trials_csv(const std::vector<TrialRecord>& records) {
-  return csv_of(trial_columns(), records);
+std::string trials_csv(const std::vector<TrialRecord>& records, const Summary& summary) {
+  return csv_of(trial_columns(ScenesByName(summary)), records);
 }
 
 std::string timings_csv(const std::vector<TimingRow>& rows) {
@@ -310,8 +445,35 @@ std::string basin_csv(const Basin& basin) {
       const Share& share = row.levels[static_cast<std::size_t>(level)];
       table.rows.push_back(cell_row(row.variant, row.sensor.empty() ? "all" : row.sensor, level,
                                     rounded_size(basin.sweep, level), size_unit(basin.sweep),
-                                    share.trials, share.count, share.ratio, share.interval.low,
-                                    share.interval.high));
+                                    share.trials, share.count, share.ratio, low_of(share.interval),
+                                    high_of(share.interval)));
+    }
+  }
+  return csv_table(table);
+}
+
+std::string success_curve_csv(const SuccessCurve& curve) {
+  Table table{{{"variant"},
+               {"sensor"},
+               {"of"},
+               {"rotation", "deg"},
+               {"translation", "m"},
+               {"trials"},
+               {"within"},
+               {"within", "ratio"},
+               {"within_low", "ratio"},
+               {"within_high", "ratio"}},
+              {}};
+  for (const CurveRow& row : curve.rows) {
+    for (std::size_t i = 0; i < row.shares.size(); ++i) {
+      const Share& share = row.shares[i];
+      const SuccessBounds& bounds = curve.thresholds[i];
+      const Cell rotation = row.of == CurveOf::translation ? Cell() : to_cell(bounds.rotation_deg);
+      const Cell translation = row.of == CurveOf::rotation ? Cell() : to_cell(bounds.translation_m);
+      table.rows.push_back(cell_row(row.variant, row.sensor.empty() ? "all" : row.sensor,
+                                    name_of(row.of), rotation, translation, share.trials,
+                                    share.count, share.ratio, low_of(share.interval),
+                                    high_of(share.interval)));
     }
   }
   return csv_table(table);

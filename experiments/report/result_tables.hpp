@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,21 @@ Column statistic_column(const Measure& measure, const std::string& statistic,
 /// Values of the DOFs that are called `name`, "roll_within_scene_std_deg".
 Columns<DofValues> dof_columns(const std::string& name);
 
+/// A pose that trials agree on, as extrinsics.json has it.
+struct AgreedPose {
+  std::optional<RigidTransform> pose;  ///< `T_reference_sensor`; std::nullopt if no trial has one.
+  int trials = 0;                      ///< All, those without a pose too.
+  Agreeing agreeing;
+};
+
+/// What all scenes agree on, and what the trials of one scene do.
+AgreedPose agreed_pose(const SummaryRow& row);
+AgreedPose agreed_pose(const SceneSummary& scene);
+
+/// Matrix, translation, quaternion (x, y, z, w with w >= 0), roll, pitch and yaw
+/// (R = Rz(yaw) Ry(pitch) Rx(roll)), how many trials agree, and their root mean square distances.
+Columns<AgreedPose> agreed_pose_columns();
+
 /// The columns of comparison.csv and of "comparisons" in summary.json; those of loops.csv; those of
 /// clouds.csv; those of "claims" and of "reasons" in summary.json.
 Columns<Comparison> comparison_columns();
@@ -37,6 +54,10 @@ Columns<ReasonCount> reason_columns();
 
 /// Whether a row of a table with a column "reference" has this one.
 bool has_deviations_from(const Table& table, DeviationsFrom from);
+
+/// The shares that a table with a column "reference" shows: "success", and "agreement" if a row has
+/// no truth.
+std::vector<std::string> share_names(const Table& table);
 
 /// "0.5 deg and 0.1 m of ", for a sentence.
 std::string bounds_text(const SuccessBounds& bounds);
@@ -61,8 +82,9 @@ void add_measures(View& view, const std::array<std::size_t, n>& measures,
 // The bytes of files.
 
 /// trials.csv: a header and a row per record in the order given. Error columns are empty without
-/// truth, pose columns if the trial did not finish; quaternions have qw >= 0.
-std::string trials_csv(const std::vector<TrialRecord>& records);
+/// truth, pose columns if the trial did not finish; quaternions have qw >= 0. The last column is
+/// whether the trial agrees with the consensus of its scene in `summary`, which is of the records.
+std::string trials_csv(const std::vector<TrialRecord>& records, const Summary& summary);
 
 /// timings.csv: a header and a row per timing in the order given.
 std::string timings_csv(const std::vector<TimingRow>& rows);
@@ -74,6 +96,12 @@ std::string summary_csv(const Summary& summary);
 /// whose name is "all".
 std::string summary_by_kind_csv(const Summary& summary);
 
+/// extrinsics.json: per variant and sensor the pose `T_reference_sensor` that the trials of all
+/// scenes agree on, its spread and how many agree, and the same for each scene. `references` has
+/// the name of the sensor that each is calibrated to.
+std::string extrinsics_json(const Summary& summary,
+                            const std::map<std::string, std::string>& references);
+
 /// comparison.csv: one row per variant and sensor, and one over all sensors, whose name is "all".
 /// "inf" is the error of a trial without a usable result.
 std::string comparison_csv(const Summary& summary);
@@ -83,6 +111,10 @@ std::string loops_csv(const Summary& summary);
 
 /// basin.csv: a row per variant, sensor ("all" for all together) and level.
 std::string basin_csv(const Basin& basin);
+
+/// success_curve.csv: a row per variant, sensor ("all" for all together), what is bounded
+/// (rotation, translation or both) and threshold; a bound that is not there is empty.
+std::string success_curve_csv(const SuccessCurve& curve);
 
 /// clouds.csv of `croon describe`: a row per cloud.
 std::string clouds_csv(const std::vector<CloudDescription>& clouds);

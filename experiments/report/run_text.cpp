@@ -78,7 +78,8 @@ std::string basin_text(const Basin& basin, const TableStyle& style) {
   const char* const what = basin.sweep.of == SweepOf::rotation ? "rotated by" : "moved by";
   return "success in % of starts " + std::string(what) + " ... " + unit +
          "; radius: up to there, at least " + fixed_number(100.0 * kBasinRatio, 0) +
-         " % at each level\n" + text_table(table, whole_view(table), style.colours);
+         " % at each level of the success at the first\n" +
+         text_table(table, whole_view(table), style.colours);
 }
 
 std::string clouds_text(const std::vector<CloudDescription>& clouds) {

@@ -50,12 +50,25 @@ std::string p_text(const PairedTest& test) {
   return (test.p_holm < 0.001 ? "<0.001" : fixed_number(test.p_holm, 3)) + mark;
 }
 
+/// The median of the paired differences with its interval, if there is one.
+std::string difference_text(const ErrorComparison& error, const Measure& measure) {
+  const auto text = [&](double value) { return fixed_number(value, measure.decimals + 1); };
+  const std::string difference = text(error.paired_difference);
+  if (!error.paired_interval) return difference;
+  return difference + " [" + text(error.paired_interval->low) + ", " +
+         text(error.paired_interval->high) + "]";
+}
+
 std::string comparison_text(const Summary& summary, const TableStyle& style) {
   using C = Comparison;
   Columns<C> columns = comparison_columns();
   columns.add({"p_success"}, [](const C& c) { return p_text(c.success); })
       .add({"p_rotation"}, [](const C& c) { return p_text(c.rotation_deg.test); })
-      .add({"p_translation"}, [](const C& c) { return p_text(c.translation_m.test); });
+      .add({"p_translation"}, [](const C& c) { return p_text(c.translation_m.test); })
+      .add({"d_rotation"},
+           [](const C& c) { return difference_text(c.rotation_deg, kMeasures[kRotation]); })
+      .add({"d_translation"},
+           [](const C& c) { return difference_text(c.translation_m, kMeasures[kTranslation]); });
   Table of_all_sensors{columns.columns(), {}};
   for (const C& comparison : summary.comparisons) {
     if (comparison.sensor.empty()) of_all_sensors.rows.push_back(columns.cells(comparison));
@@ -63,7 +76,7 @@ std::string comparison_text(const Summary& summary, const TableStyle& style) {
   View view{{{"pairs"}, {"won", "<only_variant>"}, {"lost", "<only_base>"}, {"p", "<p_success>"}},
             0};
   for (const std::size_t k : kDistances) {
-    add_measures(view, std::array{k}, "<difference> [<low>, <high>]");
+    view.columns.push_back({title_of(kMeasures[k]), std::string("<d_") + kMeasures[k].name + ">"});
     view.columns.push_back({"p", std::string("<p_") + kMeasures[k].name + ">"});
   }
   return text_by_variant(of_all_sensors, view, summary, style) +
@@ -77,7 +90,12 @@ std::string loop_text(const Summary& summary, const TableStyle& style) {
              {"%", "<closed_ratio>"},
              {"95 % interval", "[<closed_low_ratio>, <closed_high_ratio>]"}}};
   add_measures(view, kDistances, "<median>, <p95>");
-  return text_by_variant(loop_columns().table(summary.loops), view, summary, style);
+  view.columns.push_back({"scenes", "<scenes_closed>/<scenes>"});
+  view.columns.push_back({"agreed deg, m", "<agreed_rotation_deg>, <agreed_translation_m>"});
+  return text_by_variant(loop_columns().table(summary.loops), view, summary, style) +
+         "scenes: closed over what the trials of the scene agree on; agreed: the loop over what "
+         "all "
+         "scenes agree on\n";
 }
 
 /// Adds a column for each title, which may be the name of another column too.
@@ -87,6 +105,28 @@ void add_titled(Table& table, View& view, const std::vector<std::string>& titles
     table.columns.push_back({name, "", "", decimals});
     view.columns.push_back({title, "<" + name + ">"});
   }
+}
+
+/// The poses that all scenes agree on, of the rows without truth.
+std::string agreed_text(const Summary& summary, const TableStyle& style) {
+  Columns<SummaryRow> columns;
+  columns.add({"variant"}, &SummaryRow::variant)
+      .add({"sensor"}, &SummaryRow::sensor)
+      .add(agreed_pose_columns(), [](const SummaryRow& row) { return agreed_pose(row); });
+  Table table{columns.columns(), {}};
+  for (const SummaryRow& row : summary.rows) {
+    if (lacks_truth(row)) table.rows.push_back(columns.cells(row));
+  }
+  const View view{{{"sensor"},
+                   {"x m", "<tx_m>"},
+                   {"y m", "<ty_m>"},
+                   {"z m", "<tz_m>"},
+                   {"roll deg", "<roll_deg>"},
+                   {"pitch deg", "<pitch_deg>"},
+                   {"yaw deg", "<yaw_deg>"},
+                   {"agreeing", "<agreeing>/<trials>"},
+                   {"spread deg, m", "<spread_deg>, <spread_m>"}}};
+  return text_by_variant(table, view, summary, style);
 }
 
 /// Success in % per variant, kind of scene (rows) and sensor (columns).
@@ -186,6 +226,25 @@ std::string reason_text(const Summary& summary, const TableStyle& style) {
   return text;
 }
 
+/// The share, its interval, and how the other trials ended.
+View outcomes_view(const Table& table) {
+  View view{{{"sensor"}}};
+  const auto add = [&](const std::string& title, const std::string& content = "") {
+    view.columns.push_back({title, content});
+  };
+  const std::vector<std::string> shares = share_names(table);
+  for (const std::string& share : shares) {
+    add(share, "<" + share + ">/<trials>");
+    add("%", "<" + share + "_percent>");
+    add("95 % interval", "[<" + share + "_low_percent>, <" + share + "_high_percent>]");
+  }
+  if (shares.front() == "success") add("inaccurate");
+  add("rejected");
+  add("failed");
+  add_measures(view, kDistances, "<median>, <p95>");
+  return view;
+}
+
 }  // namespace
 
 std::string summary_text(const Summary& summary, const TableStyle& style) {
@@ -213,29 +272,29 @@ std::string summary_text(const Summary& summary, const TableStyle& style) {
     text += "success: " + bounds + "the truth; errors of those trials\n";
   }
   if (has_consensus) {
-    text += "success (no truth): " + bounds +
+    text += "agreement (no truth): " + bounds +
             "what the trials of the scene agree on;\n  deviations of those "
             "trials from what all "
             "scenes agree on\n";
   }
-  View outcomes{{{"sensor"},
-                 {"success", "<success>/<trials>"},
-                 {"%", "<success_percent>"},
-                 {"95 % interval", "[<success_low_percent>, <success_high_percent>]"},
-                 {"inaccurate"},
-                 {"rejected"},
-                 {"failed"}}};
-  add_measures(outcomes, kDistances, "<median>, <p95>");
-  text += "rotation, translation: median, 95th percentile\n\n" + rows_text(outcomes) +
-          "\nmean ± std\n" + dofs_text("<mean> ±<std>", false);
+  const std::vector<std::string> shares = share_names(table);
+  const std::string share = shares.size() == 1 ? shares.front() : "success (no truth: agreement)";
+  text += "rotation, translation: median, 95th percentile\n\n" + rows_text(outcomes_view(table));
+  const bool lacks_interval =
+      any_row([](const SummaryRow& row) { return !main_share(row).interval; });
+  if (lacks_interval) {
+    text += "no interval: trials of one scene are alike, and there are fewer than " +
+            std::to_string(kLeastScenes) + " scenes\n";
+  }
+  text += "\nmean ± std\n" + dofs_text("<mean> ±<std>", false);
   if (has_scenes && has_spread) {
     text += "\nstd within scenes / across scenes\n" +
             dofs_text("<within_scene_std> / <across_scenes_std>", true);
   }
   if (!summary.comparisons.empty()) {
     text += "\nagainst " + summary.comparisons.front().base +
-            ", pair by pair: difference of medians [95 % interval], failures "
-            "as infinite\n";
+            ", pair by pair: median difference [95 % interval over scenes], "
+            "failures as infinite\n";
     if (has_consensus) {
       text +=
           "  (no truth: of the distances to what the variant's own trials "
@@ -249,9 +308,14 @@ std::string summary_text(const Summary& summary, const TableStyle& style) {
             "the identity; how far loops are from it\n" + loop_text(summary, style);
   }
   if (!summary.scene_kinds.empty()) {
-    text += "\nby kind of scene: success in %\n" + scene_kind_text(summary, style);
+    text += "\nby kind of scene: " + share + " in %\n" + scene_kind_text(summary, style);
   }
-  if (has_scenes) text += "\nsuccess per scene\n" + scene_text(summary, style);
+  if (has_scenes) text += "\n" + share + " per scene\n" + scene_text(summary, style);
+  if (has_consensus) {
+    text += "\nresult: T_reference_sensor that all scenes agree on; agreeing: trials " + bounds +
+            "it;\n  spread: their root mean square distance from it (extrinsics.json)\n" +
+            agreed_text(summary, style);
+  }
   return text + reason_text(summary, style);
 }
 

@@ -70,8 +70,10 @@ void finish(TrialRecord& record, const Estimate& estimate, const SensorScan& sca
   }
   record.T_reference_sensor = estimate.T_target_source;
   if (scan.truth) record.error = pose_error(estimate.T_target_source, *scan.truth);
-  const bool is_good = !record.error || is_within(*record.error, bounds);
-  record.status = is_good ? Status::success : Status::inaccurate;
+  record.status = Status::finished;
+  if (record.error) {
+    record.status = is_within(*record.error, bounds) ? Status::success : Status::inaccurate;
+  }
   if (estimate.rejection) {
     record.status = Status::rejected;
     record.reason = *estimate.rejection;

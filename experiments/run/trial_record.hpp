@@ -26,15 +26,16 @@ using TrialIndex = std::tuple<std::size_t, std::size_t, std::size_t, int>;
 
 /// How a trial ended.
 enum class Status {
-  success,     ///< Finished within the success bounds; without truth: finished.
+  success,     ///< Finished within the success bounds of the truth.
   inaccurate,  ///< Finished outside them.
+  finished,    ///< Finished, and there is no truth to judge the pose by.
   rejected,    ///< The program itself says not to trust the pose.
   failed       ///< A stage could not go on.
 };
 
 /// The words for Status, in its order, as files, tables and the store have them.
-inline constexpr std::array<const char*, 4> kStatusNames = {"success", "inaccurate", "rejected",
-                                                            "failed"};
+inline constexpr std::array<const char*, 5> kStatusNames = {"success", "inaccurate", "finished",
+                                                            "rejected", "failed"};
 
 inline const char* status_name(Status status) {
   return kStatusNames.at(static_cast<std::size_t>(status));

@@ -123,10 +123,12 @@ void Store::merge(const fs::path& shard, const StoreHeader& from) {
   const Attachment attachment(database_, shard, "shard");
   Transaction transaction(database_);
   database_.run(id_maps("shard"));
-  const std::string rows = with_main_ids("shard", "trials", result_columns());
+  const std::string rows = with_main_ids("shard", "trials", current_results());
   {
     Statement doubled = database_.prepare("SELECT count(*) FROM (" + rows +
-                                          " EXCEPT SELECT * FROM main.trials) s JOIN main.trials m"
+                                          " EXCEPT SELECT variant, scene, sensor, trial, " +
+                                          current_results() +
+                                          " FROM main.trials) s JOIN main.trials m"
                                           " USING(variant, scene, sensor, trial)");
     doubled.next();
     if (doubled.integer(0) > 0) {
@@ -186,7 +188,7 @@ void rewrite_in_order(const fs::path& path) {
     const Attachment attachment(database, path, "old");
     Transaction transaction(database);
     database.run(header_tables() + record_tables() + copy_of_header("old") + id_maps("old") +
-                 "INSERT INTO main.trials " + with_main_ids("old", "trials", result_columns()) +
+                 "INSERT INTO main.trials " + with_main_ids("old", "trials", current_results()) +
                  " ORDER BY 1, 2, 3, 4; INSERT INTO main.steps " +
                  with_main_ids("old", "steps", kStepColumns) + " ORDER BY 1, 2, 3, 4, 5");
     transaction.commit();

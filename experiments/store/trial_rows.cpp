@@ -94,6 +94,15 @@ const std::string& result_columns() {
   return columns;
 }
 
+const std::string& current_results() {
+  // The first of the columns is the status.
+  static const std::string columns =
+      "CASE WHEN status = 'success' AND rotation_error_rad IS NULL THEN 'finished' ELSE status END "
+      "AS " +
+      result_columns();
+  return columns;
+}
+
 std::string record_tables() {
   const std::string key = kKey;
   return "CREATE TABLE IF NOT EXISTS trials(" + key + ", " + result_columns() +
@@ -130,7 +139,7 @@ void RecordInserter::add(const TrialRow& row, const TrialRecord& record) {
 }
 
 Statement select_results(const Database& database) {
-  return database.prepare("SELECT variant, scene, sensor, trial, " + result_columns() +
+  return database.prepare("SELECT variant, scene, sensor, trial, " + current_results() +
                           " FROM trials");
 }
 

@@ -19,6 +19,10 @@ struct TrialRow {
 /// (the rotation by rows, m). Error and pose are null if the trial has none.
 const std::string& result_columns();
 
+/// SQL that selects these columns as today's program writes them: a `success` without an error, as
+/// older stores have it, is `finished`.
+const std::string& current_results();
+
 /// SQL that creates the tables `trials` and `steps` if they do not exist, and views on them with
 /// names in place of ids.
 std::string record_tables();

@@ -70,15 +70,19 @@ double median(std::vector<double> values) { return percentile(std::move(values),
 Interval wilson_interval(int successes, int trials) {
   if (successes < 0 || successes > trials) throw std::logic_error("more successes than trials");
   if (trials == 0) return {0.0, 1.0};
+  return wilson_interval(successes / static_cast<double>(trials), static_cast<double>(trials));
+}
+
+Interval wilson_interval(double proportion, double trials) {
   const double z = 1.959963984540054;  // The normal distribution's 97.5 % quantile.
   const double n = trials;
-  const double p = successes / n;
+  const double p = proportion;
   const double centre = p + z * z / (2.0 * n);
   const double half_width = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
   const double scale = 1.0 + z * z / n;
   // At the ends the two terms are equal, and only rounding would keep them from 0 and 1.
-  return {successes == 0 ? 0.0 : (centre - half_width) / scale,
-          successes == trials ? 1.0 : (centre + half_width) / scale};
+  return {p == 0.0 ? 0.0 : (centre - half_width) / scale,
+          p == 1.0 ? 1.0 : (centre + half_width) / scale};
 }
 
 BoxPlot box_plot(std::vector<double> values) {

@@ -37,6 +37,10 @@ struct Interval {
 /// there were no trials.
 Interval wilson_interval(int successes, int trials);
 
+/// The same of a proportion in [0, 1] that is known as well as one of `trials` independent trials,
+/// more than 0 and not always a whole number.
+Interval wilson_interval(double proportion, double trials);
+
 /// The numbers of a box plot (Tukey 1977).
 struct BoxPlot {
   double lower_quartile;

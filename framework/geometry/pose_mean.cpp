@@ -21,16 +21,42 @@ void require_poses(const std::vector<RigidTransform>& poses) {
   if (poses.empty()) throw std::logic_error("a mean of no poses");
 }
 
+/// A pose and the number of its votes.
+struct Vote {
+  RigidTransform pose;
+  double weight = 1.0;
+};
+
+bool is_before(const Vote& a, const Vote& b) {
+  const RigidTransform &p = a.pose, &q = b.pose;
+  if (p.translation != q.translation) {
+    return std::lexicographical_compare(p.translation.data(), p.translation.data() + 3,
+                                        q.translation.data(), q.translation.data() + 3);
+  }
+  if (p.rotation != q.rotation) {
+    return std::lexicographical_compare(p.rotation.data(), p.rotation.data() + 9, q.rotation.data(),
+                                        q.rotation.data() + 9);
+  }
+  return a.weight < b.weight;
+}
+
 /// A fixed order, so that sums do not depend on the order that the poses came in.
-std::vector<RigidTransform> in_fixed_order(std::vector<RigidTransform> poses) {
-  std::sort(poses.begin(), poses.end(), [](const RigidTransform& a, const RigidTransform& b) {
-    if (a.translation != b.translation) {
-      return std::lexicographical_compare(a.translation.data(), a.translation.data() + 3,
-                                          b.translation.data(), b.translation.data() + 3);
-    }
-    return std::lexicographical_compare(a.rotation.data(), a.rotation.data() + 9, b.rotation.data(),
-                                        b.rotation.data() + 9);
-  });
+std::vector<Vote> in_fixed_order(const std::vector<RigidTransform>& poses,
+                                 const std::vector<double>& weights = {}) {
+  if (!weights.empty() && weights.size() != poses.size()) {
+    throw std::logic_error("not one weight per pose");
+  }
+  std::vector<Vote> votes;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    votes.push_back({poses[i], weights.empty() ? 1.0 : weights[i]});
+  }
+  std::sort(votes.begin(), votes.end(), is_before);
+  return votes;
+}
+
+std::vector<RigidTransform> poses_of(const std::vector<Vote>& votes) {
+  std::vector<RigidTransform> poses;
+  for (const Vote& vote : votes) poses.push_back(vote.pose);
   return poses;
 }
 
@@ -54,9 +80,9 @@ double distance_in_bounds(const QuaternionPose& a, const QuaternionPose& b,
 }
 
 /// Evenly spaced poses of the sorted ones; all of them if they are few.
-std::vector<RigidTransform> sample_of(const std::vector<RigidTransform>& ordered) {
+std::vector<Vote> sample_of(const std::vector<Vote>& ordered) {
   if (ordered.size() <= kMedoidSample) return ordered;
-  std::vector<RigidTransform> sample;
+  std::vector<Vote> sample;
   for (std::size_t i = 0; i < kMedoidSample; ++i) {
     sample.push_back(ordered[i * ordered.size() / kMedoidSample]);
   }
@@ -64,18 +90,18 @@ std::vector<RigidTransform> sample_of(const std::vector<RigidTransform>& ordered
 }
 
 /// The index of the pose with the most others near it; see `consensus_pose`.
-std::size_t medoid(const std::vector<RigidTransform>& poses, const PoseBounds& bounds) {
+std::size_t medoid(const std::vector<Vote>& votes, const PoseBounds& bounds) {
   std::vector<QuaternionPose> quaternions;
-  for (const RigidTransform& pose : poses) {
-    quaternions.push_back({Eigen::Quaterniond(pose.rotation), pose.translation});
+  for (const Vote& vote : votes) {
+    quaternions.push_back({Eigen::Quaterniond(vote.pose.rotation), vote.pose.translation});
   }
-  std::vector<std::pair<double, double>> cost(poses.size(), {0.0, 0.0});
-  for (std::size_t i = 0; i < poses.size(); ++i) {
+  std::vector<std::pair<double, double>> cost(votes.size(), {0.0, 0.0});
+  for (std::size_t i = 0; i < votes.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const double distance = distance_in_bounds(quaternions[i], quaternions[j], bounds);
-      for (const std::size_t k : {i, j}) {
-        cost[k].first += std::min(1.0, distance);
-        cost[k].second += distance;
+      for (const auto& [k, other] : {std::pair(i, j), std::pair(j, i)}) {
+        cost[k].first += votes[other].weight * std::min(1.0, distance);
+        cost[k].second += votes[other].weight * distance;
       }
     }
   }
@@ -111,17 +137,18 @@ Eigen::Matrix3d mean_rotation(const std::vector<RigidTransform>& poses) {
 
 RigidTransform mean_pose(const std::vector<RigidTransform>& poses) {
   require_poses(poses);
-  return mean_of_ordered(in_fixed_order(poses));
+  return mean_of_ordered(poses_of(in_fixed_order(poses)));
 }
 
-RigidTransform consensus_pose(const std::vector<RigidTransform>& poses, const PoseBounds& bounds) {
+RigidTransform consensus_pose(const std::vector<RigidTransform>& poses, const PoseBounds& bounds,
+                              const std::vector<double>& weights) {
   require_poses(poses);
-  const std::vector<RigidTransform> ordered = in_fixed_order(poses);
-  const std::vector<RigidTransform> sample = sample_of(ordered);
-  const RigidTransform& centre = sample[medoid(sample, bounds)];
+  const std::vector<Vote> ordered = in_fixed_order(poses, weights);
+  const std::vector<Vote> sample = sample_of(ordered);
+  const RigidTransform centre = sample[medoid(sample, bounds)].pose;
   std::vector<RigidTransform> near;
-  for (const RigidTransform& pose : ordered) {
-    if (agree(pose, centre, bounds)) near.push_back(pose);
+  for (const Vote& vote : ordered) {
+    if (agree(vote.pose, centre, bounds)) near.push_back(vote.pose);
   }
   // Rounding may put a pose a hair off itself, and bounds may be zero.
   return near.empty() ? centre : mean_of_ordered(near);

@@ -30,8 +30,10 @@ RigidTransform mean_pose(const std::vector<RigidTransform>& poses);
 /// The pose that most poses agree on, robust against outliers: the pose with the most others near
 /// it (the smallest sum of `min(1, distance / bounds)`, ties by the smallest sum of distances),
 /// then the mean of those within `bounds` of it. Of more than 2000 poses the first is looked for
-/// among a sample, evenly spaced by x, and the mean is over all. The same bits for any order of the
-/// poses. Throws std::logic_error if `poses` is empty.
-RigidTransform consensus_pose(const std::vector<RigidTransform>& poses, const PoseBounds& bounds);
+/// among a sample, evenly spaced by x, and the mean is over all. `weights`, one per pose, are how
+/// many votes a pose has in the search of the first; all have one if there are none. The same bits
+/// for any order of the poses. Throws std::logic_error if `poses` is empty.
+RigidTransform consensus_pose(const std::vector<RigidTransform>& poses, const PoseBounds& bounds,
+                              const std::vector<double>& weights = {});
 
 }  // namespace croon

@@ -17,7 +17,7 @@ TrialRecord finished(const TrialId& id, Status status, const RigidTransform& tru
 TrialRecord finished_without_truth(const TrialId& id, const RigidTransform& pose) {
   TrialRecord record;
   record.id = id;
-  record.status = Status::success;
+  record.status = Status::finished;
   record.T_reference_sensor = pose;
   return record;
 }

@@ -12,18 +12,20 @@ namespace {
 
 const Sweep kSweep{SweepOf::rotation, 0.0, 30.0, 4};
 
-/// 40 trials per level: `base` fails at none, none, 2 and 3 of them, `lost` at all.
+/// 40 trials per level, each in a scene of its own: `base` fails at none, none, 2 and 3 of them,
+/// `lost` at all.
 std::vector<TrialRecord> records_of(const std::vector<std::string>& sensors) {
   constexpr std::array<int, 4> kFailures = {0, 0, 2, 3};
   std::vector<TrialRecord> records;
   for (const std::string& sensor : sensors) {
     for (int trial = 0; trial < 160; ++trial) {
       const bool is_good = trial / 4 >= kFailures[trial % 4];
-      records.push_back(test::finished({"base", "a", sensor, trial},
+      const std::string scene = std::to_string(trial / 4);
+      records.push_back(test::finished({"base", scene, sensor, trial},
                                        is_good ? Status::success : Status::inaccurate, {},
                                        Vector6d::Zero()));
       records.push_back(
-          test::unfinished({"lost", "a", sensor, trial}, Status::failed, "no ground"));
+          test::unfinished({"lost", scene, sensor, trial}, Status::failed, "no ground"));
     }
   }
   return records;
@@ -59,6 +61,21 @@ TEST(Basin, EndsBeforeTheFirstLevelBelow95Percent) {
   BasinRow gap = basin->rows[0];
   gap.levels[1].count = 37;
   EXPECT_EQ(basin_radius(kSweep, gap), 0.0);
+}
+
+TEST(Basin, HasARadiusThoughOneSceneAlwaysFails) {
+  std::vector<TrialRecord> records = records_of({"left"});
+  for (int trial = 0; trial < 160; ++trial) {
+    for (const char* variant : {"base", "lost"}) {
+      records.push_back(test::unfinished({variant, "narrow", "left", trial}, Status::failed, "no"));
+    }
+  }
+  const auto basin = basin_of(records, kSweep, {});
+  ASSERT_TRUE(basin);
+  EXPECT_EQ(basin->rows[0].levels[0].count, 40);
+  EXPECT_EQ(basin->rows[0].levels[0].trials, 80);
+  EXPECT_EQ(basin_radius(kSweep, basin->rows[0]), 20.0);
+  EXPECT_EQ(basin_radius(kSweep, basin->rows[2]), std::nullopt);
 }
 
 TEST(Basin, LeavesOutSensorsWithoutTruth) {

@@ -130,7 +130,8 @@ Claim expectation(const std::string& statistic, const std::string& measure = "",
 
 double found(const Summary& summary, const Claim& one) {
   const ClaimResult result = check_claims({one}, summary).front();
-  EXPECT_EQ(result.verdict, Verdict::in);
+  EXPECT_NE(result.verdict, Verdict::not_measured);
+  EXPECT_NE(result.verdict, Verdict::out);
   return result.found.value_or(std::nan(""));
 }
 
@@ -188,7 +189,7 @@ TEST(Claims, TheSpreadOfAPoseIsThatOfItsDofsTogether) {
   }
 }
 
-TEST(Claims, WithoutTruthSuccessIsAgreement) {
+TEST(Claims, WithoutTruthThereIsAgreementAndNoSuccess) {
   Rng rng = test_rng(4);
   std::vector<TrialRecord> records;
   for (int trial = 0; trial < 10; ++trial) {
@@ -198,8 +199,11 @@ TEST(Claims, WithoutTruthSuccessIsAgreement) {
         test::finished_without_truth({"base", "s", "left", trial}, moved({}, offset)));
   }
   const Summary summary = summary_of(records);
-  EXPECT_EQ(found(summary, expectation("success")), 90.0);
-  EXPECT_EQ(found(summary, expectation("scenes")), 0.0);
+  EXPECT_EQ(found(summary, expectation("agreement")), 90.0);
+  for (const char* statistic : {"success", "scenes"}) {
+    const ClaimResult result = check_claims({expectation(statistic)}, summary).front();
+    EXPECT_EQ(result.verdict, Verdict::not_measured) << statistic;
+  }
   EXPECT_LT(found(summary, expectation("within_scene_std", "rotation")), 0.02);
 }
 
@@ -207,6 +211,7 @@ TEST(Claims, BandsAreClosed) {
   Rng rng = test_rng(5);
   const Summary summary = summary_of(random_records(rng));
   Claim one = expectation("std", "yaw");
+  EXPECT_EQ(check_claims({one}, summary).front().verdict, Verdict::shown);
   const double value = found(summary, one);
   const auto verdict = [&](double low, double high) {
     one.band = {low, high};
@@ -235,6 +240,59 @@ TEST(Claims, WhatTheRunLacksIsNotMeasured) {
   EXPECT_TRUE(is_missing(failed, expectation("mean", "yaw")));
   EXPECT_TRUE(is_missing(failed, expectation("across_scenes_std", "yaw")));
   EXPECT_EQ(found(failed, expectation("success")), 0.0);
+}
+
+/// `trials` trials of each of `scenes` scenes, the last of each 0.3 m off, the others up to 4 cm.
+Summary mostly_good(int scenes, int trials) {
+  std::vector<TrialRecord> records;
+  for (int scene = 0; scene < scenes; ++scene) {
+    for (int trial = 0; trial < trials; ++trial) {
+      const bool is_good = trial + 1 < trials;
+      const double x_m = is_good ? 0.01 * (trial % 5) : 0.3;
+      records.push_back(test::finished({"base", std::to_string(scene), "left", trial},
+                                       is_good ? Status::success : Status::inaccurate, {},
+                                       test::offset_of(0, 0, 0, x_m, 0, 0)));
+    }
+  }
+  return summary_of(records);
+}
+
+TEST(Claims, ABandThatNoResultCanMissIsNoVerdict) {
+  const Summary summary = mostly_good(8, 10);
+  Claim one = expectation("std", "x");
+  const auto result = [&](double high) {
+    one.band = {0.0, high};
+    return check_claims({one}, summary).front();
+  };
+  // Successful trials are within 0.1 m, so their std is at most 0.1 m times sqrt(72 / 71).
+  EXPECT_EQ(result(0.107).verdict, Verdict::shown);
+  EXPECT_FALSE(result(0.107).can_fail);
+  EXPECT_EQ(result(0.09).verdict, Verdict::in);
+  EXPECT_EQ(result(0.01).verdict, Verdict::out);
+  EXPECT_EQ(result(0.09).trials, 72);
+  EXPECT_EQ(result(0.09).scenes, 8);
+  EXPECT_EQ(result(0.09).success_percent, 90.0);
+  one.over = Over::usable;
+  EXPECT_TRUE(result(0.107).can_fail);
+  EXPECT_EQ(result(0.107).trials, 80);
+  EXPECT_EQ(result(0.107).verdict, Verdict::in);
+  EXPECT_EQ(result(0.08).verdict, Verdict::out);  // 0.3 m in a tenth of the trials: 0.086 m.
+}
+
+TEST(Claims, OfFewTrialsOrScenesIsNoVerdict) {
+  const auto verdict = [](const char* statistic, int scenes, int trials) {
+    Claim one = expectation(statistic, is_share(statistic) ? "" : "x");
+    one.band = {0.0, is_share(statistic) ? 99.0 : 0.09};
+    return check_claims({one}, mostly_good(scenes, trials)).front().verdict;
+  };
+  for (const char* statistic : {"std", "success", "scenes", "across_scenes_std"}) {
+    EXPECT_EQ(verdict(statistic, 2, 3), Verdict::not_enough) << statistic;
+    EXPECT_EQ(verdict(statistic, 5, 10), Verdict::not_enough) << statistic;
+    EXPECT_EQ(verdict(statistic, 6, 2), Verdict::not_enough) << statistic;
+    EXPECT_EQ(verdict(statistic, 6, 10), Verdict::in) << statistic;
+  }
+  EXPECT_EQ(verdict("within_scene_std", 2, 10), Verdict::not_enough);
+  EXPECT_EQ(verdict("within_scene_std", 2, 40), Verdict::in);
 }
 
 Quoted board() {
@@ -266,13 +324,21 @@ TEST(Claims, OurRowIsThatOfAllSensorsOfTheFirstVariant) {
   EXPECT_FALSE(row_beside(board(), {}));
 }
 
+ClaimResult result_of(const Claim& claim, std::optional<double> found, Verdict verdict) {
+  ClaimResult result;
+  result.claim = claim;
+  result.found = found;
+  result.verdict = verdict;
+  return result;
+}
+
 /// One claim of each verdict.
 std::vector<ClaimResult> one_of_each() {
-  std::vector<ClaimResult> results(3, {expectation("std", "yaw"), 0.25, Verdict::in});
+  std::vector<ClaimResult> results(3, result_of(expectation("std", "yaw"), 0.25, Verdict::in));
   results[1].claim.claim = "yaw | of the front";
   results[1].claim.why = "scenes of our own";
   results[1].verdict = Verdict::out;
-  results[2] = {expectation("success"), std::nullopt, Verdict::not_measured};
+  results[2] = result_of(expectation("success"), std::nullopt, Verdict::not_measured);
   results[2].claim.why = "scenes of our own";
   return results;
 }
@@ -283,6 +349,7 @@ TEST(Claims, TheTableHasALineForEachAndQuotedRowsBesideOurs) {
   EXPECT_NE(table.find("claims: 1 in, 1 out, 1 not measured\n"), std::string::npos) << table;
   EXPECT_NE(table.find("0 deg  [-1000, 1000]  0.25000            in\n"), std::string::npos)
       << table;
+  EXPECT_NE(table.find("fewer than 30 trials or 6 scenes"), std::string::npos);
   EXPECT_NE(table.find("0 %  [-1000, 1000]        -  not measured\n"), std::string::npos) << table;
   const std::size_t quoted = table.find("a | board");
   ASSERT_NE(quoted, std::string::npos);
@@ -305,10 +372,10 @@ TEST(Claims, OutIsRedWhereThereAreColours) {
 
 TEST(Claims, MarkdownTellsEachReasonOnce) {
   const std::string text = claims_markdown(one_of_each(), {board()}, {});
-  EXPECT_NE(
-      text.find("| yaw \\| of the front | a source | 0 deg | \\[-1000, 1000\\] | 0.25000 | out | "
-                "1 |\n"),
-      std::string::npos)
+  EXPECT_NE(text.find("| yaw \\| of the front | a source | 0 | 0 | - | 0 deg | \\[-1000, 1000\\] | "
+                      "0.25000 | out | "
+                      "1 |\n"),
+            std::string::npos)
       << text;
   EXPECT_NE(text.find("\n1. scenes of our own\n"), std::string::npos) << text;
   EXPECT_EQ(text.find("2. scenes"), std::string::npos) << text;

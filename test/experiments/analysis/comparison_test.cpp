@@ -120,7 +120,7 @@ TEST(Comparison, SwappedVariantsFlipTheDifference) {
       for (const auto error : {&Comparison::rotation_deg, &Comparison::translation_m}) {
         const ErrorComparison &a = there[i].*error, &b = back[i].*error;
         EXPECT_EQ(a.difference, -b.difference);
-        EXPECT_EQ(a.interval.low, -b.interval.high);
+        EXPECT_EQ(a.interval->low, -b.interval->high);
         EXPECT_EQ(a.test.p, b.test.p);
         EXPECT_EQ(a.test.p_by_scene, b.test.p_by_scene);
       }
@@ -142,7 +142,7 @@ TEST(Comparison, FailuresAreInfiniteNotDropped) {
   EXPECT_EQ(all.only_variant, 0);
   EXPECT_EQ(all.rotation_deg.variant_median, kInf);
   EXPECT_EQ(all.rotation_deg.difference, kInf);
-  EXPECT_EQ(all.rotation_deg.interval.high, kInf);
+  EXPECT_EQ(all.rotation_deg.interval->high, kInf);
   EXPECT_TRUE(holds_by_scene(all.rotation_deg.test));
   EXPECT_TRUE(holds_by_scene(all.success));
 }
@@ -151,7 +151,7 @@ TEST(Comparison, WithoutTruthErrorsAreFromTheOwnConsensus) {
   Rng rng = test_rng();
   const auto records = random_records(rng, {20, 6, 3.0, 0.0, false});
   const Comparison all = compared(records).back();
-  EXPECT_GT(all.rotation_deg.interval.low, 0.0);
+  EXPECT_GT(all.rotation_deg.interval->low, 0.0);
   EXPECT_TRUE(holds_by_scene(all.translation_m.test));
   // A motion of all that one variant found changes nothing: there is no truth to tell.
   auto elsewhere = records;

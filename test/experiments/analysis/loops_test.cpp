@@ -14,11 +14,12 @@ using croon::test::random_pose;
 using croon::test::test_rng;
 using test::kBounds;
 
-/// Three links of `trials` loops in each of two scenes; the pair is off by `gap`, as the loop is.
-std::vector<TrialRecord> records_with(const Vector6d& gap, int trials) {
+/// Three links of `trials` loops in each of some scenes; the pair is off by `gap`, as the loop is.
+std::vector<TrialRecord> records_with(const Vector6d& gap, int trials, int scenes = 2) {
   Rng rng = test_rng();
   std::vector<TrialRecord> records;
-  for (const char* scene : {"0", "1"}) {
+  for (int i = 0; i < scenes; ++i) {
+    const std::string scene = std::to_string(i);
     for (int trial = 0; trial < trials; ++trial) {
       const RigidTransform left = random_pose(rng, 3.0);
       const RigidTransform front = random_pose(rng, 3.0);
@@ -75,6 +76,33 @@ TEST(LoopClosure, OfWideGapsIsOpen) {
   EXPECT_EQ(loop.counted, 4);
 }
 
+/// Two scenes with starts that end at the same three poses, but for one of five.
+TEST(LoopClosure, OverAgreedPosesIgnoresTrialsThatGoAstray) {
+  Rng rng = test_rng();
+  const RigidTransform left = random_pose(rng, 3.0), front = random_pose(rng, 3.0);
+  const Vector6d gap = test::offset_of(0, 0, 0.25, 0.03, -0.04, 0.0);
+  std::vector<TrialRecord> records;
+  for (const char* scene : {"0", "1"}) {
+    for (int trial = 0; trial < 5; ++trial) {
+      const auto add = [&](const char* sensor, const RigidTransform& pose) {
+        records.push_back(test::finished_without_truth({"base", scene, sensor, trial},
+                                                       trial == 3 ? random_pose(rng, 9.0) : pose));
+      };
+      add("front", front);
+      add("left", left);
+      add("left>front", front.inverse() * moved(left, gap));
+    }
+  }
+  const LoopClosure loop = summarise(records, kBounds, order()).loops.at(0);
+  EXPECT_EQ(loop.closed.count, 8);
+  EXPECT_EQ(loop.scenes, 2);
+  EXPECT_EQ(loop.scenes_closed, 2);
+  ASSERT_TRUE(loop.agreed);
+  EXPECT_TRUE(loop.agreed->is_closed);
+  EXPECT_NEAR(loop.agreed->deviations[2], 0.25, 1e-9);
+  EXPECT_NEAR(loop.agreed->deviations[kTranslation], 0.05, 1e-9);
+}
+
 TEST(LoopClosure, NeedsAllThreeLinks) {
   std::vector<TrialRecord> records = records_with(Vector6d::Zero(), 1);
   records.erase(records.begin());
@@ -85,7 +113,7 @@ TEST(LoopClosure, NeedsAllThreeLinks) {
 
 TEST(LoopClosure, IsInEveryReport) {
   const Vector6d gap = test::offset_of(0, 0, 0.25, 0.03, -0.04, 0.0);
-  const Summary summary = summarise(records_with(gap, 3), kBounds, order());
+  const Summary summary = summarise(records_with(gap, 1, 6), kBounds, order());
   const std::string table = summary_text(summary);
   EXPECT_NE(table.find("left>front     6/6  100.0  [61.0, 100.0]  0.250, 0.250  0.0500, 0.0500"),
             std::string::npos)

@@ -115,13 +115,14 @@ TEST(KindSummary, IsInJson) {
 
 TEST(KindSummary, IsInCsvWithEveryColumn) {
   const std::string csv = summary_by_kind_csv(two_kinds());
-  EXPECT_EQ(csv.rfind("variant,kind,sensor,reference,scenes,trials,success,inaccurate,rejected,"
-                      "failed,success_ratio,success_low_ratio,success_high_ratio,agreement,"
-                      "agreement_ratio,agreement_low_ratio,agreement_high_ratio,counted,"
-                      "roll_mean_deg,",
-                      0),
-            0U);
-  EXPECT_NE(csv.find("\nbase,narrow,all,truth,1,8,6,0,1,1,0.75,"), std::string::npos) << csv;
+  EXPECT_EQ(
+      csv.rfind("variant,kind,sensor,reference,scenes,trials,success,inaccurate,finished,"
+                "rejected,failed,success_ratio,success_low_ratio,success_high_ratio,agreement,"
+                "agreement_ratio,agreement_low_ratio,agreement_high_ratio,counted,"
+                "roll_mean_deg,",
+                0),
+      0U);
+  EXPECT_NE(csv.find("\nbase,narrow,all,truth,1,8,6,0,0,1,1,0.75,"), std::string::npos) << csv;
   const auto header_end = csv.begin() + static_cast<std::ptrdiff_t>(csv.find('\n'));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 13);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), 13 * std::count(csv.begin(), header_end, ','));

@@ -116,6 +116,26 @@ TEST(Summary, CountsOutcomesAndReasons) {
   EXPECT_EQ(summary.reasons[0].count, 1);
 }
 
+TEST(Summary, StatisticsOverUsableTrialsHaveThoseThatFail) {
+  // Errors of 0, 1, ... 9 cm succeed, one of 3 m does not; another is rejected.
+  std::vector<TrialRecord> records;
+  std::vector<double> all_m;
+  for (int trial = 0; trial < 11; ++trial) {
+    all_m.push_back(trial == 10 ? 3.0 : 0.01 * trial);
+    records.push_back(test::finished({"base", "s", "front", trial},
+                                     trial == 10 ? Status::inaccurate : Status::success, {},
+                                     test::offset_of(0, 0, 0, all_m.back(), 0, 0)));
+  }
+  records.push_back(test::finished({"base", "s", "front", 11}, Status::rejected, {},
+                                   test::offset_of(0, 0, 0, 9.0, 0, 0)));
+  const SummaryRow row = summarise(records, kBounds, {}).rows.at(0);
+  EXPECT_EQ(row.counted, 10);
+  EXPECT_EQ(row.usable, 11);
+  const std::size_t std = statistic_index("std");
+  EXPECT_LT((*row.statistics)[3][std], 0.04);
+  EXPECT_NEAR((*row.usable_statistics)[3][std], standard_deviation(all_m), 1e-12);
+}
+
 TEST(Summary, TheMostFrequentReasonComesFirst) {
   std::vector<TrialRecord> records;
   for (int trial = 0; trial < 5; ++trial) {
@@ -175,7 +195,8 @@ TEST(Summary, WithoutTruthTrialsThatGoAstrayDoNotCount) {
   EXPECT_EQ(before.agreement.count, 20);
   EXPECT_EQ(after.agreement.count, 20);
   EXPECT_EQ(after.agreement.trials, 25);
-  EXPECT_EQ(after.success.count, 25);
+  EXPECT_EQ(after.success.count, 0);
+  EXPECT_EQ(after.outcomes.finished, 25);
   EXPECT_EQ(after.counted, 20);
   EXPECT_LT(pose_error(*after.consensus, pose).rotation_rad, 1e-9);
   for (std::size_t k = 0; k < kDofs; ++k) {
@@ -247,7 +268,7 @@ TEST(SummaryCsv, EveryRowHasEveryColumn) {
   const std::vector<std::string> lines = split(summary_csv(summary), '\n');
   ASSERT_EQ(lines.size(), summary.rows.size() + 2);
   const std::vector<std::string> header = split(lines[0], ',');
-  EXPECT_EQ(header.size(), 16U + 8U * 5U + 2U * 6U);
+  EXPECT_EQ(header.size(), 17U + 8U * 5U + 2U * 6U + 1U + 8U * 5U);
   for (std::size_t i = 0; i < summary.rows.size(); ++i) {
     const std::vector<std::string> cells = split(lines[i + 1], ',');
     ASSERT_EQ(cells.size(), header.size());
@@ -265,7 +286,7 @@ TEST(SummaryCsv, EveryRowHasEveryColumn) {
 TEST(SummaryCsv, HeaderIsStable) {
   EXPECT_EQ(
       summary_csv(Summary{}),
-      "variant,sensor,reference,trials,success,inaccurate,rejected,failed,success_ratio,"
+      "variant,sensor,reference,trials,success,inaccurate,finished,rejected,failed,success_ratio,"
       "success_low_ratio,success_high_ratio,agreement,agreement_ratio,agreement_low_ratio,"
       "agreement_high_ratio,counted,"
       "roll_mean_deg,roll_std_deg,roll_median_deg,roll_rmse_deg,roll_p95_deg,"
@@ -280,7 +301,18 @@ TEST(SummaryCsv, HeaderIsStable) {
       "roll_within_scene_std_deg,pitch_within_scene_std_deg,yaw_within_scene_std_deg,"
       "x_within_scene_std_m,y_within_scene_std_m,z_within_scene_std_m,"
       "roll_across_scenes_std_deg,pitch_across_scenes_std_deg,yaw_across_scenes_std_deg,"
-      "x_across_scenes_std_m,y_across_scenes_std_m,z_across_scenes_std_m\n");
+      "x_across_scenes_std_m,y_across_scenes_std_m,z_across_scenes_std_m,usable,"
+      "usable_roll_mean_deg,usable_roll_std_deg,usable_roll_median_deg,usable_roll_rmse_deg,"
+      "usable_roll_p95_deg,usable_pitch_mean_deg,usable_pitch_std_deg,usable_pitch_median_deg,"
+      "usable_pitch_rmse_deg,usable_pitch_p95_deg,usable_yaw_mean_deg,usable_yaw_std_deg,"
+      "usable_yaw_median_deg,usable_yaw_rmse_deg,usable_yaw_p95_deg,usable_x_mean_m,"
+      "usable_x_std_m,usable_x_median_m,usable_x_rmse_m,usable_x_p95_m,usable_y_mean_m,"
+      "usable_y_std_m,usable_y_median_m,usable_y_rmse_m,usable_y_p95_m,usable_z_mean_m,"
+      "usable_z_std_m,usable_z_median_m,usable_z_rmse_m,usable_z_p95_m,"
+      "usable_rotation_mean_deg,usable_rotation_std_deg,usable_rotation_median_deg,"
+      "usable_rotation_rmse_deg,usable_rotation_p95_deg,usable_translation_mean_m,"
+      "usable_translation_std_m,usable_translation_median_m,usable_translation_rmse_m,"
+      "usable_translation_p95_m\n");
 }
 
 }  // namespace

@@ -98,8 +98,9 @@ TEST(RunCommand, SameBytesForAnyNumberOfJobs) {
     EXPECT_EQ(bench.run(options), 0);
   }
   const auto one = bench.bytes("1");
-  for (const char* name : {"store.sqlite", "trials.csv", "summary.csv", "summary.json",
-                           "manifest.json", "clouds/base/scene1.ply", "clouds/far/scene2.vdb"}) {
+  for (const char* name :
+       {"store.sqlite", "trials.csv", "extrinsics.json", "success_curve.svg", "summary.csv",
+        "summary.json", "manifest.json", "clouds/base/scene1.ply", "clouds/far/scene2.vdb"}) {
     EXPECT_EQ(one.count(name), 1U) << name;
   }
   EXPECT_EQ(one.count("store.sqlite-wal"), 0U);

@@ -96,7 +96,7 @@ TEST(Claims, MeansTheFirstVariantAndAllSensorsUnlessItSays) {
 }
 
 TEST(Claims, OfAShareHasNoMeasure) {
-  for (const char* statistic : {"success", "scenes"}) {
+  for (const char* statistic : {"success", "agreement", "scenes"}) {
     json share = whole();
     share["statistic"] = statistic;
     EXPECT_EQ(faults_of(json::array({share})),
@@ -110,16 +110,17 @@ TEST(Claims, OfAShareHasNoMeasure) {
 TEST(Claims, ShowsFaultsAtTheirPlaces) {
   EXPECT_EQ(faults_with("sede", 1),
             Lines{"/claims/0/sede: unknown key \"sede\"; known: claim, source, variant, sensor, "
-                  "measure, statistic, value, band, why, measures, values, band_rule"});
+                  "measure, statistic, over, value, band, why, measures, values, band_rule"});
   EXPECT_EQ(faults_with("variant", "fien"),
             Lines{"/claims/0/variant: there is no variant \"fien\"; did you mean \"fine\"?"});
   EXPECT_EQ(faults_with("measure", "yawn"),
             Lines{"/claims/0/measure: expected one of roll, pitch, yaw, x, y, z, rotation, "
                   "translation, found \"yawn\"; did you mean \"yaw\"?"});
-  EXPECT_EQ(faults_with("statistic", "stdd"),
-            Lines{"/claims/0/statistic: expected one of success, scenes, mean, std, median, rmse, "
-                  "p95, within_scene_std, across_scenes_std, found \"stdd\"; did you mean "
-                  "\"std\"?"});
+  EXPECT_EQ(
+      faults_with("statistic", "stdd"),
+      Lines{"/claims/0/statistic: expected one of success, agreement, scenes, mean, std, median, "
+            "rmse, p95, within_scene_std, across_scenes_std, found \"stdd\"; did you mean "
+            "\"std\"?"});
   EXPECT_EQ(faults_with("measure", nullptr), Lines{"/claims/0: the key \"measure\" is missing"});
   EXPECT_EQ(faults_with("value", "0.1"),
             Lines{"/claims/0/value: expected a number, found \"0.1\""});

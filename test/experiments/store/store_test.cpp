@@ -31,14 +31,15 @@ void add(Store& store, const TrialRecord& record) { store.add({&record}); }
 TrialRecord random_record(Rng& rng, const std::string& variant, int trial) {
   TrialRecord record;
   record.id = {variant, "scene \"1\"", "left", trial};
-  record.status = static_cast<Status>(rng.below(4));
+  record.status = static_cast<Status>(rng.below(kStatusNames.size()));
   if (record.status == Status::failed) {
     record.reason = "ground_alignment: no plane; found 3\nlines, \"quoted\"";
     return record;
   }
   record.T_reference_sensor = test::random_pose(rng, 1e3);
   record.T_reference_sensor->translation.y() = trial % 2 == 0 ? -0.0 : 5.0;
-  if (rng.below(2) == 0) {
+  const bool is_judged = record.status == Status::success || record.status == Status::inaccurate;
+  if (is_judged || (record.status == Status::rejected && rng.below(2) == 0)) {
     record.error = pose_error(*record.T_reference_sensor, test::random_pose(rng, 1e3));
   }
   return record;
@@ -97,6 +98,40 @@ TEST(Store, GivesBackEveryBitOfARecord) {
       expect_same(found[k], records[k < 30 ? 2 * k : 2 * (k - 30) + 1]);
     }
     rewrite_in_order(path);
+  }
+}
+
+TEST(Store, ASuccessWithoutAnErrorIsATrialThatFinished) {
+  // As older programs stored the trials without truth.
+  const test::TempFolder folder;
+  const std::filesystem::path old = folder.path() / "old", merged = folder.path() / "merged";
+  TrialRecord record;
+  record.id = {"base", "scene \"1\"", "left", 0};
+  record.status = Status::success;
+  record.T_reference_sensor = RigidTransform();
+  {
+    Store store(old, header());
+    add(store, record);
+  }
+  EXPECT_EQ(read_store(old).records.at(0).status, Status::finished);
+  {
+    Store store(merged, header());
+    store.merge(old, header());
+    store.merge(old, header());
+    Store other(folder.path() / "other", header());
+    add(other, record);
+  }
+  {
+    Store other(folder.path() / "other", header());
+    other.merge(merged, header());
+  }
+  rewrite_in_order(old);
+  rewrite_in_order(merged);
+  for (const auto& path : {old, merged}) {
+    const Database database(path, Access::read);
+    Statement select = database.prepare("SELECT status FROM trials");
+    ASSERT_TRUE(select.next());
+    EXPECT_EQ(select.text(0), "finished");
   }
 }
 

@@ -192,6 +192,18 @@ TEST(ConsensusPose, BoundsOfZeroLeaveThePoseThatIsMetMostOften) {
   expect_near(consensus_pose({seldom, often, often}, {0.0, 0.0}), often, 1e-12);
 }
 
+TEST(ConsensusPose, APoseWithMoreVotesWins) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 20; ++i) {
+    const RigidTransform a = test::random_pose(rng, 1.0), b = test::random_pose(rng, 1.0);
+    EXPECT_LT(pose_error(consensus_pose({a, b}, kBounds, {50.0, 3.0}), a).translation_m, 1e-12);
+    EXPECT_LT(pose_error(consensus_pose({b, a}, kBounds, {50.0, 3.0}), b).translation_m, 1e-12);
+    EXPECT_LT(pose_error(consensus_pose({b, a, b}, kBounds, {3.0, 50.0, 3.0}), a).translation_m,
+              1e-12);
+  }
+  EXPECT_THROW(consensus_pose({RigidTransform()}, kBounds, {1.0, 2.0}), std::logic_error);
+}
+
 TEST(Agree, CountsTheBoundItselfAndIsSymmetric) {
   const RigidTransform a;
   const RigidTransform b = {Eigen::Matrix3d::Identity(), {0.1, 0.0, 0.0}};

@@ -1,0 +1,108 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/report/result_tables.hpp"
+#include "experiments/report/run_text.hpp"
+#include "framework/base/angles.hpp"
+#include "test/support/trial_records.hpp"
+
+namespace croon::experiments {
+namespace {
+
+using croon::test::random_pose;
+using croon::test::test_rng;
+using test::kBounds;
+
+/// Trials without truth: in scenes "a" and "b" all 10 end at `pose`, in "c" 9 of 10 end elsewhere
+/// apart from each other.
+std::vector<TrialRecord> records_at(const RigidTransform& pose) {
+  Rng rng = test_rng(3);
+  std::vector<TrialRecord> records;
+  for (const char* scene : {"a", "b", "c"}) {
+    for (int trial = 0; trial < 10; ++trial) {
+      const bool is_astray = *scene == 'c' && trial > 0;
+      records.push_back(test::finished_without_truth({"base", scene, "left", trial},
+                                                     is_astray ? random_pose(rng, 9.0) : pose));
+    }
+  }
+  records.push_back(test::unfinished({"base", "c", "left", 10}, Status::failed, "no ground"));
+  return records;
+}
+
+TEST(Extrinsics, AreThePoseThatMostTrialsAgreeOn) {
+  Rng rng = test_rng();
+  const RigidTransform pose = random_pose(rng, 3.0);
+  const auto json = nlohmann::json::parse(
+      extrinsics_json(summarise(records_at(pose), kBounds, {}), {{"left", "top"}}));
+  ASSERT_EQ(json["extrinsics"].size(), 1U);
+  const auto& found = json["extrinsics"][0];
+  EXPECT_EQ(found["reference_sensor"], "top");
+  EXPECT_EQ(found["trials"], 31);
+  EXPECT_EQ(found["agreeing"], 21);
+  EXPECT_NEAR(found["spread"]["rotation_deg"], 0.0, 1e-6);
+  const auto& T = found["T_reference_sensor"];
+  const Eigen::Vector4d q = unit_quaternion(pose.rotation).coeffs();
+  const Eigen::Vector3d rpy_rad = rpy_from_rotation(pose.rotation);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(T["translation_m"][i], pose.translation(i), 1e-9);
+    EXPECT_NEAR(T["matrix"][i][3], pose.translation(i), 1e-9);
+    EXPECT_NEAR(T["roll_pitch_yaw_deg"][i], deg_from_rad(rpy_rad(i)), 1e-9);
+    EXPECT_EQ(T["matrix"][3][i], 0.0);
+    for (int j = 0; j < 3; ++j) EXPECT_NEAR(T["matrix"][i][j], pose.rotation(i, j), 1e-9);
+  }
+  EXPECT_EQ(T["matrix"][3][3], 1.0);
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(T["quaternion_xyzw"][i], q(i), 1e-9);
+  ASSERT_EQ(found["scenes"].size(), 3U);
+  EXPECT_EQ(found["scenes"][0]["agreeing"], 10);
+  EXPECT_EQ(found["scenes"][2]["scene"], "c");
+  EXPECT_EQ(found["scenes"][2]["trials"], 11);
+  EXPECT_EQ(found["scenes"][2]["agreeing"], 1);
+}
+
+TEST(Extrinsics, AreTheSameBytesInAnyOrder) {
+  Rng rng = test_rng();
+  const auto records = records_at(random_pose(rng, 3.0));
+  const auto bytes = [](const std::vector<TrialRecord>& of) {
+    return extrinsics_json(summarise(of, kBounds, {}), {});
+  };
+  EXPECT_EQ(bytes(records), bytes(test::shuffled(rng, records)));
+}
+
+TEST(Extrinsics, WithoutAPoseAreNothing) {
+  const auto json = nlohmann::json::parse(extrinsics_json(
+      summarise({test::unfinished({"base", "a", "left", 0}, Status::failed, "no")}, kBounds, {}),
+      {}));
+  EXPECT_TRUE(json["extrinsics"][0]["T_reference_sensor"].is_null());
+  EXPECT_TRUE(json["extrinsics"][0]["spread"].is_null());
+  EXPECT_EQ(json["extrinsics"][0]["agreeing"], 0);
+}
+
+TEST(Extrinsics, WithTruthDoNotUseIt) {
+  // Most trials agree on a pose that is wrong.
+  std::vector<TrialRecord> records;
+  for (int trial = 0; trial < 5; ++trial) {
+    const bool is_right = trial < 2;
+    records.push_back(test::finished({"base", "a", "left", trial},
+                                     is_right ? Status::success : Status::inaccurate, {},
+                                     test::offset_of(0, 0, 0, is_right ? 0.0 : 1.0, 0, 0)));
+  }
+  const auto json = nlohmann::json::parse(extrinsics_json(summarise(records, kBounds, {}), {}));
+  EXPECT_EQ(json["extrinsics"][0]["T_reference_sensor"]["translation_m"][0], 1.0);
+  EXPECT_EQ(json["extrinsics"][0]["agreeing"], 3);
+}
+
+TEST(Extrinsics, AreATableIfThereIsNoTruth) {
+  const RigidTransform pose = {rotation_from_rpy({rad_from_deg(1.0), 0.0, rad_from_deg(90.0)}),
+                               {1.5, -0.25, 0.125}};
+  const std::string text = summary_text(summarise(records_at(pose), kBounds, {}));
+  EXPECT_NE(text.find("\nleft    1.5000  -0.2500  0.1250     1.000      0.000   90.000     21/31  "
+                      "0.000, 0.0000\n"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(summary_text(summarise(test::few_records(), kBounds, {})).find("extrinsics"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace croon::experiments
