@@ -10,6 +10,7 @@
 #include "experiments/report/result_tables.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
+#include "framework/picture/writers.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -34,10 +35,6 @@ Bytes if_any(const Rows& rows, std::string (*bytes)(const Summary&), const Summa
   return rows.empty() ? std::nullopt : Bytes(bytes(summary));
 }
 
-Bytes if_basin(const Results& results, std::string (*bytes)(const Basin&)) {
-  return results.basin ? Bytes(bytes(*results.basin)) : std::nullopt;
-}
-
 /// Every file that a run writes beside its store: what it must be able to write, and what `--fresh`
 /// deletes. A new one is a row here.
 const std::vector<ResultFile>& result_files() {
@@ -51,9 +48,12 @@ const std::vector<ResultFile>& result_files() {
       {"comparison.csv",
        [](const R& r) { return if_any(r.summary.comparisons, comparison_csv, r.summary); }},
       {"loops.csv", [](const R& r) { return if_any(r.summary.loops, loops_csv, r.summary); }},
-      {"basin.csv", [](const R& r) { return if_basin(r, basin_csv); }},
-      {"basin.svg", [](const R& r) { return if_basin(r, basin_svg); }},
-      {"box_plots.svg", [](const R& r) -> Bytes { return box_plots_svg(r.summary); }},
+      {"basin.csv", [](const R& r) { return r.basin ? Bytes(basin_csv(*r.basin)) : std::nullopt; }},
+      {"basin.svg",
+       [](const R& r) -> Bytes {
+         return r.basin ? Bytes(svg_bytes(basin_chart(*r.basin))) : std::nullopt;
+       }},
+      {"box_plots.svg", [](const R& r) -> Bytes { return svg_bytes(box_plots(r.summary)); }},
       {kManifest, nullptr},
       {kTimings, nullptr},
       {kPicture, nullptr}};

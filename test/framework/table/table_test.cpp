@@ -1,4 +1,4 @@
-#include "framework/table/table.hpp"
+#include "framework/base/text.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "framework/base/text.hpp"
 #include "framework/table/renderers.hpp"
 
 namespace croon {
