@@ -26,9 +26,9 @@ const Row& called(const std::string& option, const std::string& name,
                    std::string("unknown ") + what + " \"" + name + "\"" + name_hint(name, names));
 }
 
-ExportCaption caption_of(const Results& results) {
-  return {results.name,   results.commit,         results.seed,   results.scenes,
-          results.trials, results.records.size(), results.planned};
+ExportCaption caption_of(const Results& results, const std::vector<std::string>& kinds) {
+  return {results.name,   results.commit,         results.seed,    results.scenes,
+          results.trials, results.records.size(), results.planned, kinds};
 }
 
 /// Throws InputError if an option is given that the other kind of export has.
@@ -90,7 +90,7 @@ std::string table_bytes(const ExportOptions& options) {
     const TableChoice chosen = options.compact ? compact(choice, results.summary) : choice;
     // Further experiments have the columns of the first.
     if (tables.empty()) choice.columns = chosen.columns;
-    tables.push_back(export_table(results.summary, caption_of(results), chosen));
+    tables.push_back(export_table(results.summary, caption_of(results, options.kinds), chosen));
     folders.push_back(folder.string());
   }
   return format.bytes(joined(std::move(tables), folders));

@@ -109,7 +109,8 @@ void lay_out_for_paper(Layout& layout, const std::vector<BoxGroup>& groups) {
     for (layout.pitch = layout.lengths.widest_pitch; layout.pitch >= layout.lengths.least_pitch;
          layout.pitch -= 0.25) {
       if (groups_width(groups, layout, layout.pitch) > layout.plot_width) continue;
-      layout.plot_height = std::clamp(0.7 * layout.plot_width, 62.0, 90.0);
+      // Six panels one above the other have room on a page.
+      layout.plot_height = columns == 1 ? 46.0 : std::clamp(0.7 * layout.plot_width, 62.0, 90.0);
       return;
     }
   }

@@ -106,8 +106,10 @@ std::string short_commit(const std::string& commit) {
 /// "2 scenes, 4 sensors, 2 variants, 10 starts of each: 160 trials."
 std::string counts_sentence(const ExportTable& table) {
   const ExportCaption& caption = table.caption;
-  std::string text =
-      counted(caption.scenes, "scene") + ", " + counted(table.sensors.size(), "sensor") + ", ";
+  std::string kinds;
+  for (const std::string& kind : caption.kinds) kinds += (kinds.empty() ? " of " : ", ") + kind;
+  std::string text = counted(caption.scenes, "scene") + kinds + ", " +
+                     counted(table.sensors.size(), "sensor") + ", ";
   if (table.variants.size() > 1) text += counted(table.variants.size(), "variant") + ", ";
   text += counted(static_cast<std::size_t>(caption.starts), "start") + " of each: ";
   if (caption.found < caption.planned) text += std::to_string(caption.found) + " of ";

@@ -308,30 +308,37 @@ Table with_heading(const ExportTable& table) {
 }
 
 void refuse_too_wide(const ExportTable& table, const View& view) {
-  // \scriptsize of a document of 10 pt is 7 pt; a digit is half as wide, other text at most that.
-  constexpr double kDigit_mm = 3.5 / kPointsPerMm;
+  // \scriptsize of a document of 10 pt is 7 pt; a digit of Computer Modern is 4 pt wide.
+  constexpr double kDigit_mm = 4.0 / kPointsPerMm;
+  constexpr double kLetter_mm = 3.5 / kPointsPerMm;
   constexpr double kSeparation_mm = 5.0 / kPointsPerMm;
+  constexpr double kJoint_mm = 8.0 / kPointsPerMm;  // "±", "--" and the space about them.
   const double page = table.is_one_column ? kOneColumn_mm : kTwoColumns_mm;
+  const auto widest = [&](std::size_t k, bool of_marks) {
+    std::size_t columns = 0;
+    for (const CellRow& row : table.table.rows) {
+      const std::string text = of_marks ? row[k].mark : shown_text(row[k], table.table.columns[k]);
+      columns = std::max(columns, text_columns(text));
+    }
+    return kDigit_mm * static_cast<double>(columns);
+  };
   const std::size_t name = table.table.index_of(view.columns.front().title);
-  double width = 0.0;
-  for (const CellRow& row : table.table.rows) {
-    const std::string text = shown_text(row[name], table.table.columns[name]);
-    width = std::max(width, kDigit_mm * static_cast<double>(text_columns(text)));
-  }
-  width = std::min(width, kNameShare * page);
-  for (const ChosenColumn& chosen : table.chosen) {
-    std::size_t digits = 0;
+  double width = std::min(widest(name, false), kNameShare * page);
+  double of_group = 0.0;  // Neighbours with one title above them.
+  for (std::size_t i = 0; i < table.chosen.size(); ++i) {
+    const ChosenColumn& chosen = table.chosen[i];
+    double cells = chosen.joint == Joint::none ? 0.0 : kJoint_mm;
     for (const std::string& column : chosen.columns) {
       const std::size_t k = table.table.index_of(column);
-      std::size_t widest = 0;
-      for (const CellRow& row : table.table.rows) {
-        widest = std::max(widest, shown_text(row[k], table.table.columns[k]).size() +
-                                      (row[k].mark.empty() ? 0 : row[k].mark.size() + 1));
-      }
-      digits += widest + 1;
+      const double marks = widest(k, true);
+      cells += widest(k, false) + marks + (marks > 0.0 ? kSeparation_mm : 0.0);
     }
-    digits = std::max(digits, text_columns(chosen.title));
-    width += kSeparation_mm + kDigit_mm * static_cast<double>(digits);
+    const double title = kLetter_mm * static_cast<double>(text_columns(chosen.title));
+    of_group += kSeparation_mm + std::max(cells, title);
+    if (i + 1 < table.chosen.size() && table.chosen[i + 1].group == chosen.group) continue;
+    const double group = kLetter_mm * static_cast<double>(text_columns(chosen.group));
+    width += std::max(of_group, kSeparation_mm + group);
+    of_group = 0.0;
   }
   if (width <= page) return;
   throw InputError("", "--columns",

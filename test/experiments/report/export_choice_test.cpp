@@ -118,6 +118,12 @@ TEST(TableChoice, MillimetresAreAThousandTimesAsMany) {
   EXPECT_EQ(export_markdown(chosen(full)).find(" m |"), std::string::npos);
 }
 
+TEST(TableChoice, TheCaptionNamesTheKindsOfScenes) {
+  ExportTable table = chosen({});
+  table.caption.kinds = {"urban", "narrow"};
+  EXPECT_EQ(caption_sentences(table).at(1).find("2 scenes of urban, narrow, 2 sensors"), 0U);
+}
+
 TEST(Compact, IsARowPerVariant) {
   const Summary summary = summarise(test::few_records(), kBounds, {});
   TableChoice choice;

@@ -1,4 +1,4 @@
-#include "framework/base/text.hpp"
+#include "framework/table/table.hpp"
 
 #include <gtest/gtest.h>
 
