@@ -6,6 +6,8 @@ find_package(nanoflann REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(SQLite3 REQUIRED)
 find_package(PNG REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo-pdf)
 find_package(embree REQUIRED)
 find_package(Boost REQUIRED)
 

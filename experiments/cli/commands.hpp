@@ -7,6 +7,7 @@
 
 #include "experiments/run/run_request.hpp"
 #include "framework/base/error.hpp"
+#include "framework/picture/drawing.hpp"
 #include "framework/stage/catalogue.hpp"
 
 namespace croon::experiments {
@@ -42,12 +43,21 @@ struct MergeOptions {
 int merge_command(const MergeOptions& options, std::ostream& out);
 
 struct ExportOptions {
-  std::filesystem::path folder;  ///< Of results.
-  std::string format = "md";     ///< One of export_formats().
-  std::filesystem::path out;     ///< The file to write; empty: `out`.
+  std::vector<std::filesystem::path> folders;  ///< Of results.
+  std::string format;         ///< One of export_formats() or drawing_formats(); empty: md or pdf.
+  std::filesystem::path out;  ///< The file to write; empty: `out`.
+  std::string figure;         ///< One of figures(); empty: a table.
+  std::string width;          ///< One of named_sheets(); empty: what fits.
+  std::string units;  ///< Of lengths, "m" or "mm"; empty: m in tables, what fits in figures.
+  std::vector<std::string> variants;  ///< Only these; empty: all.
+  std::vector<std::string> sensors;   ///< The same; in tables, "all" is all of them together.
+  std::vector<std::string> kinds;     ///< Only scenes of these kinds; empty: all.
+  std::vector<std::string> columns;   ///< Of a table; empty: the full table.
+  bool compact = false;               ///< A table that fits a page.
+  bool title = false;                 ///< A figure with its title.
 };
 
-/// Writes the table of a folder of results for a paper.
+/// Writes a table of folders of results for a paper, or a figure of one folder.
 int export_command(const ExportOptions& options, std::ostream& out);
 
 /// Writes a page of Markdown: for each folder of results what was run, every claim of its
@@ -75,7 +85,13 @@ struct DescribeOptions {
   std::filesystem::path out;   ///< A folder for clouds.csv and ranges.svg; empty: none.
   int jobs = 0;                ///< 0: all cores.
   int scenes = 0;              ///< The first so many scenes of each dataset; 0: all.
+  std::string format = "svg";  ///< Of the figure of ranges, one of drawing_formats().
+  std::string width;           ///< One of named_sheets(); empty: screen in SVG, else two columns.
 };
+
+/// The sheet called `width`; if it is empty, that of a screen in SVG and `on_paper` in other
+/// formats. Throws InputError for an unknown name.
+Sheet sheet_called(const std::string& width, const std::string& format, const Sheet& on_paper);
 
 /// Describes the clouds of the experiments' datasets, side by side.
 int describe_command(const DescribeOptions& options, const Catalogue& catalogue, std::ostream& out);

@@ -11,6 +11,7 @@
 #include "framework/base/error.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/base/whole_file.hpp"
+#include "framework/picture/writers.hpp"
 #include "framework/pipeline/cloud_description.hpp"
 
 namespace croon::experiments {
@@ -72,18 +73,33 @@ std::vector<CloudDescription> describe_scene(const NamedScene& named,
   return clouds;
 }
 
-void write_files(const std::filesystem::path& folder, const std::vector<CloudDescription>& clouds) {
+/// The writer called `options.format`. Throws InputError if there is none.
+const DrawingFormat& writer_of(const DescribeOptions& options) {
+  std::vector<std::string> names;
+  for (const DrawingFormat& format : drawing_formats()) {
+    if (options.format == format.name) return format;
+    names.emplace_back(format.name);
+  }
+  throw InputError("", "--format",
+                   "unknown format \"" + options.format + "\"" + name_hint(options.format, names));
+}
+
+void write_files(const std::filesystem::path& folder, const std::vector<CloudDescription>& clouds,
+                 const DrawingFormat& writer, const Sheet& sheet) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw InputError(folder.string(), "", "cannot be made: " + error.message());
   write_whole_file(folder / "clouds.csv", clouds_csv(clouds));
-  write_whole_file(folder / "ranges.svg", ranges_svg(clouds));
+  const Drawing ranges = ranges_chart(clouds, {sheet});
+  write_whole_file(folder / (std::string("ranges.") + writer.name), writer.bytes(ranges));
 }
 
 }  // namespace
 
 int describe_command(const DescribeOptions& options, const Catalogue& catalogue,
                      std::ostream& out) {
+  const DrawingFormat& writer = writer_of(options);
+  const Sheet sheet = sheet_called(options.width, options.format, kTwoColumns);
   const std::vector<NamedScene> scenes = scenes_of(options, catalogue);
   const params::Slot<GroundExtractor> extractor = extractor_of(catalogue);
   std::vector<std::vector<CloudDescription>> by_scene(scenes.size());
@@ -95,7 +111,7 @@ int describe_command(const DescribeOptions& options, const Catalogue& catalogue,
   for (const auto& of_scene : by_scene) {
     clouds.insert(clouds.end(), of_scene.begin(), of_scene.end());
   }
-  if (!options.out.empty()) write_files(options.out, clouds);
+  if (!options.out.empty()) write_files(options.out, clouds, writer, sheet);
   out << "median over scenes (least to largest); ground: within 0.2 m of the largest plane;\n"
          "distance to the reference's nearest point, of points that have one within 1 m "
          "(overlap)\n\n"

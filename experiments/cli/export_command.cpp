@@ -3,38 +3,115 @@
 #include <vector>
 
 #include "experiments/analysis/results.hpp"
-#include "experiments/report/export.hpp"
+#include "experiments/report/export_choice.hpp"
+#include "experiments/report/figures.hpp"
 #include "experiments/report/result_files.hpp"
 #include "framework/base/error.hpp"
+#include "framework/picture/writers.hpp"
 
 namespace croon::experiments {
 namespace {
 
-const ExportFormat& format_called(const std::string& name) {
+/// The row called `name`. Throws InputError, which names `option`, if there is none.
+template <class Row>
+const Row& called(const std::string& option, const std::string& name,
+                  const std::vector<Row>& rows) {
   std::vector<std::string> names;
-  for (const ExportFormat& format : export_formats()) {
-    if (name == format.name) return format;
-    names.emplace_back(format.name);
+  for (const Row& row : rows) {
+    if (name == row.name) return row;
+    names.emplace_back(row.name);
   }
-  throw InputError("", "--format", "unknown format \"" + name + "\"" + name_hint(name, names));
+  const char* what = option == "--format" ? "format" : option == "--figure" ? "figure" : "width";
+  throw InputError("", option,
+                   std::string("unknown ") + what + " \"" + name + "\"" + name_hint(name, names));
 }
 
-ExportCaption caption_of(const Results& results) {
-  return {results.name,   results.commit,         results.seed,   results.scenes,
-          results.trials, results.records.size(), results.planned};
+ExportCaption caption_of(const Results& results, const std::vector<std::string>& kinds) {
+  return {results.name,   results.commit,         results.seed,    results.scenes,
+          results.trials, results.records.size(), results.planned, kinds};
+}
+
+/// Throws InputError if an option is given that the other kind of export has.
+void refuse_options(const ExportOptions& options) {
+  const bool is_figure = !options.figure.empty();
+  const auto refuse = [](bool is_given, const char* option, const char* what) {
+    if (is_given) throw InputError("", option, std::string("expected only with ") + what);
+  };
+  refuse(is_figure && !options.columns.empty(), "--columns", "tables, found with --figure");
+  refuse(is_figure && options.compact, "--compact", "tables, found with --figure");
+  refuse(!is_figure && options.title, "--title", "--figure");
+  if (options.units.empty() || options.units == "m" || options.units == "mm") return;
+  throw InputError("", "--units", "expected m or mm, found \"" + options.units + "\"");
+}
+
+std::string figure_bytes(const ExportOptions& options) {
+  if (options.figure == "ranges") {
+    throw InputError("", "--figure", "the figure of ranges is of clouds: croon describe --out DIR");
+  }
+  const Figure& figure = called("--figure", options.figure, figures());
+  const std::string format = options.format.empty() ? "pdf" : options.format;
+  const DrawingFormat& writer = called("--format", format, drawing_formats());
+  FigureOptions figure_options;
+  figure_options.sheet = sheet_called(options.width, format, kTwoColumns);
+  figure_options.sheet.has_title = figure_options.sheet.has_title || options.title;
+  figure_options.length_unit = options.units;
+  if (options.folders.size() > 1) {
+    throw InputError("", "--figure",
+                     "expected one folder, found " + std::to_string(options.folders.size()));
+  }
+  const std::filesystem::path& folder = options.folders.front();
+  const Results results =
+      restricted(read_results(folder), {options.variants, options.sensors, options.kinds});
+  const std::optional<Drawing> drawing = figure.draw(results, figure_options);
+  if (!drawing) {
+    throw InputError(
+        folder.string(), "",
+        std::string("expected results with ") + figure.wants + " for the figure " + figure.name);
+  }
+  return writer.bytes(*drawing);
+}
+
+std::string table_bytes(const ExportOptions& options) {
+  const ExportFormat& format =
+      called("--format", options.format.empty() ? "md" : options.format, export_formats());
+  TableChoice choice = {options.sensors, options.columns, options.units == "mm", options.compact};
+  if (!options.width.empty()) {
+    choice.is_one_column =
+        called("--width", options.width, named_sheets()).sheet.width == kOneColumn.width;
+    if (choice.is_one_column && !options.compact && options.columns.empty()) {
+      throw InputError("", "--width",
+                       "the full table spans two columns; use --compact or --columns");
+    }
+  }
+  std::vector<ExportTable> tables;
+  std::vector<std::string> folders;
+  for (const std::filesystem::path& folder : options.folders) {
+    const Results results = restricted(read_results(folder), {options.variants, {}, options.kinds});
+    const TableChoice chosen = options.compact ? compact(choice, results.summary) : choice;
+    // Further experiments have the columns of the first.
+    if (tables.empty()) choice.columns = chosen.columns;
+    tables.push_back(export_table(results.summary, caption_of(results, options.kinds), chosen));
+    folders.push_back(folder.string());
+  }
+  return format.bytes(joined(std::move(tables), folders));
 }
 
 }  // namespace
 
+Sheet sheet_called(const std::string& width, const std::string& format, const Sheet& on_paper) {
+  if (width.empty()) return format == "svg" ? Sheet{} : on_paper;
+  return called("--width", width, named_sheets()).sheet;
+}
+
 int export_command(const ExportOptions& options, std::ostream& out) {
-  const ExportFormat& format = format_called(options.format);
-  const Results results = read_results(options.folder);
-  const std::string text = format.bytes(export_table(results.summary, caption_of(results)));
+  refuse_options(options);
+  const std::string text = options.figure.empty() ? table_bytes(options) : figure_bytes(options);
   if (options.out.empty()) {
     out << text;
-  } else {
-    write_output_file(options.out, text, store_path(options.folder));
+    return 0;
   }
+  // No store is replaced, of whatever folder.
+  write_output_file(options.out, text, store_path(options.folders.front()));
   return 0;
 }
 

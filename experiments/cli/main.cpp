@@ -10,8 +10,10 @@
 
 #include "experiments/cli/commands.hpp"
 #include "experiments/report/export.hpp"
+#include "experiments/report/figures.hpp"
 #include "experiments/store/version.hpp"
 #include "framework/base/error.hpp"
+#include "framework/picture/writers.hpp"
 #include "registry/help.hpp"
 #include "registry/registry.hpp"
 
@@ -110,15 +112,36 @@ class Program {
   }
 
   void add_export() {
-    CLI::App& exporting = add("export", "Write results as a table for a paper.",
+    CLI::App& exporting = add("export", "Write results as a table or a figure for a paper.",
                               [this] { return export_command(export_, std::cout); });
-    exporting.add_option("DIR", export_.folder, "A folder of results.")->required();
-    std::string formats;
-    for (const ExportFormat& format : export_formats()) {
-      formats += (formats.empty() ? "" : ", ") + std::string(format.name);
-    }
-    exporting.add_option("--format", export_.format, formats + "; default " + export_.format + ".");
+    exporting.add_option("DIR", export_.folders, "Folders of results, for one table.")->required();
+    exporting.add_option("--format", export_.format,
+                         names_of(export_formats()) + "; default md. With --figure: " +
+                             names_of(drawing_formats()) + "; default pdf.");
     exporting.add_option("--out", export_.out, "The file to write; default the output.");
+    exporting.add_option("--figure", export_.figure, "A figure: " + names_of(figures()) + ".");
+    add_width(exporting, export_.width);
+    exporting.add_option("--units", export_.units, "Of lengths: m, mm.");
+    exporting.add_option("--variants", export_.variants, "Only these variants.");
+    exporting.add_option("--sensors", export_.sensors,
+                         "Only these sensors; all: all together, a row of a table.");
+    exporting.add_option("--kinds", export_.kinds, "Only scenes of these kinds.");
+    exporting.add_option("--columns", export_.columns,
+                         "Columns of a table: success, rotation_median, x, x_p95, ...");
+    exporting.add_flag("--compact", export_.compact, "A table of a row per variant, for a page.");
+    exporting.add_flag("--title", export_.title, "A figure with its title.");
+  }
+
+  /// "csv, json".
+  template <class Row>
+  static std::string names_of(const std::vector<Row>& rows) {
+    std::string names;
+    for (const Row& row : rows) names += (names.empty() ? "" : ", ") + std::string(row.name);
+    return names;
+  }
+
+  static void add_width(CLI::App& command, std::string& option) {
+    command.add_option("--width", option, names_of(named_sheets()) + ".");
   }
 
   void add_simulate() {
@@ -140,6 +163,10 @@ class Program {
         ->required();
     add_data(describe, describe_.data);
     describe.add_option("--out", describe_.out, "Folder for clouds.csv and ranges.svg.");
+    describe.add_option(
+        "--format", describe_.format,
+        "Of the figure of ranges: " + names_of(drawing_formats()) + "; default svg.");
+    add_width(describe, describe_.width);
     describe.add_option("--scenes", describe_.scenes, "Look at so many scenes of each dataset.")
         ->check(CLI::Range(1, 1000000));
     add_jobs(describe, describe_.jobs);

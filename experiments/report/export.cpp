@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "experiments/report/export_choice.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "framework/base/text.hpp"
 #include "framework/table/renderers.hpp"
@@ -156,12 +157,30 @@ std::string short_commit(const std::string& commit) {
 /// "2 scenes, 4 sensors, 2 variants, 10 starts of each: 160 trials."
 std::string counts_sentence(const ExportTable& table) {
   const ExportCaption& caption = table.caption;
-  std::string text =
-      counted(caption.scenes, "scene") + ", " + counted(table.sensors.size(), "sensor") + ", ";
+  std::string kinds;
+  for (const std::string& kind : caption.kinds) kinds += (kinds.empty() ? " of " : ", ") + kind;
+  std::string text = counted(caption.scenes, "scene") + kinds + ", " +
+                     counted(table.sensors.size(), "sensor") + ", ";
   if (table.variants.size() > 1) text += counted(table.variants.size(), "variant") + ", ";
   text += counted(static_cast<std::size_t>(caption.starts), "start") + " of each: ";
   if (caption.found < caption.planned) text += std::to_string(caption.found) + " of ";
   return text + counted(caption.planned, "trial") + ".";
+}
+
+/// The sentences of all experiments, each once; what names an experiment comes first.
+std::vector<std::string> joined_sentences(const ExportTable& table) {
+  std::vector<std::string> names, others;
+  for (const ExportTable& part : table.parts) {
+    const std::vector<std::string> sentences = caption_sentences(part);
+    names.insert(names.end(), sentences.begin(), sentences.begin() + 2);
+    for (std::size_t i = 2; i < sentences.size(); ++i) {
+      if (std::find(others.begin(), others.end(), sentences[i]) == others.end()) {
+        others.push_back(sentences[i]);
+      }
+    }
+  }
+  names.insert(names.end(), others.begin(), others.end());
+  return names;
 }
 
 }  // namespace
@@ -206,6 +225,11 @@ Columns<SummaryRow> export_columns() {
 }
 
 ExportTable export_table(const Summary& summary, const ExportCaption& caption) {
+  return export_table(summary, caption, {});
+}
+
+ExportTable export_table(const Summary& summary, const ExportCaption& caption,
+                         const TableChoice& choice) {
   ExportTable table{caption, summary.bounds, "", variants_of(summary), sensors_of(summary), {}};
   std::vector<SummaryRow> rows;
   for (const std::string& sensor : table.sensors) {
@@ -221,14 +245,18 @@ ExportTable export_table(const Summary& summary, const ExportCaption& caption) {
       rows.push_back(all);
     }
   }
-  table.table = export_columns().table(rows);
+  Columns<SummaryRow> columns = export_columns();
+  if (!choice.columns.empty()) add_all_statistics(columns);
+  table.table = columns.table(rows);
   if (!summary.comparisons.empty()) table.base = summary.comparisons.front().base;
   set_marks(table.table, summary.comparisons);
   if (table.variants.size() > 1) mark_best_of_each_sensor(table.table, summary.below_best);
+  choose(table, choice);
   return table;
 }
 
 std::vector<std::string> caption_sentences(const ExportTable& table) {
+  if (!table.parts.empty()) return joined_sentences(table);
   std::vector<std::string> sentences = {table.caption.name + " (croon, commit " +
                                             short_commit(table.caption.commit) + ", seed " +
                                             std::to_string(table.caption.seed) + ").",
@@ -261,6 +289,13 @@ std::vector<std::string> caption_sentences(const ExportTable& table) {
 std::string export_csv(const ExportTable& table) { return csv_table(table.table); }
 
 std::string export_json(const ExportTable& table) {
+  if (!table.parts.empty()) {
+    nlohmann::ordered_json experiments = nlohmann::ordered_json::array();
+    for (const ExportTable& part : table.parts) {
+      experiments.push_back(nlohmann::ordered_json::parse(export_json(part)));
+    }
+    return json_bytes({{"caption", caption_sentences(table)}, {"experiments", experiments}});
+  }
   const ExportCaption& caption = table.caption;
   return json_bytes({{"name", caption.name},
                      {"commit", caption.commit},
@@ -300,7 +335,15 @@ std::string export_markdown(const ExportTable& table) {
   for (const std::string& sentence : caption_sentences(table)) {
     text += markdown_escaped(sentence) + "\n";
   }
-  return text + "Degrees of freedom: mean ± std.\n\n" + markdown_table(table.table, view);
+  if (!table.chosen.empty()) {
+    return text + "\n" + markdown_table(table.table, chosen_view(table, false));
+  }
+  if (!table.parts.empty()) {
+    view.columns.insert(view.columns.begin(), Shown{"experiment"});
+    ++view.names;
+  }
+  return text + "Degrees of freedom: mean ± std.\n\n" +
+         markdown_table(table.table, in_unit_of(table, view));
 }
 
 const std::vector<ExportFormat>& export_formats() {

@@ -1,7 +1,9 @@
 #include <string_view>
 
 #include "experiments/report/export.hpp"
+#include "experiments/report/export_choice.hpp"
 #include "experiments/report/result_tables.hpp"
+#include "framework/base/text.hpp"
 #include "framework/table/renderers.hpp"
 
 namespace croon::experiments {
@@ -12,7 +14,9 @@ namespace {
 std::vector<View> panels_of(const ExportTable& table) {
   const bool has_several = table.variants.size() > 1;
   View success{{{has_several || table.sensors.size() == 1 ? "variant" : "sensor"}}};
-  if (has_several && table.sensors.size() > 1) success.heading = "sensor";
+  if (!table.parts.empty() || (has_several && table.sensors.size() > 1)) {
+    success.heading = "heading";
+  }
   View dofs = success;
   const auto add = [](View& view, std::size_t k, const char* title, const char* content) {
     const Measure& measure = kMeasures[k];
@@ -34,7 +38,7 @@ std::vector<View> panels_of(const ExportTable& table) {
   for (const std::size_t k : kPaperOrder) {
     add(dofs, k, "mean $\\pm$ std", "<mean>\\,${}\\pm{}$\\,<std>");
   }
-  return {success, dofs};
+  return {in_unit_of(table, success), in_unit_of(table, dofs)};
 }
 
 /// Letters, digits and what labels may have besides.
@@ -55,6 +59,8 @@ std::string caption_of(const ExportTable& table, bool is_first) {
            ", continued.}\n";
   }
   std::string text;
+  std::string name = table.caption.name;
+  for (std::size_t i = 1; i < table.parts.size(); ++i) name += "-" + table.parts[i].caption.name;
   for (const std::string& sentence : caption_sentences(table)) {
     text += (text.empty() ? "" : "\n  ") + latex_escaped(sentence);
   }
@@ -64,19 +70,28 @@ std::string caption_of(const ExportTable& table, bool is_first) {
 }  // namespace
 
 std::string export_latex(const ExportTable& table) {
-  std::string text =
-      "% Wants in the preamble: \\usepackage{booktabs,etoolbox,siunitx}\n"
-      "% siunitx 2 or 3. Spans both columns of a page that has two.\n";
+  std::vector<View> panels;
+  if (table.chosen.empty()) {
+    panels = panels_of(table);
+  } else {
+    panels = {chosen_view(table, true)};
+    refuse_too_wide(table, panels.front());
+  }
+  std::string text = "% Wants in the preamble: \\usepackage{booktabs,etoolbox,siunitx}\n";
+  text += table.is_one_column ? "% siunitx 2 or 3. For one column of a page that has two.\n"
+                              : "% siunitx 2 or 3. Spans both columns of a page that has two.\n";
+  const std::string environment = table.is_one_column ? "table" : "table*";
+  const double name_share = table.chosen.empty() ? 0.16 : kNameShare;
   bool is_first = true;
-  for (const std::string& page : latex_pages(table.table, panels_of(table))) {
-    text +=
-        "\\begin{table*}[tbp]\n"
-        "\\centering\n"
-        "\\scriptsize\n"
-        "\\setlength{\\tabcolsep}{2.5pt}\n"
-        "\\robustify\\bfseries\n"
-        "\\sisetup{detect-weight=true}\n" +
-        caption_of(table, is_first) + page + "\\end{table*}\n";
+  for (const std::string& page : latex_pages(with_heading(table), panels, name_share)) {
+    text += "\\begin{" + environment +
+            "}[tbp]\n"
+            "\\centering\n"
+            "\\scriptsize\n"
+            "\\setlength{\\tabcolsep}{2.5pt}\n"
+            "\\robustify\\bfseries\n"
+            "\\sisetup{detect-weight=true}\n" +
+            caption_of(table, is_first) + page + "\\end{" + environment + "}\n";
     is_first = false;
   }
   return text;

@@ -5,18 +5,25 @@
 
 #include "experiments/analysis/basin.hpp"
 #include "experiments/analysis/summary.hpp"
+#include "framework/picture/drawing.hpp"
 #include "framework/pipeline/cloud_description.hpp"
 
 namespace croon::experiments {
 
-// Pictures as SVG. Readable on light and on dark pages; they need no font or script.
+/// How a figure is drawn.
+struct FigureOptions {
+  Sheet sheet = {};
+  std::string length_unit = {};  ///< "m" or "mm"; empty: mm if all lengths are below 0.1 m.
+};
 
-/// The bytes of box_plots.svg, like the paper's figure of its real experiment: a panel per DOF, a
+/// The figure of box_plots.svg, like the paper's figure of its real experiment: a panel per DOF, a
 /// box per sensor and scene (with several variants: per sensor and variant; for many scenes: per
 /// sensor and kind of scene, or per sensor), and the meaning of a box in words. Boxes are quartiles
 /// with the median, whiskers reach the last value within 1.5 interquartile ranges (Tukey 1977),
-/// values beyond are dots.
-std::string box_plots_svg(const Summary& summary);
+/// values beyond are dots. An axis ends at three times the median whisker at most (see
+/// `robust_limit`); arrowheads at its ends have the number of values beyond. Throws InputError if
+/// the boxes do not fit the sheet.
+Drawing box_plots(const Summary& summary, const FigureOptions& options = {});
 
 /// What each box of a sensor is for.
 enum class BoxOf { variant, scene, scene_kind, all_scenes };
@@ -41,17 +48,26 @@ struct BoxGroup {
 /// The boxes of each sensor; a box without values has no deviations.
 std::vector<BoxGroup> box_groups(const Summary& summary, BoxOf of);
 
-/// The bytes of basin.svg: success over the size, all sensors together, a line per variant with its
-/// 95 % interval.
-std::string basin_svg(const Basin& basin);
+/// Gives each series the label that a figure shows, see `distinct_labels`.
+void shorten_labels(std::vector<BoxGroup>& groups, std::size_t columns);
 
-/// The bytes of success_curve.svg: the share of trials over the threshold, one panel for rotation
-/// and one for translation, the threshold on a logarithmic axis. A line per variant, all sensors
-/// together; of one variant alone a line per sensor.
-std::string success_curve_svg(const SuccessCurve& curve);
+/// The figure of success_curve.svg: the share of all trials within a threshold of the truth, one
+/// panel for rotation and one for translation, the threshold on a logarithmic axis. A line per
+/// variant, all sensors together; of one variant alone a line per sensor.
+Drawing success_curve_chart(const SuccessCurve& curve, const FigureOptions& options = {});
 
-/// The bytes of ranges.svg: for each sensor the share of points over the range, a line per dataset,
-/// mean over scenes.
-std::string ranges_svg(const std::vector<CloudDescription>& clouds);
+/// The largest size that the axis of a measure has to show: three times the lower median of the
+/// boxes' longer whiskers, so that the boxes of bad variants do not flatten those of good ones; at
+/// least ten times the digit that tables show.
+double robust_limit(const std::vector<BoxGroup>& groups, std::size_t measure);
+
+/// The figure of basin.svg: success over the size, all sensors together, a line per variant with
+/// its 95 % interval.
+Drawing basin_chart(const Basin& basin, const FigureOptions& options = {});
+
+/// The figure of ranges.svg: for each sensor the share of points over the range, a line per
+/// dataset, mean over scenes.
+Drawing ranges_chart(const std::vector<CloudDescription>& clouds,
+                     const FigureOptions& options = {});
 
 }  // namespace croon::experiments

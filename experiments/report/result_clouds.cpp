@@ -44,8 +44,10 @@ Image drawn(const Experiment& experiment, const Scene& scene, const std::vector<
     after.push_back({scan.sensor, points, *poses[i]});
   }
   constexpr TopView kView = {20.0, 20.0, 0.05};
-  constexpr int kGap_px = 8;
-  return side_by_side({top_view(before, kView), top_view(after, kView)}, kGap_px);
+  std::vector<std::string> sensors;
+  for (const ColouredCloud& cloud : after) sensors.push_back(cloud.sensor);
+  return with_legend({top_view(before, kView), top_view(after, kView)},
+                     {"before: the starts", "after: the results"}, sensors, kView.pixel_m);
 }
 
 /// The points of `scan`; none if it cannot be read, which is the reason of its failed trials.

@@ -10,6 +10,7 @@
 #include "experiments/report/result_tables.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
+#include "framework/picture/writers.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -28,18 +29,10 @@ struct ResultFile {
 
 constexpr const char* kManifest = "manifest.json";
 
-/// `bytes` of a summary if `rows` is not empty.
-template <class Rows>
-Bytes if_any(const Rows& rows, std::string (*bytes)(const Summary&), const Summary& summary) {
-  return rows.empty() ? std::nullopt : Bytes(bytes(summary));
-}
-
-Bytes if_basin(const Results& results, std::string (*bytes)(const Basin&)) {
-  return results.basin ? Bytes(bytes(*results.basin)) : std::nullopt;
-}
-
-Bytes if_curve(const SuccessCurve& curve, std::string (*bytes)(const SuccessCurve&)) {
-  return curve.rows.empty() ? std::nullopt : Bytes(bytes(curve));
+/// `bytes` of `what` if `rows` is not empty.
+template <class Rows, class What>
+Bytes if_any(const Rows& rows, std::string (*bytes)(const What&), const What& what) {
+  return rows.empty() ? std::nullopt : Bytes(bytes(what));
 }
 
 /// Every file that a run writes beside its store: what it must be able to write, and what `--fresh`
@@ -58,12 +51,18 @@ const std::vector<ResultFile>& result_files() {
        [](const R& r) { return if_any(r.summary.comparisons, comparison_csv, r.summary); }},
       {"loops.csv", [](const R& r) { return if_any(r.summary.loops, loops_csv, r.summary); }},
       {"success_curve.csv",
-       [](const R& r) { return if_curve(r.summary.curve, success_curve_csv); }},
+       [](const R& r) { return if_any(r.summary.curve.rows, success_curve_csv, r.summary.curve); }},
       {"success_curve.svg",
-       [](const R& r) { return if_curve(r.summary.curve, success_curve_svg); }},
-      {"basin.csv", [](const R& r) { return if_basin(r, basin_csv); }},
-      {"basin.svg", [](const R& r) { return if_basin(r, basin_svg); }},
-      {"box_plots.svg", [](const R& r) -> Bytes { return box_plots_svg(r.summary); }},
+       [](const R& r) -> Bytes {
+         if (r.summary.curve.rows.empty()) return std::nullopt;
+         return svg_bytes(success_curve_chart(r.summary.curve));
+       }},
+      {"basin.csv", [](const R& r) { return r.basin ? Bytes(basin_csv(*r.basin)) : std::nullopt; }},
+      {"basin.svg",
+       [](const R& r) -> Bytes {
+         return r.basin ? Bytes(svg_bytes(basin_chart(*r.basin))) : std::nullopt;
+       }},
+      {"box_plots.svg", [](const R& r) -> Bytes { return svg_bytes(box_plots(r.summary)); }},
       {kManifest, nullptr},
       {kTimings, nullptr},
       {kPicture, nullptr}};

@@ -4,6 +4,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
+#include <string_view>
 
 namespace croon {
 
@@ -19,6 +21,48 @@ std::string padding(const std::string& text, std::size_t columns) {
 
 std::string two_digits(long long number) {
   return (number < 10 ? "0" : "") + std::to_string(number);
+}
+
+/// The number of bytes of the UTF-8 code point that begins at `at` (RFC 3629); 0 if none does.
+std::size_t code_point_size(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t i) {
+    return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0U;
+  };
+  const unsigned first = byte(0);
+  const std::size_t size = first < 0x80U                     ? 1
+                           : first >= 0xC2U && first < 0xE0U ? 2
+                           : first >= 0xE0U && first < 0xF0U ? 3
+                           : first >= 0xF0U && first < 0xF5U ? 4
+                                                             : 0;
+  for (std::size_t i = 1; i < size; ++i) {
+    if ((byte(i) & 0xC0U) != 0x80U) return 0;
+  }
+  // Neither longer than needed, nor a surrogate, nor beyond U+10FFFF.
+  const unsigned second = byte(1);
+  const bool is_wrong = (first == 0xE0U && second < 0xA0U) || (first == 0xEDU && second >= 0xA0U) ||
+                        (first == 0xF0U && second < 0x90U) || (first == 0xF4U && second >= 0x90U);
+  return is_wrong ? 0 : size;
+}
+
+bool is_one_of(std::string_view characters, char c) {
+  return characters.find(c) != std::string_view::npos;
+}
+
+/// `c` as LaTeX prints it.
+std::string escaped(char c) {
+  static const std::map<char, const char*> commands = {{'\\', "\\textbackslash{}"},
+                                                       {'^', "\\textasciicircum{}"},
+                                                       {'~', "\\textasciitilde{}"},
+                                                       {'<', "\\textless{}"},
+                                                       {'>', "\\textgreater{}"},
+                                                       {'|', "\\textbar{}"},
+                                                       {'\n', " "},
+                                                       {'\r', " "}};
+  if (const auto command = commands.find(c); command != commands.end()) return command->second;
+  if (is_one_of("{}$&#_%", c)) return std::string("\\") + c;
+  // At the end of a line "[" and "*" begin its options; two of the others form another sign.
+  if (is_one_of("[]*-`'", c)) return std::string("{") + c + "}";
+  return std::string(1, c);
 }
 
 }  // namespace
@@ -91,6 +135,22 @@ std::string clock_text(double seconds) {
   const long long minutes = whole / 60 % 60;
   return (hours > 0 ? std::to_string(hours) + ":" + two_digits(minutes) : std::to_string(minutes)) +
          ":" + two_digits(whole % 60);
+}
+
+std::string valid_utf8(const std::string& text) {
+  std::string valid;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t size = code_point_size(text, at);
+    valid += size == 0 ? "\xEF\xBF\xBD" : text.substr(at, size);
+    at += std::max<std::size_t>(size, 1);
+  }
+  return valid;
+}
+
+std::string latex_escaped(const std::string& text) {
+  std::string latex;
+  for (const char c : text) latex += escaped(c);
+  return latex;
 }
 
 }  // namespace croon

@@ -30,6 +30,12 @@ std::string shortest_number(double value);
 /// `value` with as many digits as it takes, and no exponent below 1e9: "-0.0005".
 std::string plain_number(double value);
 
+/// `text` with U+FFFD for each byte that is not part of UTF-8.
+std::string valid_utf8(const std::string& text);
+
+/// `text` as LaTeX prints it, in a cell or a sentence.
+std::string latex_escaped(const std::string& text);
+
 /// "1 trial", "2 trials".
 std::string counted(std::size_t count, const std::string& what);
 

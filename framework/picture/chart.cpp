@@ -2,8 +2,67 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+
+#include "framework/base/text.hpp"
 
 namespace croon {
+namespace {
+
+using Parts = std::vector<std::string>;
+
+Parts parts_of(const std::string& name) {
+  Parts parts = {""};
+  for (const char c : name) {
+    if (c == '/') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+/// The number of first parts, or of last ones, that all of `names` share; each keeps one part.
+std::size_t shared_parts(const std::vector<Parts>& names, bool are_last) {
+  std::size_t shared = 0;
+  const auto part = [&](const Parts& parts) {
+    return are_last ? parts[parts.size() - 1 - shared] : parts[shared];
+  };
+  while (std::all_of(names.begin(), names.end(), [&](const Parts& parts) {
+    return shared + 1 < parts.size() && part(parts) == part(names.front());
+  })) {
+    ++shared;
+  }
+  return shared;
+}
+
+/// The names without the parts, between slashes, in which they do not differ.
+std::vector<std::string> without_common_parts(const std::vector<std::string>& names) {
+  if (std::set<std::string>(names.begin(), names.end()).size() < 2) return names;
+  std::vector<Parts> all;
+  std::set<std::size_t> sizes;
+  for (const std::string& name : names) sizes.insert(all.emplace_back(parts_of(name)).size());
+  const std::size_t first = shared_parts(all, false);
+  for (Parts& parts : all) parts.erase(parts.begin(), parts.begin() + static_cast<long>(first));
+  const std::size_t last = shared_parts(all, true);
+  for (Parts& parts : all) parts.resize(parts.size() - last);
+  std::vector<std::string> labels;
+  for (const Parts& parts : all) {
+    std::string& label = labels.emplace_back();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      // Parts stand for the same choice only if all names have as many.
+      const bool is_shared = sizes.size() == 1 &&
+                             std::all_of(all.begin(), all.end(),
+                                         [&](const Parts& other) { return other[i] == parts[i]; });
+      if (!is_shared) label += (label.empty() ? "" : "/") + parts[i];
+    }
+  }
+  return labels;
+}
+
+}  // namespace
 
 Axis round_axis(double low, double high, int ticks) {
   // A flat range still needs a height; what differs by less than rounding is flat.
@@ -38,15 +97,85 @@ double Plot::y(double value) const {
   return top + height * (y_range.high - value) / (y_range.high - y_range.low);
 }
 
-void Plot::draw_x_tick(Svg& svg, double value, const std::string& text, double gap) const {
-  svg.line(x(value), top, x(value), top + height, "grid");
-  svg.text(x(value), top + height + gap, text, Anchor::middle, "small");
+double Plot::y_inside(double value) const { return std::clamp(y(value), top, top + height); }
+
+void Plot::draw_x_tick(Drawing& drawing, double value, const std::string& text, double gap) const {
+  drawing.line(x(value), top, x(value), top + height, "grid");
+  drawing.text(x(value), top + height + gap, text, Anchor::middle, "small");
 }
 
-void Plot::draw_y_tick(Svg& svg, double value, const std::string& text, double gap,
+void Plot::draw_y_tick(Drawing& drawing, double value, const std::string& text, double gap,
                        const std::string& style) const {
-  svg.line(left, y(value), left + width, y(value), style);
-  svg.text(left - gap, y(value) + 4.0, text, Anchor::end, "small");
+  drawing.line(left, y(value), left + width, y(value), style);
+  drawing.text(left - gap, y(value) + 0.36 * drawing.sheet().small(), text, Anchor::end, "small");
+}
+
+std::string series_style(std::size_t index) {
+  const std::size_t dash = index % kSeriesDashes;
+  return "c" + std::to_string(index % kSeriesColours) +
+         (dash == 0 ? "" : " d" + std::to_string(dash));
+}
+
+std::string box_style(std::size_t index) {
+  const std::size_t dash = index / kSeriesColours % kSeriesDashes;
+  return "c" + std::to_string(index % kSeriesColours) +
+         (dash == 0 ? "" : " d" + std::to_string(dash));
+}
+
+void draw_marker(Drawing& drawing, double x, double y, double radius, std::size_t index) {
+  const std::string style = "marker c" + std::to_string(index % kSeriesColours);
+  const double r = radius;
+  switch (index % kSeriesMarkers) {
+    case 0:
+      return drawing.dot(x, y, r, style);
+    case 1:
+      return drawing.rectangle(x - 0.9 * r, y - 0.9 * r, 1.8 * r, 1.8 * r, style);
+    case 2:
+      return draw_arrowhead(drawing, x, y, 1.2 * r, true, style);
+    case 3:
+      return drawing.area({{x, y - 1.4 * r}, {x + 1.4 * r, y}, {x, y + 1.4 * r}, {x - 1.4 * r, y}},
+                          style);
+    case 4:
+      return draw_arrowhead(drawing, x, y, 1.2 * r, false, style);
+    case 5:
+      drawing.rectangle(x - 1.3 * r, y - 0.4 * r, 2.6 * r, 0.8 * r, style);
+      return drawing.rectangle(x - 0.4 * r, y - 1.3 * r, 0.8 * r, 2.6 * r, style);
+    default:  // An hourglass.
+      return drawing.area({{x - r, y - r}, {x + r, y - r}, {x - r, y + r}, {x + r, y + r}}, style);
+  }
+}
+
+void draw_arrowhead(Drawing& drawing, double x, double y, double radius, bool is_up,
+                    const std::string& style) {
+  const double tip = is_up ? -radius : radius;
+  drawing.area({{x, y + tip}, {x + radius, y - 0.8 * tip}, {x - radius, y - 0.8 * tip}}, style);
+}
+
+double legend_line(const Sheet& sheet) { return 2.6 * sheet.small(); }
+
+void draw_legend_entry(Drawing& drawing, double left, double y, std::size_t index,
+                       const std::string& name) {
+  const double length = legend_line(drawing.sheet());
+  const double text = drawing.sheet().small();
+  drawing.line(left, y, left + length, y, "curve " + series_style(index));
+  draw_marker(drawing, left + length / 2.0, y, 0.25 * text, index);
+  drawing.text(left + length + 0.5 * text, y + 0.36 * text, name, Anchor::start, "small");
+}
+
+std::vector<std::string> distinct_labels(const std::vector<std::string>& names,
+                                         std::size_t columns) {
+  std::vector<std::string> labels = without_common_parts(names);
+  for (std::string& label : labels) label = cut_in_the_middle(label, columns);
+  std::map<std::string, int> uses;
+  for (const std::string& label : labels) ++uses[label];
+  const std::vector<std::string> whole = without_common_parts(names);
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (uses[labels[i]] == 1) continue;
+    const std::string number = std::to_string(i + 1) + ": ";
+    const std::size_t left = columns > number.size() ? columns - number.size() : 0;
+    labels[i] = number + cut_in_the_middle(whole[i], left);
+  }
+  return labels;
 }
 
 }  // namespace croon

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "framework/base/statistics.hpp"
-#include "framework/picture/svg.hpp"
+#include "framework/picture/drawing.hpp"
 
 namespace croon {
 
@@ -20,57 +20,49 @@ struct Axis {
 /// The axis that holds [low, high] with about `ticks` steps of 1, 2 or 5 times a power of ten.
 Axis round_axis(double low, double high, int ticks);
 
-/// A rectangle of a picture in pixels, with a linear scale from left to right and one from bottom
-/// to top.
+/// A rectangle of a drawing, with a linear scale from left to right and one from bottom to top.
 struct Plot {
   double left, top, width, height;
   Interval x_range, y_range;  ///< The values at its sides.
 
-  /// Where a value is in the picture.
+  /// Where a value is in the drawing.
   double x(double value) const;
   double y(double value) const;
+  /// The same for a value beyond the plot, moved to its border.
+  double y_inside(double value) const;
 
-  /// Draws a line across the plot at the value of a tick, and `text` `gap` pixels to the left of
-  /// the plot, or with its base line `gap` pixels below it.
-  void draw_x_tick(Svg& svg, double value, const std::string& text, double gap) const;
-  void draw_y_tick(Svg& svg, double value, const std::string& text, double gap,
+  /// Draws a line across the plot at the value of a tick, and `text` `gap` units to the left of
+  /// the plot, or with its base line `gap` units below it.
+  void draw_x_tick(Drawing& drawing, double value, const std::string& text, double gap) const;
+  void draw_y_tick(Drawing& drawing, double value, const std::string& text, double gap,
                    const std::string& style = "grid") const;
 };
 
-/// How many colours the classes c0, c1, ... of `kChartStyle` have.
-inline constexpr std::size_t kChartColours = 8;
+/// The style of the lines of the series `index`: neighbours differ by colour and by dash, and 40
+/// series differ by one of the two.
+std::string series_style(std::size_t index);
 
-/// The style sheet of charts. Colours that colour-blind readers can tell apart (Okabe and Ito
-/// 2008); they show on white and on black.
-inline constexpr const char* kChartStyle =
-    R"css(text { font: 12px sans-serif; fill: #222; }
-.title { font-size: 14px; font-weight: bold; }
-.small { font-size: 11px; fill: #555; }
-.page { fill: #fff; }
-.grid { stroke: #e2e2e2; }
-.zero { stroke: #888; }
-.box { fill-opacity: 0.35; stroke-width: 1.2; }
-.line { stroke-width: 1.2; }
-.median { stroke-width: 2.4; }
-.band { stroke: none; fill-opacity: 0.15; }
-.curve { stroke-width: 2; }
-.dot { stroke: none; fill-opacity: 0.6; }
-.c0 { stroke: #0072b2; fill: #0072b2; }
-.c1 { stroke: #d55e00; fill: #d55e00; }
-.c2 { stroke: #009e73; fill: #009e73; }
-.c3 { stroke: #cc79a7; fill: #cc79a7; }
-.c4 { stroke: #e69f00; fill: #e69f00; }
-.c5 { stroke: #56b4e9; fill: #56b4e9; }
-.c6 { stroke: #8c7a00; fill: #8c7a00; }
-.c7 { stroke: #808080; fill: #808080; }
-@media (prefers-color-scheme: dark) {
-  text { fill: #ddd; }
-  .small { fill: #aaa; }
-  .page { fill: #16181c; }
-  .grid { stroke: #33373d; }
-  .zero { stroke: #8a8f98; }
-  .c0 { stroke: #4aa8e0; fill: #4aa8e0; }
-}
-)css";
+/// The style of the outline of the box of the series `index`: solid up to the eighth, then dashed,
+/// because colours repeat.
+std::string box_style(std::size_t index);
+
+/// Draws the marker of the series `index`, about 2 `radius` wide.
+void draw_marker(Drawing& drawing, double x, double y, double radius, std::size_t index);
+
+/// Draws an arrowhead at (x, y) that points up or down, about 2 `radius` wide.
+void draw_arrowhead(Drawing& drawing, double x, double y, double radius, bool is_up,
+                    const std::string& style);
+
+/// Draws a line of a legend with the look of the series `index` and its name, centred on `y`.
+/// The line is `legend_line` long.
+void draw_legend_entry(Drawing& drawing, double left, double y, std::size_t index,
+                       const std::string& name);
+double legend_line(const Sheet& sheet);
+
+/// Names as legends show them. Parts, between slashes, that all names share are left out; what is
+/// longer than `columns` is cut in the middle. Two that would then be the same have their number
+/// in the list before them.
+std::vector<std::string> distinct_labels(const std::vector<std::string>& names,
+                                         std::size_t columns);
 
 }  // namespace croon

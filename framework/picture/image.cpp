@@ -33,6 +33,14 @@ Image side_by_side(const std::vector<Image>& images, int gap) {
   return whole;
 }
 
+Image padded(const Image& image, int above, int below) {
+  Image whole(image.width(), image.height() + above + below);
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) whole.at(x, above + y) = image.at(x, y);
+  }
+  return whole;
+}
+
 void write_png(const std::filesystem::path& path, const Image& image) {
   static_assert(sizeof(Colour) == 3, "a pixel is three bytes");
   png_image header{};

@@ -1,8 +1,7 @@
-#include "framework/picture/svg.hpp"
-
 #include <cmath>
 
 #include "framework/base/text.hpp"
+#include "framework/picture/writers.hpp"
 
 namespace croon {
 
@@ -31,58 +30,90 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// A tenth of a pixel is all that can be seen.
-std::string pixels(double value) { return shortest_number(std::round(value * 10.0) / 10.0); }
-
-/// ` name="value"`.
-std::string attribute(const char* name, double value) {
-  return std::string(" ") + name + "=\"" + pixels(value) + "\"";
-}
-
 std::string styled(const std::string& style) { return " class=\"" + style + "\""; }
 
 const char* anchor_name(Anchor anchor) {
   return anchor == Anchor::start ? "start" : anchor == Anchor::middle ? "middle" : "end";
 }
 
+/// Writes each primitive as an element.
+class SvgWriter {
+ public:
+  explicit SvgWriter(const Sheet& sheet) : digit_(sheet.is_paper ? 100.0 : 10.0) {}
+
+  std::string operator()(const Drawing::Line& line) const {
+    return "<line" + attribute("x1", line.x1) + attribute("y1", line.y1) +
+           attribute("x2", line.x2) + attribute("y2", line.y2) + styled(line.style) + "/>\n";
+  }
+
+  std::string operator()(const Drawing::Rectangle& box) const {
+    return "<rect" + attribute("x", box.x) + attribute("y", box.y) + attribute("width", box.width) +
+           attribute("height", box.height) + styled(box.style) + "/>\n";
+  }
+
+  std::string operator()(const Drawing::Area& area) const {
+    return "<polygon points=\"" + points(area.corners) + "\"" + styled(area.style) + "/>\n";
+  }
+
+  std::string operator()(const Drawing::Polyline& line) const {
+    return "<polyline points=\"" + points(line.corners) + "\"" + styled(line.style) + "/>\n";
+  }
+
+  std::string operator()(const Drawing::Dot& dot) const {
+    return "<circle" + attribute("cx", dot.x) + attribute("cy", dot.y) +
+           attribute("r", dot.radius) + styled(dot.style) + "/>\n";
+  }
+
+  std::string operator()(const Drawing::Text& text) const {
+    std::string bytes = "<text" + attribute("x", text.x) + attribute("y", text.y) +
+                        " text-anchor=\"" + anchor_name(text.anchor) + "\"" + styled(text.style);
+    if (text.turn_deg != 0.0) {
+      bytes += " transform=\"rotate(" + shortest_number(text.turn_deg) + " " + number(text.x) +
+               " " + number(text.y) + ")\"";
+    }
+    return bytes + ">" + escaped(text.text) + "</text>\n";
+  }
+
+ private:
+  /// A tenth of a pixel, a hundredth of a point are all that can be seen.
+  std::string number(double value) const {
+    return shortest_number(std::round(value * digit_) / digit_);
+  }
+
+  /// ` name="value"`.
+  std::string attribute(const char* name, double value) const {
+    return std::string(" ") + name + "=\"" + number(value) + "\"";
+  }
+
+  std::string points(const std::vector<Corner>& corners) const {
+    std::string text;
+    for (const auto& [x, y] : corners) text += number(x) + "," + number(y) + " ";
+    return text;
+  }
+
+  double digit_;
+};
+
 }  // namespace
 
-Svg::Svg(double width_px, double height_px, const std::string& style_sheet) {
-  bytes_ = "<svg xmlns=\"http://www.w3.org/2000/svg\"" + attribute("width", width_px) +
-           attribute("height", height_px) + " viewBox=\"0 0 " + shortest_number(width_px) + " " +
-           shortest_number(height_px) + "\">\n<style>\n" + style_sheet + "</style>\n";
+std::string svg_bytes(const Drawing& drawing) {
+  const std::string unit = drawing.sheet().is_paper ? "pt" : "";
+  const std::string width = shortest_number(std::round(100.0 * drawing.width()) / 100.0);
+  const std::string height = shortest_number(std::round(100.0 * drawing.height()) / 100.0);
+  const std::string desc =
+      drawing.description().empty() ? "" : "<desc>" + escaped(drawing.description()) + "</desc>\n";
+  std::string bytes = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + unit +
+                      "\" height=\"" + height + unit + "\" viewBox=\"0 0 " + width + " " + height +
+                      "\">\n" + desc + "<style>\n" + style_sheet(drawing.sheet()) + "</style>\n";
+  const SvgWriter writer(drawing.sheet());
+  for (const Drawing::Element& element : drawing.elements()) bytes += std::visit(writer, element);
+  return bytes + "</svg>\n";
 }
 
-void Svg::line(double x1, double y1, double x2, double y2, const std::string& style) {
-  bytes_ += "<line" + attribute("x1", x1) + attribute("y1", y1) + attribute("x2", x2) +
-            attribute("y2", y2) + styled(style) + "/>\n";
-}
-
-void Svg::rectangle(double x, double y, double width, double height, const std::string& style) {
-  bytes_ += "<rect" + attribute("x", x) + attribute("y", y) + attribute("width", width) +
-            attribute("height", height) + styled(style) + "/>\n";
-}
-
-void Svg::area(const std::vector<std::array<double, 2>>& corners, const std::string& style) {
-  bytes_ += "<polygon points=\"";
-  for (const auto& [x, y] : corners) bytes_ += pixels(x) + "," + pixels(y) + " ";
-  bytes_ += "\"" + styled(style) + "/>\n";
-}
-
-void Svg::dot(double x, double y, double radius, const std::string& style) {
-  bytes_ += "<circle" + attribute("cx", x) + attribute("cy", y) + attribute("r", radius) +
-            styled(style) + "/>\n";
-}
-
-void Svg::text(double x, double y, const std::string& text, Anchor anchor, const std::string& style,
-               double turn_deg) {
-  bytes_ += "<text" + attribute("x", x) + attribute("y", y) + " text-anchor=\"" +
-            anchor_name(anchor) + "\"" + styled(style);
-  if (turn_deg != 0.0) {
-    bytes_ += " transform=\"rotate(" + shortest_number(turn_deg) + " " + shortest_number(x) + " " +
-              shortest_number(y) + ")\"";
-  }
-  bytes_ += ">" + escaped(text) + "</text>\n";
+const std::vector<DrawingFormat>& drawing_formats() {
+  static const std::vector<DrawingFormat> formats = {
+      {"pdf", pdf_bytes}, {"pgf", pgf_bytes}, {"svg", svg_bytes}};
+  return formats;
 }
 
 }  // namespace croon

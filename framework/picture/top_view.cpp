@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include "framework/picture/colour.hpp"
+#include "framework/base/text.hpp"
+#include "framework/picture/writers.hpp"
 
 namespace croon {
 namespace {
@@ -25,6 +26,47 @@ Image top_view(const std::vector<ColouredCloud>& clouds, const TopView& view) {
     draw(image, transformed(clouds[i].points, clouds[i].T_reference_sensor), view,
          sensor_colour(i));
   }
+  return image;
+}
+
+double scale_bar_m(double width_m) {
+  const double longest = width_m / 4.0;
+  const double power = std::pow(10.0, std::floor(std::log10(longest)));
+  for (const double digit : {5.0, 2.0}) {
+    if (digit * power <= longest) return digit * power;
+  }
+  return power;
+}
+
+Image with_legend(const std::vector<Image>& views, const std::vector<std::string>& captions,
+                  const std::vector<std::string>& sensors, double pixel_m) {
+  constexpr int kGap_px = 8;
+  constexpr int kStrip_px = 48;
+  constexpr double kScale = 2.0;  // The pictures are large, and so is their text.
+  Image image = padded(side_by_side(views, kGap_px), kStrip_px, kStrip_px);
+  Drawing drawing(image.width() / kScale, image.height() / kScale);
+  const double text = drawing.sheet().text();
+  const double head = 0.65 * kStrip_px / kScale;
+  double left = 0.0;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    drawing.text((left + views[i].width() / 2.0) / kScale, head, captions[i], Anchor::middle,
+                 "name");
+    left += views[i].width() + kGap_px;
+  }
+  const double line = drawing.height() - kStrip_px / kScale + head;
+  double x = text;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    drawing.rectangle(x, line - 0.8 * text, 0.8 * text, 0.8 * text,
+                      "s" + std::to_string(i % kSeriesColours));
+    drawing.text(x + 1.2 * text, line, sensors[i], Anchor::start, "name");
+    x += 2.4 * text + text_width(sensors[i], text);
+  }
+  const double bar_m = scale_bar_m(views.front().width() * pixel_m);
+  const double bar = bar_m / pixel_m / kScale;
+  const double right = drawing.width() - text;
+  drawing.rectangle(right - bar, line - 0.4 * text, bar, 3.0, "bar");
+  drawing.text(right - bar - 0.5 * text, line, shortest_number(bar_m) + " m", Anchor::end, "name");
+  draw_on(image, drawing, kScale);
   return image;
 }
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <map>
 #include <string_view>
 
 #include "framework/base/text.hpp"
@@ -12,35 +11,16 @@ namespace {
 /// A name that is longer is broken into lines.
 constexpr std::size_t kLongName = 22;
 
-bool is_one_of(std::string_view characters, char c) {
-  return characters.find(c) != std::string_view::npos;
-}
-
-/// `c` as LaTeX prints it.
-std::string escaped(char c) {
-  static const std::map<char, const char*> commands = {{'\\', "\\textbackslash{}"},
-                                                       {'^', "\\textasciicircum{}"},
-                                                       {'~', "\\textasciitilde{}"},
-                                                       {'<', "\\textless{}"},
-                                                       {'>', "\\textgreater{}"},
-                                                       {'|', "\\textbar{}"},
-                                                       {'\n', " "},
-                                                       {'\r', " "}};
-  if (const auto command = commands.find(c); command != commands.end()) return command->second;
-  if (is_one_of("{}$&#_%", c)) return std::string("\\") + c;
-  // At the end of a line "[" and "*" begin its options; two of the others form another sign.
-  if (is_one_of("[]*-`'", c)) return std::string("{") + c + "}";
-  return std::string(1, c);
-}
-
 /// The name with places at which LaTeX may break it: after its punctuation.
 std::string breakable(const std::string& name) {
   std::string text;
   for (std::size_t i = 0; i < name.size(); ++i) {
-    text += escaped(name[i]);
+    text += latex_escaped(std::string(1, name[i]));
     // Not inside 0.05.
     const bool is_in_number = i + 1 < name.size() && name[i + 1] >= '0' && name[i + 1] <= '9';
-    if (is_one_of("/_=,", name[i]) || (name[i] == '.' && !is_in_number)) text += "\\allowbreak{}";
+    if (std::string_view("/_=,").find(name[i]) != std::string_view::npos ||
+        (name[i] == '.' && !is_in_number))
+      text += "\\allowbreak{}";
   }
   return text;
 }
@@ -59,8 +39,8 @@ struct RowRange {
 /// best values bold. The first column of the view is names, the others have numbers.
 class Tabular {
  public:
-  Tabular(const Table& table, const View& view)
-      : table_(table), view_(view), cells_(shown_cells(table, view)) {
+  Tabular(const Table& table, const View& view, double name_share)
+      : table_(table), view_(view), name_share_(name_share), cells_(shown_cells(table, view)) {
     const std::size_t k = cells_.front().pieces().front().column;
     for (const CellRow& row : table.rows) names_.push_back(shown_text(row[k], table.columns[k]));
     has_long_name_ = std::any_of(names_.begin(), names_.end(), [](const std::string& name) {
@@ -80,13 +60,14 @@ class Tabular {
   }
 
   /// The rows, as many together as a page holds.
-  std::vector<RowRange> pages() const {
-    constexpr std::size_t kLinesPerPage = 28;  // With two panels, their heads and a caption.
+  std::vector<RowRange> pages(std::size_t panels) const {
+    constexpr std::size_t kLinesOfPanels = 56;  // Beside their heads and a caption.
+    const std::size_t lines_per_page = kLinesOfPanels / panels;
     std::vector<RowRange> pages = {{0, 0}};
     std::size_t total = 0;
     for (std::size_t row = 0; row < names_.size(); ++row) {
       total += lines(row);
-      if (total > kLinesPerPage && pages.back().end > pages.back().begin) {
+      if (total > lines_per_page && pages.back().end > pages.back().begin) {
         pages.push_back({row, row});
         total = lines(row);
       }
@@ -132,8 +113,11 @@ class Tabular {
   }
 
   std::string specification() const {
-    std::string text =
-        has_long_name_ ? "@{}>{\\raggedright\\arraybackslash}p{0.16\\linewidth}" : "@{}l";
+    std::string text = "@{}l";
+    if (has_long_name_) {
+      text =
+          "@{}>{\\raggedright\\arraybackslash}p{" + shortest_number(name_share_) + "\\linewidth}";
+    }
     for (std::size_t k = 1; k < cells_.size(); ++k) {
       for (const auto& piece : cells_[k].pieces()) {
         if (!piece.before.empty()) text += "@{" + piece.before + "}";
@@ -156,7 +140,8 @@ class Tabular {
       }
       const std::size_t next = first + width(begin, end);
       groups += spanning(next - first, group);
-      rules += "\\cmidrule(lr){" + std::to_string(first) + "-" + std::to_string(next - 1) + "}";
+      if (!group.empty())
+        rules += "\\cmidrule(lr){" + std::to_string(first) + "-" + std::to_string(next - 1) + "}";
       first = next;
     }
     return "\\toprule\n" + groups + " \\\\\n" + rules + "\n" + titles + " \\\\\n\\midrule\n";
@@ -188,6 +173,7 @@ class Tabular {
 
   const Table& table_;
   const View& view_;
+  double name_share_;
   std::vector<ShownCells> cells_;
   std::vector<std::string> names_;
   bool has_long_name_ = false;
@@ -195,17 +181,12 @@ class Tabular {
 
 }  // namespace
 
-std::string latex_escaped(const std::string& text) {
-  std::string latex;
-  for (const char c : text) latex += escaped(c);
-  return latex;
-}
-
-std::vector<std::string> latex_pages(const Table& table, const std::vector<View>& panels) {
+std::vector<std::string> latex_pages(const Table& table, const std::vector<View>& panels,
+                                     double name_share) {
   std::vector<Tabular> tabulars;
-  for (const View& panel : panels) tabulars.emplace_back(table, panel);
+  for (const View& panel : panels) tabulars.emplace_back(table, panel, name_share);
   std::vector<std::string> pages;
-  for (const RowRange& rows : tabulars.front().pages()) {
+  for (const RowRange& rows : tabulars.front().pages(panels.size())) {
     std::string& page = pages.emplace_back();
     for (const Tabular& tabular : tabulars) {
       page += (page.empty() ? "" : "\n\\medskip\n\n") + tabular.text(rows);

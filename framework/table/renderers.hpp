@@ -47,10 +47,8 @@ std::string markdown_escaped(const std::string& text);
 /// A LaTeX table as one or more pages, each with the rows that it holds in one tabular per view,
 /// one above the other. Tabulars have booktabs rules and siunitx columns (version 2 or 3), the best
 /// values bold, marks in columns of their own. The first column of a view is names, the others have
-/// numbers.
-std::vector<std::string> latex_pages(const Table& table, const std::vector<View>& panels);
-
-/// `text` as LaTeX prints it, in a cell or a sentence.
-std::string latex_escaped(const std::string& text);
+/// numbers; long names are broken into lines of `name_share` of the width of the text.
+std::vector<std::string> latex_pages(const Table& table, const std::vector<View>& panels,
+                                     double name_share = 0.16);
 
 }  // namespace croon

@@ -5,6 +5,7 @@
 #include "experiments/report/plots.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "experiments/report/run_text.hpp"
+#include "framework/picture/writers.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
@@ -107,7 +108,7 @@ TEST(Basin, IsATable) {
 }
 
 TEST(Basin, IsAPictureOfEveryVariant) {
-  const std::string svg = basin_svg(*basin_of(records_of({"left"}), kSweep, {}));
+  const std::string svg = svg_bytes(basin_chart(*basin_of(records_of({"left"}), kSweep, {})));
   EXPECT_EQ(svg.substr(0, 4), "<svg");
   EXPECT_NE(svg.find(">base</text>"), std::string::npos);
   EXPECT_NE(svg.find(">lost</text>"), std::string::npos);

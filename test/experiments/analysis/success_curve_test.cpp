@@ -5,6 +5,7 @@
 #include "experiments/report/plots.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "framework/base/angles.hpp"
+#include "framework/picture/writers.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
@@ -77,7 +78,7 @@ TEST(SuccessCurve, WithoutTruthOrWithBoundsOfZeroThereIsNone) {
   EXPECT_TRUE(summarise(test::one_of_four_astray(), kBounds, {}).curve.rows.empty());
   EXPECT_TRUE(summarise(random_records(), {0.0, 0.1}, {}).curve.rows.empty());
   const Summary tiny = summarise(random_records(), {1e-12, 1e-12}, {});
-  EXPECT_EQ(success_curve_svg(tiny.curve).find("inf"), std::string::npos);
+  EXPECT_EQ(svg_bytes(success_curve_chart(tiny.curve)).find("inf"), std::string::npos);
 }
 
 TEST(SuccessCurve, IsAFileWithARowPerThreshold) {
@@ -91,7 +92,7 @@ TEST(SuccessCurve, IsAFileWithARowPerThreshold) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 9 * 25);
   EXPECT_NE(csv.find("\nbase,all,both,0.5,0.1,160,"), std::string::npos);
   EXPECT_NE(csv.find("\nbase,all,translation,,0.1,160,"), std::string::npos);
-  const std::string svg = success_curve_svg(summary.curve);
+  const std::string svg = svg_bytes(success_curve_chart(summary.curve));
   EXPECT_EQ(svg.substr(0, 4), "<svg");
   for (const char* name :
        {">left</text>", ">right</text>", ">all sensors</text>", ">bound</text>"}) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "framework/base/error.hpp"
+#include "framework/picture/writers.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
@@ -14,6 +16,8 @@ std::size_t count(const std::string& text, const std::string& part) {
   for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
   return found;
 }
+
+std::string box_plots_svg(const Summary& summary) { return svg_bytes(box_plots(summary)); }
 
 std::vector<BoxGroup> groups_of(const Summary& summary, std::size_t max_scenes) {
   return box_groups(summary, box_of(summary, max_scenes, 20));
@@ -67,7 +71,7 @@ TEST(BoxGroups, OfManyScenesAreByKind) {
 
 TEST(BoxPlotsSvg, HasAPanelPerDofAndABoxPerVariantAndSensor) {
   const std::string svg = box_plots_svg(summarise(test::few_records(), kBounds, {}));
-  for (const char* title : {"pitch, deg", "roll, deg", "yaw, deg", "x, m", "y, m", "z, m"}) {
+  for (const char* title : {"pitch, deg", "roll, deg", "yaw, deg", "x, mm", "y, mm", "z, mm"}) {
     EXPECT_EQ(count(svg, std::string(">") + title + "<"), 1U) << title;
   }
   EXPECT_EQ(count(svg, "class=\"box c"), 6U * 2U * 2U);
@@ -81,11 +85,92 @@ TEST(BoxPlotsSvg, HasAPanelPerDofAndABoxPerVariantAndSensor) {
 TEST(BoxPlotsSvg, AValueBeyondTheWhiskersIsADot) {
   std::vector<TrialRecord> records;
   for (int trial = 0; trial < 9; ++trial) {
-    const double x_m = trial == 0 ? 0.09 : 0.001 * trial;
+    const double x_m = trial == 0 ? 0.02 : 0.001 * trial;
     records.push_back(test::finished({"base", "0001", "front", trial}, Status::success, {},
                                      test::offset_of(0, 0, 0, x_m, 0, 0)));
   }
   EXPECT_EQ(count(box_plots_svg(summarise(records, kBounds, {})), "class=\"dot c"), 1U);
+}
+
+/// Trials of variants of one sensor, each with errors of x around its number of metres.
+Summary around(const std::vector<std::pair<std::string, double>>& variants) {
+  std::vector<TrialRecord> records;
+  for (const auto& [variant, size_m] : variants) {
+    for (int trial = 0; trial < 9; ++trial) {
+      records.push_back(test::finished({variant, "0001", "front", trial}, Status::success, {},
+                                       test::offset_of(0, 0, 0, size_m * (trial - 4) / 4.0, 0, 0)));
+    }
+  }
+  return summarise(records, {20.0, 20.0}, {});
+}
+
+TEST(BoxPlots, OneBadVariantDoesNotFlattenTheOthers) {
+  const Summary summary = around({{"a", 0.01}, {"b", 0.012}, {"bad", 10.0}});
+  const auto groups = groups_of(summary, 12);
+  constexpr std::size_t kX = 3;
+  EXPECT_NEAR(robust_limit(groups, kX), 3.0 * 0.012, 1e-9);
+  const std::string svg = svg_bytes(box_plots(summary));
+  EXPECT_EQ(count(svg, ">x, mm<"), 1U);
+  EXPECT_EQ(count(svg, ">40<") + count(svg, ">50<") + count(svg, ">100<"), 1U);  // The axis' end.
+  // Of the nine values of "bad", eight lie beyond the axis, four at each end.
+  EXPECT_EQ(count(svg, ">4</text>"), 2U);
+  EXPECT_EQ(count(svg, "<polygon"), 2U);
+  EXPECT_EQ(count(svg, "arrowheads"), 2U);  // Said in the description and below the title.
+  EXPECT_EQ(count(svg_bytes(box_plots(around({{"a", 0.01}, {"b", 0.012}}))), "arrowheads"), 0U);
+  // Every box is drawn inside its plot.
+  const Drawing drawing = box_plots(summary);
+  for (const Drawing::Element& element : drawing.elements()) {
+    const auto* box = std::get_if<Drawing::Rectangle>(&element);
+    if (box == nullptr || box->style == "page") continue;
+    EXPECT_LE(box->height, 190.0 + 1e-9);
+  }
+}
+
+TEST(BoxPlots, NeverZoomInOnLessThanTablesShow) {
+  EXPECT_NEAR(robust_limit(groups_of(around({{"a", 1e-9}}), 12), 3), 1e-3, 1e-12);
+  EXPECT_NEAR(robust_limit({}, 0), 1e-2, 1e-12);
+}
+
+TEST(BoxPlots, LengthsAreInTheUnitThatIsAskedFor) {
+  const Summary summary = around({{"a", 0.01}});
+  EXPECT_EQ(count(svg_bytes(box_plots(summary, {{}, "m"})), ">x, m<"), 1U);
+  EXPECT_EQ(count(svg_bytes(box_plots(around({{"a", 0.5}}), {})), ">x, m<"), 1U);
+  EXPECT_EQ(count(svg_bytes(box_plots(around({{"a", 0.5}}), {{}, "mm"})), ">x, mm<"), 1U);
+}
+
+TEST(BoxPlots, OnPaperHaveTheWidthOfTheColumnAndTextOfEightPoints) {
+  const Summary summary = summarise(test::few_records(), kBounds, {});
+  for (const Sheet& sheet : {kOneColumn, kTwoColumns}) {
+    const Drawing drawing = box_plots(summary, {sheet});
+    EXPECT_EQ(drawing.width(), sheet.width);
+    EXPECT_LE(drawing.height(), 680.0);  // Of a page.
+    for (const Drawing::Element& element : drawing.elements()) {
+      if (const auto* text = std::get_if<Drawing::Text>(&element)) {
+        EXPECT_EQ(look_of(text->style, sheet).text_size, 8.0);
+        EXPECT_GE(text->x, 0.0);
+        EXPECT_LE(text->x, sheet.width);
+        EXPECT_LE(text->y, drawing.height());
+        EXPECT_EQ(text->text.find("Error of"), std::string::npos);
+      }
+    }
+    EXPECT_NE(drawing.description().find("Error of the successful trials"), std::string::npos);
+    Sheet titled = sheet;
+    titled.has_title = true;
+    EXPECT_EQ(count(svg_bytes(box_plots(summary, {titled})), "class=\"title\">Error of"), 1U);
+    EXPECT_EQ(count(svg_bytes(drawing), "class=\"title\">Error of"), 0U);
+  }
+}
+
+TEST(BoxPlots, ThatDoNotFitAreRefused) {
+  std::vector<std::pair<std::string, double>> variants;
+  for (int i = 0; i < 60; ++i) variants.emplace_back("variant" + std::to_string(i), 0.01);
+  try {
+    box_plots(around(variants), {kOneColumn});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(count(error.what(), "60 boxes with their names want "), 1U) << error.what();
+  }
+  EXPECT_EQ(count(svg_bytes(box_plots(around(variants))), "class=\"box c"), 6U * 60U);
 }
 
 TEST(BoxPlotsSvg, AVariantWithoutSuccessKeepsItsPlace) {

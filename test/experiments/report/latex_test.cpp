@@ -3,8 +3,11 @@
 
 #include <cstdlib>
 
-#include "experiments/report/export.hpp"
+#include "experiments/report/export_choice.hpp"
+#include "experiments/report/plots.hpp"
+#include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
+#include "framework/picture/writers.hpp"
 #include "test/support/temp_folder.hpp"
 #include "test/support/trial_records.hpp"
 
@@ -25,11 +28,12 @@ bool has_latex() {
          runs("kpsewhich booktabs.sty") && runs("kpsewhich etoolbox.sty");
 }
 
-/// The log of a document with the table; ends with "failed" where there is no PDF.
-std::string log_of(const ExportTable& table, const std::string& siunitx) {
+/// The log of a document with `content` as the file table.tex; ends with "failed" where there is no
+/// PDF.
+std::string log_of(const std::string& content, const std::string& packages) {
   const croon::test::TempFolder folder;
-  folder.write("table.tex", export_latex(table));
-  folder.write("paper.tex", kHead + siunitx +
+  folder.write("table.tex", content);
+  folder.write("paper.tex", kHead + packages +
                                 "\\begin{document}\nText.\n\\input{table}\n"
                                 "Table~\\ref{" +
                                 "tab:few" + "}.\n\\end{document}\n");
@@ -37,6 +41,10 @@ std::string log_of(const ExportTable& table, const std::string& siunitx) {
                             "' && pdflatex -interaction=nonstopmode -halt-on-error paper.tex");
   const std::string log = read_whole_file(folder.path() / "paper.log");
   return is_done ? log : log + "failed";
+}
+
+std::string log_of(const ExportTable& table, const std::string& siunitx) {
+  return log_of(export_latex(table), siunitx);
 }
 
 /// A table with all that can stand in one: marks, missing values, best ones, several sensors.
@@ -105,6 +113,76 @@ TEST_P(ExportedLatex, CompilesWithNamesThatMeanSomethingToLatex) {
     EXPECT_EQ(log.find("failed"), std::string::npos) << name << "\n" << log;
     EXPECT_EQ(log.find("Missing character"), std::string::npos) << name << "\n" << log;
   }
+}
+
+/// A table of six variants with long names and four sensors.
+Summary six_variants() {
+  std::vector<TrialRecord> records;
+  for (int variant = 0; variant < 6; ++variant) {
+    for (TrialRecord record : test::few_records()) {
+      if (record.id.variant != "base") continue;
+      record.id.variant = "base/point_to_plane/golden_section_" + std::to_string(variant);
+      records.push_back(record);
+    }
+  }
+  return summarise(records, {0.5, 0.1}, {});
+}
+
+TEST_P(ExportedLatex, CompactTablesFitOneColumnAndOnePage) {
+  for (const bool is_one_column : {true, false}) {
+    for (const bool is_in_mm : {true, false}) {
+      TableChoice choice;
+      choice.is_one_column = is_one_column;
+      choice.is_in_mm = is_in_mm;
+      const Summary summary = six_variants();
+      const std::string latex = export_latex(
+          export_table(summary, {"few", "0123456789ab", 7, 2, 4, 9, 9}, compact(choice, summary)));
+      EXPECT_EQ(latex.find("continued"), std::string::npos);
+      const std::string log = log_of(latex, GetParam());
+      EXPECT_EQ(log.find("failed"), std::string::npos) << log;
+      EXPECT_EQ(log.find("Overfull"), std::string::npos) << log << latex;
+      // A table over both columns waits for the next page.
+      EXPECT_NE(log.find(is_one_column ? "(1 page" : "(2 pages"), std::string::npos) << log;
+    }
+  }
+}
+
+/// As many columns as are let through must fit.
+TEST_P(ExportedLatex, ColumnsThatAreNotRefusedFit) {
+  const Summary summary = six_variants();
+  for (const bool is_one_column : {true, false}) {
+    TableChoice choice;
+    choice.is_one_column = is_one_column;
+    std::string latex;
+    for (const char* name : {"success", "success_interval", "rotation_median", "translation", "x",
+                             "yaw_p95", "pitch", "roll_rmse", "y", "z", "roll", "trials"}) {
+      choice.columns.emplace_back(name);
+      try {
+        latex = export_latex(export_table(summary, {"few", "0123456789ab", 7, 2, 4, 9, 9}, choice));
+      } catch (const InputError&) {
+        break;
+      }
+    }
+    EXPECT_GE(choice.columns.size(), is_one_column ? 4U : 8U);
+    const std::string log = log_of(latex, GetParam());
+    EXPECT_EQ(log.find("failed"), std::string::npos) << log;
+    EXPECT_EQ(log.find("Overfull"), std::string::npos) << log << latex;
+  }
+}
+
+TEST(ExportedPgf, CompilesWithPgfAlone) {
+  if (!runs("pdflatex --version") || !runs("kpsewhich pgf.sty")) {
+    GTEST_SKIP() << "LaTeX is not here: texlive-pictures";
+  }
+  std::vector<TrialRecord> records = test::few_records();
+  for (TrialRecord& record : records) {
+    if (record.id.variant != "base") record.id.variant = "a_b & 100 % #1 ~x ^2 {c $d \\par …";
+  }
+  const Summary summary = summarise(records, {0.5, 0.1}, {});
+  const std::string log =
+      log_of(pgf_bytes(box_plots(summary, {kOneColumn})), "\\usepackage{pgf}\n");
+  EXPECT_EQ(log.find("failed"), std::string::npos) << log;
+  EXPECT_EQ(log.find("Missing character"), std::string::npos) << log;
 }
 
 INSTANTIATE_TEST_SUITE_P(Siunitx, ExportedLatex,

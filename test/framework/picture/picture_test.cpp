@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 #include "framework/base/whole_file.hpp"
 #include "framework/picture/top_view.hpp"
 #include "test/support/temp_folder.hpp"
@@ -35,6 +38,40 @@ TEST(Image, StandsBesideOthersWithAGap) {
   EXPECT_TRUE(is(whole.at(2, 2), {255, 255, 255}));
   EXPECT_TRUE(is(whole.at(4, 0), {255, 255, 255}));
   EXPECT_TRUE(is(whole.at(5, 3), {4, 5, 6}));
+}
+
+TEST(TopView, HasALegendAndABarOfARoundLength) {
+  EXPECT_EQ(scale_bar_m(40.0), 10.0);
+  EXPECT_EQ(scale_bar_m(60.0), 10.0);
+  EXPECT_EQ(scale_bar_m(8.0), 2.0);
+  EXPECT_EQ(scale_bar_m(30.0), 5.0);
+  const Image image =
+      with_legend({Image(400, 200), Image(400, 200)}, {"before", "after"}, {"top", "left"}, 0.1);
+  EXPECT_EQ(image.width(), 808);
+  EXPECT_GT(image.height(), 250);
+  std::size_t bar = 0;
+  std::set<int> colours;
+  std::size_t caption = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    std::size_t run = 0;
+    for (int x = 0; x < image.width(); ++x) {
+      const Colour& pixel = image.at(x, y);
+      colours.insert((pixel.red << 16) + (pixel.green << 8) + pixel.blue);
+      run = is(pixel, {0x22, 0x22, 0x22}) ? run + 1 : 0;
+      bar = std::max(bar, run);
+      if (y < 48 && !is(pixel, {255, 255, 255})) ++caption;
+      const bool is_in_view = y >= 48 && y < 248;
+      if (is_in_view) {
+        EXPECT_TRUE(is(pixel, {255, 255, 255}));
+      }
+    }
+  }
+  EXPECT_EQ(bar, 100U);  // 10 m.
+  EXPECT_GT(caption, 100U);
+  for (const std::size_t sensor : {0U, 1U}) {
+    const Colour colour = sensor_colour(sensor);
+    EXPECT_EQ(colours.count((colour.red << 16) + (colour.green << 8) + colour.blue), 1U);
+  }
 }
 
 TEST(Image, IsWrittenAsPng) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "framework/base/text.hpp"
 #include "framework/table/renderers.hpp"
 
 namespace croon {

@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/report/plots.hpp"
+#include "framework/base/text.hpp"
+#include "framework/picture/chart.hpp"
+
+namespace croon::experiments {
+namespace {
+
+/// Where things are, in units of the sheet.
+struct Layout {
+  Plot plot;
+  double width, height;
+  std::size_t legend_columns;  ///< Entries beside each other below the plot; 0: right of it.
+  double legend_width;         ///< Of an entry.
+};
+
+constexpr double kScreenLegend = 250.0;
+constexpr std::size_t kLabelColumns = 30;
+
+double legend_height(const Sheet& sheet) { return sheet.is_paper ? 1.25 * sheet.small() : 20.0; }
+
+Layout layout_of(const Sheet& sheet, const Axis& sizes, const std::vector<std::string>& labels) {
+  const double text = sheet.small();
+  Layout layout{};
+  Plot& plot = layout.plot;
+  plot.x_range = {sizes.low, sizes.high};
+  plot.y_range = {0.0, 1.0};
+  plot.left = sheet.is_paper ? 3.6 * text : 56.0;
+  plot.top = sheet.has_title ? (sheet.is_paper ? 3.4 * text : 60.0) : 0.9 * text;
+  const double axis_height = sheet.is_paper ? 3.6 * text : 50.0;
+  const auto rows = static_cast<double>(labels.size());
+  if (sheet.width <= 0.0) {
+    plot.width = 560.0;
+    plot.height = 300.0;
+    layout.width = plot.left + plot.width + 24.0 + kScreenLegend;
+    layout.height = plot.top + std::max(plot.height, legend_height(sheet) * rows) + axis_height;
+    return layout;
+  }
+  plot.width = sheet.width - plot.left - 1.5 * text;
+  plot.height = std::min(0.6 * plot.width, 170.0);
+  double widest = 0.0;
+  for (const std::string& label : labels) widest = std::max(widest, text_width(label, text));
+  layout.legend_width = legend_line(sheet) + widest + 1.5 * text;
+  layout.legend_columns = static_cast<std::size_t>(
+      std::clamp(std::floor(plot.width / layout.legend_width), 1.0, std::max(rows, 1.0)));
+  layout.width = sheet.width;
+  layout.height =
+      plot.top + plot.height + axis_height +
+      legend_height(sheet) * std::ceil(rows / static_cast<double>(layout.legend_columns));
+  return layout;
+}
+
+void draw_frame(Drawing& drawing, const Plot& plot, const Axis& sizes, const Sweep& sweep) {
+  const double text = drawing.sheet().small();
+  for (const double ratio : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
+    plot.draw_y_tick(drawing, ratio, fixed_number(100.0 * ratio, 0), 0.7 * text,
+                     ratio == 0.0 ? "zero" : "grid");
+  }
+  for (const double size : sizes.ticks) {
+    plot.draw_x_tick(drawing, size, fixed_number(size, sizes.decimals), 1.4 * text);
+  }
+  const std::string what = sweep.of == SweepOf::rotation ? "rotation" : "translation";
+  drawing.text(plot.left + plot.width / 2.0, plot.top + plot.height + 2.8 * text,
+               what + " of the start from its centre, " + size_unit(sweep), Anchor::middle,
+               "small");
+  // Without a title the axis says what it is.
+  if (drawing.sheet().has_title) return;
+  drawing.text(text, plot.top + plot.height / 2.0, "success, %", Anchor::middle, "small", -90.0);
+}
+
+/// Draws the interval of a row.
+void draw_band(Drawing& drawing, const Plot& plot, const Sweep& sweep, const BasinRow& row,
+               std::size_t index) {
+  std::vector<Corner> upper, lower;
+  for (std::size_t level = 0; level < row.levels.size(); ++level) {
+    const Share& share = row.levels[level];
+    if (share.trials == 0) continue;
+    const double x = plot.x(level_size(sweep, static_cast<int>(level)));
+    if (!share.interval) continue;
+    upper.push_back({x, plot.y(share.interval->high)});
+    lower.push_back({x, plot.y(share.interval->low)});
+  }
+  if (upper.empty()) return;
+  upper.insert(upper.end(), lower.rbegin(), lower.rend());
+  drawing.area(upper, "band c" + std::to_string(index % kSeriesColours));
+}
+
+void draw_curve(Drawing& drawing, const Plot& plot, const Sweep& sweep, const BasinRow& row,
+                std::size_t index) {
+  std::vector<Corner> curve;
+  for (std::size_t level = 0; level < row.levels.size(); ++level) {
+    const Share& share = row.levels[level];
+    if (share.trials == 0) continue;
+    curve.push_back({plot.x(level_size(sweep, static_cast<int>(level))), plot.y(share.ratio)});
+  }
+  drawing.polyline(curve, "curve " + series_style(index));
+  for (const auto& [x, y] : curve) {
+    draw_marker(drawing, x, y, 0.27 * drawing.sheet().small(), index);
+  }
+}
+
+void draw_legend(Drawing& drawing, const Layout& layout, std::size_t index,
+                 const std::string& label) {
+  const Plot& plot = layout.plot;
+  const double line = legend_height(drawing.sheet());
+  if (layout.legend_columns == 0) {
+    draw_legend_entry(drawing, plot.left + plot.width + 24.0,
+                      plot.top + 8.0 + line * static_cast<double>(index), index, label);
+    return;
+  }
+  const auto row = static_cast<double>(index / layout.legend_columns);
+  const auto column = static_cast<double>(index % layout.legend_columns);
+  draw_legend_entry(drawing, plot.left + layout.legend_width * column,
+                    plot.top + plot.height + 4.0 * drawing.sheet().small() + line * row, index,
+                    label);
+}
+
+}  // namespace
+
+Drawing basin_chart(const Basin& basin, const FigureOptions& options) {
+  constexpr const char* kTitle = "Success in % over the size of the start's perturbation";
+  const std::string explanation =
+      "All sensors and scenes together; the band is the 95 % interval, none for fewer than " +
+      std::to_string(kLeastScenes) + " scenes";
+  std::vector<const BasinRow*> rows;
+  std::vector<std::string> names;
+  for (const BasinRow& row : basin.rows) {
+    if (!row.sensor.empty()) continue;
+    rows.push_back(&row);
+    names.push_back(row.variant);
+  }
+  const std::vector<std::string> labels = distinct_labels(names, kLabelColumns);
+  const Sheet& sheet = options.sheet;
+  const Axis sizes =
+      round_axis(basin.sweep.first, basin.sweep.last, sheet.width == kOneColumn.width ? 6 : 9);
+  const Layout layout = layout_of(sheet, sizes, labels);
+  Drawing drawing(layout.width, layout.height, sheet);
+  drawing.describe(std::string(kTitle) + ". " + explanation + ".");
+  drawing.rectangle(0.0, 0.0, layout.width, layout.height, "page");
+  if (sheet.has_title) {
+    drawing.text(layout.plot.left, 0.4 * layout.plot.top, kTitle, Anchor::start, "title");
+    drawing.text(layout.plot.left, 0.7 * layout.plot.top, explanation, Anchor::start, "small");
+  }
+  draw_frame(drawing, layout.plot, sizes, basin.sweep);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    draw_band(drawing, layout.plot, basin.sweep, *rows[i], i);
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    draw_curve(drawing, layout.plot, basin.sweep, *rows[i], i);
+    draw_legend(drawing, layout, i, labels[i]);
+  }
+  return drawing;
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,100 @@
+// What the boxes of a figure are of.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "experiments/report/plots.hpp"
+#include "framework/picture/chart.hpp"
+
+namespace croon::experiments {
+namespace {
+
+/// The index of `name` in `names`; added if it is new.
+std::size_t index_of(std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  const auto index = static_cast<std::size_t>(found - names.begin());
+  if (found == names.end()) names.push_back(name);
+  return index;
+}
+
+/// The label of the box that the deviations of `scene` are in.
+std::string label_of(const SummaryRow& row, const SceneSummary& scene, BoxOf of) {
+  return of == BoxOf::variant      ? row.variant
+         : of == BoxOf::scene      ? scene.scene
+         : of == BoxOf::scene_kind ? scene.scene_kind
+                                   : "";
+}
+
+}  // namespace
+
+BoxOf box_of(const Summary& summary, std::size_t max_scenes, std::size_t max_kinds) {
+  std::set<std::string> kinds;
+  std::size_t scenes = 0;
+  for (const SummaryRow& row : summary.rows) {
+    scenes = std::max(scenes, row.scenes.size());
+  }
+  for (const SceneKindSummary& kind : summary.scene_kinds) kinds.insert(kind.scene_kind);
+  if (variants_of(summary).size() > 1) return BoxOf::variant;
+  if (scenes > 1 && scenes <= max_scenes) return BoxOf::scene;
+  const bool by_kind = scenes > 1 && !kinds.empty() && kinds.size() <= max_kinds;
+  return by_kind ? BoxOf::scene_kind : BoxOf::all_scenes;
+}
+
+std::vector<BoxGroup> box_groups(const Summary& summary, BoxOf of) {
+  // Kinds come in the order of their summaries, all else in that of the rows.
+  std::vector<std::string> labels, sensors;
+  if (of == BoxOf::scene_kind) {
+    for (const SceneKindSummary& kind : summary.scene_kinds) index_of(labels, kind.scene_kind);
+  }
+  std::vector<std::map<std::size_t, std::vector<Measures>>> boxes;
+  for (const SummaryRow& row : summary.rows) {
+    const std::size_t sensor = index_of(sensors, row.sensor);
+    boxes.resize(sensors.size());
+    for (const SceneSummary& scene : row.scenes) {
+      std::vector<Measures>& box = boxes[sensor][index_of(labels, label_of(row, scene, of))];
+      box.insert(box.end(), scene.deviations.begin(), scene.deviations.end());
+    }
+  }
+  std::vector<BoxGroup> groups;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    groups.push_back({sensors[i], {}});
+    for (const auto& [label, deviations] : boxes[i]) {
+      groups[i].boxes.push_back({labels[label], label, deviations});
+    }
+  }
+  return groups;
+}
+
+double robust_limit(const std::vector<BoxGroup>& groups, std::size_t measure) {
+  constexpr double kWhiskers = 3.0;
+  std::vector<double> reaches;
+  for (const BoxGroup& group : groups) {
+    for (const BoxSeries& box : group.boxes) {
+      if (box.deviations.empty()) continue;
+      const BoxPlot plot = box_plot(values_of(box.deviations, measure));
+      reaches.push_back(std::max(std::abs(plot.lower_whisker), std::abs(plot.upper_whisker)));
+    }
+  }
+  const double least = 10.0 * std::pow(10.0, -kMeasures[measure].decimals);
+  if (reaches.empty()) return least;
+  std::sort(reaches.begin(), reaches.end());
+  return std::max(least, kWhiskers * reaches[(reaches.size() - 1) / 2]);
+}
+
+void shorten_labels(std::vector<BoxGroup>& groups, std::size_t columns) {
+  std::map<std::size_t, std::string> names;  // By series.
+  for (const BoxGroup& group : groups) {
+    for (const BoxSeries& box : group.boxes) names[box.colour] = box.label;
+  }
+  std::vector<std::string> labels;
+  for (const auto& [series, name] : names) labels.push_back(name);
+  labels = distinct_labels(labels, columns);
+  std::size_t i = 0;
+  for (auto& [series, name] : names) name = labels[i++];
+  for (BoxGroup& group : groups) {
+    for (BoxSeries& box : group.boxes) box.label = names.at(box.colour);
+  }
+}
+
+}  // namespace croon::experiments

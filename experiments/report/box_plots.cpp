@@ -1,0 +1,415 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "experiments/report/plots.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
+#include "framework/picture/chart.hpp"
+
+namespace croon::experiments {
+
+namespace {
+
+constexpr std::size_t kMaxScenes = 12;
+constexpr std::size_t kMaxKinds = 20;
+
+/// The lengths of a figure that its sheet decides, in units of the sheet.
+struct Lengths {
+  double margin, panel_title, axis_width, right, group_gap, sensor_height;
+  double widest_pitch, least_pitch;  ///< From the middle of a box to that of the next.
+  double least_plot;                 ///< Width.
+  std::size_t label_columns;
+};
+
+constexpr Lengths kScreenLengths = {16, 26, 58, 16, 18, 22, 22, 22, 260, 30};
+constexpr Lengths kPaperLengths = {1, 12, 31, 5, 4, 11, 14, 9, 55, 28};
+
+/// The measure of a panel, as its axis shows it.
+struct Panel {
+  std::size_t measure;
+  std::string title;
+  double factor;  ///< From the measure's unit to that of the axis.
+  Axis axis;
+};
+
+/// A figure of panels that are alike.
+struct Layout {
+  Sheet sheet;
+  Lengths lengths;
+  std::vector<std::string> title;
+  std::size_t columns = 1;  ///< Of panels.
+  double plot_width = 0.0;
+  double plot_height = 190.0;
+  double pitch = 0.0;
+  double label_height = 0.0;  ///< Of the names below the boxes.
+  double above = 0.0;         ///< Room for the numbers of values beyond the axis.
+  double below = 0.0;
+
+  std::size_t rows() const { return kDofs / columns; }
+  double title_height() const {
+    return sheet.has_title ? 1.3 * sheet.title() * static_cast<double>(title.size()) + 26.0 : 0.0;
+  }
+  double names_height() const { return label_height + lengths.sensor_height; }
+  double panel_width() const { return lengths.axis_width + plot_width + lengths.right; }
+  /// On paper, the panels of a column share the names below the lowest.
+  double panel_height() const {
+    return lengths.panel_title + above + plot_height + below +
+           (sheet.is_paper ? 0.4 * sheet.text() : names_height() + lengths.margin);
+  }
+  double width() const {
+    return sheet.width > 0.0 ? sheet.width
+                             : 2.0 * lengths.margin + static_cast<double>(columns) * panel_width();
+  }
+  double height() const {
+    return title_height() + static_cast<double>(rows()) * panel_height() + lengths.margin +
+           (sheet.is_paper ? names_height() : 0.0);
+  }
+};
+
+/// How wide a group is: its boxes, or its name if that is longer.
+double group_width(const BoxGroup& group, const Layout& layout, double pitch) {
+  return std::max(pitch * static_cast<double>(group.boxes.size()),
+                  text_width(group.sensor, layout.sheet.text()));
+}
+
+double groups_width(const std::vector<BoxGroup>& groups, const Layout& layout, double pitch) {
+  double width = 0.0;
+  for (const BoxGroup& group : groups) {
+    width += group_width(group, layout, pitch) + layout.lengths.group_gap;
+  }
+  return width;
+}
+
+std::size_t number_of_boxes(const std::vector<BoxGroup>& groups) {
+  std::size_t boxes = 0;
+  for (const BoxGroup& group : groups) boxes += group.boxes.size();
+  return boxes;
+}
+
+/// Panels as wide as their boxes need. Many boxes make wide panels: two rows, three or six.
+void lay_out_for_screen(Layout& layout, const std::vector<BoxGroup>& groups) {
+  const std::size_t boxes = number_of_boxes(groups);
+  layout.columns = boxes <= 20 ? 3 : boxes <= 48 ? 2 : 1;
+  layout.pitch = layout.lengths.widest_pitch;
+  layout.plot_width =
+      std::max(layout.lengths.least_plot, groups_width(groups, layout, layout.pitch));
+}
+
+/// As many panels beside each other as have room for their boxes.
+void lay_out_for_paper(Layout& layout, const std::vector<BoxGroup>& groups) {
+  const double page = layout.sheet.width - 2.0 * layout.lengths.margin;
+  for (const std::size_t columns : {3U, 2U, 1U}) {
+    layout.columns = columns;
+    layout.plot_width =
+        page / static_cast<double>(columns) - layout.lengths.axis_width - layout.lengths.right;
+    if (layout.plot_width < layout.lengths.least_plot) continue;
+    for (layout.pitch = layout.lengths.widest_pitch; layout.pitch >= layout.lengths.least_pitch;
+         layout.pitch -= 0.25) {
+      if (groups_width(groups, layout, layout.pitch) > layout.plot_width) continue;
+      // Six panels one above the other have room on a page.
+      layout.plot_height = columns == 1 ? 46.0 : std::clamp(0.7 * layout.plot_width, 62.0, 90.0);
+      return;
+    }
+  }
+  const double width =
+      page - layout.plot_width + groups_width(groups, layout, layout.lengths.least_pitch);
+  throw InputError("", "--width",
+                   std::to_string(number_of_boxes(groups)) + " boxes with their names want " +
+                       fixed_number(std::ceil(width / kPointsPerMm), 0) + " mm, found " +
+                       fixed_number(layout.sheet.width / kPointsPerMm, 0) +
+                       " mm; choose fewer by --sensors or --variants, or a wider figure");
+}
+
+std::vector<double> scaled_values(const BoxSeries& box, const Panel& panel) {
+  std::vector<double> values = values_of(box.deviations, panel.measure);
+  for (double& value : values) value *= panel.factor;
+  return values;
+}
+
+/// Calls `visit` for each box that has values.
+template <class F>
+void for_each_box(const std::vector<BoxGroup>& groups, const F& visit) {
+  for (const BoxGroup& group : groups) {
+    for (const BoxSeries& box : group.boxes) {
+      if (!box.deviations.empty()) visit(box);
+    }
+  }
+}
+
+/// 0 and every value of a measure, as far as the robust limit.
+Interval shown_range(const std::vector<BoxGroup>& groups, std::size_t measure) {
+  const double limit = robust_limit(groups, measure);
+  Interval range = {0.0, 0.0};
+  for_each_box(groups, [&](const BoxSeries& box) {
+    for (const Measures& deviation : box.deviations) {
+      range.low = std::max(std::min(range.low, deviation[measure]), -limit);
+      range.high = std::min(std::max(range.high, deviation[measure]), limit);
+    }
+  });
+  return range;
+}
+
+bool is_length(std::size_t measure) { return kMeasures[measure].unit == std::string("m"); }
+
+/// The six panels in the order of the paper; lengths have one unit.
+std::vector<Panel> panels_of(const std::vector<BoxGroup>& groups, const std::string& unit) {
+  double longest = 0.0;
+  for (const std::size_t measure : kPaperOrder) {
+    if (!is_length(measure)) continue;
+    const Interval range = shown_range(groups, measure);
+    longest = std::max({longest, -range.low, range.high});
+  }
+  constexpr double kSmall_m = 0.1;
+  const bool in_mm = unit.empty() ? longest < kSmall_m : unit == "mm";
+  std::vector<Panel> panels;
+  for (const std::size_t measure : kPaperOrder) {
+    const bool is_in_mm = is_length(measure) && in_mm;
+    const double factor = is_in_mm ? 1000.0 : 1.0;
+    const Interval range = shown_range(groups, measure);
+    panels.push_back(
+        {measure,
+         std::string(kMeasures[measure].name) + ", " + (is_in_mm ? "mm" : kMeasures[measure].unit),
+         factor, round_axis(factor * range.low, factor * range.high, 5)});
+  }
+  return panels;
+}
+
+std::size_t count_above(const std::vector<double>& values, double limit) {
+  return static_cast<std::size_t>(
+      std::count_if(values.begin(), values.end(), [&](double value) { return value > limit; }));
+}
+
+std::size_t count_below(const std::vector<double>& values, double limit) {
+  return static_cast<std::size_t>(
+      std::count_if(values.begin(), values.end(), [&](double value) { return value < limit; }));
+}
+
+/// Makes room for the numbers of values beyond the axes.
+void make_room_beyond(Layout& layout, const std::vector<Panel>& panels,
+                      const std::vector<BoxGroup>& groups) {
+  std::size_t above = 0;
+  std::size_t below = 0;
+  for (const Panel& panel : panels) {
+    for_each_box(groups, [&](const BoxSeries& box) {
+      const std::vector<double> values = scaled_values(box, panel);
+      above = std::max(above, count_above(values, panel.axis.high));
+      below = std::max(below, count_below(values, panel.axis.low));
+    });
+  }
+  const auto room = [&](std::size_t count) {
+    if (count == 0) return 0.0;
+    const double text = layout.sheet.small();
+    const double number = text_width(std::to_string(count), text);
+    return 0.9 * text + (number <= layout.pitch ? 0.9 * text : number);
+  };
+  layout.above = room(above);
+  layout.below = room(below);
+}
+
+/// Lines of at most `columns` columns, broken at spaces.
+std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
+  std::vector<std::string> lines = {""};
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    std::string& line = lines.back();
+    if (line.empty()) {
+      line = word;
+    } else if (text_columns(line) + 1 + text_columns(word) <= columns) {
+      line += " " + word;
+    } else {
+      lines.push_back(word);
+    }
+  }
+  return lines;
+}
+
+Layout layout_of(const std::vector<BoxGroup>& groups, const std::vector<Panel>& panels,
+                 const Sheet& sheet) {
+  Layout layout;
+  layout.sheet = sheet;
+  layout.lengths = sheet.is_paper ? kPaperLengths : kScreenLengths;
+  std::size_t label_columns = 0;
+  for (const BoxGroup& group : groups) {
+    for (const BoxSeries& box : group.boxes) {
+      label_columns = std::max(label_columns, text_columns(box.label));
+    }
+  }
+  if (label_columns > 0) {
+    layout.label_height = text_width(std::string(label_columns, 'x'), sheet.small()) + 6.0;
+  }
+  sheet.width > 0.0 ? lay_out_for_paper(layout, groups) : lay_out_for_screen(layout, groups);
+  make_room_beyond(layout, panels, groups);
+  return layout;
+}
+
+/// Draws the frame of `panel`, the `index`-th of six, and returns its plot.
+Plot draw_frame(Drawing& drawing, const Layout& layout, std::size_t index, const Panel& panel) {
+  // With two columns, rotations stand left and translations right.
+  const std::size_t rows = layout.rows();
+  const std::size_t row = layout.columns == 2 ? index % rows : index / layout.columns;
+  const std::size_t column = layout.columns == 2 ? index / rows : index % layout.columns;
+  const double left = layout.lengths.margin + static_cast<double>(column) * layout.panel_width() +
+                      layout.lengths.axis_width;
+  const double title = layout.title_height() + static_cast<double>(row) * layout.panel_height() +
+                       layout.lengths.panel_title;
+  const Axis& axis = panel.axis;
+  const Plot plot = {left,       title + layout.above, layout.plot_width, layout.plot_height,
+                     {0.0, 1.0}, {axis.low, axis.high}};
+  for (const double tick : axis.ticks) {
+    plot.draw_y_tick(drawing, tick, fixed_number(tick, axis.decimals), 0.5 * layout.sheet.small(),
+                     tick == 0.0 ? "zero" : "grid");
+  }
+  drawing.text(left, title - 0.5 * layout.sheet.text(), panel.title, Anchor::start, "title");
+  return plot;
+}
+
+/// Draws an arrowhead at the end of the axis beyond which `count` values are, and the number.
+void draw_beyond(Drawing& drawing, double x, double pitch, double border, std::size_t count,
+                 bool is_up, std::size_t series) {
+  if (count == 0) return;
+  const double text = drawing.sheet().small();
+  const double side = is_up ? -1.0 : 1.0;
+  draw_arrowhead(drawing, x, border + side * 0.4 * text, 0.3 * text, is_up,
+                 "marker c" + std::to_string(series % kSeriesColours));
+  const std::string number = std::to_string(count);
+  if (text_width(number, text) <= pitch) {
+    drawing.text(x, border + (is_up ? -0.9 : 1.6) * text, number, Anchor::middle, "small");
+  } else {
+    drawing.text(x + 0.36 * text, border + side * 0.9 * text, number,
+                 is_up ? Anchor::start : Anchor::end, "small", -90.0);
+  }
+}
+
+void draw_box(Drawing& drawing, const Plot& plot, double x, double pitch, const BoxSeries& series,
+              const std::vector<double>& values) {
+  const BoxPlot box = box_plot(values);
+  const std::string style = " " + box_style(series.colour);
+  const double width = 0.6 * pitch;
+  const double left = x - width / 2.0;
+  const double right = x + width / 2.0;
+  const auto is_shown = [&](double value) {
+    return value >= plot.y_range.low && value <= plot.y_range.high;
+  };
+  const double top = plot.y_inside(box.upper_quartile);
+  const double bottom = plot.y_inside(box.lower_quartile);
+  drawing.line(x, plot.y_inside(box.upper_whisker), x, top, "line" + style);
+  drawing.line(x, bottom, x, plot.y_inside(box.lower_whisker), "line" + style);
+  for (const double end : {box.lower_whisker, box.upper_whisker}) {
+    if (!is_shown(end)) continue;
+    drawing.line(x - 0.3 * width, plot.y(end), x + 0.3 * width, plot.y(end), "line" + style);
+  }
+  if (bottom > top || box.upper_quartile == box.lower_quartile) {
+    drawing.rectangle(left, top, width, bottom - top, "box" + style);
+  }
+  if (is_shown(box.median)) {
+    drawing.line(left, plot.y(box.median), right, plot.y(box.median), "median" + style);
+  }
+  // Of dots that look the same one is enough, or a long run makes a file of many megabytes.
+  std::set<double> rows;
+  for (const double outlier : box.outliers) {
+    if (is_shown(outlier)) rows.insert(std::round(2.0 * plot.y(outlier)) / 2.0);
+  }
+  for (const double y : rows) {
+    drawing.dot(x, y, 1.8 * std::min(1.0, pitch / kScreenLengths.widest_pitch + 0.2),
+                "dot" + style);
+  }
+  draw_beyond(drawing, x, pitch, plot.top, count_above(values, plot.y_range.high), true,
+              series.colour);
+  draw_beyond(drawing, x, pitch, plot.top + plot.height, count_below(values, plot.y_range.low),
+              false, series.colour);
+}
+
+void draw_panel(Drawing& drawing, const Layout& layout, const std::vector<BoxGroup>& groups,
+                std::size_t index, const Panel& panel) {
+  const Plot plot = draw_frame(drawing, layout, index, panel);
+  const double used = groups_width(groups, layout, layout.pitch) -
+                      layout.lengths.group_gap * static_cast<double>(groups.size());
+  // What width is left over goes between the groups.
+  const double gap = (layout.plot_width - used) / static_cast<double>(groups.size());
+  const double text = layout.sheet.small();
+  const double below = plot.top + plot.height + layout.below + 0.6 * text;
+  const bool has_names =
+      !layout.sheet.is_paper || (layout.columns == 2 ? index % layout.rows() + 1 == layout.rows()
+                                                     : index / layout.columns + 1 == layout.rows());
+  double left = plot.left + gap / 2.0;
+  for (const BoxGroup& group : groups) {
+    const double width = group_width(group, layout, layout.pitch);
+    const double boxes = layout.pitch * static_cast<double>(group.boxes.size());
+    double x = left + (width - boxes) / 2.0 + layout.pitch / 2.0;
+    for (const BoxSeries& box : group.boxes) {
+      if (box.deviations.empty()) {
+        drawing.text(x + 0.36 * text, plot.top + plot.height - 0.4 * text, "none", Anchor::start,
+                     "small", -90.0);
+      } else {
+        draw_box(drawing, plot, x, layout.pitch, box, scaled_values(box, panel));
+      }
+      if (has_names) {
+        drawing.text(x + 0.36 * text, below, box.label, Anchor::end, "small", -90.0);
+      }
+      x += layout.pitch;
+    }
+    if (has_names) {
+      drawing.text(left + width / 2.0, below + layout.label_height + 0.8 * text, group.sensor,
+                   Anchor::middle, "sensor");
+    }
+    left += width + gap;
+  }
+}
+
+std::string title_of(const Summary& summary) {
+  std::vector<const SummaryRow*> rows;
+  for (const SummaryRow& row : summary.rows) rows.push_back(&row);
+  const TrialSummary all = pooled(scenes_of(rows));
+  const std::string which =
+      std::to_string(all.counted) + " of " + std::to_string(all.outcomes.trials) + " trials";
+  return all.deviations_from == DeviationsFrom::truth
+             ? "Error of the successful trials against the truth (" + which + ")"
+             : "Deviation from what all scenes agree on (" + which + ")";
+}
+
+/// The meaning of a box.
+std::string explanation_of(BoxOf of) {
+  static const std::map<BoxOf, const char*> what = {
+      {BoxOf::variant, "one variant and sensor, all scenes together"},
+      {BoxOf::scene, "one sensor in one scene"},
+      {BoxOf::scene_kind, "one sensor in all scenes of one kind"},
+      {BoxOf::all_scenes, "one sensor, all scenes together"}};
+  return std::string("A box is ") + what.at(of) +
+         ": quartiles and median; dots lie beyond 1.5 interquartile ranges";
+}
+
+}  // namespace
+
+Drawing box_plots(const Summary& summary, const FigureOptions& options) {
+  const BoxOf of = box_of(summary, kMaxScenes, kMaxKinds);
+  std::vector<BoxGroup> groups = box_groups(summary, of);
+  shorten_labels(groups, (options.sheet.is_paper ? kPaperLengths : kScreenLengths).label_columns);
+  const std::vector<Panel> panels = panels_of(groups, options.length_unit);
+  Layout layout = layout_of(groups, panels, options.sheet);
+  std::string explanation = explanation_of(of);
+  if (layout.above + layout.below > 0.0) {
+    explanation += "; arrowheads have the number of values beyond the axis";
+  }
+  const auto columns = static_cast<std::size_t>((layout.width() - 2.0 * layout.lengths.margin) /
+                                                text_width("x", layout.sheet.small()));
+  layout.title = wrapped(title_of(summary), columns * 3 / 4);
+  const std::vector<std::string> lines = wrapped(explanation, columns);
+  const std::size_t title_lines = layout.title.size();
+  layout.title.insert(layout.title.end(), lines.begin(), lines.end());
+  Drawing drawing(layout.width(), layout.height(), options.sheet);
+  drawing.describe(title_of(summary) + ". " + explanation + ".");
+  drawing.rectangle(0.0, 0.0, layout.width(), layout.height(), "page");
+  double y = layout.lengths.margin + 0.9 * options.sheet.title();
+  for (std::size_t i = 0; options.sheet.has_title && i < layout.title.size(); ++i) {
+    drawing.text(layout.lengths.margin, y, layout.title[i], Anchor::start,
+                 i < title_lines ? "title" : "small");
+    y += 1.3 * options.sheet.title();
+  }
+  for (std::size_t i = 0; i < kDofs; ++i) draw_panel(drawing, layout, groups, i, panels[i]);
+  return drawing;
+}
+
+}  // namespace croon::experiments

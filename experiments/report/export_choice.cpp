@@ -1,0 +1,351 @@
+#include "experiments/report/export_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/report/figures.hpp"
+#include "experiments/report/result_tables.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
+
+namespace croon::experiments {
+namespace {
+
+using Names = std::vector<std::string>;
+
+constexpr const char* kAllSensors = "all";
+constexpr std::string_view kPercent = "_percent";
+
+bool ends_with(const std::string& text, std::string_view end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+bool has_column(const Table& table, const std::string& name) {
+  return std::any_of(table.columns.begin(), table.columns.end(),
+                     [&](const Column& column) { return column.full_name() == name; });
+}
+
+/// "translation_median_m".
+std::string column_name(const Measure& measure, const char* statistic) {
+  return statistic_column(measure, statistic).full_name();
+}
+
+/// Every column that can be chosen of a table with all statistics: counts, shares with their
+/// intervals, each measure as mean ± std, each statistic of each measure.
+std::vector<ChosenColumn> column_choices(const Table& table) {
+  std::vector<ChosenColumn> choices = {{"trials", "", "trials", {"trials"}, Joint::none},
+                                       {"counted", "", "counted", {"counted"}, Joint::none}};
+  for (const Column& column : table.columns) {
+    const std::string name = column.full_name();
+    if (column.better != Better::greater || !ends_with(name, kPercent)) continue;
+    const std::string share = name.substr(0, name.size() - kPercent.size());
+    choices.push_back({share, share + " (%)", "rate", {name}, Joint::none});
+    choices.push_back({share + "_interval",
+                       share + " (%)",
+                       "95 % interval",
+                       {share + "_low_percent", share + "_high_percent"},
+                       Joint::interval});
+  }
+  for (const Measure& measure : kMeasures) {
+    const std::string group = std::string(measure.name) + " (" + measure.unit + ")";
+    choices.push_back({measure.name,
+                       group,
+                       "mean ± std",
+                       {column_name(measure, "mean"), column_name(measure, "std")},
+                       Joint::spread});
+    for (const Statistic& statistic : kStatistics) {
+      choices.push_back({std::string(measure.name) + "_" + statistic.name,
+                         group,
+                         statistic.name,
+                         {column_name(measure, statistic.name)},
+                         Joint::none});
+    }
+  }
+  return choices;
+}
+
+std::vector<ChosenColumn> chosen_columns(const Table& table, const Names& names) {
+  const std::vector<ChosenColumn> choices = column_choices(table);
+  Names known;
+  for (const ChosenColumn& choice : choices) known.push_back(choice.name);
+  refuse_unknown("--columns", names, known);
+  std::vector<ChosenColumn> chosen;
+  for (const std::string& name : names) {
+    const auto index = std::find(known.begin(), known.end(), name) - known.begin();
+    chosen.push_back(choices[static_cast<std::size_t>(index)]);
+  }
+  return chosen;
+}
+
+/// The table with these columns alone, in this order.
+Table projected(const Table& table, const Names& names) {
+  Table result;
+  result.rows.resize(table.rows.size());
+  for (const std::string& name : names) {
+    if (has_column(result, name)) continue;
+    const std::size_t k = table.index_of(name);
+    result.columns.push_back(table.columns[k]);
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      result.rows[i].push_back(table.rows[i][k]);
+    }
+  }
+  return result;
+}
+
+/// Leaves the rows of the chosen sensors.
+void choose_rows(ExportTable& table, const Names& sensors) {
+  if (sensors.empty()) return;
+  Names known = table.sensors;
+  if (known.size() > 1) known.emplace_back(kAllSensors);
+  refuse_unknown("--sensors", sensors, known);
+  const auto is_chosen = [&](const std::string& sensor) {
+    const std::string name = sensor.empty() ? kAllSensors : sensor;
+    return std::find(sensors.begin(), sensors.end(), name) != sensors.end();
+  };
+  std::vector<CellRow> rows;
+  for (std::size_t i = 0; i < table.table.rows.size(); ++i) {
+    if (is_chosen(table.table.text_at(i, "sensor"))) rows.push_back(table.table.rows[i]);
+  }
+  table.table.rows = std::move(rows);
+}
+
+std::string in_mm(const std::string& name) { return ends_with(name, "_m") ? name + "m" : name; }
+
+void change_to_mm(ExportTable& table) {
+  constexpr int kDigits = 3;
+  for (std::size_t k = 0; k < table.table.columns.size(); ++k) {
+    Column& column = table.table.columns[k];
+    if (column.unit != "m") continue;
+    column.unit = "mm";
+    column.decimals = std::max(0, column.decimals - kDigits);
+    for (CellRow& row : table.table.rows) {
+      if (auto* const value = std::get_if<double>(&row[k].value)) *value *= 1000.0;
+    }
+  }
+  for (ChosenColumn& chosen : table.chosen) {
+    for (std::string& name : chosen.columns) name = in_mm(name);
+  }
+}
+
+std::string replaced(std::string text, const std::string& old, const std::string& by) {
+  for (auto at = text.find(old); at != std::string::npos; at = text.find(old, at + by.size())) {
+    text.replace(at, old.size(), by);
+  }
+  return text;
+}
+
+/// What a chosen column shows in a cell.
+std::string content_of(const ChosenColumn& chosen, bool is_latex) {
+  const std::string first = "<" + chosen.columns.front() + ">";
+  if (chosen.joint == Joint::none) return first;
+  const std::string second = "<" + chosen.columns.back() + ">";
+  if (chosen.joint == Joint::interval) {
+    return is_latex ? first + "\\,--\\," + second : "[" + first + ", " + second + "]";
+  }
+  return first + (is_latex ? "\\,${}\\pm{}$\\," : " ± ") + second;
+}
+
+/// The names of the sensors, and of the experiments, whose rows are in the table.
+bool has_several(const Table& table, const char* column) {
+  return std::any_of(table.rows.begin(), table.rows.end(), [&](const CellRow& row) {
+    const std::size_t k = table.index_of(column);
+    return row[k].value != table.rows.front()[k].value;
+  });
+}
+
+}  // namespace
+
+TableChoice compact(TableChoice choice, const Summary& summary) {
+  const bool has_sensors = sensors_of(summary).size() > 1;
+  if (choice.sensors.empty() && has_sensors) choice.sensors = {kAllSensors};
+  if (!choice.columns.empty()) return choice;
+  ExportTable table = export_table(summary, {});
+  Names shares;
+  for (const ChosenColumn& column : column_choices(table.table)) {
+    if (!ends_with(column.columns.front(), kPercent) || column.joint != Joint::none) continue;
+    const std::size_t k = table.table.index_of(column.columns.front());
+    const auto has_value = [k](const CellRow& row) { return !row[k].is_nothing(); };
+    const auto& rows = table.table.rows;
+    if (std::any_of(rows.begin(), rows.end(), has_value)) shares.push_back(column.name);
+  }
+  for (const std::string& share : shares) {
+    choice.columns.push_back(share);
+    if (!choice.is_one_column) choice.columns.push_back(share + "_interval");
+  }
+  for (const char* measure : {"rotation", "translation"}) {
+    choice.columns.push_back(std::string(measure) + "_median");
+    if (!choice.is_one_column) choice.columns.push_back(std::string(measure) + "_p95");
+  }
+  return choice;
+}
+
+void add_all_statistics(Columns<SummaryRow>& columns) {
+  const Table present{columns.columns(), {}};
+  for (std::size_t k = 0; k < kMeasures.size(); ++k) {
+    for (std::size_t s = 0; s < kStatistics.size(); ++s) {
+      const Column column = statistic_column(kMeasures[k], kStatistics[s].name);
+      if (has_column(present, column.full_name())) continue;
+      columns.add(column, [k, s](const SummaryRow& row) { return value_of(row.statistics, k, s); });
+    }
+  }
+}
+
+void choose(ExportTable& table, const TableChoice& choice) {
+  choose_rows(table, choice.sensors);
+  table.is_one_column = choice.is_one_column;
+  if (!choice.columns.empty()) {
+    table.chosen = chosen_columns(table.table, choice.columns);
+    Names names = {"variant", "sensor", "reference"};
+    for (const ChosenColumn& chosen : table.chosen) {
+      names.insert(names.end(), chosen.columns.begin(), chosen.columns.end());
+    }
+    table.table = projected(table.table, names);
+  }
+  if (choice.is_in_mm) change_to_mm(table);
+  table.is_in_mm = choice.is_in_mm;
+}
+
+ExportTable joined(std::vector<ExportTable> tables, const std::vector<std::string>& folders) {
+  if (tables.size() == 1) return tables.front();
+  ExportTable whole = tables.front();
+  whole.table.rows.clear();
+  whole.table.columns.insert(whole.table.columns.begin(), Column{"experiment"});
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    ExportTable& table = tables[i];
+    for (std::size_t k = 0; k < i; ++k) {
+      if (table.caption.name != tables[k].caption.name) continue;
+      throw InputError(folders[i], "",
+                       "expected an experiment of another name, found \"" + table.caption.name +
+                           "\", as in " + folders[k]);
+    }
+    if (table.bounds.rotation_deg != whole.bounds.rotation_deg ||
+        table.bounds.translation_m != whole.bounds.translation_m) {
+      throw InputError(folders[i], "",
+                       "expected success within " + bounds_text(whole.bounds) + "it, as in " +
+                           folders.front() + ", found " + bounds_text(table.bounds) + "it");
+    }
+    for (CellRow& row : table.table.rows) {
+      row.insert(row.begin(), to_cell(table.caption.name));
+      whole.table.rows.push_back(row);
+    }
+    for (const auto& [all, own] :
+         {std::pair(&whole.variants, &table.variants), std::pair(&whole.sensors, &table.sensors)}) {
+      for (const std::string& name : *own) {
+        if (std::find(all->begin(), all->end(), name) == all->end()) all->push_back(name);
+      }
+    }
+    for (std::size_t k = 1; k < whole.table.columns.size(); ++k) {
+      whole.table.columns[k].has_marks |= table.table.columns[k - 1].has_marks;
+    }
+    table.table.columns.insert(table.table.columns.begin(), Column{"experiment"});
+    whole.parts.push_back(table);
+  }
+  return whole;
+}
+
+View chosen_view(const ExportTable& table, bool is_latex) {
+  View view;
+  const bool of_sensors =
+      !has_several(table.table, "variant") && has_several(table.table, "sensor");
+  if (is_latex) {
+    view.columns.push_back({of_sensors ? "sensor" : "variant"});
+    const bool has_headings =
+        !table.parts.empty() || (!of_sensors && has_several(table.table, "sensor"));
+    if (has_headings) view.heading = "heading";
+  } else {
+    if (!table.parts.empty()) view.columns.push_back({"experiment"});
+    view.columns.push_back({"variant"});
+    view.columns.push_back({"sensor"});
+    view.names = view.columns.size();
+  }
+  for (const ChosenColumn& chosen : table.chosen) {
+    const std::string content = content_of(chosen, is_latex);
+    if (is_latex) {
+      view.columns.push_back(
+          {replaced(replaced(chosen.title, "±", "$\\pm$"), "95 %", "95\\,\\%"), content, false,
+           replaced(replaced(chosen.group, "(deg)", "($^\\circ$)"), "%", "\\%")});
+    } else {
+      view.columns.push_back(
+          {chosen.group + (chosen.group.empty() ? "" : " ") + chosen.title, content});
+    }
+  }
+  if (table.is_in_mm) {
+    for (Shown& shown : view.columns) {
+      shown.group = replaced(shown.group, "(m)", "(mm)");
+      if (!is_latex) shown.title = replaced(shown.title, "(m)", "(mm)");
+    }
+  }
+  return view;
+}
+
+View in_unit_of(const ExportTable& table, View view) {
+  if (!table.is_in_mm) return view;
+  for (Shown& shown : view.columns) {
+    shown.content = replaced(shown.content, "_m>", "_mm>");
+    shown.group = replaced(shown.group, "(m)", "(mm)");
+    if (ends_with(shown.title, " m")) shown.title += "m";
+  }
+  return view;
+}
+
+Table with_heading(const ExportTable& table) {
+  Table result = table.table;
+  result.columns.insert(result.columns.begin(), Column{"heading"});
+  const bool has_sensors = has_several(table.table, "sensor");
+  const bool of_sensors = has_sensors && !has_several(table.table, "variant");
+  const std::size_t sensor = table.table.index_of("sensor");
+  for (std::size_t i = 0; i < table.table.rows.size(); ++i) {
+    const CellRow& row = table.table.rows[i];
+    std::string heading;
+    if (!table.parts.empty()) heading = table.table.text_at(i, "experiment");
+    if (has_sensors && !of_sensors) {
+      heading +=
+          (heading.empty() ? "" : ", ") + shown_text(row[sensor], table.table.columns[sensor]);
+    }
+    result.rows[i].insert(result.rows[i].begin(), to_cell(heading));
+  }
+  return result;
+}
+
+void refuse_too_wide(const ExportTable& table, const View& view) {
+  // \scriptsize of a document of 10 pt is 7 pt; a digit of Computer Modern is 4 pt wide.
+  constexpr double kDigit_mm = 4.0 / kPointsPerMm;
+  constexpr double kLetter_mm = 3.5 / kPointsPerMm;
+  constexpr double kSeparation_mm = 5.0 / kPointsPerMm;
+  constexpr double kJoint_mm = 8.0 / kPointsPerMm;  // "±", "--" and the space about them.
+  const double page = table.is_one_column ? kOneColumn_mm : kTwoColumns_mm;
+  const auto widest = [&](std::size_t k, bool of_marks) {
+    std::size_t columns = 0;
+    for (const CellRow& row : table.table.rows) {
+      const std::string text = of_marks ? row[k].mark : shown_text(row[k], table.table.columns[k]);
+      columns = std::max(columns, text_columns(text));
+    }
+    return kDigit_mm * static_cast<double>(columns);
+  };
+  const std::size_t name = table.table.index_of(view.columns.front().title);
+  double width = std::min(widest(name, false), kNameShare * page);
+  double of_group = 0.0;  // Neighbours with one title above them.
+  for (std::size_t i = 0; i < table.chosen.size(); ++i) {
+    const ChosenColumn& chosen = table.chosen[i];
+    double cells = chosen.joint == Joint::none ? 0.0 : kJoint_mm;
+    for (const std::string& column : chosen.columns) {
+      const std::size_t k = table.table.index_of(column);
+      const double marks = widest(k, true);
+      cells += widest(k, false) + marks + (marks > 0.0 ? kSeparation_mm : 0.0);
+    }
+    const double title = kLetter_mm * static_cast<double>(text_columns(chosen.title));
+    of_group += kSeparation_mm + std::max(cells, title);
+    if (i + 1 < table.chosen.size() && table.chosen[i + 1].group == chosen.group) continue;
+    const double group = kLetter_mm * static_cast<double>(text_columns(chosen.group));
+    width += std::max(of_group, kSeparation_mm + group);
+    of_group = 0.0;
+  }
+  if (width <= page) return;
+  throw InputError("", "--columns",
+                   "these " + std::to_string(table.chosen.size()) + " columns want about " +
+                       fixed_number(std::ceil(width), 0) + " mm, the page has " +
+                       fixed_number(page, 0) + " mm; choose fewer" +
+                       (table.is_one_column ? " or --width two_columns" : ""));
+}
+
+}  // namespace croon::experiments

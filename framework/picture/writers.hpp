@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/picture/drawing.hpp"
+#include "framework/picture/image.hpp"
+
+namespace croon {
+
+// The formats of a drawing. The same drawing gives the same bytes; those of PDF files also depend
+// on the version of cairo and on the sans-serif font of the machine, which is embedded.
+
+/// For browsers; readable on light and on dark pages, needs no font or script.
+std::string svg_bytes(const Drawing& drawing);
+
+/// One page of the drawing's size.
+std::string pdf_bytes(const Drawing& drawing);
+
+/// A pgfpicture for \input, whose text has the font of the document; wants the package pgf.
+std::string pgf_bytes(const Drawing& drawing);
+
+/// A format of figures.
+struct DrawingFormat {
+  const char* name;
+  std::string (*bytes)(const Drawing& drawing);
+};
+
+/// All formats, by name; each is the ending of its files.
+const std::vector<DrawingFormat>& drawing_formats();
+
+/// Draws over `image`, from its top left corner; a unit of the drawing is `scale` pixels.
+void draw_on(Image& image, const Drawing& drawing, double scale);
+
+}  // namespace croon

@@ -1,0 +1,208 @@
+#include "experiments/report/export_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/report/figures.hpp"
+#include "framework/base/error.hpp"
+#include "test/support/trial_records.hpp"
+
+namespace croon::experiments {
+namespace {
+
+using test::kBounds;
+using Names = std::vector<std::string>;
+
+const ExportCaption kCaption = {"few", "0123456789ab", 7, 2, 4, 29, 32};
+
+ExportTable chosen(const TableChoice& choice) {
+  return export_table(summarise(test::few_records(), kBounds, {}), kCaption, choice);
+}
+
+Names columns_of(const ExportTable& table) {
+  Names names;
+  for (const Column& column : table.table.columns) names.push_back(column.full_name());
+  return names;
+}
+
+/// The message of the InputError that `work` throws.
+template <class F>
+std::string refusal(const F& work) {
+  try {
+    work();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(TableChoice, HasTheColumnsThatAreAskedFor) {
+  TableChoice choice;
+  choice.columns = {"success", "success_interval", "x", "yaw_p95"};
+  const ExportTable table = chosen(choice);
+  EXPECT_EQ(columns_of(table),
+            (Names{"variant", "sensor", "reference", "success_percent", "success_low_percent",
+                   "success_high_percent", "x_mean_m", "x_std_m", "yaw_p95_deg"}));
+  const ExportTable full = export_table(summarise(test::few_records(), kBounds, {}), kCaption);
+  ASSERT_EQ(table.table.rows.size(), full.table.rows.size());
+  for (std::size_t i = 0; i < table.table.rows.size(); ++i) {
+    for (const char* name : {"success_percent", "x_mean_m", "x_std_m"}) {
+      EXPECT_EQ(table.table.at(i, name).value, full.table.at(i, name).value);
+      EXPECT_EQ(table.table.at(i, name).is_best, full.table.at(i, name).is_best);
+    }
+  }
+  const std::string text = export_markdown(table);
+  EXPECT_NE(text.find("| variant | sensor | success (%) rate | success (%) 95 % interval | x (m) "
+                      "mean ± std | yaw (deg) p95 |"),
+            std::string::npos)
+      << text;
+}
+
+TEST(TableChoice, HasEveryStatisticOfEveryMeasure) {
+  for (const Measure& measure : kMeasures) {
+    for (const Statistic& statistic : kStatistics) {
+      TableChoice choice;
+      choice.columns = {std::string(measure.name) + "_" + statistic.name};
+      EXPECT_EQ(columns_of(chosen(choice)).size(), 4U) << choice.columns.front();
+    }
+  }
+}
+
+TEST(TableChoice, HasTheSensorsThatAreAskedFor) {
+  const auto sensors_of = [](const Names& sensors) {
+    TableChoice choice;
+    choice.sensors = sensors;
+    const ExportTable table = chosen(choice);
+    Names names;
+    for (std::size_t i = 0; i < table.table.rows.size(); ++i) {
+      names.push_back(table.table.text_at(i, "sensor"));
+    }
+    return names;
+  };
+  EXPECT_EQ(sensors_of({"left"}), (Names{"left", "left"}));
+  EXPECT_EQ(sensors_of({"all"}), (Names{"", ""}));
+  EXPECT_EQ(sensors_of({"all", "right"}), (Names{"right", "right", "", ""}));
+}
+
+TEST(TableChoice, RefusesUnknownNamesWithTheNearest) {
+  EXPECT_NE(refusal([] {
+              chosen({{}, {"sucess"}});
+            }).find("did you mean \"success\"?"),
+            std::string::npos);
+  EXPECT_NE(refusal([] {
+              chosen({{"lef"}, {}});
+            })
+                .find("--sensors: unknown name \"lef\"; did you "
+                      "mean \"left\"?"),
+            std::string::npos);
+}
+
+TEST(TableChoice, MillimetresAreAThousandTimesAsMany) {
+  TableChoice choice;
+  choice.columns = {"translation_median", "rotation_median"};
+  const ExportTable metres = chosen(choice);
+  choice.is_in_mm = true;
+  const ExportTable table = chosen(choice);
+  EXPECT_EQ(columns_of(table)[3], "translation_median_mm");
+  EXPECT_EQ(columns_of(table)[4], "rotation_median_deg");
+  for (std::size_t i = 0; i < table.table.rows.size(); ++i) {
+    EXPECT_EQ(std::get<double>(table.table.rows[i][3].value),
+              1000.0 * std::get<double>(metres.table.rows[i][3].value));
+  }
+  EXPECT_EQ(table.table.columns[3].decimals, 1);
+  TableChoice full;
+  full.is_in_mm = true;
+  EXPECT_NE(export_latex(chosen(full)).find("translation (mm)"), std::string::npos);
+  EXPECT_NE(export_markdown(chosen(full)).find("| x mm |"), std::string::npos);
+  EXPECT_EQ(export_markdown(chosen(full)).find(" m |"), std::string::npos);
+}
+
+TEST(TableChoice, TheCaptionNamesTheKindsOfScenes) {
+  ExportTable table = chosen({});
+  table.caption.kinds = {"urban", "narrow"};
+  EXPECT_EQ(caption_sentences(table).at(1).find("2 scenes of urban, narrow, 2 sensors"), 0U);
+}
+
+TEST(Compact, IsARowPerVariant) {
+  const Summary summary = summarise(test::few_records(), kBounds, {});
+  TableChoice choice;
+  choice.is_one_column = true;
+  const ExportTable table = export_table(summary, kCaption, compact(choice, summary));
+  EXPECT_EQ(table.table.rows.size(), 2U);
+  const std::string latex = export_latex(table);
+  EXPECT_NE(latex.find("\\begin{table}[tbp]"), std::string::npos);
+  EXPECT_EQ(latex.find("table*"), std::string::npos);
+  EXPECT_EQ(latex.find("\\medskip"), std::string::npos);
+  choice.columns = {"x", "y", "z", "roll", "pitch", "yaw", "success_interval"};
+  EXPECT_NE(refusal([&] {
+              export_latex(export_table(summary, kCaption, compact(choice, summary)));
+            }).find("--columns: these 7 columns want about "),
+            std::string::npos);
+}
+
+TEST(Joined, GroupsTheRowsByExperiment) {
+  TableChoice choice;
+  choice.sensors = {"all"};
+  std::vector<ExportTable> tables = {chosen(choice), chosen(choice)};
+  tables[1].caption.name = "other";
+  const ExportTable table = joined(tables, {"a", "b"});
+  ASSERT_EQ(table.table.rows.size(), 4U);
+  EXPECT_EQ(table.table.text_at(0, "experiment"), "few");
+  EXPECT_EQ(table.table.text_at(3, "experiment"), "other");
+  EXPECT_EQ(caption_sentences(table).at(0), "few (croon, commit 0123456789ab, seed 7).");
+  EXPECT_EQ(caption_sentences(table).at(2), "other (croon, commit 0123456789ab, seed 7).");
+  EXPECT_EQ(caption_sentences(table).size(), caption_sentences(tables[0]).size() + 2);
+  EXPECT_EQ(export_csv(table).find("experiment,variant,sensor,"), 0U);
+  EXPECT_EQ(nlohmann::json::parse(export_json(table))["experiments"][1]["name"], "other");
+  const std::string latex = export_latex(table);
+  EXPECT_NE(latex.find("{\\itshape few}"), std::string::npos);
+  EXPECT_NE(latex.find("{\\itshape other}"), std::string::npos);
+  EXPECT_NE(export_markdown(table).find("| experiment | variant | sensor |"), std::string::npos);
+}
+
+TEST(Joined, RefusesWhatCannotBeToldApartOrCompared) {
+  std::vector<ExportTable> tables = {chosen({}), chosen({})};
+  EXPECT_NE(refusal([&] {
+              joined(tables, {"a", "b"});
+            })
+                .find("b: expected an experiment of "
+                      "another name, found \"few\""),
+            std::string::npos);
+  tables[1].caption.name = "other";
+  tables[1].bounds.translation_m = 0.2;
+  EXPECT_NE(refusal([&] {
+              joined(tables, {"a", "b"});
+            }).find("b: expected success within 0.5 deg and 0.1 m of it"),
+            std::string::npos);
+}
+
+TEST(Restricted, IsWhatARunWithoutTheOtherTrialsHas) {
+  Results results;
+  results.records = test::few_records();
+  results.trials = 4;
+  results.scenes = 2;
+  results.planned = 32;
+  ReportOrder order;
+  order.scene_kinds = {{"0001", "urban"}, {"0002", "highway"}};
+  results.summary = summarise(results.records, kBounds, order);
+  const Results urban = restricted(results, {{}, {}, {"urban"}});
+  for (const TrialRecord& record : urban.records) EXPECT_EQ(record.id.scene, "0001");
+  EXPECT_EQ(urban.scenes, 1U);
+  EXPECT_EQ(urban.planned, 16U);
+  EXPECT_EQ(urban.summary.rows.front().scenes.size(), 1U);
+  const Results one = restricted(results, {{"no volume"}, {"right"}, {}});
+  EXPECT_EQ(variants_of(one.summary), (Names{"no volume"}));
+  EXPECT_EQ(sensors_of(one.summary), (Names{"right"}));
+  EXPECT_NE(refusal([&] {
+              restricted(results, {{}, {}, {"urbn"}});
+            }).find("--kinds: unknown name \"urbn\"; did you mean \"urban\"?"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] {
+              restricted(results, {{"bas"}, {}, {}});
+            }).find("--variants"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace croon::experiments
