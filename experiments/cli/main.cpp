@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <exception>
 #include <functional>
 #include <iostream>
@@ -242,6 +243,8 @@ int croon_main(int argc, char** argv) {
 }  // namespace croon::experiments
 
 int main(int argc, char** argv) {
+  // A file that grows beyond the limit of the shell is then an error like a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return croon::experiments::croon_main(argc, argv);
   } catch (const std::bad_alloc&) {

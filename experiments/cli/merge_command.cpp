@@ -94,7 +94,7 @@ void merge_stores(std::vector<fs::path> folders, const fs::path& out) {
   StoreHeader header = header_of_all(folders);
   header.manifest = manifest_with_variants(header.manifest, header.variants);
   const fs::path path = store_path(out);
-  if (fs::exists(path) && !is_among(folders, out)) {
+  if (has_store(path) && !is_among(folders, out)) {
     header = with_names_in(out, header);
     folders.push_back(out);
   }

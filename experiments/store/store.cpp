@@ -26,11 +26,7 @@ Database open_store(const fs::path& path, const StoreHeader& header) {
   // Compare before opening the file for writing: a store that is refused keeps its bytes.
   const StoreHeader stored = stored_header(path);
   if (!stored.provenance.empty()) refuse_differences(path.string(), stored, header, kRemedy);
-  Database database(path, Access::write);
-  database.run(
-      "PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;"
-      "BEGIN EXCLUSIVE;" +
-      header_tables() + record_tables() + "COMMIT;");
+  Database database = open_to_write(path);
   write_header(database, header);
   return database;
 }
@@ -67,7 +63,7 @@ constexpr const char* kStepColumns = "place, step, figures, information";
 
 /// The trials of `header` that are in the store, in the order of the store.
 std::vector<TrialIndex> trials_in(const fs::path& path, const StoreHeader& header) {
-  const Database database(path, Access::read);
+  const Database database = open_to_read(path);
   const StoredIndices indices(database, header);
   Statement select = database.prepare("SELECT variant, scene, sensor, trial FROM trials");
   std::vector<TrialIndex> trials;
@@ -83,7 +79,7 @@ using IndexedRecord = std::pair<TrialIndex, TrialRecord>;
 
 /// The trials that the experiment still has, in the order of the store.
 std::vector<IndexedRecord> records_in(const fs::path& path, const StoreHeader& header) {
-  const Database database(path, Access::read);
+  const Database database = open_to_read(path);
   const StoredIndices indices(database, header);
   std::vector<IndexedRecord> rows;
   Statement select = select_results(database);
@@ -141,8 +137,8 @@ void Store::merge(const fs::path& shard, const StoreHeader& from) {
 }
 
 StoreHeader stored_header(const fs::path& path) {
-  if (!fs::exists(path)) return {};
-  return reading(path, [&] { return read_header(Database(path, Access::read)); });
+  if (!has_store(path)) return {};
+  return reading(path, [&] { return read_header(open_to_read(path)); });
 }
 
 std::vector<TrialIndex> stored_trials(const fs::path& path, const StoreHeader& header) {
@@ -176,40 +172,16 @@ StoredRun read_store(const fs::path& path) {
 }
 
 void rewrite_in_order(const fs::path& path) {
-  const fs::path ordered = path.string() + ".new";
-  std::error_code error;
-  fs::remove(ordered, error);
-  if (is_in_order(Database(path, Access::read))) return;
-  {
-    Database database(ordered, Access::write);
-    database.run("PRAGMA journal_mode = DELETE; PRAGMA synchronous = FULL;");
+  if (is_in_order(open_to_read(path))) return;
+  build_store(path, [&](Database& database) {
     const Attachment attachment(database, path, "old");
     Transaction transaction(database);
-    database.run(header_tables() + record_tables() + copy_of_header("old") + id_maps("old") +
-                 "INSERT INTO main.trials " + with_main_ids("old", "trials", result_columns()) +
+    database.run(copy_of_header("old") + id_maps("old") + "INSERT INTO main.trials " +
+                 with_main_ids("old", "trials", result_columns()) +
                  " ORDER BY 1, 2, 3, 4; INSERT INTO main.steps " +
                  with_main_ids("old", "steps", kStepColumns) + " ORDER BY 1, 2, 3, 4, 5");
     transaction.commit();
-  }
-  replace_store(path, ordered);
-}
-
-void replace_store(const fs::path& path, const fs::path& by) {
-  // Else SQLite would take the log of a killed store for the log of the new one.
-  if (fs::exists(path)) Database(path, Access::write).run("PRAGMA journal_mode = DELETE");
-  std::error_code error;
-  fs::rename(by, path, error);
-  if (error) throw InputError(path.string(), "", "cannot be replaced: " + error.message());
-}
-
-fs::path store_path(const fs::path& folder) { return folder / "store.sqlite"; }
-
-std::vector<fs::path> store_files(const fs::path& path) {
-  std::vector<fs::path> files;
-  for (const char* ending : {"", "-wal", "-shm", "-journal", ".new", ".new-journal"}) {
-    files.push_back(path.string() + ending);
-  }
-  return files;
+  });
 }
 
 }  // namespace croon::experiments

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "experiments/run/trial_record.hpp"
-#include "experiments/store/database.hpp"
+#include "experiments/store/store_file.hpp"
 #include "experiments/store/store_header.hpp"
 #include "experiments/store/trial_rows.hpp"
 #include "framework/base/error.hpp"
@@ -73,15 +73,5 @@ StoredRun read_store(const std::filesystem::path& path);
 /// trials become the same bytes, whatever the order in which the trials were added. Does nothing if
 /// the store is in order.
 void rewrite_in_order(const std::filesystem::path& path);
-
-/// Replaces the store `path`, if there is one, by the store `by`, which no one may have open. One
-/// of them exists at every moment.
-void replace_store(const std::filesystem::path& path, const std::filesystem::path& by);
-
-/// The store of a folder of results.
-std::filesystem::path store_path(const std::filesystem::path& folder);
-
-/// The files of a store: its own, and those that SQLite keeps beside it while it is open.
-std::vector<std::filesystem::path> store_files(const std::filesystem::path& path);
 
 }  // namespace croon::experiments
