@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "experiments/analysis/results.hpp"
+#include "experiments/report/build_text.hpp"
 #include "experiments/report/export.hpp"
 #include "experiments/report/result_files.hpp"
 #include "framework/base/error.hpp"
@@ -20,8 +21,8 @@ const ExportFormat& format_called(const std::string& name) {
 }
 
 ExportCaption caption_of(const Results& results) {
-  return {results.name,   results.commit,         results.seed,   results.scenes,
-          results.trials, results.records.size(), results.planned};
+  return {results.name,   results.commit,         results.seed,    results.scenes,
+          results.trials, results.records.size(), results.planned, build_sentences(results.builds)};
 }
 
 }  // namespace

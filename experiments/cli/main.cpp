@@ -96,6 +96,8 @@ class Program {
     run.add_flag("--plan", run_.plan, "Show what there is to run, and how much variants share.");
     run.add_flag("--no-share", run_.no_share, "Run the variants one by one, to compare.");
     run.add_flag("--fresh", run_.fresh, "Delete what is in the folder and start over.");
+    run.add_flag("--same-build", run_.same_build,
+                 "Refuse to go on with trials of another build of croon.");
     run.add_flag("--quiet", run_.quiet, "Do not show progress.");
     run.add_flag("--clouds", run_.clouds, "Write the rig's clouds, fused by the estimates.");
     run.add_flag("--png", run_.png, "Draw the first scene from above, before and after.");
@@ -108,6 +110,7 @@ class Program {
     });
     merge.add_option("DIR", merge_.folders, "Folders of results.")->required();
     merge.add_option("--out", merge_.out, "Folder to write to.")->required();
+    merge.add_flag("--same-build", merge_.same_build, "Refuse trials of different builds.");
   }
 
   void add_export() {

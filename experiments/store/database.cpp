@@ -47,6 +47,7 @@ int open_flags(Access access) {
       return SQLITE_OPEN_READONLY;
     case Access::write:
       return SQLITE_OPEN_READWRITE;
+    case Access::memory:
     case Access::create:
       return SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
   }
@@ -126,7 +127,9 @@ double Statement::real(int column) const { return sqlite3_column_double(statemen
 
 Database::Database(const std::filesystem::path& path, Access access) : file_(path.string()) {
   sqlite3* database = nullptr;
-  const std::string name = uri_of(path, access == Access::snapshot ? "immutable=1" : "");
+  std::string name = ":memory:";
+  if (access != Access::memory)
+    name = uri_of(path, access == Access::snapshot ? "immutable=1" : "");
   const int flags = open_flags(access) | SQLITE_OPEN_URI;
   const int code = sqlite3_open_v2(name.c_str(), &database, flags, nullptr);
   database_.reset(database);

@@ -52,6 +52,7 @@ class UnreadableDatabase : public InputError {
 enum class Access {
   read,      ///< Reads it, and what SQLite keeps beside it.
   snapshot,  ///< Reads the bytes of the file alone; creates and locks nothing.
+  memory,    ///< No file: an empty database in memory.
   write,     ///< Changes a file that exists.
   create     ///< Changes it; creates it if it does not exist.
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "experiments/store/store_check.hpp"
 #include "experiments/store/store_header.hpp"
 #include "experiments/store/trial_rows.hpp"
 #include "framework/base/error.hpp"
@@ -27,7 +28,7 @@ Database open_store(const fs::path& path, const StoreHeader& header) {
   const StoreHeader stored = stored_header(path);
   if (!stored.provenance.empty()) refuse_differences(path.string(), stored, header, kRemedy);
   Database database = open_to_write(path);
-  write_header(database, header);
+  write_header(database, continued(stored, header));
   return database;
 }
 
@@ -78,8 +79,7 @@ std::vector<TrialIndex> trials_in(const fs::path& path, const StoreHeader& heade
 using IndexedRecord = std::pair<TrialIndex, TrialRecord>;
 
 /// The trials that the experiment still has, in the order of the store.
-std::vector<IndexedRecord> records_in(const fs::path& path, const StoreHeader& header) {
-  const Database database = open_to_read(path);
+std::vector<IndexedRecord> records_in(const Database& database, const StoreHeader& header) {
   const StoredIndices indices(database, header);
   std::vector<IndexedRecord> rows;
   Statement select = select_results(database);
@@ -91,6 +91,29 @@ std::vector<IndexedRecord> records_in(const fs::path& path, const StoreHeader& h
     }
   }
   return rows;
+}
+
+/// All that reports need of a store.
+StoredRun run_in(const Database& database) {
+  check_content(database);
+  StoredRun run{read_header(database), {}};
+  if (run.header.provenance.empty()) {
+    throw InputError(database.file(), "", "expected the store of a run, found none");
+  }
+  std::vector<IndexedRecord> rows = records_in(database, run.header);
+  // A store in order is sorted already.
+  const auto is_before = [](const auto& a, const auto& b) { return a.first < b.first; };
+  if (!std::is_sorted(rows.begin(), rows.end(), is_before)) {
+    std::sort(rows.begin(), rows.end(), is_before);
+  }
+  run.records.reserve(rows.size());
+  for (auto& [index, record] : rows) {
+    const auto& [variant, scene, sensor, trial] = index;
+    record.id = {run.header.variants[variant].name, run.header.scenes[scene].name,
+                 run.header.sensors[sensor].name, trial};
+    run.records.push_back(std::move(record));
+  }
+  return run;
 }
 
 }  // namespace
@@ -138,7 +161,11 @@ void Store::merge(const fs::path& shard, const StoreHeader& from) {
 
 StoreHeader stored_header(const fs::path& path) {
   if (!has_store(path)) return {};
-  return reading(path, [&] { return read_header(open_to_read(path)); });
+  return reading(path, [&] {
+    const Database database = open_to_read(path);
+    check_content(database);
+    return read_header(database);
+  });
 }
 
 std::vector<TrialIndex> stored_trials(const fs::path& path, const StoreHeader& header) {
@@ -151,24 +178,11 @@ std::vector<TrialIndex> stored_trials(const fs::path& path, const StoreHeader& h
 }
 
 StoredRun read_store(const fs::path& path) {
-  StoredRun run{stored_header(path), {}};
-  if (run.header.provenance.empty()) {
-    throw InputError(path.string(), "", "expected the store of a run, found none");
-  }
-  std::vector<IndexedRecord> rows = reading(path, [&] { return records_in(path, run.header); });
-  // A store in order is sorted already.
-  const auto is_before = [](const auto& a, const auto& b) { return a.first < b.first; };
-  if (!std::is_sorted(rows.begin(), rows.end(), is_before)) {
-    std::sort(rows.begin(), rows.end(), is_before);
-  }
-  run.records.reserve(rows.size());
-  for (auto& [index, record] : rows) {
-    const auto& [variant, scene, sensor, trial] = index;
-    record.id = {run.header.variants[variant].name, run.header.scenes[scene].name,
-                 run.header.sensors[sensor].name, trial};
-    run.records.push_back(std::move(record));
-  }
-  return run;
+  return reading(path, [&] { return run_in(open_to_read(path)); });
+}
+
+StoredRun read_snapshot(const fs::path& path) {
+  return reading(path, [&] { return run_in(open_snapshot(path)); });
 }
 
 void rewrite_in_order(const fs::path& path) {

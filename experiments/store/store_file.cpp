@@ -4,7 +4,9 @@
 #include <array>
 #include <fstream>
 #include <set>
+#include <string_view>
 
+#include "experiments/store/store_check.hpp"
 #include "experiments/store/store_header.hpp"
 #include "experiments/store/trial_rows.hpp"
 #include "framework/base/error.hpp"
@@ -44,11 +46,18 @@ std::uint32_t application_id(const FileHeader& bytes) {
 }
 
 bool is_sqlite_file(const FileHeader& bytes) {
-  return std::string(bytes.data()) == "SQLite format 3";
+  constexpr std::string_view kMagic("SQLite format 3\0", 16);
+  return std::string_view(bytes.data(), kMagic.size()) == kMagic;
 }
 
 [[noreturn]] void refuse_other_file(const fs::path& path, const std::string& found) {
   throw InputError(path.string(), "", "expected the store of a run, found " + found);
+}
+
+void refuse_unless_file(const fs::path& path) {
+  std::error_code error;
+  // Before it is opened: opening a pipe would wait for a writer.
+  if (!fs::is_regular_file(path, error)) refuse_other_file(path, "something that is not a file");
 }
 
 /// The tables of the database, as far as they can be read.
@@ -159,8 +168,7 @@ std::vector<fs::path> store_files(const fs::path& path) {
 bool has_store(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(fs::symlink_status(path, error))) return false;
-  // Before it is opened: opening a pipe would wait for a writer.
-  if (!fs::is_regular_file(path, error)) refuse_other_file(path, "something that is not a file");
+  refuse_unless_file(path);
   if (has_old_journal(path)) {
     const Database database(path, Access::write);
     database.prepare("SELECT count(*) FROM sqlite_master").next();
@@ -178,7 +186,16 @@ bool has_store(const fs::path& path) {
 Database open_to_read(const fs::path& path) {
   if (!has_store(path))
     throw InputError(path.string(), "", "expected the store of a run, found none");
-  return Database(path, Access::read);
+  Database database(path, Access::read);
+  check_schema(database);
+  return database;
+}
+
+Database open_snapshot(const fs::path& path) {
+  refuse_unless_file(path);
+  Database database(path, Access::snapshot);
+  check_schema(database);
+  return database;
 }
 
 Database open_to_write(const fs::path& path) {

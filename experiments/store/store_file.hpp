@@ -22,13 +22,18 @@ std::filesystem::path store_path(const std::filesystem::path& folder);
 /// The files of a store: its own, and those that are beside it while it is open or built.
 std::vector<std::filesystem::path> store_files(const std::filesystem::path& path);
 
-/// Whether there is a store at `path`. An empty file is none. Changes nothing. Throws InputError if
-/// there is anything else: a folder, a pipe, a file or a database of another program.
+/// Whether there is a store at `path`; an empty file is none. Rolls back what an earlier version
+/// left half-done. Throws InputError if there is anything else, and does not change it: a folder, a
+/// pipe, a file or a database of another program.
 bool has_store(const std::filesystem::path& path);
 
-/// Opens the store `path` to read it. Rolls back what an earlier version left half-done. Throws
-/// InputError if there is no store.
+/// Opens the store `path` to read it and checks its schema. Rolls back what an earlier version left
+/// half-done. Throws InputError if there is no store.
 Database open_to_read(const std::filesystem::path& path);
+
+/// Opens the file `path` as it is, without what is beside it, and checks its schema. Changes and
+/// creates nothing. Throws InputError if it is no store.
+Database open_snapshot(const std::filesystem::path& path);
 
 /// Opens the store `path` for this process alone, and creates it if there is none.
 Database open_to_write(const std::filesystem::path& path);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 
 namespace croon::experiments {
@@ -92,6 +93,14 @@ const std::string& result_columns() {
       "z_error_m, rotation_error_rad, translation_error_m, r00, r01, r02, r10, r11, r12, r20, "
       "r21, r22, tx_m, ty_m, tz_m";
   return columns;
+}
+
+std::pair<std::vector<std::string>, std::vector<std::string>> number_columns() {
+  std::istringstream stream(result_columns());
+  std::vector<std::string> names;
+  for (std::string name; std::getline(stream >> std::ws, name, ',');) names.push_back(name);
+  const auto errors = names.begin() + 2, pose = errors + kErrorColumns;
+  return {{errors, pose}, {pose, names.end()}};
 }
 
 std::string record_tables() {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "experiments/run/trial_record.hpp"
 #include "experiments/store/database.hpp"
@@ -18,6 +20,9 @@ struct TrialRow {
 /// The columns of `trials` after the four of a TrialRow: status, reason, error (rad and m) and pose
 /// (the rotation by rows, m). Error and pose are null if the trial has none.
 const std::string& result_columns();
+
+/// The columns of numbers among them: those of the error, and those of the pose.
+std::pair<std::vector<std::string>, std::vector<std::string>> number_columns();
 
 /// SQL that creates the tables `trials` and `steps` if they do not exist, and views on them with
 /// names in place of ids.
