@@ -41,14 +41,15 @@ class Store {
 /// InputError that names the differences if its trials were made from something else.
 std::vector<TrialIndex> stored_trials(const std::filesystem::path& path, const StoreHeader& header);
 
-/// Calls `work`, which reads the store `path`. Exceptions become InputErrors: a damaged store is
-/// not a programming error.
+/// Calls `work`, which reads the store `path`. Exceptions become InputErrors of one fault: a
+/// damaged store is not a programming error, and the user cannot correct it part by part.
 template <class Work>
 auto reading(const std::filesystem::path& path, const Work& work) {
   try {
     return work();
-  } catch (const InputError&) {
-    throw;
+  } catch (const InputError& error) {
+    if (error.faults().size() == 1) throw;
+    throw InputError({error.faults().front()});
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
