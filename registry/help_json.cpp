@@ -76,6 +76,7 @@ std::string json_list(const StageList& stages) {
   for (const StageEntry* stage : stages) {
     list.push_back({{"kind", stage->kind},
                     {"name", stage->name},
+                    {"version", stage->version},
                     {"summary", stage->summary},
                     {"source", stage->source},
                     {"parameters", parameters_json(stage->parameters)}});

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "experiments/store/bounded_json.hpp"
+#include "experiments/store/manifest.hpp"
 #include "experiments/store/store.hpp"
 
 namespace croon::experiments {
@@ -38,23 +40,23 @@ ReportOrder report_order(const StoreHeader& header) {
 }
 
 /// The trials that were asked for. A variant that has none at all was not: `--only` left it out.
-std::size_t asked_trials(const json& manifest, const Summary& summary) {
+std::size_t asked_trials(const std::string& manifest, const Summary& summary) {
   const std::size_t run = variants_of(summary).size();
-  const std::size_t planned = manifest.at("planned");
-  const std::size_t variants = manifest.at("experiment").at("variants").size();
-  return run == 0 ? planned : planned / variants * run;
+  return run == 0 ? planned_trials(manifest) : planned_trials_of_variant(manifest) * run;
 }
 
 Results results_of(StoredRun run, const std::string& file) {
-  const json manifest = json::parse(run.header.manifest);
+  const json manifest = parse_bounded(run.header.manifest);
   const Experiment experiment = read_experiment_json(manifest.at("experiment").dump(), file);
   Results results;
   results.name = experiment.name;
   results.description = experiment.description;
-  results.commit = manifest.at("croon").at("commit");
+  results.builds = run.header.builds;
+  if (!results.builds.empty()) results.commit = results.builds.front().commit;
   results.seed = experiment.seed;
   results.trials = run.header.trials;
-  results.manifest = run.header.manifest;
+  results.manifest =
+      manifest_with_builds(run.header.manifest, run.header.builds, run.header.versions);
   const ReportOrder order = report_order(run.header);
   results.scenes = order.scenes.size();
   for (const StoredName& sensor : run.header.sensors) {
@@ -62,7 +64,7 @@ Results results_of(StoredRun run, const std::string& file) {
   }
   results.records = std::move(run.records);
   results.summary = summarise(results.records, experiment.success, order);
-  results.planned = asked_trials(manifest, results.summary);
+  results.planned = asked_trials(run.header.manifest, results.summary);
   const std::optional<Sweep>& sweep = experiment.starts.sweep;
   if (sweep) results.basin = basin_of(results.records, *sweep, order);
   results.claims = check_claims(experiment.claims, results.summary);
@@ -71,6 +73,13 @@ Results results_of(StoredRun run, const std::string& file) {
 }
 
 }  // namespace
+
+void check_reportable(const StoreHeader& header, const std::string& file) {
+  reading(file, [&] {
+    planned_trials_of_variant(header.manifest);
+    return results_of({header, {}}, file);
+  });
+}
 
 bool has_failed_trials(const Results& results) {
   return std::any_of(results.records.begin(), results.records.end(),

@@ -11,15 +11,17 @@
 #include "experiments/analysis/claims.hpp"
 #include "experiments/analysis/summary.hpp"
 #include "experiments/run/trial_record.hpp"
+#include "experiments/store/store_header.hpp"
 
 namespace croon::experiments {
 
 /// A folder of results, read from its store alone: neither the experiment file nor the data need to
 /// be there.
 struct Results {
-  std::string name;         ///< The experiment's.
-  std::string description;  ///< The question it answers; may be empty.
-  std::string commit;       ///< Of the program that made the trials.
+  std::string name;           ///< The experiment's.
+  std::string description;    ///< The question it answers; may be empty.
+  std::string commit;         ///< Of the program that made the trials; of the first of `builds`.
+  std::vector<Build> builds;  ///< That contributed trials.
   std::uint64_t seed = 1;
   int trials = 0;  ///< Starts per variant, scene and sensor.
   std::size_t scenes = 0;
@@ -35,6 +37,9 @@ struct Results {
 
 /// Whether a stage failed in one of the trials.
 bool has_failed_trials(const Results& results);
+
+/// Throws InputError if reports cannot be made of a store with this header; `file` is the store.
+void check_reportable(const StoreHeader& header, const std::string& file);
 
 /// Throws InputError if the folder has no store, or one of an unknown version.
 Results read_results(const std::filesystem::path& folder);

@@ -17,13 +17,14 @@ namespace croon::experiments {
 // before anything is written, if the request is wrong.
 
 struct RunOptions : RunRequest {
-  bool plan = false;      ///< Only show what there is to run.
-  bool no_share = false;  ///< Run the variants one by one.
-  bool fresh = false;     ///< Delete the results in the folder and start over.
-  bool quiet = false;     ///< No progress.
-  bool colours = false;   ///< Colours in the tables.
-  bool clouds = false;    ///< Write fused clouds.
-  bool png = false;       ///< Draw a scene before and after.
+  bool plan = false;        ///< Only show what there is to run.
+  bool no_share = false;    ///< Run the variants one by one.
+  bool fresh = false;       ///< Delete the results in the folder and start over.
+  bool same_build = false;  ///< Refuse to go on with trials of another build.
+  bool quiet = false;       ///< No progress.
+  bool colours = false;     ///< Colours in the tables.
+  bool clouds = false;      ///< Write fused clouds.
+  bool png = false;         ///< Draw a scene before and after.
 };
 
 /// Runs the experiment, or the trials that are missing, and writes the results; progress goes to
@@ -34,6 +35,7 @@ int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostr
 struct MergeOptions {
   std::vector<std::filesystem::path> folders;  ///< Results of shards.
   std::filesystem::path out;
+  bool same_build = false;  ///< Refuse trials of different builds.
   bool colours = false;
 };
 

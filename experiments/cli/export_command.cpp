@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "experiments/analysis/results.hpp"
+#include "experiments/report/build_text.hpp"
 #include "experiments/report/export_choice.hpp"
 #include "experiments/report/figures.hpp"
 #include "experiments/report/result_files.hpp"
@@ -27,8 +28,15 @@ const Row& called(const std::string& option, const std::string& name,
 }
 
 ExportCaption caption_of(const Results& results, const std::vector<std::string>& kinds) {
-  return {results.name,   results.commit,         results.seed,    results.scenes,
-          results.trials, results.records.size(), results.planned, kinds};
+  return {results.name,
+          results.commit,
+          results.seed,
+          results.scenes,
+          results.trials,
+          results.records.size(),
+          results.planned,
+          kinds,
+          build_sentences(results.builds)};
 }
 
 /// Throws InputError if an option is given that the other kind of export has.

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <exception>
 #include <functional>
 #include <iostream>
@@ -97,6 +98,8 @@ class Program {
     run.add_flag("--plan", run_.plan, "Show what there is to run, and how much variants share.");
     run.add_flag("--no-share", run_.no_share, "Run the variants one by one, to compare.");
     run.add_flag("--fresh", run_.fresh, "Delete what is in the folder and start over.");
+    run.add_flag("--same-build", run_.same_build,
+                 "Refuse to go on with trials of another build of croon.");
     run.add_flag("--quiet", run_.quiet, "Do not show progress.");
     run.add_flag("--clouds", run_.clouds, "Write the rig's clouds, fused by the estimates.");
     run.add_flag("--png", run_.png, "Draw the first scene from above, before and after.");
@@ -109,6 +112,7 @@ class Program {
     });
     merge.add_option("DIR", merge_.folders, "Folders of results.")->required();
     merge.add_option("--out", merge_.out, "Folder to write to.")->required();
+    merge.add_flag("--same-build", merge_.same_build, "Refuse trials of different builds.");
   }
 
   void add_export() {
@@ -269,6 +273,8 @@ int croon_main(int argc, char** argv) {
 }  // namespace croon::experiments
 
 int main(int argc, char** argv) {
+  // A file that grows beyond the limit of the shell is then an error like a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     return croon::experiments::croon_main(argc, argv);
   } catch (const std::bad_alloc&) {

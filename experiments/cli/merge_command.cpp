@@ -50,19 +50,24 @@ std::vector<std::unique_ptr<FolderLock>> locked(const std::vector<fs::path>& fol
 /// The header of a folder of results.
 StoreHeader header_in(const fs::path& folder) {
   StoreHeader header = stored_header(store_path(folder));
-  if (!header.provenance.empty()) return header;
+  if (!header.provenance.empty()) {
+    refuse_earlier(store_path(folder).string(), header);
+    check_reportable(header, store_path(folder).string());
+    return header;
+  }
   throw InputError(folder.string(), "", "expected a folder with the results of a run");
 }
 
 /// The header of all the folders. The differences of each from the first are faults. If the
 /// experiment grew between the folders, the header with the most planned trials is the latest one.
-StoreHeader header_of_all(const std::vector<fs::path>& folders) {
+StoreHeader header_of_all(const std::vector<fs::path>& folders, bool same_build) {
   std::vector<Fault> faults;
   StoreHeader header;
   for (const fs::path& folder : folders) {
     collect_faults(faults, [&] {
       const StoreHeader other = header_in(folder);
       if (header.provenance.empty()) header = other;
+      if (same_build) refuse_other_builds(store_path(folder).string(), header, other, kRemedy);
       refuse_differences(store_path(folder).string(), header, other, kRemedy);
       const bool is_later = planned_trials(other.manifest) > planned_trials(header.manifest);
       header = is_later ? united(other, header) : united(header, other);
@@ -88,16 +93,20 @@ void remove_files(const std::vector<fs::path>& files) {
   for (const fs::path& file : files) fs::remove(file, ignored);
 }
 
+/// The header of a merge of `folders` into `out`. Throws InputError if they do not belong together.
+StoreHeader merged_header(const std::vector<fs::path>& folders, const fs::path& out,
+                          bool same_build) {
+  StoreHeader header = header_of_all(folders, same_build);
+  header.manifest = manifest_with_variants(header.manifest, header.variants);
+  const bool adds_to_out = has_store(store_path(out)) && !is_among(folders, out);
+  return adds_to_out ? with_names_in(out, header) : header;
+}
+
 /// Puts the trials of all `folders` into the store of `out`, whose own are kept. The old store is
 /// there until the new one is whole.
-void merge_stores(std::vector<fs::path> folders, const fs::path& out) {
-  StoreHeader header = header_of_all(folders);
-  header.manifest = manifest_with_variants(header.manifest, header.variants);
+void merge_stores(std::vector<fs::path> folders, const StoreHeader& header, const fs::path& out) {
   const fs::path path = store_path(out);
-  if (fs::exists(path) && !is_among(folders, out)) {
-    header = with_names_in(out, header);
-    folders.push_back(out);
-  }
+  if (has_store(path) && !is_among(folders, out)) folders.push_back(out);
   const fs::path merged = path.string() + ".merged";
   remove_files(store_files(merged));
   try {
@@ -105,7 +114,7 @@ void merge_stores(std::vector<fs::path> folders, const fs::path& out) {
       Store store(merged, header);
       for (const fs::path& folder : folders) {
         const fs::path from = store_path(folder);
-        reading(from, [&] { store.merge(from, header_in(folder)); });
+        reading(from, [&] { store.merge(from, stored_header(from)); });
       }
     }
     rewrite_in_order(merged);
@@ -114,6 +123,15 @@ void merge_stores(std::vector<fs::path> folders, const fs::path& out) {
     throw;
   }
   replace_store(path, merged);
+}
+
+/// The folders that have to be made for `out`, the innermost first.
+std::vector<fs::path> missing_folders(const fs::path& out) {
+  std::vector<fs::path> missing;
+  for (fs::path folder = fs::absolute(out); !fs::exists(folder); folder = folder.parent_path()) {
+    missing.push_back(folder);
+  }
+  return missing;
 }
 
 /// "12 of 100 trials are missing", or nothing.
@@ -127,13 +145,14 @@ std::string missing_text(const Results& results) {
 
 int merge_command(const MergeOptions& options, std::ostream& out) {
   const std::vector<fs::path> folders = without_repeats(options.folders);
-  const bool is_new = !fs::exists(options.out);
   const auto locks = locked(folders, options.out);
+  const StoreHeader header = merged_header(folders, options.out, options.same_build);
+  const std::vector<fs::path> made = missing_folders(options.out);
   const OutputFolder folder(options.out);
   try {
-    merge_stores(folders, options.out);
-  } catch (const InputError&) {
-    if (is_new) remove_files({options.out});
+    merge_stores(folders, header, options.out);
+  } catch (...) {
+    remove_files(made);
     throw;
   }
   std::vector<fs::path> all = folders;

@@ -23,17 +23,27 @@ StoreHeader header_of(const CheckedRun& run) {
                    manifest_json(run.experiment, run.scenes, inputs, provenance));
 }
 
+constexpr const char* kRemedy = "--fresh deletes them and starts over, --out writes elsewhere";
+
 /// What a run has before it.
 struct Work {
-  StoreHeader header;
+  StoreHeader stored;    ///< Of the store as it is; without provenance if there is none.
+  StoreHeader header;    ///< Of the store as it will be.
   Plan plan;             ///< What is missing.
   std::size_t done = 0;  ///< Trials that were asked for and are there.
 };
 
-Work work_of(const CheckedRun& run, StoreHeader header, bool is_fresh) {
+Work work_of(const CheckedRun& run, StoreHeader header, const RunOptions& options) {
+  const std::filesystem::path path = store_path(run.out);
+  StoreHeader stored = options.fresh ? StoreHeader() : stored_header(path);
+  if (options.same_build) refuse_other_builds(path.string(), stored, header, kRemedy);
   const std::vector<TrialIndex> done =
-      is_fresh ? std::vector<TrialIndex>() : stored_trials(store_path(run.out), header);
-  Work work{std::move(header), plan_trials(run.experiment, run.scenes, run.selection, done)};
+      options.fresh ? std::vector<TrialIndex>() : stored_trials(path, header);
+  Work work{{}, {}, plan_trials(run.experiment, run.scenes, run.selection, done)};
+  // A build that adds no trial has no part in the results.
+  if (work.plan.trials == 0 && !stored.builds.empty()) header.builds.clear();
+  work.header = continued(stored, std::move(header));
+  work.stored = std::move(stored);
   if (done.empty()) return work;
   const Plan all = plan_trials(run.experiment, run.scenes, run.selection);
   work.done = all.trials - work.plan.trials;
@@ -96,8 +106,7 @@ void fill_store(const CheckedRun& run, const OutputFolder& folder, const Work& w
 /// Runs what is missing and reads all that the store then has.
 Results run_missing(const CheckedRun& run, const OutputFolder& folder, const Work& work,
                     const RunOptions& options, std::ostream& progress_out) {
-  const bool is_complete =
-      work.plan.trials == 0 && is_same(stored_header(folder.store()), work.header);
+  const bool is_complete = work.plan.trials == 0 && is_same(work.stored, work.header);
   if (!is_complete) {
     Progress progress(progress_out, progress_style_of_stderr(options.quiet),
                       work.plan.trials + work.done);
@@ -124,12 +133,12 @@ int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostr
   const CheckedRun run = check_run(options, catalogue);
   StoreHeader header = header_of(run);
   if (options.plan) {
-    out << text_of_plan(run, work_of(run, std::move(header), options.fresh), options);
+    out << text_of_plan(run, work_of(run, std::move(header), options), options);
     return 0;
   }
   const OutputFolder folder(run.out);
   if (options.fresh) folder.clear();
-  const Work work = work_of(run, std::move(header), options.fresh);
+  const Work work = work_of(run, std::move(header), options);
   const Results results = run_missing(run, folder, work, options, progress_out);
   folder.write_reports(results, manifest_with_host(results.manifest, run.data_root, run.jobs));
   std::vector<std::string> complaints;

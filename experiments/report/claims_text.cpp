@@ -2,6 +2,7 @@
 #include <optional>
 #include <regex>
 
+#include "experiments/report/build_text.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "experiments/report/run_text.hpp"
 #include "framework/table/renderers.hpp"
@@ -149,6 +150,9 @@ std::string claims_section(const Results& results) {
   std::string text = "\n## " + markdown_escaped(results.name) + "\n\n";
   if (!results.description.empty()) text += markdown_escaped(results.description) + "\n\n";
   text += run_markdown(results) + "\n";
+  for (const std::string& sentence : build_sentences(results.builds)) {
+    text += markdown_escaped(sentence) + "\n\n";
+  }
   const std::string tables = claims_markdown(results.claims, results.quoted, results.summary);
   return text + (tables.empty() ? "The experiment expects nothing.\n" : tables);
 }

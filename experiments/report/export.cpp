@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "experiments/report/build_text.hpp"
 #include "experiments/report/export_choice.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "framework/base/text.hpp"
@@ -147,13 +148,6 @@ void set_marks(Table& table, const std::vector<Comparison>& comparisons) {
   }
 }
 
-/// The first digits of a commit; the suffix "-dirty" stays.
-std::string short_commit(const std::string& commit) {
-  constexpr std::size_t kShownDigits = 12;
-  const std::size_t dash = std::min(commit.find('-'), commit.size());
-  return commit.substr(0, std::min(dash, kShownDigits)) + commit.substr(dash);
-}
-
 /// "2 scenes, 4 sensors, 2 variants, 10 starts of each: 160 trials."
 std::string counts_sentence(const ExportTable& table) {
   const ExportCaption& caption = table.caption;
@@ -261,6 +255,8 @@ std::vector<std::string> caption_sentences(const ExportTable& table) {
                                             short_commit(table.caption.commit) + ", seed " +
                                             std::to_string(table.caption.seed) + ").",
                                         counts_sentence(table)};
+  const std::vector<std::string>& builds = table.caption.builds;
+  sentences.insert(sentences.end(), builds.begin(), builds.end());
   const std::string bounds = "within " + bounds_text(table.bounds);
   if (has_deviations_from(table.table, DeviationsFrom::truth)) {
     sentences.push_back("Success: " + bounds + "the truth; errors are those of these trials.");

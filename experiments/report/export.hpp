@@ -20,6 +20,7 @@ struct ExportCaption {
   std::size_t found = 0;                ///< Trials that the table is over.
   std::size_t planned = 0;              ///< Trials of the whole experiment.
   std::vector<std::string> kinds = {};  ///< Of scenes, if these are chosen.
+  std::vector<std::string> builds = {};  ///< See build_sentences.
 };
 
 /// How the cells of several columns are one for readers: "61.0 -- 100.0", "0.010 ± 0.002".

@@ -2,12 +2,14 @@
 
 #include <unistd.h>
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
 #include <unordered_set>
 
 #include "experiments/report/plots.hpp"
 #include "experiments/report/result_tables.hpp"
+#include "experiments/store/bounded_json.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/picture/writers.hpp"
@@ -76,6 +78,47 @@ std::vector<fs::path> paths_in(const fs::path& folder) {
   return paths;
 }
 
+/// Whether `path` is a manifest that croon wrote.
+bool is_manifest(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return false;
+  const nlohmann::json manifest = parsed_or_discarded(read_whole_file(path));
+  return manifest.is_object() && manifest.contains("croon") && manifest.contains("experiment");
+}
+
+/// Whether an earlier run or merge wrote to the folder. Throws InputError if its store is something
+/// else.
+bool has_results(const fs::path& folder) {
+  const bool has_manifest = is_manifest(folder / kManifest);
+  try {
+    return has_store(store_path(folder)) || has_manifest;
+  } catch (const UnreadableDatabase&) {
+    // A damaged store is replaced by --fresh, but only if it is known to be one.
+    if (!has_manifest) throw;
+    return true;
+  }
+}
+
+/// Throws InputError if a run would write through a link or over a file that is not its own.
+void refuse_files_of_others(const fs::path& folder) {
+  std::vector<fs::path> paths = paths_in(folder);
+  paths.push_back(folder / kClouds);
+  std::error_code error;
+  for (const fs::path& path : paths) {
+    if (!fs::is_symlink(fs::symlink_status(path, error))) continue;
+    throw InputError(path.string(), "", "expected a file or nothing, found a symbolic link");
+  }
+  if (has_results(folder)) return;
+  const std::vector<fs::path> of_store = store_files(store_path(folder));
+  for (auto path = paths.begin() + static_cast<std::ptrdiff_t>(of_store.size());
+       path != paths.end(); ++path) {
+    if (!fs::exists(*path, error)) continue;
+    throw InputError(path->string(), "",
+                     "would be overwritten, but the folder has no results of croon; --out names "
+                     "another folder");
+  }
+}
+
 /// The folder, made if it is missing. Throws InputError if a run cannot write to it.
 fs::path writable(const fs::path& path) {
   std::error_code error;
@@ -90,6 +133,7 @@ fs::path writable(const fs::path& path) {
     if (!fs::is_directory(to_write, error)) continue;
     throw InputError(to_write.string(), "", "expected a file or nothing, found a folder");
   }
+  refuse_files_of_others(path);
   return path;
 }
 

@@ -21,7 +21,9 @@ inline constexpr const char* kClouds = "clouds";
 /// The folder that a run writes into, made if it is missing and locked while this object lives.
 class OutputFolder {
  public:
-  /// Throws InputError if the folder cannot be made or written to, or another croon works in it.
+  /// Throws InputError if the folder cannot be made or written to, or another croon works in it;
+  /// if one of the files is a symbolic link; and if the folder has neither a store nor a manifest
+  /// of croon, but a file of a name that a run writes.
   explicit OutputFolder(const std::filesystem::path& path);
 
   std::filesystem::path store() const { return store_path(path_); }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "experiments/report/build_text.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "framework/base/statistics.hpp"
 #include "framework/base/text.hpp"
@@ -49,7 +50,10 @@ std::string result_text(const Results& results, bool colours) {
   std::string text = summary_text(results.summary, style);
   if (results.basin) text += "\n" + basin_text(*results.basin, style);
   const std::string claims = claims_text(results.claims, results.quoted, results.summary, style);
-  return claims.empty() ? text : text + "\n" + claims;
+  if (!claims.empty()) text += "\n" + claims;
+  for (const std::string& sentence : build_sentences(results.builds))
+    text += "\n" + sentence + "\n";
+  return text;
 }
 
 std::string basin_text(const Basin& basin, const TableStyle& style) {

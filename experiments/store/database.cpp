@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include <cctype>
 #include <stdexcept>
 
 #include "framework/base/error.hpp"
@@ -17,8 +18,49 @@ namespace {
   if (code == SQLITE_ERROR || code == SQLITE_MISUSE || code == SQLITE_CONSTRAINT) {
     throw std::logic_error(file + ": " + sqlite3_errmsg(database));
   }
+  if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {
+    throw UnreadableDatabase(file, "", std::string("is damaged: ") + sqlite3_errmsg(database));
+  }
   const char* words = database == nullptr ? "out of memory" : sqlite3_errmsg(database);
   throw InputError(file, "", std::string("expected a readable and writable store: ") + words);
+}
+
+/// The largest text or blob of a store, in bytes: the manifest of ten thousand variants is smaller.
+constexpr int kLargestValue = 1 << 28;
+
+/// The URI by which SQLite opens `path` as `option` says.
+std::string uri_of(const std::filesystem::path& path, const std::string& option) {
+  constexpr const char* kDigits = "0123456789ABCDEF";
+  std::string uri = "file:";
+  for (const char c : std::filesystem::absolute(path).string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_plain = (byte < 0x80 && std::isalnum(byte) != 0) || c == '/';
+    uri += is_plain ? std::string(1, c) : std::string{'%', kDigits[byte >> 4], kDigits[byte & 15]};
+  }
+  return uri + "?" + option;
+}
+
+int open_flags(Access access) {
+  switch (access) {
+    case Access::read:
+    case Access::snapshot:
+      return SQLITE_OPEN_READONLY;
+    case Access::write:
+      return SQLITE_OPEN_READWRITE;
+    case Access::memory:
+    case Access::create:
+      return SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  }
+  throw std::logic_error("no such access");
+}
+
+/// What SQLite offers against a file that was made to do harm.
+void defend(sqlite3* database) {
+  int ignored = 0;
+  sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, &ignored);
+  sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, &ignored);
+  sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, &ignored);
+  sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kLargestValue);
 }
 
 }  // namespace
@@ -85,11 +127,15 @@ double Statement::real(int column) const { return sqlite3_column_double(statemen
 
 Database::Database(const std::filesystem::path& path, Access access) : file_(path.string()) {
   sqlite3* database = nullptr;
-  const int flags =
-      access == Access::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
-  const int code = sqlite3_open_v2(file_.c_str(), &database, flags, nullptr);
+  std::string name = ":memory:";
+  if (access != Access::memory)
+    name = uri_of(path, access == Access::snapshot ? "immutable=1" : "");
+  const int flags = open_flags(access) | SQLITE_OPEN_URI;
+  const int code = sqlite3_open_v2(name.c_str(), &database, flags, nullptr);
   database_.reset(database);
   if (code != SQLITE_OK) fail(database, file_);
+  defend(database);
+  run("PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0");
 }
 
 void Database::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
@@ -118,7 +164,7 @@ Attachment::Attachment(Database& database, const std::filesystem::path& path,
                        const std::string& name)
     : database_(database), name_(name) {
   Statement attach = database.prepare("ATTACH ? AS " + name);
-  attach.bind(0, path.string());
+  attach.bind(0, uri_of(path, "mode=ro"));
   attach.next();
 }
 

@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "framework/base/error.hpp"
+
 struct sqlite3;
 struct sqlite3_stmt;
 
@@ -41,14 +43,26 @@ class Statement {
   std::unique_ptr<sqlite3_stmt, Finalise> statement_;
 };
 
+/// The file is no SQLite database, or a damaged one.
+class UnreadableDatabase : public InputError {
+  using InputError::InputError;
+};
+
 /// How a Database opens its file.
-enum class Access { read, write };
+enum class Access {
+  read,      ///< Reads it, and what SQLite keeps beside it.
+  snapshot,  ///< Reads the bytes of the file alone; creates and locks nothing.
+  memory,    ///< No file: an empty database in memory.
+  write,     ///< Changes a file that exists.
+  create     ///< Changes it; creates it if it does not exist.
+};
 
 /// An SQLite file. If SQLite fails (no space, no permission, not a database, in use by another
 /// process), functions throw InputError with the file's name.
 class Database {
  public:
-  /// Opens `path`; for writing, creates it if it does not exist.
+  /// Opens `path`. The file may come from anywhere: functions that its schema names have no side
+  /// effects, its triggers do not run, and values are limited in size.
   Database(const std::filesystem::path& path, Access access);
 
   /// Runs statements that return nothing.
@@ -81,7 +95,8 @@ class Transaction {
   bool is_open_ = true;
 };
 
-/// Another SQLite file, attached to a database under a name during the lifetime of this object.
+/// Another SQLite file, attached to a database under a name during the lifetime of this object, to
+/// be read.
 class Attachment {
  public:
   Attachment(Database& database, const std::filesystem::path& path, const std::string& name);

@@ -7,12 +7,13 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <stdexcept>
 #include <thread>
 
 #include "experiments/file/experiment.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/trial_plan.hpp"
-#include "experiments/store/version.hpp"
+#include "experiments/store/bounded_json.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/base/whole_file.hpp"
@@ -32,12 +33,6 @@ Json files_json(const std::vector<ExperimentFile>& files) {
   return json;
 }
 
-Json libraries_json() {
-  Json json = Json::object();
-  for (const auto& [library, version] : library_versions()) json[library] = version;
-  return json;
-}
-
 Json inputs_json(const std::vector<InputFile>& inputs) {
   Json json = Json::array();
   for (const InputFile& input : inputs) {
@@ -50,6 +45,9 @@ Json inputs_json(const std::vector<InputFile>& inputs) {
   }
   return json;
 }
+
+/// More trials than any run has; products with it do not overflow.
+constexpr std::size_t kMostPlanned = 1'000'000'000'000;
 
 /// The input to the digest of the pipelines, for one variant.
 std::string pipeline_line(const std::string& name, const std::string& resolved) {
@@ -175,10 +173,6 @@ std::string manifest_json(const Experiment& experiment, const std::vector<Scene>
   Json manifest;
   manifest["experiment"] = Json::parse(experiment_json(experiment));
   manifest["experiment_files"] = files_json(experiment.files);
-  manifest["croon"] = {{"version", croon_version()},
-                       {"commit", croon_commit()},
-                       {"program_sha256", provenance.at("program")}};
-  manifest["libraries"] = libraries_json();
   manifest["inputs"] = inputs_json(inputs);
   manifest["provenance"] = {{"inputs", sha256_of_text(provenance.at("inputs"))},
                             {"pipelines", sha256_of_text(pipelines_text(experiment))}};
@@ -187,19 +181,32 @@ std::string manifest_json(const Experiment& experiment, const std::vector<Scene>
 }
 
 std::size_t planned_trials(const std::string& manifest) {
-  return Json::parse(manifest).at("planned");
+  const Json planned = parse_bounded<Json>(manifest).at("planned");
+  if (!planned.is_number_unsigned() || planned > kMostPlanned) {
+    throw std::runtime_error("\"planned\" of its manifest is no number of trials");
+  }
+  return planned;
+}
+
+std::size_t planned_trials_of_variant(const std::string& manifest) {
+  const Json variants = parse_bounded<Json>(manifest).at("experiment").at("variants");
+  if (!variants.is_array() || variants.empty()) {
+    throw std::runtime_error("its manifest has no variants");
+  }
+  return planned_trials(manifest) / variants.size();
 }
 
 std::string manifest_with_variants(const std::string& manifest,
                                    const std::vector<StoredName>& variants) {
-  Json json = Json::parse(manifest);
+  Json json = parse_bounded<Json>(manifest);
   Json& described = json.at("experiment").at("variants");
-  const std::size_t trials_of_one = planned_trials(manifest) / described.size();
+  const std::size_t trials_of_one = planned_trials_of_variant(manifest);
   described = Json::array();
   std::string pipelines;
   for (const StoredName& variant : variants) {
     if (!variant.is_current) continue;
-    described.push_back({{"name", variant.name}, {"pipeline", Json::parse(variant.detail)}});
+    described.push_back(
+        {{"name", variant.name}, {"pipeline", parse_bounded<Json>(variant.detail)}});
     pipelines += pipeline_line(variant.name, variant.detail);
   }
   json["provenance"]["pipelines"] = sha256_of_text(pipelines);
@@ -209,19 +216,19 @@ std::string manifest_with_variants(const std::string& manifest,
 
 std::string manifest_with_host(const std::string& manifest, const std::filesystem::path& data_root,
                                int jobs) {
-  Json json = Json::parse(manifest);
+  Json json = parse_bounded<Json>(manifest);
   json["host"] = host_json(data_root, jobs);
   return text_of(json);
 }
 
 std::string merged_manifest(const std::string& manifest,
                             const std::vector<std::filesystem::path>& folders) {
-  Json json = Json::parse(manifest);
+  Json json = parse_bounded<Json>(manifest);
   json["host"] = {{"merged", Json::array()}};
   for (const std::filesystem::path& folder : folders) {
     const std::filesystem::path file = folder / "manifest.json";
     if (!std::filesystem::exists(file)) continue;
-    const Json other = Json::parse(read_whole_file(file), nullptr, false);
+    const Json other = parsed_or_discarded<Json>(read_whole_file(file));
     if (!other.is_object() || !other.contains("host")) continue;
     // Results of a merge already list several hosts.
     const Json& host = other["host"];
@@ -249,7 +256,6 @@ Provenance provenance_of(const Experiment& experiment, const std::vector<Scene>&
                          const std::vector<InputFile>& inputs) {
   return {{"dataset", experiment.dataset.resolved()},
           {"inputs", inputs_json(scenes, inputs)},
-          {"program", sha256_of_file("/proc/self/exe")},
           {"seed", std::to_string(experiment.seed)},
           {"starts", deciding_starts_json(experiment.starts)},
           {"success", success_json(experiment.success)}};
@@ -257,7 +263,12 @@ Provenance provenance_of(const Experiment& experiment, const std::vector<Scene>&
 
 StoreHeader header_of(const Experiment& experiment, const std::vector<Scene>& scenes,
                       const Provenance& provenance, const std::string& manifest) {
-  StoreHeader header{provenance, manifest, total_trials(experiment.starts), {}, {}, {}};
+  StoreHeader header;
+  header.provenance = provenance;
+  header.versions = versions_of(experiment);
+  header.builds = {this_build()};
+  header.manifest = manifest;
+  header.trials = total_trials(experiment.starts);
   for (const Variant& variant : experiment.variants) {
     header.variants.push_back({variant.name, variant.resolved});
   }

@@ -25,22 +25,26 @@ std::vector<InputFile> input_files(const std::vector<Scene>& scenes,
                                    const std::filesystem::path& data_root, int jobs);
 
 /// Everything that decides the result of a trial except its pipeline: dataset, inputs (files and
-/// the rig's poses), starts (but not their number), seed, success bounds, and the program itself.
+/// the rig's poses), starts (but not their number), seed and success bounds. Versions of stages are
+/// beside it, see versions_of.
 Provenance provenance_of(const Experiment& experiment, const std::vector<Scene>& scenes,
                          const std::vector<InputFile>& inputs);
 
-/// The header of the store of a run; `manifest` comes from manifest_json.
+/// The header of the store of a run of this build; `manifest` comes from manifest_json.
 StoreHeader header_of(const Experiment& experiment, const std::vector<Scene>& scenes,
                       const Provenance& provenance, const std::string& manifest);
 
 /// JSON of what was run: the experiment with every default, the files that it was read from,
-/// versions, digests of the inputs, and `planned`, the number of trials of the whole experiment.
-/// `provenance` has the digests of everything that decides results, also of the rig's poses.
+/// digests of the inputs, and `planned`, the number of trials of the whole experiment.
+/// `provenance` has the digests of everything that decides results, also of the rig's poses. What
+/// the builds say is added by manifest_with_builds.
 std::string manifest_json(const Experiment& experiment, const std::vector<Scene>& scenes,
                           const std::vector<InputFile>& inputs, const Provenance& provenance);
 
-/// The number of trials of the experiment of a manifest.
+/// The number of trials of the experiment of a manifest, and that of each of its variants. Throw
+/// std::exception if the manifest is damaged.
 std::size_t planned_trials(const std::string& manifest);
+std::size_t planned_trials_of_variant(const std::string& manifest);
 
 /// The manifest with those of `variants` that are current.
 std::string manifest_with_variants(const std::string& manifest,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "experiments/store/store_check.hpp"
 #include "experiments/store/store_header.hpp"
 #include "experiments/store/trial_rows.hpp"
 #include "framework/base/error.hpp"
@@ -26,12 +27,8 @@ Database open_store(const fs::path& path, const StoreHeader& header) {
   // Compare before opening the file for writing: a store that is refused keeps its bytes.
   const StoreHeader stored = stored_header(path);
   if (!stored.provenance.empty()) refuse_differences(path.string(), stored, header, kRemedy);
-  Database database(path, Access::write);
-  database.run(
-      "PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;"
-      "BEGIN EXCLUSIVE;" +
-      header_tables() + record_tables() + "COMMIT;");
-  write_header(database, header);
+  Database database = open_to_write(path);
+  write_header(database, continued(stored, header));
   return database;
 }
 
@@ -67,7 +64,7 @@ constexpr const char* kStepColumns = "place, step, figures, information";
 
 /// The trials of `header` that are in the store, in the order of the store.
 std::vector<TrialIndex> trials_in(const fs::path& path, const StoreHeader& header) {
-  const Database database(path, Access::read);
+  const Database database = open_to_read(path);
   const StoredIndices indices(database, header);
   Statement select = database.prepare("SELECT variant, scene, sensor, trial FROM trials");
   std::vector<TrialIndex> trials;
@@ -82,8 +79,7 @@ std::vector<TrialIndex> trials_in(const fs::path& path, const StoreHeader& heade
 using IndexedRecord = std::pair<TrialIndex, TrialRecord>;
 
 /// The trials that the experiment still has, in the order of the store.
-std::vector<IndexedRecord> records_in(const fs::path& path, const StoreHeader& header) {
-  const Database database(path, Access::read);
+std::vector<IndexedRecord> records_in(const Database& database, const StoreHeader& header) {
   const StoredIndices indices(database, header);
   std::vector<IndexedRecord> rows;
   Statement select = select_results(database);
@@ -95,6 +91,29 @@ std::vector<IndexedRecord> records_in(const fs::path& path, const StoreHeader& h
     }
   }
   return rows;
+}
+
+/// All that reports need of a store.
+StoredRun run_in(const Database& database) {
+  check_content(database);
+  StoredRun run{read_header(database), {}};
+  if (run.header.provenance.empty()) {
+    throw InputError(database.file(), "", "expected the store of a run, found none");
+  }
+  std::vector<IndexedRecord> rows = records_in(database, run.header);
+  // A store in order is sorted already.
+  const auto is_before = [](const auto& a, const auto& b) { return a.first < b.first; };
+  if (!std::is_sorted(rows.begin(), rows.end(), is_before)) {
+    std::sort(rows.begin(), rows.end(), is_before);
+  }
+  run.records.reserve(rows.size());
+  for (auto& [index, record] : rows) {
+    const auto& [variant, scene, sensor, trial] = index;
+    record.id = {run.header.variants[variant].name, run.header.scenes[scene].name,
+                 run.header.sensors[sensor].name, trial};
+    run.records.push_back(std::move(record));
+  }
+  return run;
 }
 
 }  // namespace
@@ -123,11 +142,11 @@ void Store::merge(const fs::path& shard, const StoreHeader& from) {
   const Attachment attachment(database_, shard, "shard");
   Transaction transaction(database_);
   database_.run(id_maps("shard"));
-  const std::string rows = with_main_ids("shard", "trials", current_results());
+  const std::string rows = with_main_ids("shard", "trials", result_columns());
   {
     Statement doubled = database_.prepare("SELECT count(*) FROM (" + rows +
                                           " EXCEPT SELECT variant, scene, sensor, trial, " +
-                                          current_results() +
+                                          result_columns() +
                                           " FROM main.trials) s JOIN main.trials m"
                                           " USING(variant, scene, sensor, trial)");
     doubled.next();
@@ -143,8 +162,12 @@ void Store::merge(const fs::path& shard, const StoreHeader& from) {
 }
 
 StoreHeader stored_header(const fs::path& path) {
-  if (!fs::exists(path)) return {};
-  return reading(path, [&] { return read_header(Database(path, Access::read)); });
+  if (!has_store(path)) return {};
+  return reading(path, [&] {
+    const Database database = open_to_read(path);
+    check_content(database);
+    return read_header(database);
+  });
 }
 
 std::vector<TrialIndex> stored_trials(const fs::path& path, const StoreHeader& header) {
@@ -157,61 +180,24 @@ std::vector<TrialIndex> stored_trials(const fs::path& path, const StoreHeader& h
 }
 
 StoredRun read_store(const fs::path& path) {
-  StoredRun run{stored_header(path), {}};
-  if (run.header.provenance.empty()) {
-    throw InputError(path.string(), "", "expected the store of a run, found none");
-  }
-  std::vector<IndexedRecord> rows = reading(path, [&] { return records_in(path, run.header); });
-  // A store in order is sorted already.
-  const auto is_before = [](const auto& a, const auto& b) { return a.first < b.first; };
-  if (!std::is_sorted(rows.begin(), rows.end(), is_before)) {
-    std::sort(rows.begin(), rows.end(), is_before);
-  }
-  run.records.reserve(rows.size());
-  for (auto& [index, record] : rows) {
-    const auto& [variant, scene, sensor, trial] = index;
-    record.id = {run.header.variants[variant].name, run.header.scenes[scene].name,
-                 run.header.sensors[sensor].name, trial};
-    run.records.push_back(std::move(record));
-  }
-  return run;
+  return reading(path, [&] { return run_in(open_to_read(path)); });
+}
+
+StoredRun read_snapshot(const fs::path& path) {
+  return reading(path, [&] { return run_in(open_snapshot(path)); });
 }
 
 void rewrite_in_order(const fs::path& path) {
-  const fs::path ordered = path.string() + ".new";
-  std::error_code error;
-  fs::remove(ordered, error);
-  if (is_in_order(Database(path, Access::read))) return;
-  {
-    Database database(ordered, Access::write);
-    database.run("PRAGMA journal_mode = DELETE; PRAGMA synchronous = FULL;");
+  if (is_in_order(open_to_read(path))) return;
+  build_store(path, [&](Database& database) {
     const Attachment attachment(database, path, "old");
     Transaction transaction(database);
-    database.run(header_tables() + record_tables() + copy_of_header("old") + id_maps("old") +
-                 "INSERT INTO main.trials " + with_main_ids("old", "trials", current_results()) +
+    database.run(copy_of_header("old") + id_maps("old") + "INSERT INTO main.trials " +
+                 with_main_ids("old", "trials", result_columns()) +
                  " ORDER BY 1, 2, 3, 4; INSERT INTO main.steps " +
                  with_main_ids("old", "steps", kStepColumns) + " ORDER BY 1, 2, 3, 4, 5");
     transaction.commit();
-  }
-  replace_store(path, ordered);
-}
-
-void replace_store(const fs::path& path, const fs::path& by) {
-  // Else SQLite would take the log of a killed store for the log of the new one.
-  if (fs::exists(path)) Database(path, Access::write).run("PRAGMA journal_mode = DELETE");
-  std::error_code error;
-  fs::rename(by, path, error);
-  if (error) throw InputError(path.string(), "", "cannot be replaced: " + error.message());
-}
-
-fs::path store_path(const fs::path& folder) { return folder / "store.sqlite"; }
-
-std::vector<fs::path> store_files(const fs::path& path) {
-  std::vector<fs::path> files;
-  for (const char* ending : {"", "-wal", "-shm", "-journal", ".new", ".new-journal"}) {
-    files.push_back(path.string() + ending);
-  }
-  return files;
+  });
 }
 
 }  // namespace croon::experiments

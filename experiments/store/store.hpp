@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "experiments/run/trial_record.hpp"
-#include "experiments/store/database.hpp"
+#include "experiments/store/store_file.hpp"
 #include "experiments/store/store_header.hpp"
 #include "experiments/store/trial_rows.hpp"
 #include "framework/base/error.hpp"
@@ -41,14 +41,15 @@ class Store {
 /// InputError that names the differences if its trials were made from something else.
 std::vector<TrialIndex> stored_trials(const std::filesystem::path& path, const StoreHeader& header);
 
-/// Calls `work`, which reads the store `path`. Exceptions become InputErrors: a damaged store is
-/// not a programming error.
+/// Calls `work`, which reads the store `path`. Exceptions become InputErrors of one fault: a
+/// damaged store is not a programming error, and the user cannot correct it part by part.
 template <class Work>
 auto reading(const std::filesystem::path& path, const Work& work) {
   try {
     return work();
-  } catch (const InputError&) {
-    throw;
+  } catch (const InputError& error) {
+    if (error.faults().size() == 1) throw;
+    throw InputError({error.faults().front()});
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
@@ -66,22 +67,16 @@ struct StoredRun {
 StoreHeader stored_header(const std::filesystem::path& path);
 
 /// Reads the store `path`, without trials that the experiment no longer has. Throws InputError if
-/// there is no store.
+/// there is no store, or a damaged one.
 StoredRun read_store(const std::filesystem::path& path);
+
+/// The same from the file `path` alone, whatever is in it: nothing is changed or created, and what
+/// a killed process left beside it is not read.
+StoredRun read_snapshot(const std::filesystem::path& path);
 
 /// Rewrites the store `path`, which no one may have open, in report order: stores of the same
 /// trials become the same bytes, whatever the order in which the trials were added. Does nothing if
 /// the store is in order.
 void rewrite_in_order(const std::filesystem::path& path);
-
-/// Replaces the store `path`, if there is one, by the store `by`, which no one may have open. One
-/// of them exists at every moment.
-void replace_store(const std::filesystem::path& path, const std::filesystem::path& by);
-
-/// The store of a folder of results.
-std::filesystem::path store_path(const std::filesystem::path& folder);
-
-/// The files of a store: its own, and those that SQLite keeps beside it while it is open.
-std::vector<std::filesystem::path> store_files(const std::filesystem::path& path);
 
 }  // namespace croon::experiments

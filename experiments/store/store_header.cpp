@@ -3,15 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
+#include "experiments/file/start_rule.hpp"
+#include "experiments/store/bounded_json.hpp"
 #include "framework/base/error.hpp"
 
 namespace croon::experiments {
 namespace {
 
-constexpr const char* kFormat = "2";
+constexpr const char* kFormat = "3";
+/// Without versions of stages: it is read, but nothing is added to it.
+constexpr const char* kEarlierFormat = "2";
 /// The entry of `meta` that marks a store as not in order.
 constexpr const char* kUnordered = "unordered";
 
@@ -60,21 +65,6 @@ std::string taken(Provenance& meta, const std::string& name) {
   return node.empty() ? "" : node.mapped();
 }
 
-/// The indices of current names in a header, by their ids; -1 for names that are not current.
-std::vector<std::int64_t> indices_of(const Database& database, const std::string& table,
-                                     const std::vector<StoredName>& names) {
-  const std::map<std::string, std::int64_t> ids = ids_of(database, table);
-  std::int64_t largest = 0;
-  for (const auto& [name, id] : ids) largest = std::max(largest, id);
-  std::vector<std::int64_t> indices(static_cast<std::size_t>(largest) + 1, -1);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto id = ids.find(names[i].name);
-    if (id == ids.end() || !names[i].is_current) continue;
-    indices[static_cast<std::size_t>(id->second)] = static_cast<std::int64_t>(i);
-  }
-  return indices;
-}
-
 void add_missing(std::vector<StoredName>& to, const std::vector<StoredName>& from) {
   for (const StoredName& stored : from) {
     const auto is_same = [&](const StoredName& other) { return other.name == stored.name; };
@@ -105,8 +95,8 @@ std::string readable(std::string pointer) {
 void add_differences(std::vector<std::string>& to, const std::string& where,
                      const std::string& stored, const std::string& asked) {
   if (stored == asked) return;
-  const json was = json::parse(stored, nullptr, false);
-  const json is = json::parse(asked, nullptr, false);
+  const json was = parsed_or_discarded(stored);
+  const json is = parsed_or_discarded(asked);
   if (was.is_discarded() || is.is_discarded()) {
     to.push_back(where + " differs");
     return;
@@ -137,12 +127,25 @@ StoredIndices::StoredIndices(const Database& database, const StoreHeader& header
       scenes_(indices_of(database, "scenes", header.scenes)),
       sensors_(indices_of(database, "sensors", header.sensors)) {}
 
+StoredIndices::Indices StoredIndices::indices_of(const Database& database, const std::string& table,
+                                                 const std::vector<StoredName>& names) {
+  const std::map<std::string, std::int64_t> ids = ids_of(database, table);
+  Indices indices;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto id = ids.find(names[i].name);
+    if (id != ids.end() && names[i].is_current) indices[id->second] = i;
+  }
+  return indices;
+}
+
 bool StoredIndices::find(const TrialRow& row, TrialIndex& index) const {
-  const std::int64_t variant = variants_.at(static_cast<std::size_t>(row.variant));
-  const std::int64_t scene = scenes_.at(static_cast<std::size_t>(row.scene));
-  const std::int64_t sensor = sensors_.at(static_cast<std::size_t>(row.sensor));
-  index = {variant, scene, sensor, row.trial};
-  return variant >= 0 && scene >= 0 && sensor >= 0;
+  const auto variant = variants_.find(row.variant), scene = scenes_.find(row.scene),
+             sensor = sensors_.find(row.sensor);
+  if (variant == variants_.end() || scene == scenes_.end() || sensor == sensors_.end()) {
+    return false;
+  }
+  index = {variant->second, scene->second, sensor->second, row.trial};
+  return true;
 }
 
 std::string header_tables() {
@@ -164,13 +167,24 @@ StoreHeader read_header(const Database& database) {
   while (select.next()) header.provenance[select.text(0)] = select.text(1);
   if (header.provenance.empty()) return header;
   const std::string format = taken(header.provenance, "format");
-  if (format != kFormat) {
+  if (format != kFormat && format != kEarlierFormat) {
     throw InputError(database.file(), "",
                      "is a store of format \"" + format + "\", expected \"" + kFormat +
                          "\", of another version of croon; croon run --fresh starts over");
   }
   header.manifest = taken(header.provenance, "manifest");
+  if (format == kFormat) {
+    header.versions = read_versions(taken(header.provenance, "versions"));
+    header.builds = read_builds(taken(header.provenance, "builds"));
+  } else {
+    header.is_earlier = true;
+    taken(header.provenance, "program");
+    header.builds = {build_of_manifest(header.manifest)};
+  }
   header.trials = std::stoi(taken(header.provenance, "trials"));
+  if (header.trials < 1 || header.trials > kMaxTrials) {
+    throw std::runtime_error("the number of trials is out of range");
+  }
   taken(header.provenance, kUnordered);
   for (const NameTable& table : kNameTables) header.*table.names = read_names(database, table);
   return header;
@@ -183,6 +197,8 @@ void write_header(Database& database, const StoreHeader& header) {
   Provenance meta = header.provenance;
   meta["format"] = kFormat;
   meta["manifest"] = header.manifest;
+  meta["versions"] = versions_json(header.versions);
+  meta["builds"] = builds_json(header.builds);
   meta["trials"] = std::to_string(header.trials);
   meta[kUnordered] = "yes";
   for (const auto& [name, value] : meta) {
@@ -215,7 +231,8 @@ bool is_same(const StoreHeader& a, const StoreHeader& b) {
   const auto is_same_name = [](const StoredName& x, const StoredName& y) {
     return std::tie(x.name, x.detail, x.is_current) == std::tie(y.name, y.detail, y.is_current);
   };
-  return a.provenance == b.provenance && a.manifest == b.manifest && a.trials == b.trials &&
+  return a.provenance == b.provenance && a.versions == b.versions && is_same(a.builds, b.builds) &&
+         a.manifest == b.manifest && a.trials == b.trials &&
          std::all_of(kNameTables.begin(), kNameTables.end(), [&](const NameTable& table) {
            const auto& x = a.*table.names;
            const auto& y = b.*table.names;
@@ -225,7 +242,13 @@ bool is_same(const StoreHeader& a, const StoreHeader& b) {
 
 StoreHeader united(StoreHeader a, const StoreHeader& b) {
   for (const NameTable& table : kNameTables) add_missing(a.*table.names, b.*table.names);
-  return a;
+  return continued(b, std::move(a));
+}
+
+StoreHeader continued(const StoreHeader& stored, StoreHeader asked) {
+  asked.versions.insert(stored.versions.begin(), stored.versions.end());
+  asked.builds = united(std::move(asked.builds), stored.builds);
+  return asked;
 }
 
 std::vector<std::string> differences(const StoreHeader& stored, const StoreHeader& asked) {
@@ -238,11 +261,13 @@ std::vector<std::string> differences(const StoreHeader& stored, const StoreHeade
   };
   for (const auto& [name, any] : names) {
     const std::string was = value(stored.provenance, name), is = value(asked.provenance, name);
-    if (name != "program") {
-      add_differences(found, "/" + name, was, is);
-    } else if (was != is) {
-      found.push_back("the program was another build of croon");
-    }
+    add_differences(found, "/" + name, was, is);
+  }
+  for (const auto& [stage, version] : asked.versions) {
+    const auto was = stored.versions.find(stage);
+    if (was == stored.versions.end() || was->second == version) continue;
+    found.push_back("version of " + stage + " was " + std::to_string(was->second) + " and is " +
+                    std::to_string(version));
   }
   for (const StoredName& variant : asked.variants) {
     for (const StoredName& other : stored.variants) {
@@ -253,8 +278,16 @@ std::vector<std::string> differences(const StoreHeader& stored, const StoreHeade
   return found;
 }
 
+void refuse_earlier(const std::string& file, const StoreHeader& stored) {
+  if (!stored.is_earlier) return;
+  throw InputError(file, "",
+                   "is a store of an earlier croon, whose stages had no versions: it can be "
+                   "exported, but not extended or merged; croon run --fresh starts over");
+}
+
 void refuse_differences(const std::string& file, const StoreHeader& stored,
                         const StoreHeader& asked, const std::string& remedy) {
+  refuse_earlier(file, stored);
   const std::vector<std::string> found = differences(stored, asked);
   if (found.empty()) return;
   std::string text;
@@ -265,6 +298,14 @@ void refuse_differences(const std::string& file, const StoreHeader& stored,
     text += "; and " + std::to_string(found.size() - kShownDifferences) + " more";
   }
   throw InputError(file, "", "its trials were made from something else: " + text + "; " + remedy);
+}
+
+void refuse_other_builds(const std::string& file, const StoreHeader& stored,
+                         const StoreHeader& asked, const std::string& remedy) {
+  if (stored.builds.empty() || is_same(stored.builds, asked.builds)) return;
+  throw InputError(file, "",
+                   "its trials were made by another build of croon, of commit " +
+                       stored.builds.front().commit + ", and --same-build was given; " + remedy);
 }
 
 }  // namespace croon::experiments

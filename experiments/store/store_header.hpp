@@ -3,15 +3,17 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "experiments/run/trial_record.hpp"
+#include "experiments/store/build.hpp"
 #include "experiments/store/database.hpp"
 #include "experiments/store/trial_rows.hpp"
 
 namespace croon::experiments {
 
-/// What decides the result of every trial of a run, by name ("starts", "program"), as JSON or as a
+/// What decides the result of every trial of a run, by name ("starts", "inputs"), as JSON or as a
 /// digest. Pipelines are not in it: a pipeline decides the results of its variant only.
 using Provenance = std::map<std::string, std::string>;
 
@@ -25,7 +27,10 @@ struct StoredName {
 /// What a store has beside its trials: all that a report needs.
 struct StoreHeader {
   Provenance provenance;
-  std::string manifest;  ///< JSON of manifest.json, without "host".
+  bool is_earlier = false;  ///< Of format 2, without versions: it is read, but nothing is added.
+  params::StageVersions versions;  ///< Of the stages that decided the trials; see versions_of.
+  std::vector<Build> builds;       ///< That contributed trials.
+  std::string manifest;  ///< JSON of manifest.json, without "host" and what the builds say.
   int trials = 0;  ///< Per variant, scene and sensor. Trials with larger numbers are not current.
   std::vector<StoredName> variants;  ///< In report order, with the JSON of their pipelines.
   std::vector<StoredName> scenes;    ///< In report order, with their kinds.
@@ -55,6 +60,10 @@ bool is_same(const StoreHeader& a, const StoreHeader& b);
 /// `a`, followed by the variants, scenes and sensors that only `b` has.
 StoreHeader united(StoreHeader a, const StoreHeader& b);
 
+/// `asked` with the versions and the builds of `stored`: what the header becomes when a run that
+/// asks for `asked` goes on in a store.
+StoreHeader continued(const StoreHeader& stored, StoreHeader asked);
+
 /// The ids of the names in `table`, which is variants, scenes or sensors.
 std::map<std::string, std::int64_t> ids_of(const Database& database, const std::string& table);
 
@@ -63,21 +72,33 @@ class StoredIndices {
  public:
   StoredIndices(const Database& database, const StoreHeader& header);
 
-  /// Finds the index of a trial. Returns false if the experiment no longer has it. Throws
-  /// std::out_of_range if the store has no such name.
+  /// Finds the index of a trial. Returns false if the experiment no longer has it.
   bool find(const TrialRow& row, TrialIndex& index) const;
 
  private:
-  std::vector<std::int64_t> variants_, scenes_, sensors_;  ///< By ids, -1 for none.
+  /// The indices of current names by their ids.
+  using Indices = std::unordered_map<std::int64_t, std::size_t>;
+  static Indices indices_of(const Database& database, const std::string& table,
+                            const std::vector<StoredName>& names);
+
+  Indices variants_, scenes_, sensors_;
 };
 
 /// The differences that keep the trials of `stored` and of `asked` apart, each as
-/// "/starts/rotation_deg was 45 and is 30". A variant that only one of them has is no difference.
+/// "/starts/rotation_deg was 45 and is 30". A variant or a stage that only one of them has is no
+/// difference, and neither is the build.
 std::vector<std::string> differences(const StoreHeader& stored, const StoreHeader& asked);
 
-/// Throws InputError if there are `differences`. `file` is the store; `remedy` says what the user
-/// can do.
+/// Throws InputError if the header is that of a store to which nothing can be added.
+void refuse_earlier(const std::string& file, const StoreHeader& stored);
+
+/// Throws InputError if there are `differences`, and as `refuse_earlier` does. `file` is the store;
+/// `remedy` says what the user can do.
 void refuse_differences(const std::string& file, const StoreHeader& stored,
                         const StoreHeader& asked, const std::string& remedy);
+
+/// Throws InputError if the trials of `stored` were made by other builds than those of `asked`.
+void refuse_other_builds(const std::string& file, const StoreHeader& stored,
+                         const StoreHeader& asked, const std::string& remedy);
 
 }  // namespace croon::experiments

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 
 namespace croon::experiments {
@@ -94,13 +95,12 @@ const std::string& result_columns() {
   return columns;
 }
 
-const std::string& current_results() {
-  // The first of the columns is the status.
-  static const std::string columns =
-      "CASE WHEN status = 'success' AND rotation_error_rad IS NULL THEN 'finished' ELSE status END "
-      "AS " +
-      result_columns();
-  return columns;
+std::pair<std::vector<std::string>, std::vector<std::string>> number_columns() {
+  std::istringstream stream(result_columns());
+  std::vector<std::string> names;
+  for (std::string name; std::getline(stream >> std::ws, name, ',');) names.push_back(name);
+  const auto errors = names.begin() + 2, pose = errors + kErrorColumns;
+  return {{errors, pose}, {pose, names.end()}};
 }
 
 std::string record_tables() {
@@ -114,6 +114,19 @@ std::string record_tables() {
          named_view("named_trials", "trials", result_columns()) +
          named_view("named_steps", "steps", "t.place, step, figures, information");
 }
+
+namespace {
+
+/// The columns as they are read: a `success` without an error, as older stores have it, is
+/// `finished`.
+std::string current_results() {
+  // The first of the columns is the status.
+  return "CASE WHEN status = 'success' AND rotation_error_rad IS NULL THEN 'finished' ELSE status "
+         "END AS " +
+         result_columns();
+}
+
+}  // namespace
 
 RecordInserter::RecordInserter(const Database& database)
     : trial_(database.prepare("INSERT INTO trials VALUES(" +

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "experiments/run/trial_record.hpp"
 #include "experiments/store/database.hpp"
@@ -19,9 +21,8 @@ struct TrialRow {
 /// (the rotation by rows, m). Error and pose are null if the trial has none.
 const std::string& result_columns();
 
-/// SQL that selects these columns as today's program writes them: a `success` without an error, as
-/// older stores have it, is `finished`.
-const std::string& current_results();
+/// The columns of numbers among them: those of the error, and those of the pose.
+std::pair<std::vector<std::string>, std::vector<std::string>> number_columns();
 
 /// SQL that creates the tables `trials` and `steps` if they do not exist, and views on them with
 /// names in place of ids.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 
@@ -7,12 +8,16 @@
 
 namespace croon::params {
 
+/// The versions of stages by kind and name: {"icp/icpn", 1}.
+using StageVersions = std::map<std::string, int>;
+
 /// A stage that was built from JSON, with the JSON that builds it again: all its parameters,
 /// defaults too, keys in order. Two slots with the same `resolved` text compute the same.
 struct BuiltStage {
   std::shared_ptr<const void> stage;  ///< Points at the stage's kind; null if there were faults.
   std::string name;                   ///< "ransac".
   std::string resolved;
+  StageVersions versions = {};  ///< Of the stage and of those in its slots.
 };
 
 /// Builds the stages that a parameter table holds. The catalogue of stages is one; params knows no
@@ -33,7 +38,8 @@ class Slot {
   explicit Slot(const BuiltStage& built)
       : stage_(std::static_pointer_cast<const Kind>(built.stage)),
         name_(built.name),
-        resolved_(built.resolved) {}
+        resolved_(built.resolved),
+        versions_(built.versions) {}
 
   const Kind* operator->() const { return stage_.get(); }
   const Kind& operator*() const { return *stage_; }
@@ -42,11 +48,14 @@ class Slot {
   /// Canonical JSON text of the stage and its parameters: the key of what it computes once per
   /// cloud.
   const std::string& resolved() const { return resolved_; }
+  /// The versions of the stage and of those in its slots.
+  const StageVersions& versions() const { return versions_; }
 
  private:
   std::shared_ptr<const Kind> stage_;
   std::string name_;
   std::string resolved_;
+  StageVersions versions_;
 };
 
 }  // namespace croon::params

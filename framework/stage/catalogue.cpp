@@ -16,6 +16,24 @@ std::string with_article(const std::string& kind) {
   return (has_vowel ? "an " : "a ") + kind;
 }
 
+/// Builds the stages in the slots of a stage and notes their versions.
+class SlotBuilder final : public params::StageBuilder {
+ public:
+  explicit SlotBuilder(const Catalogue& catalogue) : catalogue_(catalogue) {}
+
+  params::BuiltStage build(const std::string& kind, const params::Node& node) const override {
+    params::BuiltStage built = catalogue_.build(kind, node);
+    versions_.insert(built.versions.begin(), built.versions.end());
+    return built;
+  }
+
+  const params::StageVersions& versions() const { return versions_; }
+
+ private:
+  const Catalogue& catalogue_;
+  mutable params::StageVersions versions_;
+};
+
 bool comes_before(const StageEntry& a, const StageEntry& b) {
   return std::tie(a.kind_order, a.kind, a.name) < std::tie(b.kind_order, b.kind, b.name);
 }
@@ -70,7 +88,11 @@ params::BuiltStage Catalogue::build(const std::string& kind, const params::Node&
                            name_hint(name, names(kind)));
     return {};
   }
-  return entry->build(node, *this);
+  const SlotBuilder slots(*this);
+  params::BuiltStage built = entry->build(node, slots);
+  built.versions = slots.versions();
+  built.versions[kind + "/" + name] = entry->version;
+  return built;
 }
 
 }  // namespace croon

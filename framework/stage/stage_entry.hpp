@@ -27,6 +27,7 @@ struct StageEntry {
   int kind_order = 0;        ///< Likewise.
   std::vector<params::ParameterDoc> parameters;
   std::function<params::BuiltStage(const params::Node&, const params::StageBuilder&)> build;
+  int version = 1;  ///< See stage_entry.
 };
 
 /// The JSON key that names a stage of `kind`: "step" for steps, else "type".
@@ -43,12 +44,15 @@ inline std::vector<std::string> reserved_keys(const std::string& kind) {
 /// `Stage` derives from the class of its kind, which declares the kind: `Kind` (itself), `kKind`,
 /// `kKindSummary` and `kKindOrder`, see StageKind. Nothing else knows the kinds, so a header with
 /// such a class is a new kind of stage.
+///
+/// `version` is raised with a change by which the stage gives other results: trials of two versions
+/// do not go into one store. A test compares test/house/stage_versions.txt with the sources.
 template <class Stage, class P>
 StageEntry stage_entry(const std::string& name, const std::string& summary,
-                       const std::string& source, const params::Table<P>& table) {
+                       const std::string& source, const params::Table<P>& table, int version = 1) {
   using Kind = typename Stage::Kind;
   StageEntry entry{Kind::kKind,      name,         summary, source, Kind::kKindSummary,
-                   Kind::kKindOrder, table.docs(), {}};
+                   Kind::kKindOrder, table.docs(), {},      version};
   entry.build = [name, table](const params::Node& node, const params::StageBuilder& builder) {
     const P params = table.read(node, reserved_keys(Kind::kKind), builder);
     if (node.fault_count() > 0) return params::BuiltStage{};

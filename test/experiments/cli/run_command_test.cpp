@@ -224,6 +224,49 @@ TEST(RunCommand, ResumesAfterAKill) {
   EXPECT_EQ(steps(timed(timings)), 24 * 2 + 1);
 }
 
+/// As if another build had made the trials of the store `path`.
+void change_build(const fs::path& path) {
+  Database(path, Access::write)
+      .run(
+          "UPDATE meta SET value = replace(value, '\"program_sha256\":\"', "
+          "'\"program_sha256\":\"0') WHERE name = 'builds'");
+}
+
+TEST(RunCommand, GoesOnWithTheTrialsOfAnotherBuild) {
+  const Bench bench;
+  RunOptions options = bench.options("out");
+  bench.run(options);
+  change_build(bench.folder().path() / "out/store.sqlite");
+  const auto builds = [&] {
+    const json manifest = json::parse(read_whole_file(bench.folder().path() / "out/manifest.json"));
+    return manifest.contains("builds") ? manifest["builds"].size() : 1;
+  };
+  // Nothing to run: this build has no part in the results.
+  EXPECT_EQ(bench.run(options), 0);
+  EXPECT_EQ(builds(), 1U);
+  options.trials = 7;
+  std::ostringstream out, progress;
+  EXPECT_EQ(run_command(options, test::fake_catalogue(), out, progress), 0);
+  EXPECT_EQ(builds(), 2U);
+  EXPECT_NE(out.str().find("\nTrials of 2 builds of croon: commit "), std::string::npos);
+  options.same_build = true;
+  EXPECT_NE(bench.fault(options).find("made by another build of croon"), std::string::npos);
+  options.out = bench.folder().path() / "new";
+  EXPECT_EQ(bench.run(options), 0);
+  EXPECT_EQ(bench.run(options), 0);
+}
+
+TEST(RunCommand, RefusesTrialsOfAnotherVersionOfAStage) {
+  const Bench bench;
+  bench.run(bench.options("out"));
+  Database(bench.folder().path() / "out/store.sqlite", Access::write)
+      .run(
+          "UPDATE meta SET value = replace(value, 'step/drift\":1', 'step/drift\":7') "
+          "WHERE name = 'versions'");
+  EXPECT_NE(bench.fault(bench.options("out")).find("version of step/drift was 7 and is 1; --fresh"),
+            std::string::npos);
+}
+
 TEST(RunCommand, RefusesToMixResultsAndStartsOverWhenTold) {
   const Bench bench;
   bench.run(bench.options("out"));
@@ -252,6 +295,7 @@ TEST(RunCommand, TellsResultsByKindWhereTheDatasetHasKinds) {
   const auto files = with.bytes("out");
   EXPECT_NE(files.at("summary_by_kind.csv").find("\nbase,narrow,s1,"), std::string::npos);
   EXPECT_TRUE(json::parse(files.at("summary.json")).contains("kinds"));
+  EXPECT_EQ(without.run(without.options("out")), 0);
   without.folder().write("out/summary_by_kind.csv", "of an earlier run");
   EXPECT_EQ(without.run(without.options("out")), 0);
   const auto others = without.bytes("out");
@@ -283,6 +327,46 @@ TEST(RunCommand, WritesNothingWhereTheRequestIsWrong) {
   options.experiment = bench.folder().path() / "none.json";
   EXPECT_NE(bench.fault(options), "");
   EXPECT_FALSE(fs::exists(bench.folder().path() / "out"));
+}
+
+TEST(RunCommand, KeepsTheFilesOfOthers) {
+  const Bench bench;
+  for (const char* name : {"trials.csv", "timings.csv", "manifest.json", "clouds/mine.ply"}) {
+    const fs::path file = bench.folder().write("out/" + std::string(name), "mine");
+    const fs::path named = bench.folder().path() / "out" / *fs::path(name).begin();
+    for (const bool is_fresh : {false, true}) {
+      RunOptions options = bench.options("out");
+      options.fresh = is_fresh;
+      EXPECT_EQ(bench.fault(options),
+                named.string() +
+                    ": would be overwritten, but the folder has no results of croon; "
+                    "--out names another folder");
+    }
+    EXPECT_EQ(read_whole_file(file), "mine");
+    EXPECT_FALSE(fs::exists(bench.folder().path() / "out/store.sqlite"));
+    fs::remove_all(bench.folder().path() / "out");
+  }
+}
+
+TEST(RunCommand, WritesThroughNoLink) {
+  const Bench bench;
+  EXPECT_EQ(bench.run(bench.options("out")), 0);
+  const fs::path file = bench.folder().write("file", "mine");
+  for (const char* name : {"store.sqlite", "store.sqlite-wal", "trials.csv", "timings.csv",
+                           "manifest.json", "clouds"}) {
+    const fs::path link = bench.folder().path() / "out" / name;
+    fs::remove_all(link);
+    fs::create_symlink(file, link);
+    for (const bool is_fresh : {false, true}) {
+      RunOptions options = bench.options("out");
+      options.fresh = is_fresh;
+      EXPECT_EQ(bench.fault(options),
+                link.string() + ": expected a file or nothing, found a symbolic link");
+    }
+    EXPECT_EQ(read_whole_file(file), "mine");
+    fs::remove(link);
+    bench.run(bench.options("out"));
+  }
 }
 
 TEST(RunCommand, NeedsAFolderThatItMayWriteTo) {

@@ -17,7 +17,8 @@ namespace {
 
 StoreHeader header() {
   StoreHeader header;
-  header.provenance = {{"program", "1"}, {"starts", R"({"rotation_deg": 45})"}};
+  header.provenance = {{"starts", R"({"rotation_deg": 45})"}};
+  header.versions = {{"framework", 1}, {"step/drift", 3}};
   header.manifest = "{}";
   header.trials = 1000;
   header.variants = {{"base", R"([{"step": "drift"}])"}, {"other", "[]"}};
@@ -104,7 +105,7 @@ TEST(Store, GivesBackEveryBitOfARecord) {
 TEST(Store, ASuccessWithoutAnErrorIsATrialThatFinished) {
   // As older programs stored the trials without truth.
   const test::TempFolder folder;
-  const std::filesystem::path old = folder.path() / "old", merged = folder.path() / "merged";
+  const std::filesystem::path old = folder.path() / "old";
   TrialRecord record;
   record.id = {"base", "scene \"1\"", "left", 0};
   record.status = Status::success;
@@ -114,25 +115,6 @@ TEST(Store, ASuccessWithoutAnErrorIsATrialThatFinished) {
     add(store, record);
   }
   EXPECT_EQ(read_store(old).records.at(0).status, Status::finished);
-  {
-    Store store(merged, header());
-    store.merge(old, header());
-    store.merge(old, header());
-    Store other(folder.path() / "other", header());
-    add(other, record);
-  }
-  {
-    Store other(folder.path() / "other", header());
-    other.merge(merged, header());
-  }
-  rewrite_in_order(old);
-  rewrite_in_order(merged);
-  for (const auto& path : {old, merged}) {
-    const Database database(path, Access::read);
-    Statement select = database.prepare("SELECT status FROM trials");
-    ASSERT_TRUE(select.next());
-    EXPECT_EQ(select.text(0), "finished");
-  }
 }
 
 TEST(Store, KeepsWhatEachStepReported) {
@@ -231,12 +213,63 @@ TEST(Store, SaysWhatDiffers) {
   EXPECT_EQ(refusal(path, other),
             "its trials were made from something else: /starts/rotation_deg was 45 and is 30; "
             "--fresh deletes them and starts over, --out writes elsewhere");
-  other.provenance["program"] = "2";
+  other.versions["step/drift"] = 4;
   other.variants[0].detail = R"([{"step": "drift", "size_m": 2}])";
   const std::string all = refusal(path, other);
-  EXPECT_NE(all.find("the program was another build of croon; "), std::string::npos) << all;
+  EXPECT_NE(all.find("version of step/drift was 3 and is 4; "), std::string::npos) << all;
   EXPECT_NE(all.find("/variants/base/0/size_m was not there and is 2"), std::string::npos) << all;
   EXPECT_EQ(read_whole_file(path), bytes);
+}
+
+TEST(Store, KeepsTheBuildsAndVersionsOfItsTrials) {
+  const test::TempFolder folder;
+  StoreHeader a = header(), b = header();
+  a.builds = {{"0.1.0", "abc", "1", {{"my stages", "def-dirty"}}, {{"compiler", "GNU 12"}}}};
+  b.builds = {{"0.1.0", "abc", "2", {}, {}}};
+  b.versions = {{"framework", 1}, {"icp/icpn", 2}};
+  for (const auto& [path, first, second] :
+       {std::tuple(folder.path() / "ab", a, b), std::tuple(folder.path() / "ba", b, a)}) {
+    { const Store store(path, first); }
+    { const Store store(path, second); }
+    const StoreHeader found = stored_header(path);
+    ASSERT_EQ(found.builds.size(), 2U);
+    EXPECT_EQ(found.builds[0].program_sha256, "1");
+    EXPECT_EQ(found.builds[0].stage_folders.at(0).commit, "def-dirty");
+    EXPECT_EQ(found.builds[0].libraries, a.builds[0].libraries);
+    EXPECT_EQ(found.versions,
+              (params::StageVersions{{"framework", 1}, {"icp/icpn", 2}, {"step/drift", 3}}));
+    EXPECT_NE(test::input_error([&] { refuse_other_builds("s", found, a, "stop"); }), "");
+    refuse_other_builds("s", a, a, "stop");
+  }
+}
+
+/// Makes the store `path` one of format 2.
+void make_earlier(const std::filesystem::path& path) {
+  Database(path, Access::write).run(R"(UPDATE meta SET value = '2' WHERE name = 'format';
+              DELETE FROM meta WHERE name IN ('versions', 'builds');
+              INSERT INTO meta VALUES('program', '123');
+              UPDATE meta SET value = '{"croon": {"version": "0.1.0", "commit": "abc",
+                  "program_sha256": "123"}, "libraries": {}}' WHERE name = 'manifest';
+              PRAGMA application_id = 0)");
+}
+
+TEST(Store, OfAnEarlierFormatIsReadAndNotExtended) {
+  const test::TempFolder folder;
+  const std::filesystem::path path = folder.path() / "s";
+  const std::vector<TrialRecord> records = random_records(4);
+  {
+    Store store(path, header());
+    for (const TrialRecord& record : records) add(store, record);
+  }
+  make_earlier(path);
+  const StoredRun run = read_store(path);
+  EXPECT_EQ(run.records.size(), 4U);
+  EXPECT_EQ(run.header.builds.at(0).commit, "abc");
+  EXPECT_EQ(run.header.provenance, header().provenance);
+  const std::string message = refusal(path, header());
+  EXPECT_EQ(message,
+            "is a store of an earlier croon, whose stages had no versions: it can be exported, but "
+            "not extended or merged; croon run --fresh starts over");
 }
 
 TEST(Store, TakesMoreVariantsTrialsAndAnotherOrder) {

@@ -11,7 +11,14 @@ namespace croon::experiments {
 namespace {
 
 StoreHeader header() {
-  return {{{"seed", "1"}}, "{}", 100000, {{"base", "[]"}}, {{"scene", ""}}, {{"left", "top"}}};
+  StoreHeader header;
+  header.provenance = {{"seed", "1"}};
+  header.manifest = "{}";
+  header.trials = 100000;
+  header.variants = {{"base", "[]"}};
+  header.scenes = {{"scene", ""}};
+  header.sensors = {{"left", "top"}};
+  return header;
 }
 
 Done trial(int number) {

@@ -45,9 +45,10 @@ Catalogue catalogue() {
           params::slot("one", &HolderParams::one, R"({"type": "keep", "count": 5})", "One."),
           params::slots("many", &HolderParams::many, "Many."),
       }));
-  all.add(stage_entry<Keep>("keep", "Keeps.", "test",
-                            params::Table<KeepParams>{params::integer("count", &KeepParams::count,
-                                                                      {1, 9}, "How many.")}));
+  all.add(stage_entry<Keep>(
+      "keep", "Keeps.", "test",
+      params::Table<KeepParams>{params::integer("count", &KeepParams::count, {1, 9}, "How many.")},
+      3));
   return all;
 }
 
@@ -58,6 +59,17 @@ std::string resolved(const std::string& text, std::vector<std::string>& lines) {
   const std::string json = catalogue().build("step", params::Node(value, "f", faults)).resolved;
   for (const Fault& fault : faults) lines.push_back(fault.line());
   return json;
+}
+
+TEST(Catalogue, CollectsTheVersionsOfAStageAndOfThoseInItsSlots) {
+  const auto versions = [](const char* text) {
+    const nlohmann::json value = params::parse_json(text, "f");
+    std::vector<Fault> faults;
+    return catalogue().build("step", params::Node(value, "f", faults)).versions;
+  };
+  const params::StageVersions both = {{"preprocessor/keep", 3}, {"step/holder", 1}};
+  EXPECT_EQ(versions(R"({"step": "holder"})"), both);
+  EXPECT_EQ(versions(R"({"step": "holder", "many": [{"type": "keep", "count": 1}]})"), both);
 }
 
 TEST(Catalogue, BuildsNestedStagesAndSaysThemInFull) {

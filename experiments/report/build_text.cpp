@@ -1,0 +1,51 @@
+#include "experiments/report/build_text.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace croon::experiments {
+namespace {
+
+constexpr std::size_t kShownDigits = 12;
+
+/// "my_stages at commit 0123456789ab-dirty"; without the folders around it, which differ from
+/// machine to machine.
+std::string folder_text(const StageFolder& folder) {
+  return std::filesystem::path(folder.folder).filename().string() + " at commit " +
+         short_commit(folder.commit);
+}
+
+std::string build_text(const Build& build) {
+  return "commit " + short_commit(build.commit) + " (program " +
+         build.program_sha256.substr(0, kShownDigits) + ")";
+}
+
+}  // namespace
+
+std::string short_commit(const std::string& commit) {
+  const std::size_t dash = std::min(commit.find('-'), commit.size());
+  return commit.substr(0, std::min(dash, kShownDigits)) + commit.substr(dash);
+}
+
+std::vector<std::string> build_sentences(const std::vector<Build>& builds) {
+  std::string of_builds, of_folders;
+  std::vector<std::string> folders;
+  for (const Build& build : builds) {
+    of_builds += (of_builds.empty() ? "" : ", ") + build_text(build);
+    for (const StageFolder& folder : build.stage_folders) folders.push_back(folder_text(folder));
+  }
+  std::sort(folders.begin(), folders.end());
+  folders.erase(std::unique(folders.begin(), folders.end()), folders.end());
+  for (const std::string& folder : folders) of_folders += (of_folders.empty() ? "" : ", ") + folder;
+  std::vector<std::string> sentences;
+  if (builds.size() > 1) {
+    sentences.push_back("Trials of " + std::to_string(builds.size()) +
+                        " builds of croon: " + of_builds + ".");
+  }
+  if (!folders.empty()) {
+    sentences.push_back("With stages from outside croon's tree: " + of_folders + ".");
+  }
+  return sentences;
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,141 @@
+#include "experiments/store/build.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "experiments/store/bounded_json.hpp"
+#include "framework/base/version.hpp"
+#include "framework/io/digest.hpp"
+
+namespace croon::experiments {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kFramework = "framework";
+
+auto key_of(const Build& build) {
+  return std::tie(build.version, build.commit, build.program_sha256);
+}
+
+/// What a manifest has under "croon".
+Json program_json(const Build& build) {
+  Json json = {{"version", build.version},
+               {"commit", build.commit},
+               {"program_sha256", build.program_sha256}};
+  for (const StageFolder& folder : build.stage_folders) {
+    json["stage_folders"].push_back({{"folder", folder.folder}, {"commit", folder.commit}});
+  }
+  return json;
+}
+
+Json libraries_json(const Build& build) {
+  Json json = Json::object();
+  for (const auto& [library, version] : build.libraries) json[library] = version;
+  return json;
+}
+
+Json build_json(const Build& build) {
+  Json json = program_json(build);
+  json["libraries"] = libraries_json(build);
+  return json;
+}
+
+Build read_build(const Json& program, const Json& libraries) {
+  Build build{program.at("version"), program.at("commit"), program.at("program_sha256"), {}, {}};
+  if (program.contains("stage_folders")) {
+    for (const Json& folder : program.at("stage_folders")) {
+      build.stage_folders.push_back({folder.at("folder"), folder.at("commit")});
+    }
+  }
+  for (const auto& [library, version] : libraries.items()) {
+    build.libraries.emplace_back(library, version);
+  }
+  return build;
+}
+
+Json list_json(const std::vector<Build>& builds) {
+  Json list = Json::array();
+  for (const Build& build : builds) list.push_back(build_json(build));
+  return list;
+}
+
+/// Bytes of paths that are not UTF-8 are replaced.
+std::string text_of(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+Build this_build() {
+  static const std::string digest = sha256_of_file("/proc/self/exe");
+  return {croon_version(), croon_commit(), digest, stage_folders(), library_versions()};
+}
+
+params::StageVersions versions_of(const Experiment& experiment) {
+  params::StageVersions versions = experiment.dataset.versions();
+  versions[kFramework] = kFrameworkVersion;
+  for (const Variant& variant : experiment.variants) {
+    for (const NamedStep& step : variant.pipeline) {
+      versions.insert(step.step.versions().begin(), step.step.versions().end());
+    }
+  }
+  return versions;
+}
+
+std::vector<Build> united(std::vector<Build> a, const std::vector<Build>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  std::sort(a.begin(), a.end(),
+            [](const Build& x, const Build& y) { return key_of(x) < key_of(y); });
+  const auto is_equal = [](const Build& x, const Build& y) { return key_of(x) == key_of(y); };
+  a.erase(std::unique(a.begin(), a.end(), is_equal), a.end());
+  return a;
+}
+
+bool is_same(const std::vector<Build>& a, const std::vector<Build>& b) {
+  return builds_json(a) == builds_json(b);
+}
+
+std::string builds_json(const std::vector<Build>& builds) { return text_of(list_json(builds), -1); }
+
+std::vector<Build> read_builds(const std::string& text) {
+  std::vector<Build> builds;
+  for (const Json& json : parse_bounded<Json>(text)) {
+    builds.push_back(read_build(json, json.at("libraries")));
+  }
+  return builds;
+}
+
+std::string versions_json(const params::StageVersions& versions) {
+  return text_of(Json(versions), -1);
+}
+
+params::StageVersions read_versions(const std::string& text) {
+  return parse_bounded<Json>(text).get<params::StageVersions>();
+}
+
+std::string manifest_with_builds(const std::string& manifest, const std::vector<Build>& builds,
+                                 const params::StageVersions& versions) {
+  const Json json = parse_bounded<Json>(manifest);
+  // One of format 2 has its build already.
+  if (json.contains("croon") || builds.empty()) return manifest;
+  Json whole = Json::object();
+  for (const auto& [key, value] : json.items()) {
+    if (key == "inputs") {
+      whole["croon"] = program_json(builds.front());
+      whole["libraries"] = libraries_json(builds.front());
+      if (builds.size() > 1) whole["builds"] = list_json(builds);
+      whole["versions"] = versions;
+    }
+    whole[key] = value;
+  }
+  return text_of(whole, 2) + "\n";
+}
+
+Build build_of_manifest(const std::string& manifest) {
+  const Json json = parse_bounded<Json>(manifest);
+  return read_build(json.at("croon"), json.at("libraries"));
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,228 @@
+#include "experiments/store/store_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <set>
+#include <string_view>
+
+#include "experiments/store/store_check.hpp"
+#include "experiments/store/store_header.hpp"
+#include "experiments/store/trial_rows.hpp"
+#include "framework/base/error.hpp"
+
+namespace croon::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The numbers in the header of an SQLite file that say which program it belongs to ("croo"), and
+/// whether it has a write-ahead log (https://www.sqlite.org/fileformat.html, 1.3).
+constexpr std::uint32_t kApplicationId = 0x63726F6F;
+constexpr std::size_t kApplicationIdOffset = 68;
+constexpr std::size_t kWriteVersionOffset = 18;
+constexpr char kVersionWithLog = 2;
+
+using FileHeader = std::array<char, 100>;
+
+fs::path beside(const fs::path& path, const char* ending) { return path.string() + ending; }
+
+/// The first bytes of the file `path`; zeros after its end.
+FileHeader header_bytes(const fs::path& path) {
+  FileHeader bytes{};
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream)
+    throw InputError(path.string(), "", "expected a readable store, found one that is not");
+  stream.read(bytes.data(), bytes.size());
+  return bytes;
+}
+
+std::uint32_t application_id(const FileHeader& bytes) {
+  std::uint32_t id = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    id = (id << 8) | static_cast<unsigned char>(bytes[kApplicationIdOffset + i]);
+  }
+  return id;
+}
+
+bool is_sqlite_file(const FileHeader& bytes) {
+  constexpr std::string_view kMagic("SQLite format 3\0", 16);
+  return std::string_view(bytes.data(), kMagic.size()) == kMagic;
+}
+
+[[noreturn]] void refuse_other_file(const fs::path& path, const std::string& found) {
+  throw InputError(path.string(), "", "expected the store of a run, found " + found);
+}
+
+void refuse_unless_file(const fs::path& path) {
+  std::error_code error;
+  // Before it is opened: opening a pipe would wait for a writer.
+  if (!fs::is_regular_file(path, error)) refuse_other_file(path, "something that is not a file");
+}
+
+/// The tables of the database, as far as they can be read.
+std::set<std::string> tables_in(const Database& database) {
+  std::set<std::string> tables;
+  Statement select = database.prepare("SELECT name FROM sqlite_master WHERE type = 'table'");
+  while (select.next()) tables.insert(select.text(0));
+  return tables;
+}
+
+bool has_bytes(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error) && fs::file_size(path, error) > 0 && !error;
+}
+
+void remove_files(const std::vector<fs::path>& files) {
+  for (const fs::path& file : files) {
+    std::error_code error;
+    fs::remove(file, error);
+    if (error) throw InputError(file.string(), "", "cannot be deleted: " + error.message());
+  }
+}
+
+/// Throws InputError if the database `path`, whose own pages alone are looked at, is of another
+/// program. Returns whether it has the tables of a store.
+bool has_store_tables(const fs::path& path, Access access) {
+  const std::set<std::string> tables = tables_in(Database(path, access));
+  const bool is_store = tables.count("meta") == 1 && tables.count("trials") == 1;
+  if (!tables.empty() && !is_store) refuse_other_file(path, "the database of another program");
+  return is_store;
+}
+
+/// Whether a process of an earlier version was killed while it changed the journal mode of `path`.
+/// Throws InputError if the file is the database of another program.
+bool has_old_journal(const fs::path& path) {
+  if (!has_bytes(beside(path, "-journal"))) return false;
+  try {
+    if (application_id(header_bytes(path)) != kApplicationId) {
+      has_store_tables(path, Access::snapshot);
+    }
+  } catch (const UnreadableDatabase&) {
+    // A page is half-written, which the journal repairs.
+  }
+  return true;
+}
+
+/// Moves all that is in the log of the store `path` into its file.
+void empty_log(const fs::path& path) {
+  const Database database(path, Access::write);
+  Statement checkpoint = database.prepare("PRAGMA wal_checkpoint(TRUNCATE)");
+  if (!checkpoint.next() || checkpoint.integer(0) != 0) {
+    throw InputError(path.string(), "", "another croon is working on this store");
+  }
+}
+
+/// Calls `write`, which makes a file beside the store `path`, and renames that file to `path`.
+void replace_by(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  const fs::path working = beside(path, ".new");
+  const std::vector<fs::path> files = store_files(working);
+  remove_files(files);
+  try {
+    write(working);
+    replace_store(path, working);
+  } catch (...) {
+    std::error_code ignored;
+    for (const fs::path& file : files) fs::remove(file, ignored);
+    throw;
+  }
+}
+
+void copy_to(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::copy_file(from, to, error);
+  if (error) throw InputError(to.string(), "", "cannot be written: " + error.message());
+}
+
+/// From memory: what is not on disk when the process is killed is thrown away with the file.
+void begin_log(Database& database) {
+  database.run("PRAGMA journal_mode = MEMORY; PRAGMA journal_mode = WAL;");
+}
+
+/// Makes `path` a store with a write-ahead log.
+void provide_log(const fs::path& path) {
+  if (!has_store(path)) return build_store(path, begin_log);
+  if (header_bytes(path)[kWriteVersionOffset] == kVersionWithLog) return;
+  empty_log(path);
+  replace_by(path, [&](const fs::path& working) {
+    copy_to(path, working);
+    Database database(working, Access::write);
+    begin_log(database);
+  });
+}
+
+}  // namespace
+
+fs::path store_path(const fs::path& folder) { return folder / "store.sqlite"; }
+
+std::vector<fs::path> store_files(const fs::path& path) {
+  std::vector<fs::path> files;
+  for (const std::string base : {"", ".new"}) {
+    for (const char* ending : {"", "-journal", "-wal", "-shm"}) {
+      files.push_back(path.string() + base + ending);
+    }
+  }
+  return files;
+}
+
+bool has_store(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(path, error))) return false;
+  refuse_unless_file(path);
+  if (has_old_journal(path)) {
+    const Database database(path, Access::write);
+    database.prepare("SELECT count(*) FROM sqlite_master").next();
+  }
+  if (!has_bytes(path)) return false;
+  const FileHeader bytes = header_bytes(path);
+  if (!is_sqlite_file(bytes)) refuse_other_file(path, "a file that is no database");
+  const std::uint32_t id = application_id(bytes);
+  if (id == kApplicationId) return true;
+  if (id != 0) refuse_other_file(path, "the database of another program");
+  // The store of an earlier version. All of it may still be in its log.
+  return has_store_tables(path, Access::snapshot) || has_store_tables(path, Access::read);
+}
+
+Database open_to_read(const fs::path& path) {
+  if (!has_store(path))
+    throw InputError(path.string(), "", "expected the store of a run, found none");
+  Database database(path, Access::read);
+  check_schema(database);
+  return database;
+}
+
+Database open_snapshot(const fs::path& path) {
+  refuse_unless_file(path);
+  Database database(path, Access::snapshot);
+  check_schema(database);
+  return database;
+}
+
+Database open_to_write(const fs::path& path) {
+  provide_log(path);
+  Database database(path, Access::write);
+  database.run(
+      "PRAGMA main.locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; BEGIN EXCLUSIVE; COMMIT;");
+  return database;
+}
+
+void build_store(const fs::path& path, const std::function<void(Database&)>& fill) {
+  replace_by(path, [&](const fs::path& working) {
+    Database database(working, Access::create);
+    database.run(
+        "PRAGMA journal_mode = MEMORY; PRAGMA synchronous = FULL; PRAGMA application_id = " +
+        std::to_string(kApplicationId) + ";BEGIN;" + header_tables() + record_tables() + "COMMIT;");
+    fill(database);
+  });
+}
+
+void replace_store(const fs::path& path, const fs::path& by) {
+  if (has_store(path)) empty_log(path);
+  // Else SQLite would take the log of the old store for the log of the new one.
+  for (const char* ending : {"-journal", "-wal", "-shm"}) remove_files({beside(path, ending)});
+  std::error_code error;
+  fs::rename(by, path, error);
+  if (error) throw InputError(path.string(), "", "cannot be replaced: " + error.message());
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,262 @@
+// A store is input like any other file: whatever is in it, a command ends with 0, 2 or 3, in
+// bounded time, and with one line if it refuses it.
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <functional>
+#include <sstream>
+
+#include "experiments/analysis/results.hpp"
+#include "experiments/cli/commands.hpp"
+#include "experiments/store/store.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/rng.hpp"
+#include "framework/base/whole_file.hpp"
+#include "test/experiments/support/fake_stages.hpp"
+#include "test/support/temp_folder.hpp"
+
+namespace croon::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExperiment = R"({
+  "name": "x", "dataset": {"type": "fake", "sensors": 1}, "starts": {"trials": 3},
+  "pipeline": [{"step": "drift"}]})";
+
+/// Runs SQL without SQLite's defences.
+void run_sql(const fs::path& path, const std::string& sql) {
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
+  char* why = nullptr;
+  const int code = sqlite3_exec(database, sql.c_str(), nullptr, nullptr, &why);
+  EXPECT_EQ(code, SQLITE_OK) << sql << ": " << (why == nullptr ? "" : why);
+  sqlite3_free(why);
+  sqlite3_close(database);
+}
+
+class CraftedStore : public testing::Test {
+ protected:
+  CraftedStore() {
+    folder_.write("x.json", kExperiment);
+    EXPECT_EQ(run("good"), 0);
+  }
+
+  fs::path path(const std::string& name) const { return folder_.path() / name; }
+  fs::path store() const { return path("bad") / "store.sqlite"; }
+
+  int run(const std::string& out) const {
+    RunOptions options;
+    options.experiment = path("x.json");
+    options.out = path(out);
+    options.quiet = true;
+    std::ostringstream text, progress;
+    return run_command(options, test::fake_catalogue(), text, progress);
+  }
+
+  /// The folder `bad` with a copy of the good store.
+  void copy_good() const {
+    fs::remove_all(path("bad"));
+    fs::create_directory(path("bad"));
+    fs::copy_file(path("good/store.sqlite"), store());
+  }
+
+  /// Runs export, claims, merge and run. Those that refuse the store must do so as the program
+  /// prints it, in one line; any other exception fails the test. Returns which did, "ecmr" for all.
+  std::string refusals(const std::string& what) const {
+    fs::remove_all(path("merged"));
+    const std::vector<std::function<void()>> commands = {
+        [&] {
+          std::ostringstream text;
+          export_command({path("bad"), "md", {}}, text);
+        },
+        [&] {
+          std::ostringstream text;
+          claims_command({path("bad")}, text);
+        },
+        [&] {
+          MergeOptions options;
+          options.folders = {path("bad")};
+          options.out = path("merged/deep");
+          std::ostringstream text;
+          merge_command(options, text);
+        },
+        [&] { run("bad"); }};
+    std::string refused;
+    for (std::size_t i = 0; i < commands.size(); ++i) {
+      try {
+        commands[i]();
+      } catch (const InputError& error) {
+        refused += "ecmr"[i];
+        std::ostringstream text;
+        print_faults(error, text);
+        const std::string line = text.str();
+        EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << what << ": " << line;
+        EXPECT_EQ(line.find("bug"), std::string::npos) << what << ": " << line;
+      }
+      EXPECT_FALSE(!refused.empty() && fs::exists(path("merged"))) << what;
+    }
+    return refused;
+  }
+
+  test::TempFolder folder_;
+};
+
+/// Sets a member of the manifest.
+std::string manifest(const std::string& member, const std::string& value) {
+  return "UPDATE meta SET value = json_set(value, '$." + member + "', json('" + value +
+         "')) WHERE name = 'manifest'";
+}
+
+std::string meta(const std::string& name, const std::string& value) {
+  return "UPDATE meta SET value = " + value + " WHERE name = '" + name + "'";
+}
+
+/// Gives the row of `table` the id `id`, everywhere.
+std::string id(const std::string& table, const std::string& column, const std::string& id) {
+  return "UPDATE " + table + " SET id = " + id + " WHERE name = (SELECT min(name) FROM " + table +
+         "); UPDATE OR IGNORE trials SET " + column + " = " + id + "; UPDATE OR IGNORE steps SET " +
+         column + " = " + id;
+}
+
+TEST_F(CraftedStore, IsRefusedInOneLine) {
+  const std::string deep(200000, '[');
+  const std::vector<std::string> crafts = {
+      id("variants", "variant", "-5"),
+      id("variants", "variant", "1099511627776"),
+      id("scenes", "scene", "-1"),
+      id("scenes", "scene", "9223372036854775807"),
+      id("sensors", "sensor", "-9223372036854775808"),
+      "UPDATE trials SET variant = 77",
+      "UPDATE steps SET scene = 77 WHERE scene = 1",
+      "DELETE FROM variants",
+      "UPDATE variants SET place = 'first'",
+      "UPDATE scenes SET name = X'00ff' WHERE id = 1",
+      "UPDATE trials SET trial = -1 WHERE trial = 0",
+      "UPDATE trials SET trial = 1099511627776 WHERE trial = 0",
+      "UPDATE trials SET trial = 'zero' WHERE trial = 0",
+      "UPDATE trials SET status = NULL",
+      "UPDATE trials SET status = 'fine'",
+      "UPDATE trials SET status = 7",
+      "UPDATE trials SET reason = X'00'",
+      "UPDATE trials SET roll_error_rad = 'far'",
+      "UPDATE trials SET roll_error_rad = NULL",
+      "UPDATE trials SET translation_error_m = 9e999",
+      "UPDATE trials SET r00 = NULL",
+      "UPDATE trials SET tx_m = -9e999",
+      "UPDATE trials SET tx_m = 1e300",
+      "UPDATE steps SET figures = NULL",
+      "UPDATE steps SET information = X'00'",
+      manifest("experiment.variants", "[]"),
+      manifest("experiment.variants", "{}"),
+      manifest("experiment", "7"),
+      manifest("experiment.seed", "-1"),
+      manifest("experiment.starts.sweep", R"({"rotation_deg":[0,10],"levels":0})"),
+      manifest("experiment.starts.sweep", R"({"rotation_deg":[0,10],"levels":2000000000})"),
+      manifest("planned", "-1"),
+      manifest("planned", "1e300"),
+      manifest("planned", "9223372036854775807"),
+      meta("manifest",
+           "'{\"more\":" + deep + std::string(deep.size(), ']') + ",' || substr(value, 2)"),
+      meta("manifest", "''"),
+      meta("manifest", "'{}'"),
+      meta("manifest", "'" + deep + "'"),
+      meta("dataset", "zeroblob(100000)"),
+      meta("trials", "'many'"),
+      meta("trials", "'0'"),
+      meta("trials", "'-1'"),
+      meta("trials", "'2000000000'"),
+      meta("trials", "'99999999999999999999'"),
+      meta("versions", "'[]'"),
+      meta("versions", R"('{"framework": "one"}')"),
+      meta("builds", "'7'"),
+      meta("builds", "'[{}]'"),
+      meta("format", "'1e9'"),
+      "DELETE FROM meta WHERE name = 'manifest'",
+      "DROP TABLE steps",
+      "DROP VIEW named_trials",
+      "CREATE TABLE more(a)",
+      "CREATE TRIGGER t AFTER UPDATE ON variants BEGIN DELETE FROM trials; END",
+      "CREATE INDEX i ON trials(status)",
+      "ALTER TABLE trials RENAME TO t; CREATE VIEW trials AS SELECT * FROM t",
+      "DROP VIEW named_trials; DROP VIEW named_steps; DROP TABLE variants; CREATE VIEW variants AS "
+      "WITH RECURSIVE n(id) AS (SELECT 1 UNION ALL SELECT id + 1 FROM n) "
+      "SELECT id, 'v' || id AS name, '[]' AS pipeline, 0 AS place FROM n",
+      "PRAGMA writable_schema = ON; UPDATE sqlite_master SET sql = 'CREATE VIRTUAL TABLE steps "
+      "USING fts5(a)' WHERE name = 'steps'",
+      "PRAGMA writable_schema = ON; UPDATE sqlite_master SET rootpage = 1 WHERE name = 'trials'",
+      "PRAGMA writable_schema = ON; UPDATE sqlite_master SET sql = 'nonsense' WHERE name = "
+      "'trials'",
+      "PRAGMA application_id = 7",
+  };
+  for (const std::string& craft : crafts) {
+    copy_good();
+    run_sql(store(), craft);
+    // What a run writes anew, it does not read.
+    const bool is_of_manifest = craft.find("'manifest'") != std::string::npos;
+    EXPECT_EQ(refusals(craft.substr(0, 200)), is_of_manifest ? "ecm" : "ecmr")
+        << craft.substr(0, 200);
+  }
+}
+
+TEST_F(CraftedStore, IsAFile) {
+  fs::create_directories(store());
+  EXPECT_EQ(refusals("a folder"), "ecmr");
+  fs::remove_all(store());
+  ASSERT_EQ(::mkfifo(store().c_str(), 0600), 0);
+  EXPECT_EQ(refusals("a pipe"), "ecmr");
+  fs::remove_all(store());
+  fs::create_symlink("/dev/zero", store());
+  EXPECT_EQ(refusals("a device"), "ecmr");
+}
+
+TEST_F(CraftedStore, OfChangedBytesIsReadOrRefused) {
+  const std::string good = read_whole_file(path("good/store.sqlite"));
+  constexpr int kMutants = 400;
+  Rng rng(StreamKey(1).with("mutants"));
+  int refused = 0;
+  for (int i = 0; i < kMutants; ++i) {
+    std::string bytes = good;
+    if (i % 10 == 0) bytes.resize(rng.below(bytes.size()));
+    const auto changes = i % 10 == 0 ? 0 : 1 + rng.below(8);
+    for (std::uint64_t change = 0; change < changes; ++change) {
+      // Half of them where the structure is: in the first page.
+      const std::size_t range = rng.below(2) == 0 ? std::size_t{200} : bytes.size();
+      bytes[rng.below(range)] = static_cast<char>(rng.below(256));
+    }
+    folder_.write("bad/store.sqlite", bytes);
+    try {
+      read_snapshot(store());
+      std::ostringstream text;
+      export_command({path("bad"), "json", {}}, text);
+    } catch (const InputError& error) {
+      ++refused;
+      EXPECT_EQ(error.faults().size(), 1U);
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(path("bad")), {}), 1) << i;
+  }
+  EXPECT_GT(refused, kMutants / 4);
+}
+
+TEST_F(CraftedStore, OfAnotherProgramKeepsItsBytes) {
+  fs::create_directory(path("bad"));
+  for (const char* sql : {"CREATE TABLE notes(a); INSERT INTO notes VALUES('mine')",
+                          "CREATE TABLE trials(a); INSERT INTO trials VALUES('mine')",
+                          "PRAGMA application_id = 1; CREATE TABLE notes(a)",
+                          "PRAGMA journal_mode = WAL; CREATE TABLE notes(a)"}) {
+    fs::remove(store());
+    run_sql(store(), sql);
+    const std::string bytes = read_whole_file(store());
+    EXPECT_EQ(refusals(sql), "ecmr") << sql;
+    EXPECT_EQ(read_whole_file(store()), bytes) << sql;
+  }
+  fs::remove(store());
+  folder_.write("bad/store.sqlite", "notes of mine");
+  EXPECT_EQ(refusals("a text"), "ecmr");
+  EXPECT_EQ(read_whole_file(store()), "notes of mine");
+}
+
+}  // namespace
+}  // namespace croon::experiments
