@@ -52,5 +52,14 @@ fuzz: packages
 	$(call PRESET_BUILD,fuzz)
 	test/fuzz/run.sh build/fuzz/bin $(FUZZ_SECONDS)
 
+# What holds without sanitizers only: limits of memory that these exceed by themselves.
+sanitize: packages
+	$(call PRESET_BUILD,sanitized)
+	ctest --test-dir build/sanitized --output-on-failure --parallel 2 -E '^cluster/'
+	cmake --preset threads
+	cmake --build --preset threads --target croon test_framework test_stages test_contract test_experiments
+	TSAN_OPTIONS="suppressions=$(CURDIR)/test/thread_sanitizer.supp" \
+	  ctest --test-dir build/threads --output-on-failure --parallel 2 -R 'Thread|Runner'
+
 clean:
 	rm -rf build
