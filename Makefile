@@ -5,7 +5,7 @@ CLANG_FORMAT ?= $(shell command -v clang-format-14 || echo clang-format)
 RUN_CLANG_TIDY ?= $(shell command -v run-clang-tidy-14 || echo run-clang-tidy)
 SOURCES = git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp'
 
-.PHONY: help packages release demo test benchmark docs format lint clean
+.PHONY: help packages release demo test benchmark docs format lint fuzz sanitize clean
 
 help:
 	@echo 'make demo       the paper on twelve simulated scenes, with a table and a picture'
@@ -14,6 +14,8 @@ help:
 	@echo 'make docs       write docs/stages and docs/schema again'
 	@echo 'make format     clang-format all sources'
 	@echo 'make lint       clang-tidy over all sources'
+	@echo 'make fuzz       libFuzzer over every reader of files, FUZZ_SECONDS each (20)'
+	@echo 'make sanitize   all tests with AddressSanitizer and UBSan; those with threads with ThreadSanitizer'
 	@echo 'make clean      remove the build folder'
 
 packages:
@@ -43,6 +45,21 @@ lint: packages
 	.ci/install_packages clang-tidy
 	cmake --preset test
 	$(RUN_CLANG_TIDY) -quiet -p build/test '/(framework|stages|registry|experiments)/'
+
+FUZZ_SECONDS ?= 20
+fuzz: packages
+	.ci/install_packages clang libclang-rt-dev
+	$(call PRESET_BUILD,fuzz)
+	test/fuzz/run.sh build/fuzz/bin $(FUZZ_SECONDS)
+
+# What holds without sanitizers only: limits of memory that these exceed by themselves.
+sanitize: packages
+	$(call PRESET_BUILD,sanitized)
+	ctest --test-dir build/sanitized --output-on-failure --parallel 2 -E '^cluster/'
+	cmake --preset threads
+	cmake --build --preset threads --target croon test_framework test_stages test_contract test_experiments
+	TSAN_OPTIONS="suppressions=$(CURDIR)/test/thread_sanitizer.supp" \
+	  ctest --test-dir build/threads --output-on-failure --parallel 2 -R 'Thread|Runner'
 
 clean:
 	rm -rf build

@@ -61,7 +61,7 @@ TEST(Normals, VariationTellsARoundCloudFromAFlatOne) {
   EXPECT_GT(Normals(cloud, tree, 400).at(0).surface_variation, 0.25F);
 }
 
-TEST(Normals, AreTheSameWhoeverAsksFirst) {
+TEST(Normals, AreTheSameWhicheverThreadAsksFirst) {
   Rng rng = test::test_rng();
   const PointCloud cloud = test::random_street(rng, 1, 4000, 0.01);
   const KdTree tree(cloud);

@@ -1,0 +1,69 @@
+#include "test/fuzz/fuzz_input.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+#include "framework/base/error.hpp"
+
+namespace croon::fuzz {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder that ends with the process, in memory if the system has such a file system.
+class ProcessFolder {
+ public:
+  ProcessFolder() {
+    const fs::path parent = fs::is_directory("/dev/shm") ? "/dev/shm" : fs::temp_directory_path();
+    path_ = parent / ("croon_fuzz_" + std::to_string(::getpid()));
+    fs::create_directories(path_);
+  }
+  ~ProcessFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+}  // namespace
+
+fs::path write_input(const std::string& name, const std::uint8_t* data, std::size_t size) {
+  static const ProcessFolder folder;
+  const fs::path path = folder.path() / name;
+  fs::create_directories(path.parent_path());
+  std::ofstream stream(path, std::ios::binary | std::ios::trunc);
+  stream.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  stream.close();
+  require(stream.good(), "the input cannot be written");
+  return path;
+}
+
+bool is_taken(const std::function<void()>& read) {
+  try {
+    read();
+    return true;
+  } catch (const InputError& error) {
+    require(!error.faults().empty(), "the error has no fault");
+    for (const Fault& fault : error.faults()) {
+      require(!fault.file.empty() && !fault.message.empty(), "the fault has no file or no message");
+      require(fault.message.find('\n') == std::string::npos, "the fault is more than one line");
+      require(fault.message.size() < 4096, "the fault is longer than a line that one reads");
+    }
+    return false;
+  }
+}
+
+void require(bool condition, const char* message) {
+  if (condition) return;
+  std::fprintf(stderr, "fuzz: %s\n", message);
+  std::abort();
+}
+
+}  // namespace croon::fuzz

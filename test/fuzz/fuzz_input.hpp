@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+/// libFuzzer's entry point; each target of this folder defines it.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace croon::fuzz {
+
+/// Writes the bytes of an input to the file `name` in a folder of this process, and returns its
+/// path. The next input of the same name replaces it.
+std::filesystem::path write_input(const std::string& name, const std::uint8_t* data,
+                                  std::size_t size);
+
+/// Calls `read`, which reads a file that may hold anything. Returns whether it was taken: an
+/// InputError is the right answer to a damaged file. Ends the process if that error does not have
+/// at least one fault, each a file and one line; any other exception ends the process too.
+bool is_taken(const std::function<void()>& read);
+
+/// Ends the process with `message` unless `condition` holds.
+void require(bool condition, const char* message);
+
+}  // namespace croon::fuzz
