@@ -14,8 +14,8 @@
 
 namespace croon::experiments {
 
-/// With fewer scenes a share and a difference have no interval: six are the fewest with which a test
-/// over scenes can be significant (docs/statistics.md).
+/// With fewer scenes a share and a difference have no interval: six are the fewest with which a
+/// test over scenes can be significant (docs/statistics.md).
 inline constexpr int kLeastScenes = 6;
 
 /// A share of a number of trials, with its 95 % interval.

@@ -16,10 +16,10 @@ struct ExportCaption {
   std::string commit;  ///< Of the program that made the trials.
   std::uint64_t seed = 1;
   std::size_t scenes = 0;
-  int starts = 0;                       ///< Per variant, scene and sensor.
-  std::size_t found = 0;                ///< Trials that the table is over.
-  std::size_t planned = 0;              ///< Trials of the whole experiment.
-  std::vector<std::string> kinds = {};  ///< Of scenes, if these are chosen.
+  int starts = 0;                        ///< Per variant, scene and sensor.
+  std::size_t found = 0;                 ///< Trials that the table is over.
+  std::size_t planned = 0;               ///< Trials of the whole experiment.
+  std::vector<std::string> kinds = {};   ///< Of scenes, if these are chosen.
   std::vector<std::string> builds = {};  ///< See build_sentences.
 };
 

@@ -144,11 +144,11 @@ void Store::merge(const fs::path& shard, const StoreHeader& from) {
   database_.run(id_maps("shard"));
   const std::string rows = with_main_ids("shard", "trials", result_columns());
   {
-    Statement doubled = database_.prepare("SELECT count(*) FROM (" + rows +
-                                          " EXCEPT SELECT variant, scene, sensor, trial, " +
-                                          result_columns() +
-                                          " FROM main.trials) s JOIN main.trials m"
-                                          " USING(variant, scene, sensor, trial)");
+    Statement doubled =
+        database_.prepare("SELECT count(*) FROM (" + rows +
+                          " EXCEPT SELECT variant, scene, sensor, trial, " + result_columns() +
+                          " FROM main.trials) s JOIN main.trials m"
+                          " USING(variant, scene, sensor, trial)");
     doubled.next();
     if (doubled.integer(0) > 0) {
       throw InputError(

@@ -13,7 +13,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::vector<ListedCloud> clouds;
   if (fuzz::is_taken([&] { clouds = read_cloud_list(path); })) {
     const std::vector<ListedCloud> read = read_cloud_list(again(cloud_list_text(clouds)));
-    fuzz::require(cloud_list_text(read) == cloud_list_text(clouds), "a list is read back as another");
+    fuzz::require(cloud_list_text(read) == cloud_list_text(clouds),
+                  "a list is read back as another");
   }
   std::vector<ListedPose> poses;
   if (fuzz::is_taken([&] { poses = read_pose_list(path); })) {

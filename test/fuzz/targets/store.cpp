@@ -1,6 +1,6 @@
 // Stores of results: SQLite files, read, summarised and checked as `croon export` does.
-#include "experiments/analysis/results.hpp"
 #include "experiments/store/store.hpp"
+#include "experiments/analysis/results.hpp"
 #include "test/fuzz/fuzz_input.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
