@@ -1,6 +1,8 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/report/result_tables.hpp"
+#include "framework/base/angles.hpp"
+#include "framework/geometry/rigid_transform.hpp"
 #include "framework/table/renderers.hpp"
 
 namespace croon::experiments {
@@ -31,7 +33,70 @@ Columns<SceneSummary> scene_columns() {
   });
 }
 
+/// The 4x4 matrix of a pose.
+Eigen::Matrix4d homogeneous(const RigidTransform& T) {
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  matrix.topLeftCorner<3, 3>() = T.rotation;
+  matrix.topRightCorner<3, 1>() = T.translation;
+  return matrix;
+}
+
 }  // namespace
+
+Columns<RigidTransform> pose_columns(const std::string& path, const std::string& rotation) {
+  using Pose = RigidTransform;
+  Columns<Pose> columns;
+  for (const int i : {0, 1, 2}) {
+    columns.add({std::string("t") + "xyz"[i], "m", path + "/translation_m/" + std::to_string(i), 4},
+                [i](const Pose& pose) { return pose.translation(i); });
+  }
+  for (const int i : {0, 1, 2, 3}) {
+    columns.add({std::string("q") + "xyzw"[i], "", path + rotation + "/" + std::to_string(i), 6},
+                [i](const Pose& pose) { return unit_quaternion(pose.rotation).coeffs()(i); });
+  }
+  return columns;
+}
+
+Columns<AgreedPose> agreed_pose_columns() {
+  using A = AgreedPose;
+  const std::string path = "/T_reference_sensor";
+  Columns<RigidTransform> matrix;
+  for (const int i : {0, 1, 2, 3}) {
+    for (const int j : {0, 1, 2, 3}) {
+      const std::string index = std::to_string(i) + "/" + std::to_string(j);
+      matrix.add({"m" + std::to_string(i) + std::to_string(j), "", path + "/matrix/" + index},
+                 [=](const RigidTransform& T) { return homogeneous(T)(i, j); });
+    }
+  }
+  Columns<RigidTransform> angles;
+  for (const int i : {0, 1, 2}) {
+    angles.add(
+        {kMeasures[static_cast<std::size_t>(i)].name, "deg",
+         path + "/roll_pitch_yaw_deg/" + std::to_string(i), 3},
+        [=](const RigidTransform& T) { return deg_from_rad(rpy_from_rotation(T.rotation)(i)); });
+  }
+  const auto spread = [](double Agreeing::*of) {
+    return [=](const A& agreed) {
+      return agreed.agreeing.count > 0 ? std::optional<double>(agreed.agreeing.*of) : std::nullopt;
+    };
+  };
+  Columns<A> columns;
+  return columns.add(matrix, &A::pose)
+      .add(pose_columns(path, "/quaternion_xyzw"), &A::pose)
+      .add(angles, &A::pose)
+      .add({"trials"}, &A::trials)
+      .add({"agreeing"}, [](const A& agreed) { return agreed.agreeing.count; })
+      .add({"spread", "deg", "/spread/rotation_deg", 3}, spread(&Agreeing::rotation_deg))
+      .add({"spread", "m", "/spread/translation_m", 4}, spread(&Agreeing::translation_m));
+}
+
+AgreedPose agreed_pose(const SummaryRow& row) {
+  return {row.consensus, row.outcomes.trials, row.agreeing};
+}
+
+AgreedPose agreed_pose(const SceneSummary& scene) {
+  return {scene.consensus, scene.outcomes.trials, scene.agreeing};
+}
 
 std::string extrinsics_json(const Summary& summary,
                             const std::map<std::string, std::string>& references) {

@@ -7,7 +7,6 @@
 #include <tuple>
 #include <type_traits>
 
-#include "framework/base/angles.hpp"
 #include "framework/base/text.hpp"
 #include "framework/geometry/rigid_transform.hpp"
 #include "framework/table/renderers.hpp"
@@ -17,14 +16,6 @@ namespace croon::experiments {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// The ends of an interval that may not be there.
-std::optional<double> low_of(const std::optional<Interval>& interval) {
-  return interval ? std::optional<double>(interval->low) : std::nullopt;
-}
-std::optional<double> high_of(const std::optional<Interval>& interval) {
-  return interval ? std::optional<double>(interval->high) : std::nullopt;
-}
 
 /// Ratio, low and high end of a share called `name`.
 Columns<Share> share_columns(const std::string& name) {
@@ -73,22 +64,6 @@ Columns<std::optional<StatisticsTable>> statistics_columns(const std::string& of
       column.name = of + column.name;
       columns.add(column, [k, s](const auto& table) { return value_of(table, k, s); });
     }
-  }
-  return columns;
-}
-
-/// Translation and quaternion (qw >= 0), in JSON below `path`.
-Columns<RigidTransform> pose_columns(const std::string& path = "",
-                                     const std::string& rotation = "/rotation_xyzw") {
-  using Pose = RigidTransform;
-  Columns<Pose> columns;
-  for (const int i : {0, 1, 2}) {
-    columns.add({std::string("t") + "xyz"[i], "m", path + "/translation_m/" + std::to_string(i), 4},
-                [i](const Pose& pose) { return pose.translation(i); });
-  }
-  for (const int i : {0, 1, 2, 3}) {
-    columns.add({std::string("q") + "xyzw"[i], "", path + rotation + "/" + std::to_string(i), 6},
-                [i](const Pose& pose) { return unit_quaternion(pose.rotation).coeffs()(i); });
   }
   return columns;
 }
@@ -201,14 +176,6 @@ Columns<ErrorComparison> error_columns(const Measure& measure) {
   return columns.add(test_columns(measure.name, path + "wilcoxon"), &E::test);
 }
 
-/// The 4x4 matrix of a pose.
-Eigen::Matrix4d homogeneous(const RigidTransform& T) {
-  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
-  matrix.topLeftCorner<3, 3>() = T.rotation;
-  matrix.topRightCorner<3, 1>() = T.translation;
-  return matrix;
-}
-
 /// The loop over the poses that all scenes agree on.
 Columns<LoopGap> gap_columns() {
   Columns<LoopGap> columns;
@@ -276,47 +243,6 @@ Columns<LoopClosure> loop_columns() {
       .add({"scenes"}, &L::scenes)
       .add({"scenes_closed"}, &L::scenes_closed)
       .add(gap_columns(), &L::agreed);
-}
-
-Columns<AgreedPose> agreed_pose_columns() {
-  using A = AgreedPose;
-  const std::string path = "/T_reference_sensor";
-  Columns<RigidTransform> matrix;
-  for (const int i : {0, 1, 2, 3}) {
-    for (const int j : {0, 1, 2, 3}) {
-      const std::string index = std::to_string(i) + "/" + std::to_string(j);
-      matrix.add({"m" + std::to_string(i) + std::to_string(j), "", path + "/matrix/" + index},
-                 [=](const RigidTransform& T) { return homogeneous(T)(i, j); });
-    }
-  }
-  Columns<RigidTransform> angles;
-  for (const int i : {0, 1, 2}) {
-    angles.add(
-        {kMeasures[static_cast<std::size_t>(i)].name, "deg",
-         path + "/roll_pitch_yaw_deg/" + std::to_string(i), 3},
-        [=](const RigidTransform& T) { return deg_from_rad(rpy_from_rotation(T.rotation)(i)); });
-  }
-  const auto spread = [](double Agreeing::*of) {
-    return [=](const A& agreed) {
-      return agreed.agreeing.count > 0 ? std::optional<double>(agreed.agreeing.*of) : std::nullopt;
-    };
-  };
-  Columns<A> columns;
-  return columns.add(matrix, &A::pose)
-      .add(pose_columns(path, "/quaternion_xyzw"), &A::pose)
-      .add(angles, &A::pose)
-      .add({"trials"}, &A::trials)
-      .add({"agreeing"}, [](const A& agreed) { return agreed.agreeing.count; })
-      .add({"spread", "deg", "/spread/rotation_deg", 3}, spread(&Agreeing::rotation_deg))
-      .add({"spread", "m", "/spread/translation_m", 4}, spread(&Agreeing::translation_m));
-}
-
-AgreedPose agreed_pose(const SummaryRow& row) {
-  return {row.consensus, row.outcomes.trials, row.agreeing};
-}
-
-AgreedPose agreed_pose(const SceneSummary& scene) {
-  return {scene.consensus, scene.outcomes.trials, scene.agreeing};
 }
 
 Columns<CloudDescription> cloud_columns() {
@@ -435,49 +361,6 @@ std::string comparison_csv(const Summary& summary) {
 }
 
 std::string loops_csv(const Summary& summary) { return csv_of(loop_columns(), summary.loops); }
-
-std::string basin_csv(const Basin& basin) {
-  Table table{{{"variant"}, {"sensor"}, {"level"}, {"size"}, {"unit"}, {"trials"}, {"success"}},
-              {}};
-  for (const char* name : {"success_ratio", "low", "high"}) table.columns.push_back({name});
-  for (const BasinRow& row : basin.rows) {
-    for (int level = 0; level < static_cast<int>(row.levels.size()); ++level) {
-      const Share& share = row.levels[static_cast<std::size_t>(level)];
-      table.rows.push_back(cell_row(row.variant, row.sensor.empty() ? "all" : row.sensor, level,
-                                    rounded_size(basin.sweep, level), size_unit(basin.sweep),
-                                    share.trials, share.count, share.ratio, low_of(share.interval),
-                                    high_of(share.interval)));
-    }
-  }
-  return csv_table(table);
-}
-
-std::string success_curve_csv(const SuccessCurve& curve) {
-  Table table{{{"variant"},
-               {"sensor"},
-               {"of"},
-               {"rotation", "deg"},
-               {"translation", "m"},
-               {"trials"},
-               {"within"},
-               {"within", "ratio"},
-               {"within_low", "ratio"},
-               {"within_high", "ratio"}},
-              {}};
-  for (const CurveRow& row : curve.rows) {
-    for (std::size_t i = 0; i < row.shares.size(); ++i) {
-      const Share& share = row.shares[i];
-      const SuccessBounds& bounds = curve.thresholds[i];
-      const Cell rotation = row.of == CurveOf::translation ? Cell() : to_cell(bounds.rotation_deg);
-      const Cell translation = row.of == CurveOf::rotation ? Cell() : to_cell(bounds.translation_m);
-      table.rows.push_back(cell_row(row.variant, row.sensor.empty() ? "all" : row.sensor,
-                                    name_of(row.of), rotation, translation, share.trials,
-                                    share.count, share.ratio, low_of(share.interval),
-                                    high_of(share.interval)));
-    }
-  }
-  return csv_table(table);
-}
 
 std::string clouds_csv(const std::vector<CloudDescription>& clouds) {
   return csv_of(cloud_columns(), clouds);

@@ -29,6 +29,19 @@ Column statistic_column(const Measure& measure, const std::string& statistic,
 /// Values of the DOFs that are called `name`, "roll_within_scene_std_deg".
 Columns<DofValues> dof_columns(const std::string& name);
 
+/// The ends of an interval that may not be there.
+inline std::optional<double> low_of(const std::optional<Interval>& interval) {
+  return interval ? std::optional<double>(interval->low) : std::nullopt;
+}
+inline std::optional<double> high_of(const std::optional<Interval>& interval) {
+  return interval ? std::optional<double>(interval->high) : std::nullopt;
+}
+
+/// Translation and quaternion (qw >= 0); in JSON below `path`, the quaternion at `path` +
+/// `rotation`.
+Columns<RigidTransform> pose_columns(const std::string& path = "",
+                                     const std::string& rotation = "/rotation_xyzw");
+
 /// A pose that trials agree on, as extrinsics.json has it.
 struct AgreedPose {
   std::optional<RigidTransform> pose;  ///< `T_reference_sensor`; std::nullopt if no trial has one.

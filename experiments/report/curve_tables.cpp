@@ -1,0 +1,49 @@
+#include "experiments/report/result_tables.hpp"
+#include "framework/table/renderers.hpp"
+
+namespace croon::experiments {
+
+std::string basin_csv(const Basin& basin) {
+  Table table{{{"variant"}, {"sensor"}, {"level"}, {"size"}, {"unit"}, {"trials"}, {"success"}},
+              {}};
+  for (const char* name : {"success_ratio", "low", "high"}) table.columns.push_back({name});
+  for (const BasinRow& row : basin.rows) {
+    for (int level = 0; level < static_cast<int>(row.levels.size()); ++level) {
+      const Share& share = row.levels[static_cast<std::size_t>(level)];
+      table.rows.push_back(cell_row(row.variant, row.sensor.empty() ? "all" : row.sensor, level,
+                                    rounded_size(basin.sweep, level), size_unit(basin.sweep),
+                                    share.trials, share.count, share.ratio, low_of(share.interval),
+                                    high_of(share.interval)));
+    }
+  }
+  return csv_table(table);
+}
+
+std::string success_curve_csv(const SuccessCurve& curve) {
+  Table table{{{"variant"},
+               {"sensor"},
+               {"of"},
+               {"rotation", "deg"},
+               {"translation", "m"},
+               {"trials"},
+               {"within"},
+               {"within", "ratio"},
+               {"within_low", "ratio"},
+               {"within_high", "ratio"}},
+              {}};
+  for (const CurveRow& row : curve.rows) {
+    for (std::size_t i = 0; i < row.shares.size(); ++i) {
+      const Share& share = row.shares[i];
+      const SuccessBounds& bounds = curve.thresholds[i];
+      const Cell rotation = row.of == CurveOf::translation ? Cell() : to_cell(bounds.rotation_deg);
+      const Cell translation = row.of == CurveOf::rotation ? Cell() : to_cell(bounds.translation_m);
+      table.rows.push_back(cell_row(row.variant, row.sensor.empty() ? "all" : row.sensor,
+                                    name_of(row.of), rotation, translation, share.trials,
+                                    share.count, share.ratio, low_of(share.interval),
+                                    high_of(share.interval)));
+    }
+  }
+  return csv_table(table);
+}
+
+}  // namespace croon::experiments
