@@ -12,6 +12,7 @@
 #include "experiments/report/export.hpp"
 #include "experiments/store/version.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 #include "registry/help.hpp"
 #include "registry/registry.hpp"
 
@@ -233,7 +234,7 @@ int croon_main(int argc, char** argv) {
   } catch (const InputError& error) {
     print_faults(error, std::cerr);
   } catch (const std::filesystem::filesystem_error& error) {
-    std::cerr << "croon: " << error.path1().string() << ": " << error.code().message() << "\n";
+    print_faults(InputError(error.path1().string(), "", error.code().message()), std::cerr);
   }
   return kRequestIsWrong;
 }
@@ -248,7 +249,7 @@ int main(int argc, char** argv) {
     std::cerr << "croon: there is not enough memory; what was finished is in the store\n";
     return 1;
   } catch (const std::exception& error) {
-    std::cerr << "croon: this is a bug: " << error.what() << "\n";
+    std::cerr << "croon: this is a bug: " << croon::printable(error.what()) << "\n";
     return 1;
   }
 }

@@ -12,6 +12,23 @@ namespace {
 /// Whether a byte begins a UTF-8 code point.
 bool begins_code_point(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }
 
+/// The number of bytes of the UTF-8 code point that begins at `at`; 0 if there is none.
+std::size_t code_point_bytes(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(at);
+  if (first < 0x80) return 1;
+  const std::size_t bytes = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (first < 0xC2 || first > 0xF4 || at + bytes > text.size()) return 0;
+  for (std::size_t i = at + 1; i < at + bytes; ++i) {
+    if (begins_code_point(text[i])) return 0;
+  }
+  // Codes that are too long for their value, surrogates, and values above U+10FFFF.
+  const unsigned char second = byte(at + 1);
+  const bool is_wrong = (first == 0xE0 && second < 0xA0) || (first == 0xED && second >= 0xA0) ||
+                        (first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90);
+  return is_wrong ? 0 : bytes;
+}
+
 std::string padding(const std::string& text, std::size_t columns) {
   const std::size_t taken = text_columns(text);
   return std::string(taken < columns ? columns - taken : 0, ' ');
@@ -79,6 +96,21 @@ std::string plain_number(double value) {
   const auto end =
       std::to_chars(digits.data(), digits.data() + digits.size(), value + 0.0, format).ptr;
   return {digits.data(), end};
+}
+
+std::string printable(const std::string& text) {
+  std::string shown;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t bytes = code_point_bytes(text, i);
+    const auto first = static_cast<unsigned char>(text[i]);
+    // U+0080 to U+009F are control characters too.
+    const bool is_c1 =
+        bytes == 2 && first == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0;
+    const bool is_control = bytes == 1 && (first < 0x20 || first == 0x7F);
+    shown += bytes == 0 || is_c1 || is_control ? "?" : text.substr(i, bytes);
+    i += std::max<std::size_t>(bytes, 1);
+  }
+  return shown;
 }
 
 std::string counted(std::size_t count, const std::string& what) {

@@ -30,6 +30,10 @@ std::string shortest_number(double value);
 /// `value` with as many digits as it takes, and no exponent below 1e9: "-0.0005".
 std::string plain_number(double value);
 
+/// `text` with `?` for each control character and each byte that is not part of UTF-8, so that it
+/// is one line and gives no commands to a terminal.
+std::string printable(const std::string& text);
+
 /// "1 trial", "2 trials".
 std::string counted(std::size_t count, const std::string& what);
 
