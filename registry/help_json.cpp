@@ -37,6 +37,8 @@ const char* type_name(ParameterType type) {
       return "map";
     case ParameterType::interval:
       return "interval";
+    case ParameterType::per_axis:
+      return "per_axis";
     case ParameterType::texts:
       return "texts";
     case ParameterType::list:

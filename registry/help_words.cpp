@@ -70,6 +70,8 @@ std::string type_words(const ParameterDoc& doc, const Mark& mark) {
       return group_words(doc, mark);
     case ParameterType::interval:
       return "[low, high], each " + params::range_words("a number", doc.range);
+    case ParameterType::per_axis:
+      return params::range_words("a number", doc.range) + ", or a list of three";
     case ParameterType::texts:
       return "a list of strings";
     case ParameterType::list:

@@ -138,6 +138,12 @@ ordered_json value_schema(const ParameterDoc& parameter) {
       schema["minItems"] = schema["maxItems"] = 2;
       return schema;
     }
+    case ParameterType::per_axis: {
+      const ordered_json number = number_schema("number", parameter.range);
+      ordered_json three = list_schema(number);
+      three["minItems"] = three["maxItems"] = 3;
+      return {{"anyOf", ordered_json::array({number, three})}};
+    }
     case ParameterType::text:
       return text_schema(parameter);
     case ParameterType::texts:

@@ -8,6 +8,7 @@
 #include "experiments/report/plots.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "experiments/report/run_text.hpp"
+#include "experiments/run/sensor_pairs.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/base/whole_file.hpp"
@@ -30,7 +31,9 @@ std::vector<NamedScene> scenes_of(const DescribeOptions& options, const Catalogu
     collect_faults(faults, [&] {
       const Experiment experiment = load_experiment(file, catalogue);
       int left = options.scenes > 0 ? options.scenes : -1;
-      for (Scene& scene : experiment.dataset->scenes(data_root(options.data))) {
+      std::vector<Scene> scenes = experiment.dataset->scenes(data_root(options.data));
+      check_names(scenes, experiment.file);
+      for (Scene& scene : scenes) {
         if (left-- == 0) break;
         named.push_back({experiment.name, std::move(scene)});
       }
@@ -54,7 +57,11 @@ std::vector<CloudDescription> describe_scene(const NamedScene& named,
                                              const GroundExtractor& extractor) {
   std::vector<CloudDescription> clouds;
   const auto add = [&](const SensorScan& scan, const PointCloud& points) {
-    clouds.push_back(description_of(points, extractor));
+    try {
+      clouds.push_back(description_of(points, extractor));
+    } catch (const StageError& error) {
+      throw InputError(scan.file, "", error.what());
+    }
     clouds.back().dataset = named.dataset;
     clouds.back().scene = named.scene.name;
     clouds.back().kind = named.scene.kind;

@@ -14,6 +14,7 @@
 #include "experiments/report/figures.hpp"
 #include "experiments/store/version.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 #include "framework/picture/writers.hpp"
 #include "registry/help.hpp"
 #include "registry/registry.hpp"
@@ -264,7 +265,7 @@ int croon_main(int argc, char** argv) {
   } catch (const InputError& error) {
     print_faults(error, std::cerr);
   } catch (const std::filesystem::filesystem_error& error) {
-    std::cerr << "croon: " << error.path1().string() << ": " << error.code().message() << "\n";
+    print_faults(InputError(error.path1().string(), "", error.code().message()), std::cerr);
   }
   return kRequestIsWrong;
 }
@@ -281,7 +282,7 @@ int main(int argc, char** argv) {
     std::cerr << "croon: there is not enough memory; what was finished is in the store\n";
     return 1;
   } catch (const std::exception& error) {
-    std::cerr << "croon: this is a bug: " << error.what() << "\n";
+    std::cerr << "croon: this is a bug: " << croon::printable(error.what()) << "\n";
     return 1;
   }
 }

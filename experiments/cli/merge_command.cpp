@@ -10,6 +10,7 @@
 #include "experiments/store/store.hpp"
 #include "experiments/store/store_header.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -162,7 +163,7 @@ int merge_command(const MergeOptions& options, std::ostream& out) {
   merge_timings(all, options.out / kTimings);
   const std::string missing = missing_text(results);
   out << result_text(results, options.colours) << missing << "Results are in "
-      << options.out.string() << "\n";
+      << printable(options.out.string()) << "\n";
   return has_failed_trials(results) || !missing.empty() ? 3 : 0;
 }
 

@@ -11,13 +11,14 @@
 #include "experiments/store/manifest.hpp"
 #include "experiments/store/store_writer.hpp"
 #include "framework/base/progress.hpp"
+#include "framework/base/text.hpp"
 
 namespace croon::experiments {
 namespace {
 
-/// What the store of a run says of itself.
-StoreHeader header_of(const CheckedRun& run) {
-  const std::vector<InputFile> inputs = input_files(run.scenes, run.data_root, run.jobs);
+/// What the store of a run says of itself. The clouds of the run are held to their digests.
+StoreHeader header_of(CheckedRun& run) {
+  const std::vector<InputFile> inputs = record_inputs(run.scenes, run.data_root, run.jobs);
   const Provenance provenance = provenance_of(run.experiment, run.scenes, inputs);
   return header_of(run.experiment, run.scenes, provenance,
                    manifest_json(run.experiment, run.scenes, inputs, provenance));
@@ -75,9 +76,10 @@ std::vector<Plan> one_by_one(const Plan& plan) {
   return list;
 }
 
-/// Runs what is missing into the store.
-void fill_store(const CheckedRun& run, const OutputFolder& folder, const Work& work,
-                const std::vector<Plan>& plans, Progress& progress) {
+/// Runs what is missing into the store. Returns a line for each cloud that was not available.
+std::vector<std::string> fill_store(const CheckedRun& run, const OutputFolder& folder,
+                                    const Work& work, const std::vector<Plan>& plans,
+                                    Progress& progress) {
   progress.skip(work.done);
   Store store(folder.store(), work.header);
   TimingsFile timings(folder.file(kTimings));
@@ -88,7 +90,11 @@ void fill_store(const CheckedRun& run, const OutputFolder& folder, const Work& w
     }
     timings.flush();
   });
+  std::vector<std::string> complaints;
   RunListener listener;
+  listener.on_unavailable = [&](const Fault& fault) {
+    complaints.push_back(fault.line() + "; its trials are not stored, the next run runs them");
+  };
   listener.on_scene = [&](const std::string& scene) { progress.set_scene(scene); };
   listener.on_trial = [&](const TrialRecord& record, const std::vector<TimingRow>& rows) {
     writer.add({record, rows});
@@ -101,17 +107,21 @@ void fill_store(const CheckedRun& run, const OutputFolder& folder, const Work& w
   }
   writer.finish();
   progress.finish();
+  return complaints;
 }
 
-/// Runs what is missing and reads all that the store then has.
+/// Runs what is missing and reads all that the store then has. Adds to `complaints` a line for each
+/// cloud that was not available.
 Results run_missing(const CheckedRun& run, const OutputFolder& folder, const Work& work,
-                    const RunOptions& options, std::ostream& progress_out) {
+                    const RunOptions& options, std::ostream& progress_out,
+                    std::vector<std::string>& complaints) {
   const bool is_complete = work.plan.trials == 0 && is_same(work.stored, work.header);
   if (!is_complete) {
     Progress progress(progress_out, progress_style_of_stderr(options.quiet),
                       work.plan.trials + work.done);
-    fill_store(run, folder, work, options.no_share ? one_by_one(work.plan) : std::vector{work.plan},
-               progress);
+    complaints =
+        fill_store(run, folder, work,
+                   options.no_share ? one_by_one(work.plan) : std::vector{work.plan}, progress);
   }
   rewrite_in_order(folder.store());
   return read_results(run.out);
@@ -122,15 +132,15 @@ std::string draw_picture(const CheckedRun& run, const Summary& summary,
                          const std::filesystem::path& path) {
   const std::string scene = draw_before_after(run.experiment, run.scenes, summary, path);
   if (scene.empty()) return "There is no scene to draw: none has all its sensors.\n";
-  return "Scene " + scene + " from above, before (left) and after (right), is in " + path.string() +
-         "\n";
+  return "Scene " + scene + " from above, before (left) and after (right), is in " +
+         printable(path.string()) + "\n";
 }
 
 }  // namespace
 
 int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostream& out,
                 std::ostream& progress_out) {
-  const CheckedRun run = check_run(options, catalogue);
+  CheckedRun run = check_run(options, catalogue);
   StoreHeader header = header_of(run);
   if (options.plan) {
     out << text_of_plan(run, work_of(run, std::move(header), options), options);
@@ -139,15 +149,19 @@ int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostr
   const OutputFolder folder(run.out);
   if (options.fresh) folder.clear();
   const Work work = work_of(run, std::move(header), options);
-  const Results results = run_missing(run, folder, work, options, progress_out);
-  folder.write_reports(results, manifest_with_host(results.manifest, run.data_root, run.jobs));
   std::vector<std::string> complaints;
+  const Results results = run_missing(run, folder, work, options, progress_out, complaints);
+  folder.write_reports(results, manifest_with_host(results.manifest, run.data_root, run.jobs));
   if (options.clouds) {
-    complaints =
-        write_fused_clouds(run.experiment, run.scenes, results.summary, folder.file(kClouds));
+    for (const std::string& complaint :
+         write_fused_clouds(run.experiment, run.scenes, results.summary, folder.file(kClouds))) {
+      complaints.push_back(complaint);
+    }
   }
-  for (const std::string& complaint : complaints) progress_out << "croon: " << complaint << "\n";
-  out << result_text(results, options.colours) << "Results are in " << run.out.string() << "\n";
+  for (const std::string& complaint : complaints)
+    progress_out << "croon: " << printable(complaint) << "\n";
+  out << result_text(results, options.colours) << "Results are in " << printable(run.out.string())
+      << "\n";
   if (options.png) out << draw_picture(run, results.summary, folder.file(kPicture));
   return complaints.empty() && !has_failed_trials(results) ? 0 : 3;
 }

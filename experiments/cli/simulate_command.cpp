@@ -2,6 +2,7 @@
 
 #include <tbb/info.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "experiments/file/experiment.hpp"
@@ -9,6 +10,7 @@
 #include "experiments/run/starts.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/progress.hpp"
+#include "framework/base/text.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/io/opencalib_files.hpp"
@@ -46,12 +48,13 @@ void write_scene(const Experiment& experiment, const Scene& scene, const fs::pat
   const fs::path folder = dataset / scene.name;
   make_folder(folder);
   write_pcd(dataset / cloud_path(scene, scene.reference), scene.reference.measure());
-  std::vector<ListedCloud> clouds = {{0, cloud_path(scene, scene.reference), ""}};
+  std::vector<ListedCloud> clouds = {
+      {0, cloud_path(scene, scene.reference), "", scene.reference.sensor}};
   std::vector<ListedPose> starts = {{0, {}, ""}};
   for (const SensorScan& scan : scene.sensors) {
     const int device_id = static_cast<int>(clouds.size());
     write_pcd(dataset / cloud_path(scene, scan), scan.measure());
-    clouds.push_back({device_id, cloud_path(scene, scan), ""});
+    clouds.push_back({device_id, cloud_path(scene, scan), "", scan.sensor});
     starts.push_back({device_id, start_of(experiment, scene.name, scan, 0), ""});
   }
   write_whole_file(folder / "initial_extrinsic.txt", pose_list_text(starts));
@@ -99,6 +102,14 @@ std::string recipe_json(const Experiment& experiment) {
   return json.dump(2) + "\n";
 }
 
+/// Whether the folder is empty, but for a recipe that a killed process did not finish.
+bool is_unused(const fs::path& folder) {
+  const fs::directory_iterator entries(folder);
+  return std::all_of(fs::begin(entries), fs::end(entries), [&](const fs::directory_entry& entry) {
+    return is_part_of(entry.path(), folder / kRecipe);
+  });
+}
+
 /// Makes the folder ready; refuses one with something else in it.
 void prepare(const fs::path& folder, const std::string& recipe) {
   std::error_code error;
@@ -106,7 +117,7 @@ void prepare(const fs::path& folder, const std::string& recipe) {
   if (error || !fs::is_directory(folder, error)) {
     throw InputError(folder.string(), "", "expected a folder to write to: " + error.message());
   }
-  if (fs::is_empty(folder)) return write_whole_file(folder / kRecipe, recipe);
+  if (is_unused(folder)) return write_whole_file(folder / kRecipe, recipe);
   if (fs::exists(folder / kRecipe) && read_whole_file(folder / kRecipe) == recipe) return;
   throw InputError(folder.string(), "",
                    "expected a new folder, or one with the same scenes; found something else");
@@ -169,10 +180,10 @@ int simulate_command(const SimulateOptions& options, const Catalogue& catalogue,
     write_whole_file(options.out / kStarts, starts_csv(experiment, started));
   }
   write_whole_file(options.out / "experiment.json", experiment_on(experiment));
-  const std::string folder = options.out.string();
+  const std::string folder = printable(options.out.string());
   out << scenes.size() << (scenes.size() == 1 ? " scene is in " : " scenes are in ") << folder
-      << "; run them with: croon run " << (options.out / "experiment.json").string() << " --data "
-      << folder << "\n";
+      << "; run them with: croon run " << printable((options.out / "experiment.json").string())
+      << " --data " << folder << "\n";
   return 0;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "experiments/file/experiment.hpp"
+#include "framework/base/text.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -45,7 +46,7 @@ int validate_command(const std::vector<fs::path>& paths, const Catalogue& catalo
   for (const fs::path& file : all_files(paths)) {
     try {
       load_experiment(file, catalogue);
-      out << file.string() << ": ok\n";
+      out << printable(file.string()) << ": ok\n";
     } catch (const InputError& error) {
       print_faults(error, err);
       code = 2;

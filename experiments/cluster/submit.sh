@@ -12,10 +12,12 @@ experiment=$1 out=$2 shards=$3
 shift 3
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 mkdir -p "$out/log"
+# Slurm takes a percent sign in a path for a pattern unless it is doubled.
+logs=${out//%/%%}/log
 
 # N is told, so that some tasks of the array can be submitted again with the same shards.
 export CROON_SHARDS=$shards
-array=$(sbatch --parsable --array="0-$((shards - 1))" --output="$out/log/task.%a.log" "$@" \
+array=$(sbatch --parsable --array="0-$((shards - 1))" --output="$logs/task.%a.log" "$@" \
   "$here/slurm_array.sh" "$experiment" "$out")
 array=${array%%;*}
 
@@ -24,6 +26,6 @@ for ((shard = 1; shard <= shards; ++shard)); do merge+=("$out/shard.$shard"); do
 merge+=(--out "$out")
 # A shard that cannot be done takes the merge out of the queue, else it would wait there for ever.
 job=$(printf '#!/usr/bin/env bash\n%s\n' "$(printf '%q ' "${merge[@]}")" |
-  sbatch --parsable --job-name=croon-merge --output="$out/log/merge.log" \
+  sbatch --parsable --job-name=croon-merge --output="$logs/merge.log" \
     --dependency="afterok:$array" --kill-on-invalid-dep=yes)
 echo "Shards are job $array, the merge is job ${job%%;*}; logs are in $out/log"

@@ -14,11 +14,22 @@
 
 namespace croon::experiments {
 
+/// The name of the step that takes the poses of a file.
+inline constexpr const char* kPosesStep = "poses";
+
+/// A file of poses `T_reference_sensor`, as a variant names it.
+struct PosesFile {
+  std::string name;     ///< Empty if there is none.
+  std::string file;     ///< The experiment file that names it,
+  std::string pointer;  ///< and the JSON pointer there.
+};
+
 /// One pipeline of an experiment.
 struct Variant {
   std::string name;  ///< "base" for the base pipeline.
   Pipeline pipeline;
   std::string resolved;  ///< Canonical JSON of the pipeline with all its parameters.
+  PosesFile poses = {};  ///< The poses from which the pipeline goes on; see `resolve_poses`.
 };
 
 /// How near the truth a trial must end to count as `success`.

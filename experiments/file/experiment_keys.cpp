@@ -35,6 +35,10 @@ Table<VariantKeys> variant_table() {
   return {
       params::name("name", &P::name, kVariantName,
                    "What the variant is called; \"base\" is the base pipeline."),
+      optional(text("poses", &P::poses,
+                    "A file of poses of another program, as croon starts writes it, with or "
+                    "without the column trial: they are judged like results. A pipeline beside it "
+                    "goes on from them.")),
       json_value("pipeline", &P::pipeline, kPipelineDefinition,
                  "A whole pipeline, in place of the base pipeline."),
       list("insert", &P::insert, insertion_table(),

@@ -14,10 +14,12 @@ namespace croon::experiments {
 inline const params::NameRule kFolderName = {
     "_.-", "a name for a folder: letters, digits, _ . and -, not starting with a dot", "."};
 
-/// A variant's name. It stands in CSV files and in paths.
+/// A variant's name. It stands in paths and in CSV files, in which spreadsheets take a cell that
+/// begins with a sign for a formula; see `check_names` for scenes and sensors.
 inline const params::NameRule kVariantName = {
-    "_.-+=() ", "a name of letters, digits, spaces and _ . - + = ( ), not starting with a dot",
-    ". ", " "};
+    "_.-+=() ",
+    "a name of letters, digits, spaces and _ . - + = ( ), not starting with a dot or a sign",
+    ". =+-", " "};
 
 /// Definitions of the JSON Schema that describe parts of a pipeline.
 inline constexpr const char* kPipelineDefinition = "pipeline";
@@ -35,6 +37,7 @@ struct Insertion {
 /// An element of "variants".
 struct VariantKeys {
   std::string name;
+  std::string poses;
   std::optional<params::Node> pipeline;
   std::vector<Insertion> insert;
   std::vector<std::string> remove;

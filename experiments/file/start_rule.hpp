@@ -56,8 +56,9 @@ struct StartTable {
 /// them.
 struct StartRule {
   StartCentre around = StartCentre::truth;
-  double rotation_deg = 45.0;  ///< Half range of each angle of R_d; 180 is uniform on SO(3).
-  double translation_m = 0.1;  ///< Half range of each element of d.
+  /// Half ranges of roll, pitch and yaw of R_d; all three 180 is uniform on SO(3).
+  params::PerAxis rotation_deg = 45.0;
+  params::PerAxis translation_m = 0.1;  ///< Half ranges of the elements of d.
   /// Per variant, scene and sensor, and per level of a sweep; 0 is all that a file lists.
   int trials = 50;
   std::optional<Sweep> sweep = {};               ///< Replaces the range of what it sweeps.

@@ -1,5 +1,6 @@
-#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "experiments/file/experiment_keys.hpp"
 #include "framework/pipeline/patched_pipeline.hpp"
@@ -15,6 +16,7 @@ constexpr std::size_t kMostVariants = 10000;
 struct NamedPipeline {
   std::string name;
   PatchedPipeline pipeline;
+  PosesFile poses = {};
 };
 
 void note(const Node& node, const std::string& why_not) {
@@ -22,10 +24,12 @@ void note(const Node& node, const std::string& why_not) {
 }
 
 /// The base pipeline `base` as the variant `keys` changes it: steps are inserted, then removed,
-/// then replaced. `node` is the variant's.
+/// then replaced. Poses of a file take the place of the base pipeline. `node` is the variant's.
 PatchedPipeline changed(const PatchedPipeline& base, const VariantKeys& keys, const Node& node,
                         const Catalogue& catalogue) {
-  PatchedPipeline pipeline = keys.pipeline ? read_steps(*keys.pipeline) : base;
+  PatchedPipeline pipeline = base;
+  if (!keys.poses.empty()) pipeline.clear();
+  if (keys.pipeline) pipeline = read_steps(*keys.pipeline);
   for (std::size_t i = 0; i < keys.insert.size(); ++i) {
     const Insertion& insertion = keys.insert[i];
     if (insertion.before.empty() == insertion.after.empty() || !insertion.step) continue;
@@ -46,21 +50,32 @@ PatchedPipeline changed(const PatchedPipeline& base, const VariantKeys& keys, co
   return pipeline;
 }
 
+/// The file of poses that the variant at `node` names; notes a fault if `pipeline` has a step of
+/// the name that the step of the poses gets.
+PosesFile poses_of(const VariantKeys& keys, const Node& node, const PatchedPipeline& pipeline) {
+  if (keys.poses.empty()) return {};
+  for (const PatchedStep& step : pipeline) {
+    if (step.name == kPosesStep) node.fault("two steps are called \"" + step.name + "\"");
+  }
+  const Node at = node.member("poses");
+  return {keys.poses, at.file(), at.pointer()};
+}
+
 /// The base pipeline and that of each variant.
 std::vector<NamedPipeline> read_pipelines(const ExperimentKeys& keys, const Node& root,
                                           const Catalogue& catalogue) {
   std::vector<NamedPipeline> pipelines = {{"base", read_steps(*keys.pipeline)}};
+  std::set<std::string> names = {"base"};
   for (std::size_t i = 0; i < keys.variant_keys.size(); ++i) {
     const VariantKeys& variant = keys.variant_keys[i];
     const Node node = root.member("variants").element(i);
     if (!node.has_members()) continue;
-    for (const NamedPipeline& other : pipelines) {
-      if (!variant.name.empty() && other.name == variant.name) {
-        node.member("name").fault("two variants are called \"" + variant.name + "\"");
-      }
+    if (!variant.name.empty() && !names.insert(variant.name).second) {
+      node.member("name").fault("two variants are called \"" + variant.name + "\"");
     }
-    pipelines.push_back(
-        {variant.name, changed(pipelines.front().pipeline, variant, node, catalogue)});
+    PatchedPipeline pipeline = changed(pipelines.front().pipeline, variant, node, catalogue);
+    const PosesFile poses = poses_of(variant, node, pipeline);
+    pipelines.push_back({variant.name, std::move(pipeline), poses});
   }
   return pipelines;
 }
@@ -103,30 +118,39 @@ std::string text_of(const json& value) {
   return text;
 }
 
-/// The keys in which stages of the type of `value` differ on this axis.
-std::vector<std::string> differing_keys(const json& values, const json& value) {
-  std::vector<std::string> keys;
-  for (const json& other : values) {
-    if (type_of(other) != type_of(value)) continue;
-    for (const auto& item : other.items()) {
-      const bool differs = std::any_of(values.begin(), values.end(), [&](const json& third) {
-        return type_of(third) == type_of(value) && third.value(item.key(), json()) != item.value();
-      });
-      const bool is_new = std::find(keys.begin(), keys.end(), item.key()) == keys.end();
-      if (differs && is_new) keys.push_back(item.key());
+/// The keys in which stages of one type differ on an axis, sorted; by type.
+std::map<std::string, std::vector<std::string>> differing_keys(const json& values) {
+  std::map<std::string, std::map<std::string, std::size_t>> counts;
+  std::map<std::string, std::map<std::string, std::set<json>>> differing_values;
+  std::map<std::string, std::size_t> stages;
+  for (const json& value : values) {
+    const std::string type = type_of(value);
+    if (type.empty()) continue;
+    ++stages[type];
+    for (const auto& item : value.items()) {
+      ++counts[type][item.key()];
+      differing_values[type][item.key()].insert(item.value());
     }
   }
-  std::sort(keys.begin(), keys.end());
+  std::map<std::string, std::vector<std::string>> keys;
+  for (const auto& [type, of_type] : differing_values) {
+    for (const auto& [key, different] : of_type) {
+      const bool is_in_all = counts[type][key] == stages[type];
+      if (different.size() > 1 || !is_in_all) keys[type].push_back(key);
+    }
+  }
   return keys;
 }
 
-std::string label_of(const std::string& key, const json& values, const json& value) {
+/// The label of `value` on the axis `key`; stages show the parameters `differing`.
+std::string label_of(const std::string& key, const json& value,
+                     const std::vector<std::string>& differing) {
   const std::string type = type_of(value);
   if (type.empty()) return key + "=" + text_of(value);
   std::string parameters;
-  for (const std::string& differing : differing_keys(values, value)) {
-    if (!value.contains(differing)) continue;
-    parameters += (parameters.empty() ? "" : " ") + differing + "=" + text_of(value[differing]);
+  for (const std::string& parameter : differing) {
+    if (!value.contains(parameter)) continue;
+    parameters += (parameters.empty() ? "" : " ") + parameter + "=" + text_of(value[parameter]);
   }
   return text_of(type) + (parameters.empty() ? "" : "(" + parameters + ")");
 }
@@ -150,17 +174,19 @@ std::vector<GridAxis> read_grid(const Node& grid) {
     GridAxis axis{path, grid.member(path), {}};
     if (!axis.node.is_array()) continue;
     if (values.empty()) axis.node.expected("a list of at least one value");
+    const std::string key = axis_key(grid.value(), path);
+    std::map<std::string, std::vector<std::string>> differing = differing_keys(values);
+    std::set<json> known;
+    std::set<std::string> labels;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      GridPoint point{label_of(axis_key(grid.value(), path), values, values[i]),
+      GridPoint point{label_of(key, values[i], differing[type_of(values[i])]),
                       axis.node.element(i)};
-      if (std::find(values.begin(), values.begin() + i, values[i]) != values.begin() + i) {
+      if (!known.insert(values[i]).second) {
         point.value.fault("\"" + point.label + "\" stands in this list twice");
       }
-      const auto is_same = [&](const GridPoint& other) { return other.label == point.label; };
       // Lists of stages may differ in what a label does not show. Then the index is added.
-      if (std::any_of(axis.points.begin(), axis.points.end(), is_same)) {
-        point.label += " (" + std::to_string(i + 1) + ")";
-      }
+      if (labels.count(point.label) > 0) point.label += " (" + std::to_string(i + 1) + ")";
+      labels.insert(point.label);
       axis.points.push_back(point);
     }
     axes.push_back(std::move(axis));
@@ -221,7 +247,7 @@ std::vector<Variant> make_variants(const ExperimentKeys& keys, const Node& root,
   if (keys.grid) pipelines = apply_grid(pipelines, *keys.grid, catalogue);
   std::vector<Variant> variants;
   for (const NamedPipeline& named : pipelines) {
-    Variant variant{named.name, {}, ""};
+    Variant variant{named.name, {}, "", named.poses};
     variant.pipeline = build_pipeline(named.pipeline, catalogue, faults, variant.resolved);
     variants.push_back(std::move(variant));
   }

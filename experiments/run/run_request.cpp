@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "experiments/file/experiment.hpp"
+#include "experiments/run/given_poses.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
 #include "framework/base/error.hpp"
@@ -50,6 +51,8 @@ CheckedRun check_run(const RunRequest& request, const Catalogue& catalogue) {
   collect_faults(faults, [&] {
     run.scenes = scenes_of(run.experiment, run.data_root);
     resolve_starts(run.experiment, run.scenes, run.data_root);
+    check_plan_size(run.experiment, run.scenes, run.selection);
+    resolve_poses(run.experiment, run.scenes, run.data_root);
     check_claimed_sensors(run.experiment, sensor_names(run.scenes));
   });
   if (!faults.empty()) throw InputError(std::move(faults));

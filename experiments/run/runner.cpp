@@ -13,14 +13,16 @@
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/threads.hpp"
+#include "framework/base/whole_file.hpp"
 
 namespace croon::experiments {
 namespace {
 
-/// One sensor's cloud, or why it could not be read.
+/// One sensor's cloud, or why it has none.
 struct LoadedScan {
   std::shared_ptr<const Cloud> cloud;
-  std::string failure;
+  std::string failure;                    ///< The cloud is damaged or empty.
+  std::optional<Fault> unavailable = {};  ///< It cannot be read now.
   double reading_s = 0.0;
 };
 
@@ -50,10 +52,13 @@ std::string reasons(const InputError& error) {
   return text;
 }
 
-/// Reads the points of `scan`. Returns why they could not be read, or an empty string.
+/// Reads the points of `scan`. Returns what is wrong with them, or an empty string. Throws
+/// UnavailableFile.
 std::string read_points(const SensorScan& scan, PointCloud& points) {
   try {
     points = scan.load().points;
+  } catch (const UnavailableFile&) {
+    throw;
   } catch (const InputError& error) {
     return reasons(error);
   }
@@ -85,7 +90,13 @@ LoadedScan load_scan(const SensorScan& scan, const std::string& scene, std::uint
   const auto start = std::chrono::steady_clock::now();
   LoadedScan loaded;
   PointCloud points;
-  const std::string why_not = read_points(scan, points);
+  std::string why_not;
+  try {
+    why_not = read_points(scan, points);
+  } catch (const UnavailableFile& error) {
+    loaded.unavailable = error.faults().front();
+    return loaded;
+  }
   if (why_not.empty()) {
     const StreamKey key = StreamKey(seed).with("cloud").with(scene).with(scan.sensor);
     loaded.cloud = std::make_shared<const Cloud>(std::move(points), key);
@@ -111,6 +122,8 @@ void run_start(const Experiment& experiment, const PipelineTree& tree, const Sce
   const RigidTransform start = start_of(experiment, scene.name, scan, planned.trial);
   PipelineResult result = at_start(target.cloud, source.cloud, start);
   result.failure = target.failure.empty() ? source.failure : target.failure;
+  result.estimate.trial =
+      std::make_shared<const TrialName>(TrialName{scene.name, scan.sensor, planned.trial});
   run_tree(tree, std::move(result), key, [&](std::size_t variant, const PipelineResult& end) {
     TrialRecord record = failed(
         {experiment.variants[variant].name, scene.name, scan.sensor, planned.trial}, end.failure);
@@ -233,16 +246,24 @@ void run_scene(const Run& run, const ScenePlan& plan, SerialListener& notify) {
   const Scene& scene = run.scenes[plan.begin->scene];
   notify([&](const RunListener& listener) { listener.on_scene(scene.name); });
   const LoadedScene loaded = load_scene(scene, plan, run.experiment.seed);
+  const auto notify_unavailable = [&](const LoadedScan& scan) {
+    if (!scan.unavailable) return;
+    notify([&](const RunListener& listener) { listener.on_unavailable(*scan.unavailable); });
+  };
+  notify_unavailable(loaded.reference);
+  for (const LoadedScan& scan : loaded.sensors) notify_unavailable(scan);
   const auto notify_trial = [&](const TrialRecord& record) {
     notify([&](const RunListener& listener) { listener.on_trial(record, timings_of(record)); });
   };
   for_each_in_parallel(plan.size(), [&](std::size_t i) {
     const PlannedStart& planned = plan.begin[i];
+    const LoadedScan& target = target_of(scene, loaded, planned.sensor);
+    const LoadedScan& source = source_of(scene, loaded, planned.sensor);
+    if (target.unavailable || source.unavailable) return;
     // Isolated: a thread that waits inside a step must not start another trial, whose time would
     // count as this one's.
     tbb::this_task_arena::isolate([&] {
-      run_start(run.experiment, run.trees[planned.variants], scene, planned,
-                target_of(scene, loaded, planned.sensor), source_of(scene, loaded, planned.sensor),
+      run_start(run.experiment, run.trees[planned.variants], scene, planned, target, source,
                 notify_trial);
     });
   });

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
+#include "framework/io/text_scan.hpp"
+
 namespace croon::experiments {
 namespace {
 
@@ -34,7 +38,34 @@ void add_pairs(Scene& scene) {
   }
 }
 
+void check_name(const std::string& what, const std::string& name, const std::string& file,
+                std::vector<Fault>& faults) {
+  const bool is_fine = !name.empty() && printable(name) == name &&
+                       std::string("=+-@.").find(name.front()) == std::string::npos &&
+                       name.find('/') == std::string::npos;
+  if (is_fine) return;
+  faults.push_back({file, "",
+                    "expected a " + what +
+                        " with a name in UTF-8 without control characters that does not begin "
+                        "with = + - @ or a dot, found " +
+                        in_quotes(name)});
+}
+
 }  // namespace
+
+void check_names(const std::vector<Scene>& scenes, const std::string& file) {
+  std::vector<Fault> faults;
+  for (const Scene& scene : scenes) {
+    const auto check_sensor = [&](const SensorScan& scan) {
+      check_name("sensor", scan.sensor, scan.file.empty() ? file : scan.file, faults);
+    };
+    const std::string& of_reference = scene.reference.file;
+    check_name("scene", scene.name, of_reference.empty() ? file : of_reference, faults);
+    check_sensor(scene.reference);
+    for (const SensorScan& scan : scene.sensors) check_sensor(scan);
+  }
+  if (!faults.empty()) throw InputError(without_repeats(faults));
+}
 
 bool is_pair(const SensorScan& scan) { return !scan.target.empty(); }
 
@@ -48,6 +79,7 @@ SensorPair named_pair(const std::string& name, const std::string& target) {
 
 std::vector<Scene> scenes_of(const Experiment& experiment, const std::filesystem::path& data_root) {
   std::vector<Scene> scenes = experiment.dataset->scenes(data_root);
+  check_names(scenes, experiment.file);
   if (experiment.loops) {
     for (Scene& scene : scenes) add_pairs(scene);
   }

@@ -27,8 +27,13 @@ SensorPair named_pair(const std::string& name, const std::string& target);
 /// The scenes of the experiment's dataset. If the experiment has `loops`, each pair of a scene's
 /// sensors is appended as another sensor: the later one is calibrated to the earlier one, with the
 /// poses T_target_source = T_reference_target^-1 T_reference_source. Throws InputError as
-/// Dataset::scenes.
+/// Dataset::scenes and check_names.
 std::vector<Scene> scenes_of(const Experiment& experiment, const std::filesystem::path& data_root);
+
+/// Throws InputError if the name of a scene or a sensor cannot stand in tables, figures and paths:
+/// it must be UTF-8 without control characters, and not begin with a sign or a dot. Spreadsheets
+/// take a cell that begins with a sign for a formula. `file` is named if a scan has no file.
+void check_names(const std::vector<Scene>& scenes, const std::string& file);
 
 /// The scenes without pairs of sensors, as the dataset has them.
 std::vector<Scene> without_pairs(std::vector<Scene> scenes);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/file/experiment.hpp"
+#include "experiments/run/pose_file.hpp"
 
 namespace croon::experiments {
 
@@ -26,13 +27,10 @@ Start start_of(const Experiment& experiment, const std::string& scene, const Sen
                int trial);
 
 /// Prepares `experiment` for `start_of`: reads its file of starts, or checks that every scene has
-/// the pose that starts are drawn around. A file is looked for below `data_root`, then beside the
-/// experiment. Throws InputError.
+/// the pose that starts are drawn around. For where a file is looked for see `found_input`. Throws
+/// InputError.
 void resolve_starts(Experiment& experiment, const std::vector<Scene>& scenes,
                     const std::filesystem::path& data_root);
-
-/// The first line of a file of starts. Each line after it is a start `T_reference_sensor`.
-inline constexpr const char* kStartHeader = "scene,sensor,trial,tx_m,ty_m,tz_m,qx,qy,qz,qw";
 
 /// Reads the starts in the file `path`: for every sensor of `scenes` trials 0 to n - 1, in any
 /// order. Strict: throws one InputError with the first faults of the file.

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <unordered_set>
 
 #include "framework/base/error.hpp"
+#include "framework/base/memory.hpp"
+#include "framework/base/text.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -120,14 +123,31 @@ std::vector<std::size_t> select_variants(const Experiment& experiment,
 
 std::vector<std::string> sensor_names(const std::vector<Scene>& scenes) {
   std::vector<std::string> names;
+  std::unordered_set<std::string> known;
   for (const Scene& scene : scenes) {
     for (const SensorScan& scan : scene.sensors) {
-      if (std::find(names.begin(), names.end(), scan.sensor) == names.end()) {
-        names.push_back(scan.sensor);
-      }
+      if (known.insert(scan.sensor).second) names.push_back(scan.sensor);
     }
   }
   return names;
+}
+
+void check_plan_size(const Experiment& experiment, const std::vector<Scene>& scenes,
+                     const Selection& selection) {
+  // Results are in memory when they are summarised: a record has about a kilobyte with its steps.
+  constexpr double kRecordBytes = 1000.0;
+  double starts = 0.0;
+  for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
+    const TrialRange trials =
+        trials_of(selection.shard, scene, scenes.size(), total_trials(experiment.starts));
+    starts += static_cast<double>(trials.end - trials.begin) *
+              static_cast<double>(scenes[scene].sensors.size());
+  }
+  const double trials = starts * static_cast<double>(selection.variants.size());
+  require_memory(starts * sizeof(PlannedStart) + trials * kRecordBytes,
+                 "a plan of " + fixed_number(trials, 0) + " trials",
+                 "run fewer --trials or --only some variants, or run it in parts by --shard",
+                 {experiment.file, "", ""});
 }
 
 Plan plan_trials(const Experiment& experiment, const std::vector<Scene>& scenes,

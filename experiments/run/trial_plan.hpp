@@ -46,6 +46,10 @@ Shard read_shard(const std::string& text);
 std::vector<std::size_t> select_variants(const Experiment& experiment,
                                          const std::vector<std::string>& names);
 
+/// Throws InputError, with an estimate, if the trials of `selection` do not fit into memory.
+void check_plan_size(const Experiment& experiment, const std::vector<Scene>& scenes,
+                     const Selection& selection);
+
 /// The trials of `selection` that are not in `done`, which is sorted. Its indices are those in
 /// Experiment::variants, `scenes` and sensor_names(scenes).
 Plan plan_trials(const Experiment& experiment, const std::vector<Scene>& scenes,

@@ -18,6 +18,7 @@
 #include "framework/base/threads.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/io/digest.hpp"
+#include "framework/io/point_cloud_file.hpp"
 #include "framework/params/values.hpp"
 
 namespace croon::experiments {
@@ -110,7 +111,9 @@ using params::value_json;
 /// `file` relative to the data root if it is below it; else unchanged.
 std::string relative_path(const std::string& file, const fs::path& data_root) {
   std::error_code error;
-  const fs::path relative = fs::relative(file, data_root, error);
+  const fs::path root = fs::canonical(data_root, error);
+  // By the names alone: a link in the data root may lead out of it.
+  const fs::path relative = fs::path(file).lexically_relative(root);
   const bool is_below = !error && !relative.empty() && *relative.begin() != "..";
   return is_below ? relative.generic_string() : file;
 }
@@ -129,14 +132,46 @@ std::vector<const SensorScan*> scans_with_files(const std::vector<Scene>& scenes
   return scans;
 }
 
-void count_points(const SensorScan& scan, InputFile& input) {
+/// The file of `scan`: what is counted and what is digested are the same bytes.
+InputFile input_file(const SensorScan& scan, const fs::path& data_root) {
+  InputFile input{relative_path(scan.file, data_root), "", {}, {}};
   try {
     const LoadedCloud cloud = scan.load();
     input.points = cloud.points.size();
     input.dropped_non_finite = cloud.dropped_non_finite;
-  } catch (const InputError&) {
+    input.sha256 = cloud.sha256;
+  } catch (const UnavailableFile&) {
+    throw;
+  } catch (const DamagedCloud& damaged) {
     // The trials fail and give the reason.
+    input.sha256 = damaged.sha256();
+  } catch (const InputError&) {
   }
+  if (input.sha256.empty()) input.sha256 = sha256_of_file(scan.file);
+  return input;
+}
+
+/// `load` for the scan of the file `input`: throws UnavailableFile if the bytes that it reads are
+/// others than those of `input`. Faults end with the path in the manifest, for the reason of a
+/// failed trial has no path that depends on the data root.
+std::function<LoadedCloud()> held_to(const InputFile& input,
+                                     const std::function<LoadedCloud()>& load) {
+  return [path = input.path, sha256 = input.sha256, load] {
+    const auto check = [&](const std::string& found) {
+      if (found.empty() || found == sha256) return;
+      throw UnavailableFile(path, "", "is another file than at the start of the run");
+    };
+    try {
+      LoadedCloud cloud = load();
+      check(cloud.sha256);
+      return cloud;
+    } catch (const DamagedCloud& damaged) {
+      check(damaged.sha256());
+      std::vector<Fault> faults = damaged.faults();
+      for (Fault& fault : faults) fault.message += ", in " + path;
+      throw InputError(std::move(faults));
+    }
+  };
 }
 
 /// The numbers of a pose, exact; "none" if there is no pose.
@@ -238,17 +273,23 @@ std::string merged_manifest(const std::string& manifest,
   return text_of(json);
 }
 
-std::vector<InputFile> input_files(const std::vector<Scene>& scenes, const fs::path& data_root,
-                                   int jobs) {
+std::vector<InputFile> record_inputs(std::vector<Scene>& scenes, const fs::path& data_root,
+                                     int jobs) {
   const std::vector<const SensorScan*> scans = scans_with_files(scenes);
   std::vector<InputFile> inputs(scans.size());
   on_threads(jobs, [&] {
-    for_each_in_parallel(scans.size(), [&](std::size_t i) {
-      inputs[i].path = relative_path(scans[i]->file, data_root);
-      inputs[i].sha256 = sha256_of_file(scans[i]->file);
-      count_points(*scans[i], inputs[i]);
-    });
+    for_each_in_parallel(scans.size(),
+                         [&](std::size_t i) { inputs[i] = input_file(*scans[i], data_root); });
   });
+  std::map<std::string, const InputFile*> by_file;
+  for (std::size_t i = 0; i < scans.size(); ++i) by_file[scans[i]->file] = &inputs[i];
+  const auto hold = [&](SensorScan& scan) {
+    if (!scan.file.empty()) scan.load = held_to(*by_file.at(scan.file), scan.load);
+  };
+  for (Scene& scene : scenes) {
+    hold(scene.reference);
+    for (SensorScan& scan : scene.sensors) hold(scan);
+  }
   return inputs;
 }
 

@@ -19,10 +19,11 @@ struct InputFile {
   std::optional<std::size_t> points, dropped_non_finite;
 };
 
-/// The files of the clouds of `scenes`, in order, each once; read on `jobs` threads. Throws
-/// InputError if a file cannot be read.
-std::vector<InputFile> input_files(const std::vector<Scene>& scenes,
-                                   const std::filesystem::path& data_root, int jobs);
+/// The files of the clouds of `scenes`, in order, each once; read on `jobs` threads. After that the
+/// scans are held to these bytes: SensorScan::load throws UnavailableFile if it reads others.
+/// Throws UnavailableFile if a file cannot be read.
+std::vector<InputFile> record_inputs(std::vector<Scene>& scenes,
+                                     const std::filesystem::path& data_root, int jobs);
 
 /// Everything that decides the result of a trial except its pipeline: dataset, inputs (files and
 /// the rig's poses), starts (but not their number), seed and success bounds. Versions of stages are

@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "framework/base/text.hpp"
+
 namespace croon {
 namespace {
 
@@ -36,15 +38,13 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string Fault::line() const {
+  // The text is partly the user's, of any length and with any bytes.
+  constexpr std::size_t kMostWhere = 200;
+  constexpr std::size_t kMostMessage = 2000;
   std::string text;
-  if (!file.empty()) text += file + ": ";
-  if (!where.empty()) text += where + ": ";
-  text += message;
-  // The user's text may contain line breaks; a fault is one line.
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20) c = '?';
-  }
-  return text;
+  if (!file.empty()) text += printable(file) + ": ";
+  if (!where.empty()) text += cut_in_the_middle(printable(where), kMostWhere) + ": ";
+  return text + cut_in_the_middle(printable(message), kMostMessage);
 }
 
 void collect_faults(std::vector<Fault>& faults, const std::function<void()>& work) {

@@ -14,7 +14,7 @@ struct Fault {
   std::string where;
   std::string message;
 
-  /// The fault as one line for the user: `file: where: message`.
+  /// The fault as one line for the user, `file: where: message`: printable, and cut if it is long.
   std::string line() const;
 };
 

@@ -14,6 +14,23 @@ namespace {
 /// Whether a byte begins a UTF-8 code point.
 bool begins_code_point(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }
 
+/// The number of bytes of the UTF-8 code point that begins at `at` (RFC 3629); 0 if none does.
+std::size_t code_point_bytes(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(at);
+  if (first < 0x80) return 1;
+  const std::size_t bytes = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (first < 0xC2 || first > 0xF4 || at + bytes > text.size()) return 0;
+  for (std::size_t i = at + 1; i < at + bytes; ++i) {
+    if (begins_code_point(text[i])) return 0;
+  }
+  // Codes that are too long for their value, surrogates, and values above U+10FFFF.
+  const unsigned char second = byte(at + 1);
+  const bool is_wrong = (first == 0xE0 && second < 0xA0) || (first == 0xED && second >= 0xA0) ||
+                        (first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90);
+  return is_wrong ? 0 : bytes;
+}
+
 std::string padding(const std::string& text, std::size_t columns) {
   const std::size_t taken = text_columns(text);
   return std::string(taken < columns ? columns - taken : 0, ' ');
@@ -21,27 +38,6 @@ std::string padding(const std::string& text, std::size_t columns) {
 
 std::string two_digits(long long number) {
   return (number < 10 ? "0" : "") + std::to_string(number);
-}
-
-/// The number of bytes of the UTF-8 code point that begins at `at` (RFC 3629); 0 if none does.
-std::size_t code_point_size(const std::string& text, std::size_t at) {
-  const auto byte = [&](std::size_t i) {
-    return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0U;
-  };
-  const unsigned first = byte(0);
-  const std::size_t size = first < 0x80U                     ? 1
-                           : first >= 0xC2U && first < 0xE0U ? 2
-                           : first >= 0xE0U && first < 0xF0U ? 3
-                           : first >= 0xF0U && first < 0xF5U ? 4
-                                                             : 0;
-  for (std::size_t i = 1; i < size; ++i) {
-    if ((byte(i) & 0xC0U) != 0x80U) return 0;
-  }
-  // Neither longer than needed, nor a surrogate, nor beyond U+10FFFF.
-  const unsigned second = byte(1);
-  const bool is_wrong = (first == 0xE0U && second < 0xA0U) || (first == 0xEDU && second >= 0xA0U) ||
-                        (first == 0xF0U && second < 0x90U) || (first == 0xF4U && second >= 0x90U);
-  return is_wrong ? 0 : size;
 }
 
 bool is_one_of(std::string_view characters, char c) {
@@ -125,6 +121,21 @@ std::string plain_number(double value) {
   return {digits.data(), end};
 }
 
+std::string printable(const std::string& text) {
+  std::string shown;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t bytes = code_point_bytes(text, i);
+    const auto first = static_cast<unsigned char>(text[i]);
+    // U+0080 to U+009F are control characters too.
+    const bool is_c1 =
+        bytes == 2 && first == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0;
+    const bool is_control = bytes == 1 && (first < 0x20 || first == 0x7F);
+    shown += bytes == 0 || is_c1 || is_control ? "?" : text.substr(i, bytes);
+    i += std::max<std::size_t>(bytes, 1);
+  }
+  return shown;
+}
+
 std::string counted(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
@@ -140,7 +151,7 @@ std::string clock_text(double seconds) {
 std::string valid_utf8(const std::string& text) {
   std::string valid;
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t size = code_point_size(text, at);
+    const std::size_t size = code_point_bytes(text, at);
     valid += size == 0 ? "\xEF\xBF\xBD" : text.substr(at, size);
     at += std::max<std::size_t>(size, 1);
   }

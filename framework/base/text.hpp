@@ -36,6 +36,10 @@ std::string valid_utf8(const std::string& text);
 /// `text` as LaTeX prints it, in a cell or a sentence.
 std::string latex_escaped(const std::string& text);
 
+/// `text` with `?` for each control character and each byte that is not part of UTF-8, so that it
+/// is one line and gives no commands to a terminal.
+std::string printable(const std::string& text);
+
 /// "1 trial", "2 trials".
 std::string counted(std::size_t count, const std::string& what);
 

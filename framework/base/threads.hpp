@@ -9,9 +9,15 @@
 
 namespace croon {
 
-/// Calls `use` with TBB limited to `jobs` threads, which may be more than there are cores.
+/// How many of `jobs` threads may be used: all of them, unless there are more than cores and the
+/// system does not start so many. TBB ends the process if a thread does not start.
+int startable_threads(int jobs);
+
+/// Calls `use` with TBB limited to `jobs` threads, which may be more than there are cores; to fewer
+/// if the system does not start so many.
 template <class Use>
-void on_threads(int jobs, const Use& use) {
+void on_threads(int asked_jobs, const Use& use) {
+  const int jobs = startable_threads(asked_jobs);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(jobs));
   tbb::task_arena arena(jobs);

@@ -1,6 +1,8 @@
 #include "framework/base/whole_file.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,20 +19,44 @@ namespace fs = std::filesystem;
 
 std::string reason(int number) { return std::strerror(number); }
 
-/// A file open for writing that did not exist before: `path.part0`, or the next number that is
-/// free.
+/// What follows the path and comes before a number.
+constexpr const char* kPart = ".croon-part";
+
+/// An empty file that is open for writing and locked.
 struct PartFile {
   fs::path path;
   int descriptor;
 };
 
+/// Whether the open file is a plain one that is still called `path`: the process that had it locked
+/// may have renamed it.
+bool is_still(int descriptor, const fs::path& path) {
+  struct stat open_file {};
+  struct stat named {};
+  return ::fstat(descriptor, &open_file) == 0 && ::lstat(path.c_str(), &named) == 0 &&
+         S_ISREG(named.st_mode) && open_file.st_dev == named.st_dev &&
+         open_file.st_ino == named.st_ino;
+}
+
 PartFile create_part_file(const fs::path& path) {
   constexpr int kTries = 1000;
   for (int i = 0; i < kTries; ++i) {
-    const fs::path part = path.string() + ".part" + std::to_string(i);
-    const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor >= 0) return {part, descriptor};
-    if (errno != EEXIST) break;
+    const fs::path part = path.string() + kPart + std::to_string(i);
+    const int descriptor =
+        ::open(part.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+    if (descriptor < 0) {
+      const int error = errno;
+      struct stat something {};
+      if (::lstat(part.c_str(), &something) == 0) continue;
+      errno = error;
+      break;
+    }
+    // A lock ends with its process, so a file without one is left over.
+    const bool is_ours = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+    if (is_ours && is_still(descriptor, part) && ::ftruncate(descriptor, 0) == 0) {
+      return {part, descriptor};
+    }
+    ::close(descriptor);
   }
   throw InputError(path.string(), "",
                    "expected a file that can be written, found: " + reason(errno));
@@ -55,17 +81,18 @@ std::string read_whole_file(const fs::path& path) {
   std::error_code error;
   // Before it is opened: opening a pipe would wait for a writer.
   if (!fs::is_regular_file(path, error)) {
-    throw InputError(path.string(), "", "expected a readable file, found none");
+    throw UnavailableFile(path.string(), "", "expected a readable file, found none");
   }
   std::ifstream stream(path, std::ios::binary);
-  if (!stream)
-    throw InputError(path.string(), "", "expected a readable file, found one that is not");
+  if (!stream) {
+    throw UnavailableFile(path.string(), "", "expected a readable file, found one that is not");
+  }
   const std::uintmax_t size = fs::file_size(path, error);
-  if (error) throw InputError(path.string(), "", "cannot be read: " + error.message());
+  if (error) throw UnavailableFile(path.string(), "", "cannot be read: " + error.message());
   std::string bytes(static_cast<std::size_t>(size), '\0');
   stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (static_cast<std::uintmax_t>(stream.gcount()) != size) {
-    throw InputError(path.string(), "", "ended while it was read");
+    throw UnavailableFile(path.string(), "", "ended while it was read");
   }
   return bytes;
 }
@@ -80,11 +107,17 @@ void write_whole_file(const fs::path& path, std::string_view bytes) {
   const PartFile part = create_part_file(path);
   int error = write_all(part.descriptor, bytes);
   if (error == 0 && ::fsync(part.descriptor) != 0) error = errno;
-  if (::close(part.descriptor) != 0 && error == 0) error = errno;
+  // Renamed or removed while the lock is held: no other process writes to it meanwhile.
   if (error == 0 && ::rename(part.path.c_str(), path.c_str()) != 0) error = errno;
+  if (error != 0) ::unlink(part.path.c_str());
+  if (::close(part.descriptor) != 0 && error == 0) error = errno;
   if (error == 0) return;
-  ::unlink(part.path.c_str());
   throw InputError(path.string(), "", "cannot be written: " + reason(error));
+}
+
+bool is_part_of(const fs::path& part, const fs::path& path) {
+  const std::string begin = path.string() + kPart;
+  return part.string().compare(0, begin.size(), begin) == 0;
 }
 
 }  // namespace croon

@@ -4,14 +4,27 @@
 #include <string>
 #include <string_view>
 
+#include "framework/base/error.hpp"
+
 namespace croon {
 
-/// The bytes of the file `path`. Throws InputError if it is not a file or cannot be read.
+/// A file cannot be read now, or is not the one that was there before. This is no property of its
+/// content, so it must not become a result: another attempt may succeed.
+class UnavailableFile : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// The bytes of the file `path`. Throws UnavailableFile if it is not a file or cannot be read.
 std::string read_whole_file(const std::filesystem::path& path);
 
 /// Makes `bytes` the content of the file `path`: writes a file beside it and renames it, so that a
 /// reader sees the old content or the new one, never a part. Throws InputError if it cannot be
-/// written.
+/// written. The file beside it, `PATH.croon-part0`, stays if the process is killed; the next call
+/// for `path` takes it.
 void write_whole_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Whether `part` is a file that a killed `write_whole_file` of `path` left.
+bool is_part_of(const std::filesystem::path& part, const std::filesystem::path& path);
 
 }  // namespace croon

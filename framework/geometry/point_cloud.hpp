@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace croon {
@@ -16,6 +17,7 @@ using PointCloud = std::vector<Eigen::Vector3f>;
 struct LoadedCloud {
   PointCloud points;
   std::size_t dropped_non_finite = 0;
+  std::string sha256 = {};  ///< Of the bytes that the points come from; empty if there is no file.
 
   /// Appends the point if it is finite as float; else counts it as dropped.
   void add(const Eigen::Vector3d& point) {

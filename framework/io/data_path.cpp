@@ -14,13 +14,15 @@ bool is_within(const fs::path& path, const fs::path& folder) {
   return in_folder == folder.end();
 }
 
-fs::path path_in_data_root(const fs::path& data_root, const std::string& relative) {
+fs::path path_in_data_root(const fs::path& data_root, const std::string& relative, Links links) {
   std::error_code error;
   const fs::path root = fs::canonical(data_root, error);
   if (error || !fs::is_directory(root, error)) {
     throw InputError(data_root.string(), "", "expected the folder of the data, found none");
   }
-  const fs::path path = fs::weakly_canonical(root / relative, error);
+  fs::path path = (root / relative).lexically_normal();
+  if (path.filename().empty()) path = path.parent_path();
+  if (links == Links::inside) path = fs::weakly_canonical(root / relative, error);
   const std::string shown = (data_root / relative).string();
   if (error) throw InputError(shown, "", "cannot be looked at: " + error.message());
   // Checked before existence, so that the message does not reveal which files exist outside.

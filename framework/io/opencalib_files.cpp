@@ -20,13 +20,15 @@ namespace {
 
 constexpr const char* kDeviceKey = "device_id";
 constexpr const char* kPathKey = "path";
+constexpr const char* kSensorKey = "sensor";
 constexpr const char* kPoseKey = "(Roll,Pitch,Yaw,tx,ty,tz)";
 
-/// The two lines that belong together: a device and what is said of it.
+/// The lines that belong together: a device and what the file lists for it.
 struct Record {
   int device_id = 0;
   std::string value;
-  std::string place;  ///< Of the value.
+  std::string place;   ///< Of the value.
+  std::string option;  ///< The value of the optional line; empty if there is none.
 };
 
 /// A key as it is compared: without blanks, in small letters.
@@ -42,9 +44,9 @@ std::string plain_key(std::string_view text) {
 /// Puts the lines of a file together to records, and notes what is wrong with them.
 class RecordReader {
  public:
-  /// `key` is the name of the line that is not `device_id`.
-  RecordReader(const std::filesystem::path& path, std::string key)
-      : file_(path.string()), key_(std::move(key)) {}
+  /// `key` is the name of the line that is not `device_id`, `option` that of an optional third one.
+  RecordReader(const std::filesystem::path& path, std::string key, std::string option = "")
+      : file_(path.string()), key_(std::move(key)), option_key_(std::move(option)) {}
 
   std::vector<Record> read() {
     const std::string text = read_whole_file(file_);
@@ -69,6 +71,9 @@ class RecordReader {
   void take(std::string_view line, const std::string& place) {
     const std::size_t colon = line.find(':');
     const std::string key = colon == std::string_view::npos ? "" : plain_key(line.substr(0, colon));
+    if (!option_key_.empty() && key == option_key_) {
+      return take_option(Part{std::string(trimmed(line.substr(colon + 1))), place});
+    }
     const bool is_device = key == kDeviceKey;
     if (!is_device && key != plain_key(key_)) {
       return fault(place, "expected \"" + std::string(kDeviceKey) + ": NUMBER\" or \"" + key_ +
@@ -80,12 +85,32 @@ class RecordReader {
     if (device_ && value_) close_record();
   }
 
+  struct Part {
+    std::string text;
+    std::string place;
+  };
+
+  /// Gives the optional line to the record that has begun, else to the one before it.
+  void take_option(const Part& part) {
+    std::string* option = device_ || value_ ? &option_ : nullptr;
+    if (option == nullptr && !records_.empty()) option = &records_.back().option;
+    if (option == nullptr) {
+      fault(part.place, "the line stands before its device_id");
+    } else if (part.text.empty()) {
+      fault(part.place, "expected a name, found none");
+    } else if (!option->empty()) {
+      fault(part.place, "the device has a second line \"" + option_key_ + "\"");
+    } else {
+      *option = part.text;
+    }
+  }
+
   /// Ends the record that has begun, if any.
   void close_record() {
     if (device_ && value_) {
       const std::optional<std::uint64_t> id = count_from(device_->text);
       if (id && *id <= std::numeric_limits<int>::max()) {
-        add({static_cast<int>(*id), value_->text, value_->place});
+        add({static_cast<int>(*id), value_->text, value_->place, option_});
       } else {
         fault(device_->place, "expected a device's number, found " + in_quotes(device_->text));
       }
@@ -96,6 +121,7 @@ class RecordReader {
     }
     device_.reset();
     value_.reset();
+    option_.clear();
   }
 
   void add(const Record& record) {
@@ -107,13 +133,10 @@ class RecordReader {
     records_.push_back(record);
   }
 
-  struct Part {
-    std::string text;
-    std::string place;
-  };
-
   std::string file_;
   std::string key_;
+  std::string option_key_;
+  std::string option_;
   std::optional<Part> device_;
   std::optional<Part> value_;
   std::vector<Record> records_;
@@ -150,11 +173,13 @@ std::vector<Listed> sorted(std::vector<Listed> listed, const RecordReader& reade
 }  // namespace
 
 std::vector<ListedCloud> read_cloud_list(const std::filesystem::path& file) {
-  RecordReader reader(file, kPathKey);
+  RecordReader reader(file, kPathKey, kSensorKey);
   std::vector<ListedCloud> clouds;
   for (const Record& record : reader.read()) {
     if (record.value.empty()) reader.fault(record.place, "expected a file's path, found none");
-    clouds.push_back({record.device_id, record.value, record.place});
+    const std::string& name = record.option;
+    clouds.push_back({record.device_id, record.value, record.place,
+                      name.empty() ? sensor_name_of_file(record.value) : name});
   }
   return sorted(std::move(clouds), reader);
 }
@@ -172,10 +197,20 @@ std::vector<ListedPose> read_pose_list(const std::filesystem::path& file) {
   return sorted(std::move(poses), reader);
 }
 
+std::string sensor_name_of_file(const std::string& path) {
+  // Lists of the authors have Windows' separators.
+  const std::string file = path.substr(path.find_last_of("/\\") + 1);
+  const std::string stem = std::filesystem::path(file).stem().string();
+  return stem.substr(0, stem.find('-'));
+}
+
 std::string cloud_list_text(const std::vector<ListedCloud>& clouds) {
   std::string text;
   for (const ListedCloud& cloud : clouds) {
     text += record_text(cloud.device_id, kPathKey, cloud.path);
+    if (!cloud.sensor.empty() && cloud.sensor != sensor_name_of_file(cloud.path)) {
+      text += std::string(kSensorKey) + ": " + cloud.sensor + "\n";
+    }
   }
   return text;
 }

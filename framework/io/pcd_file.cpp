@@ -124,12 +124,10 @@ void append(std::string& bytes, const Number& value) {
 
 }  // namespace
 
-LoadedCloud read_pcd(const std::filesystem::path& path) {
-  const std::string file = path.string();
-  const std::string bytes = read_whole_file(path);
+LoadedCloud parse_pcd(std::string_view bytes, const std::string& file) {
   const PcdHeader header = parse_pcd_header(bytes, file);
   check_pcd_size(header, bytes, bytes.size(), file);
-  const std::string_view body = std::string_view(bytes).substr(header.body_offset);
+  const std::string_view body = bytes.substr(header.body_offset);
   if (header.encoding == PcdEncoding::ascii) return from_ascii(header, body, file);
   if (header.points == 0) return {};
   return header.encoding == PcdEncoding::binary ? from_binary(header, body)

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "framework/base/error.hpp"
-#include "framework/base/whole_file.hpp"
 #include "framework/io/ply_header.hpp"
 #include "framework/io/text_scan.hpp"
 
@@ -112,12 +111,10 @@ LoadedCloud read_vertices(const PlyHeader& header, Body body) {
 
 }  // namespace
 
-LoadedCloud read_ply(const std::filesystem::path& path) {
-  const std::string file = path.string();
-  const std::string bytes = read_whole_file(path);
+LoadedCloud parse_ply(std::string_view bytes, const std::string& file) {
   const PlyHeader header = parse_ply_header(bytes, file);
   check_ply_size(header, bytes.size(), file);
-  const std::string_view body = std::string_view(bytes).substr(header.body_offset);
+  const std::string_view body = bytes.substr(header.body_offset);
   return header.encoding == PlyEncoding::ascii
              ? read_vertices(header, TextBody(header, body, file))
              : read_vertices(header, BinaryBody(header, body, file));

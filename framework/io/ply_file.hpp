@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "framework/geometry/point_cloud.hpp"
@@ -8,10 +10,10 @@
 
 namespace croon {
 
-/// The vertices of a PLY file (ascii or binary of either byte order; x, y, z of any type and in any
-/// order; other properties, lists and elements are skipped). Throws InputError if the file
-/// contradicts its header.
-LoadedCloud read_ply(const std::filesystem::path& path);
+/// The vertices of `bytes`, a PLY file (ascii or binary of either byte order; x, y, z of any type and in any
+/// order; other properties, lists and elements are skipped). `file` is the name in errors. Throws
+/// InputError if the body contradicts the header.
+LoadedCloud parse_ply(std::string_view bytes, const std::string& file);
 
 /// How write_ply writes numbers.
 enum class PlyFormat { binary_little_endian, ascii };

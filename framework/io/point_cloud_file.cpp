@@ -7,7 +7,9 @@
 #include <string>
 
 #include "framework/base/error.hpp"
+#include "framework/base/memory.hpp"
 #include "framework/base/whole_file.hpp"
+#include "framework/io/digest.hpp"
 #include "framework/io/pcd_file.hpp"
 #include "framework/io/pcd_header.hpp"
 #include "framework/io/ply_file.hpp"
@@ -23,7 +25,7 @@ namespace fs = std::filesystem;
 /// One format of point cloud files.
 struct Format {
   const char* suffix;
-  LoadedCloud (*read)(const fs::path& path);
+  LoadedCloud (*parse)(std::string_view bytes, const std::string& file);
   /// Takes the file's first bytes, its size and its name.
   void (*check)(std::string_view head, std::uint64_t file_bytes, const std::string& file);
 };
@@ -47,9 +49,8 @@ void check_kitti(std::string_view, std::uint64_t file_bytes, const std::string& 
 
 /// The points of a KITTI Velodyne file (Geiger et al. 2013): little-endian float32 x, y, z,
 /// intensity, no header.
-LoadedCloud read_kitti(const fs::path& path) {
-  const std::string bytes = read_whole_file(path);
-  check_kitti({}, bytes.size(), path.string());
+LoadedCloud parse_kitti(std::string_view bytes, const std::string& file) {
+  check_kitti({}, bytes.size(), file);
   LoadedCloud cloud;
   cloud.points.reserve(bytes.size() / kKittiRecordBytes);
   const auto number = [&](std::size_t at) {
@@ -61,15 +62,21 @@ LoadedCloud read_kitti(const fs::path& path) {
   return cloud;
 }
 
-const Format& format_of(const fs::path& path) {
-  static const Format formats[] = {{".pcd", read_pcd, check_pcd},
-                                   {".ply", read_ply, check_ply},
-                                   {".bin", read_kitti, check_kitti}};
+/// The format of the file `path`, or null.
+const Format* find_format(const fs::path& path) {
+  static const Format formats[] = {{".pcd", parse_pcd, check_pcd},
+                                   {".ply", parse_ply, check_ply},
+                                   {".bin", parse_kitti, check_kitti}};
   std::string suffix = path.extension().string();
   for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (const Format& format : formats) {
-    if (suffix == format.suffix) return format;
+    if (suffix == format.suffix) return &format;
   }
+  return nullptr;
+}
+
+const Format& format_of(const fs::path& path) {
+  if (const Format* format = find_format(path)) return *format;
   throw InputError(path.string(), "",
                    "expected a point cloud with the suffix .pcd, .ply or .bin, found \"" +
                        path.extension().string() + "\"");
@@ -89,7 +96,20 @@ std::string head_of(const fs::path& path, std::uint64_t file_bytes) {
 
 }  // namespace
 
-LoadedCloud read_point_cloud(const fs::path& path) { return format_of(path).read(path); }
+LoadedCloud read_point_cloud(const fs::path& path) {
+  const Format& format = format_of(path);
+  const std::string bytes = read_whole_file(path);
+  const std::string sha256 = sha256_of_text(bytes);
+  try {
+    LoadedCloud cloud = format.parse(bytes, path.string());
+    cloud.sha256 = sha256;
+    return cloud;
+  } catch (const InputError& error) {
+    throw DamagedCloud(error, sha256);
+  }
+}
+
+bool has_point_cloud_suffix(const fs::path& path) { return find_format(path) != nullptr; }
 
 void check_point_cloud_file(const fs::path& path) {
   const Format& format = format_of(path);
@@ -99,6 +119,10 @@ void check_point_cloud_file(const fs::path& path) {
   }
   const std::uintmax_t file_bytes = fs::file_size(path, error);
   if (error) throw InputError(path.string(), "", "cannot be read: " + error.message());
+  // The bytes and the points are in memory at one time.
+  constexpr double kMemoryPerByte = 1.75;
+  require_memory(kMemoryPerByte * static_cast<double>(file_bytes), "to read this file",
+                 "make it smaller", {path.string(), "", ""});
   format.check(head_of(path, file_bytes), file_bytes, path.string());
 }
 

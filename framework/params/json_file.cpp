@@ -1,5 +1,6 @@
 #include "framework/params/json_file.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -22,8 +23,12 @@ class DuplicateKeyWatch {
       case json::parse_event_t::object_start:
       case json::parse_event_t::array_start:
         next_element();
-        // Whoever shows or walks the value calls itself once for each level.
-        if (levels_.size() >= kMaxDepth) throw InputError(file_, "", "is nested too deeply");
+        // Code that walks the value calls itself once for each level.
+        if (levels_.size() >= kMaxDepth) {
+          throw InputError(file_, pointer(),
+                           "expected at most " + std::to_string(kMaxDepth) +
+                               " levels of lists and objects, found more");
+        }
         levels_.push_back({event == json::parse_event_t::array_start, -1, {}, {}});
         break;
       case json::parse_event_t::object_end:
@@ -57,21 +62,40 @@ class DuplicateKeyWatch {
     Level& level = levels_.back();
     level.key = key;
     if (level.keys.insert(key).second) return;
+    faults_.push_back({file_, pointer(), "the key \"" + key + "\" stands here twice"});
+  }
+
+  /// Of the value that is parsed.
+  std::string pointer() const {
     json::json_pointer pointer;
-    for (const Level& l : levels_) {
-      if (l.is_array) {
-        pointer.push_back(std::to_string(l.index));
-      } else {
-        pointer.push_back(l.key);
-      }
+    for (const Level& level : levels_) {
+      pointer.push_back(level.is_array ? std::to_string(level.index) : level.key);
     }
-    faults_.push_back({file_, pointer.to_string(), "the key \"" + key + "\" stands here twice"});
+    return pointer.to_string();
   }
 
   std::string file_;
   std::vector<Fault>& faults_;
   std::vector<Level> levels_;
 };
+
+/// "line 3, column 7" of the byte `at`.
+std::string place_of(const std::string& text, std::size_t at) {
+  const auto begin = text.begin();
+  const auto end = begin + static_cast<std::ptrdiff_t>(std::min(at, text.size()));
+  const std::size_t newline = at == 0 ? std::string::npos : text.rfind('\n', at - 1);
+  return "line " + std::to_string(std::count(begin, end, '\n') + 1) + ", column " +
+         std::to_string(newline == std::string::npos ? at + 1 : at - newline);
+}
+
+/// The position of the number that `message`, "number overflow parsing '1e999'", quotes.
+std::string place_of_number(const std::string& text, const std::string& message) {
+  const std::size_t quote = message.find('\'');
+  if (quote == std::string::npos) return "";
+  const std::string number = message.substr(quote + 1, message.rfind('\'') - quote - 1);
+  const std::size_t at = text.find(number);
+  return at == std::string::npos ? "" : place_of(text, at);
+}
 
 /// nlohmann's message without its error number in brackets.
 std::string without_number(const std::string& message) {
@@ -82,8 +106,17 @@ std::string without_number(const std::string& message) {
 }  // namespace
 
 json parse_json(const std::string& text, const std::string& file, std::vector<Fault>& faults) {
+  // The parser takes a null byte for the end of the text.
+  const std::size_t null_byte = text.find('\0');
+  if (null_byte != std::string::npos) {
+    throw InputError(file, place_of(text, null_byte), "expected JSON, found a null byte");
+  }
   try {
     return json::parse(text, DuplicateKeyWatch(file, faults));
+  } catch (const json::out_of_range& error) {
+    throw InputError(
+        file, place_of_number(text, error.what()),
+        "expected a number of at most 1.8e308, found: " + without_number(error.what()));
   } catch (const json::exception& error) {
     throw InputError(file, "", "expected JSON, found: " + without_number(error.what()));
   }

@@ -45,6 +45,7 @@ enum class ParameterType {
   integer,
   number,
   interval,
+  per_axis,
   text,
   choice,
   numbers,
@@ -64,7 +65,7 @@ struct ParameterDoc {
   std::string key;
   ParameterType type = ParameterType::number;
   std::string default_json;          ///< JSON text of the default.
-  Range range;                       ///< integer, number, numbers, interval.
+  Range range;                       ///< integer, number, numbers, interval, per_axis.
   std::vector<std::string> choices;  ///< choice, choices; the names of a group's presets.
   std::string stage_kind;            ///< stage, stages.
   std::string sentence;              ///< What it does; one sentence with its full stop.

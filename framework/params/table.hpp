@@ -229,6 +229,13 @@ Parameter<P> interval(const std::string& key, std::array<double, 2> P::*member, 
   return value_parameter<P>({key, ParameterType::interval, "", range, {}, "", sentence}, member);
 }
 
+/// A number, or a list of three, one for each axis.
+template <class P>
+Parameter<P> per_axis(const std::string& key, PerAxis P::*member, Range range,
+                      const std::string& sentence) {
+  return value_parameter<P>({key, ParameterType::per_axis, "", range, {}, "", sentence}, member);
+}
+
 template <class P>
 Parameter<P> number(const std::string& key, double P::*member, Range range,
                     const std::string& sentence) {

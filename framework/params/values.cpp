@@ -83,13 +83,14 @@ std::string range_words(const std::string& what, const Range& range) {
 void read_value(const Node& node, const ParameterDoc&, bool& out) { node.read(out); }
 
 void read_value(const Node& node, const ParameterDoc& doc, int& out) {
-  int value = 0;
-  if (!node.read(value)) return;
-  if (in_range(value, doc.range)) {
-    out = value;
-  } else {
-    node.expected(range_words("a whole number", doc.range));
+  const json& value = node.value();
+  const double number = value.is_number() ? value.get<double>() : 0.5;
+  // Also of what an int does not hold.
+  if (std::floor(number) == number && !in_range(number, doc.range)) {
+    return node.expected(range_words("a whole number", doc.range));
   }
+  int whole = 0;
+  if (node.read(whole)) out = whole;
 }
 
 void read_value(const Node& node, const ParameterDoc& doc, double& out) {
@@ -123,6 +124,21 @@ void read_value(const Node& node, const ParameterDoc& doc, std::array<double, 2>
     return node.expected("[low, high] with low at most high");
   }
   out = {ends[0], ends[1]};
+}
+
+void read_value(const Node& node, const ParameterDoc& doc, PerAxis& out) {
+  if (!node.value().is_array()) {
+    double all = out[0];
+    read_value(node, doc, all);
+    out = all;
+    return;
+  }
+  if (node.value().size() != out.values.size()) {
+    return node.expected("a number or a list of three, one for each axis");
+  }
+  for (std::size_t axis = 0; axis < out.values.size(); ++axis) {
+    read_value(node.element(axis), doc, out.values[axis]);
+  }
 }
 
 void read_value(const Node& node, const ParameterDoc& doc, std::string& out) {
@@ -188,6 +204,10 @@ std::vector<std::size_t> read_words(const Node& node, const std::vector<std::str
 std::string value_json(bool value) { return value ? "true" : "false"; }
 std::string value_json(int value) { return std::to_string(value); }
 std::string value_json(std::uint64_t value) { return std::to_string(value); }
+std::string value_json(const PerAxis& axes) {
+  if (axes == PerAxis(axes[0])) return value_json(axes[0]);
+  return value_json(std::vector<double>(axes.values.begin(), axes.values.end()));
+}
 std::string value_json(const std::array<double, 2>& ends) {
   return value_json(std::vector<double>(ends.begin(), ends.end()));
 }

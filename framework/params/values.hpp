@@ -13,6 +13,15 @@
 
 namespace croon::params {
 
+/// A number for each of three axes; one number stands for all three.
+struct PerAxis {
+  std::array<double, 3> values;
+
+  PerAxis(double all) : values{all, all, all} {}  // NOLINT: a number is one.
+  double operator[](std::size_t axis) const { return values[axis]; }
+  friend bool operator==(const PerAxis& a, const PerAxis& b) { return a.values == b.values; }
+};
+
 /// Reads the value of `node` into `out` and checks it against `doc`. If it does not fit, notes a
 /// fault and keeps `out`.
 void read_value(const Node& node, const ParameterDoc& doc, bool& out);
@@ -20,6 +29,7 @@ void read_value(const Node& node, const ParameterDoc& doc, int& out);
 void read_value(const Node& node, const ParameterDoc& doc, std::uint64_t& out);
 void read_value(const Node& node, const ParameterDoc& doc, double& out);
 void read_value(const Node& node, const ParameterDoc& doc, std::array<double, 2>& out);
+void read_value(const Node& node, const ParameterDoc& doc, PerAxis& out);
 void read_value(const Node& node, const ParameterDoc& doc, std::string& out);
 void read_value(const Node& node, const ParameterDoc& doc, std::vector<double>& out);
 void read_value(const Node& node, const ParameterDoc& doc, std::vector<std::string>& out);
@@ -39,6 +49,8 @@ std::string value_json(int value);
 std::string value_json(std::uint64_t value);
 std::string value_json(double value);
 std::string value_json(const std::array<double, 2>& ends);
+/// One number if the three are equal.
+std::string value_json(const PerAxis& axes);
 std::string value_json(const std::string& value);
 std::string value_json(const std::vector<double>& value);
 std::string value_json(const std::vector<std::string>& value);

@@ -16,7 +16,8 @@ namespace croon {
 struct SensorScan {
   std::string sensor;                     ///< The sensor's name, "front".
   std::string file;                       ///< For messages and digests; empty if there is no file.
-  std::function<LoadedCloud()> load;      ///< Throws InputError if the file is damaged.
+  /// Throws InputError if the file is damaged, UnavailableFile if it cannot be read now.
+  std::function<LoadedCloud()> load;
   std::optional<RigidTransform> truth;    ///< Ground truth.
   std::optional<RigidTransform> nominal;  ///< The pose of the rig's design.
   std::optional<RigidTransform> initial;  ///< The initial pose in the recording.

@@ -22,6 +22,13 @@ struct GroundSplit {
 /// A number that a step reports of its work: ("inlier_ratio", 0.83).
 using Diagnostic = std::pair<std::string, double>;
 
+/// Which trial of an experiment is calibrated.
+struct TrialName {
+  std::string scene;
+  std::string sensor;
+  int number = 0;
+};
+
 /// The estimate of one sensor's pose, passed from step to step of a pipeline.
 struct Estimate {
   std::shared_ptr<const Cloud> target;  ///< The reference's cloud, preprocessed so far.
@@ -32,6 +39,9 @@ struct Estimate {
   std::optional<Matrix6d> information;               ///< See Registration::information.
   std::optional<std::string> rejection;              ///< Why the pose must not be trusted, if so.
   std::vector<Diagnostic> diagnostics;               ///< What the last step reports of its work.
+  /// Null outside an experiment. For steps that take results from a file; what a step computes must
+  /// not depend on it.
+  std::shared_ptr<const TrialName> trial = nullptr;
 
   /// The axis of yaw: the normal of the target's ground, or z if the ground is not known.
   Eigen::Vector3d up() const {

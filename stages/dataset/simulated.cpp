@@ -2,6 +2,8 @@
 #include <deque>
 #include <mutex>
 
+#include "framework/base/memory.hpp"
+#include "framework/base/text.hpp"
 #include "framework/simulation/simulated_scene.hpp"
 #include "framework/stage/dataset.hpp"
 #include "framework/stage/rig_files.hpp"
@@ -80,6 +82,7 @@ class Simulated final : public Dataset {
   explicit Simulated(Params params) : params_(std::move(params)) {}
 
   std::vector<Scene> scenes(const std::filesystem::path&) const override {
+    check_size();
     const auto cache = std::make_shared<SceneCache>(params_);
     std::vector<Scene> scenes;
     for (int i = 0; i < params_.scenes; ++i) {
@@ -89,6 +92,23 @@ class Simulated final : public Dataset {
   }
 
  private:
+  /// Throws InputError if the clouds of one scene, or the list of scenes, do not fit into memory.
+  void check_size() const {
+    // A ray has its direction, its hit, what the sensor measures, and a leaf of the kd-tree.
+    constexpr double kRayBytes = 150.0;
+    constexpr double kScanBytes = sizeof(SensorScan) + 200.0;
+    double rays = 0.0;
+    for (const auto& [name, mounting] : params_.rig.sensors) {
+      const simulation::SensorModel& model = mounting.model;
+      rays += static_cast<double>(model.elevations_deg.size()) *
+              (model.azimuth_to_deg - model.azimuth_from_deg) / model.azimuth_step_deg;
+    }
+    require_memory(rays * kRayBytes, "a scene of " + fixed_number(rays, 0) + " rays",
+                   "give the sensors of the rig fewer rings or a larger azimuth_step_deg", {});
+    require_memory(kScanBytes * params_.scenes * static_cast<double>(params_.rig.sensors.size()),
+                   "a list of " + std::to_string(params_.scenes) + " scenes", "ask for fewer", {});
+  }
+
   Scene scene(int number, const std::shared_ptr<SceneCache>& cache) const {
     const auto index = static_cast<std::uint64_t>(number);
     Scene scene;

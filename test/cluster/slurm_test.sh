@@ -20,7 +20,7 @@ stop() {
     kill "${daemons[i]}" 2>/dev/null || true
     wait "${daemons[i]}" 2>/dev/null || true
   done
-  if [[ $status -ne 0 ]]; then tail -n 20 "$folder"/{,log/,out/log/}*.log || true; fi
+  if [[ $status -ne 0 ]]; then tail -n 20 "$folder"/{,log/,out%j/log/}*.log || true; fi
   rm -rf "$folder"
 }
 trap stop EXIT
@@ -93,8 +93,10 @@ is_idle() { [[ $(sinfo -h -o %T 2>/dev/null) == idle ]]; }
 wait_until 'an idle node' is_idle
 
 write_experiment
-"$scripts/submit.sh" "$folder/small.json" "$folder/out" 4
+# In Slurm's own paths a percent sign begins a pattern; %j is the job's number.
+"$scripts/submit.sh" "$folder/small.json" "$folder/out%j" 4
 run_in_one_piece
 is_done() { [[ -z $(squeue -h 2>/dev/null || echo unknown) ]]; }
 wait_until 'the jobs' is_done
-compare_with_one_piece "$folder/out"
+compare_with_one_piece "$folder/out%j"
+[[ -s "$folder/out%j/log/merge.log" ]]

@@ -32,6 +32,8 @@ const Layers& layers() {
       {"framework/pipeline",
        {"framework/base", "framework/geometry", "framework/spatial", "framework/registration",
         "framework/params", "framework/stage"}},
+      {"framework/recording",
+       {"framework/base", "framework/geometry", "framework/io", "framework/stage"}},
       {"stages", {"framework"}},
       {"registry", {"framework"}},
       {"experiments/file", {"framework", "registry"}},

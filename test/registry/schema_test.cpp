@@ -109,8 +109,11 @@ void expect_value(const json& found, const ParameterDoc& parameter) {
     case ParameterType::map:
       expect_map(found, parameter);
       break;
-    case ParameterType::interval:
     case ParameterType::texts:
+      EXPECT_EQ(found["items"]["type"], "string");
+      break;
+    case ParameterType::interval:
+    case ParameterType::per_axis:
     case ParameterType::list:
     case ParameterType::json:
       FAIL() << "no stage has such a parameter; test/experiments/file/schema_test.cpp covers them";

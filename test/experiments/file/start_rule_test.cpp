@@ -87,6 +87,30 @@ TEST(StartRule, IsWrittenAsItIsRead) {
   EXPECT_EQ(deciding_starts_json(rule), R"({"file":"*","sha256":"12ab"})");
 }
 
+TEST(StartRule, HasRangesPerAxis) {
+  const auto [rule, faults] =
+      read(R"({"rotation_deg": [1, 2, 30], "translation_m": [0.5, 0, 0.1]})");
+  EXPECT_EQ(faults, Lines{});
+  EXPECT_EQ(rule.rotation_deg[2], 30.0);
+  EXPECT_EQ(rule.translation_m[0], 0.5);
+  EXPECT_EQ(deciding_starts_json(rule),
+            R"({"around":"truth","rotation_deg":[1,2,30],"translation_m":[0.5,0,0.1]})");
+  // Three equal numbers are the same starts as one, and the same results.
+  EXPECT_EQ(deciding_starts_json(read(R"({"rotation_deg": [10, 10, 10]})").first),
+            deciding_starts_json(read(R"({"rotation_deg": 10})").first));
+  EXPECT_EQ(read(R"({"rotation_deg": [1, 2]})").second,
+            Lines{"/starts/rotation_deg: expected a number or a list of three, one for each axis, "
+                  "found [1,2]"});
+  EXPECT_EQ(read(R"({"rotation_deg": [1, 2, 181]})").second,
+            Lines{"/starts/rotation_deg/2: expected a number from 0 to 180, found 181"});
+}
+
+TEST(StartRule, NamesTheRangeOfWhatNoIntegerHolds) {
+  const Lines faults = read(R"({"trials": 1000000000000})").second;
+  EXPECT_EQ(faults, Lines{"/starts/trials: expected a whole number from 1 to 1000000, found "
+                          "1000000000000"});
+}
+
 TEST(StartRule, TakesTrialsPerLevel) {
   StartRule rule = read(R"({"sweep": {"translation_m": [0, 5]}, "trials": 3})").first;
   EXPECT_EQ(total_trials(rule), 33);

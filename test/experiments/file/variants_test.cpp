@@ -105,8 +105,7 @@ TEST(Variants, FaultsStandWhereTheFileHasThem) {
           "/variants/1/remove/1: expected a string, found 4",
           "/variants/5/replaces: unknown key \"replaces\"; did you mean \"replace\"?",
           "/variants/6/name: expected a name of letters, digits, spaces and _ . - + = ( ), not "
-          "starting with a "
-          "dot, found \"a/b\"",
+          "starting with a dot or a sign, found \"a/b\"",
           "/variants/7: the key \"name\" is missing", "/variants/8: expected an object, found 17",
           "/variants/1/remove/0: there is no step \"frist\"; did you mean \"first\"?",
           "/variants/1/replace/first.serach: step \"drift\" has no parameter \"serach\"; did you "

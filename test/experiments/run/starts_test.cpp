@@ -141,6 +141,25 @@ TEST(Starts, OfASweepMoveByTheirLevelAndTurnByTheRange) {
   EXPECT_GT(largest, rad_from_deg(9.5));
 }
 
+TEST(Starts, StayWithinTheRangeOfEachAxis) {
+  StartRule rule;
+  rule.rotation_deg.values = {1.0, 0.0, 20.0};
+  rule.translation_m.values = {0.0, 2.0, 0.5};
+  Vector6d largest = Vector6d::Zero();
+  for (int trial = 0; trial < 1000; ++trial) {
+    const RigidTransform start = draw_start(rule, RigidTransform{}, 1, "scene", "left", trial);
+    Vector6d offset;
+    offset << rpy_from_rotation(start.rotation), start.translation;
+    largest = largest.cwiseMax(offset.cwiseAbs());
+  }
+  Vector6d ranges;
+  ranges << rad_from_deg(1.0), 0.0, rad_from_deg(20.0), 0.0, 2.0, 0.5;
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_LE(largest(i), ranges(i) + 1e-12) << i;
+    EXPECT_GE(largest(i), 0.95 * ranges(i)) << i;
+  }
+}
+
 TEST(Starts, NeedTheirCentreInEveryScene) {
   SensorScan left{"left", "", {}, {}, RigidTransform{}, {}};
   SensorScan right{"right", "", {}, RigidTransform{}, {}, {}};

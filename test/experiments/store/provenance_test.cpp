@@ -17,8 +17,8 @@ TEST(Provenance, CloudsThatAreInNoFileAreNoInputs) {
       "x.json",
       R"({"name": "x", "dataset": {"type": "fake"}, "starts": {}, "pipeline": [{"step": "drift"}]})");
   const Experiment experiment = load_experiment(path, test::fake_catalogue());
-  const std::vector<Scene> scenes = experiment.dataset->scenes("");
-  const std::vector<InputFile> inputs = input_files(scenes, "/no/such/folder", 2);
+  std::vector<Scene> scenes = experiment.dataset->scenes("");
+  const std::vector<InputFile> inputs = record_inputs(scenes, "/no/such/folder", 2);
   EXPECT_TRUE(inputs.empty());
   const Provenance provenance = provenance_of(experiment, scenes, inputs);
   const auto manifest =

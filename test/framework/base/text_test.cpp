@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "framework/base/error.hpp"
+
 namespace croon::test {
 namespace {
 
@@ -52,6 +54,29 @@ TEST(Text, Clock) {
   EXPECT_EQ(clock_text(59.6), "1:00");
   EXPECT_EQ(clock_text(3723.0), "1:02:03");
   EXPECT_EQ(clock_text(std::numeric_limits<double>::infinity()), "277777:46:40");
+}
+
+TEST(Text, IsPrintableWithoutControlCharactersAndBrokenCodes) {
+  EXPECT_EQ(printable("a b\tc\x1b[31m\x7f\n"), "a b?c?[31m??");
+  EXPECT_EQ(printable("Stra\xc3\x9f"
+                      "e \xe2\x82\xac \xf0\x9f\x9a\x97"),
+            "Stra\xc3\x9f"
+            "e \xe2\x82\xac \xf0\x9f\x9a\x97");
+  EXPECT_EQ(printable("\xc2\x9b"
+                      "31m"),
+            "?31m");  // A control character of two bytes.
+  for (const char* broken :
+       {"\xff", "\xc3", "\x80", "\xc0\xaf", "\xed\xa0\x80", "\xf5\x80\x80\x80"}) {
+    EXPECT_EQ(printable(broken).find_first_not_of('?'), std::string::npos);
+  }
+  const std::string all = printable(std::string("\xe2\x82", 2) + "a");
+  EXPECT_EQ(all, "??a");
+}
+
+TEST(Text, OfAFaultIsShort) {
+  const std::string key(1000000, 'k');
+  EXPECT_LT(Fault({"f.json", "/" + key, "unknown key \"" + key + "\""}).line().size(), 2300U);
+  EXPECT_EQ(Fault({"\x1b]0;f", "/a", "b"}).line(), "?]0;f: /a: b");
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 #include "framework/base/whole_file.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include "test/support/temp_folder.hpp"
 
@@ -33,6 +36,36 @@ TEST(WholeFile, GoesOnBesideAPartThatACrashLeft) {
   write_whole_file(folder.path() / "a", "new");
   EXPECT_EQ(read_whole_file(folder.path() / "a"), "new");
   EXPECT_EQ(read_whole_file(folder.path() / "a.part0"), "left over");
+}
+
+TEST(WholeFile, TakesAPartThatAKillLeft) {
+  const test::TempFolder folder;
+  folder.write("a.croon-part0", "left over and longer");
+  EXPECT_TRUE(is_part_of(folder.path() / "a.croon-part0", folder.path() / "a"));
+  EXPECT_FALSE(is_part_of(folder.path() / "a.part0", folder.path() / "a"));
+  write_whole_file(folder.path() / "a", "new");
+  EXPECT_EQ(read_whole_file(folder.path() / "a"), "new");
+  EXPECT_EQ(files_in(folder.path()), 1u);
+}
+
+TEST(WholeFile, WritesThroughNoLink) {
+  const test::TempFolder folder;
+  const auto other = folder.write("other/file", "kept");
+  std::filesystem::create_symlink(other, folder.path() / "a.croon-part0");
+  write_whole_file(folder.path() / "a", "new");
+  EXPECT_EQ(read_whole_file(other), "kept");
+  EXPECT_EQ(read_whole_file(folder.path() / "a"), "new");
+}
+
+TEST(WholeFile, LeavesThePartOfAnotherWriterAlone) {
+  const test::TempFolder folder;
+  const auto part = folder.write("a.croon-part0", "at work");
+  const int descriptor = ::open(part.c_str(), O_RDONLY);
+  ASSERT_EQ(::flock(descriptor, LOCK_EX), 0);
+  write_whole_file(folder.path() / "a", "new");
+  EXPECT_EQ(read_whole_file(part), "at work");
+  EXPECT_EQ(files_in(folder.path()), 2u);
+  ::close(descriptor);
 }
 
 TEST(WholeFile, RefusesWhatIsNoFile) {

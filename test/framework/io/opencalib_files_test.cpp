@@ -9,6 +9,32 @@
 namespace croon {
 namespace {
 
+TEST(CloudList, NamesSensors) {
+  const test::TempFolder folder;
+  const auto read = [&](const std::string& text) {
+    return read_cloud_list(folder.write("list.txt", text));
+  };
+  const std::string text =
+      "device_id: 0\npath: top-1.pcd\ndevice_id: 1\npath: a\\b\\x.pcd\nsensor: front-left\n"
+      "path: c/left-2.pcd\nSensor: rear left\ndevice_id: 2\n";
+  const std::vector<ListedCloud> clouds = read(text);
+  ASSERT_EQ(clouds.size(), 3U);
+  EXPECT_EQ(clouds[0].sensor, "top");
+  EXPECT_EQ(clouds[1].sensor, "front-left");
+  EXPECT_EQ(clouds[2].sensor, "rear left");
+  // What is written is read.
+  EXPECT_EQ(cloud_list_text(clouds),
+            "device_id: 0\npath: top-1.pcd\ndevice_id: 1\npath: a\\b\\x.pcd\nsensor: front-left\n"
+            "device_id: 2\npath: c/left-2.pcd\nsensor: rear left\n");
+  for (const auto& [wrong, message] :
+       {std::pair<const char*, const char*>{"sensor: a\ndevice_id: 0\npath: b\n",
+                                            "line 1: the line stands before its device_id"},
+        {"device_id: 0\npath: b\nsensor: a\nsensor: c\n", "line 4: the device has a second line"},
+        {"device_id: 0\npath: b\nsensor:\n", "line 3: expected a name, found none"}}) {
+    EXPECT_NE(test::input_error([&] { read(wrong); }).find(message), std::string::npos) << wrong;
+  }
+}
+
 using ::testing::HasSubstr;
 
 TEST(OpencalibFiles, ReadsListsAsTheyCirculate) {

@@ -62,7 +62,7 @@ TEST(PcdFile, ReadsEveryEncodingOfEveryOrderAndType) {
       const auto path = folder.write("a.pcd", test::pcd_bytes(spec, cloud));
       ASSERT_EQ(test::input_error([&] { check_point_cloud_file(path); }), "")
           << test::pcd_header(spec, 0);
-      const LoadedCloud loaded = read_pcd(path);
+      const LoadedCloud loaded = read_point_cloud(path);
       EXPECT_EQ(loaded.points, cloud) << test::pcd_header(spec, cloud.size());
       EXPECT_EQ(loaded.dropped_non_finite, 0u);
     }
@@ -76,7 +76,7 @@ TEST(PcdFile, KeepsEveryBitOfAFloat) {
   for (const char* data : {"ascii", "binary", "binary_compressed"}) {
     PcdSpec spec;
     spec.data = data;
-    EXPECT_EQ(read_pcd(folder.write("a.pcd", test::pcd_bytes(spec, cloud))).points, cloud) << data;
+    EXPECT_EQ(read_point_cloud(folder.write("a.pcd", test::pcd_bytes(spec, cloud))).points, cloud) << data;
   }
 }
 
@@ -88,7 +88,7 @@ TEST(PcdFile, DropsAndCountsWhatIsNotFinite) {
   for (const char* data : {"ascii", "binary", "binary_compressed"}) {
     PcdSpec spec;
     spec.data = data;
-    const LoadedCloud loaded = read_pcd(folder.write("a.pcd", test::pcd_bytes(spec, cloud)));
+    const LoadedCloud loaded = read_point_cloud(folder.write("a.pcd", test::pcd_bytes(spec, cloud)));
     EXPECT_EQ(loaded.points, (PointCloud{{1, 2, 3}, {4, 5, 6}})) << data;
     EXPECT_EQ(loaded.dropped_non_finite, 3u) << data;
   }
@@ -100,7 +100,7 @@ TEST(PcdFile, SaysWhichLineOfTextIsWrong) {
   spec.data = "ascii";
   const auto error = [&](const std::string& body) {
     const auto path = folder.write("a.pcd", test::pcd_header(spec, 2) + body);
-    return test::input_error([&] { read_pcd(path); });
+    return test::input_error([&] { read_point_cloud(path); });
   };
   EXPECT_EQ(error("1 2 3\n\n+4 5e0 -6"), "");
   EXPECT_THAT(error("1 2 3\n1 2,5 3\n"),
@@ -156,7 +156,7 @@ TEST(PcdFile, SaysWhatIsWrongWithAHeader) {
     const std::string error = test::input_error([&] { check_point_cloud_file(path); });
     EXPECT_THAT(error, HasSubstr(wrong.message)) << wrong.line;
     EXPECT_THAT(error, HasSubstr(path.string())) << wrong.line;
-    EXPECT_NE(test::input_error([&] { read_pcd(path); }), "") << wrong.line;
+    EXPECT_NE(test::input_error([&] { read_point_cloud(path); }), "") << wrong.line;
   }
 }
 
@@ -168,7 +168,7 @@ TEST(PcdFile, BelievesNoSizeThatTheFileCannotHold) {
     // 12 terabytes, if it were true.
     const auto path = folder.write("a.pcd", test::pcd_header(spec, 1000000000000) + body);
     const std::string checked = test::input_error([&] { check_point_cloud_file(path); });
-    EXPECT_EQ(test::input_error([&] { read_pcd(path); }), checked);
+    EXPECT_EQ(test::input_error([&] { read_point_cloud(path); }), checked);
     return checked;
   };
   const auto sizes = [](double compressed, double uncompressed) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "framework/io/point_cloud_file.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/temp_folder.hpp"
 
@@ -20,7 +21,7 @@ TEST(PcdWriter, WhatIsWrittenIsReadBackBitForBit) {
       cloud.time_s.push_back(rng.uniform());
     }
     write_pcd(folder.path() / "cloud.pcd", cloud);
-    const LoadedCloud read = read_pcd(folder.path() / "cloud.pcd");
+    const LoadedCloud read = read_point_cloud(folder.path() / "cloud.pcd");
     EXPECT_EQ(read.points, cloud.points);
     EXPECT_EQ(read.dropped_non_finite, 0U);
   }

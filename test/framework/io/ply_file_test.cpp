@@ -57,8 +57,8 @@ TEST(PlyFile, ReadsWindowsHeaders) {
   const std::string header =
       "ply\r\nformat ascii 1.0\r\nelement vertex 1\r\nproperty float x\r\n"
       "property float y\r\nproperty float z\r\nend_header\r\n";
-  EXPECT_EQ(read_ply(folder.write("a.ply", header + "1 2 nan\r\n")).dropped_non_finite, 1u);
-  EXPECT_EQ(read_ply(folder.write("a.ply", header + "1 2 3\r\n")).points, (PointCloud{{1, 2, 3}}));
+  EXPECT_EQ(read_point_cloud(folder.write("a.ply", header + "1 2 nan\r\n")).dropped_non_finite, 1u);
+  EXPECT_EQ(read_point_cloud(folder.write("a.ply", header + "1 2 3\r\n")).points, (PointCloud{{1, 2, 3}}));
 }
 
 TEST(PlyFile, ReadsWhatWasWritten) {
@@ -69,7 +69,7 @@ TEST(PlyFile, ReadsWhatWasWritten) {
     for (const PlyFormat format : {PlyFormat::binary_little_endian, PlyFormat::ascii}) {
       write_ply(folder.path() / "a.ply", cloud, format);
       check_point_cloud_file(folder.path() / "a.ply");
-      EXPECT_EQ(read_ply(folder.path() / "a.ply").points, cloud);
+      EXPECT_EQ(read_point_cloud(folder.path() / "a.ply").points, cloud);
     }
   }
   EXPECT_NE(test::input_error([&] { write_ply(folder.path() / "no" / "a.ply", {}); }), "");
@@ -84,7 +84,7 @@ TEST(PlyFile, FusesTheRigInTheReferencesFrame) {
   write_fused_ply(path, {{"top", top, {}}, {"left\nelement", left, T}});
   PointCloud expected = top;
   for (const Eigen::Vector3f& point : transformed(left, T)) expected.push_back(point);
-  EXPECT_EQ(read_ply(path).points, expected);
+  EXPECT_EQ(read_point_cloud(path).points, expected);
   const std::string bytes = read_whole_file(path);
   EXPECT_THAT(bytes, HasSubstr("comment left?element is 230 159 0\n"));
   EXPECT_EQ(bytes.substr(bytes.size() - 3), "\xE6\x9F" + std::string(1, '\0'));
@@ -116,7 +116,7 @@ TEST(PlyFile, SaysWhatIsWrong) {
   };
   for (const auto& [bytes, message] : cases) {
     const auto path = folder.write("a.ply", bytes);
-    EXPECT_THAT(test::input_error([&] { read_ply(path); }), HasSubstr(message)) << bytes;
+    EXPECT_THAT(test::input_error([&] { read_point_cloud(path); }), HasSubstr(message)) << bytes;
   }
 }
 

@@ -43,6 +43,25 @@ TEST(ParseJson, SaysWhereItIsNotJson) {
 TEST(ParseJson, RefusesWhatIsNestedTooDeeply) {
   EXPECT_EQ(faults_of(std::string(200000, '[')).size(), 1u);
   EXPECT_TRUE(faults_of(std::string(50, '[') + std::string(50, ']')).empty());
+  const auto faults = faults_of(R"({"a": )" + std::string(200, '['));
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].where.substr(0, 8), "/a/0/0/0");
+  EXPECT_EQ(faults[0].message, "expected at most 100 levels of lists and objects, found more");
+}
+
+TEST(ParseJson, RefusesBytesBehindANullByte) {
+  const auto faults = faults_of(std::string("{}\n\0{\"a\": oops", 14));
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].where, "line 2, column 1");
+}
+
+TEST(ParseJson, SaysWhereANumberIsTooLarge) {
+  const auto faults = faults_of("{\"a\": 1,\n \"b\": 1e999}");
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].where, "line 2, column 7");
+  EXPECT_NE(faults[0].message.find("expected a number of at most 1.8e308, found: "),
+            std::string::npos)
+      << faults[0].message;
 }
 
 TEST(ReadJsonFile, RefusesWhatIsNotAFile) {

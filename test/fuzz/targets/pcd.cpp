@@ -17,6 +17,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   measured.time_s.resize(cloud.points.size());
   const std::filesystem::path again = path.parent_path() / "again.pcd";
   write_pcd(again, measured);
-  fuzz::require(read_pcd(again).points == cloud.points, "a cloud is read back as another");
+  fuzz::require(read_point_cloud(again).points == cloud.points, "a cloud is read back as another");
   return 0;
 }

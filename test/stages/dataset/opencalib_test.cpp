@@ -77,6 +77,42 @@ TEST_F(MadeUpRig, StaysInTheDataRoot) {
   EXPECT_THAT(error_of(root, "rig"), HasSubstr("leads outside the data root"));
 }
 
+TEST_F(MadeUpRig, MayFollowLinksOutOfTheDataRoot) {
+  folder.write("disk/top-1.pcd", cloud(5));
+  folder.write("disk/left-1-2.pcd", cloud(6));
+  folder.write("disk/lidar_cloud_path.txt",
+               "device_id: 0\npath: top-1.pcd\ndevice_id: 1\npath: left-1-2.pcd\n");
+  fs::create_directory_symlink(folder.path() / "disk", root / "rig" / "c");
+  fs::create_symlink(folder.path() / "disk/top-1.pcd", root / "rig" / "a" / "far.pcd");
+  folder.write("data/rig/a/lidar_cloud_path.txt",
+               "device_id: 0\npath: far.pcd\ndevice_id: 1\npath: left-1-2.pcd\n");
+  EXPECT_THAT(error_of(root, "rig"), HasSubstr("leads outside the data root"));
+  const auto follow = [&](const std::string& path) {
+    return test::stage<Dataset>(R"({"type": "opencalib", "follow_links": true, "path": ")" + path +
+                                "\"}")
+        ->scenes(root);
+  };
+  const std::vector<Scene> all = follow("rig/");
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[0].reference.load().points, (PointCloud{{5, 0, 0}}));
+  EXPECT_EQ(all[2].sensors[0].load().points, (PointCloud{{6, 0, 0}}));
+  EXPECT_EQ(all[2].sensors[0].file, (fs::canonical(root) / "rig/c/left-1-2.pcd").string());
+  EXPECT_THAT(test::input_error([&] { follow("../disk"); }),
+              HasSubstr("leads outside the data root"));
+}
+
+TEST_F(MadeUpRig, HasSensorsOfGivenNames) {
+  folder.write("data/rig/a/lidar_cloud_path.txt",
+               "device_id: 0\npath: top-1.pcd\ndevice_id: 1\npath: left-1-2.pcd\nsensor: "
+               "front-left\n");
+  folder.write("data/rig/truth.json",
+               R"({"front-left": {"rotation_rpy_deg": [0, 0, 0], "translation_m": [1, 0, 0]}})");
+  const std::vector<Scene> all = scenes(root, "rig/a");
+  EXPECT_EQ(all[0].reference.sensor, "top");
+  EXPECT_EQ(all[0].sensors[0].sensor, "front-left");
+  EXPECT_TRUE(all[0].sensors[0].truth);
+}
+
 TEST_F(MadeUpRig, NeedsAFolderWithScenes) {
   EXPECT_THAT(error_of(root, "none"), HasSubstr("expected a file or folder, found none"));
   EXPECT_THAT(error_of(root, "rig/notes"),

@@ -1,0 +1,86 @@
+#include "experiments/run/given_poses.hpp"
+
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+#include "experiments/run/pose_file.hpp"
+#include "framework/base/error.hpp"
+#include "framework/io/text_scan.hpp"
+
+namespace croon::experiments {
+namespace {
+
+/// The poses of a file by scene, sensor and trial; trial -1 is any trial.
+using PoseTable = std::map<std::tuple<std::string, std::string, int>, RigidTransform>;
+
+/// Takes the pose of the trial from a table.
+class GivenPoses final : public Step {
+ public:
+  explicit GivenPoses(PoseTable poses) : poses_(std::move(poses)) {}
+
+  Estimate advance(Estimate estimate, Rng&) const override {
+    if (!estimate.trial) throw std::logic_error("given poses belong to named trials");
+    const TrialName& trial = *estimate.trial;
+    for (const int number : {trial.number, -1}) {
+      const auto found = poses_.find({trial.scene, trial.sensor, number});
+      if (found == poses_.end()) continue;
+      estimate.T_target_source = found->second;
+      return estimate;
+    }
+    throw StageError("the file has no pose for this trial");
+  }
+
+ private:
+  PoseTable poses_;
+};
+
+PoseTable read_table(const std::filesystem::path& path, const DatasetNames& names,
+                     std::string& sha256) {
+  PoseTable table;
+  sha256 = read_pose_file(path, {kStartHeader, kPoseHeader}, [&](const PoseLine& line) {
+    names.check(line.scene, line.sensor);
+    if (table.emplace(std::tuple(line.scene, line.sensor, line.trial), line.pose).second) return;
+    throw InputError("", "",
+                     "expected each pose once, found sensor " + in_quotes(line.sensor) +
+                         " in scene " + in_quotes(line.scene) + " again");
+  });
+  return table;
+}
+
+/// Puts the step that takes the poses of the file `path` before the other steps of `variant`.
+void add_step(Variant& variant, const std::filesystem::path& path, const DatasetNames& names,
+              ExperimentFile& file) {
+  const std::shared_ptr<const Step> step =
+      std::make_shared<const GivenPoses>(read_table(path, names, file.sha256));
+  const std::string members = "\"step\":\"poses\",\"sha256\":\"" + file.sha256 + "\"}";
+  variant.pipeline.insert(
+      variant.pipeline.begin(),
+      {kPosesStep, params::Slot<Step>(params::BuiltStage{step, kPosesStep, "{" + members})});
+  const bool is_only = variant.pipeline.size() == 1;
+  variant.resolved = std::string("[{\"name\":\"") + kPosesStep + "\"," + members +
+                     (is_only ? "" : ",") + variant.resolved.substr(1);
+}
+
+}  // namespace
+
+void resolve_poses(Experiment& experiment, const std::vector<Scene>& scenes,
+                   const std::filesystem::path& data_root) {
+  const DatasetNames names(scenes);
+  std::vector<Fault> faults;
+  for (Variant& variant : experiment.variants) {
+    if (variant.poses.name.empty()) continue;
+    collect_faults(faults, [&] {
+      ExperimentFile file{variant.poses.name, ""};
+      const std::filesystem::path path =
+          found_input(experiment, file.path, data_root,
+                      {variant.poses.file, variant.poses.pointer, ""}, "a file of poses");
+      add_step(variant, path, names, file);
+      experiment.files.push_back(file);
+    });
+  }
+  if (!faults.empty()) throw InputError(without_repeats(faults));
+}
+
+}  // namespace croon::experiments

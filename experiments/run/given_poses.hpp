@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "experiments/file/experiment.hpp"
+
+namespace croon::experiments {
+
+/// Reads the files of poses that variants of `experiment` name. Each such variant gets a first step
+/// "poses", which takes the pose of the trial from the file; the trial fails if the file has none.
+/// The step's parameter is the digest of the file. The files are added to Experiment::files. Throws
+/// InputError with the faults of all files.
+void resolve_poses(Experiment& experiment, const std::vector<Scene>& scenes,
+                   const std::filesystem::path& data_root);
+
+}  // namespace croon::experiments

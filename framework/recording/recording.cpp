@@ -1,0 +1,70 @@
+#include "framework/recording/recording.hpp"
+
+#include "framework/base/error.hpp"
+
+namespace croon {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The file `name` beside the scene or above it, the nearest.
+std::optional<fs::path> file_above(const std::string& name, const SceneLocation& location) {
+  for (const fs::path& folder : folders_up(location)) {
+    if (!fs::exists(folder / name)) continue;
+    return path_in_data_root(location.root, (folder / name).string(), location.links);
+  }
+  return std::nullopt;
+}
+
+/// The content of the file `name` above `location`, read by `read` unless it is in `known`.
+template <class Content, class Read>
+Content content_above(const std::string& name, const SceneLocation& location,
+                      std::map<fs::path, Content>& known, const Read& read) {
+  const std::optional<fs::path> file = file_above(name, location);
+  if (!file) return {};
+  const auto found = known.find(*file);
+  return found != known.end() ? found->second : known.emplace(*file, read(*file)).first->second;
+}
+
+std::optional<RigidTransform> pose_of(const RigPoses& poses, const std::string& sensor) {
+  const auto found = poses.find(sensor);
+  return found == poses.end() ? std::nullopt : std::make_optional(found->second);
+}
+
+}  // namespace
+
+std::vector<fs::path> folders_up(const SceneLocation& location) {
+  std::vector<fs::path> folders = {location.folder};
+  while (folders.back() != location.root) folders.push_back(folders.back().parent_path());
+  return folders;
+}
+
+void RigFilesAbove::complete(Scene& scene, const SceneLocation& location) {
+  std::vector<Fault> faults;
+  SceneKinds kinds;
+  RigPoses truth, nominal;
+  collect_faults(faults,
+                 [&] { truth = content_above("truth.json", location, poses_, read_rig_poses); });
+  collect_faults(
+      faults, [&] { nominal = content_above("nominal.json", location, poses_, read_rig_poses); });
+  collect_faults(faults, [&] {
+    kinds = content_above("scene_kinds.json", location, kinds_, read_scene_kinds);
+  });
+  if (!faults.empty()) throw InputError(std::move(faults));
+  const auto kind = kinds.find(scene.name);
+  if (kind != kinds.end()) scene.kind = kind->second;
+  for (SensorScan& scan : scene.sensors) {
+    scan.truth = pose_of(truth, scan.sensor);
+    scan.nominal = pose_of(nominal, scan.sensor);
+  }
+}
+
+std::vector<Scene> with_file_errors(const std::function<std::vector<Scene>()>& read) {
+  try {
+    return read();
+  } catch (const fs::filesystem_error& error) {
+    throw InputError(error.path1().string(), "", error.code().message());
+  }
+}
+
+}  // namespace croon

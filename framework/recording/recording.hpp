@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/io/data_path.hpp"
+#include "framework/stage/dataset.hpp"
+#include "framework/stage/rig_files.hpp"
+
+namespace croon {
+
+/// A scene on disk: its name, its folder, and the real data root above it.
+struct SceneLocation {
+  std::string name;
+  std::filesystem::path folder;
+  std::filesystem::path root;
+  Links links = Links::inside;
+};
+
+/// The folder and those above it, up to the data root.
+std::vector<std::filesystem::path> folders_up(const SceneLocation& location);
+
+/// The poses and the kinds of scenes that stand in files beside scenes or in folders above them,
+/// the nearest file counts. Each file is read once, for it may be about thousands of scenes.
+class RigFilesAbove {
+ public:
+  /// Sets the kind of `scene` (`scene_kinds.json`) and the true and the nominal poses of its
+  /// sensors
+  /// (`truth.json`, `nominal.json`). Throws InputError with the faults of all files.
+  void complete(Scene& scene, const SceneLocation& location);
+
+ private:
+  std::map<std::filesystem::path, SceneKinds> kinds_;
+  std::map<std::filesystem::path, RigPoses> poses_;
+};
+
+/// Returns what `read` returns; a std::filesystem::filesystem_error becomes an InputError.
+std::vector<Scene> with_file_errors(const std::function<std::vector<Scene>()>& read);
+
+}  // namespace croon

@@ -1,0 +1,150 @@
+#include <algorithm>
+#include <set>
+
+#include "framework/base/error.hpp"
+#include "framework/io/point_cloud_file.hpp"
+#include "framework/recording/recording.hpp"
+#include "framework/stage/stage_entry.hpp"
+
+namespace croon::stages::dataset {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Params {
+  std::string path;
+  std::string reference;
+  std::vector<std::string> sensors;
+  bool follow_links = false;
+};
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table = {
+      params::text("path", &Params::path,
+                   "A folder with a folder for each sensor, relative to the data root."),
+      params::text("reference", &Params::reference,
+                   "The folder of the sensor that the others are calibrated to."),
+      params::texts("sensors", &Params::sensors,
+                    "The folders of the other sensors, in this order; an empty list is every "
+                    "folder with clouds."),
+      params::boolean("follow_links", &Params::follow_links,
+                      "Symbolic links may lead out of the data root."),
+  };
+  return table;
+}
+
+/// The clouds of one sensor by their names without suffix.
+using Clouds = std::map<std::string, fs::path>;
+
+/// The clouds in `folder`. Throws InputError if two have one name.
+Clouds clouds_in(const SceneLocation& folder) {
+  Clouds clouds;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.folder)) {
+    if (!entry.is_regular_file() || !has_point_cloud_suffix(entry.path())) continue;
+    const fs::path file = path_in_data_root(folder.root, entry.path().string(), folder.links);
+    const auto [found, is_new] = clouds.emplace(entry.path().stem().string(), file);
+    if (is_new) continue;
+    throw InputError(entry.path().string(), "",
+                     "expected one cloud of this name, found " + found->second.string() + " too");
+  }
+  return clouds;
+}
+
+/// The names of the folders in `rig` that have clouds, sorted, without the reference.
+std::vector<std::string> other_folders(const fs::path& rig, const std::string& reference) {
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(rig)) {
+    if (!entry.is_directory() || entry.path().filename() == reference) continue;
+    const fs::directory_iterator files(entry.path());
+    if (std::any_of(fs::begin(files), fs::end(files), [](const fs::directory_entry& file) {
+          return has_point_cloud_suffix(file.path());
+        })) {
+      names.push_back(entry.path().filename().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+SensorScan scan_of(const std::string& sensor, const fs::path& file) {
+  SensorScan scan;
+  scan.sensor = sensor;
+  scan.file = file.string();
+  scan.load = [file] { return read_point_cloud(file); };
+  return scan;
+}
+
+/// A recording with a folder of clouds for each sensor. A scene is the clouds of one name.
+class SensorFolders final : public Dataset {
+ public:
+  explicit SensorFolders(Params params) : params_(std::move(params)) {}
+
+  std::vector<Scene> scenes(const fs::path& data_root) const override {
+    return with_file_errors([&] { return read_scenes(data_root); });
+  }
+
+ private:
+  std::vector<Scene> read_scenes(const fs::path& data_root) const {
+    SceneLocation rig;
+    rig.links = params_.follow_links ? Links::anywhere : Links::inside;
+    rig.folder = path_in_data_root(data_root, params_.path, rig.links);
+    rig.root = fs::canonical(data_root);
+    std::vector<std::string> names = params_.sensors;
+    if (names.empty()) names = other_folders(rig.folder, params_.reference);
+    const Clouds references = clouds_of(rig, params_.reference);
+    std::map<std::string, Clouds> clouds;
+    for (const std::string& name : names) clouds[name] = clouds_of(rig, name);
+    std::vector<Scene> scenes;
+    std::vector<Fault> faults;
+    RigFilesAbove rig_files;
+    for (const auto& [frame, file] : references) {
+      Scene scene;
+      scene.name = rig.name = frame;
+      scene.reference = scan_of(params_.reference, file);
+      for (const std::string& name : names) {
+        const auto found = clouds.at(name).find(frame);
+        if (found != clouds.at(name).end()) scene.sensors.push_back(scan_of(name, found->second));
+      }
+      if (scene.sensors.empty()) continue;
+      collect_faults(faults, [&] { rig_files.complete(scene, rig); });
+      collect_faults(faults, [&] { check_files(scene); });
+      scenes.push_back(std::move(scene));
+    }
+    if (!faults.empty()) throw InputError(without_repeats(faults));
+    if (!scenes.empty()) return scenes;
+    throw InputError(rig.folder.string(), "",
+                     "expected clouds of one name in the folder \"" + params_.reference +
+                         "\" and in another one, found none");
+  }
+
+  static Clouds clouds_of(const SceneLocation& rig, const std::string& name) {
+    SceneLocation folder = rig;
+    folder.folder = path_in_data_root(rig.root, (rig.folder / name).string(), rig.links);
+    if (!fs::is_directory(folder.folder)) {
+      throw InputError(folder.folder.string(), "", "expected the folder of a sensor");
+    }
+    return clouds_in(folder);
+  }
+
+  static void check_files(const Scene& scene) {
+    std::vector<Fault> faults;
+    collect_faults(faults, [&] { check_point_cloud_file(scene.reference.file); });
+    for (const SensorScan& scan : scene.sensors) {
+      collect_faults(faults, [&] { check_point_cloud_file(scan.file); });
+    }
+    if (!faults.empty()) throw InputError(std::move(faults));
+  }
+
+  Params params_;
+};
+
+}  // namespace
+
+StageEntry sensor_folders() {
+  return stage_entry<SensorFolders>(
+      "sensor_folders",
+      "Recordings with a folder of clouds for each sensor; clouds of one name are a scene.",
+      "croon", table());
+}
+
+}  // namespace croon::stages::dataset

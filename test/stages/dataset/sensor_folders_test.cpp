@@ -1,0 +1,99 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "framework/base/error.hpp"
+#include "framework/stage/dataset.hpp"
+#include "test/support/stages.hpp"
+#include "test/support/temp_folder.hpp"
+
+namespace croon {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+/// A cloud with one point, (x, 0, 0).
+std::string cloud(int x) {
+  return "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nDATA ascii\n" + std::to_string(x) +
+         " 0 0\n";
+}
+
+/// A folder for each of three sensors.
+class SensorFolders : public ::testing::Test {
+ protected:
+  SensorFolders() {
+    folder.write("data/car/top/000002.pcd", cloud(1));
+    folder.write("data/car/top/000001.pcd", cloud(2));
+    folder.write("data/car/top/000003.pcd", cloud(9));
+    folder.write("data/car/front-left/000001.pcd", cloud(3));
+    folder.write("data/car/front-left/000002.pcd", cloud(4));
+    folder.write("data/car/back/000002.pcd", cloud(5));
+    folder.write("data/car/back/notes.txt", "none");
+    folder.write("data/car/pictures/000001.png", "");
+    folder.write("data/car/truth.json",
+                 R"({"front-left": {"rotation_rpy_deg": [0, 0, 0], "translation_m": [1, 0, 0]}})");
+    folder.write("data/scene_kinds.json", R"({"000002": "urban"})");
+  }
+
+  std::vector<Scene> scenes(const std::string& more = "") const {
+    return test::stage<Dataset>(R"({"type": "sensor_folders", "path": "car", "reference": "top")" +
+                                more + "}")
+        ->scenes(root);
+  }
+  std::string error(const std::string& more = "") const {
+    return test::input_error([&] { scenes(more); });
+  }
+
+  test::TempFolder folder;
+  const fs::path root = folder.path() / "data";
+};
+
+TEST_F(SensorFolders, HoldCloudsOfOneNameForEachScene) {
+  const std::vector<Scene> all = scenes();
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].name, "000001");
+  EXPECT_EQ(all[0].kind, "");
+  ASSERT_EQ(all[0].sensors.size(), 1U);
+  EXPECT_EQ(all[0].sensors[0].sensor, "front-left");
+  ASSERT_TRUE(all[0].sensors[0].truth);
+  EXPECT_EQ(all[0].sensors[0].truth->translation.x(), 1.0);
+  EXPECT_EQ(all[0].sensors[0].load().points, (PointCloud{{3, 0, 0}}));
+  EXPECT_EQ(all[1].kind, "urban");
+  EXPECT_EQ(all[1].reference.sensor, "top");
+  EXPECT_EQ(all[1].reference.load().points, (PointCloud{{1, 0, 0}}));
+  ASSERT_EQ(all[1].sensors.size(), 2U);
+  EXPECT_EQ(all[1].sensors[0].sensor, "back");
+  EXPECT_FALSE(all[1].sensors[0].truth);
+  EXPECT_EQ(all[1].sensors[1].sensor, "front-left");
+}
+
+TEST_F(SensorFolders, AreThoseThatAreNamed) {
+  const std::vector<Scene> some = scenes(R"(, "sensors": ["back"])");
+  ASSERT_EQ(some.size(), 1U);
+  EXPECT_EQ(some[0].sensors.size(), 1U);
+  EXPECT_THAT(error(R"(, "sensors": ["none"])"), HasSubstr("car/none"));
+  EXPECT_THAT(error(R"(, "sensors": ["pictures"])"), HasSubstr("expected clouds of one name"));
+  EXPECT_THAT(error(R"(, "sensors": ["../.."])"), HasSubstr("leads outside the data root"));
+}
+
+TEST_F(SensorFolders, NameWhatIsWrong) {
+  folder.write("data/car/back/000002.ply", "ply\n");
+  EXPECT_THAT(error(), HasSubstr("expected one cloud of this name, found "));
+  fs::remove(root / "car/back/000002.ply");
+  folder.write("data/car/back/000002.pcd", "FIELDS x\n");
+  EXPECT_THAT(error(), HasSubstr("car/back/000002.pcd"));
+}
+
+TEST_F(SensorFolders, FollowLinksIfAsked) {
+  folder.write("disk/000002.pcd", cloud(7));
+  fs::remove_all(root / "car/back");
+  fs::create_directory_symlink(folder.path() / "disk", root / "car/back");
+  EXPECT_THAT(error(), HasSubstr("leads outside the data root"));
+  const std::vector<Scene> all = scenes(R"(, "follow_links": true)");
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[1].sensors[0].load().points, (PointCloud{{7, 0, 0}}));
+  EXPECT_EQ(all[1].sensors[0].file, (fs::canonical(root) / "car/back/000002.pcd").string());
+}
+
+}  // namespace
+}  // namespace croon
