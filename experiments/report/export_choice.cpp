@@ -340,11 +340,12 @@ void refuse_too_wide(const ExportTable& table, const View& view) {
     width += std::max(of_group, kSeparation_mm + group);
     of_group = 0.0;
   }
-  if (width <= page) return;
+  constexpr double kCertain = 0.94;  // Of the page; the estimate may be too low.
+  if (width <= kCertain * page) return;
   throw InputError("", "--columns",
                    "these " + std::to_string(table.chosen.size()) + " columns want about " +
-                       fixed_number(std::ceil(width), 0) + " mm, the page has " +
-                       fixed_number(page, 0) + " mm; choose fewer" +
+                       fixed_number(std::ceil(width), 0) + " mm, the page has room for " +
+                       fixed_number(kCertain * page, 0) + " mm; choose fewer" +
                        (table.is_one_column ? " or --width two_columns" : ""));
 }
 
