@@ -91,9 +91,10 @@ params::Table<StartRule> make_start_table() {
   using P = StartRule;
   params::Table<P> table = {
       params::choice("around", &P::around, kStartCentres, "The pose that starts are drawn around."),
-      params::per_axis("rotation_deg", &P::rotation_deg, {0.0, 180.0},
-                       "Half range of roll, pitch and yaw, or of each; 180 is any rotation, uniform "
-                       "on SO(3)."),
+      params::per_axis(
+          "rotation_deg", &P::rotation_deg, {0.0, 180.0},
+          "Half range of roll, pitch and yaw, or of each; 180 is any rotation, uniform "
+          "on SO(3)."),
       params::per_axis("translation_m", &P::translation_m, {0.0, 1e6},
                        "Half range of x, y and z in reference axes, or of each."),
       trials_row(),

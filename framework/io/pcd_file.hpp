@@ -8,10 +8,10 @@
 
 namespace croon {
 
-/// The points of `bytes`, a PCD file (versions .5 to .7; ascii, binary, binary_compressed; x, y, z of any
-/// type and in any order; other fields are skipped). VIEWPOINT is ignored: the points are in the
-/// sensor's frame as they are stored. `file` is the name in errors. Throws InputError if the body
-/// contradicts the header.
+/// The points of `bytes`, a PCD file (versions .5 to .7; ascii, binary, binary_compressed; x, y, z
+/// of any type and in any order; other fields are skipped). VIEWPOINT is ignored: the points are in
+/// the sensor's frame as they are stored. `file` is the name in errors. Throws InputError if the
+/// body contradicts the header.
 LoadedCloud parse_pcd(std::string_view bytes, const std::string& file);
 
 /// Writes a cloud as binary PCD with the fields `x y z intensity ring timestamp` (F4 F4 F4 F4 U2

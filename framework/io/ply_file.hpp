@@ -10,9 +10,9 @@
 
 namespace croon {
 
-/// The vertices of `bytes`, a PLY file (ascii or binary of either byte order; x, y, z of any type and in any
-/// order; other properties, lists and elements are skipped). `file` is the name in errors. Throws
-/// InputError if the body contradicts the header.
+/// The vertices of `bytes`, a PLY file (ascii or binary of either byte order; x, y, z of any type
+/// and in any order; other properties, lists and elements are skipped). `file` is the name in
+/// errors. Throws InputError if the body contradicts the header.
 LoadedCloud parse_ply(std::string_view bytes, const std::string& file);
 
 /// How write_ply writes numbers.

@@ -14,8 +14,8 @@ namespace croon {
 
 /// One sensor's cloud in one scene, read on demand, with the known poses `T_reference_sensor`.
 struct SensorScan {
-  std::string sensor;                     ///< The sensor's name, "front".
-  std::string file;                       ///< For messages and digests; empty if there is no file.
+  std::string sensor;  ///< The sensor's name, "front".
+  std::string file;    ///< For messages and digests; empty if there is no file.
   /// Throws InputError if the file is damaged, UnavailableFile if it cannot be read now.
   std::function<LoadedCloud()> load;
   std::optional<RigidTransform> truth;    ///< Ground truth.

@@ -76,7 +76,8 @@ TEST(PcdFile, KeepsEveryBitOfAFloat) {
   for (const char* data : {"ascii", "binary", "binary_compressed"}) {
     PcdSpec spec;
     spec.data = data;
-    EXPECT_EQ(read_point_cloud(folder.write("a.pcd", test::pcd_bytes(spec, cloud))).points, cloud) << data;
+    EXPECT_EQ(read_point_cloud(folder.write("a.pcd", test::pcd_bytes(spec, cloud))).points, cloud)
+        << data;
   }
 }
 
@@ -88,7 +89,8 @@ TEST(PcdFile, DropsAndCountsWhatIsNotFinite) {
   for (const char* data : {"ascii", "binary", "binary_compressed"}) {
     PcdSpec spec;
     spec.data = data;
-    const LoadedCloud loaded = read_point_cloud(folder.write("a.pcd", test::pcd_bytes(spec, cloud)));
+    const LoadedCloud loaded =
+        read_point_cloud(folder.write("a.pcd", test::pcd_bytes(spec, cloud)));
     EXPECT_EQ(loaded.points, (PointCloud{{1, 2, 3}, {4, 5, 6}})) << data;
     EXPECT_EQ(loaded.dropped_non_finite, 3u) << data;
   }

@@ -58,7 +58,8 @@ TEST(PlyFile, ReadsWindowsHeaders) {
       "ply\r\nformat ascii 1.0\r\nelement vertex 1\r\nproperty float x\r\n"
       "property float y\r\nproperty float z\r\nend_header\r\n";
   EXPECT_EQ(read_point_cloud(folder.write("a.ply", header + "1 2 nan\r\n")).dropped_non_finite, 1u);
-  EXPECT_EQ(read_point_cloud(folder.write("a.ply", header + "1 2 3\r\n")).points, (PointCloud{{1, 2, 3}}));
+  EXPECT_EQ(read_point_cloud(folder.write("a.ply", header + "1 2 3\r\n")).points,
+            (PointCloud{{1, 2, 3}}));
 }
 
 TEST(PlyFile, ReadsWhatWasWritten) {

@@ -13,7 +13,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::filesystem::path again = path.parent_path() / "again.ply";
   for (const PlyFormat format : {PlyFormat::binary_little_endian, PlyFormat::ascii}) {
     write_ply(again, cloud.points, format);
-    fuzz::require(read_point_cloud(again).points == cloud.points, "a cloud is read back as another");
+    fuzz::require(read_point_cloud(again).points == cloud.points,
+                  "a cloud is read back as another");
   }
   return 0;
 }
