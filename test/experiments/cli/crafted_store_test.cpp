@@ -63,6 +63,13 @@ class CraftedStore : public testing::Test {
     fs::copy_file(path("good/store.sqlite"), store());
   }
 
+  ExportOptions of_bad(const std::string& format) const {
+    ExportOptions options;
+    options.folders = {path("bad")};
+    options.format = format;
+    return options;
+  }
+
   /// Runs export, claims, merge and run. Those that refuse the store must do so as the program
   /// prints it, in one line; any other exception fails the test. Returns which did, "ecmr" for all.
   std::string refusals(const std::string& what) const {
@@ -70,7 +77,7 @@ class CraftedStore : public testing::Test {
     const std::vector<std::function<void()>> commands = {
         [&] {
           std::ostringstream text;
-          export_command({path("bad"), "md", {}}, text);
+          export_command(of_bad("md"), text);
         },
         [&] {
           std::ostringstream text;
@@ -230,7 +237,7 @@ TEST_F(CraftedStore, OfChangedBytesIsReadOrRefused) {
     try {
       read_snapshot(store());
       std::ostringstream text;
-      export_command({path("bad"), "json", {}}, text);
+      export_command(of_bad("json"), text);
     } catch (const InputError& error) {
       ++refused;
       EXPECT_EQ(error.faults().size(), 1U);
