@@ -167,6 +167,8 @@ TableChoice compact(TableChoice choice, const Summary& summary) {
     const auto has_value = [k](const CellRow& row) { return !row[k].is_nothing(); };
     const auto& rows = table.table.rows;
     if (std::any_of(rows.begin(), rows.end(), has_value)) shares.push_back(column.name);
+    // Agreement is shown for rows without truth, which have no success.
+    if (std::all_of(rows.begin(), rows.end(), has_value)) break;
   }
   for (const std::string& share : shares) {
     choice.columns.push_back(share);
@@ -340,7 +342,7 @@ void refuse_too_wide(const ExportTable& table, const View& view) {
     width += std::max(of_group, kSeparation_mm + group);
     of_group = 0.0;
   }
-  constexpr double kCertain = 0.94;  // Of the page; the estimate may be too low.
+  constexpr double kCertain = 0.97;  // Of the page; the estimate may be too low.
   if (width <= kCertain * page) return;
   throw InputError("", "--columns",
                    "these " + std::to_string(table.chosen.size()) + " columns want about " +

@@ -74,23 +74,22 @@ class CraftedStore : public testing::Test {
   /// prints it, in one line; any other exception fails the test. Returns which did, "ecmr" for all.
   std::string refusals(const std::string& what) const {
     fs::remove_all(path("merged"));
-    const std::vector<std::function<void()>> commands = {
-        [&] {
-          std::ostringstream text;
-          export_command(of_bad("md"), text);
-        },
-        [&] {
-          std::ostringstream text;
-          claims_command({path("bad")}, text);
-        },
-        [&] {
-          MergeOptions options;
-          options.folders = {path("bad")};
-          options.out = path("merged/deep");
-          std::ostringstream text;
-          merge_command(options, text);
-        },
-        [&] { run("bad"); }};
+    const std::vector<std::function<void()>> commands = {[&] {
+                                                           std::ostringstream text;
+                                                           export_command(of_bad("md"), text);
+                                                         },
+                                                         [&] {
+                                                           std::ostringstream text;
+                                                           claims_command({path("bad")}, text);
+                                                         },
+                                                         [&] {
+                                                           MergeOptions options;
+                                                           options.folders = {path("bad")};
+                                                           options.out = path("merged/deep");
+                                                           std::ostringstream text;
+                                                           merge_command(options, text);
+                                                         },
+                                                         [&] { run("bad"); }};
     std::string refused;
     for (std::size_t i = 0; i < commands.size(); ++i) {
       try {

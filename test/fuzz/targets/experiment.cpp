@@ -1,6 +1,9 @@
 // Experiment files, as users write them and as the store keeps them. What is read, written and read
 // again is the same experiment.
 #include "experiments/file/experiment.hpp"
+
+#include <nlohmann/json.hpp>
+
 #include "registry/registry.hpp"
 #include "test/fuzz/fuzz_input.hpp"
 
@@ -14,7 +17,11 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (!fuzz::is_taken([&] { experiment = load_experiment(path, registry()); })) return 0;
   const std::string canonical = experiment_json(experiment);
   Experiment again = read_experiment_json(canonical, "store");
+  // The store has these two beside the text.
   again.variants = experiment.variants;
-  fuzz::require(experiment_json(again) == canonical, "an experiment is read back as another");
+  again.starts.trials = experiment.starts.trials;
+  using nlohmann::json;
+  fuzz::require(json::parse(experiment_json(again)) == json::parse(canonical),
+                "an experiment is read back as another");
   return 0;
 }
