@@ -249,6 +249,24 @@ ExportTable export_table(const Summary& summary, const ExportCaption& caption,
   return table;
 }
 
+namespace {
+
+/// Whether readers see a column whose full name has both parts: of a full table all, else those
+/// that were chosen.
+bool shows_column(const ExportTable& table, const std::string& part, const std::string& other) {
+  if (table.chosen.empty()) return true;
+  for (const ChosenColumn& chosen : table.chosen) {
+    for (const std::string& name : chosen.columns) {
+      const bool has_both =
+          name.find(part) != std::string::npos && name.find(other) != std::string::npos;
+      if (has_both) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 std::vector<std::string> caption_sentences(const ExportTable& table) {
   if (!table.parts.empty()) return joined_sentences(table);
   std::vector<std::string> sentences = {table.caption.name + " (croon, commit " +
@@ -266,18 +284,23 @@ std::vector<std::string> caption_sentences(const ExportTable& table) {
                         "what the trials of the scene agree on; deviations of these trials from "
                         "what all scenes agree on.");
   }
-  sentences.push_back("Interval: 95 %, over scenes (Wilson); none for fewer than " +
-                      std::to_string(kLeastScenes) + " scenes.");
+  if (shows_column(table, "_percent", "_low")) {
+    sentences.push_back("Interval: 95 %, over scenes (Wilson); none for fewer than " +
+                        std::to_string(kLeastScenes) + " scenes.");
+  }
   if (table.variants.size() > 1) {
     sentences.emplace_back(
         "Bold: the best of the sensor, for errors among those that no other beats in success.");
   }
   if (!table.base.empty()) {
-    sentences.push_back("*: differs from " + table.base +
-                        " over the same trials, those without a usable result as infinite errors "
-                        "(McNemar, Wilcoxon; p < 0.05 after Holm), + for the better, - for the "
-                        "worse; **: also with scenes as units. Paired: the 95 % interval of the "
-                        "median difference from it, over scenes.");
+    const bool has_paired = shows_column(table, "paired_low", "");
+    sentences.push_back(
+        "*: differs from " + table.base +
+        " over the same trials, those without a usable result as infinite errors (McNemar, "
+        "Wilcoxon; p < 0.05 after Holm), + for the better, - for the worse; **: also with scenes "
+        "as units." +
+        (has_paired ? " Paired: the 95 % interval of the median difference from it, over scenes."
+                    : ""));
   }
   return sentences;
 }

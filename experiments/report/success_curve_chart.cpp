@@ -50,11 +50,11 @@ Layout layout_of(const Sheet& sheet, const std::vector<std::string>& labels) {
   layout.columns = sheet.width <= 0.0 || sheet.width > 1.5 * kOneColumn.width ? 2 : 1;
   layout.width = sheet.width > 0.0 ? sheet.width : 900.0;
   layout.left = 4.0 * text;
-  layout.top = sheet.has_title ? 3.6 * text : 0.9 * text;
+  layout.top = sheet.has_title ? 3.6 * text : 1.6 * text;
   layout.panel_width = layout.width / static_cast<double>(layout.columns);
   layout.plot_width = layout.panel_width - layout.left - 1.5 * text;
   layout.plot_height = 0.62 * layout.plot_width;
-  layout.panel_height = layout.plot_height + 4.0 * text;
+  layout.panel_height = layout.plot_height + 5.2 * text;
   double widest = 0.0;
   for (const std::string& label : labels) widest = std::max(widest, text_width(label, text));
   layout.legend_width = legend_line(sheet) + widest + 2.0 * text;
@@ -90,7 +90,7 @@ Plot draw_panel(Drawing& drawing, const Layout& layout, std::size_t index, const
   }
   const double bound_x = plot.x(std::log10(thresholds[thresholds.size() / 2]));
   drawing.line(bound_x, plot.top, bound_x, plot.top + plot.height, "zero");
-  drawing.text(bound_x - 0.4 * text, plot.top + 1.2 * text, "bound", Anchor::end, "small");
+  drawing.text(bound_x, plot.top - 0.4 * text, "bound", Anchor::middle, "small");
   drawing.text(plot.left + plot.width / 2.0, plot.top + plot.height + 2.9 * text, panel.title,
                Anchor::middle, "small");
   if (!drawing.sheet().has_title && index % layout.columns == 0) {

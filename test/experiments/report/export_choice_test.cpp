@@ -141,6 +141,19 @@ TEST(Compact, IsARowPerVariant) {
             std::string::npos);
 }
 
+TEST(Compact, CaptionsExplainTheColumnsThatAreThere) {
+  const Summary summary = summarise(test::few_records(), kBounds, {});
+  TableChoice choice;
+  choice.is_one_column = true;
+  const std::string compact_table =
+      export_latex(export_table(summary, kCaption, compact(choice, summary)));
+  const std::string full_table = export_latex(export_table(summary, kCaption, {}));
+  for (const char* explanation : {"Interval: ", "Paired: "}) {
+    EXPECT_EQ(compact_table.find(explanation), std::string::npos);
+    EXPECT_NE(full_table.find(explanation), std::string::npos);
+  }
+}
+
 TEST(Joined, GroupsTheRowsByExperiment) {
   TableChoice choice;
   choice.sensors = {"all"};
