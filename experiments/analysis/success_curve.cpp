@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "experiments/analysis/summary.hpp"
 
@@ -29,42 +31,69 @@ std::vector<SuccessBounds> thresholds_of(const SuccessBounds& bounds) {
   return thresholds;
 }
 
-bool is_within(const TrialRecord& record, const PoseBounds& bounds, CurveOf of) {
-  if (usable_pose(record) == nullptr || !record.error) return false;
-  const bool is_turned_little = record.error->rotation_rad <= bounds.rotation_rad;
-  const bool is_near = record.error->translation_m <= bounds.translation_m;
-  return (of == CurveOf::translation || is_turned_little) && (of == CurveOf::rotation || is_near);
+/// The thresholds of rotation, rad, and of translation, m, both ascending.
+struct Thresholds {
+  std::vector<double> rotation_rad, translation_m;
+
+  explicit Thresholds(const std::vector<SuccessBounds>& all) {
+    for (const SuccessBounds& one : all) {
+      const PoseBounds bounds = pose_bounds(one);
+      rotation_rad.push_back(bounds.rotation_rad);
+      translation_m.push_back(bounds.translation_m);
+    }
+  }
+  std::size_t size() const { return rotation_rad.size(); }
+};
+
+/// The index of the first threshold that `value` is within; their number if there is none.
+std::size_t first_within(double value, const std::vector<double>& thresholds) {
+  return static_cast<std::size_t>(std::lower_bound(thresholds.begin(), thresholds.end(), value) -
+                                  thresholds.begin());
 }
 
-using Counts = std::vector<SceneCounts>;  // By threshold.
+/// For each curve the number of records within each threshold.
+using CountsWithin = std::array<std::vector<int>, kCurves.size()>;
 
-/// Adds the trials of a scene to the counts of each threshold.
-void add_scene(const std::string& scene, const SceneRecords& records, CurveOf of,
-               const std::vector<SuccessBounds>& thresholds, Counts& counts) {
-  counts.resize(thresholds.size());
-  for (std::size_t i = 0; i < thresholds.size(); ++i) {
-    const PoseBounds bounds = pose_bounds(thresholds[i]);
-    int within = 0;
-    for (const TrialRecord* record : records) within += is_within(*record, bounds, of);
-    counts[i].add(scene, within, static_cast<int>(records.size()));
+CountsWithin counts_within(const SceneRecords& records, const Thresholds& thresholds) {
+  CountsWithin counts;
+  // One more, for the records beyond all thresholds.
+  for (std::vector<int>& count : counts) count.resize(thresholds.size() + 1);
+  for (const TrialRecord* record : records) {
+    if (usable_pose(*record) == nullptr || !record->error) continue;
+    const std::size_t r = first_within(record->error->rotation_rad, thresholds.rotation_rad);
+    const std::size_t t = first_within(record->error->translation_m, thresholds.translation_m);
+    ++counts[static_cast<std::size_t>(CurveOf::rotation)][r];
+    ++counts[static_cast<std::size_t>(CurveOf::translation)][t];
+    ++counts[static_cast<std::size_t>(CurveOf::both)][std::max(r, t)];
   }
+  for (std::vector<int>& count : counts) {
+    std::partial_sum(count.begin(), count.end(), count.begin());
+  }
+  return counts;
 }
 
 /// The curves of `rows`, which are of one variant, as one.
 std::vector<CurveRow> curves_of(const Rows& rows, const std::string& sensor,
-                                const RecordGroups& groups,
-                                const std::vector<SuccessBounds>& thresholds) {
-  std::vector<CurveRow> curves;
-  for (const CurveOf of : kCurves) {
-    Counts counts;
-    for (const SummaryRow* row : rows) {
-      for (const SceneSummary& scene : row->scenes) {
-        add_scene(scene.scene, groups.of(row->variant, row->sensor, scene.scene), of, thresholds,
-                  counts);
+                                const RecordGroups& groups, const Thresholds& thresholds) {
+  std::array<std::vector<SceneCounts>, kCurves.size()> counts;
+  for (std::vector<SceneCounts>& count : counts) count.resize(thresholds.size());
+  for (const SummaryRow* row : rows) {
+    for (const SceneSummary& scene : row->scenes) {
+      const SceneRecords& records = groups.of(row->variant, row->sensor, scene.scene);
+      const CountsWithin within = counts_within(records, thresholds);
+      for (std::size_t of = 0; of < kCurves.size(); ++of) {
+        for (std::size_t i = 0; i < thresholds.size(); ++i) {
+          counts[of][i].add(scene.scene, within[of][i], static_cast<int>(records.size()));
+        }
       }
     }
+  }
+  std::vector<CurveRow> curves;
+  for (const CurveOf of : kCurves) {
     CurveRow& curve = curves.emplace_back(CurveRow{rows.front()->variant, sensor, of, {}});
-    for (const SceneCounts& count : counts) curve.shares.push_back(count.share());
+    for (const SceneCounts& count : counts[static_cast<std::size_t>(of)]) {
+      curve.shares.push_back(count.share());
+    }
   }
   return curves;
 }
@@ -78,10 +107,11 @@ const char* name_of(CurveOf of) {
 SuccessCurve success_curve(const Summary& summary, const RecordGroups& groups) {
   if (summary.bounds.rotation_deg == 0.0 || summary.bounds.translation_m == 0.0) return {};
   SuccessCurve curve{thresholds_of(summary.bounds), {}};
+  const Thresholds thresholds(curve.thresholds);
   for (const std::string& variant : variants_of(summary)) {
     Rows with_truth;
     const auto add = [&](const Rows& rows, const std::string& sensor) {
-      const auto curves = curves_of(rows, sensor, groups, curve.thresholds);
+      const auto curves = curves_of(rows, sensor, groups, thresholds);
       curve.rows.insert(curve.rows.end(), curves.begin(), curves.end());
     };
     for (const SummaryRow* row : rows_of(summary, variant)) {

@@ -127,8 +127,9 @@ RigidTransform mean_of_ordered(const std::vector<RigidTransform>& poses) {
 }  // namespace
 
 bool agree(const RigidTransform& a, const RigidTransform& b, const PoseBounds& bounds) {
-  const PoseError error = pose_error(a, b);
-  return error.rotation_rad <= bounds.rotation_rad && error.translation_m <= bounds.translation_m;
+  // As pose_error has them, without its angles of Euler: this is called for every trial.
+  return (a.translation - b.translation).norm() <= bounds.translation_m &&
+         rotation_angle(a.rotation * b.rotation.transpose()) <= bounds.rotation_rad;
 }
 
 Eigen::Matrix3d mean_rotation(const std::vector<RigidTransform>& poses) {

@@ -53,8 +53,9 @@ bool is_taken(const std::function<void()>& read) {
     require(!error.faults().empty(), "the error has no fault");
     for (const Fault& fault : error.faults()) {
       require(!fault.file.empty() && !fault.message.empty(), "the fault has no file or no message");
-      require(fault.message.find('\n') == std::string::npos, "the fault is more than one line");
-      require(fault.message.size() < 4096, "the fault is longer than a line that one reads");
+      // As the program prints it.
+      require(fault.line().find('\n') == std::string::npos, "the fault is more than one line");
+      require(fault.line().size() < 8192, "the fault is longer than a line that one reads");
     }
     return false;
   }
