@@ -52,7 +52,7 @@ fuzz: packages
 	$(call PRESET_BUILD,fuzz)
 	test/fuzz/run.sh build/fuzz/bin $(FUZZ_SECONDS)
 
-# What holds without sanitizers only: limits of memory that these exceed by themselves.
+# Without the scripts of experiments/cluster, which test no code of their own.
 sanitize: packages
 	$(call PRESET_BUILD,sanitized)
 	ctest --test-dir build/sanitized --output-on-failure --parallel 2 -E '^cluster/'

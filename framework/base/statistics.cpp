@@ -15,13 +15,18 @@ void require_values(const std::vector<double>& values) {
   if (values.empty()) throw std::logic_error("a statistic of no values");
 }
 
-/// `percentile` of values that are in order.
+/// The rank of a percentile among `count` values, from zero; between two values if not whole.
+double percentile_rank(std::size_t count, double ratio) {
+  return ratio * static_cast<double>(count - 1);
+}
+
+/// `percentile` of values that are in order. Reads only the two values beside the rank.
 double percentile_of_sorted(const std::vector<double>& sorted, double ratio) {
-  const double place = ratio * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
+  const double rank = percentile_rank(sorted.size(), ratio);
+  const auto below = static_cast<std::size_t>(rank);
   const double low = sorted[below];
   const double high = sorted[std::min(below + 1, sorted.size() - 1)];
-  return low + (place - static_cast<double>(below)) * (high - low);
+  return low + (rank - static_cast<double>(below)) * (high - low);
 }
 
 }  // namespace
@@ -61,13 +66,13 @@ double root_mean_square(const std::vector<double>& values) {
 double percentile(std::vector<double> values, double ratio) {
   require_values(values);
   if (!(ratio >= 0.0 && ratio <= 1.0)) throw std::logic_error("a percentile's ratio is in [0, 1]");
-  // The two values that percentile_of_sorted reads, in linear time.
-  const double place = ratio * static_cast<double>(values.size() - 1);
-  const auto below = values.begin() + static_cast<std::ptrdiff_t>(place);
+  // Only the two values that are read come to their places, which takes linear time.
+  const auto below =
+      values.begin() + static_cast<std::ptrdiff_t>(percentile_rank(values.size(), ratio));
   std::nth_element(values.begin(), below, values.end());
-  const double high =
-      below + 1 == values.end() ? *below : *std::min_element(below + 1, values.end());
-  return *below + (place - std::floor(place)) * (high - *below);
+  const auto above = below + 1;
+  if (above != values.end()) std::iter_swap(above, std::min_element(above, values.end()));
+  return percentile_of_sorted(values, ratio);
 }
 
 double median(std::vector<double> values) { return percentile(std::move(values), 0.5); }

@@ -1,6 +1,7 @@
 #include "framework/recording/recording.hpp"
 
 #include "framework/base/error.hpp"
+#include "framework/io/point_cloud_file.hpp"
 
 namespace croon {
 namespace {
@@ -57,6 +58,14 @@ void RigFilesAbove::complete(Scene& scene, const SceneLocation& location) {
     scan.truth = pose_of(truth, scan.sensor);
     scan.nominal = pose_of(nominal, scan.sensor);
   }
+}
+
+SensorScan scan_in_file(const std::string& sensor, const fs::path& file) {
+  SensorScan scan;
+  scan.sensor = sensor;
+  scan.file = file.string();
+  scan.load = [file] { return read_point_cloud(file); };
+  return scan;
 }
 
 std::vector<Scene> with_file_errors(const std::function<std::vector<Scene>()>& read) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -28,14 +29,16 @@ std::vector<std::filesystem::path> folders_up(const SceneLocation& location);
 class RigFilesAbove {
  public:
   /// Sets the kind of `scene` (`scene_kinds.json`) and the true and the nominal poses of its
-  /// sensors
-  /// (`truth.json`, `nominal.json`). Throws InputError with the faults of all files.
+  /// sensors (`truth.json`, `nominal.json`). Throws InputError with the faults of all files.
   void complete(Scene& scene, const SceneLocation& location);
 
  private:
   std::map<std::filesystem::path, SceneKinds> kinds_;
   std::map<std::filesystem::path, RigPoses> poses_;
 };
+
+/// The scan of `sensor` in the file of a cloud, without poses.
+SensorScan scan_in_file(const std::string& sensor, const std::filesystem::path& file);
 
 /// Returns what `read` returns; a std::filesystem::filesystem_error becomes an InputError.
 std::vector<Scene> with_file_errors(const std::function<std::vector<Scene>()>& read);

@@ -87,8 +87,7 @@ std::map<int, SensorScan> listed_scans(const SceneLocation& location) {
       if (!names.insert(name).second) {
         throw InputError(list.string(), cloud.place, "a second sensor is called \"" + name + "\"");
       }
-      scans[cloud.device_id] =
-          SensorScan{name, file.string(), [file] { return read_point_cloud(file); }, {}, {}, {}};
+      scans[cloud.device_id] = scan_in_file(name, file);
     });
   }
   if (!faults.empty()) throw InputError(faults);

@@ -66,14 +66,6 @@ std::vector<std::string> other_folders(const fs::path& rig, const std::string& r
   return names;
 }
 
-SensorScan scan_of(const std::string& sensor, const fs::path& file) {
-  SensorScan scan;
-  scan.sensor = sensor;
-  scan.file = file.string();
-  scan.load = [file] { return read_point_cloud(file); };
-  return scan;
-}
-
 /// A recording with a folder of clouds for each sensor. A scene is the clouds of one name.
 class SensorFolders final : public Dataset {
  public:
@@ -100,10 +92,11 @@ class SensorFolders final : public Dataset {
     for (const auto& [frame, file] : references) {
       Scene scene;
       scene.name = rig.name = frame;
-      scene.reference = scan_of(params_.reference, file);
+      scene.reference = scan_in_file(params_.reference, file);
       for (const std::string& name : names) {
         const auto found = clouds.at(name).find(frame);
-        if (found != clouds.at(name).end()) scene.sensors.push_back(scan_of(name, found->second));
+        if (found != clouds.at(name).end())
+          scene.sensors.push_back(scan_in_file(name, found->second));
       }
       if (scene.sensors.empty()) continue;
       collect_faults(faults, [&] { rig_files.complete(scene, rig); });

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "framework/base/error.hpp"
+#include "framework/io/point_cloud_file.hpp"
 
 namespace croon::fuzz {
 
@@ -59,6 +60,16 @@ bool is_taken(const std::function<void()>& read) {
     }
     return false;
   }
+}
+
+std::optional<LoadedCloud> read_cloud_input(const std::string& name, const std::uint8_t* data,
+                                            std::size_t size) {
+  const fs::path path = write_input(name, data, size);
+  const bool header_is_taken = is_taken([&] { check_point_cloud_file(path); });
+  LoadedCloud cloud;
+  if (!is_taken([&] { cloud = read_point_cloud(path); })) return std::nullopt;
+  require(header_is_taken, "the check of the header refuses what the reader takes");
+  return cloud;
 }
 
 void require(bool condition, const char* message) {

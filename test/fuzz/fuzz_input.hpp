@@ -3,7 +3,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
+
+#include "framework/geometry/point_cloud.hpp"
 
 /// libFuzzer's entry point; each target of this folder defines it.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
@@ -19,6 +22,12 @@ std::filesystem::path write_input(const std::string& name, const std::uint8_t* d
 /// InputError is the right answer to a damaged file. Ends the process if that error does not have
 /// at least one fault, each a file and one line; any other exception ends the process too.
 bool is_taken(const std::function<void()>& read);
+
+/// The cloud in an input that is written to the file `name`, whose suffix says the format;
+/// std::nullopt if it is damaged. Ends the process if the check of the header refuses a cloud that
+/// the reader takes.
+std::optional<LoadedCloud> read_cloud_input(const std::string& name, const std::uint8_t* data,
+                                            std::size_t size);
 
 /// Ends the process with `message` unless `condition` holds.
 void require(bool condition, const char* message);
