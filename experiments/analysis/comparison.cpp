@@ -148,7 +148,7 @@ void correct_by_sensor(std::vector<Comparison>& comparisons) {
 }
 
 /// The share that counts, of all `rows`.
-double success_ratio(const Rows& rows) { return main_share(pooled(scenes_of(rows))).ratio; }
+double success_ratio(const Rows& rows) { return main_share(pooled_counts(scenes_of(rows))).ratio; }
 
 bool is_below(const Rows& best, const Rows& rows, const RecordGroups& groups,
               const PoseBounds& bounds) {

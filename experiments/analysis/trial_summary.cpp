@@ -121,6 +121,16 @@ void set_across_scenes_std(SummaryRow& row) {
   for (std::size_t k = 0; k < kDofs; ++k) spread[k] = standard_deviation(values_of(centres, k));
 }
 
+/// The deviations of all scenes, one scene after the other.
+std::vector<Measures> joined(const std::vector<const SceneSummary*>& scenes,
+                             std::vector<Measures> SceneSummary::*deviations) {
+  std::vector<Measures> all;
+  for (const SceneSummary* scene : scenes) {
+    all.insert(all.end(), (scene->*deviations).begin(), (scene->*deviations).end());
+  }
+  return all;
+}
+
 }  // namespace
 
 void SceneCounts::add(const std::string& scene, int count, int trials) {
@@ -179,25 +189,38 @@ PoseBounds pose_bounds(const SuccessBounds& bounds) {
   return {rad_from_deg(bounds.rotation_deg), bounds.translation_m};
 }
 
-TrialSummary pooled(const std::vector<const SceneSummary*>& scenes) {
+TrialSummary pooled_counts(const std::vector<const SceneSummary*>& scenes) {
   TrialSummary sum;
   SceneCounts successes, agreements;
-  std::vector<Measures> deviations, usable;
   for (const SceneSummary* scene : scenes) {
     sum.deviations_from = std::min(sum.deviations_from, scene->deviations_from);
     sum.outcomes.trials += scene->outcomes.trials;
     for (const auto count : kByStatus) sum.outcomes.*count += scene->outcomes.*count;
     successes.add(scene->scene, scene->outcomes.success, scene->outcomes.trials);
     agreements.add(scene->scene, scene->agreeing.count, scene->outcomes.trials);
-    deviations.insert(deviations.end(), scene->deviations.begin(), scene->deviations.end());
-    usable.insert(usable.end(), scene->usable_deviations.begin(), scene->usable_deviations.end());
+    sum.counted += static_cast<int>(scene->deviations.size());
+    sum.usable += static_cast<int>(scene->usable_deviations.size());
   }
   sum.success = successes.share();
   sum.agreement = agreements.share();
-  sum.counted = static_cast<int>(deviations.size());
-  if (sum.counted > 0) sum.statistics = statistics_of(deviations);
-  sum.usable = static_cast<int>(usable.size());
-  if (sum.usable > 0) sum.usable_statistics = statistics_of(usable);
+  return sum;
+}
+
+TrialSummary pooled(const std::vector<const SceneSummary*>& scenes) {
+  TrialSummary sum = pooled_counts(scenes);
+  if (scenes.size() == 1 && scenes.front()->usable_statistics) {
+    // The statistics of one scene are those that it has.
+    sum.statistics = scenes.front()->statistics;
+    sum.usable_statistics = scenes.front()->usable_statistics;
+    return sum;
+  }
+  if (sum.counted > 0) sum.statistics = statistics_of(joined(scenes, &SceneSummary::deviations));
+  if (sum.usable > sum.counted) {
+    sum.usable_statistics = statistics_of(joined(scenes, &SceneSummary::usable_deviations));
+  } else {
+    // All usable trials count.
+    sum.usable_statistics = sum.statistics;
+  }
   return sum;
 }
 
@@ -246,7 +269,7 @@ SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds
     row.agreeing = agreeing_with(*row.consensus, all, bounds);
   }
   // Truth if one trial of any scene has it.
-  const DeviationsFrom from = pooled(scenes_of({&row})).deviations_from;
+  const DeviationsFrom from = pooled_counts(scenes_of({&row})).deviations_from;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     SceneSummary& scene = row.scenes[i];
     scene.deviations_from = from;

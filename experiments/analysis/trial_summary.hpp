@@ -149,7 +149,10 @@ inline bool lacks_truth(const TrialSummary& summary) {
 /// The success bounds in radians and metres.
 PoseBounds pose_bounds(const SuccessBounds& bounds);
 
-/// The trials of several scenes (of one sensor or more) as one set.
+/// The trials of several scenes (of one sensor or more) as one set, without statistics.
+TrialSummary pooled_counts(const std::vector<const SceneSummary*>& scenes);
+
+/// The same with statistics.
 TrialSummary pooled(const std::vector<const SceneSummary*>& scenes);
 
 /// The scenes of all `rows`.

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kRemedy = "results of one experiment alone can be merged";
+constexpr const char* kMergeRemedy = "results of one experiment alone can be merged";
 
 bool is_same_folder(const fs::path& a, const fs::path& b) {
   std::error_code error;
@@ -68,8 +68,8 @@ StoreHeader header_of_all(const std::vector<fs::path>& folders, bool same_build)
     collect_faults(faults, [&] {
       const StoreHeader other = header_in(folder);
       if (header.provenance.empty()) header = other;
-      if (same_build) refuse_other_builds(store_path(folder).string(), header, other, kRemedy);
-      refuse_differences(store_path(folder).string(), header, other, kRemedy);
+      if (same_build) refuse_other_builds(store_path(folder).string(), header, other, kMergeRemedy);
+      refuse_differences(store_path(folder).string(), header, other, kMergeRemedy);
       const bool is_later = planned_trials(other.manifest) > planned_trials(header.manifest);
       header = is_later ? united(other, header) : united(header, other);
     });
@@ -82,7 +82,7 @@ StoreHeader header_of_all(const std::vector<fs::path>& folders, bool same_build)
 /// kept and in no report.
 StoreHeader with_names_in(const fs::path& out, const StoreHeader& header) {
   StoreHeader old = stored_header(store_path(out));
-  refuse_differences(store_path(out).string(), old, header, kRemedy);
+  refuse_differences(store_path(out).string(), old, header, kMergeRemedy);
   for (auto names : {&StoreHeader::variants, &StoreHeader::scenes, &StoreHeader::sensors}) {
     for (StoredName& name : old.*names) name.is_current = false;
   }

@@ -24,8 +24,6 @@ StoreHeader header_of(CheckedRun& run) {
                    manifest_json(run.experiment, run.scenes, inputs, provenance));
 }
 
-constexpr const char* kRemedy = "--fresh deletes them and starts over, --out writes elsewhere";
-
 /// What a run has before it.
 struct Work {
   StoreHeader stored;    ///< Of the store as it is; without provenance if there is none.
@@ -37,9 +35,9 @@ struct Work {
 Work work_of(const CheckedRun& run, StoreHeader header, const RunOptions& options) {
   const std::filesystem::path path = store_path(run.out);
   StoreHeader stored = options.fresh ? StoreHeader() : stored_header(path);
-  if (options.same_build) refuse_other_builds(path.string(), stored, header, kRemedy);
+  if (options.same_build) refuse_other_builds(path.string(), stored, header, kFreshRemedy);
   const std::vector<TrialIndex> done =
-      options.fresh ? std::vector<TrialIndex>() : stored_trials(path, header);
+      options.fresh ? std::vector<TrialIndex>() : stored_trials(path, stored, header);
   Work work{{}, {}, plan_trials(run.experiment, run.scenes, run.selection, done)};
   // A build that adds no trial has no part in the results.
   if (work.plan.trials == 0 && !stored.builds.empty()) header.builds.clear();

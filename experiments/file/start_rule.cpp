@@ -27,11 +27,11 @@ Parameter<Sweep> swept_range(const std::string& key, SweepOf of, double largest,
     sweep.first = ends[0];
     sweep.last = ends[1];
   };
-  const auto json = [of](const Sweep& sweep) {
+  const auto to_json = [of](const Sweep& sweep) {
     return sweep.of == of ? params::value_json(std::array<double, 2>{sweep.first, sweep.last})
                           : std::string();
   };
-  return {doc, read, json, false};
+  return {doc, read, to_json, false};
 }
 
 const params::Table<Sweep>& sweep_table() {

@@ -9,7 +9,7 @@ namespace croon::experiments {
 namespace {
 
 /// Where things are, in units of the sheet.
-struct Layout {
+struct BasinLayout {
   Plot plot;
   double width, height;
   std::size_t legend_columns;  ///< Entries beside each other below the plot; 0: right of it.
@@ -21,9 +21,10 @@ constexpr std::size_t kLabelColumns = 30;
 
 double legend_height(const Sheet& sheet) { return sheet.is_paper ? 1.25 * sheet.small() : 20.0; }
 
-Layout layout_of(const Sheet& sheet, const Axis& sizes, const std::vector<std::string>& labels) {
+BasinLayout layout_of(const Sheet& sheet, const Axis& sizes,
+                      const std::vector<std::string>& labels) {
   const double text = sheet.small();
-  Layout layout{};
+  BasinLayout layout{};
   Plot& plot = layout.plot;
   plot.x_range = {sizes.low, sizes.high};
   plot.y_range = {0.0, 1.0};
@@ -101,7 +102,7 @@ void draw_curve(Drawing& drawing, const Plot& plot, const Sweep& sweep, const Ba
   }
 }
 
-void draw_legend(Drawing& drawing, const Layout& layout, std::size_t index,
+void draw_legend(Drawing& drawing, const BasinLayout& layout, std::size_t index,
                  const std::string& label) {
   const Plot& plot = layout.plot;
   const double line = legend_height(drawing.sheet());
@@ -110,8 +111,7 @@ void draw_legend(Drawing& drawing, const Layout& layout, std::size_t index,
                       plot.top + 8.0 + line * static_cast<double>(index), index, label);
     return;
   }
-  const auto row = static_cast<double>(index / layout.legend_columns);
-  const auto column = static_cast<double>(index % layout.legend_columns);
+  const auto [row, column] = place_in_grid(index, layout.legend_columns);
   draw_legend_entry(drawing, plot.left + layout.legend_width * column,
                     plot.top + plot.height + 4.0 * drawing.sheet().small() + line * row, index,
                     label);
@@ -135,7 +135,7 @@ Drawing basin_chart(const Basin& basin, const FigureOptions& options) {
   const Sheet& sheet = options.sheet;
   const Axis sizes =
       round_axis(basin.sweep.first, basin.sweep.last, sheet.width == kOneColumn.width ? 6 : 9);
-  const Layout layout = layout_of(sheet, sizes, labels);
+  const BasinLayout layout = layout_of(sheet, sizes, labels);
   Drawing drawing(layout.width, layout.height, sheet);
   drawing.describe(std::string(kTitle) + ". " + explanation + ".");
   drawing.rectangle(0.0, 0.0, layout.width, layout.height, "page");

@@ -36,7 +36,7 @@ struct Panel {
 };
 
 /// A figure of panels that are alike.
-struct Layout {
+struct BoxLayout {
   Sheet sheet;
   Lengths lengths;
   std::vector<std::string> title;
@@ -70,12 +70,12 @@ struct Layout {
 };
 
 /// How wide a group is: its boxes, or its name if that is longer.
-double group_width(const BoxGroup& group, const Layout& layout, double pitch) {
+double group_width(const BoxGroup& group, const BoxLayout& layout, double pitch) {
   return std::max(pitch * static_cast<double>(group.boxes.size()),
                   text_width(group.sensor, layout.sheet.text()));
 }
 
-double groups_width(const std::vector<BoxGroup>& groups, const Layout& layout, double pitch) {
+double groups_width(const std::vector<BoxGroup>& groups, const BoxLayout& layout, double pitch) {
   double width = 0.0;
   for (const BoxGroup& group : groups) {
     width += group_width(group, layout, pitch) + layout.lengths.group_gap;
@@ -90,7 +90,7 @@ std::size_t number_of_boxes(const std::vector<BoxGroup>& groups) {
 }
 
 /// Panels as wide as their boxes need. Many boxes make wide panels: two rows, three or six.
-void lay_out_for_screen(Layout& layout, const std::vector<BoxGroup>& groups) {
+void lay_out_for_screen(BoxLayout& layout, const std::vector<BoxGroup>& groups) {
   const std::size_t boxes = number_of_boxes(groups);
   layout.columns = boxes <= 20 ? 3 : boxes <= 48 ? 2 : 1;
   layout.pitch = layout.lengths.widest_pitch;
@@ -99,7 +99,7 @@ void lay_out_for_screen(Layout& layout, const std::vector<BoxGroup>& groups) {
 }
 
 /// As many panels beside each other as have room for their boxes.
-void lay_out_for_paper(Layout& layout, const std::vector<BoxGroup>& groups) {
+void lay_out_for_paper(BoxLayout& layout, const std::vector<BoxGroup>& groups) {
   const double page = layout.sheet.width - 2.0 * layout.lengths.margin;
   for (const std::size_t columns : {3U, 2U, 1U}) {
     layout.columns = columns;
@@ -188,7 +188,7 @@ std::size_t count_below(const std::vector<double>& values, double limit) {
 }
 
 /// Makes room for the numbers of values beyond the axes.
-void make_room_beyond(Layout& layout, const std::vector<Panel>& panels,
+void make_room_beyond(BoxLayout& layout, const std::vector<Panel>& panels,
                       const std::vector<BoxGroup>& groups) {
   std::size_t above = 0;
   std::size_t below = 0;
@@ -226,9 +226,9 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
   return lines;
 }
 
-Layout layout_of(const std::vector<BoxGroup>& groups, const std::vector<Panel>& panels,
-                 const Sheet& sheet) {
-  Layout layout;
+BoxLayout layout_of(const std::vector<BoxGroup>& groups, const std::vector<Panel>& panels,
+                    const Sheet& sheet) {
+  BoxLayout layout;
   layout.sheet = sheet;
   layout.lengths = sheet.is_paper ? kPaperLengths : kScreenLengths;
   std::size_t label_columns = 0;
@@ -246,7 +246,7 @@ Layout layout_of(const std::vector<BoxGroup>& groups, const std::vector<Panel>& 
 }
 
 /// Draws the frame of `panel`, the `index`-th of six, and returns its plot.
-Plot draw_frame(Drawing& drawing, const Layout& layout, std::size_t index, const Panel& panel) {
+Plot draw_frame(Drawing& drawing, const BoxLayout& layout, std::size_t index, const Panel& panel) {
   // With two columns, rotations stand left and translations right.
   const std::size_t rows = layout.rows();
   const std::size_t row = layout.columns == 2 ? index % rows : index / layout.columns;
@@ -322,7 +322,7 @@ void draw_box(Drawing& drawing, const Plot& plot, double x, double pitch, const 
               false, series.colour);
 }
 
-void draw_panel(Drawing& drawing, const Layout& layout, const std::vector<BoxGroup>& groups,
+void draw_panel(Drawing& drawing, const BoxLayout& layout, const std::vector<BoxGroup>& groups,
                 std::size_t index, const Panel& panel) {
   const Plot plot = draw_frame(drawing, layout, index, panel);
   const double used = groups_width(groups, layout, layout.pitch) -
@@ -362,7 +362,7 @@ void draw_panel(Drawing& drawing, const Layout& layout, const std::vector<BoxGro
 std::string title_of(const Summary& summary) {
   std::vector<const SummaryRow*> rows;
   for (const SummaryRow& row : summary.rows) rows.push_back(&row);
-  const TrialSummary all = pooled(scenes_of(rows));
+  const TrialSummary all = pooled_counts(scenes_of(rows));
   const std::string which =
       std::to_string(all.counted) + " of " + std::to_string(all.outcomes.trials) + " trials";
   return all.deviations_from == DeviationsFrom::truth
@@ -388,7 +388,7 @@ Drawing box_plots(const Summary& summary, const FigureOptions& options) {
   std::vector<BoxGroup> groups = box_groups(summary, of);
   shorten_labels(groups, (options.sheet.is_paper ? kPaperLengths : kScreenLengths).label_columns);
   const std::vector<Panel> panels = panels_of(groups, options.length_unit);
-  Layout layout = layout_of(groups, panels, options.sheet);
+  BoxLayout layout = layout_of(groups, panels, options.sheet);
   std::string explanation = explanation_of(of);
   if (layout.above + layout.below > 0.0) {
     explanation += "; arrowheads have the number of values beyond the axis";

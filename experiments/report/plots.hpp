@@ -10,6 +10,17 @@
 
 namespace croon::experiments {
 
+/// The place of an entry in a grid that is filled row by row, both counted from zero.
+struct GridPlace {
+  double row;
+  double column;
+};
+
+inline GridPlace place_in_grid(std::size_t index, std::size_t columns) {
+  const std::size_t row = index / columns;
+  return {static_cast<double>(row), static_cast<double>(index - row * columns)};
+}
+
 /// How a figure is drawn.
 struct FigureOptions {
   Sheet sheet = {};

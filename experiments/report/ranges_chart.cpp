@@ -13,7 +13,7 @@ namespace {
 constexpr double kMost = 0.25;  // Of the points in one bin.
 
 /// Where panels are, in units of the sheet.
-struct Layout {
+struct RangesLayout {
   std::size_t columns;
   double left, top, gap, plot_width, plot_height, panel_width, width, height;
 };
@@ -39,8 +39,8 @@ struct Histograms {
   }
 };
 
-Layout layout_of(const Sheet& sheet, std::size_t sensors) {
-  Layout layout{2, 46.0, 56.0, 60.0, 320.0, 170.0, 386.0, 772.0, 0.0};
+RangesLayout layout_of(const Sheet& sheet, std::size_t sensors) {
+  RangesLayout layout{2, 46.0, 56.0, 60.0, 320.0, 170.0, 386.0, 772.0, 0.0};
   if (sheet.width > 0.0) {
     layout.columns = sheet.width > 1.5 * kOneColumn.width ? 2 : 1;
     layout.left = 4.0 * sheet.small();
@@ -58,13 +58,12 @@ Layout layout_of(const Sheet& sheet, std::size_t sensors) {
 
 /// Draws the frame of the `index`-th panel and returns its plot: bins to the right, upwards shares
 /// of `kMost`.
-Plot draw_panel(Drawing& drawing, const Layout& layout, std::size_t index,
+Plot draw_panel(Drawing& drawing, const RangesLayout& layout, std::size_t index,
                 const std::string& sensor) {
   const double text = drawing.sheet().small();
-  const double left =
-      layout.left + static_cast<double>(index % layout.columns) * layout.panel_width;
-  const double top =
-      layout.top + static_cast<double>(index / layout.columns) * (layout.plot_height + layout.gap);
+  const auto [row, column] = place_in_grid(index, layout.columns);
+  const double left = layout.left + column * layout.panel_width;
+  const double top = layout.top + row * (layout.plot_height + layout.gap);
   const Plot plot = {left,      top, layout.plot_width, layout.plot_height, {0.0, kRangeBins},
                      {0.0, 1.0}};
   drawing.text(left, top - 0.6 * text, sensor, Anchor::start, "title");
@@ -94,7 +93,8 @@ void draw_line(Drawing& drawing, const Plot& plot, const Shares& sum, int count,
   }
 }
 
-void draw_legend(Drawing& drawing, const Layout& layout, const std::vector<std::string>& names) {
+void draw_legend(Drawing& drawing, const RangesLayout& layout,
+                 const std::vector<std::string>& names) {
   const double text = drawing.sheet().small();
   double left = layout.left;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -107,12 +107,12 @@ void draw_legend(Drawing& drawing, const Layout& layout, const std::vector<std::
 
 Drawing ranges_chart(const std::vector<CloudDescription>& clouds, const FigureOptions& options) {
   const Histograms histograms(clouds);
-  const Layout layout = layout_of(options.sheet, histograms.sensors.size());
+  const RangesLayout layout = layout_of(options.sheet, histograms.sensors.size());
   Drawing drawing(layout.width, layout.height, options.sheet);
   drawing.describe("Share of each sensor's points over the range, mean over scenes.");
   drawing.rectangle(0.0, 0.0, layout.width, layout.height, "page");
-  constexpr std::size_t kLabelColumns = 30;
-  draw_legend(drawing, layout, distinct_labels(histograms.datasets, kLabelColumns));
+  constexpr std::size_t kLegendColumns = 30;
+  draw_legend(drawing, layout, distinct_labels(histograms.datasets, kLegendColumns));
   for (std::size_t s = 0; s < histograms.sensors.size(); ++s) {
     const Plot plot = draw_panel(drawing, layout, s, histograms.sensors[s]);
     for (std::size_t d = 0; d < histograms.datasets.size(); ++d) {

@@ -22,7 +22,7 @@ constexpr std::array kPanels = {
     Panel{CurveOf::translation, "translation error at most, m", &SuccessBounds::translation_m}};
 
 /// Where things are, in units of the sheet.
-struct Layout {
+struct CurveLayout {
   std::size_t columns;  ///< Panels beside each other.
   double left, top, plot_width, plot_height, panel_width, panel_height, width, height;
   std::size_t legend_columns;  ///< Entries beside each other, below the panels.
@@ -44,9 +44,9 @@ std::vector<std::pair<std::string, const CurveRow*>> lines_of(const SuccessCurve
   return lines;
 }
 
-Layout layout_of(const Sheet& sheet, const std::vector<std::string>& labels) {
+CurveLayout layout_of(const Sheet& sheet, const std::vector<std::string>& labels) {
   const double text = sheet.small();
-  Layout layout{};
+  CurveLayout layout{};
   layout.columns = sheet.width <= 0.0 || sheet.width > 1.5 * kOneColumn.width ? 2 : 1;
   layout.width = sheet.width > 0.0 ? sheet.width : 900.0;
   layout.left = 4.0 * text;
@@ -62,7 +62,7 @@ Layout layout_of(const Sheet& sheet, const std::vector<std::string>& labels) {
   const auto entries = static_cast<double>(std::max<std::size_t>(labels.size(), 1));
   const double fitting = std::floor((layout.width - layout.left) / layout.legend_width);
   layout.legend_columns = static_cast<std::size_t>(std::clamp(fitting, 1.0, entries));
-  const auto panel_rows = static_cast<double>(kPanels.size() / layout.columns);
+  const double panel_rows = place_in_grid(kPanels.size(), layout.columns).row;
   layout.legend_top = layout.top + panel_rows * layout.panel_height + 0.6 * text;
   layout.height =
       layout.legend_top +
@@ -72,11 +72,12 @@ Layout layout_of(const Sheet& sheet, const std::vector<std::string>& labels) {
 
 /// Draws the frame of a panel and returns its plot: to the right the decimal logarithm of the
 /// threshold, upwards the share. The threshold in the middle is the success bound.
-Plot draw_panel(Drawing& drawing, const Layout& layout, std::size_t index, const Panel& panel,
+Plot draw_panel(Drawing& drawing, const CurveLayout& layout, std::size_t index, const Panel& panel,
                 const std::vector<double>& thresholds) {
   const double text = drawing.sheet().small();
-  const Plot plot = {layout.left + static_cast<double>(index % layout.columns) * layout.panel_width,
-                     layout.top + static_cast<double>(index / layout.columns) * layout.panel_height,
+  const auto [row, column] = place_in_grid(index, layout.columns);
+  const Plot plot = {layout.left + column * layout.panel_width,
+                     layout.top + row * layout.panel_height,
                      layout.plot_width,
                      layout.plot_height,
                      {std::log10(thresholds.front()), std::log10(thresholds.back())},
@@ -114,10 +115,10 @@ void draw_curve(Drawing& drawing, const Plot& plot, const std::vector<double>& t
   }
 }
 
-void draw_legend(Drawing& drawing, const Layout& layout, const std::vector<std::string>& labels) {
+void draw_legend(Drawing& drawing, const CurveLayout& layout,
+                 const std::vector<std::string>& labels) {
   for (std::size_t i = 0; i < labels.size(); ++i) {
-    const auto row = static_cast<double>(i / layout.legend_columns);
-    const auto column = static_cast<double>(i % layout.legend_columns);
+    const auto [row, column] = place_in_grid(i, layout.legend_columns);
     draw_legend_entry(drawing, layout.left + layout.legend_width * column,
                       layout.legend_top + layout.legend_line * row, i, labels[i]);
   }
@@ -131,7 +132,7 @@ Drawing success_curve_chart(const SuccessCurve& curve, const FigureOptions& opti
   std::vector<std::string> names;
   for (const auto& line : lines_of(curve, CurveOf::rotation)) names.push_back(line.first);
   const std::vector<std::string> labels = distinct_labels(names, kLabelColumns);
-  const Layout layout = layout_of(options.sheet, labels);
+  const CurveLayout layout = layout_of(options.sheet, labels);
   Drawing drawing(layout.width, layout.height, options.sheet);
   drawing.describe(std::string(kTitle) + ".");
   drawing.rectangle(0.0, 0.0, layout.width, layout.height, "page");

@@ -12,8 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kRemedy = "--fresh deletes them and starts over, --out writes elsewhere";
-
 /// The tables that map ids to names, and the columns of `trials` that hold these ids.
 struct IdColumn {
   const char* table;
@@ -23,12 +21,15 @@ constexpr IdColumn kIdColumns[] = {
     {"variants", "variant"}, {"scenes", "scene"}, {"sensors", "sensor"}};
 
 /// Opens the store `path` for this process alone. Its header is `header`, or it has none yet.
-Database open_store(const fs::path& path, const StoreHeader& header) {
+Database open_store(const fs::path& path, StoreHeader header) {
   // Compare before opening the file for writing: a store that is refused keeps its bytes.
-  const StoreHeader stored = stored_header(path);
-  if (!stored.provenance.empty()) refuse_differences(path.string(), stored, header, kRemedy);
+  if (has_store(path)) {
+    const StoreHeader stored = reading(path, [&] { return read_header(open_to_read(path)); });
+    if (!stored.provenance.empty()) refuse_differences(path.string(), stored, header, kFreshRemedy);
+    header = continued(stored, header);
+  }
   Database database = open_to_write(path);
-  write_header(database, continued(stored, header));
+  write_header(database, header);
   return database;
 }
 
@@ -170,10 +171,10 @@ StoreHeader stored_header(const fs::path& path) {
   });
 }
 
-std::vector<TrialIndex> stored_trials(const fs::path& path, const StoreHeader& header) {
-  const StoreHeader stored = stored_header(path);
+std::vector<TrialIndex> stored_trials(const fs::path& path, const StoreHeader& stored,
+                                      const StoreHeader& header) {
   if (stored.provenance.empty()) return {};
-  refuse_differences(path.string(), stored, header, kRemedy);
+  refuse_differences(path.string(), stored, header, kFreshRemedy);
   std::vector<TrialIndex> trials = reading(path, [&] { return trials_in(path, header); });
   std::sort(trials.begin(), trials.end());
   return trials;

@@ -37,9 +37,11 @@ class Store {
   RecordInserter inserter_;
 };
 
-/// The trials of `header` that the store `path` has, in order; none if there is no store. Throws
-/// InputError that names the differences if its trials were made from something else.
-std::vector<TrialIndex> stored_trials(const std::filesystem::path& path, const StoreHeader& header);
+/// The trials of `header` that the store `path` has, in order; none if there is no store. `stored`
+/// is its `stored_header`. Throws InputError that names the differences if its trials were made
+/// from something else.
+std::vector<TrialIndex> stored_trials(const std::filesystem::path& path, const StoreHeader& stored,
+                                      const StoreHeader& header);
 
 /// Calls `work`, which reads the store `path`. Exceptions become InputErrors of one fault: a
 /// damaged store is not a programming error, and the user cannot correct it part by part.
@@ -63,7 +65,8 @@ struct StoredRun {
   std::vector<TrialRecord> records;  ///< Of the header's names, in report order; without steps.
 };
 
-/// The header of the store `path`; without provenance if there is no store.
+/// The header of the store `path`; without provenance if there is no store. Checks the whole store
+/// and throws InputError if it is damaged.
 StoreHeader stored_header(const std::filesystem::path& path);
 
 /// Reads the store `path`, without trials that the experiment no longer has. Throws InputError if

@@ -44,12 +44,21 @@ const std::vector<SchemaEntry>& expected_schema() {
   return schema;
 }
 
-/// Throws InputError unless no row of `table` fulfils `condition`, which is the fault `fault`.
-void refuse_rows(const Database& database, const std::string& table, const std::string& condition,
-                 const std::string& fault) {
-  Statement select =
-      database.prepare("SELECT 1 FROM " + table + " WHERE " + condition + " LIMIT 1");
-  if (select.next()) refuse(database, table + ": " + fault);
+/// A condition in SQL that is true for a row with a fault, and what the fault is.
+using RowFault = std::pair<std::string, std::string>;
+
+/// Throws InputError unless no row of `table` has one of `faults`. Reads the table once.
+void refuse_rows(const Database& database, const std::string& table,
+                 const std::vector<RowFault>& faults) {
+  std::string index = "CASE";
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    index += " WHEN " + faults[i].first + " THEN " + std::to_string(i);
+  }
+  index += " END";
+  Statement select = database.prepare("SELECT " + index + " AS fault FROM " + table +
+                                      " WHERE fault IS NOT NULL LIMIT 1");
+  if (!select.next()) return;
+  refuse(database, table + ": " + faults.at(static_cast<std::size_t>(select.integer(0))).second);
 }
 
 void check_pages(const Database& database) {
@@ -60,11 +69,10 @@ void check_pages(const Database& database) {
 }
 
 void check_names(const Database& database, const std::string& table, const std::string& detail) {
-  refuse_rows(database, table, "id NOT BETWEEN 1 AND " + std::string(kLargestId),
-              "an id is out of range");
-  refuse_rows(database, table, "typeof(name) <> 'text' OR typeof(" + detail + ") <> 'text'",
-              "a name is no text");
-  refuse_rows(database, table, "typeof(place) NOT IN ('null', 'integer')", "a place is no number");
+  refuse_rows(database, table,
+              {{"id NOT BETWEEN 1 AND " + std::string(kLargestId), "an id is out of range"},
+               {"typeof(name) <> 'text' OR typeof(" + detail + ") <> 'text'", "a name is no text"},
+               {"typeof(place) NOT IN ('null', 'integer')", "a place is no number"}});
 }
 
 /// SQL that is true unless each of `columns` holds a number in range, or each of them is null.
@@ -78,40 +86,44 @@ std::string not_numbers(const std::vector<std::string>& columns) {
   return "NOT ((" + all_null + ") OR (" + all_numbers + "))";
 }
 
-void check_keys(const Database& database, const std::string& table) {
+/// The faults of the columns that name a trial.
+std::vector<RowFault> key_faults() {
+  std::vector<RowFault> faults;
   for (const auto& [column, names] :
        {std::pair("variant", "variants"), {"scene", "scenes"}, {"sensor", "sensors"}}) {
-    refuse_rows(database, table, column + std::string(" NOT IN (SELECT id FROM ") + names + ")",
-                std::string("a ") + column + " has no name");
+    faults.emplace_back(column + std::string(" NOT IN (SELECT id FROM ") + names + ")",
+                        std::string("a ") + column + " has no name");
   }
-  refuse_rows(database, table,
-              "typeof(trial) <> 'integer' OR trial NOT BETWEEN 0 AND " + std::to_string(kMaxTrials),
-              "a number of a trial is out of range");
+  faults.emplace_back(
+      "typeof(trial) <> 'integer' OR trial NOT BETWEEN 0 AND " + std::to_string(kMaxTrials),
+      "a number of a trial is out of range");
+  return faults;
 }
 
 void check_trials(const Database& database) {
-  check_keys(database, "trials");
+  std::vector<RowFault> faults = key_faults();
   std::string words;
   for (const char* word : kStatusNames) {
     words += (words.empty() ? "'" : ", '") + std::string(word) + "'";
   }
-  refuse_rows(database, "trials", "status NOT IN (" + words + ") OR status IS NULL",
-              "a status is none of " + words);
-  refuse_rows(database, "trials", "typeof(reason) <> 'text'", "a reason is no text");
+  faults.emplace_back("status NOT IN (" + words + ") OR status IS NULL",
+                      "a status is none of " + words);
+  faults.emplace_back("typeof(reason) <> 'text'", "a reason is no text");
   const auto [errors, pose] = number_columns();
-  refuse_rows(database, "trials", not_numbers(errors), "an error is no number");
-  refuse_rows(database, "trials", not_numbers(pose), "a pose is no number");
+  faults.emplace_back(not_numbers(errors), "an error is no number");
+  faults.emplace_back(not_numbers(pose), "a pose is no number");
+  refuse_rows(database, "trials", faults);
 }
 
 void check_steps(const Database& database) {
-  check_keys(database, "steps");
-  refuse_rows(database, "steps",
-              "typeof(place) <> 'integer' OR typeof(step) <> 'text' OR typeof(figures) <> 'text'",
-              "a value has another type");
-  refuse_rows(database, "steps",
-              "information IS NOT NULL AND (typeof(information) <> 'blob' OR length(information) "
-              "<> 288)",
-              "an information matrix has another size");
+  std::vector<RowFault> faults = key_faults();
+  faults.emplace_back(
+      "typeof(place) <> 'integer' OR typeof(step) <> 'text' OR typeof(figures) <> 'text'",
+      "a value has another type");
+  faults.emplace_back(
+      "information IS NOT NULL AND (typeof(information) <> 'blob' OR length(information) <> 288)",
+      "an information matrix has another size");
+  refuse_rows(database, "steps", faults);
 }
 
 }  // namespace
@@ -133,8 +145,8 @@ void check_schema(const Database& database) {
 
 void check_content(const Database& database) {
   check_pages(database);
-  refuse_rows(database, "meta", "typeof(name) <> 'text' OR typeof(value) <> 'text'",
-              "a value is no text");
+  refuse_rows(database, "meta",
+              {{"typeof(name) <> 'text' OR typeof(value) <> 'text'", "a value is no text"}});
   check_names(database, "variants", "pipeline");
   check_names(database, "scenes", "kind");
   check_names(database, "sensors", "reference");

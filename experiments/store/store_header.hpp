@@ -92,6 +92,10 @@ std::vector<std::string> differences(const StoreHeader& stored, const StoreHeade
 /// Throws InputError if the header is that of a store to which nothing can be added.
 void refuse_earlier(const std::string& file, const StoreHeader& stored);
 
+/// What a user can do about results of something else.
+inline constexpr const char* kFreshRemedy =
+    "--fresh deletes them and starts over, --out writes elsewhere";
+
 /// Throws InputError if there are `differences`, and as `refuse_earlier` does. `file` is the store;
 /// `remedy` says what the user can do.
 void refuse_differences(const std::string& file, const StoreHeader& stored,

@@ -18,8 +18,8 @@ struct Range {
 struct NameRule {
   std::string marks;
   std::string words;  ///< What is expected, for messages: "a name of letters, digits, _ and -".
-  std::string not_first = "";
-  std::string not_last = "";
+  std::string not_first = {};
+  std::string not_last = {};
 
   bool allows(const std::string& name) const;
   /// The same rule as a regular expression of JSON Schema.
@@ -35,7 +35,7 @@ struct KeyRule {
   bool is_negated = false;  ///< Applies if the key is missing; with words, if the value is another.
   std::vector<std::string> required = {};
   std::vector<std::string> excluded = {};
-  std::string expected = "";  ///< Of excluded keys, for messages: "no key beside \"file\"".
+  std::string expected = {};  ///< Of excluded keys, for messages: "no key beside \"file\"".
   /// If not empty, the rule is another one: exactly one of these keys must be there.
   std::vector<std::string> one_of = {};
 };
@@ -74,10 +74,10 @@ struct ParameterDoc {
   std::vector<ParameterDoc> members = {};     ///< group, map, list: the keys of the object.
   std::vector<KeyRule> rules = {};            ///< group, map, list: which of them belong together.
   std::vector<std::string> preset_json = {};  ///< group: the object that each preset stands for.
-  std::string name_words = "";                ///< map: what its keys are, "a sensor's name".
+  std::string name_words = {};                ///< map: what its keys are, "a sensor's name".
   std::optional<NameRule> name_rule = {};     ///< text: which names are allowed.
   bool may_be_empty = false;                  ///< text: the empty string is allowed.
-  std::string definition = "";  ///< json: the definition of the JSON Schema that describes it.
+  std::string definition = {};  ///< json: the definition of the JSON Schema that describes it.
 };
 
 }  // namespace croon::params

@@ -26,7 +26,8 @@ inline bool chance(Rng& rng, double share) { return rng.uniform() < share; }
 
 /// Uniform in {`low`, ..., `high`}.
 inline int draw_int(Rng& rng, int low, int high) {
-  return low + static_cast<int>(rng.below(static_cast<std::uint64_t>(high - low + 1)));
+  return low + static_cast<int>(rng.below(
+                   static_cast<std::uint64_t>(static_cast<std::int64_t>(high) - low + 1)));
 }
 
 /// 1 or -1 with equal probability.

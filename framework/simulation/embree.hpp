@@ -10,7 +10,7 @@
 #include <embree3/rtcore.h>
 #endif
 
-#include <cstring>
+#include <memory>
 #include <new>
 #include <stdexcept>
 
@@ -82,7 +82,7 @@ void set_buffer(RTCGeometry geometry, RTCBufferType type, unsigned int slot, RTC
   void* const buffer =
       rtcSetNewGeometryBuffer(geometry, type, slot, format, sizeof(Element), elements.size());
   if (buffer == nullptr) throw std::bad_alloc();
-  std::memcpy(buffer, elements.data(), elements.size() * sizeof(Element));
+  std::uninitialized_copy(elements.begin(), elements.end(), static_cast<Element*>(buffer));
 }
 
 }  // namespace croon::simulation

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "framework/simulation/embree.hpp"
@@ -50,21 +51,24 @@ Vector3d vertex_at(const PlacedMesh& placed, std::uint32_t index, double time_ra
   return begin + time_ratio * (placed.end[index].cast<double>() - begin);
 }
 
-/// The hit on a triangle that Embree found at `found_m`. With a vertex a, the normal n, the origin
-/// o and the direction d, the range to the triangle's plane is n.(a - o) / n.d.
+/// The hit on a triangle that Embree found. With a vertex a, the normal n, the origin o and the
+/// direction d, the range to the triangle's plane is n.(a - o) / n.d. Embree's own range is not
+/// read: it comes from an approximate reciprocal, whose bits depend on the processor.
 Hit hit_on_triangle(const PlacedMesh& placed, std::uint32_t triangle, const Ray& ray,
-                    double time_ratio, double found_m) {
-  const auto& [a, b, c] = placed.mesh->triangles[triangle];
-  const Vector3d first = vertex_at(placed, a, time_ratio);
-  const Vector3d normal = (vertex_at(placed, b, time_ratio) - first)
-                              .cross(vertex_at(placed, c, time_ratio) - first)
-                              .normalized();
+                    double time_ratio) {
+  std::array<Vector3d, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    corners[k] = vertex_at(placed, placed.mesh->triangles[triangle][k], time_ratio) - ray.origin;
+  }
+  const auto& [a, b, c] = corners;
+  const Vector3d normal = (b - a).cross(c - a).normalized();
   const double cosine = normal.dot(ray.direction);
-  Hit hit{found_m, std::abs(cosine), placed.mesh->materials[triangle]};
-  const double range_m = normal.dot(first - ray.origin) / cosine;
-  // For a ray along the plane this range is undefined; Embree's range is then kept.
-  if (std::abs(range_m - found_m) < 1e-3 * (1.0 + found_m)) hit.range_m = range_m;
-  return hit;
+  const auto [nearest, farthest] =
+      std::minmax({a.dot(ray.direction), b.dot(ray.direction), c.dot(ray.direction)});
+  // A ray along the plane meets it anywhere, but is on the triangle.
+  const double range_m =
+      cosine == 0.0 ? nearest : std::clamp(normal.dot(a) / cosine, nearest, farthest);
+  return {range_m, std::abs(cosine), placed.mesh->materials[triangle]};
 }
 
 }  // namespace
@@ -97,8 +101,8 @@ class RayCaster::Embree {
     for (std::size_t i = 0; i < count; ++i) {
       const unsigned int mesh = packet.rays.hit.geomID[i];
       if (mesh == RTC_INVALID_GEOMETRY_ID) continue;
-      hits[i] = hit_on_triangle(meshes_[mesh], packet.rays.hit.primID[i], rays[i],
-                                time_ratio(rays[i]), packet.rays.ray.tfar[i]);
+      hits[i] =
+          hit_on_triangle(meshes_[mesh], packet.rays.hit.primID[i], rays[i], time_ratio(rays[i]));
     }
   }
 

@@ -7,7 +7,7 @@ namespace croon {
 
 namespace {
 
-std::string cell_text(const Cell& cell, const Column& column) {
+std::string markdown_cell(const Cell& cell, const Column& column) {
   const std::string text = markdown_escaped(shown_text(cell, column));
   return (cell.is_best ? "**" + text + "**" : text) +
          (cell.mark.empty() ? "" : " " + markdown_escaped(cell.mark));
@@ -35,7 +35,8 @@ std::string markdown_table(const Table& table, const View& view) {
   const std::vector<ShownCells> columns = shown_cells(table, view);
   for (const CellRow& row : table.rows) {
     text += "|";
-    for (const ShownCells& column : columns) text += " " + column.content(row, cell_text) + " |";
+    for (const ShownCells& column : columns)
+      text += " " + column.content(row, markdown_cell) + " |";
     text += "\n";
   }
   return text;

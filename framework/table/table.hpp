@@ -72,12 +72,10 @@ Cell to_cell(const T& value) {
     return value;
   } else if constexpr (std::is_constructible_v<std::string, T>) {
     return {Value(std::string(value))};
-  } else if constexpr (std::is_same_v<T, bool>) {
+  } else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, double>) {
     return {Value(value)};
   } else if constexpr (std::is_integral_v<T>) {
     return {Value(static_cast<long long>(value))};
-  } else if constexpr (std::is_same_v<T, double>) {
-    return {Value(value)};
   } else {
     return value ? to_cell(*value) : Cell();
   }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* kGap = "  ";
 
-std::string cell_text(const Cell& cell, const Column& column) {
+std::string text_cell(const Cell& cell, const Column& column) {
   std::string text = shown_text(cell, column) + cell.mark;
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
@@ -26,7 +26,7 @@ std::string text_table(const Table& table, const View& view, bool bold_header) {
     const bool is_name = k < view.names;
     std::vector<std::string> cells = {view.columns[k].title, ""};
     for (const CellRow& row : table.rows) {
-      const std::string text = columns[k].content(row, cell_text);
+      const std::string text = columns[k].content(row, text_cell);
       cells.push_back(is_name ? cut_to_columns(text, view.widest_name) : text);
     }
     std::size_t width = 0;

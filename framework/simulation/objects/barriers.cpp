@@ -5,7 +5,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFoot_m = -0.3;  ///< Depth of the feet of barriers below their path.
+constexpr double kPostFoot_m = -0.3;  ///< Depth of the feet of barriers below their path.
 
 /// A type of fence.
 struct FenceType {
@@ -40,7 +40,8 @@ void add_bar(Mesh& mesh, const PathPoint& point, double half_m, double height_m,
 Mesh make_wall(const Path& path, double height_m, double thickness_m, Material material) {
   const double half_m = 0.5 * thickness_m;
   Mesh mesh;
-  add_loft(mesh, rings_along(path, box_profile({-half_m, kFoot_m}, {half_m, height_m})), material);
+  add_loft(mesh, rings_along(path, box_profile({-half_m, kPostFoot_m}, {half_m, height_m})),
+           material);
   return mesh;
 }
 
@@ -53,11 +54,11 @@ Mesh make_garden_wall(const Path& path, double height_m, Rng& rng) {
   const double low_m = height_m - 0.1 - coping_m;
   const Profile coping = box_profile({-half_m - 0.03, low_m}, {half_m + 0.03, low_m + coping_m});
   Mesh mesh;
-  add_loft(mesh, rings_along(path, box_profile({-half_m, kFoot_m}, {half_m, low_m})), material);
+  add_loft(mesh, rings_along(path, box_profile({-half_m, kPostFoot_m}, {half_m, low_m})), material);
   add_loft(mesh, rings_along(path, coping), Material::concrete);
   for (const PathPoint& point : points_along(path, pillars_m)) {
     const double pillar_m = half_m + 0.06;
-    add_pillar(mesh, point, {pillar_m, pillar_m}, kFoot_m, height_m, material);
+    add_pillar(mesh, point, {pillar_m, pillar_m}, kPostFoot_m, height_m, material);
   }
   return mesh;
 }
@@ -65,9 +66,9 @@ Mesh make_garden_wall(const Path& path, double height_m, Rng& rng) {
 Mesh make_jersey_barrier(const Path& path) {
   // The New Jersey profile of 32 inches: foot, slopes of 55 and 84 degrees. All corners are visible
   // from the first one, so the ends of the loft are right although the profile is not convex.
-  const Profile profile = {{0.0, kFoot_m}, {0.3, kFoot_m}, {0.3, 0.08},
-                           {0.17, 0.33},   {0.08, 0.8},    {-0.08, 0.8},
-                           {-0.17, 0.33},  {-0.3, 0.08},   {-0.3, kFoot_m}};
+  const Profile profile = {{0.0, kPostFoot_m}, {0.3, kPostFoot_m}, {0.3, 0.08},
+                           {0.17, 0.33},       {0.08, 0.8},        {-0.08, 0.8},
+                           {-0.17, 0.33},      {-0.3, 0.08},       {-0.3, kPostFoot_m}};
   Mesh mesh;
   add_loft(mesh, rings_along(path, profile), Material::concrete);
   return mesh;
@@ -84,7 +85,8 @@ Mesh make_fence(const Path& path, double height_m, Rng& rng) {
     add_loft(mesh, rings_along(path, rail), type.material);
   }
   for (const PathPoint& point : points_along(path, posts_m)) {
-    add_pillar(mesh, point, {type.half_post_m, type.half_post_m}, kFoot_m, height_m, type.material);
+    add_pillar(mesh, point, {type.half_post_m, type.half_post_m}, kPostFoot_m, height_m,
+               type.material);
   }
   for (const PathPoint& point : points_along(path, bar_m + gap_m)) {
     add_bar(mesh, point, 0.5 * bar_m, 0.97 * height_m, type.material);
@@ -110,7 +112,7 @@ Mesh make_guard_rail(const Path& path, Rng& rng) {
     add_strip(mesh, rings_along(path, raised), Material::metal);
   }
   for (const PathPoint& point : points_along(path, posts_m)) {
-    add_pillar(mesh, point, {0.03, kNear_m}, kFoot_m, top_m - 0.04, Material::metal);
+    add_pillar(mesh, point, {0.03, kNear_m}, kPostFoot_m, top_m - 0.04, Material::metal);
   }
   return mesh;
 }

@@ -6,7 +6,7 @@
 namespace croon::simulation {
 namespace {
 
-constexpr double kFoot_m = -1.0;
+constexpr double kBridgeFoot_m = -1.0;
 constexpr double kSlab_m = 0.35;     ///< Thickness of a deck above its girders.
 constexpr double kParapet_m = 0.25;  ///< Thickness of a parapet.
 
@@ -73,10 +73,10 @@ void add_abutments(Mesh& mesh, const OverRoad& road, const Bridge& bridge) {
   const std::vector<double> stations_m = stations_between(bridge.along_m);
   for (const double side : {-1.0, 1.0}) {
     const double wall_m = side * bridge.abutment_m;
-    const Profile embankment = {{wall_m, kFoot_m},
+    const Profile embankment = {{wall_m, kBridgeFoot_m},
                                 {wall_m, bridge.top_m},
                                 {side * (bridge.abutment_m + 1.0), bridge.top_m},
-                                {side * bridge.approach_m, kFoot_m}};
+                                {side * bridge.approach_m, kBridgeFoot_m}};
     add_loft(mesh, road.rings(stations_m, embankment), Material::concrete);
   }
 }
@@ -112,7 +112,7 @@ void add_piers(Mesh& mesh, const OverRoad& road, const Bridge& bridge) {
   for (const double s_m :
        stations_between({bridge.along_m.from + in_m, bridge.along_m.to - in_m})) {
     for (const double d_m : {-bridge.pier_m, bridge.pier_m}) {
-      add_cylinder(mesh, road.point(s_m, d_m, kFoot_m), road.point(s_m, d_m, bridge.low_m),
+      add_cylinder(mesh, road.point(s_m, d_m, kBridgeFoot_m), road.point(s_m, d_m, bridge.low_m),
                    bridge.pier_radius_m, bridge.pier_radius_m, 12, Material::concrete);
     }
   }

@@ -7,7 +7,7 @@
 namespace croon::simulation {
 namespace {
 
-constexpr double kFoot_m = -1.0;
+constexpr double kTunnelFoot_m = -1.0;
 constexpr double kDado_m = 2.4;   ///< Height of the niches.
 constexpr double kNiche_m = 2.0;  ///< Length of a niche.
 
@@ -87,13 +87,13 @@ void add_low_wall(Mesh& mesh, const OverRoad& road, const Tunnel& tunnel, double
                   const std::vector<double>& stations_m, bool is_niche) {
   const double wall_m = side * tunnel.wall_m;
   const double back_m = side * (tunnel.wall_m + (is_niche ? tunnel.niche_depth_m : 0.0));
-  const Profile profile = {{back_m, kFoot_m}, {back_m, kDado_m}};
+  const Profile profile = {{back_m, kTunnelFoot_m}, {back_m, kDado_m}};
   add_strip(mesh, road.rings(stations_m, profile), Material::concrete);
   if (!is_niche) return;
   add_strip(mesh, road.rings(stations_m, {{back_m, kDado_m}, {wall_m, kDado_m}}),
             Material::concrete);
   for (const double s_m : stations_m) {
-    mesh.add_quad(road.point(s_m, wall_m, kFoot_m), road.point(s_m, back_m, kFoot_m),
+    mesh.add_quad(road.point(s_m, wall_m, kTunnelFoot_m), road.point(s_m, back_m, kTunnelFoot_m),
                   road.point(s_m, back_m, kDado_m), road.point(s_m, wall_m, kDado_m),
                   Material::concrete);
   }
@@ -118,7 +118,7 @@ void add_lining(Mesh& mesh, const OverRoad& road, const Tunnel& tunnel) {
 void add_hill(Mesh& mesh, const OverRoad& road, const Tunnel& tunnel) {
   const double outer_m = tunnel.outer_m;
   const Profile hill =
-      with_feet({{outer_m, tunnel.top_m}, {-outer_m, tunnel.top_m}}, outer_m, kFoot_m);
+      with_feet({{outer_m, tunnel.top_m}, {-outer_m, tunnel.top_m}}, outer_m, kTunnelFoot_m);
   add_strip(mesh, road.rings(stations_between(tunnel.along_m), hill), Material::grass);
   Profile inside = ceiling_of(tunnel);
   Profile outside;
@@ -126,8 +126,8 @@ void add_hill(Mesh& mesh, const OverRoad& road, const Tunnel& tunnel) {
   for (std::size_t i = 0; i < inside.size(); ++i) {
     outside.emplace_back(outer_m * (1.0 - 2.0 * static_cast<double>(i) / last), tunnel.top_m);
   }
-  inside = with_feet(inside, tunnel.wall_m, kFoot_m);
-  outside = with_feet(outside, outer_m, kFoot_m);
+  inside = with_feet(inside, tunnel.wall_m, kTunnelFoot_m);
+  outside = with_feet(outside, outer_m, kTunnelFoot_m);
   for (const double s_m : {tunnel.along_m.from, tunnel.along_m.to}) {
     add_strip(mesh, {road.rings({s_m}, inside)[0], road.rings({s_m}, outside)[0]},
               Material::concrete);
@@ -152,7 +152,7 @@ void add_ribs(Mesh& mesh, const OverRoad& road, const Tunnel& tunnel) {
   for (const Span& piece_m : every(tunnel, tunnel.ribs_m, kThick_m)) {
     for (const double side : {-1.0, 1.0}) {
       const double wall_m = side * tunnel.wall_m;
-      const Profile rib = box_profile({wall_m - side * kOut_m, kFoot_m}, {wall_m, high_m});
+      const Profile rib = box_profile({wall_m - side * kOut_m, kTunnelFoot_m}, {wall_m, high_m});
       add_loft(mesh, road.rings({piece_m.from, piece_m.to}, rib), Material::concrete);
     }
   }

@@ -127,7 +127,7 @@ TEST_P(KilledStore, KeepsItsTrialsAndGoesOn) {
     const std::size_t done = fs::file_size(progress);
     SCOPED_TRACE(changes);
     EXPECT_FALSE(fs::exists(path.string() + "-journal"));
-    const std::size_t found = stored_trials(path, header()).size();
+    const std::size_t found = stored_trials(path, stored_header(path), header()).size();
     EXPECT_GE(found, done);
     EXPECT_LE(found, done + 1);
     {

@@ -93,7 +93,7 @@ TEST(Store, GivesBackEveryBitOfARecord) {
   for (int i = 0; i < 2; ++i) {
     const std::vector<TrialRecord> found = read_store(path).records;
     ASSERT_EQ(found.size(), records.size());
-    EXPECT_EQ(stored_trials(path, header()).size(), records.size());
+    EXPECT_EQ(stored_trials(path, stored_header(path), header()).size(), records.size());
     // By variant, then trial: report order.
     for (std::size_t k = 0; k < found.size(); ++k) {
       expect_same(found[k], records[k < 30 ? 2 * k : 2 * (k - 30) + 1]);
@@ -283,8 +283,8 @@ TEST(Store, TakesMoreVariantsTrialsAndAnotherOrder) {
   StoreHeader more = header();
   more.variants = {{"new", "[]"}, {"other", "[]"}, {"base", more.variants[0].detail}};
   more.trials = 2000;
-  EXPECT_EQ(stored_trials(path, more).size(), 20U);
-  EXPECT_EQ(std::get<0>(stored_trials(path, more)[0]), 1U);
+  EXPECT_EQ(stored_trials(path, stored_header(path), more).size(), 20U);
+  EXPECT_EQ(std::get<0>(stored_trials(path, stored_header(path), more)[0]), 1U);
   { const Store store(path, more); }
   EXPECT_EQ(read_store(path).records.front().id.variant, "other");
   // A variant that is taken out stays in the store, and must be what it was when it comes back.
@@ -293,7 +293,7 @@ TEST(Store, TakesMoreVariantsTrialsAndAnotherOrder) {
   fewer.trials = 5;
   { const Store store(path, fewer); }
   EXPECT_EQ(read_store(path).records.size(), 5U);
-  EXPECT_EQ(stored_trials(path, header()).size(), 20U);
+  EXPECT_EQ(stored_trials(path, stored_header(path), header()).size(), 20U);
   StoreHeader changed = header();
   changed.variants[1].detail = "[1]";
   EXPECT_NE(refusal(path, changed).find("/variants/other/- was not there and is 1"),

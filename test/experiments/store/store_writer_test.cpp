@@ -52,7 +52,8 @@ TEST_F(StoreWriterTest, WritesAllAndTellsAfterwards) {
   }
   EXPECT_EQ(told, static_cast<std::size_t>(kTrials));
   EXPECT_TRUE(is_in_order);
-  EXPECT_EQ(stored_trials(path(), header()).size(), static_cast<std::size_t>(kTrials));
+  EXPECT_EQ(stored_trials(path(), stored_header(path()), header()).size(),
+            static_cast<std::size_t>(kTrials));
 }
 
 TEST_F(StoreWriterTest, TellsOnlyWhatIsOnDisk) {
@@ -94,7 +95,7 @@ TEST_F(StoreWriterTest, WritesWhatItHasWhenItGoes) {
     StoreWriter writer(store, [](const std::vector<Done>&) {});
     for (int i = 0; i < 100; ++i) writer.add(trial(i));
   }
-  EXPECT_EQ(stored_trials(path(), header()).size(), 100U);
+  EXPECT_EQ(stored_trials(path(), stored_header(path()), header()).size(), 100U);
 }
 
 }  // namespace

@@ -146,7 +146,7 @@ World make_car_park(const CarBody& car, const StreamKey& key) {
   if (chance(trolley_rng, 0.7)) add_trolley_bay(builder, bays, trolley_rng);
   for (int row = -bays.rows; row < bays.rows; ++row) {
     add_row_ends(builder, bays, bays.row_m(row), trees, lamp, ends_rng);
-    const auto stream = static_cast<std::uint64_t>(row + bays.rows);
+    const auto stream = static_cast<std::uint64_t>(static_cast<std::int64_t>(row) + bays.rows);
     add_bay_cars(builder, bays, bays.row_m(row), Rng(key.with("cars").with(stream)));
   }
   add_surroundings(builder, bays, key.with("surroundings"));
