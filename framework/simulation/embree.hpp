@@ -13,6 +13,8 @@
 #include <memory>
 #include <new>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "framework/simulation/ray_caster.hpp"
 
@@ -73,6 +75,31 @@ inline RTCDevice embree_device() {
   } device;
   if (device.handle == nullptr) throw std::runtime_error("Embree finds no device to run on");
   return device.handle;
+}
+
+/// The number of a geometry, and that of one of its triangles.
+using TriangleId = std::pair<unsigned int, unsigned int>;
+
+/// The triangles whose bounding boxes are within `radius_m` of `point`, and others near it, in any
+/// order.
+inline std::vector<TriangleId> triangles_near(RTCScene scene, const Eigen::Vector3d& point,
+                                              double radius_m, double time_ratio) {
+  RTCPointQuery query;
+  query.x = static_cast<float>(point.x());
+  query.y = static_cast<float>(point.y());
+  query.z = static_cast<float>(point.z());
+  query.time = static_cast<float>(time_ratio);
+  query.radius = static_cast<float>(radius_m);
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  std::vector<TriangleId> triangles;
+  const auto collect = [](RTCPointQueryFunctionArguments* found) {
+    static_cast<std::vector<TriangleId>*>(found->userPtr)
+        ->emplace_back(found->geomID, found->primID);
+    return false;  // The radius stays.
+  };
+  rtcPointQuery(scene, &query, &context, collect, &triangles);
+  return triangles;
 }
 
 /// Copies `elements` into a new buffer of `geometry`; `slot` is the time step of vertices.

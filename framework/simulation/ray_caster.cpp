@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "framework/simulation/embree.hpp"
 
@@ -51,11 +52,17 @@ Vector3d vertex_at(const PlacedMesh& placed, std::uint32_t index, double time_ra
   return begin + time_ratio * (placed.end[index].cast<double>() - begin);
 }
 
-/// The hit on a triangle that Embree found. With a vertex a, the normal n, the origin o and the
-/// direction d, the range to the triangle's plane is n.(a - o) / n.d. Embree's own range is not
-/// read: it comes from an approximate reciprocal, whose bits depend on the processor.
-Hit hit_on_triangle(const PlacedMesh& placed, std::uint32_t triangle, const Ray& ray,
-                    double time_ratio) {
+/// Where a ray meets the plane of a triangle.
+struct PlaneHit {
+  Hit hit;
+  double miss_m;  ///< How far the hit is off the triangle: 0 on it, infinity if it has no area.
+};
+
+/// With a vertex a, the normal n, the origin o and the direction d, the range to the triangle's
+/// plane is n.(a - o) / n.d. Embree's own range is not read: it comes from an approximate
+/// reciprocal, whose bits depend on the processor.
+PlaneHit hit_on_plane(const PlacedMesh& placed, std::uint32_t triangle, const Ray& ray,
+                      double time_ratio) {
   std::array<Vector3d, 3> corners;
   for (std::size_t k = 0; k < 3; ++k) {
     corners[k] = vertex_at(placed, placed.mesh->triangles[triangle][k], time_ratio) - ray.origin;
@@ -68,8 +75,22 @@ Hit hit_on_triangle(const PlacedMesh& placed, std::uint32_t triangle, const Ray&
   // A ray along the plane meets it anywhere, but is on the triangle.
   const double range_m =
       cosine == 0.0 ? nearest : std::clamp(normal.dot(a) / cosine, nearest, farthest);
-  return {range_m, std::abs(cosine), placed.mesh->materials[triangle]};
+  const Vector3d point = range_m * ray.direction;
+  double miss_m = std::abs(normal.dot(point - a));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3d edge = (corners[(k + 1) % 3] - corners[k]).normalized();
+    const Vector3d outwards = edge.cross(normal);
+    miss_m = std::max(miss_m, outwards.dot(point - corners[k]));
+  }
+  if (normal.isZero()) miss_m = std::numeric_limits<double>::infinity();
+  return {{range_m, std::abs(cosine), placed.mesh->materials[triangle]}, miss_m};
 }
+
+/// Surfaces that a ray meets within this length of each other are taken for equally far by Embree,
+/// which computes in single precision.
+constexpr double kTied_m = 3e-4;
+/// Single precision finds a triangle if the ray passes it by less than this.
+constexpr double kMiss_m = 3e-5;
 
 }  // namespace
 
@@ -101,8 +122,7 @@ class RayCaster::Embree {
     for (std::size_t i = 0; i < count; ++i) {
       const unsigned int mesh = packet.rays.hit.geomID[i];
       if (mesh == RTC_INVALID_GEOMETRY_ID) continue;
-      hits[i] =
-          hit_on_triangle(meshes_[mesh], packet.rays.hit.primID[i], rays[i], time_ratio(rays[i]));
+      hits[i] = decided({mesh, packet.rays.hit.primID[i]}, rays[i]);
     }
   }
 
@@ -110,6 +130,29 @@ class RayCaster::Embree {
   /// Embree takes no empty buffers, so meshes without triangles are left out.
   void add(PlacedMesh mesh) {
     if (!mesh.mesh->triangles.empty()) meshes_.push_back(std::move(mesh));
+  }
+
+  PlaneHit hit_on(const TriangleId& id, const Ray& ray) const {
+    return hit_on_plane(meshes_[id.first], id.second, ray, time_ratio(ray));
+  }
+
+  /// The hit of a ray for which Embree found the triangle `found`. Where triangles meet, or lie in
+  /// one plane, it depends on the last bits of Embree's ranges which one is found. The hit is on
+  /// the first of all that are tied; of equally far ones on that with the lowest number.
+  Hit decided(const TriangleId& found, const Ray& ray) const {
+    Hit hit = hit_on(found, ray).hit;
+    const double found_m = hit.range_m;
+    const Vector3d point = ray.origin + found_m * ray.direction;
+    std::optional<std::pair<double, TriangleId>> first;
+    for (const TriangleId& id : triangles_near(scene_, point, 2.0 * kTied_m, time_ratio(ray))) {
+      const PlaneHit other = hit_on(id, ray);
+      if (other.miss_m > kMiss_m || std::abs(other.hit.range_m - found_m) > kTied_m) continue;
+      const std::pair<double, TriangleId> key{other.hit.range_m, id};
+      if (first && *first <= key) continue;
+      first = key;
+      hit = other.hit;
+    }
+    return hit;
   }
 
   double time_ratio(const Ray& ray) const {

@@ -141,7 +141,7 @@ StageEntry simulated() {
       "simulated",
       "Road scenes that are built and ray-cast on demand, with exact ground truth; nothing is "
       "downloaded or written.",
-      "croon, after the paper's simulated experiment", table());
+      "croon, after the paper's simulated experiment", table(), 2);
 }
 
 }  // namespace croon::stages::dataset

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <optional>
 
 #include "framework/simulation/embree.hpp"
 #include "framework/simulation/objects/shapes.hpp"
@@ -51,6 +52,49 @@ double range_m(const Ray& ray, const Vector3d& a, const Vector3d& b, const Vecto
 TEST(RayCaster, RunsTheCodeOfEveryProcessor) {
   EXPECT_EQ(rtcGetDeviceProperty(embree_device(), RTC_DEVICE_PROPERTY_NATIVE_RAY4_SUPPORTED), 1);
   EXPECT_EQ(rtcGetDeviceProperty(embree_device(), RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED), 0);
+}
+
+/// Embree finds any of several triangles in one plane: which one depends on the last bits of its
+/// ranges.
+TEST(RayCaster, FindsTheFirstOfTrianglesInOnePlane) {
+  Rng rng = test::test_rng(8);
+  auto world = std::make_shared<World>();
+  Mesh& mesh = world->fixed;
+  for (int i = 0; i < 60; ++i) {
+    std::array<std::uint32_t, 3> corner{};
+    for (std::uint32_t& index : corner) {
+      Vector3d point = draw_point(rng, 2.0);
+      point.x() = 5.0;
+      index = mesh.add_vertex(point);
+    }
+    mesh.add_triangle(corner[0], corner[1], corner[2],
+                      i % 2 == 0 ? Material::brick : Material::asphalt);
+  }
+  std::vector<Ray> rays(1000);
+  for (Ray& ray : rays) {
+    Vector3d target = draw_point(rng, 1.0);
+    target.x() = 5.0;
+    ray.direction = target.normalized();
+  }
+  const std::vector<Hit> hits = RayCaster(world, {}).cast(rays, 0.5, 15.0);
+  int compared = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    std::optional<std::size_t> first;
+    bool is_clear = true;
+    for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+      const auto corner = [&](int c) {
+        return Vector3d(mesh.vertices[mesh.triangles[k][c]].cast<double>());
+      };
+      const double range = range_m(rays[i], corner(0), corner(1), corner(2));
+      is_clear = is_clear && !std::isnan(range);
+      if (!first && std::isfinite(range)) first = k;
+    }
+    if (!is_clear || !first) continue;
+    ++compared;
+    ASSERT_TRUE(hits[i].is_there());
+    EXPECT_EQ(hits[i].material, mesh.materials[*first]);
+  }
+  EXPECT_GT(compared, 500);
 }
 
 TEST(RayCaster, AgreesWithBruteForce) {
