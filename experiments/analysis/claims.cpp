@@ -17,19 +17,6 @@ std::optional<double> percent_of(const Share& share) {
   return percent_of(share.count, share.trials);
 }
 
-/// A scene counts if every trial of each of its sensors succeeds.
-std::optional<double> successful_scenes(const Rows& rows) {
-  std::set<std::string> all;
-  std::set<std::string> without_success;
-  for (const SceneSummary* scene : scenes_of(rows)) {
-    const Share& share = scene->success;
-    all.insert(scene->scene);
-    if (share.count < share.trials) without_success.insert(scene->scene);
-  }
-  return percent_of(static_cast<int>(all.size() - without_success.size()),
-                    static_cast<int>(all.size()));
-}
-
 /// Whether the deviations of all rows are errors.
 bool have_truth(const Rows& rows) {
   return std::all_of(rows.begin(), rows.end(), [](const SummaryRow* row) {
@@ -75,7 +62,8 @@ std::optional<double> found(const Claim& claim, const Rows& rows, const TrialSum
   if (claim.statistic == kAgreement) return percent_of(all.agreement);
   if (is_share(claim.statistic)) {
     if (!have_success(rows)) return std::nullopt;
-    return claim.statistic == kSuccess ? percent_of(all.success) : successful_scenes(rows);
+    return claim.statistic == kSuccess ? percent_of(all.success)
+                                       : percent_of(successful_frames(rows));
   }
   const std::size_t measure = measure_index(claim.measure);
   if (is_spread(claim)) {

@@ -52,6 +52,20 @@ std::vector<SceneKindSummary> summarise_scene_kinds(const Summary& summary) {
   return summaries;
 }
 
+/// See `Summary::frames`.
+std::vector<FrameSummary> summarise_frames(const Summary& summary) {
+  std::vector<FrameSummary> summaries;
+  for (const std::string& variant : variants_of(summary)) {
+    const Rows rows = rows_of(summary, variant);
+    const auto has_truth = [](const SummaryRow* row) {
+      return row->deviations_from == DeviationsFrom::truth;
+    };
+    if (rows.size() < 2 || !std::all_of(rows.begin(), rows.end(), has_truth)) continue;
+    summaries.push_back({variant, successful_frames(rows)});
+  }
+  return summaries;
+}
+
 std::vector<ReasonCount> count_reasons(const std::vector<TrialRecord>& records) {
   std::map<std::tuple<std::string, Status, std::string>, int> counts;
   for (const TrialRecord& record : records) {
@@ -140,6 +154,7 @@ Summary summarise(const std::vector<TrialRecord>& records, const SuccessBounds& 
     }
   }
   summary.scene_kinds = summarise_scene_kinds(summary);
+  summary.frames = summarise_frames(summary);
   if (!variants.empty()) {
     summary.comparisons = compare_with_base(variants.front(), summary, groups, bounds);
   }

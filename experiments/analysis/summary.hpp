@@ -36,6 +36,12 @@ struct SceneKindSummary : TrialSummary {
   int scenes = 0;
 };
 
+/// The scenes in which every trial of all sensors of a variant succeeds.
+struct FrameSummary {
+  std::string variant;
+  Share frames;  ///< Of all scenes.
+};
+
 /// The result of a paired test; its p values are two-sided.
 struct PairedTest {
   bool favours_variant = false;  ///< Whether the sum of the test's scores is on its side.
@@ -138,6 +144,7 @@ struct Summary {
   std::vector<SummaryRow> rows;               ///< By variant, then sensor.
   std::vector<SceneKindSummary> scene_kinds;  ///< By variant, kind and sensor, all together last;
                                               ///< empty if no scene has a kind.
+  std::vector<FrameSummary> frames;     ///< By variant; none for one sensor, or without truth.
   std::vector<Comparison> comparisons;  ///< With the first variant: by variant, then sensor, all.
   std::set<VariantSensor> below_best;   ///< See `below_best`.
   std::vector<LoopClosure> loops;       ///< By variant, then pair.

@@ -232,6 +232,18 @@ std::vector<const SceneSummary*> scenes_of(const Rows& rows) {
   return scenes;
 }
 
+Share successful_frames(const Rows& rows) {
+  std::map<std::string, bool> succeeds;
+  for (const SceneSummary* scene : scenes_of(rows)) {
+    const bool all = scene->outcomes.success == scene->outcomes.trials;
+    bool& frame = succeeds.emplace(scene->scene, true).first->second;
+    frame = frame && all;
+  }
+  SceneCounts counts;
+  for (const auto& [scene, does] : succeeds) counts.add(scene, does ? 1 : 0, 1);
+  return counts.share();
+}
+
 const TrialRecord* find_trial(const SceneRecords& records, int trial) {
   const auto is_before = [](const TrialRecord* record, int number) {
     return record->id.trial < number;

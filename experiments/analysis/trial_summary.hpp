@@ -158,6 +158,10 @@ TrialSummary pooled(const std::vector<const SceneSummary*>& scenes);
 /// The scenes of all `rows`.
 std::vector<const SceneSummary*> scenes_of(const Rows& rows);
 
+/// The frames that succeed: scenes in which every trial of each sensor of `rows` does, of one
+/// variant. They mean nothing without truth.
+Share successful_frames(const Rows& rows);
+
 /// The trials of one variant, sensor and scene, by trial.
 using SceneRecords = std::vector<const TrialRecord*>;
 

@@ -178,11 +178,12 @@ TimingsFile::TimingsFile(const fs::path& path) : path_(path) {
 }
 
 void TimingsFile::add(const std::vector<TimingRow>& rows) {
-  stream_ << timings_csv(rows).substr(timings_csv({}).size());
+  rows_.insert(rows_.end(), rows.begin(), rows.end());
 }
 
 void TimingsFile::flush() {
-  stream_ << std::flush;
+  stream_ << timings_csv(rows_).substr(timings_csv({}).size()) << std::flush;
+  rows_.clear();
   if (!stream_) throw InputError(path_.string(), "", "cannot be written");
 }
 

@@ -49,12 +49,13 @@ class TimingsFile {
   explicit TimingsFile(const std::filesystem::path& path);
 
   void add(const std::vector<TimingRow>& rows);
-  /// After this, the rows that were added outlive a kill of the process.
+  /// Writes the rows that were added. After this they outlive a kill of the process.
   void flush();
 
  private:
   std::filesystem::path path_;
   std::ofstream stream_;
+  std::vector<TimingRow> rows_;  ///< Not yet written.
 };
 
 /// Writes to `path` the rows of timings.csv of all `folders` that have one, each row once.

@@ -295,6 +295,15 @@ Columns<ClaimResult> claim_columns() {
       .add({"can_fail"}, &R::can_fail);
 }
 
+Columns<FrameSummary> frame_columns() {
+  using F = FrameSummary;
+  Columns<F> columns;
+  return columns.add({"variant"}, &F::variant)
+      .add({"scenes"}, [](const F& row) { return row.frames.trials; })
+      .add({"success", "", "/success/count"}, [](const F& row) { return row.frames.count; })
+      .add(share_columns("success"), &F::frames);
+}
+
 Columns<ReasonCount> reason_columns() {
   Columns<ReasonCount> columns;
   return columns.add({"variant"}, &ReasonCount::variant)
@@ -381,6 +390,7 @@ std::string summary_json(const Summary& summary, const std::vector<ClaimResult>&
     if (!table.rows.empty()) json[key] = json_rows(table);
   };
   add("comparisons", comparison_columns().table(summary.comparisons));
+  add("frames", frame_columns().table(summary.frames));
   add("kinds", scene_kind_columns().table(summary.scene_kinds));
   add("loops", loop_columns().table(summary.loops));
   add("claims", claim_columns().table(claims));

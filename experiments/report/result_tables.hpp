@@ -64,6 +64,8 @@ Columns<LoopClosure> loop_columns();
 Columns<CloudDescription> cloud_columns();
 Columns<ClaimResult> claim_columns();
 Columns<ReasonCount> reason_columns();
+/// Those of "frames" in summary.json.
+Columns<FrameSummary> frame_columns();
 
 /// Whether a row of a table with a column "reference" has this one.
 bool has_deviations_from(const Table& table, DeviationsFrom from);

@@ -245,6 +245,13 @@ View outcomes_view(const Table& table) {
   return view;
 }
 
+View frames_view() {
+  return {{{"frames", "<success>/<scenes>"},
+           {"%", "<success_ratio>"},
+           {"95 % interval", "[<success_low_ratio>, <success_high_ratio>]"}},
+          0};
+}
+
 }  // namespace
 
 std::string summary_text(const Summary& summary, const TableStyle& style) {
@@ -285,6 +292,10 @@ std::string summary_text(const Summary& summary, const TableStyle& style) {
   if (lacks_interval) {
     text += "no interval: trials of one scene are alike, and there are fewer than " +
             std::to_string(kLeastScenes) + " scenes\n";
+  }
+  if (has_scenes && !summary.frames.empty()) {
+    text += "\nframes: scenes in which every trial of all sensors succeeds\n" +
+            text_by_variant(frame_columns().table(summary.frames), frames_view(), summary, style);
   }
   text += "\nmean ± std\n" + dofs_text("<mean> ±<std>", false);
   if (has_scenes && has_spread) {

@@ -136,6 +136,29 @@ TEST(Summary, StatisticsOverUsableTrialsHaveThoseThatFail) {
   EXPECT_NEAR((*row.usable_statistics)[3][std], standard_deviation(all_m), 1e-12);
 }
 
+TEST(Summary, AFrameSucceedsIfEveryTrialOfEachSensorDoes) {
+  std::vector<TrialRecord> records;
+  for (const char* scene : {"0", "1", "2"}) {
+    for (const char* sensor : {"front", "left"}) {
+      for (int trial = 0; trial < 2; ++trial) {
+        const bool fails = scene == std::string("1") && sensor == std::string("left") && trial == 1;
+        records.push_back(test::finished({"base", scene, sensor, trial},
+                                         fails ? Status::inaccurate : Status::success, {},
+                                         yaw_and_shift(fails ? 5.0 : 0.1, 0.0)));
+      }
+    }
+  }
+  const Summary summary = summarise(records, kBounds, {});
+  ASSERT_EQ(summary.frames.size(), 1U);
+  EXPECT_EQ(summary.frames[0].frames.count, 2);
+  EXPECT_EQ(summary.frames[0].frames.trials, 3);
+  EXPECT_FALSE(summary.frames[0].frames.interval);
+  const auto json = nlohmann::json::parse(summary_json(summary, {}));
+  EXPECT_EQ(json["frames"][0]["success"]["count"], 2);
+  for (TrialRecord& record : records) record.error.reset();
+  EXPECT_TRUE(summarise(records, kBounds, {}).frames.empty());
+}
+
 TEST(Summary, TheMostFrequentReasonComesFirst) {
   std::vector<TrialRecord> records;
   for (int trial = 0; trial < 5; ++trial) {

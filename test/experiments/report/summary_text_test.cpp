@@ -26,6 +26,12 @@ no volume  left        6/8   75.0              -           1         0       1  
 no volume  right       6/6  100.0              -           0         0       0  0.035, 0.060  0.0202, 0.0401
 no interval: trials of one scene are alike, and there are fewer than 6 scenes
 
+frames: scenes in which every trial of all sensors succeeds
+variant    frames    %  95 % interval
+---------  ------  ---  -------------
+base          0/2  0.0              -
+no volume     0/2  0.0              -
+
 mean ± std
 variant    sensor      pitch deg      roll deg       yaw deg             x m             y m             z m
 ---------  ------  -------------  ------------  ------------  --------------  --------------  --------------
