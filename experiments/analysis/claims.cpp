@@ -101,9 +101,10 @@ void set_counts(ClaimResult& result, const Rows& rows, const TrialSummary& all) 
 Interval attainable(const Claim& claim, const SuccessBounds& bounds, bool has_truth, int n) {
   if (is_share(claim.statistic)) return {0.0, 100.0};
   double most = std::numeric_limits<double>::infinity();
+  const bool is_angle = kMeasures[measure_index(claim.measure)].unit == std::string("deg");
+  if (is_angle) most = 180.0;
   if (has_truth && claim.over == Over::successful) {
-    const std::string unit = kMeasures[measure_index(claim.measure)].unit;
-    most = unit == "deg" ? bounds.rotation_deg : bounds.translation_m;
+    most = is_angle ? bounds.rotation_deg : bounds.translation_m;
   }
   const bool is_statistic = !is_spread(claim);
   if (is_statistic && kStatistics[statistic_index(claim.statistic)].is_signed) {

@@ -16,7 +16,7 @@ constexpr double kLevel = 0.05;
 
 /// A variant that succeeds in so many trials less, as a share of all, is below the best even if too
 /// few trials were run for a significant difference.
-constexpr double kLargeDifference = 0.25;
+constexpr double kLargeDifference = 0.05;
 
 /// The numbers of a trial that are compared; errors are infinite if it has no usable result.
 struct TrialResult {
@@ -154,7 +154,8 @@ bool is_below(const Rows& best, const Rows& rows, const RecordGroups& groups,
               const PoseBounds& bounds) {
   const double difference = success_ratio(best) - success_ratio(rows);
   if (difference <= 0.0) return false;
-  if (difference > kLargeDifference) return true;
+  constexpr double kRounding = 1e-9;
+  if (difference > kLargeDifference + kRounding) return true;
   const PairedTrials trials = paired(best, rows, groups, bounds);
   if (trials.scenes.empty()) return false;
   const Comparison comparison = compared_success(trials);

@@ -31,7 +31,8 @@ Agreeing agreeing_with(const RigidTransform& pose, const SceneRecords& records,
     rotations.push_back(distances[kRotation]);
     translations.push_back(distances[kTranslation]);
   }
-  if (rotations.empty()) return {};
+  // A pose that is near no other than itself agrees with none.
+  if (rotations.empty() || (rotations.size() == 1 && records.size() > 1)) return {};
   return {static_cast<int>(rotations.size()), root_mean_square(rotations),
           root_mean_square(translations)};
 }
@@ -57,7 +58,10 @@ SceneSummary without_deviations(const SceneRecords& records, const PoseBounds& b
 
 /// Whether the trial counts (see `SummaryRow`).
 bool counts(const TrialRecord& record, const SceneSummary& scene, const PoseBounds& bounds) {
-  if (lacks_truth(scene)) return agrees(record, scene, bounds).value_or(false);
+  if (lacks_truth(scene)) {
+    const bool is_alone = scene.outcomes.trials == 1 && usable_pose(record) != nullptr;
+    return agrees(record, scene, bounds).value_or(is_alone);
+  }
   return record.status == Status::success && record.error;
 }
 
@@ -197,7 +201,10 @@ TrialSummary pooled_counts(const std::vector<const SceneSummary*>& scenes) {
     sum.outcomes.trials += scene->outcomes.trials;
     for (const auto count : kByStatus) sum.outcomes.*count += scene->outcomes.*count;
     successes.add(scene->scene, scene->outcomes.success, scene->outcomes.trials);
-    agreements.add(scene->scene, scene->agreeing.count, scene->outcomes.trials);
+    // One trial alone has none to agree with.
+    if (scene->outcomes.trials > 1) {
+      agreements.add(scene->scene, scene->agreeing.count, scene->outcomes.trials);
+    }
     sum.counted += static_cast<int>(scene->deviations.size());
     sum.usable += static_cast<int>(scene->usable_deviations.size());
   }
@@ -259,7 +266,9 @@ const RigidTransform* usable_pose(const TrialRecord& record) {
 
 std::optional<bool> agrees(const TrialRecord& record, const SceneSummary& scene,
                            const PoseBounds& bounds) {
-  return scene.consensus ? is_near(record, *scene.consensus, bounds) : std::nullopt;
+  if (!scene.consensus || scene.outcomes.trials < 2) return std::nullopt;
+  const std::optional<bool> near = is_near(record, *scene.consensus, bounds);
+  return near ? std::optional<bool>(*near && scene.agreeing.count > 0) : std::nullopt;
 }
 
 SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds& bounds) {
@@ -274,7 +283,7 @@ SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds
     all.insert(all.end(), records.begin(), records.end());
     if (!row.scenes.back().consensus) continue;
     consensus.push_back(*row.scenes.back().consensus);
-    votes.push_back(row.scenes.back().agreeing.count);
+    votes.push_back(std::max(1, row.scenes.back().agreeing.count));
   }
   if (!consensus.empty()) {
     row.consensus = consensus_pose(consensus, bounds, votes);

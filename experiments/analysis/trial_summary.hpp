@@ -82,7 +82,7 @@ const char* name_of(DeviationsFrom from);
 
 /// The trials whose usable poses are within the success bounds of a pose.
 struct Agreeing {
-  int count = 0;
+  int count = 0;               ///< Of several trials at least two, else 0.
   double rotation_deg = 0.0;   ///< The root mean square of their angles from it.
   double translation_m = 0.0;  ///< The root mean square of their distances from it.
 };
@@ -92,7 +92,7 @@ struct TrialSummary {
   DeviationsFrom deviations_from = DeviationsFrom::none;  ///< Truth if one sensor has it.
   Outcomes outcomes;
   Share success;    ///< Trials with status `success`; means nothing without truth.
-  Share agreement;  ///< Trials that `agrees` is true for.
+  Share agreement;  ///< Trials that `agrees` is true for, of those of scenes with several trials.
   int counted = 0;  ///< Trials that `statistics` are over.
   std::optional<StatisticsTable> statistics;
   int usable = 0;  ///< Trials with a `usable_pose`, successful or not.
@@ -115,8 +115,8 @@ struct SceneSummary : TrialSummary {
 /// One variant and sensor over all scenes.
 ///
 /// Statistics are over the trials that count: with truth those with status `success`; without truth
-/// those that agree. Deviations are from the truth, else
-/// from `consensus`, by `pose_error`.
+/// those that agree, and the trial of a scene that has one alone. Deviations are from the truth,
+/// else from `consensus`, by `pose_error`.
 struct SummaryRow : TrialSummary {
   std::string variant;
   std::string sensor;  ///< Empty for all sensors together.
@@ -171,8 +171,9 @@ const TrialRecord* find_trial(const SceneRecords& records, int trial);
 /// The pose of a trial that finished and is not rejected; else null.
 const RigidTransform* usable_pose(const TrialRecord& record);
 
-/// Whether the usable pose of a trial is within `bounds` of the consensus of its scene;
-/// std::nullopt if it has none. The only place that decides it.
+/// Whether the usable pose of a trial is within `bounds` of the consensus of its scene, and that of
+/// another trial too; std::nullopt if it has none, or if the scene has no other trial. The only
+/// place that decides it.
 std::optional<bool> agrees(const TrialRecord& record, const SceneSummary& scene,
                            const PoseBounds& bounds);
 

@@ -85,15 +85,24 @@ std::string table_bytes(const ExportOptions& options) {
                        "the full table spans two columns; use --compact or --columns");
     }
   }
-  std::vector<ExportTable> tables;
+  std::vector<Results> all;
   std::vector<std::string> folders;
   for (const std::filesystem::path& folder : options.folders) {
-    const Results results = restricted(read_results(folder), {options.variants, {}, options.kinds});
-    const TableChoice chosen = options.compact ? compact(choice, results.summary) : choice;
-    // Further experiments have the columns of the first.
-    if (tables.empty()) choice.columns = chosen.columns;
-    tables.push_back(export_table(results.summary, caption_of(results, options.kinds), chosen));
+    all.push_back(restricted(read_results(folder), {options.variants, {}, options.kinds}));
     folders.push_back(folder.string());
+  }
+  // All experiments have the same columns: agreement if one of them lacks truth.
+  if (options.compact && options.columns.empty()) {
+    for (const Results& results : all) {
+      const TableChoice own =
+          compact({choice.sensors, {}, choice.is_in_mm, choice.is_one_column}, results.summary);
+      if (own.columns.size() > choice.columns.size()) choice.columns = own.columns;
+    }
+  }
+  std::vector<ExportTable> tables;
+  for (const Results& results : all) {
+    const TableChoice chosen = options.compact ? compact(choice, results.summary) : choice;
+    tables.push_back(export_table(results.summary, caption_of(results, options.kinds), chosen));
   }
   return format.bytes(joined(std::move(tables), folders));
 }

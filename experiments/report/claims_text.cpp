@@ -19,7 +19,7 @@ View claims_view(const std::string& open, const std::string& close) {
            {"source"},
            {"trials"},
            {"scenes"},
-           {"success %", "<success_percent>"},
+           {"share %", "<success_percent>"},
            {"expected", "<expected> <unit>"},
            {"band", open + "<low>, <high>" + close},
            {"found"},
@@ -55,8 +55,9 @@ Table quoted_table(const std::vector<Quoted>& quoted, const Summary& summary) {
 
 /// What the verdicts mean that are no verdict on a number.
 std::string verdicts_explained() {
-  return "trials, scenes: what the number is over; success: the share of all trials (no truth: of "
-         "those that agree).\nshown: no result within the success bounds could be outside the "
+  return "trials, scenes: what the number is over; share: of all trials, those that succeed (no "
+         "truth: "
+         "that agree).\nshown: no result within the success bounds could be outside the "
          "band. "
          "not enough trials: fewer than " +
          std::to_string(kLeastClaimTrials) + " trials or " + std::to_string(kLeastScenes) +

@@ -79,6 +79,9 @@ void mark_best(Table& table, std::size_t begin, std::size_t end,
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
     const Column& column = table.columns[k];
     if (column.better == Better::neither) continue;
+    // Deviations without truth say how repeatable a method is, not how good.
+    const bool is_error = column.better != Better::greater;
+    if (is_error && table.text_at(begin, "reference") != name_of(DeviationsFrom::truth)) continue;
     std::vector<Cell*> rivals;
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t i = begin; i < end; ++i) {
@@ -192,8 +195,14 @@ Columns<SummaryRow> export_columns() {
       .add({"counted"}, &SummaryRow::counted);
   add_percents(columns, "success",
                [](const SummaryRow& row) { return lacks_truth(row) ? nullptr : &row.success; });
-  columns.add({"agreement"}, [](const SummaryRow& row) { return row.agreement.count; });
-  add_percents(columns, "agreement", [](const SummaryRow& row) { return &row.agreement; });
+  const auto agreement = [](const SummaryRow& row) {
+    return row.agreement.trials > 0 ? &row.agreement : nullptr;
+  };
+  columns.add({"agreement"}, [=](const SummaryRow& row) {
+    const Share* const share = agreement(row);
+    return share ? std::optional<int>(share->count) : std::nullopt;
+  });
+  add_percents(columns, "agreement", agreement);
   const auto add = [&](std::size_t k, const char* statistic) {
     const std::size_t s = statistic_index(statistic);
     columns.add(statistic_column(kMeasures[k], statistic),
@@ -290,14 +299,16 @@ std::vector<std::string> caption_sentences(const ExportTable& table) {
   }
   if (table.variants.size() > 1) {
     sentences.emplace_back(
-        "Bold: the best of the sensor, for errors among those that no other beats in success.");
+        "Bold: the best of the sensor, for errors among those whose success is neither more than 5 "
+        "points nor significantly below the best; deviations without truth have none.");
   }
   if (!table.base.empty()) {
     const bool has_paired = shows_column(table, "paired_low", "");
     sentences.push_back(
         "*: differs from " + table.base +
         " over the same trials, those without a usable result as infinite errors (McNemar, "
-        "Wilcoxon; p < 0.05 after Holm), + for the better, - for the worse; **: also with scenes "
+        "Wilcoxon; p < 0.05 after Holm over the variants of this table), + for the better, - for "
+        "the worse; **: also with scenes "
         "as units." +
         (has_paired ? " Paired: the 95 % interval of the median difference from it, over scenes."
                     : ""));

@@ -46,6 +46,15 @@ std::vector<ChosenColumn> column_choices(const Table& table) {
                        {share + "_low_percent", share + "_high_percent"},
                        Joint::interval});
   }
+  for (const std::size_t k : kDistances) {
+    const std::string name = std::string(kMeasures[k].name) + "_paired";
+    const std::string unit = kMeasures[k].unit;
+    choices.push_back({name,
+                       std::string(kMeasures[k].name) + " (" + unit + ")",
+                       "paired",
+                       {name + "_low_" + unit, name + "_high_" + unit},
+                       Joint::interval});
+  }
   for (const Measure& measure : kMeasures) {
     const std::string group = std::string(measure.name) + " (" + measure.unit + ")";
     choices.push_back({measure.name,
@@ -140,9 +149,25 @@ std::string content_of(const ChosenColumn& chosen, bool is_latex) {
   if (chosen.joint == Joint::none) return first;
   const std::string second = "<" + chosen.columns.back() + ">";
   if (chosen.joint == Joint::interval) {
-    return is_latex ? first + "\\,--\\," + second : "[" + first + ", " + second + "]";
+    return is_latex ? first + "\\,to\\," + second : "[" + first + ", " + second + "]";
   }
   return first + (is_latex ? "\\,${}\\pm{}$\\," : " ± ") + second;
+}
+
+/// Removes the marks beside errors whose paired difference is not shown. Variants succeed in other
+/// trials, so their medians can differ the other way.
+void remove_unexplained_marks(ExportTable& table) {
+  for (const std::size_t k : kDistances) {
+    const std::string name = kMeasures[k].name;
+    const bool is_explained =
+        std::any_of(table.chosen.begin(), table.chosen.end(),
+                    [&](const ChosenColumn& chosen) { return chosen.name == name + "_paired"; });
+    const std::string median = column_name(kMeasures[k], "median");
+    if (is_explained || !has_column(table.table, median)) continue;
+    const std::size_t column = table.table.index_of(median);
+    table.table.columns[column].has_marks = false;
+    for (CellRow& row : table.table.rows) row[column].mark.clear();
+  }
 }
 
 /// The names of the sensors, and of the experiments, whose rows are in the table.
@@ -202,24 +227,36 @@ void choose(ExportTable& table, const TableChoice& choice) {
       names.insert(names.end(), chosen.columns.begin(), chosen.columns.end());
     }
     table.table = projected(table.table, names);
+    remove_unexplained_marks(table);
   }
   if (choice.is_in_mm) change_to_mm(table);
   table.is_in_mm = choice.is_in_mm;
 }
+
+namespace {
+
+/// What the rows of each experiment are called: its name; if two have one name, "NAME in FOLDER".
+Names names_of(const std::vector<ExportTable>& tables, const Names& folders) {
+  Names names;
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    const std::string& name = tables[i].caption.name;
+    const auto has_name = [&](const ExportTable& table) { return table.caption.name == name; };
+    const bool is_alone = std::count_if(tables.begin(), tables.end(), has_name) == 1;
+    names.push_back(is_alone ? name : name + " in " + folders[i]);
+  }
+  return names;
+}
+
+}  // namespace
 
 ExportTable joined(std::vector<ExportTable> tables, const std::vector<std::string>& folders) {
   if (tables.size() == 1) return tables.front();
   ExportTable whole = tables.front();
   whole.table.rows.clear();
   whole.table.columns.insert(whole.table.columns.begin(), Column{"experiment"});
+  const Names names = names_of(tables, folders);
   for (std::size_t i = 0; i < tables.size(); ++i) {
     ExportTable& table = tables[i];
-    for (std::size_t k = 0; k < i; ++k) {
-      if (table.caption.name != tables[k].caption.name) continue;
-      throw InputError(folders[i], "",
-                       "expected an experiment of another name, found \"" + table.caption.name +
-                           "\", as in " + folders[k]);
-    }
     if (table.bounds.rotation_deg != whole.bounds.rotation_deg ||
         table.bounds.translation_m != whole.bounds.translation_m) {
       throw InputError(folders[i], "",
@@ -227,7 +264,7 @@ ExportTable joined(std::vector<ExportTable> tables, const std::vector<std::strin
                            folders.front() + ", found " + bounds_text(table.bounds) + "it");
     }
     for (CellRow& row : table.table.rows) {
-      row.insert(row.begin(), to_cell(table.caption.name));
+      row.insert(row.begin(), to_cell(names[i]));
       whole.table.rows.push_back(row);
     }
     for (const auto& [all, own] :

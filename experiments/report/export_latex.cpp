@@ -27,13 +27,13 @@ std::vector<View> panels_of(const ExportTable& table) {
     const std::string group = share + " (\\%)";
     success.columns.push_back({"rate", "<" + share + "_percent>", false, group});
     success.columns.push_back({"95\\,\\% interval",
-                               "<" + share + "_low_percent>\\,--\\,<" + share + "_high_percent>",
+                               "<" + share + "_low_percent>\\,to\\,<" + share + "_high_percent>",
                                false, group});
   }
   for (const std::size_t k : kDistances) {
     add(success, k, "median", "<median>");
     add(success, k, "p95", "<p95>");
-    if (!table.base.empty()) add(success, k, "paired", "<paired_low>\\,--\\,<paired_high>");
+    if (!table.base.empty()) add(success, k, "paired", "<paired_low>\\,to\\,<paired_high>");
   }
   for (const std::size_t k : kPaperOrder) {
     add(dofs, k, "mean $\\pm$ std", "<mean>\\,${}\\pm{}$\\,<std>");
@@ -90,7 +90,8 @@ std::string export_latex(const ExportTable& table) {
             "\\scriptsize\n"
             "\\setlength{\\tabcolsep}{2.5pt}\n"
             "\\robustify\\bfseries\n"
-            "\\sisetup{detect-weight=true}\n" +
+            "\\sisetup{detect-weight=true,group-minimum-digits=9}\n"
+            "\\setlength{\\belowcaptionskip}{4pt}\n" +
             caption_of(table, is_first) + page + "\\end{" + environment + "}\n";
     is_first = false;
   }

@@ -49,8 +49,12 @@ Columns<TrialSummary> outcome_columns() {
       .add({"failed"}, [](const S& s) { return s.outcomes.failed; })
       .add(share_columns("success"), with_truth(&S::success))
       .add({"agreement", "", "/agreement/count"},
-           [](const TrialSummary& summary) { return summary.agreement.count; })
-      .add(share_columns("agreement"), &TrialSummary::agreement);
+           [](const S& s) {
+             return s.agreement.trials > 0 ? std::optional<int>(s.agreement.count) : std::nullopt;
+           })
+      .add(share_columns("agreement"), [](const S& s) {
+        return s.agreement.trials > 0 ? std::optional<Share>(s.agreement) : std::nullopt;
+      });
 }
 
 /// Every statistic of every measure. `of` is put before the names: "usable_".

@@ -72,8 +72,8 @@ CurveLayout layout_of(const Sheet& sheet, const std::vector<std::string>& labels
 
 /// Draws the frame of a panel and returns its plot: to the right the decimal logarithm of the
 /// threshold, upwards the share. The threshold in the middle is the success bound.
-Plot draw_panel(Drawing& drawing, const CurveLayout& layout, std::size_t index, const Panel& panel,
-                const std::vector<double>& thresholds) {
+Plot draw_panel(Drawing& drawing, const CurveLayout& layout, std::size_t index,
+                const std::string& title, const std::vector<double>& thresholds) {
   const double text = drawing.sheet().small();
   const auto [row, column] = place_in_grid(index, layout.columns);
   const Plot plot = {layout.left + column * layout.panel_width,
@@ -92,7 +92,7 @@ Plot draw_panel(Drawing& drawing, const CurveLayout& layout, std::size_t index, 
   const double bound_x = plot.x(std::log10(thresholds[thresholds.size() / 2]));
   drawing.line(bound_x, plot.top, bound_x, plot.top + plot.height, "zero");
   drawing.text(bound_x, plot.top - 0.4 * text, "bound", Anchor::middle, "small");
-  drawing.text(plot.left + plot.width / 2.0, plot.top + plot.height + 2.9 * text, panel.title,
+  drawing.text(plot.left + plot.width / 2.0, plot.top + plot.height + 2.9 * text, title,
                Anchor::middle, "small");
   if (!drawing.sheet().has_title && index % layout.columns == 0) {
     drawing.text(plot.left - 2.9 * text, plot.top + plot.height / 2.0, "share of all trials, %",
@@ -141,10 +141,12 @@ Drawing success_curve_chart(const SuccessCurve& curve, const FigureOptions& opti
   }
   for (std::size_t p = 0; p < kPanels.size(); ++p) {
     std::vector<double> thresholds;
+    const bool is_in_mm = kPanels[p].of == CurveOf::translation && options.length_unit == "mm";
     for (const SuccessBounds& bounds : curve.thresholds) {
-      thresholds.push_back(bounds.*kPanels[p].threshold);
+      thresholds.push_back((is_in_mm ? 1000.0 : 1.0) * bounds.*kPanels[p].threshold);
     }
-    const Plot plot = draw_panel(drawing, layout, p, kPanels[p], thresholds);
+    const std::string title = kPanels[p].title + std::string(is_in_mm ? "m" : "");
+    const Plot plot = draw_panel(drawing, layout, p, title, thresholds);
     const auto lines = lines_of(curve, kPanels[p].of);
     for (std::size_t i = 0; i < lines.size(); ++i) {
       draw_curve(drawing, plot, thresholds, *lines[i].second, i);

@@ -275,7 +275,8 @@ std::string summary_text(const Summary& summary, const TableStyle& style) {
   const std::string bounds = "within " + bounds_text(summary.bounds);
 
   std::string text;
-  if (has_deviations_from(table, DeviationsFrom::truth)) {
+  const bool has_truth = has_deviations_from(table, DeviationsFrom::truth);
+  if (has_truth) {
     text += "success: " + bounds + "the truth; errors of those trials\n";
   }
   if (has_consensus) {
@@ -297,7 +298,9 @@ std::string summary_text(const Summary& summary, const TableStyle& style) {
     text += "\nframes: scenes in which every trial of all sensors succeeds\n" +
             text_by_variant(frame_columns().table(summary.frames), frames_view(), summary, style);
   }
-  text += "\nmean ± std\n" + dofs_text("<mean> ±<std>", false);
+  // Without truth deviations are from a mean of the trials: their own means are zero.
+  text += has_truth ? "\nmean ± std\n" + dofs_text("<mean> ±<std>", false)
+                    : "\nstd\n" + dofs_text("<std>", false);
   if (has_scenes && has_spread) {
     text += "\nstd within scenes / across scenes\n" +
             dofs_text("<within_scene_std> / <across_scenes_std>", true);

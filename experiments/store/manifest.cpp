@@ -1,6 +1,7 @@
 #include "experiments/store/manifest.hpp"
 
 #include <sys/utsname.h>
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <fstream>
@@ -29,7 +30,8 @@ using Json = nlohmann::ordered_json;
 Json files_json(const std::vector<ExperimentFile>& files) {
   Json json = Json::array();
   for (const ExperimentFile& file : files) {
-    json.push_back({{"path", file.path}, {"sha256", file.sha256}});
+    const Json entry = {{"path", file.path}, {"sha256", file.sha256}};
+    if (std::find(json.begin(), json.end(), entry) == json.end()) json.push_back(entry);
   }
   return json;
 }

@@ -18,7 +18,9 @@ fs::path path_in_data_root(const fs::path& data_root, const std::string& relativ
   std::error_code error;
   const fs::path root = fs::canonical(data_root, error);
   if (error || !fs::is_directory(root, error)) {
-    throw InputError(data_root.string(), "", "expected the folder of the data, found none");
+    throw InputError(data_root.string(), "",
+                     "expected the folder of the data, found none; --data DIR or CROON_DATA names "
+                     "it (docs/data.md)");
   }
   fs::path path = (root / relative).lexically_normal();
   if (path.filename().empty()) path = path.parent_path();

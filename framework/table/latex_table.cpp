@@ -158,14 +158,27 @@ class Tabular {
            (begins_group(row) ? "" : ", continued") + "} \\\\\n";
   }
 
+  /// A minus, not a hyphen.
+  static std::string latex_mark(const std::string& mark) {
+    return mark.empty() || mark[0] != '-' ? mark : "$-$" + mark.substr(1);
+  }
+
   std::string numbers(std::size_t row) const {
     std::string text;
     for (std::size_t k = 1; k < cells_.size(); ++k) {
-      for (const auto& piece : cells_[k].pieces()) {
+      const auto& pieces = cells_[k].pieces();
+      const auto is_nothing = [&](const auto& piece) {
+        return table_.rows[row][piece.column].is_nothing();
+      };
+      if (pieces.size() > 1 && std::all_of(pieces.begin(), pieces.end(), is_nothing)) {
+        text += " & \\multicolumn{" + std::to_string(width(k, k + 1)) + "}{c}{--}";
+        continue;
+      }
+      for (const auto& piece : pieces) {
         const Cell& cell = table_.rows[row][piece.column];
         const std::string number = shown_text(cell, table_.columns[piece.column]);
         text += " & " + (number == "-" ? "{--}" : (cell.is_best ? "\\bfseries " : "") + number);
-        if (has_marks(piece.column)) text += " & " + cell.mark;
+        if (has_marks(piece.column)) text += " & " + latex_mark(cell.mark);
       }
     }
     return text + " \\\\\n";

@@ -159,6 +159,25 @@ TEST(Summary, AFrameSucceedsIfEveryTrialOfEachSensorDoes) {
   EXPECT_TRUE(summarise(records, kBounds, {}).frames.empty());
 }
 
+TEST(Summary, NoTrialAgreesWithItselfAlone) {
+  Rng rng = test_rng();
+  std::vector<TrialRecord> records;
+  for (int trial = 0; trial < 6; ++trial) {
+    records.push_back(
+        test::finished_without_truth({"base", "0", "front", trial}, random_pose(rng, 30.0)));
+  }
+  const auto agreement = [&] { return summarise(records, kBounds, {}).rows[0].agreement; };
+  EXPECT_EQ(agreement().count, 0);
+  EXPECT_EQ(agreement().trials, 6);
+  records.resize(1);
+  EXPECT_EQ(agreement().trials, 0);  // There is none to agree with.
+  const Summary alone = summarise(records, kBounds, {});
+  EXPECT_FALSE(agrees(records[0], alone.rows[0].scenes[0], {0.01, 0.1}));
+  EXPECT_EQ(alone.rows[0].counted, 1);
+  const auto json = nlohmann::json::parse(summary_json(alone, {}));
+  EXPECT_TRUE(json["rows"][0]["agreement"].is_null());
+}
+
 TEST(Summary, TheMostFrequentReasonComesFirst) {
   std::vector<TrialRecord> records;
   for (int trial = 0; trial < 5; ++trial) {

@@ -174,14 +174,30 @@ TEST(Joined, GroupsTheRowsByExperiment) {
   EXPECT_NE(export_markdown(table).find("| experiment | variant | sensor |"), std::string::npos);
 }
 
-TEST(Joined, RefusesWhatCannotBeToldApartOrCompared) {
+TEST(Joined, NamesExperimentsOfOneNameByTheirFolders) {
+  const ExportTable table = joined({chosen({}), chosen({})}, {"a", "b"});
+  EXPECT_EQ(table.table.text_at(0, "experiment"), "few in a");
+  EXPECT_EQ(table.table.text_at(table.table.rows.size() - 1, "experiment"), "few in b");
+}
+
+TEST(Chosen, MarksNoErrorsWithoutTheirPairedDifference) {
+  TableChoice choice;
+  choice.columns = {"success", "translation_median"};
+  const auto marks = [&] {
+    ExportTable table = chosen({});
+    for (CellRow& row : table.table.rows) {
+      row[table.table.index_of("translation_median_m")].mark = "+*";
+    }
+    choose(table, choice);
+    return table.table.rows[0][table.table.index_of("translation_median_m")].mark;
+  };
+  EXPECT_EQ(marks(), "");
+  choice.columns.emplace_back("translation_paired");
+  EXPECT_EQ(marks(), "+*");
+}
+
+TEST(Joined, RefusesWhatCannotBeCompared) {
   std::vector<ExportTable> tables = {chosen({}), chosen({})};
-  EXPECT_NE(refusal([&] {
-              joined(tables, {"a", "b"});
-            })
-                .find("b: expected an experiment of "
-                      "another name, found \"few\""),
-            std::string::npos);
   tables[1].caption.name = "other";
   tables[1].bounds.translation_m = 0.2;
   EXPECT_NE(refusal([&] {
