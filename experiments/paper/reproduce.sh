@@ -21,9 +21,24 @@ run_experiment() {
 }
 
 run_experiment table1_simulated
+run_experiment table1_opencalib_2022_03
 run_experiment consistency_simulated
 if [[ -d $data/opencalib/real ]]; then run_experiment real_consistency; fi
 if [[ -d $data/opencalib/carla ]]; then run_experiment carla_samples; fi
+
+noises=()
+for noise in none real_still real; do
+  "$croon" run "experiments/paper/noise_$noise.json" --out "$results/noise_$noise" || [[ $? == 3 ]]
+  noises+=("$results/noise_$noise")
+done
+
+# The three noises side by side, for the kinds of scenes given or for all.
+noise_table() {
+  local kinds=()
+  if [[ $# != 0 ]]; then kinds=(--kinds "$@"); fi
+  "$croon" export "${noises[@]}" --units mm "${kinds[@]}" \
+    --columns success success_interval rotation_median translation_median
+}
 
 # Written whole or not at all. Code 3: a number is not in its band, and the page says which.
 code=0
@@ -38,5 +53,17 @@ code=0
 } >"$page.new"
 "$croon" claims "${folders[@]}" >>"$page.new" || code=$?
 if [[ $code != 0 && $code != 3 ]]; then exit "$code"; fi
+{
+  echo
+  echo '## Without noise, with noise, and driving'
+  echo
+  noise_table
+  for kind in urban suburban crossing car_park highway; do
+    echo
+    echo "### Scenes of the kind \`$kind\`"
+    echo
+    noise_table "$kind"
+  done
+} >>"$page.new"
 mv "$page.new" "$page"
 echo "$page is written."

@@ -318,8 +318,8 @@ std::string summary_text(const Summary& summary, const TableStyle& style) {
     text += comparison_text(summary, style);
   }
   if (!summary.loops.empty()) {
-    text += "\nloops over the reference: closed " + bounds +
-            "the identity; how far loops are from it\n" + loop_text(summary, style);
+    text += "\nloops: T_reference_target T_target_source " + bounds +
+            "T_reference_source; how far loops are from it\n" + loop_text(summary, style);
   }
   if (!summary.scene_kinds.empty()) {
     text += "\nby kind of scene: " + share + " in %\n" + scene_kind_text(summary, style);
