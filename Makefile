@@ -57,7 +57,8 @@ fuzz: packages
 # Without the scripts of experiments/cluster, which test no code of their own.
 sanitize: packages
 	$(call PRESET_BUILD,sanitized)
-	ctest --test-dir build/sanitized --output-on-failure --parallel 2 -E '^cluster/'
+	LSAN_OPTIONS="suppressions=$(CURDIR)/test/leak_sanitizer.supp:print_suppressions=0" \
+	  ctest --test-dir build/sanitized --output-on-failure --parallel 2 -E '^cluster/'
 	cmake --preset threads
 	cmake --build --preset threads --target croon test_framework test_stages test_contract test_experiments
 	TSAN_OPTIONS="suppressions=$(CURDIR)/test/thread_sanitizer.supp" \
