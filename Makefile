@@ -54,15 +54,16 @@ fuzz: packages
 	$(call PRESET_BUILD,fuzz)
 	test/fuzz/run.sh build/fuzz/bin $(FUZZ_SECONDS)
 
-# Without the scripts of experiments/cluster, which test no code of their own.
+# Each program of tests runs once, not once per test: under a sanitizer the start of a process costs more than a test.
 sanitize: packages
 	$(call PRESET_BUILD,sanitized)
-	LSAN_OPTIONS="suppressions=$(CURDIR)/test/leak_sanitizer.supp:print_suppressions=0" \
-	  ctest --test-dir build/sanitized --output-on-failure --parallel 2 -E '^cluster/'
+	ls build/sanitized/bin/test_* | LSAN_OPTIONS="suppressions=$(CURDIR)/test/leak_sanitizer.supp:print_suppressions=0" \
+	  xargs -P 2 -I PROGRAM PROGRAM --gtest_brief=1
+	ctest --test-dir build/sanitized --output-on-failure -R '^fuzz_corpus/'
 	cmake --preset threads
 	cmake --build --preset threads --target croon test_framework test_stages test_contract test_experiments
-	TSAN_OPTIONS="suppressions=$(CURDIR)/test/thread_sanitizer.supp" \
-	  ctest --test-dir build/threads --output-on-failure --parallel 2 -R 'Thread|Runner'
+	ls build/threads/bin/test_* | TSAN_OPTIONS="suppressions=$(CURDIR)/test/thread_sanitizer.supp" \
+	  xargs -P 2 -I PROGRAM PROGRAM --gtest_brief=1 --gtest_filter='*Thread*:*Runner*'
 
 clean:
 	rm -rf build
