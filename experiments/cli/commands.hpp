@@ -117,7 +117,7 @@ std::string starts_csv(const Experiment& experiment, const std::vector<Scene>& s
 int validate_command(const std::vector<std::filesystem::path>& paths, const Catalogue& catalogue,
                      std::ostream& out, std::ostream& err);
 
-/// Writes each fault as one line, `croon: FILE: WHERE: MESSAGE`.
+/// Writes the first faults, each as one line, `croon: FILE: WHERE: MESSAGE`, and how many more are.
 void print_faults(const InputError& error, std::ostream& err);
 
 }  // namespace croon::experiments

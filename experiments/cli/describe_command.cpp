@@ -31,8 +31,7 @@ std::vector<NamedScene> scenes_of(const DescribeOptions& options, const Catalogu
     collect_faults(faults, [&] {
       const Experiment experiment = load_experiment(file, catalogue);
       int left = options.scenes > 0 ? options.scenes : -1;
-      std::vector<Scene> scenes = experiment.dataset->scenes(data_root(options.data));
-      check_names(scenes, experiment.file);
+      std::vector<Scene> scenes = dataset_scenes(experiment, data_root(options.data));
       for (Scene& scene : scenes) {
         if (left-- == 0) break;
         named.push_back({experiment.name, std::move(scene)});

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <map>
 #include <new>
+#include <system_error>
 
 #include "experiments/cli/commands.hpp"
 #include "experiments/report/export.hpp"
@@ -280,6 +281,11 @@ int main(int argc, char** argv) {
     return croon::experiments::croon_main(argc, argv);
   } catch (const std::bad_alloc&) {
     std::cerr << "croon: there is not enough memory; what was finished is in the store\n";
+    return 1;
+  } catch (const std::system_error& error) {
+    // Of the machine, which has no memory or threads left.
+    std::cerr << "croon: " << croon::printable(error.what())
+              << "; what was finished is in the store\n";
     return 1;
   } catch (const std::exception& error) {
     std::cerr << "croon: this is a bug: " << croon::printable(error.what()) << "\n";

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "experiments/file/experiment.hpp"
+#include "experiments/run/pose_file.hpp"
 #include "framework/base/text.hpp"
 
 namespace croon::experiments {
@@ -37,7 +38,11 @@ std::vector<fs::path> all_files(const std::vector<fs::path>& paths) {
 }  // namespace
 
 void print_faults(const InputError& error, std::ostream& err) {
-  for (const Fault& fault : error.faults()) err << "croon: " << fault.line() << "\n";
+  const std::vector<Fault>& faults = error.faults();
+  // One more than are shown may be the number of the others, as files of poses have it.
+  const std::size_t shown = faults.size() <= kShownFaults + 1 ? faults.size() : kShownFaults;
+  for (std::size_t i = 0; i < shown; ++i) err << "croon: " << faults[i].line() << "\n";
+  if (shown < faults.size()) err << "croon: and " << faults.size() - shown << " more faults\n";
 }
 
 int validate_command(const std::vector<fs::path>& paths, const Catalogue& catalogue,

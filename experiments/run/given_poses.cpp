@@ -39,8 +39,7 @@ class GivenPoses final : public Step {
 PoseTable read_table(const std::filesystem::path& path, const DatasetNames& names,
                      std::string& sha256) {
   PoseTable table;
-  sha256 = read_pose_file(path, {kStartHeader, kPoseHeader}, [&](const PoseLine& line) {
-    names.check(line.scene, line.sensor);
+  sha256 = read_pose_file(path, {kStartHeader, kPoseHeader}, names, [&](const PoseLine& line) {
     if (table.emplace(std::tuple(line.scene, line.sensor, line.trial), line.pose).second) return;
     throw InputError("", "",
                      "expected each pose once, found sensor " + in_quotes(line.sensor) +

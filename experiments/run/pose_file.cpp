@@ -7,7 +7,9 @@
 #include <string_view>
 
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 #include "framework/base/whole_file.hpp"
+#include "framework/geometry/length_bound.hpp"
 #include "framework/io/data_path.hpp"
 #include "framework/io/digest.hpp"
 #include "framework/io/text_scan.hpp"
@@ -15,7 +17,6 @@
 namespace croon::experiments {
 namespace {
 
-constexpr std::size_t kShownFaults = 10;
 constexpr double kUnitTolerance = 1e-6;
 
 /// Throws the InputError of a line: expected ..., found ...
@@ -49,6 +50,14 @@ double finite_number(const std::string& text) {
   return *number;
 }
 
+double coordinate(const std::string& text) {
+  const double number_m = finite_number(text);
+  if (std::abs(number_m) > kLargestCoordinate_m) {
+    refuse("a number of at most " + fixed_number(kLargestCoordinate_m, 0) + " m", in_quotes(text));
+  }
+  return number_m;
+}
+
 int trial_number(const std::string& text) {
   const std::optional<std::uint64_t> number = count_from(text);
   if (!number || *number >= kMaxTrials) {
@@ -77,7 +86,7 @@ PoseLine read_line(const std::string& text, bool has_trial) {
   }
   PoseLine line{fields[0], fields[1], has_trial ? trial_number(fields[2]) : -1, {}};
   for (std::size_t i = 0; i < 3; ++i) {
-    line.pose.translation(static_cast<int>(i)) = finite_number(fields[names + i]);
+    line.pose.translation(static_cast<int>(i)) = coordinate(fields[names + i]);
   }
   Eigen::Quaterniond q;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -110,6 +119,12 @@ DatasetNames::DatasetNames(const std::vector<Scene>& scenes) {
   }
 }
 
+bool DatasetNames::has(const std::string& scene, const std::string& sensor) const {
+  const auto found = sensors_.find(scene);
+  return found != sensors_.end() &&
+         std::find(found->second.begin(), found->second.end(), sensor) != found->second.end();
+}
+
 void DatasetNames::check(const std::string& scene, const std::string& sensor) const {
   const auto found = sensors_.find(scene);
   if (found == sensors_.end()) {
@@ -121,7 +136,7 @@ void DatasetNames::check(const std::string& scene, const std::string& sensor) co
 }
 
 std::string read_pose_file(const std::filesystem::path& path,
-                           const std::vector<std::string>& headers,
+                           const std::vector<std::string>& headers, const DatasetNames& names,
                            const std::function<void(const PoseLine&)>& add) {
   const std::string bytes = read_whole_file(path);
   const std::string file = path.string();
@@ -132,23 +147,32 @@ std::string read_pose_file(const std::filesystem::path& path,
   }
   const bool has_trial = reader.line() == kStartHeader;
   std::vector<Fault> faults;
+  std::size_t more = 0;
   while (reader.next()) {
+    const bool is_shown = faults.size() < kShownFaults;
     try {
-      add(read_line(std::string(reader.line()), has_trial));
+      const PoseLine line = read_line(std::string(reader.line()), has_trial);
+      if (!is_shown && !names.has(line.scene, line.sensor)) {
+        ++more;
+        continue;
+      }
+      names.check(line.scene, line.sensor);
+      add(line);
     } catch (const InputError& error) {
-      faults.push_back({file, reader.place(), error.faults().front().message});
+      if (is_shown) faults.push_back({file, reader.place(), error.faults().front().message});
+      if (!is_shown) ++more;
     }
   }
-  if (!faults.empty()) throw_first(std::move(faults), file);
+  if (!faults.empty()) throw_first(std::move(faults), file, more);
   return sha256_of_text(bytes);
 }
 
-void throw_first(std::vector<Fault> faults, const std::string& file) {
+void throw_first(std::vector<Fault> faults, const std::string& file, std::size_t more) {
   if (faults.size() > kShownFaults) {
-    const std::size_t more = faults.size() - kShownFaults;
+    more += faults.size() - kShownFaults;
     faults.resize(kShownFaults);
-    faults.push_back({file, "", "and " + std::to_string(more) + " more faults"});
   }
+  if (more > 0) faults.push_back({file, "", "and " + std::to_string(more) + " more faults"});
   throw InputError(std::move(faults));
 }
 

@@ -12,8 +12,10 @@
 #include "experiments/run/starts.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/base/whole_file.hpp"
+#include "framework/geometry/length_bound.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -36,6 +38,13 @@ TrialRecord failed(const TrialId& id, const std::string& reason) {
 
 bool is_finite(const RigidTransform& T) {
   return T.rotation.allFinite() && T.translation.allFinite();
+}
+
+/// Whether the numbers of a pose are those of a pose, so that its error and their squares are
+/// finite.
+bool is_near(const RigidTransform& T) {
+  return T.rotation.cwiseAbs().maxCoeff() <= kLargestDistance_m &&
+         T.translation.cwiseAbs().maxCoeff() <= kLargestDistance_m;
 }
 
 bool is_within(const PoseError& error, const SuccessBounds& bounds) {
@@ -71,6 +80,10 @@ void finish(TrialRecord& record, const Estimate& estimate, const SensorScan& sca
             const SuccessBounds& bounds) {
   if (!is_finite(estimate.T_target_source)) {
     record.reason = "the pose is not finite";
+    return;
+  }
+  if (!is_near(estimate.T_target_source)) {
+    record.reason = "the pose is farther away than " + fixed_number(kLargestDistance_m, 0) + " m";
     return;
   }
   record.T_reference_sensor = estimate.T_target_source;

@@ -1,6 +1,7 @@
 #include "experiments/run/sensor_pairs.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
@@ -10,6 +11,8 @@ namespace croon::experiments {
 namespace {
 
 constexpr char kBetween = '>';
+/// The name of the rows over all sensors in tables, claims and options.
+constexpr const char* kAllSensors = "all";
 
 std::optional<RigidTransform> between(const std::optional<RigidTransform>& T_reference_target,
                                       const std::optional<RigidTransform>& T_reference_source) {
@@ -51,6 +54,41 @@ void check_name(const std::string& what, const std::string& name, const std::str
                         in_quotes(name)});
 }
 
+/// Notes a fault for a name that tables have for something else, and for one that `scene` has
+/// twice.
+void check_meanings(const Scene& scene, const std::string& file, std::vector<Fault>& faults) {
+  std::set<std::string> names = {scene.reference.sensor};
+  for (const SensorScan& scan : scene.sensors) {
+    const std::string& at = scan.file.empty() ? file : scan.file;
+    if (scan.sensor == kAllSensors) {
+      faults.push_back({file, "/dataset",
+                        "expected a sensor with another name than " + in_quotes(kAllSensors) +
+                            ", which is that of all sensors together"});
+    }
+    if (names.insert(scan.sensor).second) continue;
+    faults.push_back({at, "",
+                      "expected sensors with different names in scene " + in_quotes(scene.name) +
+                          ", found " + in_quotes(scan.sensor) + " twice"});
+  }
+}
+
+/// Throws InputError if the name of a sensor could be that of a pair, or part of one.
+void check_names_for_pairs(const std::vector<Scene>& scenes, const std::string& file) {
+  std::vector<Fault> faults;
+  std::set<std::string> checked;
+  for (const Scene& scene : scenes) {
+    for (const SensorScan& scan : scene.sensors) {
+      if (scan.sensor.find(kBetween) == std::string::npos) continue;
+      if (!checked.insert(scan.sensor).second) continue;
+      faults.push_back({file, "/loops",
+                        std::string("expected sensors without \"") + kBetween +
+                            "\" in their names, which is that of pairs of sensors, found " +
+                            in_quotes(scan.sensor)});
+    }
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
 }  // namespace
 
 void check_names(const std::vector<Scene>& scenes, const std::string& file) {
@@ -63,6 +101,7 @@ void check_names(const std::vector<Scene>& scenes, const std::string& file) {
     check_name("scene", scene.name, of_reference.empty() ? file : of_reference, faults);
     check_sensor(scene.reference);
     for (const SensorScan& scan : scene.sensors) check_sensor(scan);
+    check_meanings(scene, file, faults);
   }
   if (!faults.empty()) throw InputError(without_repeats(faults));
 }
@@ -77,10 +116,27 @@ SensorPair named_pair(const std::string& name, const std::string& target) {
   return {name, name.substr(0, name.size() - target.size() - 1), target};
 }
 
+std::vector<Scene> dataset_scenes(const Experiment& experiment,
+                                  const std::filesystem::path& data_root) {
+  try {
+    std::vector<Scene> scenes = experiment.dataset->scenes(data_root);
+    check_names(scenes, experiment.file);
+    return scenes;
+  } catch (const InputError& error) {
+    std::vector<Fault> faults = error.faults();
+    for (Fault& fault : faults) {
+      if (!fault.file.empty() || fault.where.empty()) continue;
+      fault.file = experiment.file;
+      fault.where = "/dataset" + fault.where;
+    }
+    throw InputError(std::move(faults));
+  }
+}
+
 std::vector<Scene> scenes_of(const Experiment& experiment, const std::filesystem::path& data_root) {
-  std::vector<Scene> scenes = experiment.dataset->scenes(data_root);
-  check_names(scenes, experiment.file);
+  std::vector<Scene> scenes = dataset_scenes(experiment, data_root);
   if (experiment.loops) {
+    check_names_for_pairs(scenes, experiment.file);
     for (Scene& scene : scenes) add_pairs(scene);
   }
   return scenes;

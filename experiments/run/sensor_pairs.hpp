@@ -24,15 +24,23 @@ SensorPair sensor_pair(const std::string& source, const std::string& target);
 /// The pair whose name is `name` and whose target is `target`.
 SensorPair named_pair(const std::string& name, const std::string& target);
 
+/// The scenes of the experiment's dataset without pairs. Throws InputError as Dataset::scenes and
+/// check_names; a fault of the dataset without a file, at a pointer of its parameters, is one of
+/// the experiment's file at /dataset.
+std::vector<Scene> dataset_scenes(const Experiment& experiment,
+                                  const std::filesystem::path& data_root);
+
 /// The scenes of the experiment's dataset. If the experiment has `loops`, each pair of a scene's
 /// sensors is appended as another sensor: the later one is calibrated to the earlier one, with the
 /// poses T_target_source = T_reference_target^-1 T_reference_source. Throws InputError as
-/// Dataset::scenes and check_names.
+/// dataset_scenes, and if the name of a sensor could be that of a pair.
 std::vector<Scene> scenes_of(const Experiment& experiment, const std::filesystem::path& data_root);
 
 /// Throws InputError if the name of a scene or a sensor cannot stand in tables, figures and paths:
 /// it must be UTF-8 without control characters, and not begin with a sign or a dot. Spreadsheets
-/// take a cell that begins with a sign for a formula. `file` is named if a scan has no file.
+/// take a cell that begins with a sign for a formula. Nor must two sensors of a scene have one
+/// name, or a sensor the name "all", which stands for all of them. `file` is named if a scan has no
+/// file.
 void check_names(const std::vector<Scene>& scenes, const std::string& file);
 
 /// The scenes without pairs of sensors, as the dataset has them.

@@ -85,14 +85,13 @@ void check_centres(const Experiment& experiment, const std::vector<Scene>& scene
 /// Collects the lines of a file, in any order.
 class StartLines {
  public:
-  explicit StartLines(const std::vector<Scene>& scenes) : names_(scenes) {
+  explicit StartLines(const std::vector<Scene>& scenes) {
     for (const Scene& scene : scenes) {
       for (const SensorScan& scan : scene.sensors) starts_[{scene.name, scan.sensor}];
     }
   }
 
   void add(const PoseLine& line) {
-    names_.check(line.scene, line.sensor);
     if (!starts_[{line.scene, line.sensor}].emplace(line.trial, line.pose).second) {
       throw InputError("", "",
                        "expected each trial once, found trial " + std::to_string(line.trial) +
@@ -122,7 +121,6 @@ class StartLines {
   }
 
  private:
-  DatasetNames names_;
   std::map<std::pair<std::string, std::string>, std::map<int, Start>> starts_;
   int trials_ = 0;
 };
@@ -205,8 +203,8 @@ void resolve_starts(Experiment& experiment, const std::vector<Scene>& scenes,
 StartTable read_start_file(const std::filesystem::path& path, const std::vector<Scene>& scenes) {
   const std::string file = path.string();
   StartLines lines(scenes);
-  const std::string sha256 =
-      read_pose_file(path, {kStartHeader}, [&](const PoseLine& line) { lines.add(line); });
+  const std::string sha256 = read_pose_file(path, {kStartHeader}, DatasetNames(scenes),
+                                            [&](const PoseLine& line) { lines.add(line); });
   std::vector<Fault> faults;
   StartTable table = lines.table(file, faults);
   if (table.trials == 0) throw InputError(file, "line 2", "expected a start, found the end");

@@ -72,10 +72,16 @@ InputError::InputError(std::string file, std::string where, std::string message)
 }
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known) {
+  // Of the user's text, whose length has no bound; no name is as long.
+  constexpr std::size_t kLongestName = 200;
   std::string best;
+  if (name.size() > kLongestName) return best;
   // Allows two swapped letters in a short word, and up to half of a long word to differ.
   std::size_t least = std::min(name.size(), std::max<std::size_t>(2, name.size() / 2) + 1);
   for (const std::string& candidate : known) {
+    // Each letter that one of them has more is an edit.
+    const auto [shorter, longer] = std::minmax({name.size(), candidate.size()});
+    if (longer - shorter >= least) continue;
     const std::size_t distance = edit_distance(name, candidate);
     if (distance < least) {
       least = distance;

@@ -11,6 +11,8 @@
 #include <fstream>
 
 #include "framework/base/error.hpp"
+#include "framework/base/memory.hpp"
+#include "framework/base/text.hpp"
 
 namespace croon {
 namespace {
@@ -18,6 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string reason(int number) { return std::strerror(number); }
+
+/// No text and no cloud of a sensor is as large.
+constexpr double kLargestFileBytes = 4e9;
 
 /// What follows the path and comes before a number.
 constexpr const char* kPart = ".croon-part";
@@ -89,6 +94,12 @@ std::string read_whole_file(const fs::path& path) {
   }
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) throw UnavailableFile(path.string(), "", "cannot be read: " + error.message());
+  const double largest = std::min(kLargestFileBytes, memory_limit_bytes());
+  if (static_cast<double>(size) > largest) {
+    throw UnavailableFile(path.string(), "",
+                          "expected a file of at most " + fixed_number(largest, 0) +
+                              " bytes, found one of " + std::to_string(size));
+  }
   std::string bytes(static_cast<std::size_t>(size), '\0');
   stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (static_cast<std::uintmax_t>(stream.gcount()) != size) {

@@ -15,7 +15,7 @@ class UnavailableFile : public InputError {
   using InputError::InputError;
 };
 
-/// The bytes of the file `path`. Throws UnavailableFile if it is not a file or cannot be read.
+/// The bytes of the file `path`. Throws UnavailableFile if it cannot be read or is too large.
 std::string read_whole_file(const std::filesystem::path& path);
 
 /// Makes `bytes` the content of the file `path`: writes a file beside it and renames it, so that a

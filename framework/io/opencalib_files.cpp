@@ -12,7 +12,9 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 #include "framework/base/whole_file.hpp"
+#include "framework/geometry/length_bound.hpp"
 #include "framework/io/text_scan.hpp"
 
 namespace croon {
@@ -191,6 +193,10 @@ std::vector<ListedPose> read_pose_list(const std::filesystem::path& file) {
     const std::optional<RigidTransform> pose = pose_of(record.value);
     if (!pose) {
       reader.fault(record.place, "expected six numbers, found " + in_quotes(record.value));
+    } else if (pose->translation.cwiseAbs().maxCoeff() > kLargestCoordinate_m) {
+      reader.fault(record.place, "expected a position of at most " +
+                                     fixed_number(kLargestCoordinate_m, 0) + " m, found " +
+                                     in_quotes(record.value));
     }
     poses.push_back({record.device_id, pose.value_or(RigidTransform{}), record.place});
   }

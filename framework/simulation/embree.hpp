@@ -12,7 +12,7 @@
 
 #include <memory>
 #include <new>
-#include <stdexcept>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -67,13 +67,17 @@ inline void intersect_coherent(RTCScene scene, Packet& packet) {
 
 /// The device that all scenes share. Embree has code for several generations of processors, and
 /// they decide differently where two triangles meet. This is the code that every x86-64 runs,
-/// whatever Embree's configuration files say. Throws std::runtime_error if Embree finds no device.
+/// whatever Embree's configuration files say. Throws std::system_error if Embree finds no device:
+/// it has too little memory.
 inline RTCDevice embree_device() {
   static const struct Device {
     RTCDevice handle = rtcNewDevice("isa=sse2,ignore_config_files=1");
     ~Device() { rtcReleaseDevice(handle); }
   } device;
-  if (device.handle == nullptr) throw std::runtime_error("Embree finds no device to run on");
+  if (device.handle == nullptr) {
+    throw std::system_error(std::make_error_code(std::errc::not_enough_memory),
+                            "Embree does not start");
+  }
   return device.handle;
 }
 

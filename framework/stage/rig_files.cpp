@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/base/angles.hpp"
+#include "framework/base/text.hpp"
+#include "framework/geometry/length_bound.hpp"
 #include "framework/params/json_file.hpp"
 #include "framework/params/node.hpp"
 
@@ -28,11 +30,23 @@ RigidTransform pose_of(const Eigen::Vector3d& rpy_deg, const Eigen::Vector3d& tr
   return {rotation_from_rpy(rpy_deg * rad_from_deg(1.0)), translation_m};
 }
 
+/// Notes a fault for each element of the position `translation_m` of `pose` that is too large.
+void check_position(const params::Node& pose, const Eigen::Vector3d& translation_m) {
+  for (int i = 0; i < 3; ++i) {
+    if (std::abs(translation_m(i)) <= kLargestCoordinate_m) continue;
+    pose.member("translation_m")
+        .element(static_cast<std::size_t>(i))
+        .expected("a number of at most " + fixed_number(kLargestCoordinate_m, 0) + " m");
+  }
+}
+
 RigidTransform read_pose(const params::Node& pose) {
   if (!pose.is_object()) return {};
   pose.refuse_unknown_keys({"rotation_rpy_deg", "translation_m"});
   const Eigen::Vector3d rpy_deg = read_vector(pose, "rotation_rpy_deg");
-  return pose_of(rpy_deg, read_vector(pose, "translation_m"));
+  const Eigen::Vector3d translation_m = read_vector(pose, "translation_m");
+  check_position(pose, translation_m);
+  return pose_of(rpy_deg, translation_m);
 }
 
 /// Roll, pitch and yaw in whole billionths of a degree: the digits that a file has.

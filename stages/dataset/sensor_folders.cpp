@@ -3,6 +3,7 @@
 
 #include "framework/base/error.hpp"
 #include "framework/io/point_cloud_file.hpp"
+#include "framework/io/text_scan.hpp"
 #include "framework/recording/recording.hpp"
 #include "framework/stage/stage_entry.hpp"
 
@@ -18,8 +19,22 @@ struct Params {
   bool follow_links = false;
 };
 
-const params::Table<Params>& table() {
-  static const params::Table<Params> table = {
+/// Notes a fault for each of the sensors that is the reference or stands there twice.
+void check_sensors(const Params& params, const params::Node& node) {
+  for (std::size_t i = 0; i < params.sensors.size(); ++i) {
+    const std::string& name = params.sensors[i];
+    const auto at = params.sensors.begin() + static_cast<std::ptrdiff_t>(i);
+    const bool is_repeated = std::find(params.sensors.begin(), at, name) != at;
+    if (!is_repeated && name != params.reference) continue;
+    node.member("sensors").element(i).fault(
+        std::string("expected ") +
+        (is_repeated ? "each sensor once" : "another sensor than the reference") + ", found " +
+        in_quotes(name) + (is_repeated ? " again" : ""));
+  }
+}
+
+params::Table<Params> make_table() {
+  params::Table<Params> table = {
       params::text("path", &Params::path,
                    "A folder with a folder for each sensor, relative to the data root."),
       params::text("reference", &Params::reference,
@@ -30,6 +45,11 @@ const params::Table<Params>& table() {
       params::boolean("follow_links", &Params::follow_links,
                       "Symbolic links may lead out of the data root."),
   };
+  return table.finish(check_sensors);
+}
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table = make_table();
   return table;
 }
 
@@ -50,7 +70,8 @@ Clouds clouds_in(const SceneLocation& folder) {
   return clouds;
 }
 
-/// The names of the folders in `rig` that have clouds, sorted, without the reference.
+/// The names of the folders in `rig` that have clouds, sorted, without the reference; all if it is
+/// empty.
 std::vector<std::string> other_folders(const fs::path& rig, const std::string& reference) {
   std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(rig)) {
@@ -81,6 +102,7 @@ class SensorFolders final : public Dataset {
     rig.links = params_.follow_links ? Links::anywhere : Links::inside;
     rig.folder = path_in_data_root(data_root, params_.path, rig.links);
     rig.root = fs::canonical(data_root);
+    check_folders(rig.folder);
     std::vector<std::string> names = params_.sensors;
     if (names.empty()) names = other_folders(rig.folder, params_.reference);
     const Clouds references = clouds_of(rig, params_.reference);
@@ -108,6 +130,22 @@ class SensorFolders final : public Dataset {
     throw InputError(rig.folder.string(), "",
                      "expected clouds of one name in the folder \"" + params_.reference +
                          "\" and in another one, found none");
+  }
+
+  /// Throws InputError, at the pointers of the parameters, if the folder of a sensor is not there.
+  void check_folders(const fs::path& rig) const {
+    std::vector<Fault> faults;
+    const auto check = [&](const std::string& pointer, const std::string& name) {
+      if (fs::exists(rig / name)) return;
+      faults.push_back({"", pointer,
+                        "expected the folder of a sensor, found no " + (rig / name).string() +
+                            name_hint(name, other_folders(rig, ""))});
+    };
+    check("/reference", params_.reference);
+    for (std::size_t i = 0; i < params_.sensors.size(); ++i) {
+      check("/sensors/" + std::to_string(i), params_.sensors[i]);
+    }
+    if (!faults.empty()) throw InputError(std::move(faults));
   }
 
   static Clouds clouds_of(const SceneLocation& rig, const std::string& name) {

@@ -2,6 +2,7 @@
 // holds.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <sstream>
 
@@ -85,6 +86,87 @@ TEST_F(OddInput, AScenesNameIsPrintable) {
     EXPECT_EQ(text.find('\xff'), std::string::npos);
   }
   write_scene("ok", "left");
+}
+
+TEST_F(OddInput, ASensorIsNotCalledAllSensors) {
+  write_scene("s1", "all");
+  EXPECT_NE(refusal(kNominal).find("x.json: /dataset: expected a sensor with another name than "
+                                   "\"all\""),
+            std::string::npos);
+}
+
+TEST_F(OddInput, ASensorIsNotCalledAPairOfSensors) {
+  for (const char* sensor : {"top", "a", "b", "b>a"}) {
+    folder_.write(std::string("data/car/") + sensor + "/s1.pcd", kCloud);
+  }
+  const std::string run =
+      experiment(R"("loops": true, "starts": {"trials": 1})",
+                 R"({"type": "sensor_folders", "path": "car", "reference": "top"})");
+  const Answer answer = croon("run " + run + " --data " + path("data") + " --out " + path("out"));
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_EQ(answer.text.find("croon: " + run + ": /loops: expected sensors without \">\""), 0U)
+      << answer.text;
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+}
+
+TEST_F(OddInput, AFolderOfASensorIsNamedAtItsPointer) {
+  folder_.write("data/car/top/s1.pcd", kCloud);
+  folder_.write("data/car/left/s1.pcd", kCloud);
+  const auto refused = [&](const std::string& keys) {
+    const Answer answer =
+        croon("run " +
+              experiment(kNominal, R"({"type": "sensor_folders", "path": "car", )" + keys + "}") +
+              " --data " + path("data") + " --out " + path("out"));
+    EXPECT_EQ(answer.code, 2) << answer.text;
+    EXPECT_FALSE(std::filesystem::exists(path("out")));
+    return answer.text;
+  };
+  EXPECT_NE(
+      refused(R"("reference": "tpo")").find("x.json: /dataset/reference: expected the folder"),
+      std::string::npos);
+  EXPECT_NE(refused(R"("reference": "top", "sensors": ["lfet"])")
+                .find("car/lfet; did you mean \"left\"?"),
+            std::string::npos);
+  EXPECT_NE(refused(R"("reference": "top", "sensors": ["left", "left"])")
+                .find("x.json: /dataset/sensors/1: expected each sensor once"),
+            std::string::npos);
+}
+
+TEST_F(OddInput, AFarPoseIsRefusedBeforeItIsStored) {
+  write_scene("s1", "left");
+  const std::string far =
+      R"({"left": {"rotation_rpy_deg": [0, 0, 0], "translation_m": [1e16, 0, 0]}})";
+  folder_.write("data/rig/truth.json", far);
+  EXPECT_NE(refusal(kNominal).find("truth.json: /left/translation_m/0: expected a number of at "
+                                   "most 1000000 m, found 1e+16"),
+            std::string::npos);
+  std::filesystem::remove(path("data/rig/truth.json"));
+  folder_.write("data/poses.csv",
+                "scene,sensor,tx_m,ty_m,tz_m,qx,qy,qz,qw\ns1,left,1e16,0,0,0,0,0,1\n");
+  EXPECT_NE(
+      refusal(std::string(kNominal) + R"(, "variants": [{"name": "other", "poses": "poses.csv"}])")
+          .find("poses.csv: line 2: expected a number of at most 1000000 m"),
+      std::string::npos);
+}
+
+TEST_F(OddInput, ManyFaultsAreCounted) {
+  std::string steps;
+  for (int i = 0; i < 300; ++i) steps += std::string(i == 0 ? "" : ",") + R"({"step": "none"})";
+  folder_.write("many.json",
+                R"({"name": "x", "dataset": {"type": "simulated"}, "pipeline": [)" + steps + "]}");
+  const Answer answer = croon("validate " + path("many.json"));
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 11) << answer.text;
+  EXPECT_NE(answer.text.find("\ncroon: and 589 more faults"), std::string::npos) << answer.text;
+}
+
+TEST_F(OddInput, EmbreeWithoutMemoryIsNoBug) {
+  experiment(R"("starts": {"trials": 1})", R"({"type": "simulated", "scenes": 1})");
+  const Answer answer =
+      croon("validate " + path("x.json") + " >/dev/null; ulimit -v 300000; \"" + CROON_BINARY_DIR +
+            "/bin/croon\" run " + path("x.json") + " --quiet --jobs 1 --out " + path("out"));
+  EXPECT_EQ(answer.code, 1);
+  EXPECT_NE(answer.text.find("croon: Embree does not start: "), std::string::npos) << answer.text;
 }
 
 TEST_F(OddInput, FilesAreNamedWithoutEscapes) {

@@ -94,6 +94,34 @@ TEST_F(StartsCommand, OverwritesNeitherWhatItReadsNorAStore) {
   }
 }
 
+TEST_F(StartsCommand, OverwritesNoFileThatItsExperimentConsistsOf) {
+  folder_.write("bases/base.json", experiment(R"({"trials": 2})"));
+  folder_.write("x.json", R"({"extends": "bases/base.json"})");
+  run("starts " + path("x.json") + " --out " + path("starts.csv"));
+  folder_.write("read.json", R"({"extends": "bases/base.json", "starts": {"file": "starts.csv"},
+                                 "variants": [{"name": "other", "poses": "poses.csv"}]})");
+  std::filesystem::copy(path("starts.csv"), path("poses.csv"));
+  for (const char* out : {"read.json", "bases/base.json", "starts.csv", "poses.csv"}) {
+    const std::string before = read_whole_file(path(out));
+    const Answer answer = croon("starts " + path("read.json") + " --trials 1 --out " + path(out));
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_NE(answer.text.find(std::string(out) + ", which is read"), std::string::npos)
+        << answer.text;
+    EXPECT_EQ(read_whole_file(path(out)), before);
+  }
+}
+
+TEST_F(StartsCommand, IsEstimatedBeforeItIsMade) {
+  folder_.write("x.json", R"({"name": "x", "dataset": {"type": "simulated", "scenes": 10000},
+                "starts": {"trials": 1000000}, "pipeline": [{"step": "identity"}]})");
+  const Answer answer = croon("starts " + path("x.json") + " --out " + path("starts.csv"));
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_NE(answer.text.find("x.json: a list of 40000000000 starts takes about "),
+            std::string::npos)
+      << answer.text;
+  EXPECT_FALSE(std::filesystem::exists(path("starts.csv")));
+}
+
 TEST_F(StartsCommand, AreWrittenBesideSimulatedScenes) {
   folder_.write("x.json", experiment(R"({"rotation_deg": 10, "trials": 2})"));
   run("starts " + path("x.json") + " --out " + path("mine.csv"));

@@ -244,10 +244,12 @@ TEST(Runner, SaysHowATrialEnded) {
     const char* reason;
     bool has_pose;
   };
-  for (const Case& c : {Case{"pass", Status::inaccurate, "", true},
-                        Case{"reject", Status::rejected, "behave: too few points", true},
-                        Case{"defeat", Status::failed, "behave: no ground", false},
-                        Case{"nan", Status::failed, "the pose is not finite", false}}) {
+  for (const Case& c :
+       {Case{"pass", Status::inaccurate, "", true},
+        Case{"reject", Status::rejected, "behave: too few points", true},
+        Case{"defeat", Status::failed, "behave: no ground", false},
+        Case{"nan", Status::failed, "the pose is not finite", false},
+        Case{"far", Status::failed, "the pose is farther away than 1000000000 m", false}}) {
     json experiment = drifting();
     experiment["pipeline"][1]["how"] = c.how;
     for (const TrialRecord& record : run(experiment).records) {

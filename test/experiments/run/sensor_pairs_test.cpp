@@ -51,6 +51,28 @@ TEST(SensorPairs, GoAgain) {
   }
 }
 
+std::vector<Scene> scenes_with(const std::vector<std::string>& sensors) {
+  Scene scene;
+  scene.name = "s";
+  scene.reference.sensor = "top";
+  for (const std::string& name : sensors) scene.sensors.emplace_back().sensor = name;
+  return {scene};
+}
+
+TEST(SensorPairs, HaveSensorsWithNamesOfTheirOwn) {
+  const auto error = [](const std::vector<std::string>& sensors) {
+    return test::input_error([&] { check_names(scenes_with(sensors), "x.json"); });
+  };
+  EXPECT_NO_THROW(check_names(scenes_with({"left", "right"}), "x.json"));
+  EXPECT_EQ(error({"left", "left"}),
+            "x.json: expected sensors with different names in scene \"s\", found \"left\" twice");
+  EXPECT_EQ(error({"top"}),
+            "x.json: expected sensors with different names in scene \"s\", found \"top\" twice");
+  EXPECT_EQ(error({"all"}),
+            "x.json: /dataset: expected a sensor with another name than \"all\", which is that of "
+            "all sensors together");
+}
+
 TEST(SensorPairs, AreKnownByTheirNames) {
   // The names of sensors are the user's: they may have any character.
   for (const char* source : {"left", "a>b", ""}) {

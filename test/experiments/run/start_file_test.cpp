@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "framework/base/error.hpp"
 #include "test/support/temp_folder.hpp"
 
@@ -105,6 +107,7 @@ TEST(StartFile, NamesWhatIsWrongWithALine) {
       {"a,left,0,1,2,,0,0,0,1", "expected a number, found \"\""},
       {"a,left,0,1,2,nan,0,0,0,1", "expected a finite number, found \"nan\""},
       {"a,left,0,1,2,3,0,0,0,inf", "expected a finite number, found \"inf\""},
+      {"a,left,0,1,2,-1.1e6,0,0,0,1", "expected a number of at most 1000000 m, found \"-1.1e6\""},
       {"a,left,0,1,2,3,0,0,0,1.00001",
        "expected a quaternion of length 1, found one of length 1.000010"},
       {"a,left,0,1,2,3,0,0,0,0", "expected a quaternion of length 1, found one of length 0.000000"},
@@ -136,6 +139,23 @@ TEST(StartFile, WantsEachTrialOnceAndNoneLeftOut) {
                    "expected trials 0 to 2 of sensor \"left\" in scene \"b\", found no trial "
                    "0"}));
   EXPECT_EQ(faults_of(file_of({}), scenes), Lines{"line 2: expected a start, found the end"});
+}
+
+TEST(StartFile, TakesPositionsUpToTheirBound) {
+  EXPECT_EQ(read(file_of({"a,left,0,1e6,-1e6,3,0,0,0,1"}), scenes_of({"a"}, {"left"})).trials, 1);
+}
+
+TEST(StartFile, CountsFaultsThatAreNotShownInLinearTime) {
+  std::vector<std::string> names;
+  for (int i = 0; i < 2000; ++i) names.push_back(std::string(100, 's') + std::to_string(i));
+  const auto begin = std::chrono::steady_clock::now();
+  // Names as long as those of the dataset, so that their distance must be counted.
+  const Lines faults =
+      faults_of(file_of(Lines(5000, std::string(102, 't') + ",left,0,1,2,3,0,0,0,1")),
+                scenes_of(names, {"left"}));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+  ASSERT_EQ(faults.size(), 11U);
+  EXPECT_EQ(faults.back(), "and 4990 more faults");
 }
 
 TEST(StartFile, ShowsTheFirstFaultsAlone) {

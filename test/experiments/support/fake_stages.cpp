@@ -101,7 +101,7 @@ class Drift final : public Step {
   DriftParams params_;
 };
 
-enum class How { pass, reject, defeat, memory, bug, nan };
+enum class How { pass, reject, defeat, memory, bug, nan, far };
 
 struct BehaveParams {
   How how = How::pass;
@@ -119,6 +119,7 @@ class Behave final : public Step {
     if (params_.how == How::nan) {
       estimate.T_target_source.translation.x() = std::numeric_limits<double>::quiet_NaN();
     }
+    if (params_.how == How::far) estimate.T_target_source.translation.x() = -1e18;
     return estimate;
   }
 
@@ -156,7 +157,8 @@ Catalogue fake_catalogue() {
                                                            {"defeat", How::defeat},
                                                            {"memory", How::memory},
                                                            {"bug", How::bug},
-                                                           {"nan", How::nan}},
+                                                           {"nan", How::nan},
+                                                           {"far", How::far}},
                                                           "What it does.")}));
   return catalogue;
 }

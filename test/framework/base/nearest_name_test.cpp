@@ -16,6 +16,8 @@ TEST(NearestName, FindsTheMisspelt) {
 TEST(NearestName, KnowsWhenNothingIsNear) {
   EXPECT_EQ(nearest_name("octree", kKnown), "");
   EXPECT_EQ(nearest_name("x", {}), "");
+  // The distance to a long name would take as many steps as the product of the lengths.
+  EXPECT_EQ(nearest_name(std::string(1000000, 'x'), {std::string(1000000, 'x')}), "");
   EXPECT_EQ(name_hint("octree", {"a", "b"}), "; known: a, b");
   EXPECT_EQ(name_hint("ransak", kKnown), "; did you mean \"ransac\"?");
   EXPECT_EQ(name_hint("ransak", {}), "");

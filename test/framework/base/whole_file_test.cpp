@@ -11,6 +11,7 @@
 namespace croon {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 std::size_t files_in(const std::filesystem::path& folder) {
@@ -78,6 +79,15 @@ TEST(WholeFile, RefusesWhatIsNoFile) {
   EXPECT_THAT(test::input_error([&] { read_whole_file(missing); }), HasSubstr("found none"));
   EXPECT_THAT(test::input_error([&] { read_whole_file(folder.path()); }), HasSubstr("found none"));
   EXPECT_EQ(files_in(folder.path()), 0u);
+}
+
+TEST(WholeFile, RefusesAFileByItsSize) {
+  const test::TempFolder folder;
+  const auto huge = folder.write("huge", "");
+  std::filesystem::resize_file(huge, 40'000'000'000);
+  EXPECT_THAT(test::input_error([&] { read_whole_file(huge); }),
+              AllOf(HasSubstr("huge: expected a file of at most "),
+                    HasSubstr(" bytes, found one of 40000000000")));
 }
 
 }  // namespace

@@ -90,6 +90,10 @@ TEST(OpencalibFiles, ReadsPosesInDegrees) {
     EXPECT_THAT(test::input_error([&] { read_pose_list(path); }),
                 HasSubstr("line 2: expected six numbers"));
   }
+  const auto far =
+      folder.write("far.txt", "device_id: 1\n(Roll,Pitch,Yaw,tx,ty,tz): 1 2 3 4 5 -1.1e6");
+  EXPECT_THAT(test::input_error([&] { read_pose_list(far); }),
+              HasSubstr("line 2: expected a position of at most 1000000 m, found \"1 2 3"));
 }
 
 TEST(OpenCalibFiles, ListsAreWrittenAndRead) {

@@ -76,6 +76,20 @@ TEST_F(SensorFolders, AreThoseThatAreNamed) {
   EXPECT_THAT(error(R"(, "sensors": ["../.."])"), HasSubstr("leads outside the data root"));
 }
 
+TEST_F(SensorFolders, AreEachAnotherSensor) {
+  EXPECT_THAT(error(R"(, "sensors": ["back", "front-left", "back"])"),
+              HasSubstr("/sensors/2: expected each sensor once, found \"back\" again"));
+  EXPECT_THAT(error(R"(, "sensors": ["back", "top"])"),
+              HasSubstr("/sensors/1: expected another sensor than the reference, found \"top\""));
+}
+
+TEST_F(SensorFolders, AreFoundByTheNearestName) {
+  const std::string text = error(R"(, "sensors": ["back", "frnt-left"])");
+  EXPECT_THAT(text, HasSubstr("/sensors/1: expected the folder of a sensor, found no "));
+  EXPECT_THAT(text, HasSubstr("car/frnt-left; did you mean \"front-left\"?"));
+  EXPECT_THAT(error(R"(, "sensors": ["xyz"])"), HasSubstr("; known: back, front-left, top"));
+}
+
 TEST_F(SensorFolders, NameWhatIsWrong) {
   folder.write("data/car/back/000002.ply", "ply\n");
   EXPECT_THAT(error(), HasSubstr("expected one cloud of this name, found "));
