@@ -2,13 +2,18 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
+#include <array>
 #include <cctype>
+#include <fstream>
 #include <stdexcept>
 
 #include "framework/base/error.hpp"
 
 namespace croon::experiments {
 namespace {
+
+namespace fs = std::filesystem;
 
 [[noreturn]] void fail(sqlite3* database, const std::string& file) {
   const int code = database == nullptr ? SQLITE_NOMEM : sqlite3_errcode(database);
@@ -29,10 +34,10 @@ namespace {
 constexpr int kLargestValue = 1 << 28;
 
 /// The URI by which SQLite opens `path` as `option` says.
-std::string uri_of(const std::filesystem::path& path, const std::string& option) {
+std::string uri_of(const fs::path& path, const std::string& option) {
   constexpr const char* kDigits = "0123456789ABCDEF";
   std::string uri = "file:";
-  for (const char c : std::filesystem::absolute(path).string()) {
+  for (const char c : fs::absolute(path).string()) {
     const auto byte = static_cast<unsigned char>(c);
     const bool is_plain = (byte < 0x80 && std::isalnum(byte) != 0) || c == '/';
     uri += is_plain ? std::string(1, c) : std::string{'%', kDigits[byte >> 4], kDigits[byte & 15]};
@@ -52,6 +57,39 @@ int open_flags(Access access) {
       return SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
   }
   throw std::logic_error("no such access");
+}
+
+/// Whether the rollback journal `path` ends with the name of a super-journal
+/// (https://www.sqlite.org/fileformat.html, 3). Only transactions over several files have one,
+/// which croon never writes. SQLite deletes the file of that name when it rolls the journal back.
+bool names_super_journal(const fs::path& path) {
+  constexpr std::array<unsigned char, 8> kMagic = {0xD9, 0xD5, 0x05, 0xF9, 0x20, 0xA1, 0x63, 0xD7};
+  std::ifstream stream(path, std::ios::binary);
+  std::array<char, kMagic.size()> end{};
+  stream.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
+  if (!stream.read(end.data(), end.size())) return false;
+  return std::equal(end.begin(), end.end(), kMagic.begin(),
+                    [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
+}
+
+/// Throws InputError if SQLite must not see what is beside the database `path`.
+void refuse_unsafe_siblings(const fs::path& path) {
+  std::error_code error;
+  // SQLite follows a link and looks beside the file that it leads to.
+  const bool is_link = fs::is_symlink(fs::symlink_status(path, error));
+  const fs::path file = is_link ? fs::canonical(path, error) : path;
+  for (const char* ending : {"-journal", "-wal", "-shm"}) {
+    const fs::path sibling = file.string() + ending;
+    const fs::file_status status = fs::symlink_status(sibling, error);
+    if (status.type() == fs::file_type::not_found || fs::is_regular_file(status)) continue;
+    throw InputError(sibling.string(), "",
+                     "expected a file of a store, found something that is not a file");
+  }
+  const fs::path journal = file.string() + "-journal";
+  if (!names_super_journal(journal)) return;
+  throw InputError(journal.string(), "",
+                   "expected the journal of a store, found one that names another file for SQLite "
+                   "to delete; croon writes no such journal");
 }
 
 /// What SQLite offers against a file that was made to do harm.
@@ -126,6 +164,8 @@ std::int64_t Statement::integer(int column) const {
 double Statement::real(int column) const { return sqlite3_column_double(statement_.get(), column); }
 
 Database::Database(const std::filesystem::path& path, Access access) : file_(path.string()) {
+  const bool is_alone = access == Access::memory || access == Access::snapshot;
+  if (!is_alone) refuse_unsafe_siblings(path);
   sqlite3* database = nullptr;
   std::string name = ":memory:";
   if (access != Access::memory)
@@ -163,6 +203,7 @@ void Transaction::commit() {
 Attachment::Attachment(Database& database, const std::filesystem::path& path,
                        const std::string& name)
     : database_(database), name_(name) {
+  refuse_unsafe_siblings(path);
   Statement attach = database.prepare("ATTACH ? AS " + name);
   attach.bind(0, uri_of(path, "mode=ro"));
   attach.next();

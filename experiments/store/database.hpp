@@ -62,7 +62,9 @@ enum class Access {
 class Database {
  public:
   /// Opens `path`. The file may come from anywhere: functions that its schema names have no side
-  /// effects, its triggers do not run, and values are limited in size.
+  /// effects, its triggers do not run, and values are limited in size. Throws InputError if what
+  /// SQLite keeps beside it (-journal, -wal, -shm) is no file, or is a journal that makes SQLite
+  /// delete another file.
   Database(const std::filesystem::path& path, Access access);
 
   /// Runs statements that return nothing.

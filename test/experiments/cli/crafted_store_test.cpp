@@ -218,6 +218,66 @@ TEST_F(CraftedStore, IsAFile) {
   EXPECT_EQ(refusals("a device"), "ecmr");
 }
 
+/// A hot journal of a store of `pages` pages of `page_size` bytes that names the super-journal
+/// `name`.
+std::string journal_with_name(const std::string& name, std::uint32_t pages,
+                              std::uint32_t page_size) {
+  const auto number = [](std::uint32_t value) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 255);
+    return bytes;
+  };
+  const std::string magic = "\xD9\xD5\x05\xF9\x20\xA1\x63\xD7";
+  std::string header = magic + number(0) + number(12345) + number(pages) + number(512);
+  header += number(page_size);
+  header.resize(512);
+  std::uint32_t sum = 0;
+  for (const char c : name) sum += static_cast<unsigned char>(c);
+  return header + number(0x40000000 / page_size + 1) + name +
+         number(static_cast<std::uint32_t>(name.size())) + number(sum) + magic;
+}
+
+TEST_F(CraftedStore, DeletesNoOtherFile) {
+  copy_good();
+  const std::string thesis = folder_.write("thesis", "mine").string();
+  const std::string bytes = read_whole_file(store());
+  const auto page_size = static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[16]) << 8 |
+                                                    static_cast<unsigned char>(bytes[17]));
+  const auto pages = static_cast<std::uint32_t>(bytes.size() / page_size);
+  const std::string journal = journal_with_name(thesis, pages, page_size);
+  folder_.write("bad/store.sqlite-journal", journal);
+  EXPECT_EQ(refusals("a super-journal"), "ecmr");
+  EXPECT_TRUE(fs::exists(thesis));
+  EXPECT_EQ(read_whole_file(store()), bytes);
+  EXPECT_EQ(read_whole_file(store().string() + "-journal"), journal);
+  // The same beside the file that a link leads to.
+  fs::create_directory(path("far"));
+  fs::rename(store(), path("far/s"));
+  fs::rename(store().string() + "-journal", path("far/s-journal"));
+  fs::create_symlink(path("far/s"), store());
+  EXPECT_EQ(refusals("a link"), "ecmr");
+  folder_.write("bad/store.sqlite-journal", std::string(512, 'x'));
+  EXPECT_EQ(refusals("a link beside a journal"), "ecmr");
+  EXPECT_TRUE(fs::exists(thesis));
+  EXPECT_EQ(read_whole_file(path("far/s")), bytes);
+}
+
+TEST_F(CraftedStore, HasFilesBesideIt) {
+  for (const char* ending : {"-journal", "-wal", "-shm"}) {
+    copy_good();
+    const std::string sibling = store().string() + ending;
+    ASSERT_EQ(::mkfifo(sibling.c_str(), 0600), 0);
+    EXPECT_EQ(refusals("a pipe"), "ecmr") << ending;
+    fs::remove(sibling);
+    fs::create_directory(sibling);
+    EXPECT_EQ(refusals("a folder"), "ecmr") << ending;
+    fs::remove(sibling);
+    fs::create_symlink("/dev/zero", sibling);
+    EXPECT_EQ(refusals("a link"), "ecmr") << ending;
+    EXPECT_NE(test::input_error([&] { read_store(store()); }).find(sibling), std::string::npos);
+  }
+}
+
 TEST_F(CraftedStore, OfChangedBytesIsReadOrRefused) {
   const std::string good = read_whole_file(path("good/store.sqlite"));
   constexpr int kMutants = 400;
