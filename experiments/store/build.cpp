@@ -1,10 +1,13 @@
 #include "experiments/store/build.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <tuple>
 
 #include "experiments/store/bounded_json.hpp"
+#include "framework/base/text.hpp"
 #include "framework/base/version.hpp"
 #include "framework/io/digest.hpp"
 
@@ -14,6 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFramework = "framework";
+constexpr unsigned kLargestVersion = std::numeric_limits<int>::max();
 
 auto key_of(const Build& build) {
   return std::tie(build.version, build.commit, build.program_sha256);
@@ -42,15 +46,22 @@ Json build_json(const Build& build) {
   return json;
 }
 
+/// A text of a build as reports can show it: the store may come from anywhere.
+std::string shown(const Json& text) { return printable(text.get<std::string>()); }
+
 Build read_build(const Json& program, const Json& libraries) {
-  Build build{program.at("version"), program.at("commit"), program.at("program_sha256"), {}, {}};
+  Build build{shown(program.at("version")),
+              shown(program.at("commit")),
+              shown(program.at("program_sha256")),
+              {},
+              {}};
   if (program.contains("stage_folders")) {
     for (const Json& folder : program.at("stage_folders")) {
-      build.stage_folders.push_back({folder.at("folder"), folder.at("commit")});
+      build.stage_folders.push_back({shown(folder.at("folder")), shown(folder.at("commit"))});
     }
   }
   for (const auto& [library, version] : libraries.items()) {
-    build.libraries.emplace_back(library, version);
+    build.libraries.emplace_back(printable(library), shown(version));
   }
   return build;
 }
@@ -112,7 +123,15 @@ std::string versions_json(const params::StageVersions& versions) {
 }
 
 params::StageVersions read_versions(const std::string& text) {
-  return parse_bounded<Json>(text).get<params::StageVersions>();
+  const Json json = parse_bounded<Json>(text);
+  params::StageVersions versions;
+  if (!json.is_object()) throw std::runtime_error("its versions are no JSON object");
+  for (const auto& [stage, version] : json.items()) {
+    const bool is_version = version.is_number_unsigned() && version <= kLargestVersion;
+    if (!is_version) throw std::runtime_error("a version of " + stage + " is no whole number");
+    versions[stage] = version;
+  }
+  return versions;
 }
 
 std::string manifest_with_builds(const std::string& manifest, const std::vector<Build>& builds,

@@ -1,5 +1,7 @@
 #include "experiments/store/store_check.hpp"
 
+#include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
 #include <sstream>
 #include <string>
@@ -10,12 +12,20 @@
 #include "experiments/store/store_header.hpp"
 #include "experiments/store/trial_rows.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 
 namespace croon::experiments {
 namespace {
 
 /// A table, view or index: its type and name, and the statement that made it.
 using SchemaEntry = std::pair<std::string, std::string>;
+
+/// More current variants or sensors than an experiment has; time grows with the square of the
+/// latter.
+constexpr std::int64_t kMostNames = 10000;
+/// How far the rows of a rotation are from being of unit length and orthogonal, at most: stages
+/// from outside the tree may compute in single precision.
+constexpr double kRotationTolerance = 1e-4;
 
 /// More names than a store has.
 constexpr const char* kLargestId = "1000000000";
@@ -68,11 +78,44 @@ void check_pages(const Database& database) {
   if (found != "ok") refuse(database, found);
 }
 
+/// Whether `text` does no harm in a terminal or a table: it is UTF-8 without control characters and
+/// does not begin with one of `signs`, by which spreadsheets know a formula.
+bool is_harmless(const std::string& text, const std::string& signs) {
+  return printable(text) == text && signs.find(text[0]) == std::string::npos;
+}
+
+/// Checks the texts of `table` that reports show: the names and, unless it is a pipeline, `detail`,
+/// which may be empty.
+void check_shown_names(const Database& database, const std::string& table,
+                       const std::string& detail) {
+  const bool is_shown = detail != "pipeline";
+  std::int64_t current = 0;
+  Statement select = database.prepare("SELECT name, place IS NOT NULL" +
+                                      (is_shown ? ", " + detail : "") + " FROM " + table);
+  while (select.next()) {
+    const std::string name = select.text(0), shown = is_shown ? select.text(2) : "";
+    current += select.integer(1);
+    const bool is_name = !name.empty() && is_harmless(name, "=+-@");
+    // The kind of a scene may begin with a minus sign.
+    if (is_name && is_harmless(shown, "=+@")) continue;
+    const std::string& bad = is_name ? shown : name;
+    refuse(database, table +
+                         ": expected a name in UTF-8 without control characters that does not "
+                         "begin with = + - or @, found \"" +
+                         bad + "\"");
+  }
+  if (current > kMostNames && table != "scenes") {
+    refuse(database, "it has " + std::to_string(current) + " " + table + ", expected at most " +
+                         std::to_string(kMostNames));
+  }
+}
+
 void check_names(const Database& database, const std::string& table, const std::string& detail) {
   refuse_rows(database, table,
               {{"id NOT BETWEEN 1 AND " + std::string(kLargestId), "an id is out of range"},
                {"typeof(name) <> 'text' OR typeof(" + detail + ") <> 'text'", "a name is no text"},
                {"typeof(place) NOT IN ('null', 'integer')", "a place is no number"}});
+  check_shown_names(database, table, detail);
 }
 
 /// SQL that is true unless each of `columns` holds a number in range, or each of them is null.
@@ -84,6 +127,22 @@ std::string not_numbers(const std::vector<std::string>& columns) {
                    ") = 'real' AND abs(" + column + ") <= " + kLargestNumber;
   }
   return "NOT ((" + all_null + ") OR (" + all_numbers + "))";
+}
+
+/// Throws InputError unless the first nine of the columns `pose` are a rotation in each trial that
+/// has a pose. The same in SQL takes several times as long.
+void check_rotations(const Database& database, const std::vector<std::string>& pose) {
+  std::string columns;
+  for (std::size_t i = 0; i < 9; ++i) columns += (i == 0 ? "" : ", ") + pose[i];
+  Statement select =
+      database.prepare("SELECT " + columns + " FROM trials WHERE " + pose[0] + " IS NOT NULL");
+  while (select.next()) {
+    Eigen::Matrix3d rotation;
+    for (int i = 0; i < 9; ++i) rotation(i / 3, i % 3) = select.real(i);
+    const Eigen::Matrix3d unit = rotation * rotation.transpose();
+    if (unit.isIdentity(kRotationTolerance) && rotation.determinant() > 0.0) continue;
+    refuse(database, "trials: a pose has no rotation");
+  }
 }
 
 /// The faults of the columns that name a trial.
@@ -112,7 +171,17 @@ void check_trials(const Database& database) {
   const auto [errors, pose] = number_columns();
   faults.emplace_back(not_numbers(errors), "an error is no number");
   faults.emplace_back(not_numbers(pose), "a pose is no number");
+  faults.emplace_back("rotation_error_rad NOT BETWEEN 0 AND 3.1416 OR translation_error_m < 0",
+                      "an error is out of range");
+  // Older stores have a `success` without an error.
+  faults.emplace_back("status = 'inaccurate' AND rotation_error_rad IS NULL",
+                      "an inaccurate trial has no error");
+  faults.emplace_back("status = 'failed' AND (r00 IS NOT NULL OR rotation_error_rad IS NOT NULL)",
+                      "a failed trial has a pose or an error");
+  faults.emplace_back("status = 'finished' AND rotation_error_rad IS NOT NULL",
+                      "a trial without truth has an error");
   refuse_rows(database, "trials", faults);
+  check_rotations(database, pose);
 }
 
 void check_steps(const Database& database) {
@@ -124,6 +193,11 @@ void check_steps(const Database& database) {
       "information IS NOT NULL AND (typeof(information) <> 'blob' OR length(information) <> 288)",
       "an information matrix has another size");
   refuse_rows(database, "steps", faults);
+  // Both are read in the order of their keys; a lookup per step takes three times as long.
+  const std::string key = "SELECT variant, scene, sensor, trial FROM ";
+  Statement orphans = database.prepare("SELECT 1 FROM (" + key + "steps EXCEPT " + key +
+                                       "trials ORDER BY 1, 2, 3, 4) LIMIT 1");
+  if (orphans.next()) refuse(database, "a step has no trial");
 }
 
 }  // namespace
@@ -147,6 +221,10 @@ void check_content(const Database& database) {
   check_pages(database);
   refuse_rows(database, "meta",
               {{"typeof(name) <> 'text' OR typeof(value) <> 'text'", "a value is no text"}});
+  const std::string has_header = "EXISTS (SELECT 1 FROM meta)";
+  if (database.prepare("SELECT 1 FROM trials WHERE NOT " + has_header + " LIMIT 1").next()) {
+    refuse(database, "it has trials, but no header that says what they were made from");
+  }
   check_names(database, "variants", "pipeline");
   check_names(database, "scenes", "kind");
   check_names(database, "sensors", "reference");

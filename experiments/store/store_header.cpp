@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <tuple>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "experiments/file/start_rule.hpp"
@@ -66,10 +69,22 @@ std::string taken(Provenance& meta, const std::string& name) {
 }
 
 void add_missing(std::vector<StoredName>& to, const std::vector<StoredName>& from) {
+  std::unordered_set<std::string> names;
+  for (const StoredName& stored : to) names.insert(stored.name);
   for (const StoredName& stored : from) {
-    const auto is_same = [&](const StoredName& other) { return other.name == stored.name; };
-    if (std::none_of(to.begin(), to.end(), is_same)) to.push_back(stored);
+    if (names.insert(stored.name).second) to.push_back(stored);
   }
+}
+
+/// The number of trials that `text` is.
+int trials_of(const std::string& text) {
+  int trials = 0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, trials);
+  if (read.ec != std::errc() || read.ptr != end || trials < 1 || trials > kMaxTrials) {
+    throw std::runtime_error("its number of trials is \"" + text + "\"");
+  }
+  return trials;
 }
 
 using nlohmann::json;
@@ -181,11 +196,11 @@ StoreHeader read_header(const Database& database) {
     taken(header.provenance, "program");
     header.builds = {build_of_manifest(header.manifest)};
   }
-  header.trials = std::stoi(taken(header.provenance, "trials"));
-  if (header.trials < 1 || header.trials > kMaxTrials) {
-    throw std::runtime_error("the number of trials is out of range");
-  }
+  header.trials = trials_of(taken(header.provenance, "trials"));
   taken(header.provenance, kUnordered);
+  if (header.provenance.empty()) {
+    throw std::runtime_error("its header does not say what its trials were made from");
+  }
   for (const NameTable& table : kNameTables) header.*table.names = read_names(database, table);
   return header;
 }
@@ -269,11 +284,14 @@ std::vector<std::string> differences(const StoreHeader& stored, const StoreHeade
     found.push_back("version of " + stage + " was " + std::to_string(was->second) + " and is " +
                     std::to_string(version));
   }
+  std::unordered_map<std::string, const std::string*> pipelines;
+  for (const StoredName& variant : stored.variants) {
+    pipelines.emplace(variant.name, &variant.detail);
+  }
   for (const StoredName& variant : asked.variants) {
-    for (const StoredName& other : stored.variants) {
-      if (other.name != variant.name) continue;
-      add_differences(found, "/variants/" + variant.name, other.detail, variant.detail);
-    }
+    const auto was = pipelines.find(variant.name);
+    if (was == pipelines.end()) continue;
+    add_differences(found, "/variants/" + variant.name, *was->second, variant.detail);
   }
   return found;
 }

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
 #include <sstream>
 
@@ -153,6 +154,32 @@ TEST_F(CraftedStore, IsRefusedInOneLine) {
       "UPDATE trials SET r00 = NULL",
       "UPDATE trials SET tx_m = -9e999",
       "UPDATE trials SET tx_m = 1e300",
+      "UPDATE trials SET r00 = 0.0, r01 = 0.0, r02 = 0.0",
+      "UPDATE trials SET r00 = 1e15, r11 = 1e15, r22 = 1e15",
+      "UPDATE trials SET r00 = -r00, r01 = -r01, r02 = -r02",
+      "UPDATE trials SET r20 = -r20, r21 = -r21, r22 = -r22",
+      "UPDATE trials SET r00 = r10, r01 = r11, r02 = r12",
+      "UPDATE trials SET rotation_error_rad = -0.1",
+      "UPDATE trials SET rotation_error_rad = 3.2",
+      "UPDATE trials SET translation_error_m = -0.1",
+      "UPDATE trials SET status = 'failed'",
+      "UPDATE trials SET status = 'finished'",
+      "UPDATE trials SET status = 'inaccurate', roll_error_rad = NULL, pitch_error_rad = NULL, "
+      "yaw_error_rad = NULL, x_error_m = NULL, y_error_m = NULL, z_error_m = NULL, "
+      "rotation_error_rad = NULL, translation_error_m = NULL",
+      "UPDATE trials SET trial = 999999 WHERE trial = 1",
+      "DELETE FROM trials WHERE trial = 1",
+      "DELETE FROM meta",
+      "DELETE FROM meta WHERE name IN ('dataset', 'inputs', 'seed', 'starts', 'success')",
+      "UPDATE variants SET name = '=1+1'",
+      "UPDATE scenes SET name = char(27) || '[2J' WHERE id = 1",
+      "UPDATE scenes SET name = 'a' || char(10) || 'b' WHERE id = 1",
+      "UPDATE scenes SET name = '' WHERE id = 1",
+      "UPDATE scenes SET kind = '@kind' WHERE id = 1",
+      "UPDATE sensors SET name = CAST(X'61FF' AS TEXT)",
+      "UPDATE sensors SET reference = '+1'",
+      "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 10001) "
+      "INSERT INTO variants(name, pipeline, place) SELECT 'v' || i, '[]', i FROM n",
       "UPDATE steps SET figures = NULL",
       "UPDATE steps SET information = X'00'",
       manifest("experiment.variants", "[]"),
@@ -172,11 +199,14 @@ TEST_F(CraftedStore, IsRefusedInOneLine) {
       meta("dataset", "zeroblob(100000)"),
       meta("trials", "'many'"),
       meta("trials", "'0'"),
+      meta("trials", "'3x'"),
       meta("trials", "'-1'"),
       meta("trials", "'2000000000'"),
       meta("trials", "'99999999999999999999'"),
       meta("versions", "'[]'"),
       meta("versions", R"('{"framework": "one"}')"),
+      meta("versions", R"('{"framework": 1.5e300}')"),
+      meta("versions", R"('{"framework": 4294967297}')"),
       meta("builds", "'7'"),
       meta("builds", "'[{}]'"),
       meta("format", "'1e9'"),
@@ -205,6 +235,30 @@ TEST_F(CraftedStore, IsRefusedInOneLine) {
     EXPECT_EQ(refusals(craft.substr(0, 200)), is_of_manifest ? "ecm" : "ecmr")
         << craft.substr(0, 200);
   }
+}
+
+TEST_F(CraftedStore, GivesNoCommandsToTheTerminal) {
+  copy_good();
+  run_sql(store(), meta("builds",
+                        "replace(json_set(value, '$[0].commit', 'c' || char(27), "
+                        "'$[0].stage_folders', json('[{\"folder\": \"f\\u001b\", "
+                        "\"commit\": \"g\\u001b\"}]')), ' ', ' ')"));
+  const Build build = read_store(store()).header.builds.at(0);
+  EXPECT_EQ(build.commit, "c?");
+  EXPECT_EQ(build.stage_folders.at(0).folder, "f?");
+  EXPECT_EQ(build.stage_folders.at(0).commit, "g?");
+}
+
+TEST_F(CraftedStore, OfManyScenesIsMergedInLinearTime) {
+  copy_good();
+  run_sql(store(),
+          "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 50000) "
+          "INSERT INTO scenes(name, kind) SELECT 's' || i, '' FROM n");
+  const StoreHeader header = stored_header(store());
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(united(header, header).scenes.size(), header.scenes.size());
+  // The square takes longer than a minute.
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
 TEST_F(CraftedStore, IsAFile) {
