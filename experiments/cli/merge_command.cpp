@@ -11,6 +11,7 @@
 #include "experiments/store/store_header.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
+#include "framework/base/whole_file.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -108,7 +109,7 @@ StoreHeader merged_header(const std::vector<fs::path>& folders, const fs::path& 
 void merge_stores(std::vector<fs::path> folders, const StoreHeader& header, const fs::path& out) {
   const fs::path path = store_path(out);
   if (has_store(path) && !is_among(folders, out)) folders.push_back(out);
-  const fs::path merged = path.string() + ".merged";
+  const fs::path merged = merged_store_path(out);
   remove_files(store_files(merged));
   try {
     {
@@ -150,17 +151,21 @@ int merge_command(const MergeOptions& options, std::ostream& out) {
   const StoreHeader header = merged_header(folders, options.out, options.same_build);
   const std::vector<fs::path> made = missing_folders(options.out);
   const OutputFolder folder(options.out);
+  std::vector<fs::path> all = folders;
+  if (!is_among(all, options.out)) all.push_back(options.out);
+  std::string hosts, timings;
   try {
+    // Before the store is written: a merge is refused whole.
+    hosts = hosts_json(all);
+    timings = merged_timings(all);
     merge_stores(folders, header, options.out);
   } catch (...) {
     remove_files(made);
     throw;
   }
-  std::vector<fs::path> all = folders;
-  if (!is_among(all, options.out)) all.push_back(options.out);
   const Results results = read_results(options.out);
-  folder.write_reports(results, merged_manifest(results.manifest, all));
-  merge_timings(all, options.out / kTimings);
+  folder.write_reports(results, merged_manifest(results.manifest, hosts));
+  write_whole_file(folder.file(kTimings), timings);
   const std::string missing = missing_text(results);
   out << result_text(results, options.colours) << missing << "Results are in "
       << printable(options.out.string()) << "\n";

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <charconv>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
@@ -11,6 +12,7 @@
 #include "experiments/report/result_tables.hpp"
 #include "experiments/store/bounded_json.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/picture/writers.hpp"
 
@@ -71,9 +73,17 @@ const std::vector<ResultFile>& result_files() {
   return files;
 }
 
+/// The files of the store, and of the one that a merge was killed while it made.
+std::vector<fs::path> store_paths_in(const fs::path& folder) {
+  std::vector<fs::path> paths = store_files(store_path(folder));
+  const std::vector<fs::path> merged = store_files(merged_store_path(folder));
+  paths.insert(paths.end(), merged.begin(), merged.end());
+  return paths;
+}
+
 /// The paths of the store and of all other files of a folder of results.
 std::vector<fs::path> paths_in(const fs::path& folder) {
-  std::vector<fs::path> paths = store_files(store_path(folder));
+  std::vector<fs::path> paths = store_paths_in(folder);
   for (const ResultFile& file : result_files()) paths.push_back(folder / file.name);
   return paths;
 }
@@ -109,7 +119,7 @@ void refuse_files_of_others(const fs::path& folder) {
     throw InputError(path.string(), "", "expected a file or nothing, found a symbolic link");
   }
   if (has_results(folder)) return;
-  const std::vector<fs::path> of_store = store_files(store_path(folder));
+  const std::vector<fs::path> of_store = store_paths_in(folder);
   for (auto path = paths.begin() + static_cast<std::ptrdiff_t>(of_store.size());
        path != paths.end(); ++path) {
     if (!fs::exists(*path, error)) continue;
@@ -144,6 +154,38 @@ void delete_path(const fs::path& path) {
   if (error) throw InputError(path.string(), "", "cannot be deleted: " + error.message());
 }
 
+/// The cells of a line of a CSV file, as they are written.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool is_quoted = false;
+  for (const char c : line) {
+    if (c == '"') is_quoted = !is_quoted;
+    c == ',' && !is_quoted ? void(cells.emplace_back()) : cells.back().push_back(c);
+  }
+  return cells;
+}
+
+/// Whether `line` is a row of timings.csv as croon writes it. The file is no part of the store, and
+/// nothing else checks it.
+bool is_timing(const std::string& line) {
+  constexpr std::size_t kTrial = 3, kSeconds = 5;
+  const std::vector<std::string> cells = cells_of(line);
+  if (cells.size() != kSeconds + 1 || printable(line) != line) return false;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (i == kTrial || i == kSeconds) continue;
+    const std::size_t first = cells[i].find_first_not_of('"');
+    if (first != std::string::npos &&
+        std::string("=+-@").find(cells[i][first]) != std::string::npos)
+      return false;
+  }
+  const auto is_number = [](const std::string& cell, auto value) {
+    const char* const end = cell.data() + cell.size();
+    const auto read = std::from_chars(cell.data(), end, value);
+    return read.ec == std::errc() && read.ptr == end;
+  };
+  return is_number(cells[kTrial], 0) && is_number(cells[kSeconds], 0.0);
+}
+
 /// Makes timings.csv end after its last whole line, or hold the header alone.
 void repair(const fs::path& path) {
   const std::string header = timings_csv({});
@@ -154,6 +196,10 @@ void repair(const fs::path& path) {
 }
 
 }  // namespace
+
+fs::path merged_store_path(const fs::path& folder) {
+  return store_path(folder).string() + ".merged";
+}
 
 OutputFolder::OutputFolder(const fs::path& path) : path_(writable(path)), lock_(path_) {}
 
@@ -187,17 +233,26 @@ void TimingsFile::flush() {
   if (!stream_) throw InputError(path_.string(), "", "cannot be written");
 }
 
-void merge_timings(const std::vector<fs::path>& folders, const fs::path& path) {
+std::string merged_timings(const std::vector<fs::path>& folders) {
   std::string merged = timings_csv({});
   std::unordered_set<std::string> rows = {merged.substr(0, merged.size() - 1)};
   for (const fs::path& folder : folders) {
-    if (!fs::exists(folder / kTimings)) continue;
-    std::istringstream bytes(read_whole_file(folder / kTimings));
+    const fs::path path = folder / kTimings;
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (status.type() == fs::file_type::not_found) continue;
+    // Before it is opened: opening a pipe would wait for a writer.
+    if (!fs::is_regular_file(status)) {
+      throw InputError(path.string(), "",
+                       "expected wall times, found something that is not a file");
+    }
+    std::istringstream bytes(read_whole_file(path));
     for (std::string row; std::getline(bytes, row);) {
-      if (!bytes.eof() && rows.insert(row).second) merged += row + "\n";
+      if (bytes.eof() || !is_timing(row)) continue;
+      if (rows.insert(row).second) merged += row + "\n";
     }
   }
-  write_whole_file(path, merged);
+  return merged;
 }
 
 void write_output_file(const fs::path& path, const std::string& bytes, const fs::path& input) {

@@ -18,6 +18,9 @@ inline constexpr const char* kTimings = "timings.csv";
 inline constexpr const char* kPicture = "before_after.png";
 inline constexpr const char* kClouds = "clouds";
 
+/// The store that a merge makes before it replaces that of `folder`.
+std::filesystem::path merged_store_path(const std::filesystem::path& folder);
+
 /// The folder that a run writes into, made if it is missing and locked while this object lives.
 class OutputFolder {
  public:
@@ -58,9 +61,9 @@ class TimingsFile {
   std::vector<TimingRow> rows_;  ///< Not yet written.
 };
 
-/// Writes to `path` the rows of timings.csv of all `folders` that have one, each row once.
-void merge_timings(const std::vector<std::filesystem::path>& folders,
-                   const std::filesystem::path& path);
+/// The bytes of timings.csv of merged results: the rows of all `folders` that have the file, each
+/// row once, without lines of another form. Throws InputError if one of them is no file.
+std::string merged_timings(const std::vector<std::filesystem::path>& folders);
 
 /// Writes `bytes` to the file `path`, whole or not at all. Throws InputError if it cannot be
 /// written, and if it would replace `input`, which the bytes were made from, or a store.

@@ -258,20 +258,31 @@ std::string manifest_with_host(const std::string& manifest, const std::filesyste
   return text_of(json);
 }
 
-std::string merged_manifest(const std::string& manifest,
-                            const std::vector<std::filesystem::path>& folders) {
-  Json json = parse_bounded<Json>(manifest);
-  json["host"] = {{"merged", Json::array()}};
+std::string hosts_json(const std::vector<std::filesystem::path>& folders) {
+  Json merged = Json::array();
   for (const std::filesystem::path& folder : folders) {
     const std::filesystem::path file = folder / "manifest.json";
-    if (!std::filesystem::exists(file)) continue;
+    std::error_code error;
+    const fs::file_status status = fs::status(file, error);
+    if (status.type() == fs::file_type::not_found) continue;
+    // Before it is opened: opening a pipe would wait for a writer.
+    if (!fs::is_regular_file(status)) {
+      throw InputError(file.string(), "",
+                       "expected a manifest, found something that is not a file");
+    }
     const Json other = parsed_or_discarded<Json>(read_whole_file(file));
     if (!other.is_object() || !other.contains("host")) continue;
     // Results of a merge already list several hosts.
     const Json& host = other["host"];
     const Json hosts = host.contains("merged") ? host["merged"] : Json::array({host});
-    for (const Json& one : hosts) json["host"]["merged"].push_back(one);
+    for (const Json& one : hosts) merged.push_back(one);
   }
+  return text_of(merged);
+}
+
+std::string merged_manifest(const std::string& manifest, const std::string& hosts) {
+  Json json = parse_bounded<Json>(manifest);
+  json["host"] = {{"merged", Json::parse(hosts)}};
   return text_of(json);
 }
 

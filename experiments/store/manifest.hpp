@@ -56,8 +56,11 @@ std::string manifest_with_variants(const std::string& manifest,
 std::string manifest_with_host(const std::string& manifest, const std::filesystem::path& data_root,
                                int jobs);
 
-/// The bytes of manifest.json of results that were merged from `folders`; `host` lists theirs.
-std::string merged_manifest(const std::string& manifest,
-                            const std::vector<std::filesystem::path>& folders);
+/// JSON of the list of the `host`s of the manifest.json of `folders`; a folder without one has
+/// none. Throws InputError if one is no file.
+std::string hosts_json(const std::vector<std::filesystem::path>& folders);
+
+/// The bytes of manifest.json of merged results: `manifest` with `hosts`, see hosts_json.
+std::string merged_manifest(const std::string& manifest, const std::string& hosts);
 
 }  // namespace croon::experiments

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -71,6 +72,57 @@ TEST_F(MergeCommand, MakesOneRunOfShards) {
   EXPECT_EQ(merge({"3", "1", "2"}, "merged"), 0);
   expect_whole("merged");
   EXPECT_EQ(text_.find("missing"), std::string::npos) << text_;
+}
+
+TEST_F(MergeCommand, ReadsAllBeforeItWrites) {
+  run("1", "1/2", two_variants());
+  run("2", "2/2", two_variants());
+  for (const char* file : {"manifest.json", "timings.csv"}) {
+    fs::rename(path("1") / file, path("kept"));
+    fs::create_directory(path("1") / file);
+    EXPECT_NE(fault({"1", "2"}, "merged").find(file), std::string::npos);
+    EXPECT_FALSE(fs::exists(path("merged"))) << file;
+    fs::remove(path("1") / file);
+    fs::rename(path("kept"), path("1") / file);
+  }
+  EXPECT_EQ(merge({"1", "2"}, "merged"), 0);
+}
+
+TEST_F(MergeCommand, TakesWallTimesAlone) {
+  run("1", "", two_variants());
+  const std::string good = read_whole_file(path("1/timings.csv"));
+  const std::string row = "base,scene,left,0,\"a, b\",0.5\n";
+  folder_.write("1/timings.csv", good + "=1+1,s,l,0,x,1\nbase,s,l,0,x\nbase,s,l,zero,x,1\n" +
+                                     "base,s,l,0,x,soon\nbase,s\x1b,l,0,x,1\n\n" + row);
+  merge({"1"}, "merged");
+  EXPECT_EQ(read_whole_file(path("merged/timings.csv")), good + row);
+}
+
+TEST_F(MergeCommand, LeavesNothingOfAKilledOne) {
+  run("1", "", two_variants());
+  const auto leave = [&](const std::string& out) {
+    for (const char* ending : {"", "-wal", "-shm", ".new"}) {
+      folder_.write(out + "/store.sqlite.merged" + ending, "x");
+    }
+  };
+  const auto is_left = [&](const std::string& out) {
+    const auto is_merged = [](const fs::directory_entry& entry) {
+      return entry.path().string().find(".merged") != std::string::npos;
+    };
+    const fs::directory_iterator entries(path(out));
+    return std::any_of(begin(entries), end(entries), is_merged);
+  };
+  leave("merged");
+  merge({"1"}, "merged");
+  EXPECT_FALSE(is_left("merged"));
+  leave("1");
+  RunOptions options;
+  options.experiment = path("1.json");
+  options.out = path("1");
+  options.fresh = options.quiet = true;
+  std::ostringstream text, progress;
+  run_command(options, test::fake_catalogue(), text, progress);
+  EXPECT_FALSE(is_left("1"));
 }
 
 TEST_F(MergeCommand, SaysWhatIsMissing) {
