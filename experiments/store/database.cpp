@@ -26,6 +26,13 @@ namespace fs = std::filesystem;
   if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {
     throw UnreadableDatabase(file, "", std::string("is damaged: ") + sqlite3_errmsg(database));
   }
+  std::error_code error;
+  if ((code == SQLITE_CANTOPEN || code == SQLITE_READONLY) && fs::exists(file + "-wal", error)) {
+    throw InputError(file, "",
+                     "was left by a run that was interrupted, and its folder cannot be written to, "
+                     "which reading it needs once; a copy of the folder that can be written to is "
+                     "read as well");
+  }
   const char* words = database == nullptr ? "out of memory" : sqlite3_errmsg(database);
   throw InputError(file, "", std::string("expected a readable and writable store: ") + words);
 }

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <functional>
 
 #include "experiments/store/store.hpp"
 #include "framework/base/error.hpp"
@@ -177,6 +178,37 @@ TEST(KilledStore, OfAnEarlierVersionIsHealed) {
   EXPECT_EQ(read_store(path).records.size(), 5U);
   EXPECT_EQ(read_whole_file(path), bytes);
   EXPECT_FALSE(fs::exists(path.string() + "-journal"));
+}
+
+/// Calls `work` in a process of its own, which ends without closing anything.
+void run_and_die(const std::function<int()>& work) {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(work());
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+TEST(KilledStore, InAFolderToReadSaysWhatToDo) {
+  const test::TempFolder folder;
+  const fs::path path = folder.path() / "s";
+  run_and_die([&] {
+    Store store(path, header());
+    add_trials(store, 0, 5);
+    ::_exit(0);
+    return 1;
+  });
+  ASSERT_TRUE(fs::exists(path.string() + "-wal"));
+  fs::permissions(folder.path(), static_cast<fs::perms>(0555));
+  run_and_die([&] {
+    constexpr uid_t kNobody = 65534;
+    if (::geteuid() == 0 && ::setuid(kNobody) != 0) return 2;
+    const std::string fault = test::input_error([&] { read_store(path); });
+    return fault.find("was left by a run that was interrupted") == std::string::npos ? 1 : 0;
+  });
+  fs::permissions(folder.path(), static_cast<fs::perms>(0755));
+  EXPECT_EQ(read_store(path).records.size(), 5U);
 }
 
 TEST(KilledStore, ThatAnEarlierVersionBeganIsNone) {
