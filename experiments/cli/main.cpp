@@ -103,7 +103,8 @@ class Program {
     run.add_flag("--same-build", run_.same_build,
                  "Refuse to go on with trials of another build of croon.");
     run.add_flag("--quiet", run_.quiet, "Do not show progress.");
-    run.add_flag("--clouds", run_.clouds, "Write the rig's clouds, fused by the poses that trials agree on.");
+    run.add_flag("--clouds", run_.clouds,
+                 "Write the rig's clouds, fused by the poses that trials agree on.");
     run.add_flag("--png", run_.png, "Draw the first scene from above, before and after.");
   }
 
