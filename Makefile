@@ -5,7 +5,7 @@ CLANG_FORMAT ?= $(shell command -v clang-format-14 || echo clang-format)
 RUN_CLANG_TIDY ?= $(shell command -v run-clang-tidy-14 || echo run-clang-tidy)
 SOURCES = git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp'
 
-.PHONY: help packages release demo test benchmark docs format lint fuzz sanitize clean
+.PHONY: help packages sanitizer_packages release demo test benchmark docs format lint fuzz sanitize clean
 
 help:
 	@echo 'make demo       the paper on twelve simulated scenes, with a table and a picture'
@@ -48,18 +48,20 @@ lint: packages
 	cmake --build --preset lint --target croon_version
 	$(RUN_CLANG_TIDY) -quiet -p build/lint -checks=-bugprone-suspicious-include
 
-FUZZ_SECONDS ?= 20
-fuzz: packages
+sanitizer_packages: packages
 	.ci/install_packages clang libclang-rt-dev
-	$(call PRESET_BUILD,fuzz)
-	test/fuzz/run.sh build/fuzz/bin $(FUZZ_SECONDS)
+
+# The build of the sanitized tests has the fuzz targets too.
+FUZZ_SECONDS ?= 20
+fuzz: sanitizer_packages
+	cmake --preset sanitized && cmake --build --preset sanitized --target fuzz_targets
+	test/fuzz/run.sh build/sanitized/bin $(FUZZ_SECONDS)
 
 # Each program of tests runs once, not once per test: under a sanitizer the start of a process costs more than a test.
-sanitize: packages
+sanitize: sanitizer_packages
 	$(call PRESET_BUILD,sanitized)
 	ls build/sanitized/bin/test_* | LSAN_OPTIONS="suppressions=$(CURDIR)/test/leak_sanitizer.supp:print_suppressions=0" \
 	  xargs -P 2 -I PROGRAM PROGRAM --gtest_brief=1
-	ctest --test-dir build/sanitized --output-on-failure -R '^fuzz_corpus/'
 	cmake --preset threads
 	cmake --build --preset threads --target croon test_framework test_stages test_contract test_experiments
 	ls build/threads/bin/test_* | TSAN_OPTIONS="suppressions=$(CURDIR)/test/thread_sanitizer.supp" \

@@ -17,13 +17,6 @@ std::optional<double> percent_of(const Share& share) {
   return percent_of(share.count, share.trials);
 }
 
-/// Whether the deviations of all rows are errors.
-bool have_truth(const Rows& rows) {
-  return std::all_of(rows.begin(), rows.end(), [](const SummaryRow* row) {
-    return row->deviations_from == DeviationsFrom::truth;
-  });
-}
-
 /// Whether success is known of all rows: none was summed up without truth.
 bool have_success(const Rows& rows) {
   return std::none_of(rows.begin(), rows.end(),

@@ -57,10 +57,7 @@ std::vector<FrameSummary> summarise_frames(const Summary& summary) {
   std::vector<FrameSummary> summaries;
   for (const std::string& variant : variants_of(summary)) {
     const Rows rows = rows_of(summary, variant);
-    const auto has_truth = [](const SummaryRow* row) {
-      return row->deviations_from == DeviationsFrom::truth;
-    };
-    if (rows.size() < 2 || !std::all_of(rows.begin(), rows.end(), has_truth)) continue;
+    if (rows.size() < 2 || !have_truth(rows)) continue;
     summaries.push_back({variant, successful_frames(rows)});
   }
   return summaries;

@@ -239,6 +239,12 @@ std::vector<const SceneSummary*> scenes_of(const Rows& rows) {
   return scenes;
 }
 
+bool have_truth(const Rows& rows) {
+  return std::all_of(rows.begin(), rows.end(), [](const SummaryRow* row) {
+    return row->deviations_from == DeviationsFrom::truth;
+  });
+}
+
 Share successful_frames(const Rows& rows) {
   std::map<std::string, bool> succeeds;
   for (const SceneSummary* scene : scenes_of(rows)) {

@@ -146,6 +146,14 @@ inline bool lacks_truth(const TrialSummary& summary) {
   return summary.deviations_from == DeviationsFrom::consensus;
 }
 
+/// Whether the deviations of all rows are errors.
+bool have_truth(const Rows& rows);
+
+/// The agreement of trials; null if no scene has several trials.
+inline const Share* agreement_of(const TrialSummary& summary) {
+  return summary.agreement.trials > 0 ? &summary.agreement : nullptr;
+}
+
 /// The success bounds in radians and metres.
 PoseBounds pose_bounds(const SuccessBounds& bounds);
 

@@ -85,24 +85,28 @@ std::string table_bytes(const ExportOptions& options) {
                        "the full table spans two columns; use --compact or --columns");
     }
   }
-  std::vector<Results> all;
+  std::vector<Summary> summaries;
+  std::vector<ExportCaption> captions;
   std::vector<std::string> folders;
   for (const std::filesystem::path& folder : options.folders) {
-    all.push_back(restricted(read_results(folder), {options.variants, {}, options.kinds}));
+    // Its trials are not kept: several folders may have millions.
+    Results results = restricted(read_results(folder), {options.variants, {}, options.kinds});
+    captions.push_back(caption_of(results, options.kinds));
+    summaries.push_back(std::move(results.summary));
     folders.push_back(folder.string());
   }
   // All experiments have the same columns: agreement if one of them lacks truth.
   if (options.compact && options.columns.empty()) {
-    for (const Results& results : all) {
+    for (const Summary& summary : summaries) {
       const TableChoice own =
-          compact({choice.sensors, {}, choice.is_in_mm, choice.is_one_column}, results.summary);
+          compact({choice.sensors, {}, choice.is_in_mm, choice.is_one_column}, summary);
       if (own.columns.size() > choice.columns.size()) choice.columns = own.columns;
     }
   }
   std::vector<ExportTable> tables;
-  for (const Results& results : all) {
-    const TableChoice chosen = options.compact ? compact(choice, results.summary) : choice;
-    tables.push_back(export_table(results.summary, caption_of(results, options.kinds), chosen));
+  for (std::size_t i = 0; i < summaries.size(); ++i) {
+    const TableChoice chosen = options.compact ? compact(choice, summaries[i]) : choice;
+    tables.push_back(export_table(summaries[i], captions[i], chosen));
   }
   return format.bytes(joined(std::move(tables), folders));
 }

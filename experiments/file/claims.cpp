@@ -217,7 +217,7 @@ class ClaimExpander {
   void add(const std::string& sensor, const TableValues& values, std::size_t column,
            std::size_t statistic, const Node& at) {
     Claim claim = keys_;
-    claim.sensor = sensor == "all" ? "" : sensor;
+    claim.sensor = sensor == kAllSensors ? "" : sensor;
     claim.measure = kMeasures[keys_.measures[column]].name;
     claim.statistic = kStatistics[statistic].name;
     claim.claim += ", " + (claim.sensor.empty() ? std::string("all sensors") : sensor) + ": " +

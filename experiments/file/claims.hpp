@@ -15,6 +15,14 @@ enum class Over {
   usable       ///< All that finished and were not rejected.
 };
 
+/// What files and tables call all sensors together; no sensor has this name.
+inline constexpr const char* kAllSensors = "all";
+
+/// The name of `sensor` in files and tables; "" is all sensors together.
+inline std::string name_of_sensor(const std::string& sensor) {
+  return sensor.empty() ? kAllSensors : sensor;
+}
+
 /// A number that a source claims, and the band in which ours must lie. Units are those of reports:
 /// deg, m, and % for shares. A claim decides no trial.
 struct Claim {

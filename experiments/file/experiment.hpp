@@ -17,6 +17,9 @@ namespace croon::experiments {
 /// The name of the step that takes the poses of a file.
 inline constexpr const char* kPosesStep = "poses";
 
+/// More variants than an experiment has.
+inline constexpr std::size_t kMostVariants = 10000;
+
 /// A file of poses `T_reference_sensor`, as a variant names it.
 struct PosesFile {
   std::string name;     ///< Empty if there is none.

@@ -11,8 +11,6 @@ namespace {
 using nlohmann::json;
 using params::Node;
 
-constexpr std::size_t kMostVariants = 10000;
-
 struct NamedPipeline {
   std::string name;
   PatchedPipeline pipeline;

@@ -56,10 +56,8 @@ Table quoted_table(const std::vector<Quoted>& quoted, const Summary& summary) {
 /// What the verdicts mean that are no verdict on a number.
 std::string verdicts_explained() {
   return "trials, scenes: what the number is over; share: of all trials, those that succeed (no "
-         "truth: "
-         "that agree).\nshown: no result within the success bounds could be outside the "
-         "band. "
-         "not enough trials: fewer than " +
+         "truth: that agree).\nshown: no result within the success bounds could be outside the "
+         "band. not enough trials: fewer than " +
          std::to_string(kLeastClaimTrials) + " trials or " + std::to_string(kLeastScenes) +
          " scenes.\n";
 }

@@ -10,7 +10,7 @@ std::string basin_csv(const Basin& basin) {
   for (const BasinRow& row : basin.rows) {
     for (int level = 0; level < static_cast<int>(row.levels.size()); ++level) {
       const Share& share = row.levels[static_cast<std::size_t>(level)];
-      table.rows.push_back(cell_row(row.variant, row.sensor.empty() ? "all" : row.sensor, level,
+      table.rows.push_back(cell_row(row.variant, name_of_sensor(row.sensor), level,
                                     rounded_size(basin.sweep, level), size_unit(basin.sweep),
                                     share.trials, share.count, share.ratio, low_of(share.interval),
                                     high_of(share.interval)));
@@ -37,10 +37,9 @@ std::string success_curve_csv(const SuccessCurve& curve) {
       const SuccessBounds& bounds = curve.thresholds[i];
       const Cell rotation = row.of == CurveOf::translation ? Cell() : to_cell(bounds.rotation_deg);
       const Cell translation = row.of == CurveOf::rotation ? Cell() : to_cell(bounds.translation_m);
-      table.rows.push_back(cell_row(row.variant, row.sensor.empty() ? "all" : row.sensor,
-                                    name_of(row.of), rotation, translation, share.trials,
-                                    share.count, share.ratio, low_of(share.interval),
-                                    high_of(share.interval)));
+      table.rows.push_back(cell_row(row.variant, name_of_sensor(row.sensor), name_of(row.of),
+                                    rotation, translation, share.trials, share.count, share.ratio,
+                                    low_of(share.interval), high_of(share.interval)));
     }
   }
   return csv_table(table);

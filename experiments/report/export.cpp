@@ -195,14 +195,11 @@ Columns<SummaryRow> export_columns() {
       .add({"counted"}, &SummaryRow::counted);
   add_percents(columns, "success",
                [](const SummaryRow& row) { return lacks_truth(row) ? nullptr : &row.success; });
-  const auto agreement = [](const SummaryRow& row) {
-    return row.agreement.trials > 0 ? &row.agreement : nullptr;
-  };
-  columns.add({"agreement"}, [=](const SummaryRow& row) {
-    const Share* const share = agreement(row);
+  columns.add({"agreement"}, [](const SummaryRow& row) {
+    const Share* const share = agreement_of(row);
     return share ? std::optional<int>(share->count) : std::nullopt;
   });
-  add_percents(columns, "agreement", agreement);
+  add_percents(columns, "agreement", [](const SummaryRow& row) { return agreement_of(row); });
   const auto add = [&](std::size_t k, const char* statistic) {
     const std::size_t s = statistic_index(statistic);
     columns.add(statistic_column(kMeasures[k], statistic),

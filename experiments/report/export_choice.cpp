@@ -13,7 +13,6 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-constexpr const char* kAllSensors = "all";
 constexpr std::string_view kPercent = "_percent";
 
 bool ends_with(const std::string& text, std::string_view end) {
@@ -108,8 +107,7 @@ void choose_rows(ExportTable& table, const Names& sensors) {
   if (known.size() > 1) known.emplace_back(kAllSensors);
   refuse_unknown("--sensors", sensors, known);
   const auto is_chosen = [&](const std::string& sensor) {
-    const std::string name = sensor.empty() ? kAllSensors : sensor;
-    return std::find(sensors.begin(), sensors.end(), name) != sensors.end();
+    return std::find(sensors.begin(), sensors.end(), name_of_sensor(sensor)) != sensors.end();
   };
   std::vector<CellRow> rows;
   for (std::size_t i = 0; i < table.table.rows.size(); ++i) {

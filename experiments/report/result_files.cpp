@@ -175,7 +175,7 @@ bool is_timing(const std::string& line) {
     if (i == kTrial || i == kSeconds) continue;
     const std::size_t first = cells[i].find_first_not_of('"');
     if (first != std::string::npos &&
-        std::string("=+-@").find(cells[i][first]) != std::string::npos)
+        std::string(kFormulaSigns).find(cells[i][first]) != std::string::npos)
       return false;
   }
   const auto is_number = [](const std::string& cell, auto value) {
@@ -189,8 +189,7 @@ bool is_timing(const std::string& line) {
 /// Makes timings.csv end after its last whole line, or hold the header alone.
 void repair(const fs::path& path) {
   const std::string header = timings_csv({});
-  std::string bytes;
-  if (fs::exists(path)) bytes = read_whole_file(path);
+  const std::string bytes = read_file_if_there(path).value_or("");
   if (bytes.compare(0, header.size(), header) != 0) return write_whole_file(path, header);
   if (bytes.back() != '\n') write_whole_file(path, bytes.substr(0, bytes.rfind('\n') + 1));
 }
@@ -237,16 +236,9 @@ std::string merged_timings(const std::vector<fs::path>& folders) {
   std::string merged = timings_csv({});
   std::unordered_set<std::string> rows = {merged.substr(0, merged.size() - 1)};
   for (const fs::path& folder : folders) {
-    const fs::path path = folder / kTimings;
-    std::error_code error;
-    const fs::file_status status = fs::status(path, error);
-    if (status.type() == fs::file_type::not_found) continue;
-    // Before it is opened: opening a pipe would wait for a writer.
-    if (!fs::is_regular_file(status)) {
-      throw InputError(path.string(), "",
-                       "expected wall times, found something that is not a file");
-    }
-    std::istringstream bytes(read_whole_file(path));
+    const std::optional<std::string> file = read_file_if_there(folder / kTimings);
+    if (!file) continue;
+    std::istringstream bytes(*file);
     for (std::string row; std::getline(bytes, row);) {
       if (bytes.eof() || !is_timing(row)) continue;
       if (rows.insert(row).second) merged += row + "\n";

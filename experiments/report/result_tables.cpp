@@ -50,10 +50,12 @@ Columns<TrialSummary> outcome_columns() {
       .add(share_columns("success"), with_truth(&S::success))
       .add({"agreement", "", "/agreement/count"},
            [](const S& s) {
-             return s.agreement.trials > 0 ? std::optional<int>(s.agreement.count) : std::nullopt;
+             const Share* const share = agreement_of(s);
+             return share ? std::optional<int>(share->count) : std::nullopt;
            })
       .add(share_columns("agreement"), [](const S& s) {
-        return s.agreement.trials > 0 ? std::optional<Share>(s.agreement) : std::nullopt;
+        const Share* const share = agreement_of(s);
+        return share ? std::optional<Share>(*share) : std::nullopt;
       });
 }
 

@@ -134,7 +134,7 @@ std::string scene_kind_text(const Summary& summary, const TableStyle& style) {
   const std::vector<std::string> sensors = sensors_of(summary);
   Table table{{{"variant"}, {"kind"}, {"scenes"}, {"trials"}}, {}};
   View view{{{"kind"}, {"scenes"}, {"trials"}}};
-  add_titled(table, view, {"all"}, 1);
+  add_titled(table, view, {kAllSensors}, 1);
   add_titled(table, view, sensors, 1);
   std::map<std::string, double> percents;  // By sensor.
   for (const SceneKindSummary& kind : summary.scene_kinds) {

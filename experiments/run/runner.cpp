@@ -40,11 +40,9 @@ bool is_finite(const RigidTransform& T) {
   return T.rotation.allFinite() && T.translation.allFinite();
 }
 
-/// Whether the numbers of a pose are those of a pose, so that its error and their squares are
-/// finite.
+/// Whether the error of the pose and its square are finite.
 bool is_near(const RigidTransform& T) {
-  return T.rotation.cwiseAbs().maxCoeff() <= kLargestDistance_m &&
-         T.translation.cwiseAbs().maxCoeff() <= kLargestDistance_m;
+  return T.translation.cwiseAbs().maxCoeff() <= kLargestDistance_m;
 }
 
 bool is_within(const PoseError& error, const SuccessBounds& bounds) {
@@ -84,6 +82,10 @@ void finish(TrialRecord& record, const Estimate& estimate, const SensorScan& sca
   }
   if (!is_near(estimate.T_target_source)) {
     record.reason = "the pose is farther away than " + fixed_number(kLargestDistance_m, 0) + " m";
+    return;
+  }
+  if (!is_rotation_matrix(estimate.T_target_source.rotation)) {
+    record.reason = "the rotation of the pose is none: its columns are not orthonormal";
     return;
   }
   record.T_reference_sensor = estimate.T_target_source;

@@ -12,7 +12,6 @@ namespace {
 
 constexpr char kBetween = '>';
 /// The name of the rows over all sensors in tables, claims and options.
-constexpr const char* kAllSensors = "all";
 
 std::optional<RigidTransform> between(const std::optional<RigidTransform>& T_reference_target,
                                       const std::optional<RigidTransform>& T_reference_source) {
@@ -44,7 +43,7 @@ void add_pairs(Scene& scene) {
 void check_name(const std::string& what, const std::string& name, const std::string& file,
                 std::vector<Fault>& faults) {
   const bool is_fine = !name.empty() && printable(name) == name &&
-                       std::string("=+-@.").find(name.front()) == std::string::npos &&
+                       (std::string(kFormulaSigns) + ".").find(name.front()) == std::string::npos &&
                        name.find('/') == std::string::npos;
   if (is_fine) return;
   faults.push_back({file, "",

@@ -261,16 +261,9 @@ std::string manifest_with_host(const std::string& manifest, const std::filesyste
 std::string hosts_json(const std::vector<std::filesystem::path>& folders) {
   Json merged = Json::array();
   for (const std::filesystem::path& folder : folders) {
-    const std::filesystem::path file = folder / "manifest.json";
-    std::error_code error;
-    const fs::file_status status = fs::status(file, error);
-    if (status.type() == fs::file_type::not_found) continue;
-    // Before it is opened: opening a pipe would wait for a writer.
-    if (!fs::is_regular_file(status)) {
-      throw InputError(file.string(), "",
-                       "expected a manifest, found something that is not a file");
-    }
-    const Json other = parsed_or_discarded<Json>(read_whole_file(file));
+    const std::optional<std::string> file = read_file_if_there(folder / "manifest.json");
+    if (!file) continue;
+    const Json other = parsed_or_discarded<Json>(*file);
     if (!other.is_object() || !other.contains("host")) continue;
     // Results of a merge already list several hosts.
     const Json& host = other["host"];

@@ -20,13 +20,6 @@ namespace {
 /// A table, view or index: its type and name, and the statement that made it.
 using SchemaEntry = std::pair<std::string, std::string>;
 
-/// More current variants or sensors than an experiment has; time grows with the square of the
-/// latter.
-constexpr std::int64_t kMostNames = 10000;
-/// How far the rows of a rotation are from being of unit length and orthogonal, at most: stages
-/// from outside the tree may compute in single precision.
-constexpr double kRotationTolerance = 1e-4;
-
 /// More names than a store has.
 constexpr const char* kLargestId = "1000000000";
 /// A rotation or a distance beyond this is in no result, and its square is finite.
@@ -95,7 +88,7 @@ void check_shown_names(const Database& database, const std::string& table,
   while (select.next()) {
     const std::string name = select.text(0), shown = is_shown ? select.text(2) : "";
     current += select.integer(1);
-    const bool is_name = !name.empty() && is_harmless(name, "=+-@");
+    const bool is_name = !name.empty() && is_harmless(name, kFormulaSigns);
     // The kind of a scene may begin with a minus sign.
     if (is_name && is_harmless(shown, "=+@")) continue;
     const std::string& bad = is_name ? shown : name;
@@ -104,9 +97,10 @@ void check_shown_names(const Database& database, const std::string& table,
                          "begin with = + - or @, found \"" +
                          bad + "\"");
   }
-  if (current > kMostNames && table != "scenes") {
+  // An experiment has fewer sensors too; time grows with the square of their number.
+  if (current > std::int64_t{kMostVariants} && table != "scenes") {
     refuse(database, "it has " + std::to_string(current) + " " + table + ", expected at most " +
-                         std::to_string(kMostNames));
+                         std::to_string(kMostVariants));
   }
 }
 
@@ -139,9 +133,7 @@ void check_rotations(const Database& database, const std::vector<std::string>& p
   while (select.next()) {
     Eigen::Matrix3d rotation;
     for (int i = 0; i < 9; ++i) rotation(i / 3, i % 3) = select.real(i);
-    const Eigen::Matrix3d unit = rotation * rotation.transpose();
-    if (unit.isIdentity(kRotationTolerance) && rotation.determinant() > 0.0) continue;
-    refuse(database, "trials: a pose has no rotation");
+    if (!is_rotation_matrix(rotation)) refuse(database, "trials: a pose has no rotation");
   }
 }
 

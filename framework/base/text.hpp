@@ -5,6 +5,9 @@
 
 namespace croon {
 
+/// A cell that begins with one of these is a formula to a spreadsheet.
+inline constexpr const char* kFormulaSigns = "=+-@";
+
 /// The number of columns that UTF-8 text takes: its code points.
 std::size_t text_columns(const std::string& text);
 

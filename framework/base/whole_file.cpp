@@ -85,8 +85,12 @@ int write_all(int descriptor, std::string_view bytes) {
 std::string read_whole_file(const fs::path& path) {
   std::error_code error;
   // Before it is opened: opening a pipe would wait for a writer.
-  if (!fs::is_regular_file(path, error)) {
-    throw UnavailableFile(path.string(), "", "expected a readable file, found none");
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::is_regular_file(status)) {
+    const bool is_something = fs::exists(status);
+    throw UnavailableFile(path.string(), "",
+                          std::string("expected a readable file, found ") +
+                              (is_something ? "something that is not a file" : "none"));
   }
   std::ifstream stream(path, std::ios::binary);
   if (!stream) {
@@ -106,6 +110,12 @@ std::string read_whole_file(const fs::path& path) {
     throw UnavailableFile(path.string(), "", "ended while it was read");
   }
   return bytes;
+}
+
+std::optional<std::string> read_file_if_there(const fs::path& path) {
+  std::error_code error;
+  if (fs::status(path, error).type() == fs::file_type::not_found) return std::nullopt;
+  return read_whole_file(path);
 }
 
 void write_whole_file(const fs::path& path, std::string_view bytes) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,6 +18,9 @@ class UnavailableFile : public InputError {
 
 /// The bytes of the file `path`. Throws UnavailableFile if it cannot be read or is too large.
 std::string read_whole_file(const std::filesystem::path& path);
+
+/// The same; std::nullopt if nothing is there.
+std::optional<std::string> read_file_if_there(const std::filesystem::path& path);
 
 /// Makes `bytes` the content of the file `path`: writes a file beside it and renames it, so that a
 /// reader sees the old content or the new one, never a part. Throws InputError if it cannot be

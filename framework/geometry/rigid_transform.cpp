@@ -38,6 +38,11 @@ Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix) {
   return U * svd.matrixV().transpose();
 }
 
+bool is_rotation_matrix(const Eigen::Matrix3d& matrix) {
+  constexpr double kTolerance = 1e-4;
+  return (matrix.transpose() * matrix).isIdentity(kTolerance) && matrix.determinant() > 0.0;
+}
+
 Eigen::Matrix3d rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
 }

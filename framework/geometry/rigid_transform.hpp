@@ -39,6 +39,10 @@ double rotation_angle(const Eigen::Matrix3d& rotation);
 /// The nearest rotation to a matrix that rounding has moved off SO(3).
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix);
 
+/// Whether the columns of `matrix` are of unit length, orthogonal and right-handed within 1e-4:
+/// stages from outside the tree may compute in single precision.
+bool is_rotation_matrix(const Eigen::Matrix3d& matrix);
+
 /// The smallest rotation that turns the unit vector `from` into the unit vector `to` (axis `from x
 /// to`, Rodrigues; paper, rough calibration). Opposite vectors turn by pi about an axis
 /// perpendicular to them.

@@ -249,7 +249,9 @@ TEST(Runner, SaysHowATrialEnded) {
         Case{"reject", Status::rejected, "behave: too few points", true},
         Case{"defeat", Status::failed, "behave: no ground", false},
         Case{"nan", Status::failed, "the pose is not finite", false},
-        Case{"far", Status::failed, "the pose is farther away than 1000000000 m", false}}) {
+        Case{"far", Status::failed, "the pose is farther away than 1000000000 m", false},
+        Case{"skewed", Status::failed,
+             "the rotation of the pose is none: its columns are not orthonormal", false}}) {
     json experiment = drifting();
     experiment["pipeline"][1]["how"] = c.how;
     for (const TrialRecord& record : run(experiment).records) {

@@ -101,7 +101,7 @@ class Drift final : public Step {
   DriftParams params_;
 };
 
-enum class How { pass, reject, defeat, memory, bug, nan, far };
+enum class How { pass, reject, defeat, memory, bug, nan, far, skewed };
 
 struct BehaveParams {
   How how = How::pass;
@@ -119,6 +119,7 @@ class Behave final : public Step {
     if (params_.how == How::nan) {
       estimate.T_target_source.translation.x() = std::numeric_limits<double>::quiet_NaN();
     }
+    if (params_.how == How::skewed) estimate.T_target_source.rotation(0, 0) += 0.01;
     if (params_.how == How::far) estimate.T_target_source.translation.x() = -1e18;
     return estimate;
   }
@@ -158,7 +159,8 @@ Catalogue fake_catalogue() {
                                                            {"memory", How::memory},
                                                            {"bug", How::bug},
                                                            {"nan", How::nan},
-                                                           {"far", How::far}},
+                                                           {"far", How::far},
+                                                           {"skewed", How::skewed}},
                                                           "What it does.")}));
   return catalogue;
 }

@@ -77,7 +77,10 @@ TEST(WholeFile, RefusesWhatIsNoFile) {
   EXPECT_THAT(test::input_error([&] { write_whole_file(folder.path(), "x"); }),
               HasSubstr("something else"));
   EXPECT_THAT(test::input_error([&] { read_whole_file(missing); }), HasSubstr("found none"));
-  EXPECT_THAT(test::input_error([&] { read_whole_file(folder.path()); }), HasSubstr("found none"));
+  EXPECT_THAT(test::input_error([&] { read_whole_file(folder.path()); }),
+              HasSubstr("found something that is not a file"));
+  EXPECT_EQ(read_file_if_there(missing), std::nullopt);
+  EXPECT_THROW(read_file_if_there(folder.path()), InputError);
   EXPECT_EQ(files_in(folder.path()), 0u);
 }
 

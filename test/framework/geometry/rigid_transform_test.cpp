@@ -56,6 +56,18 @@ TEST(RigidTransform, AngleOfTheSmallestRotations) {
   }
 }
 
+TEST(RigidTransform, KnowsARotationFromOtherMatrices) {
+  Rng rng = test::test_rng(7);
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Matrix3d R = test::random_pose(rng, 1.0).rotation;
+    EXPECT_TRUE(is_rotation_matrix(R));
+    EXPECT_TRUE(is_rotation_matrix(R.cast<float>().cast<double>()));
+    EXPECT_FALSE(is_rotation_matrix(-R));
+    EXPECT_FALSE(is_rotation_matrix(1.001 * R));
+    EXPECT_FALSE(is_rotation_matrix(R * Eigen::Vector3d(1.0, 1.001, 1.0).asDiagonal()));
+  }
+}
+
 TEST(PoseError, IsTheOffsetThatAStartWasMovedBy) {
   Rng rng = test::test_rng();
   for (int i = 0; i < 1000; ++i) {
