@@ -31,7 +31,8 @@ TEST(CloudList, NamesSensors) {
                                             "line 1: the line stands before its device_id"},
         {"device_id: 0\npath: b\nsensor: a\nsensor: c\n", "line 4: the device has a second line"},
         {"device_id: 0\npath: b\nsensor:\n", "line 3: expected a name, found none"}}) {
-    EXPECT_NE(test::input_error([&, text = wrong] { read(text); }).find(message), std::string::npos) << wrong;
+    EXPECT_NE(test::input_error([&, text = wrong] { read(text); }).find(message), std::string::npos)
+        << wrong;
   }
 }
 
