@@ -175,10 +175,9 @@ int simulate_command(const SimulateOptions& options, const Catalogue& catalogue,
     write_scenes(options, experiment, scenes, progress);
     progress.finish();
   }
-  std::vector<OutputFile> files = {
-      {options.out / "truth.json", truth_json(scenes.front())},
-      {options.out / "scene_kinds.json", kinds_json(scenes)},
-      {options.out / "experiment.json", experiment_on(experiment)}};
+  std::vector<OutputFile> files = {{options.out / "truth.json", truth_json(scenes.front())},
+                                   {options.out / "scene_kinds.json", kinds_json(scenes)},
+                                   {options.out / "experiment.json", experiment_on(experiment)}};
   if (experiment.starts.table) {
     files.push_back({options.out / kStarts, starts_csv(experiment, started)});
   }
