@@ -16,6 +16,17 @@ std::set<std::string> sensors_without_truth(const std::vector<TrialRecord>& reco
   return sensors;
 }
 
+/// The largest size up to which every level `is_inside`; std::nullopt if the first is not.
+template <class F>
+std::optional<double> reach(const Sweep& sweep, const BasinRow& row, const F& is_inside) {
+  std::optional<double> size;
+  for (std::size_t level = 0; level < row.levels.size(); ++level) {
+    if (!is_inside(row.levels[level])) break;
+    size = level_size(sweep, static_cast<int>(level));
+  }
+  return size;
+}
+
 }  // namespace
 
 std::optional<Basin> basin_of(const std::vector<TrialRecord>& records, const Sweep& sweep,
@@ -46,16 +57,25 @@ std::optional<Basin> basin_of(const std::vector<TrialRecord>& records, const Swe
 }
 
 std::optional<double> basin_radius(const Sweep& sweep, const BasinRow& row) {
-  std::optional<double> radius;
-  for (std::size_t level = 0; level < row.levels.size(); ++level) {
-    const Share& share = row.levels[level];
-    const Share& first = row.levels.front();
+  const Share& first = row.levels.front();
+  return reach(sweep, row, [&](const Share& share) {
     // Both ratios times both numbers of trials.
     const double least = kBasinRatio * first.count * share.trials;
-    if (share.count == 0 || static_cast<double>(share.count) * first.trials < least) break;
-    radius = level_size(sweep, static_cast<int>(level));
-  }
-  return radius;
+    return share.count > 0 && static_cast<double>(share.count) * first.trials >= least;
+  });
+}
+
+std::optional<Interval> basin_radius_interval(const Sweep& sweep, const BasinRow& row) {
+  const Share& first = row.levels.front();
+  if (first.count == 0 || !first.interval) return std::nullopt;
+  const auto reach_by = [&](double Interval::*end) {
+    return *reach(sweep, row, [&](const Share& share) {
+      // The first level is in the basin by definition.
+      return &share == &first ||
+             (share.interval && (*share.interval).*end >= kBasinRatio * first.ratio);
+    });
+  };
+  return Interval{reach_by(&Interval::low), reach_by(&Interval::high)};
 }
 
 double rounded_size(const Sweep& sweep, int level) {

@@ -36,6 +36,12 @@ std::optional<Basin> basin_of(const std::vector<TrialRecord>& records, const Swe
 /// every start do not count. std::nullopt if no trial succeeds at the first level.
 std::optional<double> basin_radius(const Sweep& sweep, const BasinRow& row);
 
+/// The interval of the radius over scenes, from the 95 % intervals of the levels' shares: its ends
+/// are the radii that the lower and the upper ends of these would have, beside the share at the
+/// first level as it is. An end at the last size may lie beyond it. std::nullopt if there is no
+/// radius, or if shares have no interval.
+std::optional<Interval> basin_radius_interval(const Sweep& sweep, const BasinRow& row);
+
 /// The size of a level without the rounding error of equal steps.
 double rounded_size(const Sweep& sweep, int level);
 

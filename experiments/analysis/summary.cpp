@@ -21,13 +21,10 @@ std::vector<std::string> each_once(const Summary& summary, std::string SummaryRo
 SceneKindSummary summary_of_kind(const Rows& rows, const std::string& kind,
                                  const std::string& sensor) {
   std::vector<const SceneSummary*> scenes;
-  std::set<std::string> names;
   for (const SceneSummary* scene : scenes_of(rows)) {
-    if (scene->scene_kind != kind) continue;
-    scenes.push_back(scene);
-    names.insert(scene->scene);
+    if (scene->scene_kind == kind) scenes.push_back(scene);
   }
-  return {pooled(scenes), rows.front()->variant, kind, sensor, static_cast<int>(names.size())};
+  return {pooled(scenes), rows.front()->variant, kind, sensor};
 }
 
 /// By variant, kind (alphabetically; scenes without one have the kind "") and sensor as in the
@@ -43,7 +40,7 @@ std::vector<SceneKindSummary> summarise_scene_kinds(const Summary& summary) {
     for (const std::string& kind : kinds) {
       for (const SummaryRow* row : rows) {
         SceneKindSummary of_sensor = summary_of_kind({row}, kind, row->sensor);
-        if (of_sensor.scenes > 0) summaries.push_back(std::move(of_sensor));
+        if (of_sensor.scene_count > 0) summaries.push_back(std::move(of_sensor));
       }
       summaries.push_back(summary_of_kind(rows, kind, ""));
     }

@@ -33,7 +33,6 @@ struct SceneKindSummary : TrialSummary {
   std::string variant;
   std::string scene_kind;
   std::string sensor;  ///< Empty for all sensors together.
-  int scenes = 0;
 };
 
 /// The scenes in which every trial of all sensors of a variant succeeds.

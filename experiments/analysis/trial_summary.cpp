@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "framework/base/angles.hpp"
 
@@ -196,7 +197,9 @@ PoseBounds pose_bounds(const SuccessBounds& bounds) {
 TrialSummary pooled_counts(const std::vector<const SceneSummary*>& scenes) {
   TrialSummary sum;
   SceneCounts successes, agreements;
+  std::set<std::string> names;
   for (const SceneSummary* scene : scenes) {
+    names.insert(scene->scene);
     sum.deviations_from = std::min(sum.deviations_from, scene->deviations_from);
     sum.outcomes.trials += scene->outcomes.trials;
     for (const auto count : kByStatus) sum.outcomes.*count += scene->outcomes.*count;
@@ -208,6 +211,7 @@ TrialSummary pooled_counts(const std::vector<const SceneSummary*>& scenes) {
     sum.counted += static_cast<int>(scene->deviations.size());
     sum.usable += static_cast<int>(scene->usable_deviations.size());
   }
+  sum.scene_count = static_cast<int>(names.size());
   sum.success = successes.share();
   sum.agreement = agreements.share();
   return sum;

@@ -90,6 +90,7 @@ struct Agreeing {
 /// The results of a set of trials.
 struct TrialSummary {
   DeviationsFrom deviations_from = DeviationsFrom::none;  ///< Truth if one sensor has it.
+  int scene_count = 0;                                    ///< Scenes that the trials are of.
   Outcomes outcomes;
   Share success;    ///< Trials with status `success`; means nothing without truth.
   Share agreement;  ///< Trials that `agrees` is true for, of those of scenes with several trials.

@@ -6,12 +6,12 @@
 
 #include "experiments/file/experiment.hpp"
 #include "experiments/report/plots.hpp"
+#include "experiments/report/result_files.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "experiments/report/run_text.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/threads.hpp"
-#include "framework/base/whole_file.hpp"
 #include "framework/picture/writers.hpp"
 #include "framework/pipeline/cloud_description.hpp"
 
@@ -95,9 +95,9 @@ void write_files(const std::filesystem::path& folder, const std::vector<CloudDes
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw InputError(folder.string(), "", "cannot be made: " + error.message());
-  write_whole_file(folder / "clouds.csv", clouds_csv(clouds));
-  const Drawing ranges = ranges_chart(clouds, {sheet});
-  write_whole_file(folder / (std::string("ranges.") + writer.name), writer.bytes(ranges));
+  write_output_files({{folder / "clouds.csv", clouds_csv(clouds)},
+                      {folder / (std::string("ranges.") + writer.name),
+                       writer.bytes(ranges_chart(clouds, {sheet}))}});
 }
 
 }  // namespace

@@ -125,8 +125,7 @@ int export_command(const ExportOptions& options, std::ostream& out) {
     out << text;
     return 0;
   }
-  // No store is replaced, of whatever folder.
-  write_output_file(options.out, text, store_path(options.folders.front()));
+  write_output_files({{options.out, text}});
   return 0;
 }
 

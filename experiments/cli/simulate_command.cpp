@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/file/experiment.hpp"
+#include "experiments/report/result_files.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
 #include "framework/base/error.hpp"
@@ -174,12 +175,13 @@ int simulate_command(const SimulateOptions& options, const Catalogue& catalogue,
     write_scenes(options, experiment, scenes, progress);
     progress.finish();
   }
-  write_whole_file(options.out / "truth.json", truth_json(scenes.front()));
-  write_whole_file(options.out / "scene_kinds.json", kinds_json(scenes));
+  std::vector<OutputFile> files = {{options.out / "truth.json", truth_json(scenes.front())},
+                                   {options.out / "scene_kinds.json", kinds_json(scenes)},
+                                   {options.out / "experiment.json", experiment_on(experiment)}};
   if (experiment.starts.table) {
-    write_whole_file(options.out / kStarts, starts_csv(experiment, started));
+    files.push_back({options.out / kStarts, starts_csv(experiment, started)});
   }
-  write_whole_file(options.out / "experiment.json", experiment_on(experiment));
+  write_output_files(files);
   const std::string folder = printable(options.out.string());
   out << scenes.size() << (scenes.size() == 1 ? " scene is in " : " scenes are in ") << folder
       << "; run them with: croon run " << printable((options.out / "experiment.json").string())

@@ -11,8 +11,6 @@
 namespace croon::experiments {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// A row of the file; see kStartHeader.
 struct StartRow {
   std::string scene;
@@ -50,36 +48,6 @@ void check_list_size(const Experiment& experiment, const std::vector<Scene>& sce
                  "ask for fewer --trials", {experiment.file, "", ""});
 }
 
-/// The files that `experiment` consists of and those that it names, with the clouds.
-std::vector<fs::path> inputs_of(const Experiment& experiment, const std::vector<Scene>& scenes,
-                                const fs::path& root) {
-  std::vector<fs::path> inputs = {experiment.file};
-  for (std::size_t i = 1; i < experiment.files.size(); ++i) {
-    inputs.push_back(inputs.back().parent_path() / experiment.files[i].path);
-  }
-  std::vector<std::string> names = {experiment.starts.file};
-  for (const Variant& variant : experiment.variants) names.push_back(variant.poses.name);
-  for (const std::string& name : names) {
-    if (name.empty()) continue;
-    inputs.push_back(root / name);
-    inputs.push_back(fs::path(experiment.file).parent_path() / name);
-  }
-  for (const Scene& scene : scenes) {
-    inputs.push_back(scene.reference.file);
-    for (const SensorScan& scan : scene.sensors) inputs.push_back(scan.file);
-  }
-  return inputs;
-}
-
-/// The one of `inputs` that is the file `out`; the first if none is.
-fs::path input_at(const fs::path& out, const std::vector<fs::path>& inputs) {
-  for (const fs::path& input : inputs) {
-    std::error_code error;
-    if (fs::equivalent(out, input, error)) return input;
-  }
-  return inputs.front();
-}
-
 }  // namespace
 
 std::string starts_csv(const Experiment& experiment, const std::vector<Scene>& scenes) {
@@ -99,15 +67,14 @@ std::string starts_csv(const Experiment& experiment, const std::vector<Scene>& s
 int starts_command(const StartsOptions& options, const Catalogue& catalogue, std::ostream& out) {
   Experiment experiment = load_experiment(options.experiment, catalogue);
   set_trials(experiment.starts, options.trials);
-  const fs::path root = data_root(options.data);
+  const std::filesystem::path root = data_root(options.data);
   const std::vector<Scene> scenes = scenes_of(experiment, root);
   resolve_starts(experiment, scenes, root);
   const std::string bytes = starts_csv(experiment, scenes);
   if (options.out.empty()) {
     out << bytes;
   } else {
-    write_output_file(options.out, bytes,
-                      input_at(options.out, inputs_of(experiment, scenes, root)));
+    write_output_files({{options.out, bytes}});
   }
   return 0;
 }

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/report/bands.hpp"
+#include "experiments/report/figure_title.hpp"
 #include "experiments/report/plots.hpp"
 #include "framework/base/text.hpp"
 #include "framework/picture/chart.hpp"
@@ -16,26 +18,27 @@ struct BasinLayout {
   double legend_width;         ///< Of an entry.
 };
 
+constexpr double kScreenWidth = 890.0;
 constexpr double kScreenLegend = 250.0;
 constexpr std::size_t kLabelColumns = 30;
 
 double legend_height(const Sheet& sheet) { return sheet.is_paper ? 1.25 * sheet.small() : 20.0; }
 
-BasinLayout layout_of(const Sheet& sheet, const Axis& sizes,
-                      const std::vector<std::string>& labels) {
+BasinLayout layout_of(const Sheet& sheet, const Axis& sizes, const std::vector<std::string>& labels,
+                      double title_height) {
   const double text = sheet.small();
   BasinLayout layout{};
   Plot& plot = layout.plot;
   plot.x_range = {sizes.low, sizes.high};
   plot.y_range = {0.0, 1.0};
   plot.left = sheet.is_paper ? 3.6 * text : 56.0;
-  plot.top = sheet.has_title ? (sheet.is_paper ? 3.4 * text : 60.0) : 0.9 * text;
+  plot.top = title_height + 0.9 * text;
   const double axis_height = sheet.is_paper ? 3.6 * text : 50.0;
   const auto rows = static_cast<double>(labels.size());
   if (sheet.width <= 0.0) {
-    plot.width = 560.0;
+    plot.width = kScreenWidth - plot.left - 24.0 - kScreenLegend;
     plot.height = 300.0;
-    layout.width = plot.left + plot.width + 24.0 + kScreenLegend;
+    layout.width = kScreenWidth;
     layout.height = plot.top + std::max(plot.height, legend_height(sheet) * rows) + axis_height;
     return layout;
   }
@@ -71,23 +74,6 @@ void draw_frame(Drawing& drawing, const Plot& plot, const Axis& sizes, const Swe
   drawing.text(text, plot.top + plot.height / 2.0, "success, %", Anchor::middle, "small", -90.0);
 }
 
-/// Draws the interval of a row.
-void draw_band(Drawing& drawing, const Plot& plot, const Sweep& sweep, const BasinRow& row,
-               std::size_t index) {
-  std::vector<Corner> upper, lower;
-  for (std::size_t level = 0; level < row.levels.size(); ++level) {
-    const Share& share = row.levels[level];
-    if (share.trials == 0) continue;
-    const double x = plot.x(level_size(sweep, static_cast<int>(level)));
-    if (!share.interval) continue;
-    upper.push_back({x, plot.y(share.interval->high)});
-    lower.push_back({x, plot.y(share.interval->low)});
-  }
-  if (upper.empty()) return;
-  upper.insert(upper.end(), lower.rbegin(), lower.rend());
-  drawing.area(upper, "band c" + std::to_string(index % kSeriesColours));
-}
-
 void draw_curve(Drawing& drawing, const Plot& plot, const Sweep& sweep, const BasinRow& row,
                 std::size_t index) {
   std::vector<Corner> curve;
@@ -121,9 +107,6 @@ void draw_legend(Drawing& drawing, const BasinLayout& layout, std::size_t index,
 
 Drawing basin_chart(const Basin& basin, const FigureOptions& options) {
   constexpr const char* kTitle = "Success in % over the size of the start's perturbation";
-  const std::string explanation =
-      "All sensors and scenes together; the band is the 95 % interval, none for fewer than " +
-      std::to_string(kLeastScenes) + " scenes";
   std::vector<const BasinRow*> rows;
   std::vector<std::string> names;
   for (const BasinRow& row : basin.rows) {
@@ -132,20 +115,26 @@ Drawing basin_chart(const Basin& basin, const FigureOptions& options) {
     names.push_back(row.variant);
   }
   const std::vector<std::string> labels = distinct_labels(names, kLabelColumns);
+  const std::vector<std::size_t> with_band = lines_with_band(rows.size());
+  const std::string explanation =
+      "All sensors and scenes together; " + band_sentence(labels, with_band);
   const Sheet& sheet = options.sheet;
   const Axis sizes =
       round_axis(basin.sweep.first, basin.sweep.last, sheet.width == kOneColumn.width ? 6 : 9);
-  const BasinLayout layout = layout_of(sheet, sizes, labels);
+  const FigureTitle title(kTitle, explanation, sheet,
+                          sheet.width > 0.0 ? sheet.width : kScreenWidth);
+  const BasinLayout layout = layout_of(sheet, sizes, labels, title.height());
   Drawing drawing(layout.width, layout.height, sheet);
   drawing.describe(std::string(kTitle) + ". " + explanation + ".");
   drawing.rectangle(0.0, 0.0, layout.width, layout.height, "page");
-  if (sheet.has_title) {
-    drawing.text(layout.plot.left, 0.4 * layout.plot.top, kTitle, Anchor::start, "title");
-    drawing.text(layout.plot.left, 0.7 * layout.plot.top, explanation, Anchor::start, "small");
-  }
+  title.draw(drawing, 0.5 * sheet.small(), 0.3 * sheet.small());
   draw_frame(drawing, layout.plot, sizes, basin.sweep);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    draw_band(drawing, layout.plot, basin.sweep, *rows[i], i);
+  std::vector<double> levels;
+  for (int level = 0; level < basin.sweep.levels; ++level) {
+    levels.push_back(level_size(basin.sweep, level));
+  }
+  for (const std::size_t i : with_band) {
+    draw_band(drawing, layout.plot, levels, intervals_of(rows[i]->levels), i);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     draw_curve(drawing, layout.plot, basin.sweep, *rows[i], i);

@@ -47,20 +47,23 @@ std::vector<BoxGroup> box_groups(const Summary& summary, BoxOf of) {
   if (of == BoxOf::scene_kind) {
     for (const SceneKindSummary& kind : summary.scene_kinds) index_of(labels, kind.scene_kind);
   }
-  std::vector<std::map<std::size_t, std::vector<Measures>>> boxes;
+  std::vector<std::map<std::size_t, BoxSeries>> boxes;
   for (const SummaryRow& row : summary.rows) {
     const std::size_t sensor = index_of(sensors, row.sensor);
     boxes.resize(sensors.size());
     for (const SceneSummary& scene : row.scenes) {
-      std::vector<Measures>& box = boxes[sensor][index_of(labels, label_of(row, scene, of))];
-      box.insert(box.end(), scene.deviations.begin(), scene.deviations.end());
+      BoxSeries& box = boxes[sensor][index_of(labels, label_of(row, scene, of))];
+      box.deviations.insert(box.deviations.end(), scene.deviations.begin(), scene.deviations.end());
+      box.trials += scene.outcomes.trials;
     }
   }
   std::vector<BoxGroup> groups;
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     groups.push_back({sensors[i], {}});
-    for (const auto& [label, deviations] : boxes[i]) {
-      groups[i].boxes.push_back({labels[label], label, deviations});
+    for (auto& [label, box] : boxes[i]) {
+      box.label = labels[label];
+      box.colour = label;
+      groups[i].boxes.push_back(std::move(box));
     }
   }
   return groups;

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
-#include <sstream>
 
+#include "experiments/report/box_drawing.hpp"
+#include "experiments/report/figure_title.hpp"
 #include "experiments/report/plots.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
@@ -39,20 +39,18 @@ struct Panel {
 struct BoxLayout {
   Sheet sheet;
   Lengths lengths;
-  std::vector<std::string> title;
+  double title_height = 0.0;
   std::size_t columns = 1;  ///< Of panels.
   double plot_width = 0.0;
   double plot_height = 190.0;
   double pitch = 0.0;
-  double label_height = 0.0;  ///< Of the names below the boxes.
+  double count_height = 0.0;  ///< Of the numbers of trials below the boxes.
+  double label_height = 0.0;  ///< Of the names below these.
   double above = 0.0;         ///< Room for the numbers of values beyond the axis.
   double below = 0.0;
 
   std::size_t rows() const { return kDofs / columns; }
-  double title_height() const {
-    return sheet.has_title ? 1.3 * sheet.title() * static_cast<double>(title.size()) + 26.0 : 0.0;
-  }
-  double names_height() const { return label_height + lengths.sensor_height; }
+  double names_height() const { return count_height + label_height + lengths.sensor_height; }
   double panel_width() const { return lengths.axis_width + plot_width + lengths.right; }
   /// On paper, the panels of a column share the names below the lowest.
   double panel_height() const {
@@ -64,7 +62,7 @@ struct BoxLayout {
                              : 2.0 * lengths.margin + static_cast<double>(columns) * panel_width();
   }
   double height() const {
-    return title_height() + static_cast<double>(rows()) * panel_height() + lengths.margin +
+    return title_height + static_cast<double>(rows()) * panel_height() + lengths.margin +
            (sheet.is_paper ? names_height() : 0.0);
   }
 };
@@ -177,53 +175,26 @@ std::vector<Panel> panels_of(const std::vector<BoxGroup>& groups, const std::str
   return panels;
 }
 
-std::size_t count_above(const std::vector<double>& values, double limit) {
-  return static_cast<std::size_t>(
-      std::count_if(values.begin(), values.end(), [&](double value) { return value > limit; }));
-}
-
-std::size_t count_below(const std::vector<double>& values, double limit) {
-  return static_cast<std::size_t>(
-      std::count_if(values.begin(), values.end(), [&](double value) { return value < limit; }));
-}
+Interval range_of(const Axis& axis) { return {axis.low, axis.high}; }
 
 /// Makes room for the numbers of values beyond the axes.
 void make_room_beyond(BoxLayout& layout, const std::vector<Panel>& panels,
                       const std::vector<BoxGroup>& groups) {
-  std::size_t above = 0;
-  std::size_t below = 0;
+  Beyond most;
   for (const Panel& panel : panels) {
     for_each_box(groups, [&](const BoxSeries& box) {
-      const std::vector<double> values = scaled_values(box, panel);
-      above = std::max(above, count_above(values, panel.axis.high));
-      below = std::max(below, count_below(values, panel.axis.low));
+      const Beyond beyond = count_beyond(scaled_values(box, panel), range_of(panel.axis));
+      most.above = std::max(most.above, beyond.above);
+      most.below = std::max(most.below, beyond.below);
     });
   }
-  const auto room = [&](std::size_t count) {
-    if (count == 0) return 0.0;
-    const double text = layout.sheet.small();
-    const double number = text_width(std::to_string(count), text);
-    return 0.9 * text + (number <= layout.pitch ? 0.9 * text : number);
-  };
-  layout.above = room(above);
-  layout.below = room(below);
+  layout.above = beyond_height(layout.sheet, layout.pitch, most.above);
+  layout.below = beyond_height(layout.sheet, layout.pitch, most.below);
 }
 
-/// Lines of at most `columns` columns, broken at spaces.
-std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
-  std::vector<std::string> lines = {""};
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    std::string& line = lines.back();
-    if (line.empty()) {
-      line = word;
-    } else if (text_columns(line) + 1 + text_columns(word) <= columns) {
-      line += " " + word;
-    } else {
-      lines.push_back(word);
-    }
-  }
-  return lines;
+/// How many of its trials a box holds: "18/20".
+std::string count_text(const BoxSeries& box) {
+  return std::to_string(box.deviations.size()) + "/" + std::to_string(box.trials);
 }
 
 BoxLayout layout_of(const std::vector<BoxGroup>& groups, const std::vector<Panel>& panels,
@@ -231,14 +202,14 @@ BoxLayout layout_of(const std::vector<BoxGroup>& groups, const std::vector<Panel
   BoxLayout layout;
   layout.sheet = sheet;
   layout.lengths = sheet.is_paper ? kPaperLengths : kScreenLengths;
-  std::size_t label_columns = 0;
   for (const BoxGroup& group : groups) {
     for (const BoxSeries& box : group.boxes) {
-      label_columns = std::max(label_columns, text_columns(box.label));
+      layout.count_height =
+          std::max(layout.count_height, text_width(count_text(box), sheet.small()) + 6.0);
+      if (box.label.empty()) continue;
+      layout.label_height =
+          std::max(layout.label_height, text_width(box.label, sheet.small()) + 6.0);
     }
-  }
-  if (label_columns > 0) {
-    layout.label_height = text_width(std::string(label_columns, 'x'), sheet.small()) + 6.0;
   }
   sheet.width > 0.0 ? lay_out_for_paper(layout, groups) : lay_out_for_screen(layout, groups);
   make_room_beyond(layout, panels, groups);
@@ -253,7 +224,7 @@ Plot draw_frame(Drawing& drawing, const BoxLayout& layout, std::size_t index, co
   const std::size_t column = layout.columns == 2 ? index / rows : index % layout.columns;
   const double left = layout.lengths.margin + static_cast<double>(column) * layout.panel_width() +
                       layout.lengths.axis_width;
-  const double title = layout.title_height() + static_cast<double>(row) * layout.panel_height() +
+  const double title = layout.title_height + static_cast<double>(row) * layout.panel_height() +
                        layout.lengths.panel_title;
   const Axis& axis = panel.axis;
   const Plot plot = {left,       title + layout.above, layout.plot_width, layout.plot_height,
@@ -264,62 +235,6 @@ Plot draw_frame(Drawing& drawing, const BoxLayout& layout, std::size_t index, co
   }
   drawing.text(left, title - 0.5 * layout.sheet.text(), panel.title, Anchor::start, "title");
   return plot;
-}
-
-/// Draws an arrowhead at the end of the axis beyond which `count` values are, and the number.
-void draw_beyond(Drawing& drawing, double x, double pitch, double border, std::size_t count,
-                 bool is_up, std::size_t series) {
-  if (count == 0) return;
-  const double text = drawing.sheet().small();
-  const double side = is_up ? -1.0 : 1.0;
-  draw_arrowhead(drawing, x, border + side * 0.4 * text, 0.3 * text, is_up,
-                 "marker c" + std::to_string(series % kSeriesColours));
-  const std::string number = std::to_string(count);
-  if (text_width(number, text) <= pitch) {
-    drawing.text(x, border + (is_up ? -0.9 : 1.6) * text, number, Anchor::middle, "small");
-  } else {
-    drawing.text(x + 0.36 * text, border + side * 0.9 * text, number,
-                 is_up ? Anchor::start : Anchor::end, "small", -90.0);
-  }
-}
-
-void draw_box(Drawing& drawing, const Plot& plot, double x, double pitch, const BoxSeries& series,
-              const std::vector<double>& values) {
-  const BoxPlot box = box_plot(values);
-  const std::string style = " " + box_style(series.colour);
-  const double width = 0.6 * pitch;
-  const double left = x - width / 2.0;
-  const double right = x + width / 2.0;
-  const auto is_shown = [&](double value) {
-    return value >= plot.y_range.low && value <= plot.y_range.high;
-  };
-  const double top = plot.y_inside(box.upper_quartile);
-  const double bottom = plot.y_inside(box.lower_quartile);
-  drawing.line(x, plot.y_inside(box.upper_whisker), x, top, "line" + style);
-  drawing.line(x, bottom, x, plot.y_inside(box.lower_whisker), "line" + style);
-  for (const double end : {box.lower_whisker, box.upper_whisker}) {
-    if (!is_shown(end)) continue;
-    drawing.line(x - 0.3 * width, plot.y(end), x + 0.3 * width, plot.y(end), "line" + style);
-  }
-  if (bottom > top || box.upper_quartile == box.lower_quartile) {
-    drawing.rectangle(left, top, width, bottom - top, "box" + style);
-  }
-  if (is_shown(box.median)) {
-    drawing.line(left, plot.y(box.median), right, plot.y(box.median), "median" + style);
-  }
-  // Of dots that look the same one is enough, or a long run makes a file of many megabytes.
-  std::set<double> rows;
-  for (const double outlier : box.outliers) {
-    if (is_shown(outlier)) rows.insert(std::round(2.0 * plot.y(outlier)) / 2.0);
-  }
-  for (const double y : rows) {
-    drawing.dot(x, y, 1.8 * std::min(1.0, pitch / kScreenLengths.widest_pitch + 0.2),
-                "dot" + style);
-  }
-  draw_beyond(drawing, x, pitch, plot.top, count_above(values, plot.y_range.high), true,
-              series.colour);
-  draw_beyond(drawing, x, pitch, plot.top + plot.height, count_below(values, plot.y_range.low),
-              false, series.colour);
 }
 
 void draw_panel(Drawing& drawing, const BoxLayout& layout, const std::vector<BoxGroup>& groups,
@@ -344,15 +259,18 @@ void draw_panel(Drawing& drawing, const BoxLayout& layout, const std::vector<Box
         drawing.text(x + 0.36 * text, plot.top + plot.height - 0.4 * text, "none", Anchor::start,
                      "small", -90.0);
       } else {
-        draw_box(drawing, plot, x, layout.pitch, box, scaled_values(box, panel));
+        draw_box(drawing, plot, x, layout.pitch, box.colour, scaled_values(box, panel));
       }
       if (has_names) {
-        drawing.text(x + 0.36 * text, below, box.label, Anchor::end, "small", -90.0);
+        drawing.text(x + 0.36 * text, below, count_text(box), Anchor::end, "small", -90.0);
+        drawing.text(x + 0.36 * text, below + layout.count_height, box.label, Anchor::end, "small",
+                     -90.0);
       }
       x += layout.pitch;
     }
     if (has_names) {
-      drawing.text(left + width / 2.0, below + layout.label_height + 0.8 * text, group.sensor,
+      drawing.text(left + width / 2.0,
+                   below + layout.count_height + layout.label_height + 0.8 * text, group.sensor,
                    Anchor::middle, "sensor");
     }
     left += width + gap;
@@ -370,15 +288,36 @@ std::string title_of(const Summary& summary) {
              : "Deviation from what all scenes agree on (" + which + ")";
 }
 
-/// The meaning of a box.
-std::string explanation_of(BoxOf of) {
+/// The meaning of a box, and of what else these boxes show.
+std::string explanation_of(BoxOf of, const std::vector<BoxGroup>& groups,
+                           const std::vector<Panel>& panels) {
   static const std::map<BoxOf, const char*> what = {
       {BoxOf::variant, "one variant and sensor, all scenes together"},
       {BoxOf::scene, "one sensor in one scene"},
       {BoxOf::scene_kind, "one sensor in all scenes of one kind"},
       {BoxOf::all_scenes, "one sensor, all scenes together"}};
-  return std::string("A box is ") + what.at(of) +
-         ": quartiles and median; dots lie beyond 1.5 interquartile ranges";
+  bool has_few = false;
+  bool has_beyond = false;
+  bool has_cut = false;
+  for (const Panel& panel : panels) {
+    const Interval axis = range_of(panel.axis);
+    for_each_box(groups, [&](const BoxSeries& box) {
+      const std::vector<double> values = scaled_values(box, panel);
+      const Beyond beyond = count_beyond(values, axis);
+      has_few = has_few || values.size() < kLeastBoxValues;
+      has_beyond = has_beyond || beyond.above + beyond.below > 0;
+      has_cut = has_cut || is_cut(values, axis);
+    });
+  }
+  std::string text = std::string("A box is ") + what.at(of) +
+                     ": quartiles and median; dots lie beyond 1.5 interquartile ranges; n/N: it "
+                     "holds n of its N trials";
+  if (has_few) {
+    text += "; fewer than " + std::to_string(kLeastBoxValues) + " values are dots without a box";
+  }
+  if (has_beyond) text += "; arrowheads have the number of values beyond the axis";
+  if (has_cut) text += "; a box or whisker that goes on beyond the axis is open there";
+  return text;
 }
 
 }  // namespace
@@ -389,25 +328,14 @@ Drawing box_plots(const Summary& summary, const FigureOptions& options) {
   shorten_labels(groups, (options.sheet.is_paper ? kPaperLengths : kScreenLengths).label_columns);
   const std::vector<Panel> panels = panels_of(groups, options.length_unit);
   BoxLayout layout = layout_of(groups, panels, options.sheet);
-  std::string explanation = explanation_of(of);
-  if (layout.above + layout.below > 0.0) {
-    explanation += "; arrowheads have the number of values beyond the axis";
-  }
-  const auto columns = static_cast<std::size_t>((layout.width() - 2.0 * layout.lengths.margin) /
-                                                text_width("x", layout.sheet.small()));
-  layout.title = wrapped(title_of(summary), columns * 3 / 4);
-  const std::vector<std::string> lines = wrapped(explanation, columns);
-  const std::size_t title_lines = layout.title.size();
-  layout.title.insert(layout.title.end(), lines.begin(), lines.end());
+  const std::string explanation = explanation_of(of, groups, panels);
+  const FigureTitle title(title_of(summary), explanation, options.sheet,
+                          layout.width() - 2.0 * layout.lengths.margin);
+  layout.title_height = options.sheet.has_title ? title.height() + 26.0 : 0.0;
   Drawing drawing(layout.width(), layout.height(), options.sheet);
   drawing.describe(title_of(summary) + ". " + explanation + ".");
   drawing.rectangle(0.0, 0.0, layout.width(), layout.height(), "page");
-  double y = layout.lengths.margin + 0.9 * options.sheet.title();
-  for (std::size_t i = 0; options.sheet.has_title && i < layout.title.size(); ++i) {
-    drawing.text(layout.lengths.margin, y, layout.title[i], Anchor::start,
-                 i < title_lines ? "title" : "small");
-    y += 1.3 * options.sheet.title();
-  }
+  title.draw(drawing, layout.lengths.margin, layout.lengths.margin);
   for (std::size_t i = 0; i < kDofs; ++i) draw_panel(drawing, layout, groups, i, panels[i]);
   return drawing;
 }

@@ -151,7 +151,18 @@ void set_marks(Table& table, const std::vector<Comparison>& comparisons) {
   }
 }
 
-/// "2 scenes, 4 sensors, 2 variants, 10 starts of each: 160 trials."
+/// "48", or "12 to 48": the numbers of a column.
+std::string range_text(const Table& table, const std::string& column) {
+  std::vector<long long> numbers;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    numbers.push_back(std::get<long long>(table.at(i, column).value));
+  }
+  const auto [least, most] = std::minmax_element(numbers.begin(), numbers.end());
+  const std::string text = std::to_string(*least);
+  return *least == *most ? text : text + " to " + std::to_string(*most);
+}
+
+/// "2 scenes, 4 sensors, 2 variants, 10 starts of each: 160 trials; a row has 80 of 2 scenes."
 std::string counts_sentence(const ExportTable& table) {
   const ExportCaption& caption = table.caption;
   std::string kinds;
@@ -161,7 +172,11 @@ std::string counts_sentence(const ExportTable& table) {
   if (table.variants.size() > 1) text += counted(table.variants.size(), "variant") + ", ";
   text += counted(static_cast<std::size_t>(caption.starts), "start") + " of each: ";
   if (caption.found < caption.planned) text += std::to_string(caption.found) + " of ";
-  return text + counted(caption.planned, "trial") + ".";
+  text += counted(caption.planned, "trial");
+  if (table.table.rows.empty()) return text + ".";
+  const std::string scenes = range_text(table.table, "scenes");
+  return text + "; a row has " + range_text(table.table, "trials") + " of " + scenes +
+         (scenes == "1" ? " scene." : " scenes.");
 }
 
 /// The sentences of all experiments, each once; what names an experiment comes first.
@@ -187,6 +202,7 @@ Columns<SummaryRow> export_columns() {
   columns.add({"variant"}, &SummaryRow::variant);
   add_sensor(columns);
   columns.add({"reference"}, [](const SummaryRow& row) { return name_of(row.deviations_from); })
+      .add({"scenes"}, &SummaryRow::scene_count)
       .add({"trials"}, [](const SummaryRow& row) { return row.outcomes.trials; })
       .add({"success"},
            [](const SummaryRow& row) {

@@ -54,8 +54,8 @@ struct ExportTable {
 /// The share of a page that long names take in LaTeX.
 inline constexpr double kNameShare = 0.3;
 
-/// A result in numbers: variant, sensor, trials, success and its interval in percent, median and
-/// p95 of the two distances, then mean and std of each DOF in the order of the paper.
+/// A result in numbers: variant, sensor, scenes, trials, success and its interval in percent,
+/// median and p95 of the two distances, then mean and std of each DOF in the order of the paper.
 Columns<SummaryRow> export_columns();
 
 /// The table of `summary`. If there are several variants the best of each column and sensor is

@@ -32,7 +32,8 @@ std::string column_name(const Measure& measure, const char* statistic) {
 /// Every column that can be chosen of a table with all statistics: counts, shares with their
 /// intervals, each measure as mean ± std, each statistic of each measure.
 std::vector<ChosenColumn> column_choices(const Table& table) {
-  std::vector<ChosenColumn> choices = {{"trials", "", "trials", {"trials"}, Joint::none},
+  std::vector<ChosenColumn> choices = {{"scenes", "", "scenes", {"scenes"}, Joint::none},
+                                       {"trials", "", "trials", {"trials"}, Joint::none},
                                        {"counted", "", "counted", {"counted"}, Joint::none}};
   for (const Column& column : table.columns) {
     const std::string name = column.full_name();
@@ -220,7 +221,8 @@ void choose(ExportTable& table, const TableChoice& choice) {
   table.is_one_column = choice.is_one_column;
   if (!choice.columns.empty()) {
     table.chosen = chosen_columns(table.table, choice.columns);
-    Names names = {"variant", "sensor", "reference"};
+    // Files have what the numbers are of, though readers may not see it as a column.
+    Names names = {"variant", "sensor", "reference", "scenes", "trials"};
     for (const ChosenColumn& chosen : table.chosen) {
       names.insert(names.end(), chosen.columns.begin(), chosen.columns.end());
     }

@@ -31,9 +31,9 @@ struct FigureOptions {
 /// box per sensor and scene (with several variants: per sensor and variant; for many scenes: per
 /// sensor and kind of scene, or per sensor), and the meaning of a box in words. Boxes are quartiles
 /// with the median, whiskers reach the last value within 1.5 interquartile ranges (Tukey 1977),
-/// values beyond are dots. An axis ends at three times the median whisker at most (see
-/// `robust_limit`); arrowheads at its ends have the number of values beyond. Throws InputError if
-/// the boxes do not fit the sheet.
+/// values beyond are dots; see box_drawing.hpp. Below a box stands how many of its trials it holds.
+/// An axis ends at three times the median whisker at most (see `robust_limit`); arrowheads at its
+/// ends have the number of values beyond. Throws InputError if the boxes do not fit the sheet.
 Drawing box_plots(const Summary& summary, const FigureOptions& options = {});
 
 /// What each box of a sensor is for.
@@ -47,7 +47,8 @@ BoxOf box_of(const Summary& summary, std::size_t max_scenes, std::size_t max_kin
 struct BoxSeries {
   std::string label;       ///< Scene, kind or variant; empty if a group has one box alone.
   std::size_t colour = 0;  ///< The same for the same label in every group.
-  std::vector<Measures> deviations;
+  std::vector<Measures> deviations;  ///< Of the trials that count.
+  int trials = 0;                    ///< All.
 };
 
 /// The boxes of one sensor.
@@ -64,7 +65,8 @@ void shorten_labels(std::vector<BoxGroup>& groups, std::size_t columns);
 
 /// The figure of success_curve.svg: the share of all trials within a threshold of the truth, one
 /// panel for rotation and one for translation, the threshold on a logarithmic axis. A line per
-/// variant, all sensors together; of one variant alone a line per sensor.
+/// variant, all sensors together; of one variant alone a line per sensor. The band about a line is
+/// the interval over scenes, if there are enough.
 Drawing success_curve_chart(const SuccessCurve& curve, const FigureOptions& options = {});
 
 /// The largest size that the axis of a measure has to show: three times the lower median of the

@@ -194,6 +194,13 @@ void repair(const fs::path& path) {
   if (bytes.back() != '\n') write_whole_file(path, bytes.substr(0, bytes.rfind('\n') + 1));
 }
 
+/// Whether `path` is a file, and no link, with these bytes.
+bool has_bytes(const fs::path& path, const std::string& bytes) {
+  std::error_code error;
+  const bool is_file = fs::is_regular_file(fs::symlink_status(path, error));
+  return is_file && fs::file_size(path, error) == bytes.size() && read_whole_file(path) == bytes;
+}
+
 }  // namespace
 
 fs::path merged_store_path(const fs::path& folder) {
@@ -247,16 +254,19 @@ std::string merged_timings(const std::vector<fs::path>& folders) {
   return merged;
 }
 
-void write_output_file(const fs::path& path, const std::string& bytes, const fs::path& input) {
-  std::error_code error;
-  const bool is_input = fs::equivalent(path, input, error);
-  const bool is_store = path.filename() == store_path("").filename();
-  if (is_input || (is_store && fs::exists(path, error))) {
-    throw InputError("", "--out",
-                     "expected a file to write, found " + path.string() + ", " +
-                         (is_store ? "the store of a run" : "which is read"));
+void write_output_files(const std::vector<OutputFile>& files) {
+  std::vector<const OutputFile*> missing;
+  for (const OutputFile& file : files) {
+    std::error_code error;
+    if (!fs::exists(fs::symlink_status(file.path, error))) {
+      missing.push_back(&file);
+    } else if (!has_bytes(file.path, file.bytes)) {
+      throw InputError("", "--out",
+                       "expected a new file, found " + file.path.string() +
+                           ", which is there; delete it first, or write to another");
+    }
   }
-  write_whole_file(path, bytes);
+  for (const OutputFile* file : missing) write_whole_file(file->path, file->bytes);
 }
 
 }  // namespace croon::experiments

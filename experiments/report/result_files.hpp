@@ -65,9 +65,15 @@ class TimingsFile {
 /// row once, without lines of another form. Throws InputError if one of them is no file.
 std::string merged_timings(const std::vector<std::filesystem::path>& folders);
 
-/// Writes `bytes` to the file `path`, whole or not at all. Throws InputError if it cannot be
-/// written, and if it would replace `input`, which the bytes were made from, or a store.
-void write_output_file(const std::filesystem::path& path, const std::string& bytes,
-                       const std::filesystem::path& input);
+/// A file that a command writes for its user, beside no results.
+struct OutputFile {
+  std::filesystem::path path;
+  std::string bytes;
+};
+
+/// Writes the files, each whole or not at all. Throws InputError, before one is written, if one of
+/// them is there with other bytes: what it is, the data, a store or a user's work, no command can
+/// know. Throws InputError if one cannot be written.
+void write_output_files(const std::vector<OutputFile>& files);
 
 }  // namespace croon::experiments

@@ -146,7 +146,7 @@ Columns<SceneKindSummary> scene_kind_columns() {
   columns.add({"variant"}, &SceneKindSummary::variant).add({"kind"}, &SceneKindSummary::scene_kind);
   add_sensor(columns);
   return columns.add({"reference"}, [](const auto& row) { return name_of(row.deviations_from); })
-      .add({"scenes"}, &SceneKindSummary::scenes)
+      .add({"scenes"}, &SceneKindSummary::scene_count)
       .add(outcome_columns())
       .add(counted_columns());
 }

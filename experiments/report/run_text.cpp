@@ -70,20 +70,33 @@ std::string basin_text(const Basin& basin, const TableStyle& style) {
       return share.trials == 0 ? std::nullopt : std::optional<double>(100.0 * share.ratio);
     });
   }
+  const auto rounded = [](double size) { return std::round(1e6 * size) / 1e6; };
   columns.add({"radius " + unit, "", "", kAllDigits}, [&](const BasinRow& row) {
     const std::optional<double> radius = basin_radius(basin.sweep, row);
-    return radius ? std::optional<double>(std::round(1e6 * *radius) / 1e6) : std::nullopt;
+    return radius ? std::optional<double>(rounded(*radius)) : std::nullopt;
   });
+  const std::size_t shown = columns.columns().size();
+  for (const auto& [name, end] :
+       {std::pair("low", &Interval::low), std::pair("high", &Interval::high)}) {
+    columns.add({name, "", "", kAllDigits}, [&, end = end](const BasinRow& row) {
+      const std::optional<Interval> interval = basin_radius_interval(basin.sweep, row);
+      return interval ? std::optional<double>(rounded((*interval).*end)) : std::nullopt;
+    });
+  }
   std::vector<BasinRow> rows;
   for (const BasinRow& row : basin.rows) {
     if (row.sensor.empty()) rows.push_back(row);
   }
   const Table table = columns.table(rows);
+  View view = whole_view(table);
+  view.columns.resize(shown);
+  view.columns.push_back({"95 % interval", "[<low>, <high>]"});
   const char* const what = basin.sweep.of == SweepOf::rotation ? "rotated by" : "moved by";
   return "success in % of starts " + std::string(what) + " ... " + unit +
          "; radius: up to there, at least " + fixed_number(100.0 * kBasinRatio, 0) +
-         " % at each level of the success at the first\n" +
-         text_table(table, whole_view(table), style.colours);
+         " % at each level of the success at the first;\n  its interval: over scenes, none for "
+         "fewer than " +
+         std::to_string(kLeastScenes) + "\n" + text_table(table, view, style.colours);
 }
 
 std::string clouds_text(const std::vector<CloudDescription>& clouds) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <set>
 
+#include "experiments/report/bands.hpp"
+#include "experiments/report/figure_title.hpp"
 #include "experiments/report/plots.hpp"
 #include "framework/base/text.hpp"
 #include "framework/picture/chart.hpp"
@@ -44,13 +46,24 @@ std::vector<std::pair<std::string, const CurveRow*>> lines_of(const SuccessCurve
   return lines;
 }
 
-CurveLayout layout_of(const Sheet& sheet, const std::vector<std::string>& labels) {
+double width_of(const Sheet& sheet) { return sheet.width > 0.0 ? sheet.width : 900.0; }
+
+/// The lines with a band: of sensors, whose bands overlap, that of all sensors alone.
+std::vector<std::size_t> band_lines(const SuccessCurve& curve) {
+  const auto lines = lines_of(curve, CurveOf::rotation);
+  if (lines.empty()) return {};
+  if (lines.front().second->sensor.empty()) return lines_with_band(lines.size());
+  return {lines.size() - 1};
+}
+
+CurveLayout layout_of(const Sheet& sheet, const std::vector<std::string>& labels,
+                      double title_height) {
   const double text = sheet.small();
   CurveLayout layout{};
   layout.columns = sheet.width <= 0.0 || sheet.width > 1.5 * kOneColumn.width ? 2 : 1;
-  layout.width = sheet.width > 0.0 ? sheet.width : 900.0;
+  layout.width = width_of(sheet);
   layout.left = 4.0 * text;
-  layout.top = sheet.has_title ? 3.6 * text : 1.6 * text;
+  layout.top = title_height + 1.6 * text;
   layout.panel_width = layout.width / static_cast<double>(layout.columns);
   layout.plot_width = layout.panel_width - layout.left - 1.5 * text;
   layout.plot_height = 0.62 * layout.plot_width;
@@ -132,22 +145,29 @@ Drawing success_curve_chart(const SuccessCurve& curve, const FigureOptions& opti
   std::vector<std::string> names;
   for (const auto& line : lines_of(curve, CurveOf::rotation)) names.push_back(line.first);
   const std::vector<std::string> labels = distinct_labels(names, kLabelColumns);
-  const CurveLayout layout = layout_of(options.sheet, labels);
+  const std::vector<std::size_t> with_band = band_lines(curve);
+  const std::string explanation =
+      "The vertical line is the bound of success; " + band_sentence(labels, with_band);
+  const FigureTitle title(kTitle, explanation, options.sheet, width_of(options.sheet));
+  const CurveLayout layout = layout_of(options.sheet, labels, title.height());
   Drawing drawing(layout.width, layout.height, options.sheet);
-  drawing.describe(std::string(kTitle) + ".");
+  drawing.describe(std::string(kTitle) + ". " + explanation + ".");
   drawing.rectangle(0.0, 0.0, layout.width, layout.height, "page");
-  if (options.sheet.has_title) {
-    drawing.text(layout.left, 0.5 * layout.top, kTitle, Anchor::start, "title");
-  }
+  title.draw(drawing, 0.5 * options.sheet.small(), 0.3 * options.sheet.small());
   for (std::size_t p = 0; p < kPanels.size(); ++p) {
     std::vector<double> thresholds;
     const bool is_in_mm = kPanels[p].of == CurveOf::translation && options.length_unit == "mm";
     for (const SuccessBounds& bounds : curve.thresholds) {
       thresholds.push_back((is_in_mm ? 1000.0 : 1.0) * bounds.*kPanels[p].threshold);
     }
-    const std::string title = kPanels[p].title + std::string(is_in_mm ? "m" : "");
-    const Plot plot = draw_panel(drawing, layout, p, title, thresholds);
+    const std::string axis = kPanels[p].title + std::string(is_in_mm ? "m" : "");
+    const Plot plot = draw_panel(drawing, layout, p, axis, thresholds);
     const auto lines = lines_of(curve, kPanels[p].of);
+    std::vector<double> exponents;
+    for (const double threshold : thresholds) exponents.push_back(std::log10(threshold));
+    for (const std::size_t i : with_band) {
+      draw_band(drawing, plot, exponents, intervals_of(lines[i].second->shares), i);
+    }
     for (std::size_t i = 0; i < lines.size(); ++i) {
       draw_curve(drawing, plot, thresholds, *lines[i].second, i);
     }

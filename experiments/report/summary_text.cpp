@@ -141,7 +141,7 @@ std::string scene_kind_text(const Summary& summary, const TableStyle& style) {
     percents[kind.sensor] = 100.0 * main_share(kind).ratio;
     if (!kind.sensor.empty()) continue;
     // The row over all sensors is the last of its kind.
-    CellRow row = cell_row(kind.variant, nothing_if_empty(kind.scene_kind), kind.scenes,
+    CellRow row = cell_row(kind.variant, nothing_if_empty(kind.scene_kind), kind.scene_count,
                            kind.outcomes.trials, percents[""]);
     for (const std::string& sensor : sensors) {
       row.push_back(percents.count(sensor) > 0 ? to_cell(percents[sensor]) : Cell());

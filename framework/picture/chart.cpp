@@ -122,6 +122,30 @@ std::string box_style(std::size_t index) {
          (dash == 0 ? "" : " d" + std::to_string(dash));
 }
 
+void draw_band(Drawing& drawing, const Plot& plot, const std::vector<double>& xs,
+               const std::vector<std::optional<Interval>>& ys, std::size_t index) {
+  std::vector<Corner> upper, lower;
+  const auto finish = [&] {
+    if (upper.size() > 1) {
+      std::vector<Corner> corners = upper;
+      corners.insert(corners.end(), lower.rbegin(), lower.rend());
+      drawing.area(corners, "band c" + std::to_string(index % kSeriesColours));
+      for (const auto& edge : {upper, lower}) drawing.polyline(edge, "edge " + series_style(index));
+    }
+    upper.clear();
+    lower.clear();
+  };
+  for (std::size_t i = 0; i < xs.size(); ++i) {
+    if (!ys[i]) {
+      finish();
+      continue;
+    }
+    upper.push_back({plot.x(xs[i]), plot.y(ys[i]->high)});
+    lower.push_back({plot.x(xs[i]), plot.y(ys[i]->low)});
+  }
+  finish();
+}
+
 void draw_marker(Drawing& drawing, double x, double y, double radius, std::size_t index) {
   const std::string style = "marker c" + std::to_string(index % kSeriesColours);
   const double r = radius;

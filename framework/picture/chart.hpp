@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,12 @@ std::string series_style(std::size_t index);
 /// The style of the outline of the box of the series `index`: solid up to the eighth, then dashed,
 /// because colours repeat.
 std::string box_style(std::size_t index);
+
+/// Draws the intervals at `xs`, which ascend, as a band of the series `index`: an area that lets
+/// others through, between edges with the dashes of the series, so that bands can be told apart
+/// without colours. It has a gap if an interval is missing. `ys` and `xs` are values of `plot`.
+void draw_band(Drawing& drawing, const Plot& plot, const std::vector<double>& xs,
+               const std::vector<std::optional<Interval>>& ys, std::size_t index);
 
 /// Draws the marker of the series `index`, about 2 `radius` wide.
 void draw_marker(Drawing& drawing, double x, double y, double radius, std::size_t index);

@@ -114,9 +114,9 @@ struct Look {
 };
 
 /// The look of a style. Names: c0 to c7 and s0 to s7 are colours (of series and of sensors), d0 to
-/// d4 are dashes, the others are parts of a chart: page, grid, zero, box, line, median, band,
-/// curve, dot, marker, bar (of a scale), and for text title, small, name, sensor. Throws
-/// std::logic_error for another name.
+/// d4 are dashes, the others are parts of a chart: page, grid, zero, box, inside (of a box whose
+/// outline is open), line, median, band, edge (of a band), curve, dot, marker, bar (of a scale),
+/// and for text title, small, name, sensor. Throws std::logic_error for another name.
 Look look_of(const std::string& style, const Sheet& sheet);
 
 /// The same looks as CSS classes, with colours for dark pages beside those for light ones.

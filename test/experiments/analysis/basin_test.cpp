@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "experiments/report/plots.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "experiments/report/run_text.hpp"
@@ -64,6 +66,80 @@ TEST(Basin, EndsBeforeTheFirstLevelBelow95Percent) {
   EXPECT_EQ(basin_radius(kSweep, gap), 0.0);
 }
 
+TEST(Basin, HasAnIntervalOfTheRadiusFromThoseOfTheShares) {
+  const auto basin = basin_of(records_of({"left"}), kSweep, {});
+  ASSERT_TRUE(basin);
+  // Of 40 scenes all succeed at the first two levels: the lower ends are 91 %.
+  const auto interval = basin_radius_interval(kSweep, basin->rows[0]);
+  ASSERT_TRUE(interval);
+  EXPECT_EQ(interval->low, 0.0);
+  EXPECT_EQ(interval->high, 30.0);
+  EXPECT_FALSE(basin_radius_interval(kSweep, basin->rows[2]));
+  BasinRow few = basin->rows[0];
+  for (Share& share : few.levels) share.interval.reset();
+  EXPECT_TRUE(basin_radius(kSweep, few));
+  EXPECT_FALSE(basin_radius_interval(kSweep, few));
+  // More scenes of the same kind make it shorter.
+  BasinRow many = basin->rows[0];
+  for (Share& share : many.levels) share.interval = wilson_interval(share.ratio, 4000.0);
+  const auto shorter = basin_radius_interval(kSweep, many);
+  ASSERT_TRUE(shorter);
+  EXPECT_EQ(shorter->low, 10.0);
+  EXPECT_EQ(shorter->high, 20.0);
+}
+
+/// A world in which each scene has a size of its own, `centre` +- `scatter`, beyond which all
+/// starts fail; a share `hopeless` of the scenes fails from every start.
+struct World {
+  double hopeless, centre, scatter;
+
+  /// The share of scenes that succeed at a size.
+  double success(double size) const {
+    return (1.0 - hopeless) * std::clamp((centre + scatter - size) / (2.0 * scatter), 0.0, 1.0);
+  }
+};
+
+Share share_at(const std::vector<double>& reaches, double size) {
+  SceneCounts counts;
+  for (std::size_t scene = 0; scene < reaches.size(); ++scene) {
+    counts.add(std::to_string(scene), reaches[scene] > size ? 3 : 0, 3);
+  }
+  return counts.share();
+}
+
+TEST(Basin, TheIntervalOfTheRadiusHoldsTheTrueOne) {
+  constexpr int kExperiments = 300;
+  const Sweep sweep{SweepOf::rotation, 0.0, 90.0, 10};
+  Rng rng = croon::test::test_rng();
+  for (const World& world : {World{0.0, 55.0, 1.0}, World{0.0, 50.0, 40.0}, World{0.3, 55.0, 20.0},
+                             World{0.1, 95.0, 2.0}}) {
+    BasinRow truth;
+    for (int level = 0; level < sweep.levels; ++level) {
+      const double success = world.success(level_size(sweep, level));
+      truth.levels.push_back({static_cast<int>(1e6 * success), 1000000, success, {}});
+    }
+    const double radius = *basin_radius(sweep, truth);
+    for (const int scenes : {kLeastScenes, 12, 40}) {
+      int held = 0;
+      for (int i = 0; i < kExperiments; ++i) {
+        std::vector<double> reaches;
+        for (int scene = 0; scene < scenes; ++scene) {
+          const double reach = world.centre + world.scatter * (2.0 * rng.uniform() - 1.0);
+          reaches.push_back(rng.uniform() < world.hopeless ? -1.0 : reach);
+        }
+        BasinRow row;
+        for (int level = 0; level < sweep.levels; ++level) {
+          row.levels.push_back(share_at(reaches, level_size(sweep, level)));
+        }
+        const auto interval = basin_radius_interval(sweep, row);
+        held += interval && interval->low <= radius && radius <= interval->high;
+      }
+      EXPECT_GE(held, 0.93 * kExperiments)
+          << world.hopeless << " " << world.scatter << ": " << scenes;
+    }
+  }
+}
+
 TEST(Basin, HasARadiusThoughOneSceneAlwaysFails) {
   std::vector<TrialRecord> records = records_of({"left"});
   for (int trial = 0; trial < 160; ++trial) {
@@ -102,9 +178,12 @@ TEST(Basin, IsTheseBytes) {
 TEST(Basin, IsATable) {
   const std::string table = basin_text(*basin_of(records_of({"left"}), kSweep, {}));
   EXPECT_NE(table.find("95 % at each level"), std::string::npos);
-  EXPECT_NE(table.find("variant    0   10  20  30  radius deg"), std::string::npos) << table;
-  EXPECT_NE(table.find("base     100  100  95  92          20"), std::string::npos) << table;
-  EXPECT_NE(table.find("lost       0    0   0   0           -"), std::string::npos) << table;
+  EXPECT_NE(table.find("variant    0   10  20  30  radius deg  95 % interval"), std::string::npos)
+      << table;
+  EXPECT_NE(table.find("base     100  100  95  92          20        [0, 30]"), std::string::npos)
+      << table;
+  EXPECT_NE(table.find("lost       0    0   0   0           -              -"), std::string::npos)
+      << table;
 }
 
 TEST(Basin, IsAPictureOfEveryVariant) {

@@ -59,7 +59,7 @@ TEST(KindSummary, KindsTogetherAreTheSummary) {
         successes += kind.success.count;
         agreeing += kind.agreement.count;
         counted += kind.counted;
-        scenes += kind.scenes;
+        scenes += kind.scene_count;
       }
       EXPECT_EQ(trials, row.outcomes.trials);
       EXPECT_EQ(successes, row.success.count);
@@ -82,7 +82,7 @@ TEST(KindSummary, HasARowPerVariantKindAndSensorAndOneOverAllSensors) {
                        "no volume/narrow/right", "no volume/narrow/", "no volume/urban/left",
                        "no volume/urban/right", "no volume/urban/"}));
   const SceneKindSummary& all = summary.scene_kinds[2];
-  EXPECT_EQ(all.scenes, 1);
+  EXPECT_EQ(all.scene_count, 1);
   EXPECT_EQ(all.outcomes.trials, 8);
   EXPECT_EQ(all.success.count, 6);
   EXPECT_EQ(all.outcomes.failed, 1);

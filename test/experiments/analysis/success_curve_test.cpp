@@ -81,6 +81,76 @@ TEST(SuccessCurve, WithoutTruthOrWithBoundsOfZeroThereIsNone) {
   EXPECT_EQ(svg_bytes(success_curve_chart(tiny.curve)).find("inf"), std::string::npos);
 }
 
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+/// The records of `variants` variants, alike but for their names, in `scenes` scenes.
+Summary variants_in(int variants, int scenes) {
+  std::vector<TrialRecord> records;
+  for (int variant = 0; variant < variants; ++variant) {
+    for (TrialRecord record : random_records()) {
+      record.id.variant = "v" + std::to_string(variant);
+      record.id.scene = std::to_string(record.id.trial % scenes);
+      records.push_back(record);
+    }
+  }
+  return summarise(records, kBounds, {});
+}
+
+TEST(SuccessCurve, HasABandOfTheIntervalOverScenes) {
+  const Summary summary = variants_in(2, kLeastScenes);
+  const Drawing drawing = success_curve_chart(summary.curve);
+  std::vector<Drawing::Area> bands;
+  std::vector<Drawing::Polyline> curves, edges;
+  for (const Drawing::Element& element : drawing.elements()) {
+    if (const auto* area = std::get_if<Drawing::Area>(&element)) {
+      if (area->style.rfind("band", 0) == 0) bands.push_back(*area);
+    }
+    if (const auto* line = std::get_if<Drawing::Polyline>(&element)) {
+      (line->style.rfind("curve", 0) == 0 ? curves : edges).push_back(*line);
+    }
+  }
+  ASSERT_EQ(bands.size(), 2U * 2U);
+  ASSERT_EQ(curves.size(), 2U * 2U);
+  ASSERT_EQ(edges.size(), 2U * bands.size());
+  for (std::size_t i = 0; i < bands.size(); ++i) {
+    const std::size_t n = curves[i].corners.size();
+    ASSERT_EQ(bands[i].corners.size(), 2 * n);
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto& [x, y] = curves[i].corners[k];
+      const auto& [upper_x, upper] = bands[i].corners[k];
+      const auto& [lower_x, lower] = bands[i].corners[2 * n - 1 - k];
+      EXPECT_EQ(x, upper_x);
+      EXPECT_EQ(x, lower_x);
+      EXPECT_LE(upper, y + 1e-9);  // Upwards is less.
+      EXPECT_GE(lower, y - 1e-9);
+    }
+    // The dashes of the edges are those of the line, so they differ without colours.
+    EXPECT_EQ(look_of(edges[2 * i].style, {}).dashes, look_of(curves[i].style, {}).dashes);
+  }
+  EXPECT_NE(drawing.description().find("a band is the 95 % interval over scenes"),
+            std::string::npos);
+}
+
+TEST(SuccessCurve, HasNoBandForTooFewScenesAndOneForManyLines) {
+  const auto bands = [](const Summary& summary) {
+    return count(svg_bytes(success_curve_chart(summary.curve, {kOneColumn})), "class=\"band ");
+  };
+  EXPECT_EQ(bands(variants_in(2, kLeastScenes - 1)), 0U);
+  EXPECT_EQ(bands(variants_in(4, 8)), 2U * 4U);
+  EXPECT_EQ(bands(variants_in(5, 8)), 2U);
+  EXPECT_NE(success_curve_chart(variants_in(5, 8).curve).description().find("the band, of v0,"),
+            std::string::npos);
+  // Sensors of one variant: all together.
+  EXPECT_EQ(bands(variants_in(1, 8)), 2U);
+  EXPECT_NE(
+      success_curve_chart(variants_in(1, 8).curve).description().find("the band, of all sensors,"),
+      std::string::npos);
+}
+
 TEST(SuccessCurve, IsAFileWithARowPerThreshold) {
   const Summary summary = summarise(random_records(), kBounds, {});
   const std::string csv = success_curve_csv(summary.curve);

@@ -28,8 +28,28 @@ TEST(DescribeCommand, TellsOfEveryCloudTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(csv, read_whole_file(two + "/clouds.csv"));
   EXPECT_EQ(read_whole_file(one + "/ranges.svg"), read_whole_file(two + "/ranges.svg"));
   const std::string first = csv.substr(0, csv.find("two,000001"));
-  EXPECT_EQ(croon("describe " + file + " --scenes 1 --out " + two).code, 0);
-  EXPECT_EQ(read_whole_file(two + "/clouds.csv"), first);
+  const std::string three = (folder.path() / "three").string();
+  EXPECT_EQ(croon("describe " + file + " --scenes 1 --out " + three).code, 0);
+  EXPECT_EQ(read_whole_file(three + "/clouds.csv"), first);
+}
+
+TEST(DescribeCommand, ReplacesNoFile) {
+  const test::TempFolder folder;
+  const std::string file = folder.write("x.json", kExperiment).string();
+  const std::string command = "describe " + file + " --scenes 1 --out " + folder.path().string();
+  for (const char* name : {"clouds.csv", "ranges.svg"}) {
+    folder.write(name, "mine");
+    const Answer answer = croon(command);
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_EQ(answer.text.find("croon: --out: expected a new file, found "), 0U) << answer.text;
+    EXPECT_EQ(read_whole_file(folder.path() / name), "mine");
+    // The other file is not written either.
+    std::filesystem::remove(folder.path() / name);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "clouds.csv"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "ranges.svg"));
+  }
+  EXPECT_EQ(croon(command).code, 0);
+  EXPECT_EQ(croon(command).code, 0);  // The same bytes.
 }
 
 TEST(DescribeCommand, RefusesWhatIsNotThere) {

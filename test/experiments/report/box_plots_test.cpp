@@ -1,3 +1,4 @@
+#include "experiments/report/box_drawing.hpp"
 #include "experiments/report/plots.hpp"
 
 #include <gtest/gtest.h>
@@ -124,6 +125,101 @@ TEST(BoxPlots, OneBadVariantDoesNotFlattenTheOthers) {
     if (box == nullptr || box->style == "page") continue;
     EXPECT_LE(box->height, 190.0 + 1e-9);
   }
+}
+
+/// The styles that start with `part` and their number, of the elements of a type.
+template <class Element>
+std::vector<Element> elements_of(const Drawing& drawing, const std::string& part) {
+  std::vector<Element> found;
+  for (const Drawing::Element& element : drawing.elements()) {
+    const auto* one = std::get_if<Element>(&element);
+    if (one != nullptr && one->style.rfind(part, 0) == 0) found.push_back(*one);
+  }
+  return found;
+}
+
+TEST(Box, OfFewValuesIsDots) {
+  for (std::size_t n = 1; n < 9; ++n) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < n; ++i) values.push_back(static_cast<double>(i));
+    Drawing drawing(100.0, 100.0);
+    draw_box(drawing, {0.0, 0.0, 100.0, 100.0, {0.0, 1.0}, {-1.0, 9.0}}, 50.0, 20.0, 0, values);
+    const bool is_box = n >= kLeastBoxValues;
+    EXPECT_EQ(elements_of<Drawing::Dot>(drawing, "dot").size(), is_box ? 0U : n);
+    EXPECT_EQ(elements_of<Drawing::Rectangle>(drawing, "box").size(), is_box ? 1U : 0U);
+    EXPECT_EQ(elements_of<Drawing::Line>(drawing, "median").size(), is_box ? 1U : 0U);
+  }
+}
+
+TEST(Box, IsOpenAtTheEndOfTheAxis) {
+  Rng rng = croon::test::test_rng();
+  const Plot plot = {0.0, 10.0, 100.0, 50.0, {0.0, 1.0}, {-1.0, 1.0}};
+  const auto at_border = [&](double y) { return y == plot.top || y == plot.top + plot.height; };
+  int cut = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::vector<double> values;
+    const double centre = 2.0 * rng.uniform() - 1.0;
+    for (int k = 0; k < 20; ++k) values.push_back(centre + 3.0 * (rng.uniform() - 0.5));
+    Drawing drawing(100.0, 100.0);
+    draw_box(drawing, plot, 50.0, 20.0, 0, values);
+    cut += is_cut(values, plot.y_range);
+    for (const auto& line : elements_of<Drawing::Line>(drawing, "line")) {
+      EXPECT_FALSE(line.y1 == line.y2 && at_border(line.y1));
+    }
+    for (const auto& box : elements_of<Drawing::Rectangle>(drawing, "box")) {
+      EXPECT_FALSE(at_border(box.y) || at_border(box.y + box.height));
+    }
+    for (const auto& outline : elements_of<Drawing::Polyline>(drawing, "line")) {
+      ASSERT_EQ(outline.corners.size(), 4U);
+      EXPECT_TRUE(at_border(outline.corners.front()[1]));
+      EXPECT_FALSE(at_border(outline.corners[1][1]));
+    }
+    for (const auto& inside : elements_of<Drawing::Rectangle>(drawing, "inside")) {
+      EXPECT_FALSE(look_of(inside.style, {}).has_stroke);
+      EXPECT_TRUE(at_border(inside.y) || at_border(inside.y + inside.height));
+    }
+    const Beyond beyond = count_beyond(values, plot.y_range);
+    EXPECT_EQ(elements_of<Drawing::Area>(drawing, "marker").size(),
+              static_cast<std::size_t>((beyond.above > 0) + (beyond.below > 0)));
+    if (!is_cut(values, plot.y_range)) {
+      EXPECT_EQ(elements_of<Drawing::Rectangle>(drawing, "box").size(), 1U);
+    }
+  }
+  EXPECT_GT(cut, 100);
+}
+
+TEST(BoxPlots, TellHowManyOfItsTrialsABoxHolds) {
+  const Summary summary = summarise(test::few_records(), kBounds, {});
+  for (const BoxGroup& group : groups_of(summary, 12)) {
+    for (const BoxSeries& box : group.boxes) {
+      const Rows rows = rows_of(summary, box.label, group.sensor);
+      ASSERT_EQ(rows.size(), 1U);
+      EXPECT_EQ(box.trials, rows.front()->outcomes.trials);
+      EXPECT_EQ(static_cast<int>(box.deviations.size()), rows.front()->counted);
+    }
+  }
+  const std::string screen = box_plots_svg(summary);
+  EXPECT_EQ(count(screen, ">6/8</text>"), 6U * 2U);
+  EXPECT_EQ(count(screen, ">6/7</text>"), 6U);
+  EXPECT_EQ(count(screen, ">6/6</text>"), 6U);
+  // On paper the panels of a column share the names below them, and with them the numbers.
+  EXPECT_GE(count(svg_bytes(box_plots(summary, {kOneColumn})), ">6/8</text>"), 2U);
+  EXPECT_NE(box_plots(summary).description().find("n/N: it holds n of its N trials"),
+            std::string::npos);
+  EXPECT_EQ(box_plots(summary).description().find("open"), std::string::npos);
+}
+
+TEST(BoxPlots, ExplainWhatIsCutAndWhatIsFew) {
+  const std::string cut =
+      box_plots(around({{"a", 0.01}, {"b", 0.012}, {"bad", 10.0}})).description();
+  EXPECT_NE(cut.find("a box or whisker that goes on beyond the axis is open there"),
+            std::string::npos);
+  EXPECT_EQ(cut.find("fewer than 5 values"), std::string::npos);
+  std::vector<TrialRecord> records = test::few_records();
+  records.push_back(test::finished({"few", "0001", "left", 0}, Status::success, {},
+                                   test::offset_of(0, 0, 0, 0.01, 0, 0)));
+  const std::string few = box_plots(summarise(records, kBounds, {})).description();
+  EXPECT_NE(few.find("fewer than 5 values are dots without a box"), std::string::npos);
 }
 
 TEST(BoxPlots, NeverZoomInOnLessThanTablesShow) {

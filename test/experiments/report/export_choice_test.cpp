@@ -41,9 +41,10 @@ TEST(TableChoice, HasTheColumnsThatAreAskedFor) {
   TableChoice choice;
   choice.columns = {"success", "success_interval", "x", "yaw_p95"};
   const ExportTable table = chosen(choice);
-  EXPECT_EQ(columns_of(table),
-            (Names{"variant", "sensor", "reference", "success_percent", "success_low_percent",
-                   "success_high_percent", "x_mean_m", "x_std_m", "yaw_p95_deg"}));
+  EXPECT_EQ(
+      columns_of(table),
+      (Names{"variant", "sensor", "reference", "scenes", "trials", "success_percent",
+             "success_low_percent", "success_high_percent", "x_mean_m", "x_std_m", "yaw_p95_deg"}));
   const ExportTable full = export_table(summarise(test::few_records(), kBounds, {}), kCaption);
   ASSERT_EQ(table.table.rows.size(), full.table.rows.size());
   for (std::size_t i = 0; i < table.table.rows.size(); ++i) {
@@ -64,7 +65,7 @@ TEST(TableChoice, HasEveryStatisticOfEveryMeasure) {
     for (const Statistic& statistic : kStatistics) {
       TableChoice choice;
       choice.columns = {std::string(measure.name) + "_" + statistic.name};
-      EXPECT_EQ(columns_of(chosen(choice)).size(), 4U) << choice.columns.front();
+      EXPECT_EQ(columns_of(chosen(choice)).size(), 6U) << choice.columns.front();
     }
   }
 }
@@ -104,13 +105,13 @@ TEST(TableChoice, MillimetresAreAThousandTimesAsMany) {
   const ExportTable metres = chosen(choice);
   choice.is_in_mm = true;
   const ExportTable table = chosen(choice);
-  EXPECT_EQ(columns_of(table)[3], "translation_median_mm");
-  EXPECT_EQ(columns_of(table)[4], "rotation_median_deg");
+  EXPECT_EQ(columns_of(table)[5], "translation_median_mm");
+  EXPECT_EQ(columns_of(table)[6], "rotation_median_deg");
   for (std::size_t i = 0; i < table.table.rows.size(); ++i) {
-    EXPECT_EQ(std::get<double>(table.table.rows[i][3].value),
-              1000.0 * std::get<double>(metres.table.rows[i][3].value));
+    EXPECT_EQ(std::get<double>(table.table.rows[i][5].value),
+              1000.0 * std::get<double>(metres.table.rows[i][5].value));
   }
-  EXPECT_EQ(table.table.columns[3].decimals, 1);
+  EXPECT_EQ(table.table.columns[5].decimals, 1);
   TableChoice full;
   full.is_in_mm = true;
   EXPECT_NE(export_latex(chosen(full)).find("translation (mm)"), std::string::npos);
@@ -138,6 +139,31 @@ TEST(Compact, IsARowPerVariant) {
   EXPECT_NE(refusal([&] {
               export_latex(export_table(summary, kCaption, compact(choice, summary)));
             }).find("--columns: these 7 columns want about "),
+            std::string::npos);
+}
+
+TEST(Compact, SaysOfHowManyScenesAndTrialsARowIs) {
+  const Summary summary = summarise(test::few_records(), kBounds, {});
+  TableChoice choice;
+  choice.is_one_column = true;
+  const ExportTable table = export_table(summary, kCaption, compact(choice, summary));
+  for (const ExportFormat& format : export_formats()) {
+    const std::string text = format.bytes(table);
+    if (format.name == std::string("csv")) {
+      EXPECT_EQ(text.find("variant,sensor,reference,scenes,trials,success_percent,"), 0U) << text;
+      EXPECT_NE(text.find("\nbase,all,truth,2,15,80,"), std::string::npos) << text;
+    } else {
+      EXPECT_NE(text.find("a row has 14 to 15 of 2 scenes."), std::string::npos) << text;
+    }
+  }
+  // Of the chosen rows, and not of the table.
+  choice.sensors = {"left"};
+  EXPECT_NE(
+      caption_sentences(export_table(summary, kCaption, choice)).at(1).find("a row has 8 of 2"),
+      std::string::npos);
+  choice.columns = {"scenes", "trials"};
+  EXPECT_NE(export_markdown(export_table(summary, kCaption, choice))
+                .find("| variant | sensor | scenes | trials |"),
             std::string::npos);
 }
 

@@ -54,7 +54,7 @@ double number(const ExportTable& table, std::size_t row, const std::string& name
 std::vector<std::string> result_names(const ExportTable& table) {
   std::vector<std::string> names;
   for (const Column& column : table.table.columns) names.push_back(column.full_name());
-  return {names.begin() + 6, names.end()};
+  return {names.begin() + 7, names.end()};
 }
 
 bool has(const std::string& text, const std::string& part) {
@@ -273,7 +273,9 @@ TEST(ExportTable, WithoutComparisonsExplainsNoMarks) {
 TEST(ExportCaption, NamesWhatTheNumbersAreOf) {
   const std::vector<std::string> sentences = caption_sentences(table_of(test::few_records()));
   EXPECT_EQ(sentences.at(0), "few_records (croon, commit 0123456789ab, seed 7).");
-  EXPECT_EQ(sentences.at(1), "2 scenes, 2 sensors, 2 variants, 4 starts of each: 29 of 32 trials.");
+  EXPECT_EQ(sentences.at(1),
+            "2 scenes, 2 sensors, 2 variants, 4 starts of each: 29 of 32 trials; a row has 6 to 15 "
+            "of 2 scenes.");
   EXPECT_EQ(sentences.at(2),
             "Success: within 0.5 deg and 0.1 m of the truth; errors are those of these trials.");
 }
@@ -320,10 +322,10 @@ TEST(ExportCsv, HoldsFullPrecisionInAsManyFieldsPerLine) {
   std::string line;
   std::size_t lines = 0;
   for (; std::getline(text, line); ++lines) {
-    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 5 + 29 + 4) << line;
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 6 + 29 + 4) << line;
   }
   EXPECT_EQ(lines, 1 + table.table.rows.size());
-  EXPECT_TRUE(has(text.str(), "\nno volume,all,truth,14,12,12,85.71428571428571,"));
+  EXPECT_TRUE(has(text.str(), "\nno volume,all,truth,2,14,12,12,85.71428571428571,"));
 }
 
 TEST(ExportJson, HoldsTheSameNumbers) {

@@ -32,6 +32,30 @@ TEST(RoundAxis, HoldsTheRangeWithRoundTicks) {
   }
 }
 
+TEST(DrawBand, HasAGapForAnIntervalThatIsMissing) {
+  const Plot plot = {0.0, 0.0, 100.0, 100.0, {0.0, 5.0}, {0.0, 1.0}};
+  const Interval some = {0.2, 0.6};
+  Drawing drawing(100.0, 100.0);
+  draw_band(drawing, plot, {0.0, 1.0, 2.0, 3.0, 4.0, 5.0},
+            {some, some, std::nullopt, some, some, some}, 1);
+  std::vector<std::size_t> areas, edges;
+  for (const Drawing::Element& element : drawing.elements()) {
+    if (const auto* area = std::get_if<Drawing::Area>(&element)) {
+      areas.push_back(area->corners.size());
+    }
+    if (const auto* edge = std::get_if<Drawing::Polyline>(&element)) {
+      edges.push_back(edge->corners.size());
+      EXPECT_FALSE(look_of(edge->style, {}).dashes.empty());
+    }
+  }
+  EXPECT_EQ(areas, (std::vector<std::size_t>{4, 6}));
+  EXPECT_EQ(edges, (std::vector<std::size_t>{2, 2, 3, 3}));
+  // One interval alone is no band.
+  Drawing empty(100.0, 100.0);
+  draw_band(empty, plot, {0.0, 1.0}, {some, std::nullopt}, 0);
+  EXPECT_TRUE(empty.elements().empty());
+}
+
 TEST(RoundAxis, OfOneValueStillHasAHeight) {
   for (const double value : {0.0, 1.0, -1e6}) {
     const Axis axis = round_axis(value, value, 5);

@@ -1,0 +1,28 @@
+#include "experiments/report/bands.hpp"
+
+#include <numeric>
+
+namespace croon::experiments {
+
+std::vector<std::optional<Interval>> intervals_of(const std::vector<Share>& shares) {
+  std::vector<std::optional<Interval>> intervals;
+  for (const Share& share : shares) intervals.push_back(share.interval);
+  return intervals;
+}
+
+std::vector<std::size_t> lines_with_band(std::size_t lines) {
+  constexpr std::size_t kMostBands = 4;
+  std::vector<std::size_t> all(lines > kMostBands ? 1 : lines);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+std::string band_sentence(const std::vector<std::string>& names,
+                          const std::vector<std::size_t>& with_band) {
+  const bool have_all = with_band.size() == names.size();
+  return (have_all ? "a band" : "the band, of " + names[with_band.front()] + ",") +
+         " is the 95 % interval over scenes, none for fewer than " + std::to_string(kLeastScenes) +
+         " scenes";
+}
+
+}  // namespace croon::experiments

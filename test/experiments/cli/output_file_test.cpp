@@ -1,0 +1,97 @@
+// `--out` of a command that writes files of its own, beside no results: no file is replaced.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+
+#include "framework/base/whole_file.hpp"
+#include "test/experiments/support/program.hpp"
+#include "test/support/temp_folder.hpp"
+
+namespace croon::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExperiment = R"({"name": "x",
+    "dataset": {"type": "simulated", "scenes": 1, "mix": {"empty": 1}},
+    "starts": {"rotation_deg": 1, "trials": 1},
+    "pipeline": [{"step": "identity"}]})";
+
+class OutputFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_.write("x.json", kExperiment);
+    ASSERT_EQ(croon("simulate " + path("x.json") + " --quiet --out " + path("data")).code, 0);
+    ASSERT_EQ(croon("run " + path("data/experiment.json") + " --data " + path("data") +
+                    " --quiet --out " + path("results"))
+                  .code,
+              0);
+  }
+
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  /// A command that writes the file `out`.
+  std::map<std::string, std::string> commands(const std::string& out) const {
+    const std::string results = path("results");
+    return {{"table", "export " + results + " --format csv --out " + out},
+            {"figure", "export " + results + " --figure box_plots --format svg --out " + out},
+            {"starts", "starts " + path("x.json") + " --out " + out}};
+  }
+
+  void expect_refused(const std::string& command, const std::string& file) const {
+    const std::string before = read_whole_file(file);
+    const Answer answer = croon(command);
+    EXPECT_EQ(answer.code, 2) << command;
+    EXPECT_EQ(answer.text, "croon: --out: expected a new file, found " + file +
+                               ", which is there; delete it first, or write to another\n");
+    EXPECT_EQ(read_whole_file(file), before);
+  }
+
+  test::TempFolder folder_;
+};
+
+TEST_F(OutputFile, IsWrittenWhereNoneIs) {
+  for (const auto& [name, command] : commands(path("new"))) {
+    EXPECT_EQ(croon(command).code, 0) << name;
+    const std::string bytes = read_whole_file(path("new"));
+    EXPECT_FALSE(bytes.empty()) << name;
+    EXPECT_EQ(croon(command).code, 0) << name << ", the same again";
+    EXPECT_EQ(read_whole_file(path("new")), bytes) << name;
+    fs::remove(path("new"));
+  }
+}
+
+TEST_F(OutputFile, ReplacesNeitherInputsNorResultsNorTheFilesOfAUser) {
+  folder_.write("paper.tex", "mine");
+  folder_.write("nothing", "");
+  for (const char* file : {"x.json", "data/truth.json", "data/scene_kinds.json",
+                           "data/experiment.json", "data/000000/top.pcd", "results/store.sqlite",
+                           "results/manifest.json", "results/trials.csv", "paper.tex", "nothing"}) {
+    const std::string there = path(file);
+    for (const auto& [name, command] : commands(there)) expect_refused(command, there);
+  }
+}
+
+TEST_F(OutputFile, IsNotWrittenThroughALinkOrOverAFolder) {
+  fs::create_symlink("missing", path("link"));
+  for (const char* file : {"link", "data"}) {
+    for (const auto& [name, command] : commands(path(file))) {
+      EXPECT_EQ(croon(command).code, 2) << name;
+    }
+  }
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+  EXPECT_FALSE(fs::exists(path("missing")));
+}
+
+TEST_F(OutputFile, OfSimulatedScenesThatAUserHasChangedStays) {
+  for (const char* name : {"data/truth.json", "data/scene_kinds.json", "data/experiment.json"}) {
+    const std::string before = read_whole_file(path(name));
+    folder_.write(name, "mine");
+    expect_refused("simulate " + path("x.json") + " --quiet --out " + path("data"), path(name));
+    folder_.write(name, before);
+  }
+}
+
+}  // namespace
+}  // namespace croon::experiments
