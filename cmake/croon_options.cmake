@@ -15,6 +15,10 @@ if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE}")
 endif()
 
+# For flags with paths relative to the build folder, which CMake's own checks would not find.
+set(CROON_COMPILE_OPTIONS "" CACHE STRING "Compile options of all sources")
+add_compile_options(${CROON_COMPILE_OPTIONS})
+
 # Results are the same bits with any compiler: no fused multiply-adds, which only some compilers generate.
 add_compile_options(-ffp-contract=off)
 

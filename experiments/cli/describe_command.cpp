@@ -95,7 +95,7 @@ void write_files(const std::filesystem::path& folder, const std::vector<CloudDes
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw InputError(folder.string(), "", "cannot be made: " + error.message());
-  write_output_files({{folder / "clouds.csv", clouds_csv(clouds)},
+  replace_output_files({{folder / "clouds.csv", clouds_csv(clouds)},
                       {folder / (std::string("ranges.") + writer.name),
                        writer.bytes(ranges_chart(clouds, {sheet}))}});
 }

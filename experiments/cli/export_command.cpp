@@ -125,7 +125,7 @@ int export_command(const ExportOptions& options, std::ostream& out) {
     out << text;
     return 0;
   }
-  write_output_files({{options.out, text}});
+  replace_output_files({{options.out, text}});
   return 0;
 }
 

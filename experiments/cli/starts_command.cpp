@@ -48,6 +48,21 @@ void check_list_size(const Experiment& experiment, const std::vector<Scene>& sce
                  "ask for fewer --trials", {experiment.file, "", ""});
 }
 
+/// The files that `experiment` consists of and those that it names.
+std::vector<std::filesystem::path> inputs_of(const Experiment& experiment,
+                                             const std::filesystem::path& root) {
+  const std::filesystem::path folder = std::filesystem::path(experiment.file).parent_path();
+  std::vector<std::filesystem::path> inputs = {experiment.file};
+  for (std::size_t i = 1; i < experiment.files.size(); ++i) {
+    inputs.push_back(inputs.back().parent_path() / experiment.files[i].path);
+  }
+  inputs.insert(inputs.end(), {root / experiment.starts.file, folder / experiment.starts.file});
+  for (const Variant& variant : experiment.variants) {
+    inputs.insert(inputs.end(), {root / variant.poses.name, folder / variant.poses.name});
+  }
+  return inputs;
+}
+
 }  // namespace
 
 std::string starts_csv(const Experiment& experiment, const std::vector<Scene>& scenes) {
@@ -74,7 +89,7 @@ int starts_command(const StartsOptions& options, const Catalogue& catalogue, std
   if (options.out.empty()) {
     out << bytes;
   } else {
-    write_output_files({{options.out, bytes}});
+    replace_output_files({{options.out, bytes}}, inputs_of(experiment, root));
   }
   return 0;
 }

@@ -2,9 +2,11 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <unordered_set>
 
@@ -14,6 +16,7 @@
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
 #include "framework/base/whole_file.hpp"
+#include "framework/io/point_cloud_file.hpp"
 #include "framework/picture/writers.hpp"
 
 namespace croon::experiments {
@@ -194,6 +197,36 @@ void repair(const fs::path& path) {
   if (bytes.back() != '\n') write_whole_file(path, bytes.substr(0, bytes.rfind('\n') + 1));
 }
 
+/// Whether the file `path` is JSON with a key that every experiment has.
+bool is_experiment(const fs::path& path) {
+  if (path.extension() != ".json") return false;
+  const nlohmann::json json = parsed_or_discarded(read_whole_file(path));
+  return json.is_object() && (json.contains("dataset") || json.contains("extends"));
+}
+
+/// What is at `path` and must not be replaced; empty if nothing is there, or another file.
+std::string what_must_stay(const fs::path& path, const std::vector<fs::path>& inputs) {
+  static const std::set<std::string> of_datasets = {
+      "truth.json",      "nominal.json",         "scene_kinds.json",
+      "simulation.json", "lidar_cloud_path.txt", "initial_extrinsic.txt"};
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(path, error);
+  if (!fs::exists(status)) return "";
+  if (fs::is_symlink(status)) return "a link";
+  if (!fs::is_regular_file(status)) return "something that is not a file";
+  for (const fs::path& input : inputs) {
+    if (fs::equivalent(path, input, error)) return "which is read";
+  }
+  const fs::path folder = path.parent_path();
+  const std::vector<fs::path> results = paths_in(folder);
+  const bool is_result = std::find(results.begin(), results.end(), path) != results.end();
+  const bool has_run = fs::exists(store_path(folder), error) || is_manifest(folder / kManifest);
+  if (is_result && has_run) return "a file of the results of a run";
+  if (of_datasets.count(path.filename().string()) > 0) return "a file of a dataset";
+  if (has_point_cloud_suffix(path)) return "a cloud";
+  return is_experiment(path) ? "an experiment" : "";
+}
+
 /// Whether `path` is a file, and no link, with these bytes.
 bool has_bytes(const fs::path& path, const std::string& bytes) {
   std::error_code error;
@@ -252,6 +285,17 @@ std::string merged_timings(const std::vector<fs::path>& folders) {
     }
   }
   return merged;
+}
+
+void replace_output_files(const std::vector<OutputFile>& files,
+                          const std::vector<fs::path>& inputs) {
+  for (const OutputFile& file : files) {
+    const std::string what = what_must_stay(file.path, inputs);
+    if (what.empty()) continue;
+    throw InputError("", "--out",
+                     "expected a file to write, found " + file.path.string() + ", " + what);
+  }
+  for (const OutputFile& file : files) write_whole_file(file.path, file.bytes);
 }
 
 void write_output_files(const std::vector<OutputFile>& files) {

@@ -72,8 +72,13 @@ struct OutputFile {
 };
 
 /// Writes the files, each whole or not at all. Throws InputError, before one is written, if one of
-/// them is there with other bytes: what it is, the data, a store or a user's work, no command can
-/// know. Throws InputError if one cannot be written.
+/// them is there with other bytes. Throws InputError if one cannot be written.
 void write_output_files(const std::vector<OutputFile>& files);
+
+/// The same, but a file that is there is replaced, as a user expects who makes a table again. Throws
+/// InputError, before one is written, if it is one of `inputs`, a file of a folder of results, a
+/// cloud, an experiment, a file that a dataset reads beside clouds, a link or no file.
+void replace_output_files(const std::vector<OutputFile>& files,
+                          const std::vector<std::filesystem::path>& inputs = {});
 
 }  // namespace croon::experiments
