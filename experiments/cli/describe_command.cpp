@@ -96,8 +96,8 @@ void write_files(const std::filesystem::path& folder, const std::vector<CloudDes
   std::filesystem::create_directories(folder, error);
   if (error) throw InputError(folder.string(), "", "cannot be made: " + error.message());
   replace_output_files({{folder / "clouds.csv", clouds_csv(clouds)},
-                      {folder / (std::string("ranges.") + writer.name),
-                       writer.bytes(ranges_chart(clouds, {sheet}))}});
+                        {folder / (std::string("ranges.") + writer.name),
+                         writer.bytes(ranges_chart(clouds, {sheet}))}});
 }
 
 }  // namespace

@@ -75,9 +75,9 @@ struct OutputFile {
 /// them is there with other bytes. Throws InputError if one cannot be written.
 void write_output_files(const std::vector<OutputFile>& files);
 
-/// The same, but a file that is there is replaced, as a user expects who makes a table again. Throws
-/// InputError, before one is written, if it is one of `inputs`, a file of a folder of results, a
-/// cloud, an experiment, a file that a dataset reads beside clouds, a link or no file.
+/// The same, but a file that is there is replaced, as a user expects who makes a table again.
+/// Throws InputError, before one is written, if it is one of `inputs`, a file of a folder of
+/// results, a cloud, an experiment, a file that a dataset reads beside clouds, a link or no file.
 void replace_output_files(const std::vector<OutputFile>& files,
                           const std::vector<std::filesystem::path>& inputs = {});
 
