@@ -51,6 +51,7 @@ TEST(Libm, TheProgramCallsExactFunctionsOnly) {
   std::istringstream names(listed.output);
   int sleef_functions = 0;
   for (std::string name; names >> name;) {
+    if (name == "signgam") continue;  // A variable, which the runtime of AddressSanitizer names.
     sleef_functions += starts_with(name, "Sleef_cinz_") ? 1 : 0;
     EXPECT_TRUE(!is_in(libm, name) || is_exact(name))
         << name << ": its bits depend on the processor; see framework/base/libm.hpp";
