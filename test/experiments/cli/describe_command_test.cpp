@@ -33,23 +33,29 @@ TEST(DescribeCommand, TellsOfEveryCloudTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(read_whole_file(three + "/clouds.csv"), first);
 }
 
-TEST(DescribeCommand, ReplacesNoFile) {
+TEST(DescribeCommand, ReplacesWhatItWroteAndNoLink) {
   const test::TempFolder folder;
   const std::string file = folder.write("x.json", kExperiment).string();
   const std::string command = "describe " + file + " --scenes 1 --out " + folder.path().string();
+  EXPECT_EQ(croon(command).code, 0);
+  const std::string clouds = read_whole_file(folder.path() / "clouds.csv");
+  folder.write("clouds.csv", "an earlier one");
+  EXPECT_EQ(croon(command).code, 0);
+  EXPECT_EQ(read_whole_file(folder.path() / "clouds.csv"), clouds);
   for (const char* name : {"clouds.csv", "ranges.svg"}) {
-    folder.write(name, "mine");
+    std::filesystem::remove(folder.path() / "clouds.csv");
+    std::filesystem::remove(folder.path() / "ranges.svg");
+    std::filesystem::create_symlink("x.json", folder.path() / name);
     const Answer answer = croon(command);
     EXPECT_EQ(answer.code, 2);
-    EXPECT_EQ(answer.text.find("croon: --out: expected a new file, found "), 0U) << answer.text;
-    EXPECT_EQ(read_whole_file(folder.path() / name), "mine");
+    EXPECT_EQ(answer.text.find("croon: --out: expected a file to write, found "), 0U)
+        << answer.text;
+    EXPECT_EQ(read_whole_file(file), kExperiment);
     // The other file is not written either.
     std::filesystem::remove(folder.path() / name);
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "clouds.csv"));
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "ranges.svg"));
   }
-  EXPECT_EQ(croon(command).code, 0);
-  EXPECT_EQ(croon(command).code, 0);  // The same bytes.
 }
 
 TEST(DescribeCommand, RefusesWhatIsNotThere) {

@@ -88,7 +88,8 @@ TEST_F(StartsCommand, OverwritesNeitherWhatItReadsNorAStore) {
     const std::string before = read_whole_file(path(out));
     const Answer answer = croon("starts " + path("x.json") + " --out " + path(out));
     EXPECT_EQ(answer.code, 2);
-    EXPECT_EQ(answer.text.find("croon: --out: expected a new file, found "), 0U) << answer.text;
+    EXPECT_EQ(answer.text.find("croon: --out: expected a file to write, found "), 0U)
+        << answer.text;
     EXPECT_EQ(read_whole_file(path(out)), before);
   }
 }
@@ -104,7 +105,7 @@ TEST_F(StartsCommand, OverwritesNoFileThatItsExperimentConsistsOf) {
     const std::string before = read_whole_file(path(out));
     const Answer answer = croon("starts " + path("read.json") + " --trials 1 --out " + path(out));
     EXPECT_EQ(answer.code, 2);
-    EXPECT_NE(answer.text.find(std::string(out) + ", which is there"), std::string::npos)
+    EXPECT_NE(answer.text.find(std::string(out) + ", which is read"), std::string::npos)
         << answer.text;
     EXPECT_EQ(read_whole_file(path(out)), before);
   }
