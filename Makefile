@@ -5,7 +5,7 @@ CLANG_FORMAT ?= $(shell command -v clang-format-14 || echo clang-format)
 RUN_CLANG_TIDY ?= $(shell command -v run-clang-tidy-14 || echo run-clang-tidy)
 SOURCES = git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp'
 
-.PHONY: help packages sanitizer_packages release demo test benchmark docs format lint fuzz sanitize clean
+.PHONY: help packages sanitizer_packages release demo test benchmark docs format lint fuzz sanitize threads clean
 
 help:
 	@echo 'make demo       the paper on twelve simulated scenes, with a table and a picture'
@@ -15,7 +15,8 @@ help:
 	@echo 'make format     clang-format all sources'
 	@echo 'make lint       clang-tidy over all sources'
 	@echo 'make fuzz       libFuzzer over every reader of files, FUZZ_SECONDS each (20)'
-	@echo 'make sanitize   all tests with AddressSanitizer and UBSan; those with threads with ThreadSanitizer'
+	@echo 'make sanitize   all tests with AddressSanitizer and UBSan; takes half an hour and more'
+	@echo 'make threads    the tests with threads with ThreadSanitizer'
 	@echo 'make clean      remove the build folder'
 
 packages:
@@ -62,6 +63,8 @@ sanitize: sanitizer_packages
 	$(call PRESET_BUILD,sanitized)
 	ls build/sanitized/bin/test_* | LSAN_OPTIONS="suppressions=$(CURDIR)/test/leak_sanitizer.supp:print_suppressions=0" \
 	  xargs -P 2 -I PROGRAM PROGRAM --gtest_brief=1
+
+threads: sanitizer_packages
 # DescribeCommand compares all that the program prints, also what the symboliser of a suppressed report says.
 	cmake --preset threads
 	cmake --build --preset threads --target croon test_framework test_stages test_contract test_experiments
