@@ -62,14 +62,14 @@ fuzz: sanitizer_packages
 sanitize: sanitizer_packages
 	$(call PRESET_BUILD,sanitized)
 	ls build/sanitized/bin/test_* | LSAN_OPTIONS="suppressions=$(CURDIR)/test/leak_sanitizer.supp:print_suppressions=0" \
-	  xargs -P 2 -I PROGRAM PROGRAM --gtest_brief=1
+	  xargs -P 2 -I PROGRAM env PROGRAM --gtest_brief=1
 
 threads: sanitizer_packages
 # DescribeCommand compares all that the program prints, also what the symboliser of a suppressed report says.
 	cmake --preset threads
 	cmake --build --preset threads --target croon test_framework test_stages test_contract test_experiments
 	ls build/threads/bin/test_* | TSAN_OPTIONS="suppressions=$(CURDIR)/test/thread_sanitizer.supp" \
-	  xargs -P 2 -I PROGRAM PROGRAM --gtest_brief=1 --gtest_filter='*Thread*:*Runner*-DescribeCommand.*'
+	  xargs -P 2 -I PROGRAM env PROGRAM --gtest_brief=1 --gtest_filter='*Thread*:*Runner*-DescribeCommand.*'
 
 clean:
 	rm -rf build
