@@ -64,8 +64,8 @@ sanitize: sanitizer_packages
 	ls build/sanitized/bin/test_* | LSAN_OPTIONS="suppressions=$(CURDIR)/test/leak_sanitizer.supp:print_suppressions=0" \
 	  xargs -P 2 -I PROGRAM env PROGRAM --gtest_brief=1
 
-threads: sanitizer_packages
 # DescribeCommand compares all that the program prints, also what the symboliser of a suppressed report says.
+threads: sanitizer_packages
 	cmake --preset threads
 	cmake --build --preset threads --target croon test_framework test_stages test_contract test_experiments
 	ls build/threads/bin/test_* | TSAN_OPTIONS="suppressions=$(CURDIR)/test/thread_sanitizer.supp" \

@@ -125,7 +125,7 @@ class Program {
     exporting.add_option("--format", export_.format,
                          names_of(export_formats()) + "; default md. With --figure: " +
                              names_of(drawing_formats()) + "; default pdf.");
-    exporting.add_option("--out", export_.out, "The new file to write; default the output.");
+    exporting.add_option("--out", export_.out, "The file to write; default the output.");
     exporting.add_option("--figure", export_.figure, "A figure: " + names_of(figures()) + ".");
     add_width(exporting, export_.width);
     exporting.add_option("--units", export_.units, "Of lengths: m, mm.");
@@ -169,7 +169,7 @@ class Program {
     describe.add_option("EXPERIMENT", describe_.experiments, "Experiments, JSON files.")
         ->required();
     add_data(describe, describe_.data);
-    describe.add_option("--out", describe_.out, "Folder for new files, clouds.csv and ranges.svg.");
+    describe.add_option("--out", describe_.out, "Folder for clouds.csv and ranges.svg.");
     describe.add_option(
         "--format", describe_.format,
         "Of the figure of ranges: " + names_of(drawing_formats()) + "; default svg.");
@@ -183,7 +183,7 @@ class Program {
     CLI::App& starts = add("starts", "Write the list of an experiment's starts.",
                            [this] { return starts_command(starts_, registry(), std::cout); });
     add_experiment(starts, starts_.experiment);
-    starts.add_option("--out", starts_.out, "New file to write; default standard output.");
+    starts.add_option("--out", starts_.out, "File to write; default standard output.");
     add_data(starts, starts_.data);
     add_trials(starts, starts_.trials, "Starts per scene and sensor.");
   }

@@ -85,7 +85,7 @@ void finish(TrialRecord& record, const Estimate& estimate, const SensorScan& sca
     return;
   }
   if (!is_rotation_matrix(estimate.T_target_source.rotation)) {
-    record.reason = "the rotation of the pose is none: its columns are not orthonormal";
+    record.reason = "the pose has no rotation: the columns of its matrix are not orthonormal";
     return;
   }
   record.T_reference_sensor = estimate.T_target_source;

@@ -251,7 +251,7 @@ TEST(Runner, SaysHowATrialEnded) {
         Case{"nan", Status::failed, "the pose is not finite", false},
         Case{"far", Status::failed, "the pose is farther away than 1000000000 m", false},
         Case{"skewed", Status::failed,
-             "the rotation of the pose is none: its columns are not orthonormal", false}}) {
+             "the pose has no rotation: the columns of its matrix are not orthonormal", false}}) {
     json experiment = drifting();
     experiment["pipeline"][1]["how"] = c.how;
     for (const TrialRecord& record : run(experiment).records) {
