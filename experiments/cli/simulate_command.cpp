@@ -37,17 +37,11 @@ std::string cloud_path(const Scene& scene, const SensorScan& scan) {
   return scene.name + "/" + scan.sensor + ".pcd";
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw InputError(folder.string(), "", "cannot be made: " + error.message());
-}
-
 /// Writes the folder of `scene` below `dataset`: a PCD per sensor, `initial_extrinsic.txt` with the
 /// starts of trial 0, and last `lidar_cloud_path.txt`, which marks the scene as complete.
 void write_scene(const Experiment& experiment, const Scene& scene, const fs::path& dataset) {
   const fs::path folder = dataset / scene.name;
-  make_folder(folder);
+  make_folder_below(dataset, scene.name);
   write_pcd(dataset / cloud_path(scene, scene.reference), scene.reference.measure());
   std::vector<ListedCloud> clouds = {
       {0, cloud_path(scene, scene.reference), "", scene.reference.sensor}};

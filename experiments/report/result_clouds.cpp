@@ -6,6 +6,7 @@
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
 #include "framework/io/ply_file.hpp"
 #include "framework/io/vdb_writer.hpp"
 #include "framework/picture/top_view.hpp"
@@ -61,9 +62,6 @@ PointCloud points_of(const SensorScan& scan) {
 
 void write_clouds(const std::vector<ColouredCloud>& clouds, const fs::path& stem) {
   constexpr double kLeafSize_m = 0.05;
-  std::error_code error;
-  fs::create_directories(stem.parent_path(), error);
-  if (error) throw InputError(stem.parent_path().string(), "", error.message());
   write_fused_ply(stem.string() + ".ply", clouds);
   PointCloud fused;
   for (const ColouredCloud& cloud : clouds) {
@@ -101,7 +99,9 @@ std::vector<std::string> write_fused_clouds(const Experiment& experiment,
         if (poses[i]) clouds.push_back({scene.sensors[i].sensor, points[i], *poses[i]});
       }
       if (clouds.size() == 1) continue;
-      const fs::path stem = folder / variant.name / scene.name;
+      const fs::path name = fs::path(variant.name) / scene.name;
+      const fs::path stem = folder / name;
+      make_folder_below(folder.parent_path(), folder.filename() / name.parent_path());
       try {
         write_clouds(clouds, stem);
       } catch (const StageError& error) {

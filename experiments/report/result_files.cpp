@@ -157,6 +157,21 @@ void delete_path(const fs::path& path) {
   if (error) throw InputError(path.string(), "", "cannot be deleted: " + error.message());
 }
 
+/// Deletes the clouds that `write_fused_clouds` left below `folder`, and folders that are then
+/// empty; not what somebody else put there.
+void delete_clouds(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(fs::symlink_status(folder, error))) return;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const fs::path& path = entry.path();
+    const fs::file_status status = entry.symlink_status();
+    const bool is_cloud = path.extension() == ".ply" || path.extension() == ".vdb";
+    if (fs::is_directory(status)) delete_clouds(path);
+    if (fs::is_regular_file(status) && is_cloud) delete_path(path);
+  }
+  if (fs::is_empty(folder, error)) delete_path(folder);
+}
+
 /// The cells of a line of a CSV file, as they are written.
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells(1);
@@ -244,7 +259,7 @@ OutputFolder::OutputFolder(const fs::path& path) : path_(writable(path)), lock_(
 
 void OutputFolder::clear() const {
   for (const fs::path& path : paths_in(path_)) delete_path(path);
-  delete_path(file(kClouds));
+  delete_clouds(file(kClouds));
 }
 
 void OutputFolder::write_reports(const Results& results, const std::string& manifest) const {

@@ -89,6 +89,8 @@ std::vector<IndexedRecord> records_in(const Database& database, const StoreHeade
     const TrialRow row = row_of(select);
     if (row.trial < header.trials && indices.find(row, index)) {
       rows.emplace_back(index, result_of(select));
+      const auto& pose = rows.back().second.T_reference_sensor;
+      if (pose) check_rotation(database, pose->rotation);
     }
   }
   return rows;
@@ -167,6 +169,7 @@ StoreHeader stored_header(const fs::path& path) {
   return reading(path, [&] {
     const Database database = open_to_read(path);
     check_content(database);
+    check_rotations(database);
     return read_header(database);
   });
 }

@@ -1,7 +1,6 @@
 #include "experiments/store/store_check.hpp"
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <sstream>
 #include <string>
@@ -123,20 +122,6 @@ std::string not_numbers(const std::vector<std::string>& columns) {
   return "NOT ((" + all_null + ") OR (" + all_numbers + "))";
 }
 
-/// Throws InputError unless the first nine of the columns `pose` are a rotation in each trial that
-/// has a pose. The same in SQL takes several times as long.
-void check_rotations(const Database& database, const std::vector<std::string>& pose) {
-  std::string columns;
-  for (std::size_t i = 0; i < 9; ++i) columns += (i == 0 ? "" : ", ") + pose[i];
-  Statement select =
-      database.prepare("SELECT " + columns + " FROM trials WHERE " + pose[0] + " IS NOT NULL");
-  while (select.next()) {
-    Eigen::Matrix3d rotation;
-    for (int i = 0; i < 9; ++i) rotation(i / 3, i % 3) = select.real(i);
-    if (!is_rotation_matrix(rotation)) refuse(database, "trials: a pose has no rotation");
-  }
-}
-
 /// The faults of the columns that name a trial.
 std::vector<RowFault> key_faults() {
   std::vector<RowFault> faults;
@@ -173,7 +158,6 @@ void check_trials(const Database& database) {
   faults.emplace_back("status = 'finished' AND rotation_error_rad IS NOT NULL",
                       "a trial without truth has an error");
   refuse_rows(database, "trials", faults);
-  check_rotations(database, pose);
 }
 
 void check_steps(const Database& database) {
@@ -207,6 +191,23 @@ void check_schema(const Database& database) {
       (difference.second == found.end() || difference.first->first <= difference.second->first);
   refuse(database, is_missing ? "it has no " + difference.first->first + " as a store has it"
                               : "it has a " + difference.second->first + ", which no store has");
+}
+
+void check_rotation(const Database& database, const Eigen::Matrix3d& rotation) {
+  if (!is_rotation_matrix(rotation)) refuse(database, "trials: a pose has no rotation");
+}
+
+void check_rotations(const Database& database) {
+  const std::vector<std::string> pose = number_columns().second;
+  std::string columns;
+  for (std::size_t i = 0; i < 9; ++i) columns += (i == 0 ? "" : ", ") + pose[i];
+  Statement select =
+      database.prepare("SELECT " + columns + " FROM trials WHERE " + pose[0] + " IS NOT NULL");
+  while (select.next()) {
+    Eigen::Matrix3d rotation;
+    for (int i = 0; i < 9; ++i) rotation(i / 3, i % 3) = select.real(i);
+    check_rotation(database, rotation);
+  }
 }
 
 void check_content(const Database& database) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include "experiments/store/database.hpp"
 
 namespace croon::experiments {
@@ -10,8 +12,16 @@ namespace croon::experiments {
 /// in constant time.
 void check_schema(const Database& database);
 
-/// Throws InputError unless the store is whole: its pages, and the type and range of every value.
-/// Runs in time proportional to the size of the file. Call check_schema before.
+/// Throws InputError unless the store is whole: its pages, and the type and range of every value,
+/// but not the rotations of its poses. Runs in time proportional to the size of the file. Call
+/// check_schema before.
 void check_content(const Database& database);
+
+/// Throws InputError unless `rotation`, of a pose of the store, is a rotation. SQL takes several
+/// times as long.
+void check_rotation(const Database& database, const Eigen::Matrix3d& rotation);
+
+/// The same for all poses, for who does not read them.
+void check_rotations(const Database& database);
 
 }  // namespace croon::experiments

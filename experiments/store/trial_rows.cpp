@@ -5,6 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "framework/base/text.hpp"
+
 namespace croon::experiments {
 namespace {
 
@@ -165,7 +167,8 @@ TrialRecord result_of(const Statement& select) {
   TrialRecord record;
   int column = kKeyColumns;
   record.status = status_of(select.text(column++));
-  record.reason = select.text(column++);
+  // A reason may quote the name of a file, and a store may come from anybody.
+  record.reason = printable(select.text(column++));
   if (!select.is_null(column)) {
     record.error.emplace();
     for (int i = 0; i < 6; ++i) record.error->dof(i) = select.real(column + i);

@@ -136,6 +136,19 @@ void write_whole_file(const fs::path& path, std::string_view bytes) {
   throw InputError(path.string(), "", "cannot be written: " + reason(error));
 }
 
+void make_folder_below(const fs::path& root, const fs::path& relative) {
+  fs::path folder = root;
+  for (const fs::path& name : relative) {
+    folder /= name;
+    std::error_code error;
+    if (fs::is_symlink(fs::symlink_status(folder, error))) {
+      throw InputError(folder.string(), "", "expected a folder or nothing, found a symbolic link");
+    }
+    fs::create_directory(folder, error);
+    if (error) throw InputError(folder.string(), "", "cannot be made: " + error.message());
+  }
+}
+
 bool is_part_of(const fs::path& part, const fs::path& path) {
   const std::string begin = path.string() + kPart;
   return part.string().compare(0, begin.size(), begin) == 0;

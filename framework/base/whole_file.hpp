@@ -28,6 +28,11 @@ std::optional<std::string> read_file_if_there(const std::filesystem::path& path)
 /// for `path` takes it.
 void write_whole_file(const std::filesystem::path& path, std::string_view bytes);
 
+/// Makes the folder `relative` below `root`, which is there, with all folders between. Throws
+/// InputError if it cannot be made, or if one of them is a symbolic link: what is written there
+/// would land elsewhere.
+void make_folder_below(const std::filesystem::path& root, const std::filesystem::path& relative);
+
 /// Whether `part` is a file that a killed `write_whole_file` of `path` left.
 bool is_part_of(const std::filesystem::path& part, const std::filesystem::path& path);
 

@@ -151,8 +151,14 @@ std::string replace_step(PatchedPipeline& pipeline, PatchedPipeline::iterator st
 PatchedPipeline read_steps(const Node& pipeline) {
   PatchedPipeline steps;
   if (!pipeline.is_array()) return steps;
-  if (pipeline.value().empty()) pipeline.expected("a list of at least one step");
-  for (std::size_t i = 0; i < pipeline.value().size(); ++i) {
+  const std::size_t count = pipeline.value().size();
+  if (count == 0) pipeline.expected("a list of at least one step");
+  if (count > kMostSteps) {
+    pipeline.fault("expected a list of at most " + std::to_string(kMostSteps) + " steps, found " +
+                   std::to_string(count));
+    return steps;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
     const Node step = pipeline.element(i);
     const std::string name = read_step_name(step);
     if (!name.empty() && find_step(steps, name) != steps.end()) {

@@ -28,6 +28,10 @@ struct PatchedStep {
 /// changed part by part, and then built. Cheap to copy.
 using PatchedPipeline = std::vector<PatchedStep>;
 
+/// The most steps that a list may have: far more than a method has, few enough to be checked at
+/// once.
+inline constexpr std::size_t kMostSteps = 1000;
+
 /// The steps of the list `pipeline` with their names. Notes faults in the node.
 PatchedPipeline read_steps(const params::Node& pipeline);
 

@@ -166,6 +166,13 @@ TEST_F(BadInput, UnknownStep) {
        "\"ground_alignment\"?"});
 }
 
+TEST_F(BadInput, MoreStepsThanAMethodHas) {
+  std::string steps;
+  for (int i = 0; i < 200000; ++i) steps += R"({"step": "x)" + std::to_string(i) + R"("}, )";
+  edit(R"({"step": "ground_alignment")", steps + R"({"step": "ground_alignment")");
+  expect_refused({": /pipeline: expected a list of at most 1000 steps, found 200002"});
+}
+
 TEST_F(BadInput, UnknownParameter) {
   edit("\"threshold_m\"", "\"treshold_m\"");
   expect_refused(

@@ -247,6 +247,8 @@ TEST_F(CraftedStore, GivesNoCommandsToTheTerminal) {
   EXPECT_EQ(build.commit, "c?");
   EXPECT_EQ(build.stage_folders.at(0).folder, "f?");
   EXPECT_EQ(build.stage_folders.at(0).commit, "g?");
+  run_sql(store(), "UPDATE trials SET reason = 'r' || char(27)");
+  EXPECT_EQ(read_store(store()).records.at(0).reason, "r?");
 }
 
 TEST_F(CraftedStore, OfManyScenesIsMergedInLinearTime) {

@@ -369,6 +369,39 @@ TEST(RunCommand, WritesThroughNoLink) {
   }
 }
 
+TEST(RunCommand, WritesCloudsThroughNoLink) {
+  const Bench bench;
+  RunOptions options = bench.options("out");
+  options.clouds = true;
+  EXPECT_EQ(bench.run(options), 0);
+  const fs::path link = bench.folder().path() / "out/clouds/base";
+  const fs::path elsewhere = bench.folder().path() / "elsewhere";
+  fs::rename(link, elsewhere);
+  fs::remove(elsewhere / "scene1.ply");
+  fs::create_symlink(elsewhere, link);
+  EXPECT_EQ(bench.fault(options),
+            link.string() + ": expected a folder or nothing, found a symbolic link");
+  EXPECT_FALSE(fs::exists(elsewhere / "scene1.ply"));
+  // --fresh does not delete through it either, and writes nothing.
+  options.fresh = true;
+  EXPECT_NE(bench.fault(options), "");
+  EXPECT_TRUE(fs::exists(elsewhere / "scene2.ply"));
+}
+
+TEST(RunCommand, FreshDeletesItsOwnCloudsAlone) {
+  const Bench bench;
+  RunOptions options = bench.options("out");
+  options.clouds = true;
+  EXPECT_EQ(bench.run(options), 0);
+  const fs::path note = bench.folder().write("out/clouds/base/note.txt", "mine");
+  options.clouds = false;
+  options.fresh = true;
+  EXPECT_EQ(bench.run(options), 0);
+  EXPECT_EQ(read_whole_file(note), "mine");
+  EXPECT_FALSE(fs::exists(note.parent_path() / "scene1.ply"));
+  EXPECT_FALSE(fs::exists(bench.folder().path() / "out/clouds/far"));
+}
+
 TEST(RunCommand, NeedsAFolderThatItMayWriteTo) {
   const Bench bench;
   bench.folder().write("file", "");

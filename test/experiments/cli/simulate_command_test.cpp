@@ -77,6 +77,18 @@ TEST_F(SimulateCommand, RefusesAFolderWithSomethingElse) {
   EXPECT_EQ(files_of(path("mine")).size(), 1U);
 }
 
+TEST_F(SimulateCommand, WritesThroughNoLink) {
+  folder_.write("x.json", experiment(1));
+  const std::string command = "simulate " + path("x.json") + " --out " + path("data") + " --quiet";
+  run(command);
+  fs::rename(path("data") + "/000001", path("elsewhere"));
+  fs::remove(path("elsewhere") + "/lidar_cloud_path.txt");
+  fs::create_symlink(path("elsewhere"), path("data") + "/000001");
+  const auto files = files_of(path("elsewhere"));
+  run(command, 2);
+  EXPECT_EQ(files_of(path("elsewhere")), files);
+}
+
 TEST_F(SimulateCommand, RefusesRecordings) {
   folder_.write("data/s/lidar_cloud_path.txt",
                 "device_id: 0\npath: a.ply\ndevice_id: 1\npath: b.ply\n");
