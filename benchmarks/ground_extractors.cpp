@@ -13,12 +13,12 @@ namespace {
 
 using Extractor = params::Slot<GroundExtractor>;
 
-Ground extracted(const Extractor& extractor, const PointCloud& cloud) {
+Ground extracted(const Extractor& extractor, const Points& cloud) {
   Rng rng(StreamKey(1).with("ground"));
   return extractor->extract(cloud, rng);
 }
 
-void measure(benchmark::State& state, const Extractor& extractor, const PointCloud& cloud) {
+void measure(benchmark::State& state, const Extractor& extractor, const Points& cloud) {
   Ground ground;
   for (auto _ : state) benchmark::DoNotOptimize(ground = extracted(extractor, cloud));
   const auto count = cloud.size() - static_cast<std::size_t>(std::count(ground.is_ground.begin(),
@@ -28,7 +28,7 @@ void measure(benchmark::State& state, const Extractor& extractor, const PointClo
 }
 
 void check_and_add() {
-  std::vector<std::pair<std::string, PointCloud>> clouds;
+  std::vector<std::pair<std::string, Points>> clouds;
   for (const int count : {5000, 20000, 100000}) {
     const CloudPair pair = street(count, count);
     clouds.emplace_back(pair.name, pair.target);

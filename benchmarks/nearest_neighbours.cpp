@@ -13,8 +13,8 @@ namespace {
 constexpr int kNormalNeighbours = 40;
 constexpr float kUnbounded = 1e9F;
 
-struct Points {
-  const PointCloud& points;
+struct PointList {
+  const Points& points;
   std::size_t kdtree_get_point_count() const { return points.size(); }
   float kdtree_get_pt(std::size_t index, std::size_t axis) const {
     return points[index][static_cast<Eigen::Index>(axis)];
@@ -28,9 +28,7 @@ struct Points {
 /// nanoflann with its own result set, as its examples use it.
 class Peer {
  public:
-  explicit Peer(const PointCloud& points) : points_{points}, tree_(3, points_) {
-    tree_.buildIndex();
-  }
+  explicit Peer(const Points& points) : points_{points}, tree_(3, points_) { tree_.buildIndex(); }
   Neighbour nearest(const Eigen::Vector3f& query, float max_distance_m) const {
     std::uint32_t index = 0;
     float squared_distance = 0.0F;
@@ -50,14 +48,14 @@ class Peer {
   }
 
  private:
-  Points points_;
-  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 3,
+  PointList points_;
+  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PointList>, PointList, 3,
                                       std::uint32_t>
       tree_;
 };
 
 /// Throws where a search gives another distance than the peer's.
-void check_equal_distances(const PointCloud& points, const PointCloud& queries) {
+void check_equal_distances(const Points& points, const Points& queries) {
   const KdTree tree(points);
   const Peer peer(points);
   std::vector<Neighbour> ours, theirs;
@@ -80,7 +78,7 @@ void check_equal_distances(const PointCloud& points, const PointCloud& queries) 
 }
 
 template <class Tree>
-void add_build(const std::string& name, const PointCloud& points) {
+void add_build(const std::string& name, const Points& points) {
   add(name, benchmark::kMillisecond, [points](benchmark::State& state) {
     for (auto _ : state) {
       const Tree tree(points);
@@ -91,7 +89,7 @@ void add_build(const std::string& name, const PointCloud& points) {
 
 /// One query per iteration, in the order of the queries.
 template <class Tree, class Search>
-void add_queries(const std::string& name, const PointCloud& points, const PointCloud& queries,
+void add_queries(const std::string& name, const Points& points, const Points& queries,
                  const Search& search) {
   add(name, benchmark::kNanosecond, [=](benchmark::State& state) {
     const Tree tree(points);
@@ -107,8 +105,8 @@ template <class Tree>
 void add_tree(const std::string& name, const CloudPair& pair) {
   const std::string place = pair.name + "/";
   // As registrations ask (near the truth) and as the rough calibration asks (up to 45 degrees off).
-  const PointCloud near = transformed(pair.source, poses_near(pair, 1, 0.5, 0.05)[0]);
-  const PointCloud off = transformed(pair.source, poses_near(pair, 1, 45.0, 0.1)[0]);
+  const Points near = transformed(pair.source, poses_near(pair, 1, 0.5, 0.05)[0]);
+  const Points off = transformed(pair.source, poses_near(pair, 1, 45.0, 0.1)[0]);
   const auto within = [](float bound_m) {
     return [bound_m](const Tree& tree, const Eigen::Vector3f& query) {
       benchmark::DoNotOptimize(tree.nearest(query, bound_m));

@@ -4,6 +4,8 @@
 # croon::stages::<kind>::<name>() to the registry's list. If a target that it needs does not exist (an
 # option turned its library off), the stage is left out and the configuration prints a line.
 # It sees the headers of framework, of what it needs, and of the folder that adds it.
+#
+# The same in this tree and after find_package(croon); there, croon_add_program makes the program.
 function(croon_add_stage kind name)
   cmake_parse_arguments(PARSE_ARGV 2 stage "" "SOURCE" "NEEDS")
   foreach(target IN LISTS stage_NEEDS)
@@ -19,8 +21,28 @@ function(croon_add_stage kind name)
   add_library(${library} OBJECT "${stage_SOURCE}")
   # For the header of a kind of stage that comes with the folder.
   target_include_directories(${library} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}")
-  target_link_libraries(${library} PRIVATE croon_framework croon_warnings ${stage_NEEDS})
+  target_link_libraries(${library} PRIVATE croon::framework ${stage_NEEDS})
+  if(TARGET croon_warnings)
+    target_link_libraries(${library} PRIVATE croon_warnings)
+  else()
+    # As in the tree: the same bits with any compiler.
+    target_compile_options(${library} PRIVATE -ffp-contract=off)
+  endif()
   set_property(GLOBAL APPEND PROPERTY CROON_STAGES "${kind}/${name}")
   set_property(GLOBAL APPEND PROPERTY CROON_STAGE_LIBRARIES ${library})
   set_property(GLOBAL APPEND PROPERTY CROON_STAGE_NEEDS ${stage_NEEDS})
+endfunction()
+
+# croon_write_stage_list(<file> <kind>/<name>...): writes the definition of registry() with these stages.
+function(croon_write_stage_list file)
+  set(declarations "")
+  set(calls "")
+  foreach(stage IN LISTS ARGN)
+    string(REPLACE "/" ";" parts "${stage}")
+    list(GET parts 0 kind)
+    list(GET parts 1 name)
+    string(APPEND declarations "namespace stages::${kind} {\nStageEntry ${name}();\n}\n")
+    string(APPEND calls "    all.add(stages::${kind}::${name}());\n")
+  endforeach()
+  configure_file("${CROON_CMAKE_FOLDER}/stage_list.cpp.in" "${file}" @ONLY)
 endfunction()

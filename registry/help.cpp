@@ -75,6 +75,9 @@ std::string text_table(const StageList& stages) {
 std::string text_page(const StageEntry& stage) {
   std::string text =
       stage.kind + "/" + stage.name + "\n  " + stage.summary + "\n  Source: " + stage.source + "\n";
+  for (const auto& [verb, what] : flow_lines(stage.flow, as_it_is)) {
+    text += "  " + verb + " " + what + ".\n";
+  }
   for (const auto& [path, parameter] : placed_parameters(stage.parameters)) {
     const std::string standard =
         parameter->is_required ? "required" : "default " + default_words(*parameter);

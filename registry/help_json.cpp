@@ -1,5 +1,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 
 #include "registry/help_parts.hpp"
@@ -71,6 +72,24 @@ ordered_json parameters_json(const std::vector<ParameterDoc>& parameters) {
   return list;
 }
 
+ordered_json extras_json(const std::vector<params::ExtraDoc>& extras) {
+  ordered_json list = ordered_json::array();
+  for (const params::ExtraDoc& extra : extras) {
+    list.push_back({{"extra", extra.name}, {"sentence", extra.meaning}});
+  }
+  return list;
+}
+
+/// The channels and the extras.
+ordered_json needs_json(const params::DataFlow& flow) {
+  std::set<std::string> channels = flow.target_channels;
+  channels.insert(flow.source_channels.begin(), flow.source_channels.end());
+  ordered_json list = ordered_json::array();
+  for (const std::string& channel : channels) list.push_back({{"channel", channel}});
+  for (const ordered_json& extra : extras_json(flow.takes)) list.push_back(extra);
+  return list;
+}
+
 }  // namespace
 
 std::string json_list(const StageList& stages) {
@@ -81,6 +100,8 @@ std::string json_list(const StageList& stages) {
                     {"version", stage->version},
                     {"summary", stage->summary},
                     {"source", stage->source},
+                    {"needs", needs_json(stage->flow)},
+                    {"provides", extras_json(stage->flow.gives)},
                     {"parameters", parameters_json(stage->parameters)}});
   }
   return list.dump(2) + "\n";

@@ -25,6 +25,9 @@ std::string example(const StageEntry& stage) {
 std::string markdown_section(const StageEntry& stage) {
   std::string text = "## " + code(stage.name) + "\n\n" + stage.summary +
                      "\n\nSource: " + stage.source + ". In JSON: " + code(example(stage)) + "\n";
+  for (const auto& [verb, what] : flow_lines(stage.flow, code)) {
+    text += "\n" + verb + " " + what + ".\n";
+  }
   if (stage.parameters.empty()) return text + "\nIt has no parameters.\n";
   text += "\n| parameter | takes | default | what it does |\n|---|---|---|---|\n";
   for (const auto& [path, parameter] : placed_parameters(stage.parameters)) {

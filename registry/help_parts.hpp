@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "framework/stage/catalogue.hpp"
@@ -20,6 +21,11 @@ std::string markdown_index(const StageList& stages);
 std::string markdown_page(const StageList& stages);
 /// One stage with its parameters.
 std::string markdown_section(const StageEntry& stage);
+
+/// What a stage needs or provides, with default parameters: a line for each, ("needs", "the channel
+/// time").
+std::vector<std::pair<std::string, std::string>> flow_lines(
+    const params::DataFlow& flow, const std::function<std::string(const std::string&)>& mark);
 
 /// "an icp stage", "a yaw_search stage".
 std::string kind_phrase(const std::string& kind);

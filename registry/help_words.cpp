@@ -1,5 +1,6 @@
 #include "registry/help_parts.hpp"
 
+#include <set>
 #include <stdexcept>
 
 #include "framework/params/group.hpp"
@@ -30,6 +31,24 @@ std::string group_words(const ParameterDoc& doc, const Mark& mark) {
 }
 
 }  // namespace
+
+std::vector<std::pair<std::string, std::string>> flow_lines(const params::DataFlow& flow,
+                                                            const Mark& mark) {
+  std::vector<std::pair<std::string, std::string>> lines;
+  std::set<std::string> channels = flow.target_channels;
+  channels.insert(flow.source_channels.begin(), flow.source_channels.end());
+  for (const std::string& channel : channels) {
+    lines.emplace_back("Needs", "the channel " + mark(channel));
+  }
+  const auto add = [&](const char* verb, const std::vector<params::ExtraDoc>& extras) {
+    for (const params::ExtraDoc& extra : extras) {
+      lines.emplace_back(verb, "the extra " + mark(extra.name) + ", " + extra.meaning);
+    }
+  };
+  add("Needs", flow.takes);
+  add("Provides", flow.gives);
+  return lines;
+}
 
 std::string kind_phrase(const std::string& kind) { return with_article(kind, kind); }
 

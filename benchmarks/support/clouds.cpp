@@ -23,10 +23,10 @@ CloudPair sample(const std::string& data_root, const std::string& scene_folder) 
   return pair;
 }
 
-PointCloud without_ground(const PointCloud& cloud) {
+Points without_ground(const Points& cloud) {
   Rng rng(StreamKey(1).with("ground"));
   const Ground ground = test::stage<GroundExtractor>(R"({"type": "ransac"})")->extract(cloud, rng);
-  PointCloud left;
+  Points left;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (ground.is_ground[i] == 0) left.push_back(cloud[i]);
   }
@@ -56,7 +56,7 @@ CloudPair non_ground(const CloudPair& pair) {
           pair.T_target_source};
 }
 
-std::shared_ptr<const Cloud> fresh(const PointCloud& points) {
+std::shared_ptr<const Cloud> fresh(const Points& points) {
   return std::make_shared<const Cloud>(points, StreamKey(1));
 }
 

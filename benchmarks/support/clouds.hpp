@@ -11,8 +11,8 @@ namespace croon::benchmarks {
 /// Two clouds of one place, each in its sensor's frame, and how they lie to each other.
 struct CloudPair {
   std::string name;
-  PointCloud target;
-  PointCloud source;
+  Points target;
+  Points source;
   RigidTransform T_target_source;  ///< The truth; for a recording without one the drawing's pose.
 };
 
@@ -27,7 +27,7 @@ std::vector<CloudPair> samples();
 CloudPair non_ground(const CloudPair& pair);
 
 /// A new cloud that has computed nothing yet.
-std::shared_ptr<const Cloud> fresh(const PointCloud& points);
+std::shared_ptr<const Cloud> fresh(const Points& points);
 
 /// `count` poses within +-`rotation_deg` and +-`translation_m` per axis of the pair's; the same
 /// every time.

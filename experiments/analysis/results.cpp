@@ -63,6 +63,8 @@ Results results_of(StoredRun run, const std::string& file) {
     if (sensor.is_current) results.references[sensor.name] = sensor.detail;
   }
   results.records = std::move(run.records);
+  results.steps = std::move(run.steps);
+  results.diagnostics = summarise_diagnostics(results.records, results.steps);
   results.summary = summarise(results.records, experiment.success, order);
   results.planned = asked_trials(run.header.manifest, results.summary);
   const std::optional<Sweep>& sweep = experiment.starts.sweep;
@@ -77,7 +79,7 @@ Results results_of(StoredRun run, const std::string& file) {
 void check_reportable(const StoreHeader& header, const std::string& file) {
   reading(file, [&] {
     planned_trials_of_variant(header.manifest);
-    return results_of({header, {}}, file);
+    return results_of({header, {}, {}}, file);
   });
 }
 
@@ -86,9 +88,9 @@ bool has_failed_trials(const Results& results) {
                      [](const TrialRecord& record) { return record.status == Status::failed; });
 }
 
-Results read_results(const std::filesystem::path& folder) {
+Results read_results(const std::filesystem::path& folder, Content content) {
   const std::filesystem::path path = store_path(folder);
-  StoredRun run = read_store(path);
+  StoredRun run = read_store(path, content);
   return reading(path, [&] { return results_of(std::move(run), path.string()); });
 }
 

@@ -9,8 +9,10 @@
 
 #include "experiments/analysis/basin.hpp"
 #include "experiments/analysis/claims.hpp"
+#include "experiments/analysis/diagnostics.hpp"
 #include "experiments/analysis/summary.hpp"
 #include "experiments/run/trial_record.hpp"
+#include "experiments/store/store.hpp"
 #include "experiments/store/store_header.hpp"
 
 namespace croon::experiments {
@@ -28,6 +30,8 @@ struct Results {
   std::size_t planned = 0;           ///< Trials of the variants that were run; fewer may be there.
   std::string manifest;              ///< JSON of manifest.json, without its host.
   std::vector<TrialRecord> records;  ///< In report order, without their steps.
+  StepNumbers steps;                 ///< What steps report; empty unless it was asked for.
+  std::vector<DiagnosticSummary> diagnostics;  ///< Of `steps`.
   Summary summary;
   std::map<std::string, std::string> references;  ///< The sensor that each is calibrated to.
   std::optional<Basin> basin;                     ///< Of a sweep.
@@ -42,6 +46,6 @@ bool has_failed_trials(const Results& results);
 void check_reportable(const StoreHeader& header, const std::string& file);
 
 /// Throws InputError if the folder has no store, or one of an unknown version.
-Results read_results(const std::filesystem::path& folder);
+Results read_results(const std::filesystem::path& folder, Content content = Content::trials);
 
 }  // namespace croon::experiments

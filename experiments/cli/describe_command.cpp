@@ -55,7 +55,7 @@ params::Slot<GroundExtractor> extractor_of(const Catalogue& catalogue) {
 std::vector<CloudDescription> describe_scene(const NamedScene& named,
                                              const GroundExtractor& extractor) {
   std::vector<CloudDescription> clouds;
-  const auto add = [&](const SensorScan& scan, const PointCloud& points) {
+  const auto add = [&](const SensorScan& scan, const Points& points) {
     try {
       clouds.push_back(description_of(points, extractor));
     } catch (const StageError& error) {
@@ -66,12 +66,12 @@ std::vector<CloudDescription> describe_scene(const NamedScene& named,
     clouds.back().kind = named.scene.kind;
     clouds.back().sensor = scan.sensor;
   };
-  const PointCloud reference = named.scene.reference.load().points;
+  const Points reference = named.scene.reference.load().points;
   if (reference.empty()) return {};
   add(named.scene.reference, reference);
   const KdTree tree(reference);
   for (const SensorScan& scan : named.scene.sensors) {
-    const PointCloud points = scan.load().points;
+    const Points points = scan.load().points;
     if (points.empty()) continue;
     add(scan, points);
     if (scan.truth) add_overlap(clouds.back(), points, tree, *scan.truth);

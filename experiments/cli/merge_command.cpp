@@ -163,7 +163,7 @@ int merge_command(const MergeOptions& options, std::ostream& out) {
     remove_files(made);
     throw;
   }
-  const Results results = read_results(options.out);
+  const Results results = read_results(options.out, Content::trials_and_steps);
   folder.write_reports(results, merged_manifest(results.manifest, hosts));
   write_whole_file(folder.file(kTimings), timings);
   const std::string missing = missing_text(results);

@@ -122,7 +122,7 @@ Results run_missing(const CheckedRun& run, const OutputFolder& folder, const Wor
                    options.no_share ? one_by_one(work.plan) : std::vector{work.plan}, progress);
   }
   rewrite_in_order(folder.store());
-  return read_results(run.out);
+  return read_results(run.out, Content::trials_and_steps);
 }
 
 /// Draws the picture of `--png` and says what it shows.

@@ -9,6 +9,7 @@
 #include "experiments/report/result_files.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
+#include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/progress.hpp"
 #include "framework/base/text.hpp"
@@ -37,22 +38,39 @@ std::string cloud_path(const Scene& scene, const SensorScan& scan) {
   return scene.name + "/" + scan.sensor + ".pcd";
 }
 
+/// The velocity of each sensor of `scene` in its own frame.
+std::string velocities_json(const Scene& scene) {
+  nlohmann::ordered_json json;
+  const auto add = [&](const SensorScan& scan) {
+    const Twist velocity = scan.velocity();
+    const Eigen::Vector3d angular_degps = velocity.angular_radps.unaryExpr(&deg_from_rad);
+    const auto list = [](const Eigen::Vector3d& v) { return std::vector{v.x(), v.y(), v.z()}; };
+    json[scan.sensor] = {{"linear_mps", list(velocity.linear_mps)},
+                         {"angular_degps", list(angular_degps)}};
+  };
+  add(scene.reference);
+  for (const SensorScan& scan : scene.sensors) add(scan);
+  return json.dump(2) + "\n";
+}
+
 /// Writes the folder of `scene` below `dataset`: a PCD per sensor, `initial_extrinsic.txt` with the
-/// starts of trial 0, and last `lidar_cloud_path.txt`, which marks the scene as complete.
+/// starts of trial 0, `velocities.json`, and last `lidar_cloud_path.txt`, which marks the scene as
+/// complete.
 void write_scene(const Experiment& experiment, const Scene& scene, const fs::path& dataset) {
   const fs::path folder = dataset / scene.name;
   make_folder_below(dataset, scene.name);
-  write_pcd(dataset / cloud_path(scene, scene.reference), scene.reference.measure());
+  write_pcd(dataset / cloud_path(scene, scene.reference), scene.reference.load());
   std::vector<ListedCloud> clouds = {
       {0, cloud_path(scene, scene.reference), "", scene.reference.sensor}};
   std::vector<ListedPose> starts = {{0, {}, ""}};
   for (const SensorScan& scan : scene.sensors) {
     const int device_id = static_cast<int>(clouds.size());
-    write_pcd(dataset / cloud_path(scene, scan), scan.measure());
+    write_pcd(dataset / cloud_path(scene, scan), scan.load());
     clouds.push_back({device_id, cloud_path(scene, scan), "", scan.sensor});
     starts.push_back({device_id, start_of(experiment, scene.name, scan, 0), ""});
   }
   write_whole_file(folder / "initial_extrinsic.txt", pose_list_text(starts));
+  write_whole_file(folder / "velocities.json", velocities_json(scene));
   write_whole_file(folder / kCloudList, cloud_list_text(clouds));
 }
 
@@ -78,7 +96,7 @@ void draw_scene(const Scene& scene, const fs::path& dataset) {
 std::vector<Scene> scenes_to_write(Experiment& experiment) {
   std::vector<Scene> scenes = scenes_of(experiment, fs::path());
   for (const Scene& scene : scenes) {
-    if (scene.reference.measure) continue;
+    if (scene.reference.velocity) continue;
     throw InputError(experiment.file, "/dataset/type",
                      "expected a dataset that is simulated, found \"" + experiment.dataset.name() +
                          "\", whose clouds are files already");

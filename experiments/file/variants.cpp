@@ -237,6 +237,16 @@ std::vector<NamedPipeline> apply_grid(const std::vector<NamedPipeline>& pipeline
   return points;
 }
 
+/// Adds a fault for each extra that a step of `built` takes and no step gives.
+void add_unmet_needs(const NamedPipeline& named, const Pipeline& built,
+                     std::vector<Fault>& faults) {
+  for (Fault fault : unmet_needs(named.pipeline, built)) {
+    // The step may be written in the base, and what gives the extra be removed by the variant.
+    fault.message += ", in variant \"" + named.name + "\"";
+    faults.push_back(std::move(fault));
+  }
+}
+
 }  // namespace
 
 std::vector<Variant> make_variants(const ExperimentKeys& keys, const Node& root,
@@ -246,7 +256,9 @@ std::vector<Variant> make_variants(const ExperimentKeys& keys, const Node& root,
   std::vector<Variant> variants;
   for (const NamedPipeline& named : pipelines) {
     Variant variant{named.name, {}, "", named.poses};
+    const std::size_t faults_before = faults.size();
     variant.pipeline = build_pipeline(named.pipeline, catalogue, faults, variant.resolved);
+    if (faults.size() == faults_before) add_unmet_needs(named, variant.pipeline, faults);
     variants.push_back(std::move(variant));
   }
   return variants;

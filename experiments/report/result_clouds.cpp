@@ -40,7 +40,7 @@ Image drawn(const Experiment& experiment, const Scene& scene, const std::vector<
   std::vector<ColouredCloud> after = before;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const SensorScan& scan = scene.sensors[i];
-    const PointCloud points = scan.load().points;
+    const Points points = scan.load().points;
     before.push_back({scan.sensor, points, start_of(experiment, scene.name, scan, 0)});
     after.push_back({scan.sensor, points, *poses[i]});
   }
@@ -52,7 +52,7 @@ Image drawn(const Experiment& experiment, const Scene& scene, const std::vector<
 }
 
 /// The points of `scan`; none if it cannot be read, which is the reason of its failed trials.
-PointCloud points_of(const SensorScan& scan) {
+Points points_of(const SensorScan& scan) {
   try {
     return scan.load().points;
   } catch (const InputError&) {
@@ -63,9 +63,9 @@ PointCloud points_of(const SensorScan& scan) {
 void write_clouds(const std::vector<ColouredCloud>& clouds, const fs::path& stem) {
   constexpr double kLeafSize_m = 0.05;
   write_fused_ply(stem.string() + ".ply", clouds);
-  PointCloud fused;
+  Points fused;
   for (const ColouredCloud& cloud : clouds) {
-    const PointCloud moved_points = transformed(cloud.points, cloud.T_reference_sensor);
+    const Points moved_points = transformed(cloud.points, cloud.T_reference_sensor);
     fused.insert(fused.end(), moved_points.begin(), moved_points.end());
   }
   write_occupancy_vdb(stem.string() + ".vdb", fused, kLeafSize_m);
@@ -89,8 +89,8 @@ std::vector<std::string> write_fused_clouds(const Experiment& experiment,
                                             const Summary& summary, const fs::path& folder) {
   std::vector<std::string> complaints;
   for (const Scene& scene : without_pairs(scenes)) {
-    const PointCloud reference = points_of(scene.reference);
-    std::vector<PointCloud> points;
+    const Points reference = points_of(scene.reference);
+    std::vector<Points> points;
     for (const SensorScan& scan : scene.sensors) points.push_back(points_of(scan));
     for (const Variant& variant : experiment.variants) {
       const std::vector<Pose> poses = agreed_poses(summary, variant, scene);

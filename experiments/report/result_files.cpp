@@ -49,7 +49,13 @@ const std::vector<ResultFile>& result_files() {
   static const std::vector<ResultFile> files = {
       {"trials.csv", [](const R& r) -> Bytes { return trials_csv(r.records, r.summary); }},
       {"summary.csv", [](const R& r) -> Bytes { return summary_csv(r.summary); }},
-      {"summary.json", [](const R& r) -> Bytes { return summary_json(r.summary, r.claims); }},
+      {"summary.json",
+       [](const R& r) -> Bytes { return summary_json(r.summary, r.claims, r.diagnostics); }},
+      {"diagnostics.csv",
+       [](const R& r) -> Bytes {
+         if (r.steps.numbers.empty()) return std::nullopt;
+         return diagnostics_csv(r.records, r.steps);
+       }},
       {"extrinsics.json",
        [](const R& r) -> Bytes { return extrinsics_json(r.summary, r.references); }},
       {"summary_by_kind.csv",

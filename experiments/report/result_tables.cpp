@@ -318,6 +318,20 @@ Columns<ReasonCount> reason_columns() {
       .add({"count"}, &ReasonCount::count);
 }
 
+namespace {
+
+Columns<DiagnosticSummary> diagnostic_columns() {
+  using D = DiagnosticSummary;
+  Columns<D> columns;
+  return columns.add({"variant"}, &D::variant)
+      .add({"step"}, &D::step)
+      .add({"name"}, &D::name)
+      .add({"trials"}, &D::trials)
+      .add({"median"}, &D::median);
+}
+
+}  // namespace
+
 bool has_deviations_from(const Table& table, DeviationsFrom from) {
   const std::size_t k = table.index_of("reference");
   return std::any_of(table.rows.begin(), table.rows.end(), [&](const CellRow& row) {
@@ -381,7 +395,20 @@ std::string clouds_csv(const std::vector<CloudDescription>& clouds) {
   return csv_of(cloud_columns(), clouds);
 }
 
-std::string summary_json(const Summary& summary, const std::vector<ClaimResult>& claims) {
+std::string diagnostics_csv(const std::vector<TrialRecord>& records, const StepNumbers& steps) {
+  using N = StepNumber;
+  Columns<N> columns;
+  columns
+      .add(id_columns(),
+           [&](const N& number) -> const TrialId& { return records[number.record].id; })
+      .add({"step"}, [&](const N& number) { return steps.names[number.step]; })
+      .add({"name"}, [&](const N& number) { return steps.names[number.name]; })
+      .add({"value"}, &N::value);
+  return csv_of(columns, steps.numbers);
+}
+
+std::string summary_json(const Summary& summary, const std::vector<ClaimResult>& claims,
+                         const std::vector<DiagnosticSummary>& diagnostics) {
   Columns<SummaryRow> consensus;
   consensus.add(pose_columns("/consensus"), &SummaryRow::consensus);
   Json json;
@@ -400,6 +427,7 @@ std::string summary_json(const Summary& summary, const std::vector<ClaimResult>&
   add("kinds", scene_kind_columns().table(summary.scene_kinds));
   add("loops", loop_columns().table(summary.loops));
   add("claims", claim_columns().table(claims));
+  add("diagnostics", diagnostic_columns().table(diagnostics));
   return json_bytes(json);
 }
 

@@ -8,6 +8,7 @@
 
 #include "experiments/analysis/basin.hpp"
 #include "experiments/analysis/claims.hpp"
+#include "experiments/analysis/diagnostics.hpp"
 #include "experiments/analysis/summary.hpp"
 #include "experiments/run/trial_record.hpp"
 #include "framework/pipeline/cloud_description.hpp"
@@ -137,9 +138,14 @@ std::string clouds_csv(const std::vector<CloudDescription>& clouds);
 /// The most scenes of a row that summary.json lists.
 inline constexpr std::size_t kMaxJsonScenes = 100;
 
+/// diagnostics.csv: a row per number that a step of a trial reported of its work.
+std::string diagnostics_csv(const std::vector<TrialRecord>& records, const StepNumbers& steps);
+
 /// summary.json: the rows of summary.csv, each with its scenes, the reasons, and the comparisons,
-/// the kinds of scenes, the loops and the claims if there are some. If a row has more than
-/// `kMaxJsonScenes` scenes, none is listed: "scenes" is null. trials.csv has their trials.
-std::string summary_json(const Summary& summary, const std::vector<ClaimResult>& claims = {});
+/// the kinds of scenes, the loops, the claims and the medians of diagnostics if there are some. If
+/// a row has more than `kMaxJsonScenes` scenes, none is listed: "scenes" is null. trials.csv has
+/// their trials.
+std::string summary_json(const Summary& summary, const std::vector<ClaimResult>& claims = {},
+                         const std::vector<DiagnosticSummary>& diagnostics = {});
 
 }  // namespace croon::experiments

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "experiments/file/experiment.hpp"
+#include "experiments/run/channel_check.hpp"
 #include "experiments/run/given_poses.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
@@ -52,6 +53,7 @@ CheckedRun check_run(const RunRequest& request, const Catalogue& catalogue) {
     run.scenes = scenes_of(run.experiment, run.data_root);
     resolve_starts(run.experiment, run.scenes, run.data_root);
     check_plan_size(run.experiment, run.scenes, run.selection);
+    check_channels(run.experiment, run.scenes, run.selection);
     resolve_poses(run.experiment, run.scenes, run.data_root);
     check_claimed_sensors(run.experiment, sensor_names(run.scenes));
   });

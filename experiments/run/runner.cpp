@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <chrono>
 #include <mutex>
+#include <set>
 
+#include "experiments/run/channel_check.hpp"
 #include "experiments/run/pipeline_tree.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
@@ -16,6 +18,7 @@
 #include "framework/base/threads.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/geometry/length_bound.hpp"
+#include "framework/pipeline/calibrate.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -61,16 +64,18 @@ std::string reasons(const InputError& error) {
 
 /// Reads the points of `scan`. Returns what is wrong with them, or an empty string. Throws
 /// UnavailableFile.
-std::string read_points(const SensorScan& scan, PointCloud& points) {
+std::string read_points(const SensorScan& scan, PointCloud& cloud) {
   try {
-    points = scan.load().points;
+    cloud = scan.load();
   } catch (const UnavailableFile&) {
     throw;
   } catch (const InputError& error) {
     return reasons(error);
   }
   const auto is_finite_point = [](const Eigen::Vector3f& point) { return point.allFinite(); };
-  return std::any_of(points.begin(), points.end(), is_finite_point) ? "" : "it has no points";
+  return std::any_of(cloud.points.begin(), cloud.points.end(), is_finite_point)
+             ? ""
+             : "it has no points";
 }
 
 /// Completes the record of a trial whose pipeline did not fail.
@@ -101,7 +106,8 @@ void finish(TrialRecord& record, const Estimate& estimate, const SensorScan& sca
 }
 
 /// Reads the cloud of `scan`. Its random streams are named by seed, scene and sensor.
-LoadedScan load_scan(const SensorScan& scan, const std::string& scene, std::uint64_t seed) {
+LoadedScan load_scan(const SensorScan& scan, const std::string& scene, std::uint64_t seed,
+                     const std::set<std::string>& channels) {
   const auto start = std::chrono::steady_clock::now();
   LoadedScan loaded;
   PointCloud points;
@@ -113,8 +119,10 @@ LoadedScan load_scan(const SensorScan& scan, const std::string& scene, std::uint
     return loaded;
   }
   if (why_not.empty()) {
-    const StreamKey key = StreamKey(seed).with("cloud").with(scene).with(scan.sensor);
-    loaded.cloud = std::make_shared<const Cloud>(std::move(points), key);
+    // Others would be copied with each filtered cloud, and nothing would read them.
+    keep_channels(points, channels);
+    loaded.cloud =
+        std::make_shared<const Cloud>(std::move(points), cloud_stream(seed, scene, scan.sensor));
   } else {
     loaded.failure = "the cloud of " + scan.sensor + ": " + why_not;
   }
@@ -129,11 +137,8 @@ void run_start(const Experiment& experiment, const PipelineTree& tree, const Sce
                const PlannedStart& planned, const LoadedScan& target, const LoadedScan& source,
                const std::function<void(const TrialRecord&)>& at_end) {
   const SensorScan& scan = scene.sensors[planned.sensor];
-  const StreamKey key = StreamKey(experiment.seed)
-                            .with("trial")
-                            .with(scene.name)
-                            .with(scan.sensor)
-                            .with(static_cast<std::uint64_t>(planned.trial));
+  const StreamKey key = trial_stream(
+      {experiment.seed, scene.name, scene.reference.sensor, scan.sensor, planned.trial});
   const RigidTransform start = start_of(experiment, scene.name, scan, planned.trial);
   PipelineResult result = at_start(target.cloud, source.cloud, start);
   result.failure = target.failure.empty() ? source.failure : target.failure;
@@ -193,7 +198,8 @@ std::vector<bool> needed_clouds(const Scene& scene, const ScenePlan& plan) {
   return is_needed;
 }
 
-LoadedScene load_scene(const Scene& scene, const ScenePlan& plan, std::uint64_t seed) {
+LoadedScene load_scene(const Scene& scene, const ScenePlan& plan, std::uint64_t seed,
+                       const std::set<std::string>& channels) {
   const std::vector<bool> is_needed = needed_clouds(scene, plan);
   LoadedScene loaded;
   loaded.sensors.resize(scene.sensors.size());
@@ -203,7 +209,7 @@ LoadedScene load_scene(const Scene& scene, const ScenePlan& plan, std::uint64_t 
     const SensorScan& scan = is_reference ? scene.reference : scene.sensors[i];
     LoadedScan& to = is_reference ? loaded.reference : loaded.sensors[i];
     // Isolated as trials are, so that the time of reading is its own.
-    tbb::this_task_arena::isolate([&] { to = load_scan(scan, scene.name, seed); });
+    tbb::this_task_arena::isolate([&] { to = load_scan(scan, scene.name, seed, channels); });
   });
   return loaded;
 }
@@ -255,12 +261,13 @@ struct Run {
   const Experiment& experiment;
   const std::vector<Scene>& scenes;
   std::vector<PipelineTree> trees;  ///< By PlannedStart::variants.
+  std::set<std::string> channels;   ///< That a step of a variant needs.
 };
 
 void run_scene(const Run& run, const ScenePlan& plan, SerialListener& notify) {
   const Scene& scene = run.scenes[plan.begin->scene];
   notify([&](const RunListener& listener) { listener.on_scene(scene.name); });
-  const LoadedScene loaded = load_scene(scene, plan, run.experiment.seed);
+  const LoadedScene loaded = load_scene(scene, plan, run.experiment.seed, run.channels);
   const auto notify_unavailable = [&](const LoadedScan& scan) {
     if (!scan.unavailable) return;
     notify([&](const RunListener& listener) { listener.on_unavailable(*scan.unavailable); });
@@ -319,7 +326,7 @@ void for_each_scene(const std::vector<ScenePlan>& plans, std::size_t in_flight, 
 void run_trials(const Experiment& experiment, const std::vector<Scene>& scenes, const Plan& plan,
                 int jobs, const RunListener& listener) {
   SerialListener notify(listener);
-  Run run{experiment, scenes, {}};
+  Run run{experiment, scenes, {}, needed_channels(experiment)};
   for (const std::vector<std::size_t>& variants : plan.variants) {
     run.trees.push_back(pipeline_tree(experiment, variants));
   }

@@ -11,11 +11,13 @@ namespace croon::experiments {
 
 /// Callbacks of a run. They are called one at a time, from any thread, in the order of completion.
 struct RunListener {
-  std::function<void(const std::string& scene)> on_scene;
+  std::function<void(const std::string& scene)> on_scene = [](const std::string&) {};
   /// A trial is done; with its own timings.
-  std::function<void(const TrialRecord&, const std::vector<TimingRow>&)> on_trial;
+  std::function<void(const TrialRecord&, const std::vector<TimingRow>&)> on_trial =
+      [](const TrialRecord&, const std::vector<TimingRow>&) {};
   /// A scene is done; with the timings of what was done once for it.
-  std::function<void(const std::vector<TimingRow>&)> on_scene_timings;
+  std::function<void(const std::vector<TimingRow>&)> on_scene_timings =
+      [](const std::vector<TimingRow>&) {};
   /// A cloud cannot be read now: its trials are left out. With the reason.
   std::function<void(const Fault&)> on_unavailable = [](const Fault&) {};
 };

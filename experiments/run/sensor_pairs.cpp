@@ -11,7 +11,6 @@ namespace croon::experiments {
 namespace {
 
 constexpr char kBetween = '>';
-/// The name of the rows over all sensors in tables, claims and options.
 
 std::optional<RigidTransform> between(const std::optional<RigidTransform>& T_reference_target,
                                       const std::optional<RigidTransform>& T_reference_source) {
@@ -27,7 +26,6 @@ SensorScan pair_scan(const SensorScan& source, const SensorScan& target) {
   pair.truth = between(target.truth, source.truth);
   pair.nominal = between(target.nominal, source.nominal);
   pair.initial = between(target.initial, source.initial);
-  pair.measure = {};
   return pair;
 }
 

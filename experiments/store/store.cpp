@@ -96,10 +96,57 @@ std::vector<IndexedRecord> records_in(const Database& database, const StoreHeade
   return rows;
 }
 
+/// Reads the numbers of the steps of `rows`, which are sorted.
+class StepReader {
+ public:
+  StepReader(const Database& database, const StoreHeader& header,
+             const std::vector<IndexedRecord>& rows)
+      : indices_(database, header), rows_(rows), select_(select_figures(database)) {}
+
+  StepNumbers read() {
+    while (select_.next()) add_row();
+    // A store in order is sorted already.
+    const auto is_before = [](const StepNumber& a, const StepNumber& b) {
+      return a.record < b.record;
+    };
+    std::stable_sort(steps_.numbers.begin(), steps_.numbers.end(), is_before);
+    return std::move(steps_);
+  }
+
+ private:
+  void add_row() {
+    TrialIndex index;
+    if (!indices_.find(row_of(select_), index)) return;
+    const auto is_before = [](const IndexedRecord& row, const TrialIndex& wanted) {
+      return row.first < wanted;
+    };
+    const auto found = std::lower_bound(rows_.begin(), rows_.end(), index, is_before);
+    if (found == rows_.end() || found->first != index) return;
+    const auto record = static_cast<std::uint32_t>(found - rows_.begin());
+    const auto [step, figures] = figures_of(select_);
+    for (const auto& [name, value] : figures) {
+      steps_.numbers.push_back({record, index_of(step), index_of(name), value});
+    }
+  }
+
+  std::uint32_t index_of(const std::string& name) {
+    const auto [entry, is_new] =
+        known_.emplace(name, static_cast<std::uint32_t>(steps_.names.size()));
+    if (is_new) steps_.names.push_back(name);
+    return entry->second;
+  }
+
+  StoredIndices indices_;
+  const std::vector<IndexedRecord>& rows_;
+  Statement select_;
+  StepNumbers steps_;
+  std::map<std::string, std::uint32_t> known_;
+};
+
 /// All that reports need of a store.
-StoredRun run_in(const Database& database) {
+StoredRun run_in(const Database& database, Content content) {
   check_content(database);
-  StoredRun run{read_header(database), {}};
+  StoredRun run{read_header(database), {}, {}};
   if (run.header.provenance.empty()) {
     throw InputError(database.file(), "", "expected the store of a run, found none");
   }
@@ -108,6 +155,9 @@ StoredRun run_in(const Database& database) {
   const auto is_before = [](const auto& a, const auto& b) { return a.first < b.first; };
   if (!std::is_sorted(rows.begin(), rows.end(), is_before)) {
     std::sort(rows.begin(), rows.end(), is_before);
+  }
+  if (content == Content::trials_and_steps) {
+    run.steps = StepReader(database, run.header, rows).read();
   }
   run.records.reserve(rows.size());
   for (auto& [index, record] : rows) {
@@ -183,12 +233,12 @@ std::vector<TrialIndex> stored_trials(const fs::path& path, const StoreHeader& s
   return trials;
 }
 
-StoredRun read_store(const fs::path& path) {
-  return reading(path, [&] { return run_in(open_to_read(path)); });
+StoredRun read_store(const fs::path& path, Content content) {
+  return reading(path, [&] { return run_in(open_to_read(path), content); });
 }
 
 StoredRun read_snapshot(const fs::path& path) {
-  return reading(path, [&] { return run_in(open_snapshot(path)); });
+  return reading(path, [&] { return run_in(open_snapshot(path), Content::trials); });
 }
 
 void rewrite_in_order(const fs::path& path) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <map>
@@ -59,11 +60,30 @@ auto reading(const std::filesystem::path& path, const Work& work) {
   }
 }
 
+/// A number that a step of a trial reported of its work.
+struct StepNumber {
+  std::uint32_t record = 0;  ///< Index in StoredRun::records.
+  std::uint32_t step = 0;    ///< Index in StepNumbers::names, and so is `name`.
+  std::uint32_t name = 0;
+  double value = 0.0;  ///< May be infinite or NaN.
+};
+
+/// The numbers of all steps: by record, then in the order of the steps, then by name. Each name is
+/// kept once.
+struct StepNumbers {
+  std::vector<std::string> names;
+  std::vector<StepNumber> numbers;
+};
+
 /// The content of a store, for reports.
 struct StoredRun {
   StoreHeader header;
   std::vector<TrialRecord> records;  ///< Of the header's names, in report order; without steps.
+  StepNumbers steps;                 ///< Empty unless they were asked for.
 };
+
+/// What is read of a store.
+enum class Content { trials, trials_and_steps };
 
 /// The header of the store `path`; without provenance if there is no store. Checks the whole store
 /// and throws InputError if it is damaged.
@@ -71,7 +91,7 @@ StoreHeader stored_header(const std::filesystem::path& path);
 
 /// Reads the store `path`, without trials that the experiment no longer has. Throws InputError if
 /// there is no store, or a damaged one.
-StoredRun read_store(const std::filesystem::path& path);
+StoredRun read_store(const std::filesystem::path& path, Content content = Content::trials);
 
 /// The same from the file `path` alone, whatever is in it: nothing is changed or created, and what
 /// a killed process left beside it is not read.

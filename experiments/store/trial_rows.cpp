@@ -1,10 +1,12 @@
 #include "experiments/store/trial_rows.hpp"
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
+#include "experiments/store/bounded_json.hpp"
 #include "framework/base/text.hpp"
 
 namespace croon::experiments {
@@ -37,6 +39,15 @@ ordered_json json_of(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
   return value;
+}
+
+/// The number that `json_of` wrote. Throws std::exception if it is another value.
+double number_of(const ordered_json& json) {
+  if (json == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (json == "inf") return std::numeric_limits<double>::infinity();
+  if (json == "-inf") return -std::numeric_limits<double>::infinity();
+  if (!json.is_number()) throw std::runtime_error("what a step reports is no number");
+  return json.get<double>();
 }
 
 /// `{"rmse_m": 0.02, ...}`
@@ -182,6 +193,26 @@ TrialRecord result_of(const Statement& select) {
     for (int i = 0; i < 3; ++i) T.translation(i) = select.real(column + 9 + i);
   }
   return record;
+}
+
+Statement select_figures(const Database& database) {
+  return database.prepare("SELECT variant, scene, sensor, trial, step, figures FROM steps");
+}
+
+std::pair<std::string, std::vector<Diagnostic>> figures_of(const Statement& select) {
+  const auto shown = [](const std::string& name) {
+    if (name.empty() || printable(name) != name ||
+        std::string(kFormulaSigns).find(name.front()) != std::string::npos) {
+      throw std::runtime_error("a step or what it reports has a name that cannot be shown");
+    }
+    return name;
+  };
+  std::vector<Diagnostic> figures;
+  const auto object = parse_bounded<ordered_json>(select.text(kKeyColumns + 1));
+  for (const auto& item : object.items()) {
+    figures.emplace_back(shown(item.key()), number_of(item.value()));
+  }
+  return {shown(select.text(kKeyColumns)), std::move(figures)};
 }
 
 }  // namespace croon::experiments

@@ -46,4 +46,10 @@ TrialRow row_of(const Statement& select);
 /// The result, without its id.
 TrialRecord result_of(const Statement& select);
 
+/// The statement whose rows `row_of` and `figures_of` read, in the order of the store.
+Statement select_figures(const Database& database);
+/// The name of the step and the numbers that it reported. Throws std::exception if they are
+/// damaged.
+std::pair<std::string, std::vector<Diagnostic>> figures_of(const Statement& select);
+
 }  // namespace croon::experiments

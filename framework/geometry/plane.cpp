@@ -15,7 +15,7 @@ namespace {
 class Sample {
  public:
   /// `count` of the cloud's points, drawn without replacement; all of a smaller cloud.
-  Sample(const PointCloud& cloud, int count, Rng& rng) : points_(cloud) {
+  Sample(const Points& cloud, int count, Rng& rng) : points_(cloud) {
     const std::size_t size = std::min(cloud.size(), static_cast<std::size_t>(count));
     // The front of a Fisher-Yates shuffle. Not every n-th point: a LiDAR's rings come in turn.
     for (std::size_t i = 0; i < size && size < points_.size(); ++i) {
@@ -56,10 +56,10 @@ class Sample {
     return Plane{normal, -normal.dot(p[0])};
   }
 
-  const PointCloud& points() const { return points_; }
+  const Points& points() const { return points_; }
 
  private:
-  PointCloud points_;
+  Points points_;
   std::vector<float> x_, y_, z_;
 };
 
@@ -84,7 +84,7 @@ double iterations_for(double confidence, int inliers, std::size_t points) {
 
 }  // namespace
 
-Plane fit_plane(const PointCloud& cloud, const std::vector<int>& indices) {
+Plane fit_plane(const Points& cloud, const std::vector<int>& indices) {
   if (indices.size() < 3) throw StageError("a plane needs three points");
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const int i : indices) mean += cloud[i].cast<double>();
@@ -101,7 +101,7 @@ Plane fit_plane(const PointCloud& cloud, const std::vector<int>& indices) {
   return {normal, -normal.dot(mean)};
 }
 
-std::vector<int> points_within(const PointCloud& cloud, const Plane& plane, double distance_m) {
+std::vector<int> points_within(const Points& cloud, const Plane& plane, double distance_m) {
   std::vector<int> indices;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (std::abs(plane.signed_distance(cloud[i].cast<double>())) <= distance_m) {
@@ -111,7 +111,7 @@ std::vector<int> points_within(const PointCloud& cloud, const Plane& plane, doub
   return indices;
 }
 
-Plane plane_ransac(const PointCloud& cloud, const PlaneRansacOptions& options, Rng& rng) {
+Plane plane_ransac(const Points& cloud, const PlaneRansacOptions& options, Rng& rng) {
   if (cloud.size() < 3) throw StageError("a plane needs three points");
   const Sample sample(cloud, options.sample_points, rng);
   std::optional<Plane> best;

@@ -24,10 +24,10 @@ struct Plane {
 /// The least-squares plane through the points of `cloud` at `indices`: it contains their mean, and
 /// its normal is the direction of their smallest variance. Throws StageError if there are not three
 /// points off one line.
-Plane fit_plane(const PointCloud& cloud, const std::vector<int>& indices);
+Plane fit_plane(const Points& cloud, const std::vector<int>& indices);
 
 /// The indices of the points of `cloud` within `distance_m` of the plane, in order.
-std::vector<int> points_within(const PointCloud& cloud, const Plane& plane, double distance_m);
+std::vector<int> points_within(const Points& cloud, const Plane& plane, double distance_m);
 
 /// The parameters of plane_ransac.
 struct PlaneRansacOptions {
@@ -41,6 +41,6 @@ struct PlaneRansacOptions {
 /// The plane with the most inliers in `cloud`: RANSAC (Fischler and Bolles 1981) with a local
 /// optimisation of each new best plane (Chum, Matas and Kittler 2003). Throws StageError if no
 /// three points span a plane.
-Plane plane_ransac(const PointCloud& cloud, const PlaneRansacOptions& options, Rng& rng);
+Plane plane_ransac(const Points& cloud, const PlaneRansacOptions& options, Rng& rng);
 
 }  // namespace croon

@@ -2,41 +2,97 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
+
+#include "framework/base/scalar_type.hpp"
 
 namespace croon {
 
 /// Points in the frame of the sensor that measured them, metres, all finite. Float, as sensors
 /// deliver them; poses and sums are double.
-using PointCloud = std::vector<Eigen::Vector3f>;
+using Points = std::vector<Eigen::Vector3f>;
 
-/// A cloud from a file: its finite points in the order of the file, and the number of points that
-/// were dropped because a coordinate is NaN, infinite or too large for a float.
-struct LoadedCloud {
-  PointCloud points;
-  std::size_t dropped_non_finite = 0;
-  std::string sha256 = {};  ///< Of the bytes that the points come from; empty if there is no file.
+/// What a sensor measures besides the coordinates, or a stage adds: `count` numbers per point.
+struct Channel {
+  std::string name;       ///< "intensity", "ring", "time"; others as their file calls them.
+  ScalarType type;        ///< As in the file, so that a cloud is written as it was read.
+  std::size_t count = 1;  ///< Numbers per point.
+  std::string bytes;      ///< Little-endian, point after point.
 
-  /// Appends the point if it is finite as float; else counts it as dropped.
-  void add(const Eigen::Vector3d& point) {
-    const Eigen::Vector3f rounded = point.cast<float>();
-    if (rounded.allFinite()) {
-      points.push_back(rounded);
-    } else {
-      ++dropped_non_finite;
-    }
+  std::size_t bytes_per_point() const { return count * type.size; }
+  /// The first number of point `index`.
+  double value(std::size_t index) const {
+    return decode_scalar(type, ByteOrder::little, bytes.data() + index * bytes_per_point());
   }
 };
 
-/// The measurements of one scan (one revolution of the LiDAR): one element of each list per point,
-/// in the order of firing.
-struct MeasuredCloud {
-  PointCloud points;             ///< In the sensor's frame at the time when the ray was fired.
-  std::vector<float> intensity;  ///< 0 to 255.
-  std::vector<std::uint16_t> ring;
-  std::vector<double> time_s;  ///< When the ray was fired.
+/// The names of the channels that croon knows: the light that comes back, the index of the laser,
+/// and when the ray was fired (see `times_s`).
+inline constexpr const char* kIntensity = "intensity";
+inline constexpr const char* kRing = "ring";
+inline constexpr const char* kTime = "time";
+
+/// The points of one scan (one revolution of the LiDAR), and named channels, each as long as the
+/// points.
+struct PointCloud {
+  PointCloud() = default;
+  /// Points are a cloud without channels.
+  PointCloud(Points points_) : points(std::move(points_)) {}  // NOLINT(google-explicit-constructor)
+
+  Points points;
+  std::vector<Channel> channels;
+
+  std::size_t size() const { return points.size(); }
+  bool empty() const { return points.empty(); }
 };
+
+/// A cloud from a file: its finite points in the order of the file, and the number of points that
+/// were dropped because a coordinate is NaN, infinite or too large for a float.
+struct LoadedCloud : PointCloud {
+  std::size_t dropped_non_finite = 0;
+  std::string sha256 = {};  ///< Of the bytes that the points come from; empty if there is no file.
+
+  /// Appends the point if it is finite as float; else counts it as dropped. Returns whether it was
+  /// appended.
+  bool add(const Eigen::Vector3d& point);
+};
+
+/// A channel of `values`, one per point.
+template <class Number>
+Channel make_channel(const std::string& name, const std::vector<Number>& values) {
+  // Memory is little-endian, see docs/design.md.
+  return {
+      name, scalar_type_of<Number>(), 1,
+      std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Number))};
+}
+
+/// The channel called `name`, or null.
+const Channel* find_channel(const PointCloud& cloud, const std::string& name);
+
+/// The first number per point of the channel called `name`. Throws StageError, which names the
+/// channels that there are, if the cloud has none of this name.
+std::vector<double> channel_values(const PointCloud& cloud, const std::string& name);
+
+/// When each ray was fired, seconds, from the channel `time`. Floating numbers are seconds;
+/// integers are nanoseconds, as drivers write them. Throws StageError if there is no such channel.
+std::vector<double> times_s(const PointCloud& cloud);
+
+/// Removes the channels that are not among `names`.
+void keep_channels(PointCloud& cloud, const std::set<std::string>& names);
+
+/// The points `indices` of `cloud` with their channels, in this order.
+PointCloud selected(const PointCloud& cloud, const std::vector<std::size_t>& indices);
+
+/// The points for which `keep` is true of the index, with their channels, in the order of `cloud`.
+template <class Keep>
+PointCloud filtered(const PointCloud& cloud, const Keep& keep) {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (keep(i)) indices.push_back(i);
+  }
+  return selected(cloud, indices);
+}
 
 }  // namespace croon

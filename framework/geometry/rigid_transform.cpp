@@ -47,8 +47,8 @@ Eigen::Matrix3d rotation_between(const Eigen::Vector3d& from, const Eigen::Vecto
   return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
 }
 
-PointCloud transformed(const PointCloud& cloud, const RigidTransform& T_target_source) {
-  PointCloud result;
+Points transformed(const Points& cloud, const RigidTransform& T_target_source) {
+  Points result;
   result.reserve(cloud.size());
   for (const Eigen::Vector3f& point : cloud) {
     result.push_back((T_target_source * point.cast<double>()).cast<float>());

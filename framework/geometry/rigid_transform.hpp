@@ -49,7 +49,7 @@ bool is_rotation_matrix(const Eigen::Matrix3d& matrix);
 Eigen::Matrix3d rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 /// The points of `cloud` (source frame) in the target frame.
-PointCloud transformed(const PointCloud& cloud, const RigidTransform& T_target_source);
+Points transformed(const Points& cloud, const RigidTransform& T_target_source);
 
 /// The unit quaternion of a rotation with a unique sign: the first non-zero coefficient, in the
 /// order w, x, y, z, is positive.

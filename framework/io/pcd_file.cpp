@@ -1,44 +1,78 @@
 #include "framework/io/pcd_file.hpp"
 
 #include <liblzf/lzf.h>
-#include <cstring>
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "framework/base/error.hpp"
-#include "framework/base/whole_file.hpp"
 #include "framework/io/pcd_header.hpp"
 #include "framework/io/text_scan.hpp"
 
 namespace croon {
 namespace {
 
-/// The bytes of all values of a coordinate: the first, and how far it is to the next.
+/// The bytes of all values of a field: those of the first point, and how far it is to the next.
 struct Column {
-  ScalarType type;
-  const char* first;
-  std::size_t stride;
+  const char* first = nullptr;
+  std::size_t stride = 0;
 
-  double at(std::size_t i) const {
-    return decode_scalar(type, ByteOrder::little, first + i * stride);
-  }
+  const char* at(std::size_t i) const { return first + i * stride; }
 };
 
-LoadedCloud from_columns(const std::array<Column, 3>& xyz, std::size_t points) {
-  LoadedCloud cloud;
-  cloud.points.reserve(points);
-  for (std::size_t i = 0; i < points; ++i) cloud.add({xyz[0].at(i), xyz[1].at(i), xyz[2].at(i)});
+/// A field that becomes a channel, and the channel so far.
+struct FieldChannel {
+  const PcdField* field;
+  Channel channel;
+};
+
+/// The channels of the fields other than x, y and z, still empty.
+std::vector<FieldChannel> empty_channels(const PcdHeader& header) {
+  const std::vector<std::string> names = pcd_channel_names(header);
+  std::vector<FieldChannel> channels;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const PcdField& field = header.fields[i];
+    if (names[i].empty()) continue;
+    channels.push_back({&field, {names[i], field.type, field.count, {}}});
+    channels.back().channel.bytes.reserve(header.points * field.count * field.type.size);
+  }
+  return channels;
+}
+
+LoadedCloud with_channels(LoadedCloud cloud, std::vector<FieldChannel> channels) {
+  for (FieldChannel& of : channels) cloud.channels.push_back(std::move(of.channel));
   return cloud;
+}
+
+/// The points of a binary body; `column` returns that of a field.
+LoadedCloud from_columns(const PcdHeader& header,
+                         const std::function<Column(const PcdField&)>& column) {
+  LoadedCloud cloud;
+  cloud.points.reserve(header.points);
+  std::vector<FieldChannel> channels = empty_channels(header);
+  std::array<Column, 3> xyz{};
+  for (std::size_t axis = 0; axis < 3; ++axis) xyz[axis] = column(header.fields[header.xyz[axis]]);
+  std::vector<Column> columns;
+  for (const FieldChannel& of : channels) columns.push_back(column(*of.field));
+  const auto coordinate = [&](std::size_t axis, std::size_t i) {
+    const ScalarType type = header.fields[header.xyz[axis]].type;
+    return decode_scalar(type, ByteOrder::little, xyz[axis].at(i));
+  };
+  for (std::size_t i = 0; i < header.points; ++i) {
+    if (!cloud.add({coordinate(0, i), coordinate(1, i), coordinate(2, i)})) continue;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      Channel& channel = channels[c].channel;
+      channel.bytes.append(columns[c].at(i), channel.bytes_per_point());
+    }
+  }
+  return with_channels(std::move(cloud), std::move(channels));
 }
 
 /// Point after point, and in each point field after field.
 LoadedCloud from_binary(const PcdHeader& header, std::string_view body) {
-  std::array<Column, 3> columns{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const PcdField& field = header.fields[header.xyz[axis]];
-    columns[axis] = {field.type, body.data() + field.first_byte, header.point_bytes};
-  }
-  return from_columns(columns, header.points);
+  return from_columns(header, [&](const PcdField& field) {
+    return Column{body.data() + field.first_byte, header.point_bytes};
+  });
 }
 
 /// Field after field, and in each field point after point; all of it compressed by LZF.
@@ -50,76 +84,71 @@ LoadedCloud from_compressed(const PcdHeader& header, std::string_view body,
       lzf_decompress(body.data() + kPcdSizesBytes, static_cast<unsigned int>(sizes.compressed),
                      raw.data(), static_cast<unsigned int>(raw.size()));
   if (found != raw.size()) throw InputError(file, "", "the compressed points are damaged");
-  std::array<Column, 3> columns{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const PcdField& field = header.fields[header.xyz[axis]];
-    columns[axis] = {field.type, raw.data() + header.points * field.first_byte, field.type.size};
-  }
-  return from_columns(columns, header.points);
+  return from_columns(header, [&](const PcdField& field) {
+    return Column{raw.data() + header.points * field.first_byte, field.count * field.type.size};
+  });
 }
 
-/// The coordinates in a line of a text body.
-Eigen::Vector3d point_of_line(const PcdHeader& header, const LineReader& reader,
-                              const std::string& file) {
-  const std::vector<std::string_view> words = words_of(reader.line());
-  if (words.size() != header.point_words) {
-    throw InputError(file, reader.place(),
-                     "expected " + std::to_string(header.point_words) + " numbers, found " +
-                         std::to_string(words.size()));
+/// The words of the points of a text body.
+class PointLines {
+ public:
+  PointLines(const PcdHeader& header, std::string_view body, const std::string& file)
+      : header_(header), reader_(body, header.lines), file_(file) {}
+
+  /// Goes to the next line that is not empty; false at the end.
+  bool next() {
+    do {
+      if (!reader_.next()) return false;
+    } while (trimmed(reader_.line()).empty());
+    words_ = words_of(reader_.line());
+    if (words_.size() == header_.point_words) return true;
+    fail("expected " + std::to_string(header_.point_words) + " numbers, found " +
+         std::to_string(words_.size()));
   }
-  Eigen::Vector3d point;
-  for (int axis = 0; axis < 3; ++axis) {
-    const PcdField& field = header.fields[header.xyz[static_cast<std::size_t>(axis)]];
-    const std::string_view word = words[field.first_word];
+
+  double coordinate(std::size_t axis) const {
+    const PcdField& field = header_.fields[header_.xyz[axis]];
+    const std::string_view word = words_[field.first_word];
     const std::optional<double> value = number_from(word);
-    if (!value) {
-      throw InputError(file, reader.place(),
-                       "expected a number for " + field.name + ", found " + in_quotes(word));
-    }
-    point(axis) = *value;
+    if (!value) fail("expected a number for " + field.name + ", found " + in_quotes(word));
+    return *value;
   }
-  return point;
-}
+
+  /// Appends the numbers of `field` in this line to `bytes`.
+  void append(std::string& bytes, const PcdField& field) const {
+    for (std::uint64_t i = 0; i < field.count; ++i) {
+      const std::string_view word = words_[field.first_word + i];
+      if (append_scalar(bytes, field.type, word)) continue;
+      fail("expected a number of its type for " + in_quotes(field.name) + ", found " +
+           in_quotes(word));
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& message) const {
+    throw InputError(file_, reader_.place(), message);
+  }
+
+ private:
+  const PcdHeader& header_;
+  LineReader reader_;
+  const std::string& file_;
+  std::vector<std::string_view> words_;
+};
 
 LoadedCloud from_ascii(const PcdHeader& header, std::string_view body, const std::string& file) {
   LoadedCloud cloud;
   cloud.points.reserve(header.points);
-  LineReader reader(body, header.lines);
+  std::vector<FieldChannel> channels = empty_channels(header);
+  const std::string expected = "expected " + std::to_string(header.points) + " points, found ";
+  PointLines lines(header, body, file);
   std::uint64_t points = 0;
-  while (reader.next()) {
-    if (trimmed(reader.line()).empty()) continue;
-    if (++points > header.points) {
-      throw InputError(file, reader.place(),
-                       "expected " + std::to_string(header.points) + " points, found more");
-    }
-    cloud.add(point_of_line(header, reader, file));
+  while (lines.next()) {
+    if (++points > header.points) lines.fail(expected + "more");
+    if (!cloud.add({lines.coordinate(0), lines.coordinate(1), lines.coordinate(2)})) continue;
+    for (FieldChannel& of : channels) lines.append(of.channel.bytes, *of.field);
   }
-  if (points < header.points) {
-    throw InputError(
-        file, "",
-        "expected " + std::to_string(header.points) + " points, found " + std::to_string(points));
-  }
-  return cloud;
-}
-
-std::string written_header(std::size_t points) {
-  const std::string count = std::to_string(points);
-  return "# .PCD v0.7 - Point Cloud Data file format\n"
-         "VERSION 0.7\n"
-         "FIELDS x y z intensity ring timestamp\n"
-         "SIZE 4 4 4 4 2 8\n"
-         "TYPE F F F F U F\n"
-         "COUNT 1 1 1 1 1 1\n"
-         "WIDTH " +
-         count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA binary\n";
-}
-
-/// Appends the bytes of `value`; PCD's numbers are those of the machine, which is little-endian.
-template <class Number>
-void append(std::string& bytes, const Number& value) {
-  char raw[sizeof value];
-  std::memcpy(raw, &value, sizeof value);
-  bytes.append(raw, sizeof value);
+  if (points < header.points) throw InputError(file, "", expected + std::to_string(points));
+  return with_channels(std::move(cloud), std::move(channels));
 }
 
 }  // namespace
@@ -129,20 +158,9 @@ LoadedCloud parse_pcd(std::string_view bytes, const std::string& file) {
   check_pcd_size(header, bytes, bytes.size(), file);
   const std::string_view body = bytes.substr(header.body_offset);
   if (header.encoding == PcdEncoding::ascii) return from_ascii(header, body, file);
-  if (header.points == 0) return {};
+  if (header.points == 0) return with_channels({}, empty_channels(header));
   return header.encoding == PcdEncoding::binary ? from_binary(header, body)
                                                 : from_compressed(header, body, file);
-}
-
-void write_pcd(const std::filesystem::path& path, const MeasuredCloud& cloud) {
-  std::string bytes = written_header(cloud.points.size());
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) append(bytes, cloud.points[i](axis));
-    append(bytes, cloud.intensity[i]);
-    append(bytes, cloud.ring[i]);
-    append(bytes, cloud.time_s[i]);
-  }
-  write_whole_file(path, bytes);
 }
 
 }  // namespace croon

@@ -5,17 +5,20 @@
 #include <string_view>
 
 #include "framework/geometry/point_cloud.hpp"
+#include "framework/io/pcd_header.hpp"
 
 namespace croon {
 
 /// The points of `bytes`, a PCD file (versions .5 to .7; ascii, binary, binary_compressed; x, y, z
-/// of any type and in any order; other fields are skipped). VIEWPOINT is ignored: the points are in
-/// the sensor's frame as they are stored. `file` is the name in errors. Throws InputError if the
-/// body contradicts the header.
+/// of any type and in any order), with its other fields as channels. VIEWPOINT is ignored: the
+/// points are in the sensor's frame as they are stored. `file` is the name in errors. Throws
+/// InputError if the body contradicts the header.
 LoadedCloud parse_pcd(std::string_view bytes, const std::string& file);
 
-/// Writes a cloud as binary PCD with the fields `x y z intensity ring timestamp` (F4 F4 F4 F4 U2
-/// F8, as the real samples have them). Throws InputError if the file cannot be written.
-void write_pcd(const std::filesystem::path& path, const MeasuredCloud& cloud);
+/// Writes a cloud with its channels as PCD: the fields x, y, z (F4), then a field per channel in
+/// its type; `time` is called `timestamp`, as in the real samples. What is read back is the same
+/// cloud to the last byte. Throws InputError if the file cannot be written.
+void write_pcd(const std::filesystem::path& path, const PointCloud& cloud,
+               PcdEncoding encoding = PcdEncoding::binary);
 
 }  // namespace croon

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "framework/base/error.hpp"
+#include "framework/io/channel_names.hpp"
 #include "framework/io/text_scan.hpp"
 
 namespace croon {
@@ -201,6 +202,13 @@ PcdHeader parse_pcd_header(std::string_view bytes, const std::string& file) {
   out.body_offset = header.body_offset;
   out.lines = header.lines;
   return out;
+}
+
+std::vector<std::string> pcd_channel_names(const PcdHeader& header) {
+  std::vector<std::string> fields;
+  // Padding holds nothing, and neither does a field without numbers.
+  for (const PcdField& field : header.fields) fields.push_back(field.count > 0 ? field.name : "_");
+  return channel_names(fields);
 }
 
 }  // namespace croon

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "framework/io/scalar_type.hpp"
+#include "framework/base/scalar_type.hpp"
 
 namespace croon {
 
@@ -36,6 +36,9 @@ struct PcdHeader {
 /// Reads the header at the start of `bytes`; `file` is the name in errors. Throws InputError with
 /// the line and what is wrong with it.
 PcdHeader parse_pcd_header(std::string_view bytes, const std::string& file);
+
+/// The name of the channel in each field, see `channel_names`; empty for a field without numbers.
+std::vector<std::string> pcd_channel_names(const PcdHeader& header);
 
 /// The 8 bytes before a binary_compressed body, little-endian.
 struct PcdCompressedSizes {

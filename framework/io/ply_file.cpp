@@ -32,6 +32,9 @@ class BinaryBody {
     }
   }
 
+  /// Never happens: a number was read as its type.
+  [[noreturn]] void fail(const std::string& message) const { throw InputError(file_, "", message); }
+
  private:
   const char* take(std::uint64_t bytes, const PlyElement& element) {
     if (bytes > rest_.size()) {
@@ -67,11 +70,11 @@ class TextBody {
     if (!trimmed(rest).empty()) fail("expected the line to end, found " + in_quotes(trimmed(rest)));
   }
 
- private:
   [[noreturn]] void fail(const std::string& message) const {
     throw InputError(file_, reader_.place(), message);
   }
 
+ private:
   double number(std::string_view& rest, const PlyProperty& property) const {
     const std::string_view word = next_word(rest);
     const std::optional<double> value = number_from(word);
@@ -102,9 +105,22 @@ LoadedCloud read_vertices(const PlyHeader& header, Body body) {
   values.resize(vertex.properties.size());
   LoadedCloud cloud;
   cloud.points.reserve(vertex.count);
+  const std::vector<std::string> names = ply_channel_names(header);
+  std::vector<std::size_t> properties;
+  for (std::size_t p = 0; p < names.size(); ++p) {
+    if (names[p].empty()) continue;
+    properties.push_back(p);
+    cloud.channels.push_back({names[p], vertex.properties[p].type, 1, {}});
+    cloud.channels.back().bytes.reserve(vertex.count * vertex.properties[p].type.size);
+  }
   for (std::uint64_t i = 0; i < vertex.count; ++i) {
     body.next(vertex, values);
-    cloud.add({values[header.xyz[0]], values[header.xyz[1]], values[header.xyz[2]]});
+    if (!cloud.add({values[header.xyz[0]], values[header.xyz[1]], values[header.xyz[2]]})) continue;
+    for (std::size_t c = 0; c < properties.size(); ++c) {
+      const PlyProperty& property = vertex.properties[properties[c]];
+      if (append_scalar(cloud.channels[c].bytes, property.type, values[properties[c]])) continue;
+      body.fail("expected a number of its type for " + in_quotes(property.name));
+    }
   }
   return cloud;
 }

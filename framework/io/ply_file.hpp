@@ -11,15 +11,17 @@
 namespace croon {
 
 /// The vertices of `bytes`, a PLY file (ascii or binary of either byte order; x, y, z of any type
-/// and in any order; other properties, lists and elements are skipped). `file` is the name in
-/// errors. Throws InputError if the body contradicts the header.
+/// and in any order), with their other numbers as channels; lists and other elements are skipped.
+/// `file` is the name in errors. Throws InputError if the body contradicts the header.
 LoadedCloud parse_ply(std::string_view bytes, const std::string& file);
 
 /// How write_ply writes numbers.
 enum class PlyFormat { binary_little_endian, ascii };
 
-/// Writes a cloud as PLY with x, y, z; ascii numbers are the shortest that read back as the same
-/// floats. Throws InputError if the file cannot be written.
+/// Writes a cloud as PLY with x, y, z and its channels; `time` is called `timestamp`, as in PCD.
+/// Ascii numbers are the shortest that read back as the same bits. Throws InputError if the file
+/// cannot be written, and for a channel that PLY does not have: integers of 8 bytes, or several
+/// numbers per point.
 void write_ply(const std::filesystem::path& path, const PointCloud& cloud,
                PlyFormat format = PlyFormat::binary_little_endian);
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "framework/base/error.hpp"
+#include "framework/io/channel_names.hpp"
 #include "framework/io/text_scan.hpp"
 
 namespace croon {
@@ -143,6 +144,22 @@ std::uint64_t least_bytes(const PlyHeader& header, const PlyElement& element) {
 
 PlyHeader parse_ply_header(std::string_view bytes, const std::string& file) {
   return HeaderParser(bytes, file).parse();
+}
+
+std::vector<std::string> ply_channel_names(const PlyHeader& header) {
+  std::vector<std::string> fields;
+  for (const PlyProperty& property : header.elements[header.vertex].properties) {
+    fields.push_back(property.list_count ? "_" : property.name);
+  }
+  return channel_names(fields);
+}
+
+std::string ply_type_name(ScalarType type) {
+  // Of the two names of a type, the original one.
+  for (const char* name : {"char", "uchar", "short", "ushort", "int", "uint", "float", "double"}) {
+    if (scalar_types().find(name)->second == type) return name;
+  }
+  return "";
 }
 
 void check_ply_size(const PlyHeader& header, std::uint64_t file_bytes, const std::string& file) {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "framework/io/scalar_type.hpp"
+#include "framework/base/scalar_type.hpp"
 
 namespace croon {
 
@@ -41,6 +41,12 @@ struct PlyHeader {
 /// Reads the header at the start of `bytes`; `file` is the name in errors. Throws InputError with
 /// the line and what is wrong with it.
 PlyHeader parse_ply_header(std::string_view bytes, const std::string& file);
+
+/// The name of the channel in each property of the vertices, see `channel_names`; empty for lists.
+std::vector<std::string> ply_channel_names(const PlyHeader& header);
+
+/// The name of a type in a header, "float"; empty for integers of 8 bytes, which PLY does not have.
+std::string ply_type_name(ScalarType type);
 
 /// Throws InputError if a file of `file_bytes` bytes cannot hold the elements that its header
 /// declares.

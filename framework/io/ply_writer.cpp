@@ -4,7 +4,11 @@
 #include <charconv>
 #include <cstring>
 
+#include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
+#include "framework/io/channel_names.hpp"
+#include "framework/io/ply_header.hpp"
+#include "framework/io/text_scan.hpp"
 #include "framework/picture/colour.hpp"
 
 namespace croon {
@@ -21,13 +25,27 @@ void append_point(std::string& bytes, const Eigen::Vector3f& point) {
   for (int axis = 0; axis < 3; ++axis) append_float(bytes, point(axis));
 }
 
-void append_text(std::string& bytes, const Eigen::Vector3f& point) {
-  std::array<char, 32> text{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), point(axis)).ptr;
-    bytes.append(text.data(), end);
-    bytes += axis < 2 ? ' ' : '\n';
+/// Appends the point `index` of `cloud` with its channels.
+void append_bytes(std::string& bytes, const PointCloud& cloud, std::size_t index) {
+  append_point(bytes, cloud.points[index]);
+  for (const Channel& channel : cloud.channels) {
+    bytes.append(channel.bytes, index * channel.type.size, channel.type.size);
   }
+}
+
+/// The same as a line of text.
+void append_text(std::string& text, const PointCloud& cloud, std::size_t index) {
+  const Eigen::Vector3f& point = cloud.points[index];
+  std::array<char, 32> number{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto end = std::to_chars(number.data(), number.data() + number.size(), point(axis)).ptr;
+    text.append(number.data(), end);
+    if (axis < 2) text += ' ';
+  }
+  for (const Channel& channel : cloud.channels) {
+    text += ' ' + scalar_text(channel.type, channel.bytes.data() + index * channel.type.size);
+  }
+  text += '\n';
 }
 
 std::string header(const std::string& format, const std::string& comments, std::size_t vertices,
@@ -48,14 +66,23 @@ std::string one_line(std::string text) {
 }  // namespace
 
 void write_ply(const std::filesystem::path& path, const PointCloud& cloud, PlyFormat format) {
+  check_writable(cloud, path);
   const bool is_ascii = format == PlyFormat::ascii;
-  std::string bytes = header(is_ascii ? "ascii" : "binary_little_endian", "", cloud.size(), "");
-  for (const Eigen::Vector3f& point : cloud) {
-    if (is_ascii) {
-      append_text(bytes, point);
-    } else {
-      append_point(bytes, point);
+  std::string properties;
+  for (const Channel& channel : cloud.channels) {
+    const std::string type = ply_type_name(channel.type);
+    if (type.empty() || channel.count != 1) {
+      throw InputError(path.string(), "",
+                       "expected channels of one number of at most 4 bytes, or a double, per "
+                       "point, found another in " +
+                           in_quotes(channel.name) + "; PCD has them all");
     }
+    properties += "property " + type + " " + field_name(channel.name, cloud) + "\n";
+  }
+  std::string bytes =
+      header(is_ascii ? "ascii" : "binary_little_endian", "", cloud.size(), properties);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    is_ascii ? append_text(bytes, cloud, i) : append_bytes(bytes, cloud, i);
   }
   write_whole_file(path, bytes);
 }

@@ -8,13 +8,13 @@
 
 #include "framework/base/error.hpp"
 #include "framework/base/memory.hpp"
+#include "framework/base/scalar_type.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/io/digest.hpp"
 #include "framework/io/pcd_file.hpp"
 #include "framework/io/pcd_header.hpp"
 #include "framework/io/ply_file.hpp"
 #include "framework/io/ply_header.hpp"
-#include "framework/io/scalar_type.hpp"
 #include "framework/io/text_scan.hpp"
 
 namespace croon {
@@ -26,22 +26,36 @@ namespace fs = std::filesystem;
 struct Format {
   const char* suffix;
   LoadedCloud (*parse)(std::string_view bytes, const std::string& file);
-  /// Takes the file's first bytes, its size and its name.
-  void (*check)(std::string_view head, std::uint64_t file_bytes, const std::string& file);
+  /// Takes the file's first bytes, its size and its name. Returns the names of the channels.
+  std::vector<std::string> (*check)(std::string_view head, std::uint64_t file_bytes,
+                                    const std::string& file);
 };
 
-void check_pcd(std::string_view head, std::uint64_t file_bytes, const std::string& file) {
-  check_pcd_size(parse_pcd_header(head, file), head, file_bytes, file);
+/// Without the empty ones.
+std::vector<std::string> named(std::vector<std::string> names) {
+  names.erase(std::remove(names.begin(), names.end(), ""), names.end());
+  return names;
 }
 
-void check_ply(std::string_view head, std::uint64_t file_bytes, const std::string& file) {
-  check_ply_size(parse_ply_header(head, file), file_bytes, file);
+std::vector<std::string> check_pcd(std::string_view head, std::uint64_t file_bytes,
+                                   const std::string& file) {
+  const PcdHeader header = parse_pcd_header(head, file);
+  check_pcd_size(header, head, file_bytes, file);
+  return named(pcd_channel_names(header));
+}
+
+std::vector<std::string> check_ply(std::string_view head, std::uint64_t file_bytes,
+                                   const std::string& file) {
+  const PlyHeader header = parse_ply_header(head, file);
+  check_ply_size(header, file_bytes, file);
+  return named(ply_channel_names(header));
 }
 
 constexpr std::uint64_t kKittiRecordBytes = 16;
 
-void check_kitti(std::string_view, std::uint64_t file_bytes, const std::string& file) {
-  if (file_bytes % kKittiRecordBytes == 0) return;
+std::vector<std::string> check_kitti(std::string_view, std::uint64_t file_bytes,
+                                     const std::string& file) {
+  if (file_bytes % kKittiRecordBytes == 0) return {kIntensity};
   throw InputError(file, "",
                    "expected records of 16 bytes (x, y, z, intensity), found " +
                        std::to_string(file_bytes) + " bytes");
@@ -56,9 +70,12 @@ LoadedCloud parse_kitti(std::string_view bytes, const std::string& file) {
   const auto number = [&](std::size_t at) {
     return decode_scalar({ScalarKind::floating, 4}, ByteOrder::little, bytes.data() + at);
   };
+  Channel intensity{kIntensity, scalar_type_of<float>(), 1, {}};
   for (std::size_t record = 0; record < bytes.size(); record += kKittiRecordBytes) {
-    cloud.add({number(record), number(record + 4), number(record + 8)});
+    const bool is_kept = cloud.add({number(record), number(record + 4), number(record + 8)});
+    if (is_kept) intensity.bytes.append(bytes, record + 12, 4);
   }
+  cloud.channels.push_back(std::move(intensity));
   return cloud;
 }
 
@@ -111,7 +128,7 @@ LoadedCloud read_point_cloud(const fs::path& path) {
 
 bool has_point_cloud_suffix(const fs::path& path) { return find_format(path) != nullptr; }
 
-void check_point_cloud_file(const fs::path& path) {
+std::vector<std::string> check_point_cloud_file(const fs::path& path) {
   const Format& format = format_of(path);
   std::error_code error;
   if (!fs::is_regular_file(path, error)) {
@@ -119,11 +136,11 @@ void check_point_cloud_file(const fs::path& path) {
   }
   const std::uintmax_t file_bytes = fs::file_size(path, error);
   if (error) throw InputError(path.string(), "", "cannot be read: " + error.message());
-  // The bytes and the points are in memory at one time.
-  constexpr double kMemoryPerByte = 1.75;
+  // The bytes, the points and the channels are in memory at one time.
+  constexpr double kMemoryPerByte = 2.25;
   require_memory(kMemoryPerByte * static_cast<double>(file_bytes), "to read this file",
                  "make it smaller", {path.string(), "", ""});
-  format.check(head_of(path, file_bytes), file_bytes, path.string());
+  return format.check(head_of(path, file_bytes), file_bytes, path.string());
 }
 
 }  // namespace croon

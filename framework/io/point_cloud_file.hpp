@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "framework/base/error.hpp"
 #include "framework/geometry/point_cloud.hpp"
@@ -22,15 +23,16 @@ class DamagedCloud : public InputError {
 };
 
 /// The cloud in a file, by its suffix (in any case): .pcd, .ply, or .bin as KITTI writes it; with
-/// the digest of the bytes that were parsed. Throws InputError for another suffix, UnavailableFile
-/// if the file cannot be read, and DamagedCloud if its bytes are damaged.
+/// its channels and the digest of the bytes that were parsed. Throws InputError for another suffix,
+/// UnavailableFile if the file cannot be read, and DamagedCloud if its bytes are damaged.
 LoadedCloud read_point_cloud(const std::filesystem::path& path);
 
 /// Whether `path` has the suffix of a format that `read_point_cloud` reads.
 bool has_point_cloud_suffix(const std::filesystem::path& path);
 
 /// Checks only the header and the size of the file. Throws InputError if they already show that
-/// read_point_cloud would fail: no file, an unknown format, no x, y, z, too few bytes.
-void check_point_cloud_file(const std::filesystem::path& path);
+/// read_point_cloud would fail: no file, an unknown format, no x, y, z, too few bytes. Returns the
+/// names of the channels.
+std::vector<std::string> check_point_cloud_file(const std::filesystem::path& path);
 
 }  // namespace croon

@@ -13,7 +13,7 @@ namespace croon {
 namespace {
 
 /// The active voxels are true: bool grids are what most viewers draw.
-openvdb::BoolGrid::Ptr occupancy_grid(const PointCloud& points, double leaf_size_m) {
+openvdb::BoolGrid::Ptr occupancy_grid(const Points& points, double leaf_size_m) {
   const LeafGrid leaves(leaf_size_m);
   openvdb::BoolGrid::Ptr grid = openvdb::BoolGrid::create(false);
   openvdb::BoolGrid::Accessor voxels = grid->getAccessor();
@@ -42,7 +42,7 @@ void name_by_content(std::string& bytes) {
 
 }  // namespace
 
-void write_occupancy_vdb(const std::filesystem::path& path, const PointCloud& points,
+void write_occupancy_vdb(const std::filesystem::path& path, const Points& points,
                          double leaf_size_m) {
   openvdb::initialize();
   std::ostringstream stream(std::ios_base::binary);

@@ -2,8 +2,10 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "framework/params/data_flow.hpp"
 #include "framework/params/node.hpp"
 
 namespace croon::params {
@@ -18,6 +20,8 @@ struct BuiltStage {
   std::string name;                   ///< "ransac".
   std::string resolved;
   StageVersions versions = {};  ///< Of the stage and of those in its slots.
+  /// What the stage and those in its slots need and provide.
+  std::optional<DataFlow> flow = {};
 };
 
 /// Builds the stages that a parameter table holds. The catalogue of stages is one; params knows no
@@ -39,7 +43,8 @@ class Slot {
       : stage_(std::static_pointer_cast<const Kind>(built.stage)),
         name_(built.name),
         resolved_(built.resolved),
-        versions_(built.versions) {}
+        versions_(built.versions),
+        flow_(built.flow.value_or(DataFlow())) {}
 
   const Kind* operator->() const { return stage_.get(); }
   const Kind& operator*() const { return *stage_; }
@@ -50,12 +55,15 @@ class Slot {
   const std::string& resolved() const { return resolved_; }
   /// The versions of the stage and of those in its slots.
   const StageVersions& versions() const { return versions_; }
+  /// What the stage and those in its slots need and provide.
+  const DataFlow& flow() const { return flow_; }
 
  private:
   std::shared_ptr<const Kind> stage_;
   std::string name_;
   std::string resolved_;
   StageVersions versions_;
+  DataFlow flow_;
 };
 
 }  // namespace croon::params

@@ -20,7 +20,7 @@ Colour sensor_colour(std::size_t index);
 /// One sensor's cloud in its own frame, to be drawn in the reference's frame.
 struct ColouredCloud {
   std::string sensor;
-  PointCloud points;
+  Points points;
   RigidTransform T_reference_sensor;
 };
 

@@ -8,7 +8,7 @@
 namespace croon {
 namespace {
 
-void draw(Image& image, const PointCloud& points, const TopView& view, Colour colour) {
+void draw(Image& image, const Points& points, const TopView& view, Colour colour) {
   for (const Eigen::Vector3f& point : points) {
     const double right = (static_cast<double>(point.x()) + view.half_width_m) / view.pixel_m;
     const double down = (view.half_height_m - static_cast<double>(point.y())) / view.pixel_m;

@@ -15,7 +15,7 @@ namespace {
 constexpr double kLeast_m = 0.1;
 constexpr double kBinsPerDecade = 8.0;
 
-double volume_m3(const PointCloud& points) {
+double volume_m3(const Points& points) {
   constexpr double kLeaf_m = 0.1;
   const LeafGrid grid(kLeaf_m);
   std::set<std::tuple<int, int, int>> leaves;
@@ -26,7 +26,7 @@ double volume_m3(const PointCloud& points) {
   return static_cast<double>(leaves.size()) * kLeaf_m * kLeaf_m * kLeaf_m;
 }
 
-double ground_ratio(const PointCloud& points, const GroundExtractor& extractor) {
+double ground_ratio(const Points& points, const GroundExtractor& extractor) {
   // One stream for all clouds: a cloud's description depends on the cloud alone.
   Rng rng(StreamKey(0).with("figures"));
   try {
@@ -50,7 +50,7 @@ double range_bin_m(std::size_t bin) {
   return kLeast_m * std::pow(10.0, static_cast<double>(bin) / kBinsPerDecade);
 }
 
-CloudDescription description_of(const PointCloud& points, const GroundExtractor& extractor) {
+CloudDescription description_of(const Points& points, const GroundExtractor& extractor) {
   CloudDescription description;
   description.points = points.size();
   description.ground_ratio = ground_ratio(points, extractor);
@@ -64,7 +64,7 @@ CloudDescription description_of(const PointCloud& points, const GroundExtractor&
   return description;
 }
 
-void add_overlap(CloudDescription& description, const PointCloud& points, const KdTree& reference,
+void add_overlap(CloudDescription& description, const Points& points, const KdTree& reference,
                  const RigidTransform& T_reference_sensor) {
   constexpr float kNear_m = 1.0F;
   std::vector<double> distances_m;

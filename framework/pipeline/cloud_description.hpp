@@ -35,10 +35,10 @@ struct CloudDescription {
 double range_bin_m(std::size_t bin);
 
 /// Describes `points`, which must not be empty; `extractor` finds the ground. Names are left empty.
-CloudDescription description_of(const PointCloud& points, const GroundExtractor& extractor);
+CloudDescription description_of(const Points& points, const GroundExtractor& extractor);
 
 /// Adds the overlap with the reference's cloud; `points` are in the sensor's frame.
-void add_overlap(CloudDescription& description, const PointCloud& points, const KdTree& reference,
+void add_overlap(CloudDescription& description, const Points& points, const KdTree& reference,
                  const RigidTransform& T_reference_sensor);
 
 }  // namespace croon

@@ -1,6 +1,7 @@
 #include "framework/pipeline/patched_pipeline.hpp"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -213,6 +214,29 @@ Pipeline build_pipeline(const PatchedPipeline& pipeline, const Catalogue& catalo
   }
   resolved = "[" + resolved + "]";
   return built;
+}
+
+std::vector<Fault> unmet_needs(const PatchedPipeline& pipeline, const Pipeline& built) {
+  std::vector<Fault> faults;
+  std::map<std::string, params::ExtraDoc> given;
+  for (std::size_t i = 0; i < built.size(); ++i) {
+    const params::DataFlow& flow = built[i].step.flow();
+    for (const params::ExtraDoc& extra : flow.takes) {
+      const auto found = given.find(extra.name);
+      if (found != given.end() && found->second.type == extra.type) continue;
+      std::vector<std::string> names;
+      for (const auto& [name, doc] : given) names.push_back(name);
+      const std::string why = found == given.end()
+                                  ? "which no step before it gives" + name_hint(extra.name, names)
+                                  : "which a step before it gives with another type";
+      faults.push_back(located({"", "/",
+                                "the step \"" + built[i].name + "\" needs the extra \"" +
+                                    extra.name + "\" (" + extra.meaning + "), " + why},
+                               pipeline[i].origins));
+    }
+    for (const params::ExtraDoc& extra : flow.gives) given[extra.name] = extra;
+  }
+  return faults;
 }
 
 }  // namespace croon

@@ -4,9 +4,9 @@
 
 namespace croon {
 
-SelectedClouds selected_clouds(const Estimate& estimate, Points points) {
+SelectedClouds selected_clouds(const Estimate& estimate, PointSelection points) {
   SelectedClouds clouds{estimate.target, estimate.source};
-  if (points == Points::non_ground && estimate.target_ground && estimate.source_ground) {
+  if (points == PointSelection::non_ground && estimate.target_ground && estimate.source_ground) {
     clouds = {estimate.target_ground->non_ground, estimate.source_ground->non_ground};
   }
   const std::string left = " has no points left (" + params::word_of(kPointsWords, points) + ")";

@@ -10,11 +10,11 @@
 namespace croon {
 
 /// Which points of the two clouds a step works on.
-enum class Points { non_ground, all };
+enum class PointSelection { non_ground, all };
 
 /// The choices of a step's parameter `points`.
-inline const params::Words<Points> kPointsWords = {{"non_ground", Points::non_ground},
-                                                   {"all", Points::all}};
+inline const params::Words<PointSelection> kPointsWords = {
+    {"non_ground", PointSelection::non_ground}, {"all", PointSelection::all}};
 
 /// The target and source clouds that a step works on.
 struct SelectedClouds {
@@ -22,14 +22,14 @@ struct SelectedClouds {
   std::shared_ptr<const Cloud> source;
 };
 
-/// The clouds with the selected points. Points::non_ground selects all points if no step before has
-/// found the ground. Throws StageError if a selected cloud is empty.
-SelectedClouds selected_clouds(const Estimate& estimate, Points points);
+/// The clouds with the selected points. PointSelection::non_ground selects all points if no step
+/// before has found the ground. Throws StageError if a selected cloud is empty.
+SelectedClouds selected_clouds(const Estimate& estimate, PointSelection points);
 
 /// The parameters of the steps that minimise the nearest-neighbour distances. A step's own
 /// parameters derive from this and its table inherits nearest_cost_table().
 struct NearestCostOptions {
-  Points points = Points::non_ground;
+  PointSelection points = PointSelection::non_ground;
   int max_points = 1500;
   double max_distance_m = 2.0;
 };

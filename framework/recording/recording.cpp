@@ -64,6 +64,7 @@ SensorScan scan_in_file(const std::string& sensor, const fs::path& file) {
   SensorScan scan;
   scan.sensor = sensor;
   scan.file = file.string();
+  scan.channels = check_point_cloud_file(file);
   scan.load = [file] { return read_point_cloud(file); };
   return scan;
 }

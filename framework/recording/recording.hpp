@@ -38,6 +38,7 @@ class RigFilesAbove {
 };
 
 /// The scan of `sensor` in the file of a cloud, without poses.
+/// Throws InputError if its header shows that it cannot be read.
 SensorScan scan_in_file(const std::string& sensor, const std::filesystem::path& file);
 
 /// Returns what `read` returns; a std::filesystem::filesystem_error becomes an InputError.

@@ -14,6 +14,7 @@ Eigen::Matrix<double, 3, 6> point_jacobian(const Eigen::Vector3d& arm) {
 
 void NormalEquations::add(const Eigen::Matrix<double, 3, 6>& J, const Eigen::Vector3d& r,
                           const Eigen::Matrix3d& Omega, double w) {
+  w *= factor;
   const Eigen::Matrix<double, 3, 6> weighted = w * (Omega * J);
   information.triangularView<Eigen::Lower>() += J.transpose() * weighted;
   gradient.noalias() += weighted.transpose() * r;

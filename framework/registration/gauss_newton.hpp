@@ -14,6 +14,7 @@ struct Correspondence {
   Eigen::Vector3d target_normal;  ///< Unit; zero if it is undefined or not needed.
   Eigen::Vector3d source_normal;  ///< `R n`, in the target's axes; zero in the same cases.
   float target_variation = 0.0F;  ///< LocalShape::surface_variation.
+  double weight = 1.0;            ///< Of its residuals, beside that of the robust kernel.
 };
 
 /// The Jacobian of `R s + t` by the six degrees of freedom of `moved`: `[-[R s]x, I]`.
@@ -26,9 +27,12 @@ struct NormalEquations {
   Vector6d gradient = Vector6d::Zero();
   double weighted_square_sum = 0.0;  ///< `sum w r^T Omega r`.
   double weight_sum = 0.0;
+  /// Multiplies the weight of what is added: `Correspondence::weight` of the current one.
+  double factor = 1.0;
 
   /// Adds the scalar residual `r` with the Jacobian row `J` and the weight `w`.
   void add(const Vector6d& J, double r, double w) {
+    w *= factor;
     information.selfadjointView<Eigen::Lower>().rankUpdate(J, w);
     gradient += (w * r) * J;
     weighted_square_sum += w * r * r;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
@@ -59,11 +60,14 @@ struct Linearised {
 };
 
 class Loop {
+  static constexpr std::size_t kBlock = 256;
+
  public:
   Loop(const Cloud& target, const Cloud& source, const IcpOptions& options,
        const CorrespondenceRule& rule, const Linearise& linearise)
       : options_(options),
         matcher_(target, source, rule),
+        select_(rule.select),
         linearise_(linearise),
         kernel_(options.kernel, options.kernel_width_m),
         source_size_(static_cast<int>(source.points().size())) {}
@@ -90,13 +94,23 @@ class Loop {
   Linearised linearised(const RigidTransform& T, double max_distance_m, int max_points) const {
     Linearised sums;
     sums.points = std::min(max_points, source_size_);
+    // Blocks stay in the cache; a selection needs all correspondences at once.
+    const std::size_t block = select_ ? std::numeric_limits<std::size_t>::max() : kBlock;
+    Correspondences pairs;
+    const auto add = [&] {
+      if (select_) select_(pairs);
+      linearise_(pairs, kernel_, sums.equations);
+      sums.correspondences += static_cast<int>(pairs.size());
+      pairs.clear();
+    };
     Correspondence pair;
     for (std::int64_t i = 0; i < sums.points; ++i) {
       const int index = static_cast<int>(i * source_size_ / sums.points);
       if (!matcher_.match(index, T, static_cast<float>(max_distance_m), pair)) continue;
-      linearise_(pair, kernel_, sums.equations);
-      ++sums.correspondences;
+      pairs.push_back(pair);
+      if (pairs.size() == block) add();
     }
+    add();
     if (sums.correspondences < options_.min_correspondences) {
       throw StageError("only " + std::to_string(sums.correspondences) + " of " +
                        std::to_string(sums.points) + " points have a correspondence within " +
@@ -127,6 +141,7 @@ class Loop {
 
   const IcpOptions& options_;
   Matcher matcher_;
+  const SelectCorrespondences& select_;
   const Linearise& linearise_;
   RobustKernel kernel_;
   int source_size_;
@@ -134,12 +149,14 @@ class Loop {
 
 }  // namespace
 
-void linearise_point_to_plane(const Correspondence& pair, const RobustKernel& kernel,
-                              NormalEquations& equations) {
-  const double residual = pair.target_normal.dot(pair.offset);
-  Vector6d J;
-  J << pair.arm.cross(pair.target_normal), pair.target_normal;
-  equations.add(J, residual, kernel.weight(residual * residual));
+Linearise point_to_plane_linearisation() {
+  return for_each_correspondence(
+      [](const Correspondence& pair, const RobustKernel& kernel, NormalEquations& equations) {
+        const double residual = pair.target_normal.dot(pair.offset);
+        Vector6d J;
+        J << pair.arm.cross(pair.target_normal), pair.target_normal;
+        equations.add(J, residual, kernel.weight(residual * residual));
+      });
 }
 
 Registration iterate_icp(const Cloud& target, const Cloud& source, const RigidTransform& start,

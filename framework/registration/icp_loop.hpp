@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "framework/registration/gauss_newton.hpp"
 #include "framework/registration/icp_options.hpp"
@@ -9,6 +10,13 @@
 
 namespace croon {
 
+/// Correspondences in the order of the source's points.
+using Correspondences = std::vector<Correspondence>;
+
+/// Removes correspondences of one iteration, or changes their weights; the order must stay. It sees
+/// all of them at once: the best 70 %, one for each point of the target.
+using SelectCorrespondences = std::function<void(Correspondences&)>;
+
 /// Which points correspond, in addition to being nearest within the current distance.
 struct CorrespondenceRule {
   int target_normals = 0;  ///< Neighbours for the target's normals; 0: no normals are needed.
@@ -16,16 +24,30 @@ struct CorrespondenceRule {
   /// The smallest cosine between the two normals, if both are needed. Points without a needed
   /// normal do not correspond.
   double min_normal_cosine = -2.0;
+  SelectCorrespondences select = nullptr;  ///< Null: all of them count.
 };
 
-/// Adds the contribution of one correspondence to the normal equations. A variant of ICP is such a
-/// function and a CorrespondenceRule.
-using Linearise = std::function<void(const Correspondence&, const RobustKernel&, NormalEquations&)>;
+/// Adds the contributions of some correspondences to the normal equations. A variant of ICP is such
+/// a function and a CorrespondenceRule.
+using Linearise =
+    std::function<void(const Correspondences&, const RobustKernel&, NormalEquations&)>;
+
+/// The same from a function of one correspondence, `linearise(pair, kernel, equations)`, which the
+/// compiler inlines. The weight of the correspondence is applied to all that it adds.
+template <class Function>
+Linearise for_each_correspondence(Function linearise) {
+  return [linearise](const Correspondences& pairs, const RobustKernel& kernel,
+                     NormalEquations& equations) {
+    for (const Correspondence& pair : pairs) {
+      equations.factor = pair.weight;
+      linearise(pair, kernel, equations);
+    }
+  };
+}
 
 /// The linearisation with the residual `n_t . (R s + t - p)` (Chen & Medioni 1992; paper,
 /// refinement).
-void linearise_point_to_plane(const Correspondence& pair, const RobustKernel& kernel,
-                              NormalEquations& equations);
+Linearise point_to_plane_linearisation();
 
 /// Iterates nearest-neighbour correspondences and Gauss-Newton steps (Besl & McKay 1992) over the
 /// schedule of distances. Throws StageError if too few points correspond.

@@ -56,7 +56,7 @@ void Mesh::add_quad(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Ei
 
 void Mesh::append(const Mesh& other, const RigidTransform& T_this_other) {
   const auto first = next_vertex();
-  const PointCloud moved = transformed(other.vertices, T_this_other);
+  const Points moved = transformed(other.vertices, T_this_other);
   vertices.insert(vertices.end(), moved.begin(), moved.end());
   for (const auto& [a, b, c] : other.triangles) {
     triangles.push_back({first + a, first + b, first + c});

@@ -19,8 +19,8 @@ using Eigen::Vector3d;
 /// mesh does not move.
 struct PlacedMesh {
   const Mesh* mesh = nullptr;
-  PointCloud begin;
-  PointCloud end;
+  Points begin;
+  Points end;
 };
 
 PlacedMesh placed(const Body& body, const Span& window_s) {

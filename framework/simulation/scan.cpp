@@ -64,25 +64,30 @@ bool is_lost(const Noise& noise, const Hit& hit, Rng& rng) {
 
 }  // namespace
 
-MeasuredCloud scan(const RayCaster& world, const SensorModel& sensor, const Noise& noise,
-                   const ScanPlan& plan, const StreamKey& key) {
+PointCloud scan(const RayCaster& world, const SensorModel& sensor, const Noise& noise,
+                const ScanPlan& plan, const StreamKey& key) {
   Rng firing_rng(key.with("firing"));
   Rng return_rng(key.with("return"));
   std::vector<Ray> rays;
   std::vector<Firing> firings;
   fire(sensor, noise, plan, firing_rng, rays, firings);
   const std::vector<Hit> hits = world.cast(rays, sensor.range_min_m, sensor.range_max_m);
-  MeasuredCloud result;
+  PointCloud result;
+  std::vector<float> intensity;
+  std::vector<std::uint16_t> ring;
+  std::vector<double> time_s;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i].is_there() || is_lost(noise, hits[i], return_rng)) continue;
     double range_m = hits[i].range_m;
     if (noise.range_std_m > 0.0) range_m += noise.range_std_m * return_rng.normal();
     result.points.push_back((range_m * firings[i].nominal_direction).cast<float>());
-    result.intensity.push_back(
+    intensity.push_back(
         static_cast<float>(std::round(255.0 * std::min(signal_ratio(hits[i]), 1.0))));
-    result.ring.push_back(firings[i].ring);
-    result.time_s.push_back(firings[i].time_s);
+    ring.push_back(firings[i].ring);
+    time_s.push_back(firings[i].time_s);
   }
+  result.channels = {make_channel(kIntensity, intensity), make_channel(kRing, ring),
+                     make_channel(kTime, time_s)};
   return result;
 }
 

@@ -87,7 +87,7 @@ SimulatedScene::SimulatedScene(std::shared_ptr<const Recipe> recipe, std::uint64
       world_(make_world(*recipe_, index)),
       caster_(world_, window_of(*recipe_)) {}
 
-MeasuredCloud SimulatedScene::scan_of(const std::string& name) const {
+PointCloud SimulatedScene::scan_of(const std::string& name) const {
   const Mounting& mounting = mounting_of(recipe_->rig, name);
   const RigidTransform T_car_sensor =
       recipe_->rig.T_car_reference() * mounting.T_reference_sensor();
@@ -95,6 +95,15 @@ MeasuredCloud SimulatedScene::scan_of(const std::string& name) const {
                          [&](double time_s) { return world_->car.pose_at(time_s) * T_car_sensor; }};
   // The name of the random stream decides the bits of all scans.
   return scan(caster_, mounting.model, recipe_->noise, plan, key_.with("sweep").with(name));
+}
+
+Twist SimulatedScene::velocity_of(const std::string& name) const {
+  if (!recipe_->noise.moves_during_scan) return {};
+  const RigidTransform T_car_sensor =
+      recipe_->rig.T_car_reference() * mounting_of(recipe_->rig, name).T_reference_sensor();
+  const Motion& motion = world_->car.motion;
+  return velocity_in(T_car_sensor.inverse(),
+                     {{0.0, 0.0, motion.yaw_rate_radps}, {motion.speed_mps, 0.0, 0.0}});
 }
 
 Image SimulatedScene::picture() const {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "framework/geometry/twist.hpp"
 #include "framework/picture/image.hpp"
 #include "framework/simulation/recipe.hpp"
 #include "framework/simulation/scan.hpp"
@@ -23,7 +24,11 @@ class SimulatedScene {
   const RayCaster& caster() const { return caster_; }
 
   /// One scan of the sensor `name`. Throws std::logic_error if the rig has no such sensor.
-  MeasuredCloud scan_of(const std::string& name) const;
+  PointCloud scan_of(const std::string& name) const;
+
+  /// The velocity of the sensor `name` while it scans, in its own frame; it is constant. Zero if
+  /// the noise has no sweep distortion: then all is of one time.
+  Twist velocity_of(const std::string& name) const;
 
   /// A picture of the scene from behind and above the car, lit from the sky, in the colours of its
   /// materials.

@@ -19,13 +19,15 @@ namespace croon {
 class Cloud {
  public:
   /// `key` names the random streams of the computations on this cloud alone.
-  Cloud(PointCloud points, const StreamKey& key)
-      : Cloud(std::move(points), key, std::make_shared<OnceLog>(), "") {}
+  Cloud(PointCloud cloud, const StreamKey& key)
+      : Cloud(std::move(cloud), key, std::make_shared<OnceLog>(), "") {}
   Cloud(const Cloud&) = delete;
   Cloud& operator=(const Cloud&) = delete;
 
-  const PointCloud& points() const { return points_; }
-  bool empty() const { return points_.empty(); }
+  const Points& points() const { return cloud_.points; }
+  /// The points with their channels.
+  const PointCloud& with_channels() const { return cloud_; }
+  bool empty() const { return cloud_.empty(); }
 
   /// The kd-tree over points().
   const KdTree& kd_tree() const;
@@ -47,7 +49,7 @@ class Cloud {
 
   /// A cloud that was derived from this one for `purpose`: cropped, thinned, without its ground.
   /// Its timings go to the same log.
-  std::shared_ptr<const Cloud> derived(PointCloud points, const std::string& purpose) const;
+  std::shared_ptr<const Cloud> derived(PointCloud cloud, const std::string& purpose) const;
 
   /// The generator for a computation on this cloud alone; the same for every trial. `purpose` names
   /// the stage and not its parameters, so that variants of a stage draw the same numbers and a new
@@ -58,14 +60,14 @@ class Cloud {
   std::vector<OnceTiming> timings() const { return log_->timings(); }
 
  private:
-  Cloud(PointCloud points, const StreamKey& key, std::shared_ptr<OnceLog> log, std::string prefix)
-      : points_(std::move(points)),
+  Cloud(PointCloud cloud, const StreamKey& key, std::shared_ptr<OnceLog> log, std::string prefix)
+      : cloud_(std::move(cloud)),
         key_(key),
         log_(std::move(log)),
         prefix_(std::move(prefix)),
         once_(log_, prefix_) {}
 
-  PointCloud points_;
+  PointCloud cloud_;
   StreamKey key_;
   std::shared_ptr<OnceLog> log_;
   std::string prefix_;  ///< The purpose of this cloud in the log: "ground/ransac/".

@@ -8,7 +8,7 @@ namespace {
 
 /// What nanoflann wants to know of a cloud.
 struct PointAccess {
-  const PointCloud& points;
+  const Points& points;
   std::size_t kdtree_get_point_count() const { return points.size(); }
   float kdtree_get_pt(std::size_t index, std::size_t axis) const {
     return points[index][static_cast<Eigen::Index>(axis)];
@@ -46,7 +46,7 @@ constexpr std::size_t kPointsPerLeaf = 10;
 }  // namespace
 
 struct KdTree::Index {
-  explicit Index(const PointCloud& points)
+  explicit Index(const Points& points)
       : access{points}, tree(3, access, nanoflann::KDTreeSingleIndexAdaptorParams(kPointsPerLeaf)) {
     tree.buildIndex();
   }
@@ -54,7 +54,7 @@ struct KdTree::Index {
   Tree tree;
 };
 
-KdTree::KdTree(const PointCloud& points) : index_(std::make_unique<Index>(points)) {}
+KdTree::KdTree(const Points& points) : index_(std::make_unique<Index>(points)) {}
 KdTree::~KdTree() = default;
 
 Neighbour KdTree::nearest(const Eigen::Vector3f& query, float max_distance_m) const {

@@ -18,7 +18,7 @@ struct Neighbour {
 /// Queries may run on many threads at once and give the same answer every time.
 class KdTree {
  public:
-  explicit KdTree(const PointCloud& points);
+  explicit KdTree(const Points& points);
   ~KdTree();
   KdTree(const KdTree&) = delete;
   KdTree& operator=(const KdTree&) = delete;

@@ -12,7 +12,7 @@ namespace {
 
 /// Mean and covariance of the neighbours, relative to `centre` so that no digits are lost far from
 /// the sensor.
-Eigen::Matrix3d covariance(const PointCloud& points, const Eigen::Vector3f& centre,
+Eigen::Matrix3d covariance(const Points& points, const Eigen::Vector3f& centre,
                            const std::vector<Neighbour>& neighbours) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
@@ -25,10 +25,10 @@ Eigen::Matrix3d covariance(const PointCloud& points, const Eigen::Vector3f& cent
   return products / count - (sum / count) * (sum / count).transpose();
 }
 
-PointCloud first_points(const PointCloud& cloud, double leaf_size_m) {
+Points first_points(const Points& cloud, double leaf_size_m) {
   const LeafGrid grid(leaf_size_m);
   std::set<std::array<int, 3>> leaves;
-  PointCloud points;
+  Points points;
   for (const Eigen::Vector3f& point : cloud) {
     const Eigen::Vector3i leaf = grid.leaf_of(point.cast<double>());
     if (leaves.insert({leaf.x(), leaf.y(), leaf.z()}).second) points.push_back(point);
@@ -38,7 +38,7 @@ PointCloud first_points(const PointCloud& cloud, double leaf_size_m) {
 
 }  // namespace
 
-Normals::Normals(const PointCloud& points, const KdTree& tree, int neighbours)
+Normals::Normals(const Points& points, const KdTree& tree, int neighbours)
     : points_(points),
       tree_(tree),
       neighbours_(neighbours),
@@ -78,9 +78,9 @@ LocalShape Normals::computed(int index) const {
   return shape;
 }
 
-OrientedPoints oriented_sample(const PointCloud& cloud, double leaf_size_m, int neighbours) {
+OrientedPoints oriented_sample(const Points& cloud, double leaf_size_m, int neighbours) {
   OrientedPoints oriented;
-  const PointCloud points = first_points(cloud, leaf_size_m);
+  const Points points = first_points(cloud, leaf_size_m);
   if (points.empty()) return oriented;
   const KdTree tree(points);
   const Normals normals(points, tree, neighbours);

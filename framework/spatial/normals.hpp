@@ -25,7 +25,7 @@ struct LocalShape {
 class Normals {
  public:
   /// `points` and `tree` (over the same points) must outlive this.
-  Normals(const PointCloud& points, const KdTree& tree, int neighbours);
+  Normals(const Points& points, const KdTree& tree, int neighbours);
 
   /// The shape around point `index`. The normal is zero if fewer than three of the neighbours are
   /// distinct.
@@ -34,7 +34,7 @@ class Normals {
  private:
   LocalShape computed(int index) const;
 
-  const PointCloud& points_;
+  const Points& points_;
   const KdTree& tree_;
   int neighbours_;
   enum State : unsigned char { kEmpty, kBeingWritten, kReady };
@@ -44,14 +44,14 @@ class Normals {
 
 /// Points with a unit normal each, `normals[i]` at `points[i]`; a normal's sign is arbitrary.
 struct OrientedPoints {
-  PointCloud points;
-  PointCloud normals;
+  Points points;
+  Points normals;
 };
 
 /// The first point of every cube of edge `leaf_size_m` that holds points of `cloud`, without
 /// duplicates, each with its normal from the `neighbours` nearest of these points. This evens out
 /// the density of a LiDAR's cloud, so that the neighbours of a distant point are not all on one
 /// ring. Points without a normal are left out.
-OrientedPoints oriented_sample(const PointCloud& cloud, double leaf_size_m, int neighbours);
+OrientedPoints oriented_sample(const Points& cloud, double leaf_size_m, int neighbours);
 
 }  // namespace croon

@@ -16,7 +16,7 @@ std::string with_article(const std::string& kind) {
   return (has_vowel ? "an " : "a ") + kind;
 }
 
-/// Builds the stages in the slots of a stage and notes their versions.
+/// Builds the stages in the slots of a stage and notes their versions and their flows.
 class SlotBuilder final : public params::StageBuilder {
  public:
   explicit SlotBuilder(const Catalogue& catalogue) : catalogue_(catalogue) {}
@@ -24,14 +24,17 @@ class SlotBuilder final : public params::StageBuilder {
   params::BuiltStage build(const std::string& kind, const params::Node& node) const override {
     params::BuiltStage built = catalogue_.build(kind, node);
     versions_.insert(built.versions.begin(), built.versions.end());
+    if (built.flow) flow_.add(*built.flow);
     return built;
   }
 
   const params::StageVersions& versions() const { return versions_; }
+  const params::DataFlow& flow() const { return flow_; }
 
  private:
   const Catalogue& catalogue_;
   mutable params::StageVersions versions_;
+  mutable params::DataFlow flow_;
 };
 
 bool comes_before(const StageEntry& a, const StageEntry& b) {
@@ -90,6 +93,7 @@ params::BuiltStage Catalogue::build(const std::string& kind, const params::Node&
   }
   const SlotBuilder slots(*this);
   params::BuiltStage built = entry->build(node, slots);
+  if (!built.flow) built.flow = slots.flow();
   built.versions = slots.versions();
   built.versions[kind + "/" + name] = entry->version;
   return built;

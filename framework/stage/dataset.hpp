@@ -8,6 +8,7 @@
 
 #include "framework/geometry/point_cloud.hpp"
 #include "framework/geometry/rigid_transform.hpp"
+#include "framework/geometry/twist.hpp"
 #include "framework/picture/image.hpp"
 
 namespace croon {
@@ -21,9 +22,11 @@ struct SensorScan {
   std::optional<RigidTransform> truth;    ///< Ground truth.
   std::optional<RigidTransform> nominal;  ///< The pose of the rig's design.
   std::optional<RigidTransform> initial;  ///< The initial pose in the recording.
-  /// The same points with everything that the sensor measures; empty if the dataset has points
-  /// only.
-  std::function<MeasuredCloud()> measure = {};
+  /// The channels of the cloud; std::nullopt if they are not known before it is read.
+  std::optional<std::vector<std::string>> channels = {};
+  /// The sensor's true velocity during the scan, constant and in its own frame; empty if it is not
+  /// known.
+  std::function<Twist()> velocity = {};
   /// Datasets leave these empty. If one sensor is calibrated to another, the names of the two: the
   /// points are those of `source`, the poses are `T_target_source`.
   std::string source = {}, target = {};

@@ -10,22 +10,21 @@ namespace croon {
 namespace {
 
 /// The points near that plane of `planes` which has the most points near it; of equals the first.
-PointCloud fullest_slab(const PointCloud& cloud, const std::vector<Plane>& planes,
-                        double threshold_m) {
+Points fullest_slab(const Points& cloud, const std::vector<Plane>& planes, double threshold_m) {
   std::vector<int> most;
   for (const Plane& plane : planes) {
     std::vector<int> indices = points_within(cloud, plane, threshold_m);
     if (indices.size() > most.size()) most = std::move(indices);
   }
   if (most.empty()) throw StageError("no plane was found for the ground");
-  PointCloud slab;
+  Points slab;
   for (const int i : most) slab.push_back(cloud[i]);
   return slab;
 }
 
 /// The plane with the most points of a slab. A least-squares fit to the whole slab would follow a
 /// kerb in it, also after the slab is made narrower.
-Plane narrowed(const PointCloud& slab, double threshold_m, Rng& rng) {
+Plane narrowed(const Points& slab, double threshold_m, Rng& rng) {
   constexpr int kMaxRounds = 30;
   PlaneRansacOptions options;
   options.threshold_m = threshold_m;
@@ -56,7 +55,7 @@ const params::Table<GroundRule>& ground_rule_table() {
   return table;
 }
 
-Ground ground_from_planes(const PointCloud& cloud, const std::vector<Plane>& planes,
+Ground ground_from_planes(const Points& cloud, const std::vector<Plane>& planes,
                           const GroundRule& rule, Rng& rng) {
   Ground ground;
   ground.plane = narrowed(fullest_slab(cloud, planes, rule.threshold_m),

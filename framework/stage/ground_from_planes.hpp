@@ -27,7 +27,7 @@ const params::Table<GroundRule>& ground_rule_table();
 /// The ground of `cloud` among candidate planes: the slab with the most points (paper, rough
 /// calibration), and within it the narrower slab with the most points, fitted to them by least
 /// squares. Throws StageError if no plane holds enough points.
-Ground ground_from_planes(const PointCloud& cloud, const std::vector<Plane>& planes,
+Ground ground_from_planes(const Points& cloud, const std::vector<Plane>& planes,
                           const GroundRule& rule, Rng& rng);
 
 }  // namespace croon

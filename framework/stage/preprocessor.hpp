@@ -13,7 +13,8 @@ class Preprocessor {
   static constexpr int kKindOrder = 20;
   virtual ~Preprocessor() = default;
 
-  /// The points that remain, or that represent those that remain, in a fixed order.
+  /// The points that remain, or that represent those that remain, with their channels, in a fixed
+  /// order. Throws StageError if a channel that the stage needs is missing.
   virtual PointCloud apply(const PointCloud& cloud) const = 0;
 };
 

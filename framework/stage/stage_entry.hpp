@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,20 @@ struct StageEntry {
   int kind_order = 0;        ///< Likewise.
   std::vector<params::ParameterDoc> parameters;
   std::function<params::BuiltStage(const params::Node&, const params::StageBuilder&)> build;
-  int version = 1;  ///< See stage_entry.
+  int version = 1;        ///< See stage_entry.
+  params::DataFlow flow;  ///< With default parameters; of the stage alone.
 };
+
+/// What a stage of the class `Stage` with the parameters `params` states that it needs and
+/// provides; std::nullopt if it states nothing.
+template <class Stage, class P>
+auto stated_flow(const P& params, int) -> decltype(std::optional(Stage::data_flow(params))) {
+  return Stage::data_flow(params);
+}
+template <class Stage, class P>
+std::optional<params::DataFlow> stated_flow(const P&, long) {
+  return std::nullopt;
+}
 
 /// The JSON key that names a stage of `kind`: "step" for steps, else "type".
 inline std::string name_key(const std::string& kind) { return kind == "step" ? "step" : "type"; }
@@ -45,21 +58,37 @@ inline std::vector<std::string> reserved_keys(const std::string& kind) {
 /// `kKindSummary` and `kKindOrder`, see StageKind. Nothing else knows the kinds, so a header with
 /// such a class is a new kind of stage.
 ///
+/// A stage that needs a channel of its clouds, or takes or gives an extra, says so in
+/// `static params::DataFlow data_flow(const P&)`. A stage without this function needs and gives
+/// what the stages in its slots do.
+///
 /// `version` is raised with a change by which the stage gives other results: trials of two versions
 /// do not go into one store. A test compares test/house/stage_versions.txt with the sources.
 template <class Stage, class P>
 StageEntry stage_entry(const std::string& name, const std::string& summary,
                        const std::string& source, const params::Table<P>& table, int version = 1) {
   using Kind = typename Stage::Kind;
-  StageEntry entry{Kind::kKind,      name,         summary, source, Kind::kKindSummary,
-                   Kind::kKindOrder, table.docs(), {},      version};
+  StageEntry entry{Kind::kKind,
+                   name,
+                   summary,
+                   source,
+                   Kind::kKindSummary,
+                   Kind::kKindOrder,
+                   table.docs(),
+                   {},
+                   version,
+                   stated_flow<Stage>(P{}, 0).value_or(params::DataFlow())};
   entry.build = [name, table](const params::Node& node, const params::StageBuilder& builder) {
     const P params = table.read(node, reserved_keys(Kind::kKind), builder);
     if (node.fault_count() > 0) return params::BuiltStage{};
     const std::shared_ptr<const Kind> stage = std::make_shared<const Stage>(params);
     const std::string members = table.members_json(params);
     const std::string head = "{\"" + name_key(Kind::kKind) + "\":\"" + name + "\"";
-    return params::BuiltStage{stage, name, head + (members.empty() ? "" : "," + members) + "}"};
+    return params::BuiltStage{stage,
+                              name,
+                              head + (members.empty() ? "" : "," + members) + "}",
+                              {},
+                              stated_flow<Stage>(params, 0)};
   };
   return entry;
 }

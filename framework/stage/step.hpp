@@ -10,6 +10,7 @@
 #include "framework/geometry/dof.hpp"
 #include "framework/geometry/plane.hpp"
 #include "framework/spatial/cloud.hpp"
+#include "framework/stage/extras.hpp"
 
 namespace croon {
 
@@ -39,6 +40,7 @@ struct Estimate {
   std::optional<Matrix6d> information;               ///< See Registration::information.
   std::optional<std::string> rejection;              ///< Why the pose must not be trusted, if so.
   std::vector<Diagnostic> diagnostics;               ///< What the last step reports of its work.
+  Extras extras;                                     ///< What steps put here for later ones.
   /// Null outside an experiment. For steps that take results from a file; what a step computes must
   /// not depend on it.
   std::shared_ptr<const TrialName> trial = nullptr;

@@ -114,15 +114,16 @@ class SensorFolders final : public Dataset {
     for (const auto& [frame, file] : references) {
       Scene scene;
       scene.name = rig.name = frame;
-      scene.reference = scan_in_file(params_.reference, file);
+      bool has_sensors = false;
       for (const std::string& name : names) {
         const auto found = clouds.at(name).find(frame);
-        if (found != clouds.at(name).end())
-          scene.sensors.push_back(scan_in_file(name, found->second));
+        if (found == clouds.at(name).end()) continue;
+        has_sensors = true;
+        collect_faults(faults, [&] { scene.sensors.push_back(scan_in_file(name, found->second)); });
       }
-      if (scene.sensors.empty()) continue;
+      if (!has_sensors) continue;
+      collect_faults(faults, [&] { scene.reference = scan_in_file(params_.reference, file); });
       collect_faults(faults, [&] { rig_files.complete(scene, rig); });
-      collect_faults(faults, [&] { check_files(scene); });
       scenes.push_back(std::move(scene));
     }
     if (!faults.empty()) throw InputError(without_repeats(faults));
@@ -155,15 +156,6 @@ class SensorFolders final : public Dataset {
       throw InputError(folder.folder.string(), "", "expected the folder of a sensor");
     }
     return clouds_in(folder);
-  }
-
-  static void check_files(const Scene& scene) {
-    std::vector<Fault> faults;
-    collect_faults(faults, [&] { check_point_cloud_file(scene.reference.file); });
-    for (const SensorScan& scan : scene.sensors) {
-      collect_faults(faults, [&] { check_point_cloud_file(scan.file); });
-    }
-    if (!faults.empty()) throw InputError(std::move(faults));
   }
 
   Params params_;

@@ -117,8 +117,13 @@ class Simulated final : public Dataset {
     for (const auto& [name, mounting] : params_.rig.sensors) {
       SensorScan scan;
       scan.sensor = name;
-      scan.measure = [cache, index, sensor = name] { return cache->scene(index)->scan_of(sensor); };
-      scan.load = [measure = scan.measure] { return LoadedCloud{measure().points, 0}; };
+      scan.load = [cache, index, sensor = name] {
+        return LoadedCloud{cache->scene(index)->scan_of(sensor)};
+      };
+      scan.channels = {kIntensity, kRing, kTime};
+      scan.velocity = [cache, index, sensor = name] {
+        return cache->scene(index)->velocity_of(sensor);
+      };
       if (name == params_.rig.reference) {
         scene.reference = scan;
       } else {

@@ -49,14 +49,14 @@ const params::Table<Params>& table() {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using PointWithNormal = std::pair<Kernel::Point_3, Kernel::Vector_3>;
-using Points = std::vector<PointWithNormal>;
+using CgalPoints = std::vector<PointWithNormal>;
 using Traits = CGAL::Shape_detection::Efficient_RANSAC_traits<
-    Kernel, Points, CGAL::First_of_pair_property_map<PointWithNormal>,
+    Kernel, CgalPoints, CGAL::First_of_pair_property_map<PointWithNormal>,
     CGAL::Second_of_pair_property_map<PointWithNormal>>;
 using Search = CGAL::Shape_detection::Efficient_RANSAC<Traits>;
 
-Points cgal_points(const OrientedPoints& oriented) {
-  Points points;
+CgalPoints cgal_points(const OrientedPoints& oriented) {
+  CgalPoints points;
   points.reserve(oriented.points.size());
   for (std::size_t i = 0; i < oriented.points.size(); ++i) {
     const Eigen::Vector3d p = oriented.points[i].cast<double>();
@@ -74,11 +74,11 @@ class CgalEfficientRansac final : public GroundExtractor {
 
   Ground extract(const PointCloud& cloud, Rng& rng) const override {
     return with_stage_errors<CGAL::Failure_exception>("CGAL",
-                                                      [&] { return extracted(cloud, rng); });
+                                                      [&] { return extracted(cloud.points, rng); });
   }
 
  private:
-  Ground extracted(const PointCloud& cloud, Rng& rng) const {
+  Ground extracted(const Points& cloud, Rng& rng) const {
     const OrientedPoints oriented = oriented_sample(cloud, params_.leaf_size_m, params_.neighbours);
     return ground_from_planes(cloud, planes(oriented, rng), params_, rng);
   }
@@ -86,7 +86,7 @@ class CgalEfficientRansac final : public GroundExtractor {
   std::vector<Plane> planes(const OrientedPoints& oriented, Rng& rng) const {
     // CGAL permutes its input and draws from the default generator of this thread, whose state
     // depends on earlier calls.
-    Points points = cgal_points(oriented);
+    CgalPoints points = cgal_points(oriented);
     CGAL::get_default_random() = CGAL::Random(static_cast<unsigned int>(rng.bits() >> 32));
     Search search;
     search.set_input(points);

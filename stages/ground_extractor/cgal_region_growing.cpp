@@ -120,11 +120,11 @@ class CgalRegionGrowing final : public GroundExtractor {
 
   Ground extract(const PointCloud& cloud, Rng& rng) const override {
     return with_stage_errors<CGAL::Failure_exception>("CGAL",
-                                                      [&] { return extracted(cloud, rng); });
+                                                      [&] { return extracted(cloud.points, rng); });
   }
 
  private:
-  Ground extracted(const PointCloud& cloud, Rng& rng) const {
+  Ground extracted(const Points& cloud, Rng& rng) const {
     const OrientedPoints oriented = oriented_sample(cloud, params_.leaf_size_m, params_.neighbours);
     return ground_from_planes(cloud, planes(oriented), params_, rng);
   }

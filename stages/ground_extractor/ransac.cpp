@@ -38,11 +38,11 @@ class Ransac final : public GroundExtractor {
 
   Ground extract(const PointCloud& cloud, Rng& rng) const override {
     const Plane plane =
-        plane_ransac(cloud,
+        plane_ransac(cloud.points,
                      {params_.threshold_m, params_.confidence, params_.max_iterations,
                       params_.local_rounds, params_.sample_points},
                      rng);
-    return ground_from_planes(cloud, {plane}, params_, rng);
+    return ground_from_planes(cloud.points, {plane}, params_, rng);
   }
 
  private:

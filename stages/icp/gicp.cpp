@@ -43,14 +43,15 @@ class Gicp final : public Icp {
     // Residual `R s + t - p` with information `(C_t + R C_s R^T)^-1` (Segal, eq. 2). Times 2
     // epsilon it weighs a distance across two planes that agree by one, so the kernel's width is in
     // metres.
-    const Linearise linearise = [epsilon](const Correspondence& pair, const RobustKernel& kernel,
+    const Linearise linearise =
+        for_each_correspondence([epsilon](const Correspondence& pair, const RobustKernel& kernel,
                                           NormalEquations& equations) {
-      const Eigen::Matrix3d covariance = plane_covariance(pair.target_normal, epsilon) +
-                                         plane_covariance(pair.source_normal, epsilon);
-      const Eigen::Matrix3d Omega = 2.0 * epsilon * covariance.inverse();
-      const double squared = pair.offset.dot(Omega * pair.offset);
-      equations.add(point_jacobian(pair.arm), pair.offset, Omega, kernel.weight(squared));
-    };
+          const Eigen::Matrix3d covariance = plane_covariance(pair.target_normal, epsilon) +
+                                             plane_covariance(pair.source_normal, epsilon);
+          const Eigen::Matrix3d Omega = 2.0 * epsilon * covariance.inverse();
+          const double squared = pair.offset.dot(Omega * pair.offset);
+          equations.add(point_jacobian(pair.arm), pair.offset, Omega, kernel.weight(squared));
+        });
     return iterate_icp(target, source, start, params_, rule, linearise);
   }
 

@@ -36,7 +36,7 @@ class Icpn final : public Icp {
     rule.target_normals = params_.normal_neighbours;
     rule.source_normals = params_.normal_neighbours;
     rule.min_normal_cosine = std::cos(rad_from_deg(params_.max_normal_angle_deg));
-    return iterate_icp(target, source, start, params_, rule, linearise_point_to_plane);
+    return iterate_icp(target, source, start, params_, rule, point_to_plane_linearisation());
   }
 
  private:

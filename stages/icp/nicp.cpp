@@ -80,9 +80,9 @@ class Nicp final : public Icp {
     rule.min_normal_cosine = std::cos(rad_from_deg(params_.max_normal_angle_deg));
     return iterate_icp(
         target, source, start, params_, rule,
-        [this](const Correspondence& pair, const RobustKernel& kernel, NormalEquations& equations) {
-          linearise(params_, pair, kernel, equations);
-        });
+        for_each_correspondence(
+            [this](const Correspondence& pair, const RobustKernel& kernel,
+                   NormalEquations& equations) { linearise(params_, pair, kernel, equations); }));
   }
 
  private:

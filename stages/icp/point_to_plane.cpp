@@ -26,7 +26,7 @@ class PointToPlane final : public Icp {
                      const RigidTransform& start) const override {
     CorrespondenceRule rule;
     rule.target_normals = params_.normal_neighbours;
-    return iterate_icp(target, source, start, params_, rule, linearise_point_to_plane);
+    return iterate_icp(target, source, start, params_, rule, point_to_plane_linearisation());
   }
 
  private:

@@ -14,18 +14,18 @@ const params::Table<Params>& table() {
   return table;
 }
 
-/// Residual `R s + t - p`.
-void linearise(const Correspondence& pair, const RobustKernel& kernel, NormalEquations& equations) {
-  equations.add(point_jacobian(pair.arm), pair.offset, Eigen::Matrix3d::Identity(),
-                kernel.weight(pair.offset.squaredNorm()));
-}
-
 class PointToPoint final : public Icp {
  public:
   explicit PointToPoint(Params params) : params_(std::move(params)) {}
 
   Registration align(const Cloud& target, const Cloud& source,
                      const RigidTransform& start) const override {
+    // Residual `R s + t - p`.
+    const Linearise linearise = for_each_correspondence(
+        [](const Correspondence& pair, const RobustKernel& kernel, NormalEquations& equations) {
+          equations.add(point_jacobian(pair.arm), pair.offset, Eigen::Matrix3d::Identity(),
+                        kernel.weight(pair.offset.squaredNorm()));
+        });
     return iterate_icp(target, source, start, params_, {}, linearise);
   }
 

@@ -48,13 +48,11 @@ class BoxCrop final : public Preprocessor {
         keeps_inside_(params.keep == Keep::inside) {}
 
   PointCloud apply(const PointCloud& cloud) const override {
-    PointCloud kept;
-    for (const Eigen::Vector3f& point : cloud) {
-      const Eigen::Array3d p = point.cast<double>().array();
+    return filtered(cloud, [&](std::size_t i) {
+      const Eigen::Array3d p = cloud.points[i].cast<double>().array();
       const bool is_inside = (p >= low_).all() && (p <= high_).all();
-      if (is_inside == keeps_inside_ && p.allFinite()) kept.push_back(point);
-    }
-    return kept;
+      return is_inside == keeps_inside_ && p.allFinite();
+    });
   }
 
  private:

@@ -29,12 +29,10 @@ class RangeCrop final : public Preprocessor {
   explicit RangeCrop(const Params& params) : params_(params) {}
 
   PointCloud apply(const PointCloud& cloud) const override {
-    PointCloud kept;
-    for (const Eigen::Vector3f& point : cloud) {
-      const double range_m = point.cast<double>().norm();
-      if (range_m >= params_.min_m && range_m <= params_.max_m) kept.push_back(point);
-    }
-    return kept;
+    return filtered(cloud, [&](std::size_t i) {
+      const double range_m = cloud.points[i].cast<double>().norm();
+      return range_m >= params_.min_m && range_m <= params_.max_m;
+    });
   }
 
  private:

@@ -45,18 +45,21 @@ class VoxelDownsample final : public Preprocessor {
   PointCloud apply(const PointCloud& cloud) const override {
     std::unordered_map<std::array<int, 3>, std::size_t, LeafHash> indices;  // In `leaves`.
     std::vector<LeafSum> leaves;  // In the order of their first points in the cloud.
-    for (const Eigen::Vector3f& p : cloud) {
-      const Eigen::Vector3d point = p.cast<double>();
+    std::vector<std::size_t> first_points;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const Eigen::Vector3d point = cloud.points[i].cast<double>();
       const auto [entry, is_new] = indices.try_emplace(leaf_of(point), leaves.size());
-      if (is_new) leaves.emplace_back();
+      if (is_new) {
+        leaves.emplace_back();
+        first_points.push_back(i);
+      }
       LeafSum& leaf = leaves[entry->second];
       leaf.sum += point;
       ++leaf.points;
     }
-    PointCloud thinned;
-    thinned.reserve(leaves.size());
-    for (const LeafSum& leaf : leaves) {
-      thinned.push_back((leaf.sum / static_cast<double>(leaf.points)).cast<float>());
+    PointCloud thinned = selected(cloud, first_points);
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      thinned.points[i] = (leaves[i].sum / static_cast<double>(leaves[i].points)).cast<float>();
     }
     return thinned;
   }
@@ -75,8 +78,9 @@ class VoxelDownsample final : public Preprocessor {
 StageEntry voxel_downsample() {
   return stage_entry<VoxelDownsample>(
       "voxel_downsample",
-      "Replaces the points of each leaf by their mean, in the order of the cloud.", "croon",
-      table());
+      "Replaces the points of each leaf by their mean, with the channels of the first of them, in "
+      "the order of the cloud.",
+      "croon", table());
 }
 
 }  // namespace croon::stages::preprocessor

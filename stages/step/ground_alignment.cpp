@@ -23,7 +23,7 @@ const params::Table<Params>& table() {
 /// The plane with its normal towards most of the non-ground points: the sign of a normal is
 /// arbitrary, and objects stand on the ground (paper, rough calibration, the flip of roll and pitch
 /// by pi).
-Plane facing_up(const Ground& ground, const PointCloud& cloud) {
+Plane facing_up(const Ground& ground, const Points& cloud) {
   std::size_t above = 0;
   std::size_t below = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -68,11 +68,9 @@ class GroundAlignment final : public Step {
     const std::string& parameters = params_.extractor.resolved();
     return cloud.once<GroundSplit>(what, parameters, [&] {
       Rng rng = cloud.rng(what);
-      const Ground ground = params_.extractor->extract(cloud.points(), rng);
-      PointCloud non_ground;
-      for (std::size_t i = 0; i < cloud.points().size(); ++i) {
-        if (ground.is_ground[i] == 0) non_ground.push_back(cloud.points()[i]);
-      }
+      const Ground ground = params_.extractor->extract(cloud.with_channels(), rng);
+      PointCloud non_ground =
+          filtered(cloud.with_channels(), [&](std::size_t i) { return ground.is_ground[i] == 0; });
       return std::make_shared<const GroundSplit>(GroundSplit{
           facing_up(ground, cloud.points()), cloud.derived(std::move(non_ground), what)});
     });

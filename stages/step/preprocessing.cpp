@@ -27,7 +27,7 @@ std::shared_ptr<const Cloud> preprocessed(
   for (const params::Slot<Preprocessor>& preprocessor : preprocessors) {
     const std::string what = "preprocessor/" + preprocessor.name();
     cloud = cloud->once<Cloud>(what, preprocessor.resolved(), [&] {
-      return cloud->derived(preprocessor->apply(cloud->points()), what);
+      return cloud->derived(preprocessor->apply(cloud->with_channels()), what);
     });
   }
   return cloud;
@@ -36,6 +36,19 @@ std::shared_ptr<const Cloud> preprocessed(
 class Preprocessing final : public Step {
  public:
   explicit Preprocessing(Params params) : params_(std::move(params)) {}
+
+  static params::DataFlow data_flow(const Params& params) {
+    params::DataFlow flow;
+    for (const auto& slot : params.reference) {
+      flow.target_channels.insert(slot.flow().target_channels.begin(),
+                                  slot.flow().target_channels.end());
+    }
+    for (const auto& slot : params.sensor) {
+      flow.source_channels.insert(slot.flow().source_channels.begin(),
+                                  slot.flow().source_channels.end());
+    }
+    return flow;
+  }
 
   Estimate advance(Estimate estimate, Rng&) const override {
     estimate.target = preprocessed(estimate.target, params_.reference);

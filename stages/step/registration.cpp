@@ -9,7 +9,7 @@ namespace {
 
 struct Params {
   params::Slot<Icp> icp;
-  Points points = Points::all;
+  PointSelection points = PointSelection::all;
   double min_inlier_ratio = 0.0;
 };
 

@@ -10,7 +10,7 @@ namespace {
 struct Params {
   params::Slot<VolumeScorer> scorer;
   params::Slot<PoseSearch> search;
-  Points points = Points::non_ground;
+  PointSelection points = PointSelection::non_ground;
 };
 
 const params::Table<Params>& table() {

@@ -10,40 +10,40 @@ namespace {
 
 constexpr int kPoints = 500;
 
-PointCloud three_points() { return {{1, 0, -2}, {0, 1, -2}, {-1, -1, -2}}; }
+Points three_points() { return {{1, 0, -2}, {0, 1, -2}, {-1, -1, -2}}; }
 
-PointCloud equal_points() { return PointCloud(kPoints, Eigen::Vector3f(1.0F, 2.0F, 3.0F)); }
+Points equal_points() { return Points(kPoints, Eigen::Vector3f(1.0F, 2.0F, 3.0F)); }
 
-PointCloud points_on_a_line() {
-  PointCloud cloud;
+Points points_on_a_line() {
+  Points cloud;
   for (int i = 0; i < kPoints; ++i) {
     cloud.push_back(0.05F * static_cast<float>(i) * Eigen::Vector3f(1, 2, 3).normalized());
   }
   return cloud;
 }
 
-PointCloud points_on_a_plane() {
+Points points_on_a_plane() {
   Rng rng = test_rng(21);
-  PointCloud cloud = random_cloud(rng, kPoints, 10.0);
+  Points cloud = random_cloud(rng, kPoints, 10.0);
   for (Eigen::Vector3f& point : cloud) point.z() = -2.0F;
   return cloud;
 }
 
-PointCloud street() {
+Points street() {
   Rng rng = test_rng(22);
   return random_street(rng, 4, 2 * kPoints, 0.01);
 }
 
-PointCloud far_street() {
-  PointCloud cloud = street();
+Points far_street() {
+  Points cloud = street();
   for (Eigen::Vector3f& point : cloud) point += Eigen::Vector3f(1e6F, -1e6F, 1e6F);
   return cloud;
 }
 
 class ContractOfClouds : public EveryStage {
  protected:
-  void expect_error_or_finite(const std::string& what, const PointCloud& target,
-                              const PointCloud& source) const {
+  void expect_error_or_finite(const std::string& what, const Points& target,
+                              const Points& source) const {
     SCOPED_TRACE(what);
     const Outcome outcome =
         outcome_of(entry().kind, minimal_json(entry()), cloud_pair(target, source));
@@ -51,7 +51,7 @@ class ContractOfClouds : public EveryStage {
   }
 
   /// The cloud against itself, and on either side of a street.
-  void expect_no_harm_of(const PointCloud& cloud) const {
+  void expect_no_harm_of(const Points& cloud) const {
     expect_error_or_finite("both", cloud, cloud);
     expect_error_or_finite("as target", cloud, street());
     expect_error_or_finite("as source", street(), cloud);

@@ -12,7 +12,7 @@ namespace {
 
 CloudPair streets() {
   Rng rng = test_rng(11);
-  const PointCloud target = random_street(rng, 4, 4000, 0.01);
+  const Points target = random_street(rng, 4, 4000, 0.01);
   return cloud_pair(target, random_street(rng, 4, 2000, 0.01));
 }
 

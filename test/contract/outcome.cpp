@@ -1,5 +1,6 @@
 #include "test/contract/outcome.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -24,7 +25,7 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-void add_points(Numbers& numbers, const PointCloud& cloud) {
+void add_points(Numbers& numbers, const Points& cloud) {
   for (const Eigen::Vector3f& point : cloud) {
     for (int i = 0; i < 3; ++i) numbers.push_back(point(i));
   }
@@ -42,7 +43,7 @@ RigidTransform start() {
 
 Numbers preprocessed(const std::string& json, const CloudPair& clouds) {
   Numbers numbers;
-  add_points(numbers, stage<Preprocessor>(json)->apply(clouds.source->points()));
+  add_points(numbers, stage<Preprocessor>(json)->apply(clouds.source->with_channels()).points);
   return numbers;
 }
 
@@ -103,13 +104,30 @@ Numbers searched_pose(const std::string& json, const CloudPair&) {
   return numbers;
 }
 
+/// A step of the registry, with its defaults, for each extra that `step` takes.
+Pipeline givers_of(const params::Slot<Step>& step) {
+  Pipeline givers;
+  for (const params::ExtraDoc& taken : step.flow().takes) {
+    for (const StageEntry& entry : registry().entries()) {
+      const auto is_it = [&](const params::ExtraDoc& given) { return given.name == taken.name; };
+      const auto& gives = entry.flow.gives;
+      if (entry.kind != Step::kKind || std::none_of(gives.begin(), gives.end(), is_it)) continue;
+      givers.push_back({entry.name, stage<Step>(minimal_json(entry))});
+      break;
+    }
+  }
+  return givers;
+}
+
 Numbers advanced(const std::string& json, const CloudPair& clouds) {
   const NamedStep ground{"ground", stage<Step>(R"({"step": "ground_alignment"})")};
   const NamedStep tested{"tested", stage<Step>(json)};
   const StreamKey key(5);
   const bool has_ground =
       run_pipeline({ground}, clouds.target, clouds.source, start(), key).failure.empty();
-  const Pipeline pipeline = has_ground ? Pipeline{ground, tested} : Pipeline{tested};
+  Pipeline pipeline = givers_of(tested.step);
+  if (has_ground) pipeline.insert(pipeline.begin(), ground);
+  pipeline.push_back(tested);
   const PipelineResult result = run_pipeline(pipeline, clouds.target, clouds.source, start(), key);
   if (!result.failure.empty()) throw StageError(result.failure);
   Numbers numbers;
@@ -179,10 +197,10 @@ bool Outcome::is_finite() const {
   return true;
 }
 
-CloudPair cloud_pair(const PointCloud& target, const PointCloud& source) {
+CloudPair cloud_pair(const Points& target, const Points& source) {
   const StreamKey key(3);
-  return {std::make_shared<const Cloud>(target, key.with("target")),
-          std::make_shared<const Cloud>(source, key.with("source"))};
+  return {std::make_shared<const Cloud>(measured(target), key.with("target")),
+          std::make_shared<const Cloud>(measured(source), key.with("source"))};
 }
 
 Outcome outcome_of(const std::string& kind, const std::string& json, const CloudPair& clouds) {

@@ -26,7 +26,8 @@ struct CloudPair {
   std::shared_ptr<const Cloud> source;
 };
 
-CloudPair cloud_pair(const PointCloud& target, const PointCloud& source);
+/// The points with the channels that a LiDAR measures.
+CloudPair cloud_pair(const Points& target, const Points& source);
 
 /// Builds the stage `json` of `kind` and runs it as its kind asks: on both clouds, on each alone,
 /// or on a function. A step runs after `ground_alignment` if that one succeeds. A stage of any

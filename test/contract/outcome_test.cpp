@@ -10,7 +10,7 @@ namespace {
 
 CloudPair streets() {
   Rng rng = test_rng(11);
-  const PointCloud cloud = random_street(rng, 4, 2000, 0.01);
+  const Points cloud = random_street(rng, 4, 2000, 0.01);
   return cloud_pair(cloud, cloud);
 }
 

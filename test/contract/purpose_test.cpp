@@ -25,8 +25,8 @@ class ContractOfPreprocessors : public EveryStage {};
 
 TEST_P(ContractOfPreprocessors, MakeNoPointsOutsideTheCloud) {
   Rng rng = test_rng(31);
-  const PointCloud cloud = random_street(rng, 4, 3000, 0.01);
-  const PointCloud after = stage<Preprocessor>(minimal_json(entry()))->apply(cloud);
+  const Points cloud = random_street(rng, 4, 3000, 0.01);
+  const Points after = stage<Preprocessor>(minimal_json(entry()))->apply(measured(cloud)).points;
   EXPECT_LE(after.size(), cloud.size());
   EXPECT_GT(after.size(), 0U);
   Eigen::Vector3f low = cloud.front();
@@ -40,6 +40,20 @@ TEST_P(ContractOfPreprocessors, MakeNoPointsOutsideTheCloud) {
   }
 }
 
+TEST_P(ContractOfPreprocessors, KeepTheChannelsAsLongAsThePoints) {
+  Rng rng = test_rng(32);
+  for (const int count : {0, 1, 3000}) {
+    const PointCloud cloud = measured(random_street(rng, 4, count, 0.01));
+    const PointCloud after = stage<Preprocessor>(minimal_json(entry()))->apply(cloud);
+    for (const Channel& channel : cloud.channels) {
+      const Channel* const kept = find_channel(after, channel.name);
+      ASSERT_NE(kept, nullptr) << channel.name;
+      EXPECT_TRUE(kept->type == channel.type);
+      EXPECT_EQ(kept->bytes.size(), after.size() * channel.bytes_per_point()) << channel.name;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Registry, ContractOfPreprocessors,
                          testing::ValuesIn(every_stage_of("preprocessor")), stage_case_name);
 
@@ -49,9 +63,9 @@ TEST_P(ContractOfGroundExtractors, FindTheRoadUnderATiltedSensor) {
   const auto extractor = stage<GroundExtractor>(minimal_json(entry()));
   for (std::uint64_t i = 0; i < 3; ++i) {
     Rng rng = test_rng(41 + i);
-    const PointCloud level = random_street(rng, 4, 8000, 0.01);
+    const Points level = random_street(rng, 4, 8000, 0.01);
     const RigidTransform T_tilted_level = random_pose(rng, 2.0);
-    const PointCloud cloud = transformed(level, T_tilted_level);
+    const Points cloud = transformed(level, T_tilted_level);
     const Ground ground = extractor->extract(cloud, rng);
     ASSERT_EQ(ground.is_ground.size(), cloud.size());
     const Eigen::Vector3d up = T_tilted_level.rotation.col(2);
@@ -102,7 +116,7 @@ class ContractOfVolumeScorers : public EveryStage {};
 TEST_P(ContractOfVolumeScorers, AlignedCloudsOccupyTheLeast) {
   const auto scorer = stage<VolumeScorer>(minimal_json(entry()));
   Rng rng = test_rng(61);
-  const PointCloud cloud = random_street(rng, 4, 3000, 0.0);
+  const Points cloud = random_street(rng, 4, 3000, 0.0);
   const CloudPair clouds = cloud_pair(cloud, cloud);
   const VolumeFunction volume = scorer->bind(clouds.target, clouds.source);
   const double aligned_m3 = volume({}).m3();

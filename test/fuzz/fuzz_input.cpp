@@ -2,8 +2,10 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 
 #include "framework/base/error.hpp"
@@ -70,6 +72,22 @@ std::optional<LoadedCloud> read_cloud_input(const std::string& name, const std::
   if (!is_taken([&] { cloud = read_point_cloud(path); })) return std::nullopt;
   require(header_is_taken, "the check of the header refuses what the reader takes");
   return cloud;
+}
+
+bool is_equal(const PointCloud& a, const PointCloud& b) {
+  if (a.points != b.points || a.channels.size() != b.channels.size()) return false;
+  for (std::size_t i = 0; i < a.channels.size(); ++i) {
+    const Channel &one = a.channels[i], &two = b.channels[i];
+    if (one.name != two.name || !(one.type == two.type) || one.count != two.count) return false;
+    if (one.bytes.size() != two.bytes.size()) return false;
+    for (std::size_t at = 0; at < one.bytes.size(); at += one.type.size) {
+      const char *x = one.bytes.data() + at, *y = two.bytes.data() + at;
+      const bool is_nan = std::isnan(decode_scalar(one.type, ByteOrder::little, x)) &&
+                          std::isnan(decode_scalar(two.type, ByteOrder::little, y));
+      if (!is_nan && std::memcmp(x, y, one.type.size) != 0) return false;
+    }
+  }
+  return true;
 }
 
 void require(bool condition, const char* message) {

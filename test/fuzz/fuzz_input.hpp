@@ -29,6 +29,9 @@ bool is_taken(const std::function<void()>& read);
 std::optional<LoadedCloud> read_cloud_input(const std::string& name, const std::uint8_t* data,
                                             std::size_t size);
 
+/// Whether two clouds have the same points and channels, bit for bit; a NaN equals any other.
+bool is_equal(const PointCloud& a, const PointCloud& b);
+
 /// Ends the process with `message` unless `condition` holds.
 void require(bool condition, const char* message);
 

@@ -114,7 +114,7 @@ TEST_P(Docs, NamedFilesExist) {
 /// The example in docs/extending.md is the one that is built.
 TEST(ExampleStage, StandsInThePage) {
   std::string sources;
-  for (const char* ending : {".cpp", ".txt"}) {
+  for (const char* ending : {".cpp", ".hpp", ".txt"}) {
     for (const std::string& file : tree_files("docs/example_stage/", ending)) {
       for (const Line& line : lines_of(file)) sources += line.text + "\n";
     }
@@ -127,6 +127,13 @@ TEST(ExampleStage, StandsInThePage) {
     }
   }
   EXPECT_NE(registry().find("step", "overlap_alignment"), nullptr);
+}
+
+/// A test of test/library builds the example in docs/library.md.
+TEST(ExamplePaper, StandsInThePage) {
+  std::string text;
+  for (const Line& line : lines_of("docs/example_paper/CMakeLists.txt")) text += line.text + "\n";
+  EXPECT_EQ(fenced_blocks("docs/library.md", "cmake").back().text(), text);
 }
 
 INSTANTIATE_TEST_SUITE_P(Pages, Docs, testing::ValuesIn(written_pages()), page_name);

@@ -63,8 +63,8 @@ RigidTransform pose_near(Rng& rng, const RigidTransform& pose, double rotation_d
   return moved(pose, offset);
 }
 
-PointCloud random_cloud(Rng& rng, int count, double extent_m) {
-  PointCloud cloud;
+Points random_cloud(Rng& rng, int count, double extent_m) {
+  Points cloud;
   for (int i = 0; i < count; ++i) {
     const double x = rng.uniform(-extent_m, extent_m);
     const double y = rng.uniform(-extent_m, extent_m);
@@ -74,11 +74,11 @@ PointCloud random_cloud(Rng& rng, int count, double extent_m) {
   return cloud;
 }
 
-PointCloud random_street(Rng& rng, std::uint64_t scene_seed, int count, double noise_m) {
+Points random_street(Rng& rng, std::uint64_t scene_seed, int count, double noise_m) {
   const std::vector<Patch> patches = street(scene_seed);
   double total = 0.0;
   for (const Patch& patch : patches) total += patch.area();
-  PointCloud cloud;
+  Points cloud;
   for (int i = 0; i < count; ++i) {
     double place = rng.uniform(0.0, total);
     std::size_t chosen = 0;
@@ -102,6 +102,22 @@ StreetPair street_pair(Rng& rng, std::uint64_t scene_seed, const RigidTransform&
   pair.source = transformed(random_street(rng, scene_seed, source_count, noise_m),
                             T_target_source.inverse() * T_target_street);
   return pair;
+}
+
+PointCloud measured(const Points& points) {
+  constexpr std::size_t kRings = 16;
+  PointCloud cloud = points;
+  std::vector<float> intensity;
+  std::vector<std::uint16_t> ring;
+  std::vector<double> time_s;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    intensity.push_back(static_cast<float>(1 + i * 7 % 100));
+    ring.push_back(static_cast<std::uint16_t>(i % kRings));
+    time_s.push_back(1e-5 * static_cast<double>(i / kRings));
+  }
+  cloud.channels = {make_channel(kIntensity, intensity), make_channel(kRing, ring),
+                    make_channel(kTime, time_s)};
+  return cloud;
 }
 
 }  // namespace croon::test

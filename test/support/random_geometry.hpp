@@ -18,18 +18,18 @@ RigidTransform pose_near(Rng& rng, const RigidTransform& pose, double rotation_d
                          double translation_m);
 
 /// `count` points uniform in a cube of +-`extent_m`.
-PointCloud random_cloud(Rng& rng, int count, double extent_m);
+Points random_cloud(Rng& rng, int count, double extent_m);
 
 /// A street as a LiDAR 2 m above it may see it, 20 m around: ground, two house fronts along x with
 /// protrusions, boxes and poles. `count` points, uniform over the surfaces, with `noise_m` of
 /// normal noise. Two calls with the same `scene_seed` sample the same street at different points.
-PointCloud random_street(Rng& rng, std::uint64_t scene_seed, int count, double noise_m);
+Points random_street(Rng& rng, std::uint64_t scene_seed, int count, double noise_m);
 
 /// One street seen by two sensors.
 struct StreetPair {
   RigidTransform T_target_source;  ///< The truth.
-  PointCloud target;               ///< In the target's frame.
-  PointCloud source;               ///< In the source's frame.
+  Points target;                   ///< In the target's frame.
+  Points source;                   ///< In the source's frame.
 };
 
 /// The street `scene_seed` (see random_street) seen by two sensors, each at other points.
@@ -37,5 +37,8 @@ struct StreetPair {
 StreetPair street_pair(Rng& rng, std::uint64_t scene_seed, const RigidTransform& T_target_source,
                        int target_count, int source_count, double noise_m,
                        const RigidTransform& T_target_street = {});
+
+/// `points` as a LiDAR measures them: with the channels intensity (1 to 100), ring and time.
+PointCloud measured(const Points& points);
 
 }  // namespace croon::test

@@ -54,6 +54,8 @@ std::vector<Line> lines_of(const std::string& file) {
 }
 
 std::vector<Include> tree_includes() {
+  // The examples are folders outside of the tree, so their own headers have no path.
+  const std::string examples[] = {"docs/example_stage/", "docs/example_paper/"};
   static const std::regex pattern(R"(^\s*#\s*include\s*(["<])([^">]+)[">])");
   std::vector<Include> includes;
   for (const std::string& file : tree_files()) {
@@ -61,7 +63,12 @@ std::vector<Include> tree_includes() {
     for (const Line& line : lines_of(file)) {
       std::smatch match;
       if (std::regex_search(line.text, match, pattern)) {
-        includes.push_back({line, match[2], match[1] == "\""});
+        std::string path = match[2];
+        for (const std::string& example : examples) {
+          const bool is_own = std::filesystem::exists(source_root() / example / path);
+          if (starts_with(file, example) && is_own) path = example + path;
+        }
+        includes.push_back({line, path, match[1] == "\""});
       }
     }
   }

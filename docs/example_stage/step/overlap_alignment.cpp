@@ -7,6 +7,7 @@
 #include "framework/spatial/leaf_grid.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/step.hpp"
+#include "overlap.hpp"
 
 namespace croon::stages::step {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 struct Params {
   double range_m = 1.0;
   double cell_m = 0.2;
-  Points points = Points::non_ground;
+  PointSelection points = PointSelection::non_ground;
 };
 
 const params::Table<Params>& table() {
@@ -30,7 +31,7 @@ const params::Table<Params>& table() {
 /// The (x, y) indices of the cells that the points occupy, seen from above in the target frame.
 using Cells = std::set<std::pair<int, int>>;
 
-Cells occupied_cells(const PointCloud& cloud, const RigidTransform& T_target_cloud, double cell_m) {
+Cells occupied_cells(const Points& cloud, const RigidTransform& T_target_cloud, double cell_m) {
   const LeafGrid grid(cell_m);
   Cells cells;
   for (const Eigen::Vector3f& point : cloud) {
@@ -53,6 +54,8 @@ class OverlapAlignment final : public Step {
  public:
   explicit OverlapAlignment(const Params& params) : params_(params) {}
 
+  static params::DataFlow data_flow(const Params&) { return {{}, {}, {}, {kOverlap.doc()}}; }
+
   Estimate advance(Estimate estimate, Rng&) const override {
     const SelectedClouds clouds = selected_clouds(estimate, params_.points);
     const auto target = cells_of_target(*clouds.target);
@@ -71,8 +74,9 @@ class OverlapAlignment final : public Step {
     }
     if (most == 0) throw StageError("the two clouds share no cell at any shift within range_m");
     estimate.T_target_source.translation += shift_m;
-    estimate.diagnostics = {{"overlap_ratio", static_cast<double>(most) / source.size()},
-                            {"shift_m", shift_m.norm()}};
+    const double overlap_ratio = static_cast<double>(most) / source.size();
+    estimate.extras.put(kOverlap, overlap_ratio);
+    estimate.diagnostics = {{"overlap_ratio", overlap_ratio}, {"shift_m", shift_m.norm()}};
     return estimate;
   }
 

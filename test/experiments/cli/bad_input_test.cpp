@@ -18,7 +18,7 @@ std::string pcd_header(const std::string& width, const std::string& data) {
          "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + width + "\nDATA " + data + "\n";
 }
 
-std::string ascii_pcd(const PointCloud& cloud) {
+std::string ascii_pcd(const Points& cloud) {
   std::ostringstream text;
   text << pcd_header(std::to_string(cloud.size()), "ascii");
   for (const Eigen::Vector3f& p : cloud) text << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
@@ -170,7 +170,8 @@ TEST_F(BadInput, MoreStepsThanAMethodHas) {
   std::string steps;
   for (int i = 0; i < 200000; ++i) steps += R"({"step": "x)" + std::to_string(i) + R"("}, )";
   edit(R"({"step": "ground_alignment")", steps + R"({"step": "ground_alignment")");
-  expect_refused({": /pipeline: expected a list of at most 1000 steps, found 200002"});
+  expect_refused({": /pipeline: expected a list of at most 1000 steps, found 200002",
+                  ": /variants/0/replace/registration.icp: there is no step \"registration\""});
 }
 
 TEST_F(BadInput, UnknownParameter) {
@@ -368,7 +369,7 @@ TEST_F(BadInput, ThreePointsFailTheirTrials) {
 }
 
 TEST_F(BadInput, EqualPointsFailTheirTrials) {
-  folder_.write("data/rig/s1/left.pcd", ascii_pcd(PointCloud(500, {1, 2, 3})));
+  folder_.write("data/rig/s1/left.pcd", ascii_pcd(Points(500, {1, 2, 3})));
   expect_failed_trials("ground_alignment: ");
 }
 

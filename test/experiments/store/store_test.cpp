@@ -34,7 +34,7 @@ TrialRecord random_record(Rng& rng, const std::string& variant, int trial) {
   record.id = {variant, "scene \"1\"", "left", trial};
   record.status = static_cast<Status>(rng.below(kStatusNames.size()));
   if (record.status == Status::failed) {
-    record.reason = "ground_alignment: no plane; found 3\nlines, \"quoted\"";
+    record.reason = "ground_alignment: no plane; found 3, \"quoted\"";
     return record;
   }
   record.T_reference_sensor = test::random_pose(rng, 1e3);

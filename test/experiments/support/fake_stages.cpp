@@ -13,6 +13,8 @@
 namespace croon::test {
 namespace {
 
+constexpr Extra<double> kToken{"token", "a distance in metres"};
+
 struct FakeDatasetParams {
   int scenes = 2;
   int sensors = 2;
@@ -20,6 +22,7 @@ struct FakeDatasetParams {
   int points = 50;
   int unreadable = -1;
   bool kinds = false;
+  std::vector<std::string> channels = {};
 };
 
 class FakeDataset final : public Dataset {
@@ -48,6 +51,8 @@ class FakeDataset final : public Dataset {
     scan.sensor = sensor;
     scan.nominal = random_pose(rng, 2.0);
     if (params_.truth) scan.truth = random_pose(rng, 2.0);
+    // The reference has all that a sensor may lack.
+    scan.channels = index == -2 ? std::vector<std::string>{"ring", "time"} : params_.channels;
     const bool is_readable = index != params_.unreadable;
     scan.load = [seed, is_readable, count = params_.points] {
       if (!is_readable) throw InputError("/data/fake.pcd", "byte 7", "expected points");
@@ -101,6 +106,67 @@ class Drift final : public Step {
   DriftParams params_;
 };
 
+struct GiveParams {
+  double value = 1.0;
+};
+
+/// Gives the extra `token`.
+class Give final : public Step {
+ public:
+  explicit Give(GiveParams params) : params_(params) {}
+
+  static params::DataFlow data_flow(const GiveParams&) { return {{}, {}, {}, {kToken.doc()}}; }
+
+  Estimate advance(Estimate estimate, Rng&) const override {
+    estimate.extras.put(kToken, params_.value);
+    return estimate;
+  }
+
+ private:
+  GiveParams params_;
+};
+
+struct TakeParams {};
+
+/// Moves the pose by the extra `token` along x.
+class Take final : public Step {
+ public:
+  explicit Take(TakeParams) {}
+
+  static params::DataFlow data_flow(const TakeParams&) { return {{}, {}, {kToken.doc()}, {}}; }
+
+  Estimate advance(Estimate estimate, Rng&) const override {
+    estimate.T_target_source.translation.x() += estimate.extras.get(kToken);
+    return estimate;
+  }
+};
+
+/// Gives an extra of the same name and another type.
+class GiveOther final : public Step {
+ public:
+  explicit GiveOther(TakeParams) {}
+
+  static params::DataFlow data_flow(const TakeParams&) {
+    return {{}, {}, {}, {Extra<int>{"token", "a number"}.doc()}};
+  }
+
+  Estimate advance(Estimate estimate, Rng&) const override { return estimate; }
+};
+
+/// Needs the channels time of both clouds, and ring of the sensor's.
+class Need final : public Step {
+ public:
+  explicit Need(TakeParams) {}
+
+  static params::DataFlow data_flow(const TakeParams&) {
+    params::DataFlow flow = params::needs_channels({kTime});
+    flow.source_channels.insert(kRing);
+    return flow;
+  }
+
+  Estimate advance(Estimate estimate, Rng&) const override { return estimate; }
+};
+
 enum class How { pass, reject, defeat, memory, bug, nan, far, skewed };
 
 struct BehaveParams {
@@ -140,7 +206,8 @@ Catalogue fake_catalogue() {
        boolean("truth", &FakeDatasetParams::truth, "Whether there is truth."),
        integer("points", &FakeDatasetParams::points, {0, 1e6}, "Points per cloud."),
        integer("unreadable", &FakeDatasetParams::unreadable, {-2, 10}, "The unreadable cloud."),
-       boolean("kinds", &FakeDatasetParams::kinds, "Whether scenes have kinds.")}));
+       boolean("kinds", &FakeDatasetParams::kinds, "Whether scenes have kinds."),
+       texts("channels", &FakeDatasetParams::channels, "The channels of the sensors' clouds.")}));
   catalogue.add(stage_entry<FakeSearch<CoarseParams>, CoarseParams>(
       "coarse", "Looks nowhere.", "croon",
       {number("step_deg", &CoarseParams::step_deg, {0.1, 90}, "Its step.")}));
@@ -151,6 +218,12 @@ Catalogue fake_catalogue() {
       "drift", "Moves the pose.", "croon",
       {number("size_m", &DriftParams::size_m, {0, 10}, "How far."),
        slot("search", &DriftParams::search, R"({"type": "coarse"})", "A stage in a stage.")}));
+  catalogue.add(stage_entry<Give, GiveParams>(
+      "give", "Gives an extra.", "croon",
+      {number("value", &GiveParams::value, {-10, 10}, "Its value.")}));
+  catalogue.add(stage_entry<Take, TakeParams>("take", "Takes an extra.", "croon", {}));
+  catalogue.add(stage_entry<GiveOther, TakeParams>("give_other", "Gives another.", "croon", {}));
+  catalogue.add(stage_entry<Need, TakeParams>("need", "Needs channels.", "croon", {}));
   catalogue.add(stage_entry<Behave, BehaveParams>("behave", "Behaves as it is told to.", "croon",
                                                   {choice("how", &BehaveParams::how,
                                                           {{"pass", How::pass},

@@ -12,8 +12,8 @@ namespace croon {
 namespace {
 
 /// `count` points of the plane z = 0 with noise along z, then as many per cent of clutter as said.
-PointCloud plane_in_clutter(Rng& rng, int count, double noise_m, int clutter_percent) {
-  PointCloud cloud = test::random_cloud(rng, count * clutter_percent / 100, 10.0);
+Points plane_in_clutter(Rng& rng, int count, double noise_m, int clutter_percent) {
+  Points cloud = test::random_cloud(rng, count * clutter_percent / 100, 10.0);
   for (int i = 0; i < count; ++i) {
     const double x = rng.uniform(-10.0, 10.0), y = rng.uniform(-10.0, 10.0);
     cloud.push_back(Eigen::Vector3d(x, y, noise_m * rng.normal()).cast<float>());
@@ -26,7 +26,7 @@ TEST(PlaneRansac, FindsAPlaneAmongFourTimesAsManyOtherPoints) {
   const PlaneRansacOptions options;
   for (int i = 0; i < 50; ++i) {
     const RigidTransform T = test::random_pose(rng, 5.0);
-    const PointCloud cloud = transformed(plane_in_clutter(rng, 1000, 0.02, 400), T);
+    const Points cloud = transformed(plane_in_clutter(rng, 1000, 0.02, 400), T);
     const Eigen::Vector3d up = T.rotation.col(2);
     const Plane truth = {up, -up.dot(T.translation)};
     const Plane plane = plane_ransac(cloud, options, rng);
@@ -43,7 +43,7 @@ TEST(PlaneRansac, LocalOptimisationWinsPointsFromTheSameDraws) {
   Rng rng = test::test_rng(2);
   int won = 0, lost = 0;
   for (int i = 0; i < 50; ++i) {
-    const PointCloud cloud = plane_in_clutter(rng, 2000, 0.05, 100);
+    const Points cloud = plane_in_clutter(rng, 2000, 0.05, 100);
     PlaneRansacOptions options;
     options.threshold_m = 0.1;
     options.max_iterations = 20;
@@ -65,7 +65,7 @@ TEST(PlaneRansac, NeedsThreePointsThatSpanAPlane) {
   const Eigen::Vector3f a(1, 2, 3), b(4, 5, 6), c(1, 0, 0);
   EXPECT_THROW(plane_ransac({}, {}, rng), StageError);
   EXPECT_THROW(plane_ransac({a, b}, {}, rng), StageError);
-  EXPECT_THROW(plane_ransac(PointCloud(100, a), {}, rng), StageError);
+  EXPECT_THROW(plane_ransac(Points(100, a), {}, rng), StageError);
   EXPECT_THROW(plane_ransac({a, b, a, b, a}, {}, rng), StageError);
   const Plane plane = plane_ransac({a, b, c}, {}, rng);
   for (const Eigen::Vector3f& point : {a, b, c}) {

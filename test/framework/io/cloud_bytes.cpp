@@ -47,7 +47,7 @@ std::string field_bytes(const FieldSpec& field, const Eigen::Vector3f& point) {
   return bytes;
 }
 
-std::string ascii_body(const PcdSpec& spec, const PointCloud& cloud) {
+std::string ascii_body(const PcdSpec& spec, const Points& cloud) {
   std::ostringstream text;
   text.precision(9);
   for (const Eigen::Vector3f& point : cloud) {
@@ -59,7 +59,7 @@ std::string ascii_body(const PcdSpec& spec, const PointCloud& cloud) {
   return text.str();
 }
 
-std::string compressed_body(const PcdSpec& spec, const PointCloud& cloud) {
+std::string compressed_body(const PcdSpec& spec, const Points& cloud) {
   std::string raw;
   for (const FieldSpec& field : spec.fields) {
     for (const Eigen::Vector3f& point : cloud) raw += field_bytes(field, point);
@@ -101,7 +101,7 @@ std::string pcd_header(const PcdSpec& spec, std::size_t points) {
   return text;
 }
 
-std::string pcd_bytes(const PcdSpec& spec, const PointCloud& cloud) {
+std::string pcd_bytes(const PcdSpec& spec, const Points& cloud) {
   std::string body;
   if (spec.data == "ascii") {
     body = ascii_body(spec, cloud);

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "framework/base/scalar_type.hpp"
 #include "framework/geometry/point_cloud.hpp"
 #include "framework/io/pcd_header.hpp"
-#include "framework/io/scalar_type.hpp"
 
 namespace croon::test {
 
@@ -30,7 +30,7 @@ struct PcdSpec {
 std::string pcd_header(const PcdSpec& spec, std::size_t points);
 
 /// The file; fields that are not x, y, z hold sevens.
-std::string pcd_bytes(const PcdSpec& spec, const PointCloud& cloud);
+std::string pcd_bytes(const PcdSpec& spec, const Points& cloud);
 
 /// The bytes of one number.
 std::string scalar_bytes(char type, std::size_t size, double value, ByteOrder order);

@@ -19,8 +19,8 @@ using test::PcdSpec;
 using ::testing::HasSubstr;
 
 /// Whole numbers that every type of a PCD file can hold.
-PointCloud small_numbers(Rng& rng, int count) {
-  PointCloud cloud;
+Points small_numbers(Rng& rng, int count) {
+  Points cloud;
   for (int i = 0; i < count; ++i) {
     cloud.push_back({static_cast<float>(rng.below(128)), static_cast<float>(rng.below(128)),
                      static_cast<float>(rng.below(128))});
@@ -56,7 +56,7 @@ TEST(PcdFile, ReadsEveryEncodingOfEveryOrderAndType) {
   const test::TempFolder folder;
   for (int i = 0; i < 200; ++i) {
     PcdSpec spec = random_spec(rng);
-    const PointCloud cloud = small_numbers(rng, static_cast<int>(rng.below(40)));
+    const Points cloud = small_numbers(rng, static_cast<int>(rng.below(40)));
     for (const char* data : {"ascii", "binary", "binary_compressed"}) {
       spec.data = data;
       const auto path = folder.write("a.pcd", test::pcd_bytes(spec, cloud));
@@ -72,7 +72,7 @@ TEST(PcdFile, ReadsEveryEncodingOfEveryOrderAndType) {
 TEST(PcdFile, KeepsEveryBitOfAFloat) {
   Rng rng = test::test_rng();
   const test::TempFolder folder;
-  const PointCloud cloud = test::random_cloud(rng, 500, 100.0);
+  const Points cloud = test::random_cloud(rng, 500, 100.0);
   for (const char* data : {"ascii", "binary", "binary_compressed"}) {
     PcdSpec spec;
     spec.data = data;
@@ -85,13 +85,13 @@ TEST(PcdFile, DropsAndCountsWhatIsNotFinite) {
   const test::TempFolder folder;
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float inf = std::numeric_limits<float>::infinity();
-  const PointCloud cloud = {{1, 2, 3}, {nan, 2, 3}, {1, -inf, 3}, {4, 5, 6}, {1, 2, inf}};
+  const Points cloud = {{1, 2, 3}, {nan, 2, 3}, {1, -inf, 3}, {4, 5, 6}, {1, 2, inf}};
   for (const char* data : {"ascii", "binary", "binary_compressed"}) {
     PcdSpec spec;
     spec.data = data;
     const LoadedCloud loaded =
         read_point_cloud(folder.write("a.pcd", test::pcd_bytes(spec, cloud)));
-    EXPECT_EQ(loaded.points, (PointCloud{{1, 2, 3}, {4, 5, 6}})) << data;
+    EXPECT_EQ(loaded.points, (Points{{1, 2, 3}, {4, 5, 6}})) << data;
     EXPECT_EQ(loaded.dropped_non_finite, 3u) << data;
   }
 }

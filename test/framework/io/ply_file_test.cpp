@@ -21,7 +21,7 @@ const char* const kElements =
     "element vertex 2\nproperty uchar red\nproperty double z\nproperty list ushort float normal\n"
     "property int16 x\nproperty float32 y\n"
     "element edge 1\nproperty int from\nend_header\n";
-const PointCloud kVertices = {{-3, 2.5f, 1.25f}, {300, -0.5f, 8}};
+const Points kVertices = {{-3, 2.5f, 1.25f}, {300, -0.5f, 8}};
 
 std::string binary_ply(ByteOrder order) {
   const auto number = [order](char type, std::size_t size, double value) {
@@ -59,14 +59,14 @@ TEST(PlyFile, ReadsWindowsHeaders) {
       "property float y\r\nproperty float z\r\nend_header\r\n";
   EXPECT_EQ(read_point_cloud(folder.write("a.ply", header + "1 2 nan\r\n")).dropped_non_finite, 1u);
   EXPECT_EQ(read_point_cloud(folder.write("a.ply", header + "1 2 3\r\n")).points,
-            (PointCloud{{1, 2, 3}}));
+            (Points{{1, 2, 3}}));
 }
 
 TEST(PlyFile, ReadsWhatWasWritten) {
   Rng rng = test::test_rng();
   const test::TempFolder folder;
   for (const int count : {0, 1, 1000}) {
-    const PointCloud cloud = test::random_cloud(rng, count, 100.0);
+    const Points cloud = test::random_cloud(rng, count, 100.0);
     for (const PlyFormat format : {PlyFormat::binary_little_endian, PlyFormat::ascii}) {
       write_ply(folder.path() / "a.ply", cloud, format);
       check_point_cloud_file(folder.path() / "a.ply");
@@ -80,10 +80,10 @@ TEST(PlyFile, FusesTheRigInTheReferencesFrame) {
   Rng rng = test::test_rng();
   const test::TempFolder folder;
   const RigidTransform T = test::random_pose(rng, 5.0);
-  const PointCloud top = test::random_cloud(rng, 3, 10.0), left = test::random_cloud(rng, 2, 10.0);
+  const Points top = test::random_cloud(rng, 3, 10.0), left = test::random_cloud(rng, 2, 10.0);
   const auto path = folder.path() / "fused.ply";
   write_fused_ply(path, {{"top", top, {}}, {"left\nelement", left, T}});
-  PointCloud expected = top;
+  Points expected = top;
   for (const Eigen::Vector3f& point : transformed(left, T)) expected.push_back(point);
   EXPECT_EQ(read_point_cloud(path).points, expected);
   const std::string bytes = read_whole_file(path);

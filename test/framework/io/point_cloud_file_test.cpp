@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 TEST(PointCloudFile, GoesByTheSuffixInAnyCase) {
   const test::TempFolder folder;
-  const PointCloud cloud = {{1, 2, 3}};
+  const Points cloud = {{1, 2, 3}};
   EXPECT_EQ(read_point_cloud(folder.write("a.PCD", test::pcd_bytes({}, cloud))).points, cloud);
   for (const char* name : {"a.las", "a", "pcd"}) {
     const auto path = folder.write(name, "x");
@@ -39,7 +39,7 @@ TEST(PointCloudFile, NeedsAFile) {
 TEST(KittiFile, IsRecordsOfFourFloats) {
   Rng rng = test::test_rng();
   const test::TempFolder folder;
-  const PointCloud cloud = test::random_cloud(rng, 20, 100.0);
+  const Points cloud = test::random_cloud(rng, 20, 100.0);
   std::string bytes;
   for (const Eigen::Vector3f& p : cloud) {
     for (const float value : {p.x(), p.y(), p.z(), 0.5f}) {
@@ -58,7 +58,7 @@ TEST(KittiFile, IsRecordsOfFourFloats) {
 /// A valid file of each kind, by suffix.
 std::vector<std::pair<std::string, std::string>> valid_files(Rng& rng,
                                                              const test::TempFolder& folder) {
-  const PointCloud cloud = test::random_cloud(rng, 12, 100.0);
+  const Points cloud = test::random_cloud(rng, 12, 100.0);
   std::vector<std::pair<std::string, std::string>> files;
   for (const char* data : {"ascii", "binary", "binary_compressed"}) {
     test::PcdSpec spec;

@@ -27,7 +27,7 @@ TEST(VdbWriter, HasTheLeavesWhereTheyAre) {
   const test::TempFolder folder;
   const auto path = folder.path() / "a.vdb";
   for (const double leaf_size_m : {0.05, 0.3, 2.0}) {
-    const PointCloud points = test::random_cloud(rng, 500, 5.0);
+    const Points points = test::random_cloud(rng, 500, 5.0);
     write_occupancy_vdb(path, points, leaf_size_m);
     const openvdb::BoolGrid::Ptr grid = read_grid(path);
     const LeafGrid leaves(leaf_size_m);
@@ -49,7 +49,7 @@ TEST(VdbWriter, HasTheLeavesWhereTheyAre) {
 TEST(VdbWriter, WritesTheSameBytesForTheSamePoints) {
   Rng rng = test::test_rng();
   const test::TempFolder folder;
-  const PointCloud points = test::random_cloud(rng, 200, 5.0);
+  const Points points = test::random_cloud(rng, 200, 5.0);
   write_occupancy_vdb(folder.path() / "a.vdb", points, 0.1);
   write_occupancy_vdb(folder.path() / "b.vdb", points, 0.1);
   EXPECT_EQ(read_whole_file(folder.path() / "a.vdb"), read_whole_file(folder.path() / "b.vdb"));

@@ -17,7 +17,7 @@ params::Slot<GroundExtractor> ransac() {
 
 TEST(CloudDescription, AreThoseOfAKnownCloud) {
   // A level square of 400 points 2 m below the sensor, and 100 points in one leaf above it.
-  PointCloud points;
+  Points points;
   for (int i = 0; i < 20; ++i) {
     for (int j = 0; j < 20; ++j) {
       points.emplace_back(0.5F * static_cast<float>(i) + 0.05F,
@@ -46,9 +46,9 @@ TEST(CloudDescription, BinsHoldTheirRanges) {
 
 TEST(CloudDescription, OverlapIsThatOfTheTruth) {
   Rng rng = test::test_rng();
-  const PointCloud reference = test::random_cloud(rng, 500, 10.0);
+  const Points reference = test::random_cloud(rng, 500, 10.0);
   const RigidTransform T = test::random_pose(rng, 2.0);
-  PointCloud seen = transformed(reference, T.inverse());
+  Points seen = transformed(reference, T.inverse());
   seen.emplace_back(1000.0F, 0.0F, 0.0F);
   CloudDescription description = description_of(seen, *ransac());
   add_overlap(description, seen, KdTree(reference), T);

@@ -36,7 +36,7 @@ NamedStep move(const std::string& name, bool fails = false) {
 }
 
 PipelineResult run(const Pipeline& pipeline) {
-  const auto cloud = std::make_shared<const Cloud>(PointCloud{{1, 2, 3}}, StreamKey(1));
+  const auto cloud = std::make_shared<const Cloud>(Points{{1, 2, 3}}, StreamKey(1));
   return run_pipeline(pipeline, cloud, cloud, {}, StreamKey(5));
 }
 

@@ -32,7 +32,7 @@ ScanPlan at_rest() {
   return {0.0, [](double) { return RigidTransform{}; }};
 }
 
-MeasuredCloud scanned(const Noise& noise, const ScanPlan& plan = at_rest()) {
+PointCloud scanned(const Noise& noise, const ScanPlan& plan = at_rest()) {
   const RayCaster caster(room(), {0.0, noise.moves_during_scan ? 0.5 : 0.0});
   return scan(caster, small_sensor(), noise, plan, StreamKey(3));
 }
@@ -44,26 +44,28 @@ double range_in_room_m(const Vector3d& direction) {
 }
 
 TEST(Scan, WithoutNoiseEveryRayComesBackFromItsWall) {
-  const MeasuredCloud cloud = scanned({});
+  const PointCloud cloud = scanned({});
   ASSERT_EQ(cloud.points.size(), 5U * 360U);
+  const std::vector<double> ring = channel_values(cloud, kRing);
+  const std::vector<double> intensity = channel_values(cloud, kIntensity);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const Vector3d point = cloud.points[i].cast<double>();
     EXPECT_NEAR(point.norm(), range_in_room_m(point.normalized()), 1e-5);
-    EXPECT_EQ(cloud.ring[i], i % 5);
+    EXPECT_EQ(ring[i], static_cast<double>(i % 5));
     EXPECT_NEAR(std::asin(point.z() / point.norm()),
                 rad_from_deg(small_sensor().elevations_deg[i % 5]), 1e-6);
-    EXPECT_GE(cloud.intensity[i], 0.0F);
-    EXPECT_LE(cloud.intensity[i], 255.0F);
+    EXPECT_GE(intensity[i], 0.0);
+    EXPECT_LE(intensity[i], 255.0);
   }
-  EXPECT_EQ(cloud.time_s.front(), 0.0);
-  EXPECT_NEAR(cloud.time_s.back(), 0.1 * 359.0 / 360.0, 1e-12);
+  EXPECT_EQ(times_s(cloud).front(), 0.0);
+  EXPECT_NEAR(times_s(cloud).back(), 0.1 * 359.0 / 360.0, 1e-12);
 }
 
 TEST(Scan, RangeNoiseHasItsDeviation) {
   Noise noise;
   noise.range_std_m = 0.05;
   double squares = 0.0;
-  const MeasuredCloud cloud = scanned(noise);
+  const PointCloud cloud = scanned(noise);
   for (const Eigen::Vector3f& p : cloud.points) {
     const Vector3d point = p.cast<double>();
     squares += std::pow(point.norm() - range_in_room_m(point.normalized()), 2);
@@ -102,20 +104,21 @@ TEST(Scan, DistortionShiftsPointsAsTheCarMoves) {
       }};
   Noise noise;
   noise.moves_during_scan = true;
-  const MeasuredCloud moving = scanned(noise, driving);
+  const PointCloud moving = scanned(noise, driving);
+  const std::vector<double> time_s = times_s(moving);
   int on_walls_ahead = 0;
   for (std::size_t i = 0; i < moving.points.size(); ++i) {
-    const double x_m = static_cast<double>(moving.points[i].x()) + kSpeed_mps * moving.time_s[i];
+    const double x_m = static_cast<double>(moving.points[i].x()) + kSpeed_mps * time_s[i];
     const double y_m = moving.points[i].y();
     EXPECT_TRUE(std::abs(x_m - 10.0) < 1e-4 || std::abs(x_m + 10.0) < 1e-4 ||
                 std::abs(std::abs(y_m) - 8.0) < 1e-4 ||
                 std::abs(std::abs(moving.points[i].z()) - 4.0F) < 1e-4F);
     on_walls_ahead += std::abs(x_m - 10.0) < 1e-4 ? 1 : 0;
-    EXPECT_GE(moving.time_s[i], 0.05);
+    EXPECT_GE(time_s[i], 0.05);
   }
   EXPECT_GT(on_walls_ahead, 100);
   // Without motion during the scan all is at time 0, at any speed of the car.
-  const MeasuredCloud still = scanned({}, driving);
+  const PointCloud still = scanned({}, driving);
   ASSERT_EQ(still.points.size(), scanned({}).points.size());
   EXPECT_EQ(still.points, scanned({}).points);
 }

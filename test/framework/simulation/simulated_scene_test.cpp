@@ -54,8 +54,8 @@ RigidTransform T_world_sensor(const SimulatedScene& scene, const Recipe& recipe,
 }
 
 /// Every `n`-th point of a cloud.
-PointCloud every(const PointCloud& cloud, std::size_t n) {
-  PointCloud some;
+Points every(const Points& cloud, std::size_t n) {
+  Points some;
   for (std::size_t i = 0; i < cloud.size(); i += n) some.push_back(cloud[i]);
   return some;
 }
@@ -67,7 +67,7 @@ TEST(SimulatedScene, EveryPointLiesOnASurface) {
     const Triangles triangles = test::triangles_of(scene.world());
     for (const auto& [name, mounting] : recipe->rig.sensors) {
       const RigidTransform T = T_world_sensor(scene, *recipe, mounting);
-      const PointCloud cloud = scene.scan_of(name).points;
+      const Points cloud = scene.scan_of(name).points;
       ASSERT_GT(cloud.size(), 1000U);
       for (const Eigen::Vector3f& point : every(cloud, cloud.size() / 40)) {
         EXPECT_LT(distance_m(T * point.cast<double>(), triangles), 1e-4) << name;
@@ -129,10 +129,10 @@ TEST(SimulatedScene, CloudsAgreeOnTheGroundToAMillimetre) {
 std::string bytes_of(const SimulatedScene& scene, const Recipe& recipe) {
   std::string bytes;
   for (const auto& [name, mounting] : recipe.rig.sensors) {
-    const MeasuredCloud cloud = scene.scan_of(name);
+    const PointCloud cloud = scene.scan_of(name);
     const auto* first = reinterpret_cast<const char*>(cloud.points.data());
     bytes.append(first, cloud.points.size() * sizeof(Eigen::Vector3f));
-    for (const float intensity : cloud.intensity) bytes += std::to_string(intensity);
+    for (const Channel& channel : cloud.channels) bytes += channel.bytes;
   }
   return bytes;
 }
@@ -183,7 +183,7 @@ TEST(SimulatedScene, SensorsSeeTheirOwnCar) {
   const auto recipe = recipe_of(SceneKind::empty);
   const SimulatedScene scene(recipe, 1);
   for (const char* name : {"front", "back", "left", "right"}) {
-    const PointCloud cloud = scene.scan_of(name).points;
+    const Points cloud = scene.scan_of(name).points;
     EXPECT_TRUE(std::any_of(cloud.begin(), cloud.end(), [](const Eigen::Vector3f& p) {
       return p.norm() < 0.8F;
     })) << name;

@@ -10,7 +10,7 @@ namespace croon {
 namespace {
 
 /// Squared distances to all points, in order of size.
-std::vector<float> sorted_squared_distances(const PointCloud& cloud, const Eigen::Vector3f& query) {
+std::vector<float> sorted_squared_distances(const Points& cloud, const Eigen::Vector3f& query) {
   std::vector<float> distances;
   for (const Eigen::Vector3f& point : cloud) distances.push_back((point - query).squaredNorm());
   std::sort(distances.begin(), distances.end());
@@ -19,7 +19,7 @@ std::vector<float> sorted_squared_distances(const PointCloud& cloud, const Eigen
 
 TEST(KdTree, AgreesWithLookingAtEveryPoint) {
   Rng rng = test::test_rng();
-  const PointCloud cloud = test::random_cloud(rng, 700, 5.0);
+  const Points cloud = test::random_cloud(rng, 700, 5.0);
   const KdTree tree(cloud);
   std::vector<Neighbour> neighbours;
   for (const Eigen::Vector3f& query : test::random_cloud(rng, 200, 7.0)) {
@@ -39,17 +39,17 @@ TEST(KdTree, AgreesWithLookingAtEveryPoint) {
 }
 
 TEST(KdTree, CountsTheBoundItselfAsWithin) {
-  const PointCloud cloud = {{1.0F, 0.0F, 0.0F}};
+  const Points cloud = {{1.0F, 0.0F, 0.0F}};
   const KdTree tree(cloud);
   EXPECT_TRUE(tree.nearest({0.0F, 0.0F, 0.0F}, 1.0F));
   EXPECT_FALSE(tree.nearest({0.0F, 0.0F, 0.0F}, 0.999F));
 }
 
 TEST(KdTree, SmallAndEmptyCloudsAnswer) {
-  const PointCloud none;
+  const Points none;
   const KdTree empty(none);
   EXPECT_FALSE(empty.nearest({0, 0, 0}));
-  const PointCloud two = {{0, 0, 0}, {0, 0, 0}};
+  const Points two = {{0, 0, 0}, {0, 0, 0}};
   std::vector<Neighbour> neighbours;
   KdTree(two).nearest({1, 0, 0}, 40, neighbours);
   EXPECT_EQ(neighbours.size(), 2u);

@@ -27,7 +27,7 @@ TEST(NearestDistanceCost, IsTheMeanOfTheCutSquaredDistances) {
 
 TEST(NearestDistanceCost, IsZeroWhereTheCloudsCoincide) {
   Rng rng = test::test_rng();
-  const PointCloud points = test::random_cloud(rng, 300, 3.0);
+  const Points points = test::random_cloud(rng, 300, 3.0);
   const RigidTransform T = test::random_pose(rng, 2.0);
   const auto target = std::make_shared<const Cloud>(transformed(points, T), StreamKey(1));
   const Cloud source(points, StreamKey(2));

@@ -13,7 +13,7 @@ TEST(Normals, OfRandomPlanesAreTheirsAndFaceTheSensor) {
   Rng rng = test::test_rng();
   for (int trial = 0; trial < 20; ++trial) {
     const RigidTransform pose = test::random_pose(rng, 5.0);
-    PointCloud cloud;
+    Points cloud;
     for (int i = 0; i < 300; ++i) {
       cloud.push_back(
           (pose * Eigen::Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), 0)).cast<float>());
@@ -30,12 +30,12 @@ TEST(Normals, OfRandomPlanesAreTheirsAndFaceTheSensor) {
 }
 
 TEST(Normals, AreUndefinedOnALineAndAmongEqualPoints) {
-  PointCloud line, equal;
+  Points line, equal;
   for (int i = 0; i < 50; ++i) {
     line.push_back(Eigen::Vector3f(1.0F + 0.1F * static_cast<float>(i), 2.0F, 3.0F));
     equal.push_back({1, 2, 3});
   }
-  for (const PointCloud& cloud : {line, equal, PointCloud{{1, 0, 0}, {0, 1, 0}}}) {
+  for (const Points& cloud : {line, equal, Points{{1, 0, 0}, {0, 1, 0}}}) {
     const KdTree tree(cloud);
     EXPECT_TRUE(Normals(cloud, tree, 10).at(0).normal.isZero());
   }
@@ -45,7 +45,7 @@ TEST(Normals, AreUndefinedOnLinesOfAnyDirection) {
   Rng rng = test::test_rng();
   for (int trial = 0; trial < 500; ++trial) {
     const RigidTransform pose = test::random_pose(rng, 10.0);
-    PointCloud line;
+    Points line;
     for (int i = 0; i < 40; ++i) {
       line.push_back((pose * Eigen::Vector3d(rng.uniform(-2, 2), 0, 0)).cast<float>());
     }
@@ -56,14 +56,14 @@ TEST(Normals, AreUndefinedOnLinesOfAnyDirection) {
 
 TEST(Normals, VariationTellsARoundCloudFromAFlatOne) {
   Rng rng = test::test_rng();
-  PointCloud cloud = test::random_cloud(rng, 400, 1.0);
+  Points cloud = test::random_cloud(rng, 400, 1.0);
   const KdTree tree(cloud);
   EXPECT_GT(Normals(cloud, tree, 400).at(0).surface_variation, 0.25F);
 }
 
 TEST(Normals, AreTheSameWhicheverThreadAsksFirst) {
   Rng rng = test::test_rng();
-  const PointCloud cloud = test::random_street(rng, 1, 4000, 0.01);
+  const Points cloud = test::random_street(rng, 1, 4000, 0.01);
   const KdTree tree(cloud);
   const Normals alone(cloud, tree, 40);
   const Normals shared(cloud, tree, 40);

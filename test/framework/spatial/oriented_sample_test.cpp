@@ -14,7 +14,7 @@ namespace {
 
 TEST(OrientedSample, KeepsOnePointOfEachLeaf) {
   Rng rng = test::test_rng();
-  const PointCloud cloud = test::random_cloud(rng, 5000, 2.0);
+  const Points cloud = test::random_cloud(rng, 5000, 2.0);
   const LeafGrid grid(0.5);
   const auto leaf = [&](const Eigen::Vector3f& point) {
     const Eigen::Vector3i index = grid.leaf_of(point.cast<double>());
@@ -31,7 +31,7 @@ TEST(OrientedSample, NormalsStandOnThePlaneUnderAnyPose) {
   Rng rng = test::test_rng(2);
   for (int i = 0; i < 50; ++i) {
     const RigidTransform T = test::random_pose(rng, 20.0);
-    PointCloud plane;
+    Points plane;
     for (int k = 0; k < 500; ++k) {
       const double x = rng.uniform(-5.0, 5.0);
       plane.push_back((T * Eigen::Vector3d(x, rng.uniform(-5.0, 5.0), 0.0)).cast<float>());
@@ -47,8 +47,8 @@ TEST(OrientedSample, NormalsStandOnThePlaneUnderAnyPose) {
 
 TEST(OrientedSample, LeavesOutWhatHasNoNormal) {
   EXPECT_TRUE(oriented_sample({}, 0.1, 10).points.empty());
-  EXPECT_TRUE(oriented_sample(PointCloud(1000, {1, 2, 3}), 0.1, 10).points.empty());
-  PointCloud line;
+  EXPECT_TRUE(oriented_sample(Points(1000, {1, 2, 3}), 0.1, 10).points.empty());
+  Points line;
   for (int i = 0; i < 100; ++i) line.emplace_back(0.5F * static_cast<float>(i), 0.0F, 1.0F);
   EXPECT_TRUE(oriented_sample(line, 0.1, 10).points.empty());
 }

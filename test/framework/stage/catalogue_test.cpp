@@ -19,7 +19,7 @@ class Keep final : public Preprocessor {
  public:
   explicit Keep(KeepParams params) : params_(params) {}
   PointCloud apply(const PointCloud& cloud) const override {
-    return {cloud.begin(), cloud.begin() + params_.count};
+    return Points(cloud.points.begin(), cloud.points.begin() + params_.count);
   }
 
  private:

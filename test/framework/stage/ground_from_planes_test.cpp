@@ -12,7 +12,7 @@ namespace croon {
 namespace {
 
 /// `count` points of the plane z = `height_m`, 20 m across.
-void add_level(PointCloud& cloud, Rng& rng, int count, double height_m) {
+void add_level(Points& cloud, Rng& rng, int count, double height_m) {
   for (int i = 0; i < count; ++i) {
     const double x = rng.uniform(-10.0, 10.0);
     cloud.push_back(Eigen::Vector3d(x, rng.uniform(-10.0, 10.0), height_m).cast<float>());
@@ -23,7 +23,7 @@ Plane level(double height_m) { return {Eigen::Vector3d::UnitZ(), -height_m}; }
 
 TEST(GroundFromPlanes, TakesTheFullestPlane) {
   Rng rng = test::test_rng();
-  PointCloud cloud;
+  Points cloud;
   add_level(cloud, rng, 400, 3.0);
   add_level(cloud, rng, 600, -1.0);
   add_level(cloud, rng, 500, 1.0);
@@ -36,7 +36,7 @@ TEST(GroundFromPlanes, TakesTheFullestPlane) {
 
 TEST(GroundFromPlanes, AKerbInTheSlabDoesNotLiftTheGround) {
   Rng rng = test::test_rng(2);
-  PointCloud cloud;
+  Points cloud;
   add_level(cloud, rng, 2000, 0.0);
   for (int i = 0; i < 600; ++i) {
     const double x = rng.uniform(-10.0, 10.0);
@@ -54,7 +54,7 @@ TEST(GroundFromPlanes, AKerbInTheSlabDoesNotLiftTheGround) {
 
 TEST(GroundFromPlanes, SaysHowFewPointsTheLargestPlaneHolds) {
   Rng rng = test::test_rng(3);
-  PointCloud cloud = test::random_cloud(rng, 900, 50.0);
+  Points cloud = test::random_cloud(rng, 900, 50.0);
   add_level(cloud, rng, 100, 60.0);
   try {
     ground_from_planes(cloud, {level(60.0)}, {0.2, 0.05, 0.25}, rng);
@@ -69,7 +69,7 @@ TEST(GroundFromPlanes, SaysHowFewPointsTheLargestPlaneHolds) {
 TEST(GroundFromPlanes, NoPlaneAndNoPointIsNoGround) {
   Rng rng = test::test_rng(4);
   EXPECT_THROW(ground_from_planes({}, {level(0.0)}, {}, rng), StageError);
-  const PointCloud cloud = test::random_cloud(rng, 100, 5.0);
+  const Points cloud = test::random_cloud(rng, 100, 5.0);
   EXPECT_THROW(ground_from_planes(cloud, {}, {}, rng), StageError);
   EXPECT_THROW(ground_from_planes(cloud, {level(100.0)}, {}, rng), StageError);
 }

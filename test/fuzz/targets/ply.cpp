@@ -9,8 +9,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (!cloud) return 0;
   const std::filesystem::path again = fuzz::write_input("again.ply", data, 0);
   for (const PlyFormat format : {PlyFormat::binary_little_endian, PlyFormat::ascii}) {
-    write_ply(again, cloud->points, format);
-    fuzz::require(read_point_cloud(again).points == cloud->points,
+    // PLY has no integers of 8 bytes, and a header may name a property by what is no word.
+    if (!fuzz::is_taken([&] { write_ply(again, *cloud, format); })) continue;
+    fuzz::require(fuzz::is_equal(read_point_cloud(again), *cloud),
                   "a cloud is read back as another");
   }
   return 0;

@@ -55,10 +55,10 @@ TEST_F(MadeUpRig, IsAFolderOfScenesOrOneScene) {
     ASSERT_EQ(one.size(), 1u);
     EXPECT_EQ(one[0].name, "b");
     EXPECT_EQ(one[0].reference.sensor, "top");
-    EXPECT_EQ(one[0].reference.load().points, (PointCloud{{1, 0, 0}}));
+    EXPECT_EQ(one[0].reference.load().points, (Points{{1, 0, 0}}));
     ASSERT_EQ(one[0].sensors.size(), 1u);
     EXPECT_EQ(one[0].sensors[0].sensor, "left");
-    EXPECT_EQ(one[0].sensors[0].load().points, (PointCloud{{2, 0, 0}}));
+    EXPECT_EQ(one[0].sensors[0].load().points, (Points{{2, 0, 0}}));
     EXPECT_FALSE(one[0].sensors[0].truth || one[0].sensors[0].nominal || one[0].sensors[0].initial);
   }
   EXPECT_EQ(scenes(root / "rig" / "a", ".")[0].name, "a");
@@ -94,8 +94,8 @@ TEST_F(MadeUpRig, MayFollowLinksOutOfTheDataRoot) {
   };
   const std::vector<Scene> all = follow("rig/");
   ASSERT_EQ(all.size(), 3U);
-  EXPECT_EQ(all[0].reference.load().points, (PointCloud{{5, 0, 0}}));
-  EXPECT_EQ(all[2].sensors[0].load().points, (PointCloud{{6, 0, 0}}));
+  EXPECT_EQ(all[0].reference.load().points, (Points{{5, 0, 0}}));
+  EXPECT_EQ(all[2].sensors[0].load().points, (Points{{6, 0, 0}}));
   EXPECT_EQ(all[2].sensors[0].file, (fs::canonical(root) / "rig/c/left-1-2.pcd").string());
   EXPECT_THAT(test::input_error([&] { follow("../disk"); }),
               HasSubstr("leads outside the data root"));
@@ -131,7 +131,7 @@ TEST_F(MadeUpRig, FindsCloudsWhereverTheListWasWritten) {
     while (entry.find("\\\\") != std::string::npos) entry.replace(entry.find("\\\\"), 2, "\\");
     folder.write("data/rig/a/lidar_cloud_path.txt",
                  "device_id: 0\npath: top-1.pcd\ndevice_id: 1\npath: " + entry + "\n");
-    EXPECT_EQ(scenes(root, "rig/a")[0].sensors[0].load().points, (PointCloud{{2, 0, 0}})) << entry;
+    EXPECT_EQ(scenes(root, "rig/a")[0].sensors[0].load().points, (Points{{2, 0, 0}})) << entry;
   }
 }
 

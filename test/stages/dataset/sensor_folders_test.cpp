@@ -57,10 +57,10 @@ TEST_F(SensorFolders, HoldCloudsOfOneNameForEachScene) {
   EXPECT_EQ(all[0].sensors[0].sensor, "front-left");
   ASSERT_TRUE(all[0].sensors[0].truth);
   EXPECT_EQ(all[0].sensors[0].truth->translation.x(), 1.0);
-  EXPECT_EQ(all[0].sensors[0].load().points, (PointCloud{{3, 0, 0}}));
+  EXPECT_EQ(all[0].sensors[0].load().points, (Points{{3, 0, 0}}));
   EXPECT_EQ(all[1].kind, "urban");
   EXPECT_EQ(all[1].reference.sensor, "top");
-  EXPECT_EQ(all[1].reference.load().points, (PointCloud{{1, 0, 0}}));
+  EXPECT_EQ(all[1].reference.load().points, (Points{{1, 0, 0}}));
   ASSERT_EQ(all[1].sensors.size(), 2U);
   EXPECT_EQ(all[1].sensors[0].sensor, "back");
   EXPECT_FALSE(all[1].sensors[0].truth);
@@ -105,7 +105,7 @@ TEST_F(SensorFolders, FollowLinksIfAsked) {
   EXPECT_THAT(error(), HasSubstr("leads outside the data root"));
   const std::vector<Scene> all = scenes(R"(, "follow_links": true)");
   ASSERT_EQ(all.size(), 2U);
-  EXPECT_EQ(all[1].sensors[0].load().points, (PointCloud{{7, 0, 0}}));
+  EXPECT_EQ(all[1].sensors[0].load().points, (Points{{7, 0, 0}}));
   EXPECT_EQ(all[1].sensors[0].file, (fs::canonical(root) / "car/back/000002.pcd").string());
 }
 

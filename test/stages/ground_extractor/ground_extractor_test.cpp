@@ -20,7 +20,7 @@ params::Slot<GroundExtractor> extractor(const std::string& name, const std::stri
   return test::stage<GroundExtractor>("{\"type\": \"" + name + "\"" + more + "}");
 }
 
-Ground extracted(const GroundExtractor& stage, const PointCloud& cloud, std::uint64_t seed = 1) {
+Ground extracted(const GroundExtractor& stage, const Points& cloud, std::uint64_t seed = 1) {
   Rng rng = test::test_rng(seed);
   return stage.extract(cloud, rng);
 }
@@ -56,7 +56,7 @@ TEST_P(EveryGroundExtractor, FindsTheGroundOfAStreetUnderAnyPose) {
   const auto stage = extractor(GetParam());
   for (int i = 0; i < 20; ++i) {
     const RigidTransform T_sensor_street = test::random_pose(rng, 3.0);
-    const PointCloud street = test::random_street(rng, i, 15000, 0.01);
+    const Points street = test::random_street(rng, i, 15000, 0.01);
     const Ground ground = extracted(*stage, transformed(street, T_sensor_street));
     const Plane expected = mapped(T_sensor_street, street_ground());
     const Plane found = turned_to(ground.plane, expected);
@@ -68,7 +68,7 @@ TEST_P(EveryGroundExtractor, FindsTheGroundOfAStreetUnderAnyPose) {
 
 TEST_P(EveryGroundExtractor, GroundIsWhatIsNearThePlane) {
   Rng rng = test::test_rng(2);
-  const PointCloud street = test::random_street(rng, 7, 15000, 0.01);
+  const Points street = test::random_street(rng, 7, 15000, 0.01);
   const Ground ground = extracted(*extractor(GetParam(), R"(, "threshold_m": 0.15)"), street);
   ASSERT_EQ(ground.is_ground.size(), street.size());
   EXPECT_NEAR(ground.plane.normal.norm(), 1.0, 1e-12);
@@ -82,7 +82,7 @@ TEST_P(EveryGroundExtractor, ARotatedCloudHasTheRotatedGround) {
   Rng rng = test::test_rng(3);
   const auto stage = extractor(GetParam());
   for (int i = 0; i < 10; ++i) {
-    const PointCloud street = test::random_street(rng, i, 15000, 0.01);
+    const Points street = test::random_street(rng, i, 15000, 0.01);
     const RigidTransform T = test::random_pose(rng, 3.0);
     const Plane expected = mapped(T, extracted(*stage, street).plane);
     const Plane found = turned_to(extracted(*stage, transformed(street, T)).plane, expected);
@@ -94,8 +94,8 @@ TEST_P(EveryGroundExtractor, ARotatedCloudHasTheRotatedGround) {
 TEST_P(EveryGroundExtractor, SameSeedSameBitsOnAnyThreadAfterAnyCall) {
   Rng rng = test::test_rng(4);
   const auto stage = extractor(GetParam());
-  const PointCloud street = test::random_street(rng, 1, 8000, 0.02);
-  const PointCloud other = test::random_street(rng, 2, 5000, 0.02);
+  const Points street = test::random_street(rng, 1, 8000, 0.02);
+  const Points other = test::random_street(rng, 2, 5000, 0.02);
   const Ground first = extracted(*stage, street);
   extracted(*stage, other, 9);
   EXPECT_TRUE(same_bits(first, extracted(*stage, street)));
@@ -108,7 +108,7 @@ TEST_P(EveryGroundExtractor, CloudsWithoutAPlaneAreRefused) {
   Rng rng = test::test_rng(5);
   const auto stage = extractor(GetParam());
   const Eigen::Vector3f point(1.0F, 2.0F, 3.0F), step(0.5F, -0.25F, 0.125F);
-  PointCloud line, two_places;
+  Points line, two_places;
   for (int i = 0; i < 300; ++i) {
     line.push_back(point + static_cast<float>(i) * step);
     two_places.push_back(i % 2 == 0 ? point : step);
@@ -116,8 +116,8 @@ TEST_P(EveryGroundExtractor, CloudsWithoutAPlaneAreRefused) {
   EXPECT_THROW(extracted(*stage, {}), StageError);
   EXPECT_THROW(extracted(*stage, {point}), StageError);
   EXPECT_THROW(extracted(*stage, {point, step}), StageError);
-  EXPECT_THROW(extracted(*stage, PointCloud(3, point)), StageError);
-  EXPECT_THROW(extracted(*stage, PointCloud(5000, point)), StageError);
+  EXPECT_THROW(extracted(*stage, Points(3, point)), StageError);
+  EXPECT_THROW(extracted(*stage, Points(5000, point)), StageError);
   EXPECT_THROW(extracted(*stage, line), StageError);
   EXPECT_THROW(extracted(*stage, two_places), StageError);
   const auto demanding = extractor(GetParam(), R"(, "min_inlier_ratio": 0.9)");
@@ -128,7 +128,7 @@ TEST_P(EveryGroundExtractor, ThreePointsAreAGroundOrAreRefused) {
   Rng rng = test::test_rng(6);
   const auto stage = extractor(GetParam());
   for (int i = 0; i < 100; ++i) {
-    const PointCloud three = test::random_cloud(rng, 3, 5.0);
+    const Points three = test::random_cloud(rng, 3, 5.0);
     try {
       const Ground ground = extracted(*stage, three);
       EXPECT_EQ(ground.is_ground, std::vector<std::uint8_t>(3, 1));
@@ -140,8 +140,8 @@ TEST_P(EveryGroundExtractor, ThreePointsAreAGroundOrAreRefused) {
 
 TEST_P(EveryGroundExtractor, DuplicatesChangeNothingOfTheGround) {
   Rng rng = test::test_rng(7);
-  PointCloud street = test::random_street(rng, 3, 8000, 0.005);
-  const PointCloud copy = street;
+  Points street = test::random_street(rng, 3, 8000, 0.005);
+  const Points copy = street;
   for (int i = 0; i < 3; ++i) street.insert(street.end(), copy.begin(), copy.end());
   const Plane found = turned_to(extracted(*extractor(GetParam()), street).plane, street_ground());
   EXPECT_LT(angle_deg(found, street_ground()), 0.03);
@@ -150,7 +150,7 @@ TEST_P(EveryGroundExtractor, DuplicatesChangeNothingOfTheGround) {
 
 TEST_P(EveryGroundExtractor, PointsThatAreNotFiniteAreRefusedOrAreNotGround) {
   Rng rng = test::test_rng(8);
-  PointCloud street = test::random_street(rng, 3, 8000, 0.01);
+  Points street = test::random_street(rng, 3, 8000, 0.01);
   for (std::size_t i = 0; i < street.size(); i += 100) {
     street[i].y() = std::numeric_limits<float>::quiet_NaN();
   }
@@ -166,7 +166,7 @@ TEST_P(EveryGroundExtractor, PointsThatAreNotFiniteAreRefusedOrAreNotGround) {
 TEST_P(EveryGroundExtractor, FitsTheFinalPlaneWithinTheSlab) {
   // A wider final slab is the slab itself.
   Rng scene = test::test_rng(3);
-  const PointCloud street = test::random_street(scene, 3, 6000, 0.01);
+  const Points street = test::random_street(scene, 3, 6000, 0.01);
   const auto plane_of = [&](const std::string& parameters) {
     Rng rng = test::test_rng();
     return extractor(GetParam(), parameters)->extract(street, rng).plane;

@@ -24,7 +24,7 @@ struct Expectation {
 const std::vector<Expectation> kVariants = {
     {R"({"type": "point_to_point"})", 0.5, 0.15}, {R"({"type": "point_to_plane"})", 0.1, 0.02},
     {R"({"type": "icpn"})", 0.1, 0.02},           {R"({"type": "nicp"})", 0.1, 0.02},
-    {R"({"type": "gicp"})", 0.1, 0.02},
+    {R"({"type": "gicp"})", 0.1, 0.02},           {R"({"type": "trimmed"})", 0.1, 0.02},
 };
 
 test::StreetPair street_pair(std::uint64_t seed, double noise_m) {
@@ -54,7 +54,7 @@ TEST(Icp, EveryVariantReturnsToTheTruth) {
 TEST(Icp, EveryKernelReturnsToTheTruthAmongStrayPoints) {
   test::StreetPair pair = street_pair(4, 0.01);
   Rng rng = test::test_rng(9);
-  const PointCloud stray = test::random_cloud(rng, 1500, 8.0);
+  const Points stray = test::random_cloud(rng, 1500, 8.0);
   pair.source.insert(pair.source.end(), stray.begin(), stray.end());
   const Cloud target(pair.target, StreamKey(1));
   const Cloud source(pair.source, StreamKey(2));
@@ -67,6 +67,26 @@ TEST(Icp, EveryKernelReturnsToTheTruthAmongStrayPoints) {
     EXPECT_LT(deg_from_rad(error.rotation_rad), 0.2) << kernel;
     EXPECT_LT(error.translation_m, 0.04) << kernel;
   }
+}
+
+TEST(Icp, TrimmedForgetsTheShareThatIsFarOff) {
+  // A quarter of the source is a second street, 40 cm to the side.
+  test::StreetPair pair = street_pair(4, 0.005);
+  const std::size_t shifted = pair.source.size() / 4;
+  for (std::size_t i = 0; i < shifted; ++i) pair.source[4 * i] += Eigen::Vector3f(0.4F, 0.4F, 0.4F);
+  const Cloud target(pair.target, StreamKey(1));
+  const Cloud source(pair.source, StreamKey(2));
+  const auto error_of = [&](const char* keep_ratio) {
+    const auto icp = test::stage<Icp>(
+        std::string(R"({"type": "trimmed", "max_distances_m": [2], "keep_ratio": )") + keep_ratio +
+        "}");
+    const Registration result = icp->align(target, source, pair.T_target_source);
+    EXPECT_NEAR(result.inlier_ratio, std::stod(keep_ratio), 0.05);
+    return pose_error(result.T_target_source, pair.T_target_source).translation_m;
+  };
+  const double trimmed = error_of("0.7"), all = error_of("1");
+  EXPECT_GT(all, 0.02);
+  EXPECT_LT(trimmed, 0.7 * all);
 }
 
 TEST(Icp, IsEquivariantUnderMotionsOfTheTarget) {
@@ -93,7 +113,7 @@ TEST(Icp, IsEquivariantUnderMotionsOfTheTarget) {
 TEST(Icp, InformationIsSymmetricAndKnowsTheOpenDirections) {
   // A corridor along x, without ends: x is open, the rest is not.
   Rng rng = test::test_rng();
-  PointCloud corridor;
+  Points corridor;
   for (int i = 0; i < 12000; ++i) {
     const double x = rng.uniform(-20, 20);
     const double v = rng.uniform(-2, 2);

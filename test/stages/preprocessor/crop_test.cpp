@@ -13,8 +13,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-PointCloud applied(const std::string& json, const PointCloud& cloud) {
-  return test::stage<Preprocessor>(json)->apply(cloud);
+Points applied(const std::string& json, const Points& cloud) {
+  return test::stage<Preprocessor>(json)->apply(cloud).points;
 }
 
 std::string error_of(const std::string& json) {
@@ -22,12 +22,12 @@ std::string error_of(const std::string& json) {
 }
 
 TEST(RangeCrop, KeepsTheBoundsAndTheOrder) {
-  const PointCloud cloud = {{1, 0, 0}, {0, 0.999f, 0}, {0, 0, -200},
-                            {0, 0, 0}, {200, 1, 0},    {3, 4, 12}};
+  const Points cloud = {{1, 0, 0}, {0, 0.999f, 0}, {0, 0, -200},
+                        {0, 0, 0}, {200, 1, 0},    {3, 4, 12}};
   EXPECT_EQ(applied(R"({"type": "range_crop"})", cloud),
-            (PointCloud{{1, 0, 0}, {0, 0, -200}, {3, 4, 12}}));
+            (Points{{1, 0, 0}, {0, 0, -200}, {3, 4, 12}}));
   EXPECT_EQ(applied(R"({"type": "range_crop", "min_m": 13, "max_m": 13})", cloud),
-            (PointCloud{{3, 4, 12}}));
+            (Points{{3, 4, 12}}));
   EXPECT_TRUE(applied(R"({"type": "range_crop"})", {}).empty());
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_TRUE(applied(R"({"type": "range_crop"})", {{nan, 3, 0}}).empty());
@@ -35,9 +35,9 @@ TEST(RangeCrop, KeepsTheBoundsAndTheOrder) {
 
 TEST(RangeCrop, SplitsTheCloudAtARange) {
   Rng rng = test::test_rng();
-  const PointCloud cloud = test::random_cloud(rng, 1000, 10.0);
-  const PointCloud near = applied(R"({"type": "range_crop", "min_m": 0, "max_m": 7})", cloud);
-  const PointCloud far = applied(R"({"type": "range_crop", "min_m": 7, "max_m": 100})", cloud);
+  const Points cloud = test::random_cloud(rng, 1000, 10.0);
+  const Points near = applied(R"({"type": "range_crop", "min_m": 0, "max_m": 7})", cloud);
+  const Points far = applied(R"({"type": "range_crop", "min_m": 7, "max_m": 100})", cloud);
   EXPECT_GT(near.size(), 0u);
   EXPECT_GT(far.size(), 0u);
   EXPECT_EQ(near.size() + far.size(), cloud.size());
@@ -45,11 +45,11 @@ TEST(RangeCrop, SplitsTheCloudAtARange) {
 
 TEST(BoxCrop, PartsTheCloudInOrder) {
   Rng rng = test::test_rng();
-  const PointCloud cloud = test::random_cloud(rng, 1000, 3.0);
+  const Points cloud = test::random_cloud(rng, 1000, 3.0);
   const std::string box = R"({"type": "box_crop", "min_m": [-2, -1, 0], "max_m": [1, 2, 2.5])";
-  const PointCloud outside = applied(box + "}", cloud);
-  const PointCloud inside = applied(box + R"(, "keep": "inside"})", cloud);
-  PointCloud expected_inside, expected_outside;
+  const Points outside = applied(box + "}", cloud);
+  const Points inside = applied(box + R"(, "keep": "inside"})", cloud);
+  Points expected_inside, expected_outside;
   for (const Eigen::Vector3f& p : cloud) {
     const bool is_inside =
         p.x() >= -2 && p.x() <= 1 && p.y() >= -1 && p.y() <= 2 && p.z() >= 0 && p.z() <= 2.5f;
@@ -61,8 +61,8 @@ TEST(BoxCrop, PartsTheCloudInOrder) {
 }
 
 TEST(BoxCrop, HasItsFacesInside) {
-  const PointCloud cloud = {{1, 1, 1}, {-1, 0, 0}, {1.001f, 0, 0}};
-  EXPECT_EQ(applied(R"({"type": "box_crop"})", cloud), (PointCloud{{1.001f, 0, 0}}));
+  const Points cloud = {{1, 1, 1}, {-1, 0, 0}, {1.001f, 0, 0}};
+  EXPECT_EQ(applied(R"({"type": "box_crop"})", cloud), (Points{{1.001f, 0, 0}}));
 }
 
 TEST(Crops, RefuseBoundsThatAreNone) {

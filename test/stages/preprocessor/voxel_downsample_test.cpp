@@ -25,16 +25,16 @@ std::array<int, 3> leaf_of(const LeafGrid& grid, const Eigen::Vector3f& point) {
 TEST(VoxelDownsample, PutsTheMeanInPlaceOfEachLeaf) {
   Rng rng = test::test_rng();
   for (const double leaf_size_m : {0.25, 1.0, 7.5}) {
-    const PointCloud cloud = test::random_cloud(rng, 2000, 5.0);
+    const Points cloud = test::random_cloud(rng, 2000, 5.0);
     const LeafGrid grid(leaf_size_m);
-    std::map<std::array<int, 3>, PointCloud> leaves;
+    std::map<std::array<int, 3>, Points> leaves;
     std::vector<std::array<int, 3>> order;
     for (const Eigen::Vector3f& point : cloud) {
-      PointCloud& leaf = leaves[leaf_of(grid, point)];
+      Points& leaf = leaves[leaf_of(grid, point)];
       if (leaf.empty()) order.push_back(leaf_of(grid, point));
       leaf.push_back(point);
     }
-    const PointCloud thinned = downsample(leaf_size_m)->apply(cloud);
+    const Points thinned = downsample(leaf_size_m)->apply(cloud).points;
     ASSERT_EQ(thinned.size(), order.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
       Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -46,16 +46,16 @@ TEST(VoxelDownsample, PutsTheMeanInPlaceOfEachLeaf) {
 }
 
 TEST(VoxelDownsample, LeavesSinglePointsAlone) {
-  const PointCloud cloud = {{5.5f, 0.1f, -0.1f}, {0.1f, 0.1f, 0.1f}, {-0.1f, 0.1f, 0.1f}};
-  EXPECT_EQ(downsample(1.0)->apply(cloud), cloud);
+  const Points cloud = {{5.5f, 0.1f, -0.1f}, {0.1f, 0.1f, 0.1f}, {-0.1f, 0.1f, 0.1f}};
+  EXPECT_EQ(downsample(1.0)->apply(cloud).points, cloud);
   EXPECT_TRUE(downsample(1.0)->apply({}).empty());
-  EXPECT_EQ(downsample(1.0)->apply(PointCloud(100, cloud[0])), (PointCloud{cloud[0]}));
+  EXPECT_EQ(downsample(1.0)->apply(Points(100, cloud[0])).points, (Points{cloud[0]}));
 }
 
 TEST(VoxelDownsample, GivesUpOnPointsBeyondItsLeaves) {
-  EXPECT_EQ(downsample(0.1)->apply({{1e7f, 0, 0}}).size(), 1u);
-  EXPECT_THROW(downsample(0.1)->apply({{1e9f, 0, 0}}), StageError);
-  EXPECT_THROW(downsample(0.1)->apply({{0, std::numeric_limits<float>::quiet_NaN(), 0}}),
+  EXPECT_EQ(downsample(0.1)->apply(Points{{1e7f, 0, 0}}).size(), 1u);
+  EXPECT_THROW(downsample(0.1)->apply(Points{{1e9f, 0, 0}}), StageError);
+  EXPECT_THROW(downsample(0.1)->apply(Points{{0, std::numeric_limits<float>::quiet_NaN(), 0}}),
                StageError);
 }
 

@@ -12,7 +12,7 @@
 namespace croon {
 namespace {
 
-std::shared_ptr<const Cloud> shared_cloud(PointCloud points, std::uint64_t seed) {
+std::shared_ptr<const Cloud> shared_cloud(Points points, std::uint64_t seed) {
   return std::make_shared<const Cloud>(std::move(points), StreamKey(seed).with("cloud"));
 }
 
@@ -26,8 +26,8 @@ struct Rig {
 Rig random_rig(Rng& rng, std::uint64_t scene_seed) {
   Rig rig;
   rig.T_target_source = test::random_pose(rng, 1.0);
-  PointCloud target = test::random_street(rng, scene_seed, 12000, 0.01);
-  const PointCloud street = test::random_street(rng, scene_seed, 9000, 0.01);
+  Points target = test::random_street(rng, scene_seed, 12000, 0.01);
+  const Points street = test::random_street(rng, scene_seed, 9000, 0.01);
   rig.estimate.target = shared_cloud(std::move(target), 2 * scene_seed);
   rig.estimate.source =
       shared_cloud(transformed(street, rig.T_target_source.inverse()), 2 * scene_seed + 1);

@@ -31,8 +31,8 @@ TEST(VolumeRefinement, ComesNearerAcrossTheSurfaces) {
           "search": {"type": "coordinate_scan", "translation_step_m": 0.02,
                      "min_decrease_ratio": 1e-4, "sweeps": 3}})");
   Rng rng = test::test_rng();
-  PointCloud dense = test::random_street(rng, 7, 150000, 0.0);
-  PointCloud sparse = test::random_street(rng, 7, 5000, 0.0);
+  Points dense = test::random_street(rng, 7, 150000, 0.0);
+  Points sparse = test::random_street(rng, 7, 5000, 0.0);
   Estimate estimate;
   estimate.target = std::make_shared<const Cloud>(std::move(dense), StreamKey(1));
   estimate.source = std::make_shared<const Cloud>(std::move(sparse), StreamKey(2));

@@ -48,7 +48,7 @@ TEST(YawAlignment, TurnsAboutTheGroundsNormal) {
 TEST(YawAlignment, FailsWhereNoPointIsOffTheGround) {
   Rng rng = test::test_rng();
   test::StreetEstimate street = test::street_estimate(3);
-  const auto none = std::make_shared<const Cloud>(PointCloud{}, StreamKey(1));
+  const auto none = std::make_shared<const Cloud>(Points{}, StreamKey(1));
   street.estimate.target_ground = street.estimate.source_ground =
       std::make_shared<const GroundSplit>(GroundSplit{{}, none});
   EXPECT_THROW(test::stage<Step>(R"({"step": "yaw_alignment"})")->advance(street.estimate, rng),

@@ -28,8 +28,8 @@ TEST(VolumeScorers, CountLikeTheSetOnRandomClouds) {
   Rng rng = test::test_rng();
   for (const double leaf_size_m : kLeafSizes) {
     for (const double extent_m : {0.3, 3.0, 30.0}) {
-      const PointCloud target = test::random_cloud(rng, 800, extent_m);
-      const PointCloud source = test::random_cloud(rng, 500, extent_m);
+      const Points target = test::random_cloud(rng, 800, extent_m);
+      const Points source = test::random_cloud(rng, 500, extent_m);
       test::expect_equal_counts(target, source, random_poses(rng, 8, extent_m), leaf_size_m);
     }
   }
@@ -37,10 +37,10 @@ TEST(VolumeScorers, CountLikeTheSetOnRandomClouds) {
 
 TEST(VolumeScorers, CountLikeTheSetOnOneSideOfTheOrigin) {
   Rng rng = test::test_rng();
-  const PointCloud cloud = test::random_cloud(rng, 600, 2.0);
+  const Points cloud = test::random_cloud(rng, 600, 2.0);
   for (const double side : {-1.0, 1.0}) {
-    const PointCloud target = transformed(cloud, shifted(side * 7, side * 70, -side * 700));
-    const PointCloud source = transformed(cloud, shifted(side * 8, side * 71, -side * 701));
+    const Points target = transformed(cloud, shifted(side * 7, side * 70, -side * 700));
+    const Points source = transformed(cloud, shifted(side * 8, side * 71, -side * 701));
     test::expect_equal_counts(target, source, random_poses(rng, 6, 1.0), 0.1);
   }
 }
@@ -48,12 +48,12 @@ TEST(VolumeScorers, CountLikeTheSetOnOneSideOfTheOrigin) {
 TEST(VolumeScorers, CountLikeTheSetWhereALongLeverShowsARoundedPose) {
   Rng rng = test::test_rng();
   // Half of the leaves are full, so that a point which changes its leaf changes the count.
-  const PointCloud lump = test::random_cloud(rng, 20000, 0.3);
-  const PointCloud far_lump = transformed(lump, shifted(80, 60, -40));
+  const Points lump = test::random_cloud(rng, 20000, 0.3);
+  const Points far_lump = transformed(lump, shifted(80, 60, -40));
   for (int i = 0; i < 3; ++i) {
     const RigidTransform T = test::random_pose(rng, 1.0);
     const Eigen::Vector3d place = T * Eigen::Vector3d(80, 60, -40);
-    const PointCloud target = transformed(lump, {T.rotation, place});
+    const Points target = transformed(lump, {T.rotation, place});
     test::expect_equal_counts(target, far_lump, {T}, 0.02);
   }
 }
@@ -61,7 +61,7 @@ TEST(VolumeScorers, CountLikeTheSetWhereALongLeverShowsARoundedPose) {
 TEST(VolumeScorers, CountLikeTheSetOnTheBordersOfLeaves) {
   Rng rng = test::test_rng();
   for (const double leaf_size_m : kLeafSizes) {
-    PointCloud cloud;
+    Points cloud;
     for (int i = 0; i < 600; ++i) {
       const Eigen::Vector3d corner(static_cast<double>(rng.below(16)) - 8,
                                    static_cast<double>(rng.below(16)) - 8,
@@ -76,8 +76,8 @@ TEST(VolumeScorers, CountLikeTheSetOnTheBordersOfLeaves) {
 
 TEST(VolumeScorers, CountASourceFarOutsideOfTheTargetsCube) {
   Rng rng = test::test_rng();
-  const PointCloud target = test::random_cloud(rng, 300, 1.0);
-  const PointCloud source = test::random_cloud(rng, 300, 1.0);
+  const Points target = test::random_cloud(rng, 300, 1.0);
+  const Points source = test::random_cloud(rng, 300, 1.0);
   std::vector<RigidTransform> poses;
   for (const double far_m : {3.0, 1e3, 1e6}) {
     for (int i = 0; i < 4; ++i) poses.push_back(test::random_pose(rng, far_m));
@@ -89,11 +89,11 @@ TEST(VolumeScorers, CountASourceFarOutsideOfTheTargetsCube) {
 
 TEST(VolumeScorers, CountToTheEndsOfTheGrid) {
   const float end_m = static_cast<float>(LeafGrid::kMaxIndex) * 0.5F;
-  PointCloud corners;
+  Points corners;
   for (int i = 0; i < 8; ++i) {
     corners.push_back({i & 1 ? end_m : -end_m, i & 2 ? end_m : -end_m, i & 4 ? end_m : -end_m});
   }
-  const PointCloud near = {{0.1F, 0.1F, 0.1F}, {-0.1F, 0.1F, 0.1F}};
+  const Points near = {{0.1F, 0.1F, 0.1F}, {-0.1F, 0.1F, 0.1F}};
   test::expect_equal_counts(corners, near, {RigidTransform{}, shifted(9, 9, -9)}, 0.5);
   test::expect_equal_counts(near, corners, {RigidTransform{}}, 0.5);
   std::reverse(corners.begin(), corners.end());
@@ -114,12 +114,12 @@ TEST(VolumeScorers, RefuseWhatIsOutsideOfTheGrid) {
 
 TEST(VolumeScorers, CountFewPointsAndNone) {
   Rng rng = test::test_rng();
-  const PointCloud one = {{-0.3F, 0.7F, 2.0F}};
-  const PointCloud same(100, one[0]);
-  const PointCloud many = test::random_cloud(rng, 100, 1.0);
+  const Points one = {{-0.3F, 0.7F, 2.0F}};
+  const Points same(100, one[0]);
+  const Points many = test::random_cloud(rng, 100, 1.0);
   const std::vector<RigidTransform> poses = random_poses(rng, 5, 2.0);
-  for (const PointCloud& target : {PointCloud{}, one, same, many}) {
-    for (const PointCloud& source : {PointCloud{}, one, same, many}) {
+  for (const Points& target : {Points{}, one, same, many}) {
+    for (const Points& source : {Points{}, one, same, many}) {
       test::expect_equal_counts(target, source, poses, 0.1);
     }
   }

@@ -13,15 +13,15 @@ namespace {
 /// frame, as they are in a real one's: those along the grid of leaves count by where they lie
 /// between its borders.
 struct SplitStreet {
-  PointCloud target;
-  PointCloud source;
+  Points target;
+  Points source;
   RigidTransform T_target_source;
 };
 
 SplitStreet split_street(Rng& rng, int count) {
   const RigidTransform T_target_street = test::random_pose(rng, 1.0);
   const RigidTransform T_source_street = test::random_pose(rng, 1.0);
-  PointCloud halves[2];
+  Points halves[2];
   int next = 0;
   for (const Eigen::Vector3f& point : test::random_street(rng, rng.bits(), count, 0.005)) {
     halves[next++ % 2].push_back(point);
@@ -62,7 +62,7 @@ TEST(VolumeScorers, AlignedCloudsOccupyTheLeast) {
 
 TEST(VolumeScorers, ACloudOnItselfOccupiesWhatItOccupiesAlone) {
   Rng rng = test::test_rng();
-  const PointCloud points = test::random_street(rng, 1, 5000, 0.01);
+  const Points points = test::random_street(rng, 1, 5000, 0.01);
   const auto cloud = test::cloud_of(points);
   const auto none = test::cloud_of({});
   for (const double leaf_size_m : {0.02, 0.05, 0.5}) {
@@ -138,7 +138,7 @@ TEST(VolumeScorers, BindTheSecondTimeWithoutWorkOnTheTarget) {
 
 TEST(VolumeScorers, AFunctionOutlivesWhatItWasBoundTo) {
   Rng rng = test::test_rng();
-  const PointCloud points = test::random_cloud(rng, 300, 1.0);
+  const Points points = test::random_cloud(rng, 300, 1.0);
   const RigidTransform pose = test::random_pose(rng, 0.5);
   for (std::size_t i = 0; i < test::all_scorers(0.1).size(); ++i) {
     const VolumeFunction volume =

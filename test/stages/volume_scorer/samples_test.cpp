@@ -15,7 +15,7 @@ TEST(VolumeScorers, CountLikeTheSetOnTheAuthorsSamples) {
   for (const std::string rig : {"opencalib/carla", "opencalib/real"}) {
     const auto dataset = test::stage<Dataset>(R"({"type": "opencalib", "path": ")" + rig + R"("})");
     const Scene scene = dataset->scenes(test::data_root()).at(0);
-    const PointCloud reference = scene.reference.load().points;
+    const Points reference = scene.reference.load().points;
     Rng rng = test::test_rng();
     for (const SensorScan& sensor : scene.sensors) {
       SCOPED_TRACE(rig + " " + scene.name + " " + sensor.sensor);

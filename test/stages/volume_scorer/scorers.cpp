@@ -21,11 +21,11 @@ std::vector<std::pair<std::string, params::Slot<VolumeScorer>>> all_scorers(doub
   return scorers;
 }
 
-std::shared_ptr<const Cloud> cloud_of(PointCloud points) {
+std::shared_ptr<const Cloud> cloud_of(Points points) {
   return std::make_shared<const Cloud>(std::move(points), StreamKey(1));
 }
 
-std::int64_t leaves_by_set(const PointCloud& target, const PointCloud& source,
+std::int64_t leaves_by_set(const Points& target, const Points& source,
                            const RigidTransform& T_target_source, double leaf_size_m) {
   const LeafGrid grid(leaf_size_m);
   std::set<std::array<int, 3>> leaves;
@@ -38,7 +38,7 @@ std::int64_t leaves_by_set(const PointCloud& target, const PointCloud& source,
   return static_cast<std::int64_t>(leaves.size());
 }
 
-void expect_equal_counts(const PointCloud& target, const PointCloud& source,
+void expect_equal_counts(const Points& target, const Points& source,
                          const std::vector<RigidTransform>& poses, double leaf_size_m) {
   const auto target_cloud = cloud_of(target);
   const auto source_cloud = cloud_of(source);

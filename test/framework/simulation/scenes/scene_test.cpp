@@ -23,11 +23,11 @@ World scene(SceneKind kind, std::uint64_t seed) {
 }
 
 /// The vertices of all but the car, in the car's frame.
-PointCloud seen_from_car(const World& world) {
+Points seen_from_car(const World& world) {
   const RigidTransform T_car_world = world.car.T_world_body.inverse();
-  PointCloud points = transformed(world.fixed.vertices, T_car_world);
+  Points points = transformed(world.fixed.vertices, T_car_world);
   for (const Body& body : world.bodies) {
-    const PointCloud own = transformed(body.mesh.vertices, T_car_world * body.T_world_body);
+    const Points own = transformed(body.mesh.vertices, T_car_world * body.T_world_body);
     points.insert(points.end(), own.begin(), own.end());
   }
   return points;

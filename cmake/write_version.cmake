@@ -20,15 +20,21 @@ function(commit_of folder untracked result)
   set(${result} "${commit}" PARENT_SCOPE)
 endfunction()
 
-# A copy of the sources inside somebody else's repository is not at that repository's commit.
+# COMMIT_INPUT is what an earlier call wrote to COMMIT_OUTPUT: the commit of an installed croon.
 set(CROON_COMMIT "unknown")
-if(GIT_FOUND)
+if(COMMIT_INPUT)
+  include("${COMMIT_INPUT}")
+elseif(GIT_FOUND)
+  # A copy of the sources inside somebody else's repository is not at that repository's commit.
   execute_process(COMMAND "${GIT_EXECUTABLE}" -C "${SOURCE_FOLDER}" rev-parse --show-toplevel
     OUTPUT_VARIABLE top ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
   file(REAL_PATH "${SOURCE_FOLDER}" source_folder)
   if(top STREQUAL source_folder)
     commit_of("${SOURCE_FOLDER}" no CROON_COMMIT)
   endif()
+endif()
+if(COMMIT_OUTPUT)
+  file(WRITE "${COMMIT_OUTPUT}" "set(CROON_COMMIT \"${CROON_COMMIT}\")\n")
 endif()
 
 set(CROON_STAGE_FOLDERS "")

@@ -1,0 +1,108 @@
+#include "experiments/run/channel_check.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "experiments/run/sensor_pairs.hpp"
+#include "framework/base/error.hpp"
+
+namespace croon::experiments {
+namespace {
+
+/// The channels that are needed of a cloud, each with the step and variant that needs it first.
+using Needs = std::map<std::string, std::string>;
+
+struct NeedsOfClouds {
+  Needs target, source;
+};
+
+NeedsOfClouds needs_of(const Experiment& experiment, const Selection& selection) {
+  NeedsOfClouds needs;
+  for (const std::size_t index : selection.variants) {
+    const Variant& variant = experiment.variants[index];
+    for (const NamedStep& step : variant.pipeline) {
+      const std::string who = "the step \"" + step.name + "\" of variant \"" + variant.name + "\"";
+      for (const std::string& channel : step.step.flow().target_channels) {
+        needs.target.emplace(channel, who);
+      }
+      for (const std::string& channel : step.step.flow().source_channels) {
+        needs.source.emplace(channel, who);
+      }
+    }
+  }
+  return needs;
+}
+
+/// What clouds lack: the first of each sensor and channel, and how many more.
+class Lacking {
+ public:
+  explicit Lacking(std::string file) : file_(std::move(file)) {}
+
+  /// Notes which of `needs` the cloud of `scan` does not have.
+  void look_at(const SensorScan& scan, const Needs& needs) {
+    if (!scan.channels) return;
+    const std::vector<std::string>& found = *scan.channels;
+    for (const auto& [channel, who] : needs) {
+      if (std::find(found.begin(), found.end(), channel) != found.end()) continue;
+      Entry& entry = entries_[{scan.sensor, channel}];
+      if (entry.clouds++ > 0) continue;
+      std::string list;
+      for (const std::string& name : found) list += (list.empty() ? "" : ", ") + name;
+      entry.fault = {scan.file.empty() ? file_ : scan.file, "",
+                     "expected the channel \"" + channel + "\" in the cloud of sensor \"" +
+                         scan.sensor + "\", which " + who + " needs; found " +
+                         (list.empty() ? "no channel" : list)};
+    }
+  }
+
+  std::vector<Fault> faults() const {
+    std::vector<Fault> faults;
+    for (const auto& [key, entry] : entries_) {
+      faults.push_back(entry.fault);
+      if (entry.clouds > 1) {
+        faults.back().message += " (and the same in " + std::to_string(entry.clouds - 1) +
+                                 (entry.clouds == 2 ? " more scene)" : " more scenes)");
+      }
+    }
+    return faults;
+  }
+
+ private:
+  struct Entry {
+    Fault fault;
+    std::size_t clouds = 0;
+  };
+  std::string file_;  ///< Of the experiment.
+  std::map<std::pair<std::string, std::string>, Entry> entries_;
+};
+
+}  // namespace
+
+std::set<std::string> needed_channels(const Experiment& experiment) {
+  std::set<std::string> names;
+  for (const Variant& variant : experiment.variants) {
+    for (const NamedStep& step : variant.pipeline) {
+      const params::DataFlow& flow = step.step.flow();
+      names.insert(flow.target_channels.begin(), flow.target_channels.end());
+      names.insert(flow.source_channels.begin(), flow.source_channels.end());
+    }
+  }
+  return names;
+}
+
+void check_channels(const Experiment& experiment, const std::vector<Scene>& scenes,
+                    const Selection& selection) {
+  const NeedsOfClouds needs = needs_of(experiment, selection);
+  Lacking lacking(experiment.file);
+  for (const Scene& scene : scenes) {
+    lacking.look_at(scene.reference, needs.target);
+    for (const SensorScan& scan : scene.sensors) {
+      // The clouds of a pair are those of its two sensors.
+      if (!is_pair(scan)) lacking.look_at(scan, needs.source);
+    }
+  }
+  std::vector<Fault> faults = lacking.faults();
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+}  // namespace croon::experiments

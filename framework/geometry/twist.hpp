@@ -1,0 +1,22 @@
+#pragma once
+
+#include "framework/geometry/rigid_transform.hpp"
+
+namespace croon {
+
+/// The velocity of a rigid body, in the body's own frame. If it is constant, the body moves on a
+/// screw: a straight line, an arc, a helix.
+struct Twist {
+  Eigen::Vector3d angular_radps = Eigen::Vector3d::Zero();
+  Eigen::Vector3d linear_mps = Eigen::Vector3d::Zero();
+};
+
+/// The motion `T_now_later` of a body with the constant `velocity` over `time_s` seconds: the
+/// exponential of SE(3) (Barfoot, State Estimation for Robotics, 2017, eq. 7.85 and 7.86).
+RigidTransform motion_over(const Twist& velocity, double time_s);
+
+/// The velocity of a frame a that is fixed to the body, from `velocity_b` of the frame b: the
+/// adjoint of `T_a_b`.
+Twist velocity_in(const RigidTransform& T_a_b, const Twist& velocity_b);
+
+}  // namespace croon

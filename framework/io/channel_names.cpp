@@ -1,0 +1,62 @@
+#include "framework/io/channel_names.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "framework/base/error.hpp"
+#include "framework/io/text_scan.hpp"
+
+namespace croon {
+namespace {
+
+/// The fields that hold a channel of another name.
+const std::vector<std::pair<std::string, std::string>> kOtherNames = {
+    {"timestamp", kTime}, {"t", kTime}, {"time_stamp", kTime}, {"i", kIntensity}};
+
+/// The channel's name, or `field` itself.
+std::string known_name(const std::string& field) {
+  for (const auto& [other, name] : kOtherNames) {
+    if (other == field) return name;
+  }
+  return field;
+}
+
+}  // namespace
+
+std::vector<std::string> channel_names(const std::vector<std::string>& fields) {
+  std::set<std::string> taken = {"x", "y", "z", "_"};
+  std::vector<std::string> names;
+  for (const std::string& field : fields) {
+    const std::string known = known_name(field);
+    const bool is_other = known == field || taken.count(known) > 0 ||
+                          std::find(fields.begin(), fields.end(), known) != fields.end();
+    const std::string& name = is_other ? field : known;
+    names.push_back(taken.insert(name).second ? name : "");
+  }
+  return names;
+}
+
+std::string field_name(const std::string& name, const PointCloud& cloud) {
+  return name == kTime && find_channel(cloud, "timestamp") == nullptr ? "timestamp" : name;
+}
+
+void check_writable(const PointCloud& cloud, const std::filesystem::path& path) {
+  std::set<std::string> taken = {"x", "y", "z"};
+  for (const Channel& channel : cloud.channels) {
+    const std::string field = field_name(channel.name, cloud);
+    const auto is_of_word = [](unsigned char c) { return c > 0x20 && c < 0x7f; };
+    const bool is_word = !field.empty() && std::all_of(field.begin(), field.end(), is_of_word);
+    if (!is_word || !taken.insert(field).second) {
+      throw InputError(path.string(), "",
+                       "expected channels with different names of one word each, found " +
+                           in_quotes(channel.name));
+    }
+    if (channel.bytes.size() != cloud.size() * channel.bytes_per_point()) {
+      throw InputError(path.string(), "",
+                       "the channel " + in_quotes(channel.name) + " is not as long as the points");
+    }
+  }
+}
+
+}  // namespace croon

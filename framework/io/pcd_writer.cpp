@@ -1,0 +1,126 @@
+#include <liblzf/lzf.h>
+
+#include <cstring>
+#include <limits>
+
+#include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
+#include "framework/io/channel_names.hpp"
+#include "framework/io/pcd_file.hpp"
+
+namespace croon {
+namespace {
+
+/// One line of the header: `word` and a value per field.
+template <class Value>
+std::string header_line(const char* word, const std::vector<Channel>& channels, const char* of_xyz,
+                        const Value& value) {
+  std::string line = word;
+  for (const char axis : {'x', 'y', 'z'}) line += std::string(" ") + (*of_xyz ? *of_xyz : axis);
+  for (const Channel& channel : channels) line += " " + value(channel);
+  return line + "\n";
+}
+
+std::string type_letter(const Channel& channel) {
+  if (channel.type.kind == ScalarKind::floating) return "F";
+  return channel.type.kind == ScalarKind::signed_integer ? "I" : "U";
+}
+
+std::string header_of(const PointCloud& cloud, const char* data) {
+  const std::string count = std::to_string(cloud.size());
+  const std::vector<Channel>& channels = cloud.channels;
+  return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" +
+         header_line("FIELDS", channels, "",
+                     [&](const Channel& c) { return field_name(c.name, cloud); }) +
+         header_line("SIZE", channels, "4",
+                     [](const Channel& c) { return std::to_string(c.type.size); }) +
+         header_line("TYPE", channels, "F", type_letter) +
+         header_line("COUNT", channels, "1",
+                     [](const Channel& c) { return std::to_string(c.count); }) +
+         "WIDTH " + count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA " +
+         data + "\n";
+}
+
+/// The channels of the coordinates, then those of the cloud.
+std::vector<Channel> all_channels(const PointCloud& cloud) {
+  std::vector<Channel> channels;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<float> values;
+    for (const Eigen::Vector3f& point : cloud.points) values.push_back(point(axis));
+    channels.push_back(make_channel(std::string(1, "xyz"[axis]), values));
+  }
+  channels.insert(channels.end(), cloud.channels.begin(), cloud.channels.end());
+  return channels;
+}
+
+std::string binary_body(const std::vector<Channel>& channels, std::size_t points) {
+  std::string body;
+  for (std::size_t i = 0; i < points; ++i) {
+    for (const Channel& channel : channels) {
+      body.append(channel.bytes, i * channel.bytes_per_point(), channel.bytes_per_point());
+    }
+  }
+  return body;
+}
+
+std::string text_body(const std::vector<Channel>& channels, std::size_t points) {
+  std::string body;
+  for (std::size_t i = 0; i < points; ++i) {
+    std::string line;
+    for (const Channel& channel : channels) {
+      const char* at = channel.bytes.data() + i * channel.bytes_per_point();
+      for (std::size_t k = 0; k < channel.count; ++k, at += channel.type.size) {
+        line += (line.empty() ? "" : " ") + scalar_text(channel.type, at);
+      }
+    }
+    body += line + "\n";
+  }
+  return body;
+}
+
+void append_size(std::string& bytes, std::size_t size) {
+  const auto value = static_cast<std::uint32_t>(size);
+  char raw[sizeof value];
+  std::memcpy(raw, &value, sizeof value);
+  bytes.append(raw, sizeof value);
+}
+
+std::string compressed_body(const std::vector<Channel>& channels, const std::string& file) {
+  std::string raw;
+  for (const Channel& channel : channels) raw += channel.bytes;
+  if (raw.size() > std::numeric_limits<std::uint32_t>::max() / 2) {
+    throw InputError(file, "", "expected at most 2 GiB of points to compress, found more");
+  }
+  // Bytes that do not shrink take up to a byte more for 32 (liblzf's blocks of literals).
+  std::string packed(raw.size() + raw.size() / 16 + 64, '\0');
+  const unsigned int size =
+      raw.empty() ? 0
+                  : lzf_compress(raw.data(), static_cast<unsigned int>(raw.size()), packed.data(),
+                                 static_cast<unsigned int>(packed.size()));
+  std::string body;
+  append_size(body, size);
+  append_size(body, raw.size());
+  return body + packed.substr(0, size);
+}
+
+}  // namespace
+
+void write_pcd(const std::filesystem::path& path, const PointCloud& cloud, PcdEncoding encoding) {
+  check_writable(cloud, path);
+  const std::vector<Channel> channels = all_channels(cloud);
+  std::string bytes;
+  switch (encoding) {
+    case PcdEncoding::ascii:
+      bytes = header_of(cloud, "ascii") + text_body(channels, cloud.size());
+      break;
+    case PcdEncoding::binary:
+      bytes = header_of(cloud, "binary") + binary_body(channels, cloud.size());
+      break;
+    case PcdEncoding::binary_compressed:
+      bytes = header_of(cloud, "binary_compressed") + compressed_body(channels, path.string());
+      break;
+  }
+  write_whole_file(path, bytes);
+}
+
+}  // namespace croon

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace croon::params {
+
+/// A value that one step puts into the estimate and a later one reads; see `Extra`.
+struct ExtraDoc {
+  std::string name;     ///< "hypotheses".
+  std::string type;     ///< Of its C++ type; equal for equal types.
+  std::string meaning;  ///< What it is, for help: "poses that are still possible".
+};
+
+/// What a stage needs besides points and poses, and what it provides. Declared by the stage, shown
+/// by help, checked before anything runs.
+struct DataFlow {
+  std::set<std::string> target_channels;  ///< Of the reference's cloud.
+  std::set<std::string> source_channels;  ///< Of the sensor's cloud.
+  std::vector<ExtraDoc> takes;
+  std::vector<ExtraDoc> gives;
+
+  bool empty() const {
+    return target_channels.empty() && source_channels.empty() && takes.empty() && gives.empty();
+  }
+  /// Adds all that `other` needs and provides.
+  void add(const DataFlow& other) {
+    target_channels.insert(other.target_channels.begin(), other.target_channels.end());
+    source_channels.insert(other.source_channels.begin(), other.source_channels.end());
+    takes.insert(takes.end(), other.takes.begin(), other.takes.end());
+    gives.insert(gives.end(), other.gives.begin(), other.gives.end());
+  }
+};
+
+/// The flow of a stage that needs the channels `names` of every cloud that it is given.
+inline DataFlow needs_channels(const std::set<std::string>& names) {
+  return {names, names, {}, {}};
+}
+
+}  // namespace croon::params

@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <cmath>
+
+#include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
+#include "framework/geometry/twist.hpp"
+#include "framework/params/choice.hpp"
+#include "framework/stage/preprocessor.hpp"
+#include "framework/stage/stage_entry.hpp"
+
+namespace croon::stages::preprocessor {
+namespace {
+
+enum class Reference { zero, first, middle };
+
+struct Params {
+  std::vector<double> linear_mps = {0.0, 0.0, 0.0};
+  std::vector<double> angular_degps = {0.0, 0.0, 0.0};
+  Reference reference_time = Reference::zero;
+};
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table = [] {
+    params::Table<Params> rows = {
+        params::numbers("linear_mps", &Params::linear_mps, {-1000.0, 1000.0},
+                        "The sensor's velocity along x, y, z of its own frame."),
+        params::numbers("angular_degps", &Params::angular_degps, {-3600.0, 3600.0},
+                        "Its rate of turning about x, y, z of its own frame."),
+        params::choice(
+            "reference_time", &Params::reference_time,
+            {{"zero", Reference::zero}, {"first", Reference::first}, {"middle", Reference::middle}},
+            "The time that the points are moved to: zero of the channel time, that of "
+            "the first point, or half-way to the last."),
+    };
+    rows.require(
+        [](const Params& p) { return p.linear_mps.size() == 3 && p.angular_degps.size() == 3; },
+        "linear_mps and angular_degps must have three numbers each");
+    return rows;
+  }();
+  return table;
+}
+
+/// Moves each point to where the sensor would have measured it if it had stood still at the
+/// reference time: `p -> T(t_reference, t) p` with the constant velocity.
+class Deskew final : public Preprocessor {
+ public:
+  explicit Deskew(const Params& params) : reference_(params.reference_time) {
+    for (int axis = 0; axis < 3; ++axis) {
+      velocity_.linear_mps(axis) = params.linear_mps[axis];
+      velocity_.angular_radps(axis) = rad_from_deg(params.angular_degps[axis]);
+    }
+  }
+
+  static params::DataFlow data_flow(const Params&) { return params::needs_channels({kTime}); }
+
+  PointCloud apply(const PointCloud& cloud) const override {
+    if (cloud.empty()) return cloud;
+    const std::vector<double> times = times_s(cloud);
+    const double reference_s = reference_time_s(times);
+    PointCloud moved = cloud;
+    RigidTransform T_reference_now;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      // All rings fire at one time, one after the other in most clouds.
+      if (i == 0 || times[i] != times[i - 1]) {
+        T_reference_now = motion_over(velocity_, times[i] - reference_s);
+      }
+      moved.points[i] = (T_reference_now * cloud.points[i].cast<double>()).cast<float>();
+    }
+    return moved;
+  }
+
+ private:
+  /// Throws StageError if a time is not finite, or farther from the reference than a scan lasts.
+  double reference_time_s(const std::vector<double>& times) const {
+    const auto [first, last] = std::minmax_element(times.begin(), times.end());
+    const double reference_s = reference_ == Reference::zero    ? 0.0
+                               : reference_ == Reference::first ? *first
+                                                                : 0.5 * (*first + *last);
+    constexpr double kLongest_s = 60.0;
+    for (const double time_s : times) {
+      if (std::abs(time_s - reference_s) <= kLongest_s) continue;
+      throw StageError("a point's time is more than " + fixed_number(kLongest_s, 0) +
+                       " s from the reference time: is its zero another one than the scan's "
+                       "(reference_time)?");
+    }
+    return reference_s;
+  }
+
+  Twist velocity_;
+  Reference reference_;
+};
+
+}  // namespace
+
+StageEntry deskew() {
+  return stage_entry<Deskew>(
+      "deskew", "Undoes the distortion of a scan by a constant velocity of the sensor.",
+      "Zhang and Singh, LOAM, 2014, section V.B", table());
+}
+
+}  // namespace croon::stages::preprocessor
