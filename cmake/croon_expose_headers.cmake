@@ -2,11 +2,11 @@
 #
 # Those who link the target see the headers below these folders of the tree, and no others: their
 # include path is a folder of the build with a link to each of them. So a layer cannot include what
-# it does not link. Headers of framework are visible as <croon/...> too, as they are installed.
+# it does not link. Headers are visible as <croon/...> too, as they are installed.
 function(croon_expose_headers target)
   set(include_folder "${PROJECT_BINARY_DIR}/include/${target}")
   foreach(folder IN LISTS ARGN)
-    string(REGEX REPLACE "^framework/" "croon/" library_folder "${folder}")
+    string(REGEX REPLACE "^croon/framework/" "croon/" library_folder "croon/${folder}")
     foreach(path IN ITEMS "${folder}" "${library_folder}")
       get_filename_component(parent "${include_folder}/${path}" DIRECTORY)
       file(MAKE_DIRECTORY "${parent}")

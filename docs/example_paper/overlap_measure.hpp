@@ -1,5 +1,6 @@
 #pragma once
 
+#include <croon/geometry/rigid_transform.hpp>
 #include <croon/spatial/cloud.hpp>
 #include <croon/stage/extras.hpp>
 

@@ -72,9 +72,7 @@ endif()
 END
 cmake -S "$folder/part" -B "$folder/part/build" -G Ninja -DCMAKE_BUILD_TYPE=Release >"$folder/part.log" 2>&1 ||
   { cat "$folder/part.log" >&2; fail 'add_subdirectory does not configure'; }
-# The objects are those of this build if there is a compiler cache; without one, this part would take minutes.
-if command -v ccache >/dev/null; then
-  cmake --build "$folder/part/build" --target calibrate_two >>"$folder/part.log" 2>&1 ||
-    { tail -n 40 "$folder/part.log" >&2; fail 'a part of a project does not build'; }
-fi
+# The program sees the headers. Building all of croon a second time would take minutes.
+cmake --build "$folder/part/build" --target CMakeFiles/calibrate_two.dir/calibrate_two.cpp.o >>"$folder/part.log" 2>&1 ||
+  { tail -n 40 "$folder/part.log" >&2; fail 'a part of a project does not compile'; }
 echo 'The installed package builds what docs/library.md shows.'
