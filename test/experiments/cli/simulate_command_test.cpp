@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "framework/base/whole_file.hpp"
 #include "test/experiments/support/program.hpp"
@@ -75,6 +76,31 @@ TEST_F(SimulateCommand, RefusesAFolderWithSomethingElse) {
   folder_.write("mine/notes.txt", "mine");
   run("simulate " + path("x.json") + " --out " + path("mine") + " --quiet", 2);
   EXPECT_EQ(files_of(path("mine")).size(), 1U);
+}
+
+TEST_F(SimulateCommand, WritesTheVelocitiesAndTheTimesThatDeskewTakes) {
+  const auto write = [&](const std::string& name, const std::string& filters) {
+    folder_.write(name, R"({"name": "x", "dataset": {"type": "simulated", "scenes": 1,
+        "mix": {"highway": 1}, "noise": "real"}, "starts": {"rotation_deg": 2, "trials": 1},
+        "pipeline": [{"step": "preprocessing", "reference": )" +
+                            filters + R"(}, {"step": "ground_alignment"}]})");
+  };
+  write("x.json", "[]");
+  run("simulate " + path("x.json") + " --out " + path("data") + " --quiet");
+  const auto velocities =
+      nlohmann::json::parse(read_whole_file(path("data") + "/000000/velocities.json"));
+  EXPECT_EQ(velocities.size(), 5U);
+  EXPECT_GT(velocities["top"]["linear_mps"][0], 5.0);
+  nlohmann::json deskew = velocities["top"];
+  deskew["type"] = "deskew";
+  write("y.json", "[" + deskew.dump() + "]");
+  run("run " + path("y.json") + " --out " + path("made") + " --quiet");
+  auto on_files = nlohmann::json::parse(read_whole_file(path("y.json")));
+  on_files["dataset"] = {{"type", "opencalib"}, {"path", "."}};
+  folder_.write("z.json", on_files.dump());
+  run("run " + path("z.json") + " --data " + path("data") + " --out " + path("read") + " --quiet");
+  EXPECT_EQ(read_whole_file(path("made") + "/trials.csv"),
+            read_whole_file(path("read") + "/trials.csv"));
 }
 
 TEST_F(SimulateCommand, WritesThroughNoLink) {

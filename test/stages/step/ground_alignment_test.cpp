@@ -99,5 +99,23 @@ TEST(GroundAlignment, RefusesAnEmptyCloud) {
   EXPECT_THROW(step->advance(rig.estimate, rng), StageError);
 }
 
+TEST(GroundAlignment, PointsOffTheGroundKeepTheirChannels) {
+  Rng rng = test::test_rng();
+  Rig rig = random_rig(rng, 3);
+  const PointCloud cloud = test::measured(rig.estimate.source->points());
+  rig.estimate.source = std::make_shared<const Cloud>(cloud, StreamKey(3));
+  const auto step = test::stage<Step>(R"({"step": "ground_alignment"})");
+  const Estimate after = step->advance(rig.estimate, rng);
+  const PointCloud& kept = after.source_ground->non_ground->with_channels();
+  ASSERT_GT(kept.size(), 1000U);
+  std::size_t index = 0;
+  for (std::size_t i = 0; i < kept.size(); ++i, ++index) {
+    while (cloud.points.at(index) != kept.points[i]) ++index;
+    for (const Channel& channel : cloud.channels) {
+      ASSERT_EQ(find_channel(kept, channel.name)->value(i), channel.value(index)) << channel.name;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace croon
