@@ -111,7 +111,8 @@ class SensorFolders final : public Dataset {
     std::vector<Scene> scenes;
     std::vector<Fault> faults;
     RigFilesAbove rig_files;
-    for (const auto& [frame, file] : references) {
+    for (const auto& [frame, path] : references) {
+      const fs::path& file = path;
       Scene scene;
       scene.name = rig.name = frame;
       bool has_sensors = false;
