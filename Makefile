@@ -15,7 +15,7 @@ help:
 	@echo 'make format     clang-format all sources'
 	@echo 'make lint       clang-tidy over all sources'
 	@echo 'make fuzz       libFuzzer over every reader of files, FUZZ_SECONDS each (20)'
-	@echo 'make sanitize   the tests with AddressSanitizer and UBSan'
+	@echo 'make sanitize   the tests with AddressSanitizer and UBSan, of the programs SANITIZED_TESTS or all'
 	@echo 'make threads    the tests with threads with ThreadSanitizer'
 	@echo 'make clean      remove the build folder'
 
@@ -59,17 +59,20 @@ fuzz: sanitizer_packages
 	test/fuzz/run.sh build/sanitized/bin $(FUZZ_SECONDS)
 
 # Each program of tests runs in eight parts, not once per test: under a sanitizer the start of a process costs more than
-# a test. $(1): the build; $(2): its suppressions, as NAME_OPTIONS="..."; $(3): the filter of GoogleTest.
-RUN_TESTS = for program in build/$(1)/bin/test_*; do printf "$$program %s\n" 0 1 2 3 4 5 6 7; done | \
+# a test. $(1): the build; $(2): its suppressions, as NAME_OPTIONS="..."; $(3): the filter of GoogleTest; $(4): the
+# programs, or none for all.
+RUN_TESTS = for program in $(addprefix build/$(1)/bin/test_,$(or $(4),*)); do printf "$$program %s\n" 0 1 2 3 4 5 6 7; done | \
   $(2) GTEST_TOTAL_SHARDS=8 xargs -P 2 -n 2 bash -c '\
     GTEST_SHARD_INDEX=$$1 "$$0" --gtest_brief=1 --gtest_filter="$(3)" || exit 255'
 
 # What adds nothing under a sanitizer and takes minutes there: the same code hundreds of times, for a rate or for every
 # ray, and comparisons of what a program prints.
 REPETITIVE = *NoGap*:*KeepsItsLevel*:*Covers*:*FindsAnEffect*:*HoldsTheTrueOne*:*OverTrialsWouldNot*:*NearTheExact*:ExportedLatex.*:GeneratedPages.*
+SANITIZED_TESTS ?=
 sanitize: sanitizer_packages
-	$(call PRESET_BUILD,sanitized)
-	$(call RUN_TESTS,sanitized,LSAN_OPTIONS="suppressions=$(CURDIR)/test/leak_sanitizer.supp:print_suppressions=0",-$(REPETITIVE))
+	cmake --preset sanitized
+	cmake --build --preset sanitized $(if $(SANITIZED_TESTS),--target $(addprefix test_,$(SANITIZED_TESTS)))
+	$(call RUN_TESTS,sanitized,LSAN_OPTIONS="suppressions=$(CURDIR)/test/leak_sanitizer.supp:print_suppressions=0",-$(REPETITIVE),$(SANITIZED_TESTS))
 
 # DescribeCommand compares all that the program prints, also what the symboliser of a suppressed report says.
 threads: sanitizer_packages

@@ -12,37 +12,31 @@ namespace {
 
 using nlohmann::json;
 
-/// Follows the parser through the file and notes every key that its object already has.
-class DuplicateKeyWatch {
+/// Goes through a text and notes every key that its object already has. Stops at what is not JSON.
+/// A callback of json::parse would see the same, but with one the parser's time grows with the
+/// square of a list's length.
+class DuplicateKeyWatch final : public nlohmann::json_sax<json> {
  public:
   DuplicateKeyWatch(std::string file, std::vector<Fault>& faults)
       : file_(std::move(file)), faults_(faults) {}
 
-  bool operator()(int, json::parse_event_t event, json& parsed) {
-    switch (event) {
-      case json::parse_event_t::object_start:
-      case json::parse_event_t::array_start:
-        next_element();
-        // Code that walks the value calls itself once for each level.
-        if (levels_.size() >= kMaxDepth) {
-          throw InputError(file_, pointer(),
-                           "expected at most " + std::to_string(kMaxDepth) +
-                               " levels of lists and objects, found more");
-        }
-        levels_.push_back({event == json::parse_event_t::array_start, -1, {}, {}});
-        break;
-      case json::parse_event_t::object_end:
-      case json::parse_event_t::array_end:
-        levels_.pop_back();
-        break;
-      case json::parse_event_t::key:
-        note_key(parsed.get<std::string>());
-        break;
-      case json::parse_event_t::value:
-        next_element();
-        break;
-    }
+  bool null() override { return next_element(); }
+  bool boolean(bool) override { return next_element(); }
+  bool number_integer(number_integer_t) override { return next_element(); }
+  bool number_unsigned(number_unsigned_t) override { return next_element(); }
+  bool number_float(number_float_t, const string_t&) override { return next_element(); }
+  bool string(string_t&) override { return next_element(); }
+  bool binary(binary_t&) override { return next_element(); }
+  bool start_object(std::size_t) override { return enter(false); }
+  bool start_array(std::size_t) override { return enter(true); }
+  bool end_object() override { return leave(); }
+  bool end_array() override { return leave(); }
+  bool key(string_t& key) override {
+    note_key(key);
     return true;
+  }
+  bool parse_error(std::size_t, const std::string&, const json::exception&) override {
+    return false;
   }
 
  private:
@@ -54,8 +48,26 @@ class DuplicateKeyWatch {
     std::set<std::string> keys;
   };
 
-  void next_element() {
+  bool next_element() {
     if (!levels_.empty() && levels_.back().is_array) ++levels_.back().index;
+    return true;
+  }
+
+  bool enter(bool is_array) {
+    next_element();
+    // Code that walks the value calls itself once for each level.
+    if (levels_.size() >= kMaxDepth) {
+      throw InputError(file_, pointer(),
+                       "expected at most " + std::to_string(kMaxDepth) +
+                           " levels of lists and objects, found more");
+    }
+    levels_.push_back({is_array, -1, {}, {}});
+    return true;
+  }
+
+  bool leave() {
+    levels_.pop_back();
+    return true;
   }
 
   void note_key(const std::string& key) {
@@ -112,7 +124,9 @@ json parse_json(const std::string& text, const std::string& file, std::vector<Fa
     throw InputError(file, place_of(text, null_byte), "expected JSON, found a null byte");
   }
   try {
-    return json::parse(text, DuplicateKeyWatch(file, faults));
+    DuplicateKeyWatch watch(file, faults);
+    json::sax_parse(text, &watch);
+    return json::parse(text);
   } catch (const json::out_of_range& error) {
     throw InputError(
         file, place_of_number(text, error.what()),
