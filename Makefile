@@ -65,9 +65,9 @@ RUN_TESTS = for program in $(addprefix build/$(1)/bin/test_,$(or $(4),*)); do pr
   $(2) GTEST_TOTAL_SHARDS=8 xargs -P 2 -n 2 bash -c '\
     GTEST_SHARD_INDEX=$$1 "$$0" --gtest_brief=1 --gtest_filter="$(3)" || exit 255'
 
-# What adds nothing under a sanitizer and takes minutes there: the same code hundreds of times, for a rate or for every
-# ray, and comparisons of what a program prints.
-REPETITIVE = *NoGap*:*KeepsItsLevel*:*Covers*:*FindsAnEffect*:*HoldsTheTrueOne*:*OverTrialsWouldNot*:*NearTheExact*:ExportedLatex.*:GeneratedPages.*
+# What adds nothing under a sanitizer and takes minutes there: the same code hundreds of times, for a rate, for every
+# ray or for every part of a scene, and comparisons of what a program prints.
+REPETITIVE = *NoGap*:*KeepsItsLevel*:*Covers*:*FindsAnEffect*:*HoldsTheTrueOne*:*OverTrialsWouldNot*:*NearTheExact*:ExportedLatex.*:GeneratedPages.*:Kinds/*:*Kinds.*:Roads.*:Building.*:Crossing.*:AddPlots.*:House.*:Hall.*:Body.*
 SANITIZED_TESTS ?=
 sanitize: sanitizer_packages
 	cmake --preset sanitized
