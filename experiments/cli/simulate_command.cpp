@@ -38,10 +38,11 @@ std::string cloud_path(const Scene& scene, const SensorScan& scan) {
   return scene.name + "/" + scan.sensor + ".pcd";
 }
 
-/// The velocity of each sensor of `scene` in its own frame.
+/// The velocity of each sensor of `scene` in its own frame, if the dataset knows it.
 std::string velocities_json(const Scene& scene) {
-  nlohmann::ordered_json json;
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
   const auto add = [&](const SensorScan& scan) {
+    if (!scan.velocity) return;
     const Twist velocity = scan.velocity();
     const Eigen::Vector3d angular_degps = velocity.angular_radps.unaryExpr(&deg_from_rad);
     const auto list = [](const Eigen::Vector3d& v) { return std::vector{v.x(), v.y(), v.z()}; };
@@ -96,7 +97,7 @@ void draw_scene(const Scene& scene, const fs::path& dataset) {
 std::vector<Scene> scenes_to_write(Experiment& experiment) {
   std::vector<Scene> scenes = scenes_of(experiment, fs::path());
   for (const Scene& scene : scenes) {
-    if (scene.reference.velocity) continue;
+    if (scene.reference.file.empty()) continue;
     throw InputError(experiment.file, "/dataset/type",
                      "expected a dataset that is simulated, found \"" + experiment.dataset.name() +
                          "\", whose clouds are files already");

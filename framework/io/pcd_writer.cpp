@@ -1,6 +1,6 @@
 #include <liblzf/lzf.h>
 
-#include <cstring>
+#include <cstdint>
 #include <limits>
 
 #include "framework/base/error.hpp"
@@ -13,11 +13,9 @@ namespace {
 
 /// One line of the header: `word` and a value per field.
 template <class Value>
-std::string header_line(const char* word, const std::vector<Channel>& channels, const char* of_xyz,
-                        const Value& value) {
+std::string header_line(const char* word, const std::vector<Channel>& fields, const Value& value) {
   std::string line = word;
-  for (const char axis : {'x', 'y', 'z'}) line += std::string(" ") + (*of_xyz ? *of_xyz : axis);
-  for (const Channel& channel : channels) line += " " + value(channel);
+  for (const Channel& field : fields) line += " " + value(field);
   return line + "\n";
 }
 
@@ -26,17 +24,15 @@ std::string type_letter(const Channel& channel) {
   return channel.type.kind == ScalarKind::signed_integer ? "I" : "U";
 }
 
-std::string header_of(const PointCloud& cloud, const char* data) {
+std::string header_of(const PointCloud& cloud, const std::vector<Channel>& fields,
+                      const char* data) {
   const std::string count = std::to_string(cloud.size());
-  const std::vector<Channel>& channels = cloud.channels;
+  const auto name = [&](const Channel& field) { return field_name(field.name, cloud); };
+  const auto size = [](const Channel& field) { return std::to_string(field.type.size); };
+  const auto numbers = [](const Channel& field) { return std::to_string(field.count); };
   return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" +
-         header_line("FIELDS", channels, "",
-                     [&](const Channel& c) { return field_name(c.name, cloud); }) +
-         header_line("SIZE", channels, "4",
-                     [](const Channel& c) { return std::to_string(c.type.size); }) +
-         header_line("TYPE", channels, "F", type_letter) +
-         header_line("COUNT", channels, "1",
-                     [](const Channel& c) { return std::to_string(c.count); }) +
+         header_line("FIELDS", fields, name) + header_line("SIZE", fields, size) +
+         header_line("TYPE", fields, type_letter) + header_line("COUNT", fields, numbers) +
          "WIDTH " + count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA " +
          data + "\n";
 }
@@ -78,13 +74,6 @@ std::string text_body(const std::vector<Channel>& channels, std::size_t points) 
   return body;
 }
 
-void append_size(std::string& bytes, std::size_t size) {
-  const auto value = static_cast<std::uint32_t>(size);
-  char raw[sizeof value];
-  std::memcpy(raw, &value, sizeof value);
-  bytes.append(raw, sizeof value);
-}
-
 std::string compressed_body(const std::vector<Channel>& channels, const std::string& file) {
   std::string raw;
   for (const Channel& channel : channels) raw += channel.bytes;
@@ -98,8 +87,9 @@ std::string compressed_body(const std::vector<Channel>& channels, const std::str
                   : lzf_compress(raw.data(), static_cast<unsigned int>(raw.size()), packed.data(),
                                  static_cast<unsigned int>(packed.size()));
   std::string body;
-  append_size(body, size);
-  append_size(body, raw.size());
+  for (const std::size_t bytes : {std::size_t{size}, raw.size()}) {
+    append_scalar(body, scalar_type_of<std::uint32_t>(), static_cast<double>(bytes));
+  }
   return body + packed.substr(0, size);
 }
 
@@ -111,13 +101,14 @@ void write_pcd(const std::filesystem::path& path, const PointCloud& cloud, PcdEn
   std::string bytes;
   switch (encoding) {
     case PcdEncoding::ascii:
-      bytes = header_of(cloud, "ascii") + text_body(channels, cloud.size());
+      bytes = header_of(cloud, channels, "ascii") + text_body(channels, cloud.size());
       break;
     case PcdEncoding::binary:
-      bytes = header_of(cloud, "binary") + binary_body(channels, cloud.size());
+      bytes = header_of(cloud, channels, "binary") + binary_body(channels, cloud.size());
       break;
     case PcdEncoding::binary_compressed:
-      bytes = header_of(cloud, "binary_compressed") + compressed_body(channels, path.string());
+      bytes = header_of(cloud, channels, "binary_compressed") +
+              compressed_body(channels, path.string());
       break;
   }
   write_whole_file(path, bytes);

@@ -1,7 +1,5 @@
 #include "framework/io/ply_file.hpp"
 
-#include <array>
-#include <charconv>
 #include <cstring>
 
 #include "framework/base/error.hpp"
@@ -35,12 +33,10 @@ void append_bytes(std::string& bytes, const PointCloud& cloud, std::size_t index
 
 /// The same as a line of text.
 void append_text(std::string& text, const PointCloud& cloud, std::size_t index) {
-  const Eigen::Vector3f& point = cloud.points[index];
-  std::array<char, 32> number{};
   for (int axis = 0; axis < 3; ++axis) {
-    const auto end = std::to_chars(number.data(), number.data() + number.size(), point(axis)).ptr;
-    text.append(number.data(), end);
-    if (axis < 2) text += ' ';
+    const float* const value = cloud.points[index].data() + axis;
+    text += (axis > 0 ? " " : "") +
+            scalar_text(scalar_type_of<float>(), reinterpret_cast<const char*>(value));
   }
   for (const Channel& channel : cloud.channels) {
     text += ' ' + scalar_text(channel.type, channel.bytes.data() + index * channel.type.size);
