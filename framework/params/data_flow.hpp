@@ -21,9 +21,6 @@ struct DataFlow {
   std::vector<ExtraDoc> takes;
   std::vector<ExtraDoc> gives;
 
-  bool empty() const {
-    return target_channels.empty() && source_channels.empty() && takes.empty() && gives.empty();
-  }
   /// Adds all that `other` needs and provides.
   void add(const DataFlow& other) {
     target_channels.insert(other.target_channels.begin(), other.target_channels.end());
