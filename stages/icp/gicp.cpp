@@ -1,5 +1,6 @@
 #include <Eigen/LU>
 
+#include "framework/registration/direction_balance.hpp"
 #include "framework/registration/icp_loop.hpp"
 #include "framework/stage/icp.hpp"
 #include "framework/stage/stage_entry.hpp"
@@ -10,6 +11,7 @@ namespace {
 struct Params : IcpOptions {
   int normal_neighbours = 20;
   double plane_variance_ratio = 0.001;
+  double direction_balance = 0.0;
 };
 
 const params::Table<Params>& table() {
@@ -20,6 +22,10 @@ const params::Table<Params>& table() {
           params::number(
               "plane_variance_ratio", &Params::plane_variance_ratio, {1e-9, 1.0},
               "Variance across the surface over that along it, the epsilon of the paper."),
+          params::number("direction_balance", &Params::direction_balance, {0.0, 1.0},
+                         "Correspondences on n surfaces of about one direction weigh n to the "
+                         "minus this: at 1 "
+                         "every direction weighs the same, at 0 every point, as in the paper."),
       }
           .inherit(icp_table());
   return table;
@@ -39,6 +45,8 @@ class Gicp final : public Icp {
     CorrespondenceRule rule;
     rule.target_normals = params_.normal_neighbours;
     rule.source_normals = params_.normal_neighbours;
+    if (params_.direction_balance > 0.0)
+      rule.select = balanced_directions(params_.direction_balance);
     const double epsilon = params_.plane_variance_ratio;
     // Residual `R s + t - p` with information `(C_t + R C_s R^T)^-1` (Segal, eq. 2). Times 2
     // epsilon it weighs a distance across two planes that agree by one, so the kernel's width is in

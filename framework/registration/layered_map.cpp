@@ -1,0 +1,174 @@
+#include "framework/registration/layered_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "framework/base/angles.hpp"
+
+namespace croon {
+namespace {
+
+constexpr int kFull = 4;  // Of a cell that holds points; less in its neighbours.
+constexpr int kLane = 16;
+
+/// The centres of the cells above the ground that hold points of the source, without duplicates; at
+/// most `max_cells` of them, evenly spaced.
+std::vector<Eigen::Vector3d> cell_centres(const Points& levelled,
+                                          const LayeredMapOptions& options) {
+  std::set<std::tuple<int, int, int>> cells;
+  for (const Eigen::Vector3f& p : levelled) {
+    const Eigen::Vector3d point = p.cast<double>();
+    const double layer = std::floor((point.z() - options.min_height_m) / options.cell_m);
+    if (!(layer >= 0.0 && layer < options.layers)) continue;
+    if (!(point.head<2>().norm() <= options.radius_m)) continue;
+    cells.emplace(static_cast<int>(layer), static_cast<int>(std::floor(point.x() / options.cell_m)),
+                  static_cast<int>(std::floor(point.y() / options.cell_m)));
+  }
+  const std::vector<std::tuple<int, int, int>> all(cells.begin(), cells.end());
+  const std::size_t count = std::min(all.size(), static_cast<std::size_t>(options.max_cells));
+  std::vector<Eigen::Vector3d> centres;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& [layer, x, y] = all[i * all.size() / count];
+    centres.emplace_back((x + 0.5) * options.cell_m, (y + 0.5) * options.cell_m, layer);
+  }
+  return centres;
+}
+
+bool is_near(const MapPeak& a, const MapPeak& b, const LayeredMapOptions& options) {
+  const double turn = std::abs(std::remainder(a.yaw_rad - b.yaw_rad, 2.0 * kPi));
+  const double shift = std::max(std::abs(a.x_m - b.x_m), std::abs(a.y_m - b.y_m));
+  return turn <= 3.01 * rad_from_deg(options.yaw_step_deg) && shift <= 2.01 * options.cell_m;
+}
+
+/// The best `count` of `peaks`, apart from each other.
+std::vector<MapPeak> best_apart(std::vector<MapPeak> peaks, int count,
+                                const LayeredMapOptions& options) {
+  std::stable_sort(peaks.begin(), peaks.end(),
+                   [](const auto& a, const auto& b) { return a.score > b.score; });
+  std::vector<MapPeak> best;
+  for (const MapPeak& peak : peaks) {
+    const bool is_new = std::none_of(best.begin(), best.end(), [&](const MapPeak& other) {
+      return is_near(peak, other, options);
+    });
+    if (is_new) best.push_back(peak);
+    if (static_cast<int>(best.size()) == count) break;
+  }
+  return best;
+}
+
+}  // namespace
+
+const params::Table<LayeredMapOptions>& layered_map_table() {
+  static const params::Table<LayeredMapOptions> table = {
+      params::number("cell_m", &LayeredMapOptions::cell_m, {0.1, 5.0},
+                     "Edge of a cell of the top view."),
+      params::number("min_height_m", &LayeredMapOptions::min_height_m, {0.0, 5.0},
+                     "Points lower above the ground are not in the top view."),
+      params::integer("layers", &LayeredMapOptions::layers, {1, 50},
+                      "Layers of the top view, cell_m high."),
+      params::number("radius_m", &LayeredMapOptions::radius_m, {1.0, 200.0},
+                     "Points of the sensor farther from it are not in the top view."),
+      params::number("reach_m", &LayeredMapOptions::reach_m, {0.5, 50.0},
+                     "The sensor is at most this far from the reference along x and along y."),
+      params::number("yaw_step_deg", &LayeredMapOptions::yaw_step_deg, {0.5, 30.0},
+                     "Yaws are tried in such steps."),
+      params::integer("max_cells", &LayeredMapOptions::max_cells, {10, 10000},
+                      "At most this many cells of the sensor's top view are used."),
+  };
+  return table;
+}
+
+LayeredMap::LayeredMap(const Points& levelled, const LayeredMapOptions& options)
+    : options_(options),
+      reach_(static_cast<int>(std::ceil(options.reach_m / options.cell_m))),
+      side_(2 * (static_cast<int>(std::ceil(options.radius_m / options.cell_m)) + reach_ + 2)),
+      window_(2 * reach_ + 1),
+      stride_((window_ + kLane - 1) / kLane * kLane),
+      cells_(static_cast<std::size_t>(options.layers * side_ * side_ + stride_)) {
+  for (const Eigen::Vector3f& p : levelled) {
+    const Eigen::Vector3d cell = p.cast<double>() / options.cell_m;
+    const double layer = std::floor(cell.z() - options.min_height_m / options.cell_m);
+    const double row = std::floor(cell.y()) + side_ / 2;
+    const double column = std::floor(cell.x()) + side_ / 2;
+    if (!(layer >= 0.0 && layer < options.layers)) continue;
+    if (!(row >= 0.0 && row < side_ && column >= 0.0 && column < side_)) continue;
+    spread(static_cast<int>(layer), static_cast<int>(row), static_cast<int>(column), kFull);
+  }
+}
+
+void LayeredMap::spread(int layer, int row, int column, std::uint8_t value) {
+  for (int l = std::max(0, layer - 1); l <= std::min(options_.layers - 1, layer + 1); ++l) {
+    for (int r = std::max(0, row - 1); r <= std::min(side_ - 1, row + 1); ++r) {
+      for (int c = std::max(0, column - 1); c <= std::min(side_ - 1, column + 1); ++c) {
+        const int away = std::abs(l - layer) + std::abs(r - row) + std::abs(c - column);
+        const auto spread_value = static_cast<std::uint8_t>(std::max(0, value - away));
+        std::uint8_t& cell = cells_[static_cast<std::size_t>((l * side_ + r) * side_ + c)];
+        cell = std::max(cell, spread_value);
+      }
+    }
+  }
+}
+
+/// Adds the cells around (row, column), one for each shift.
+void LayeredMap::add_window(Sums& sums, int layer, int row, int column) const {
+  for (int shift = 0; shift < window_; ++shift) {
+    const std::uint8_t* const from = &cells_[static_cast<std::size_t>(
+        (layer * side_ + row - reach_ + shift) * side_ + column - reach_)];
+    std::uint16_t* const to = &sums[static_cast<std::size_t>(shift * stride_)];
+    for (int i = 0; i < stride_; ++i) to[i] = static_cast<std::uint16_t>(to[i] + from[i]);
+  }
+}
+
+std::vector<std::pair<int, int>> LayeredMap::local_maxima(const Sums& sums) const {
+  const auto at = [&](int row, int column) {
+    return sums[static_cast<std::size_t>(row * stride_ + column)];
+  };
+  std::vector<std::pair<int, int>> maxima;
+  for (int row = 0; row < window_; ++row) {
+    for (int column = 0; column < window_; ++column) {
+      const std::uint16_t sum = at(row, column);
+      if (sum == 0) continue;
+      if (row > 0 && at(row - 1, column) > sum) continue;
+      if (row + 1 < window_ && at(row + 1, column) > sum) continue;
+      if (column > 0 && at(row, column - 1) > sum) continue;
+      if (column + 1 < window_ && at(row, column + 1) > sum) continue;
+      maxima.emplace_back(row, column);
+    }
+  }
+  return maxima;
+}
+
+std::vector<MapPeak> LayeredMap::match(const Points& levelled_source, int count) const {
+  const std::vector<Eigen::Vector3d> centres = cell_centres(levelled_source, options_);
+  if (centres.empty()) return {};
+  constexpr int kKeptPerYaw = 3;
+  std::vector<MapPeak> peaks;
+  const int yaws = std::max(1, static_cast<int>(std::lround(360.0 / options_.yaw_step_deg)));
+  for (int k = 0; k < yaws; ++k) {
+    const double yaw_rad = 2.0 * kPi * k / yaws;
+    const double cosine = std::cos(yaw_rad);
+    const double sine = std::sin(yaw_rad);
+    Sums sums(static_cast<std::size_t>(window_ * stride_));
+    for (const Eigen::Vector3d& p : centres) {
+      const double x = (cosine * p.x() - sine * p.y()) / options_.cell_m;
+      const double y = (sine * p.x() + cosine * p.y()) / options_.cell_m;
+      add_window(sums, static_cast<int>(p.z()), static_cast<int>(std::floor(y)) + side_ / 2,
+                 static_cast<int>(std::floor(x)) + side_ / 2);
+    }
+    std::vector<MapPeak> of_yaw;
+    for (const auto& [row, column] : local_maxima(sums)) {
+      of_yaw.push_back({yaw_rad, (column - reach_) * options_.cell_m,
+                        (row - reach_) * options_.cell_m,
+                        sums[static_cast<std::size_t>(row * stride_ + column)] /
+                            (kFull * static_cast<double>(centres.size()))});
+    }
+    for (const MapPeak& peak : best_apart(std::move(of_yaw), kKeptPerYaw, options_)) {
+      peaks.push_back(peak);
+    }
+  }
+  return best_apart(std::move(peaks), count, options_);
+}
+
+}  // namespace croon

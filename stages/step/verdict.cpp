@@ -1,0 +1,217 @@
+#include <algorithm>
+#include <cmath>
+
+#include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
+#include "framework/pipeline/shared_view.hpp"
+#include "framework/registration/constraint.hpp"
+#include "framework/registration/pose_evidence.hpp"
+#include "framework/stage/hypotheses.hpp"
+#include "framework/stage/icp.hpp"
+#include "framework/stage/stage_entry.hpp"
+#include "framework/stage/step.hpp"
+
+namespace croon::stages::step {
+namespace {
+
+struct Params {
+  params::Slot<Preprocessor> thinning;
+  params::Slot<Icp> icp;
+  double min_overlap_ratio = 0.3;
+  double max_violation_ratio = 0.05;
+  double min_margin = 0.05;
+  double min_strength = 0.01;
+  double max_halves_rotation_deg = 0.5;
+  double max_halves_translation_m = 0.1;
+  double slide_m = 0.2;
+  int slides = 2;
+};
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table = {
+      params::slot("thinning", &Params::thinning,
+                   R"({"type": "voxel_downsample", "leaf_size_m": 0.25})",
+                   "Makes the clouds even, so that numbers of points are areas."),
+      params::slot(
+          "icp", &Params::icp,
+          R"({"type": "point_to_plane", "max_distances_m": [0.8, 0.4], )"
+          R"("max_iterations": 20, "normal_neighbours": 10, "rotation_tolerance_deg": 0.01, )"
+          R"("translation_tolerance_m": 0.001})",
+          "Registers each half of the points, and the poses that compete."),
+      params::number("min_overlap_ratio", &Params::min_overlap_ratio, {0.0, 1.0},
+                     "Least share of the points that both sensors should see that agree."),
+      params::number("max_violation_ratio", &Params::max_violation_ratio, {0.0, 1.0},
+                     "Largest share of these points that lie where the other sensor sees through."),
+      params::number("min_margin", &Params::min_margin, {-4.0, 4.0},
+                     "Least difference of the scores of the pose and of the best other one."),
+      params::number("min_strength", &Params::min_strength, {0.0, 1.0},
+                     "In the direction that is held the least, at least this share of the points' "
+                     "mean squared motion is off their surfaces."),
+      params::number("max_halves_rotation_deg", &Params::max_halves_rotation_deg, {0.0, 180.0},
+                     "Largest rotation between the pose and those of two disjoint halves of the "
+                     "points."),
+      params::number("max_halves_translation_m", &Params::max_halves_translation_m, {0.0, 1e6},
+                     "Largest distance between these poses."),
+      params::number("slide_m", &Params::slide_m, {0.0, 10.0},
+                     "The halves start this far to both sides in a loosely held direction."),
+      params::integer("slides", &Params::slides, {1, 6},
+                      "In how many directions, the most loosely held first."),
+  };
+  return table;
+}
+
+/// How far apart two disjoint halves of the points and the pose end, at most.
+struct Halves {
+  double rotation_rad = 0.0;
+  double translation_m = 0.0;
+};
+
+class Verdict final : public Step {
+ public:
+  explicit Verdict(Params params) : params_(std::move(params)) {}
+
+  Estimate advance(Estimate estimate, Rng&) const override {
+    const auto target = shared_view(*estimate.target, params_.thinning);
+    const auto source = shared_view(*estimate.source, params_.thinning);
+    const RigidTransform T = estimate.T_target_source;
+    const PoseEvidence evidence = pose_evidence(*target, *source, T, {});
+    constexpr double kContact_m = 0.3;
+    const std::vector<HeldDirection> held = held_directions(*target, *source, T, kContact_m);
+    const Halves halves = halves_of(*target, *source, T, held);
+    const double margin = evidence.score() - best_other(estimate, *target, *source);
+    const double strength = held.empty() ? 0.0 : held.front().strength;
+    Reasons reasons;
+    reasons.need_at_least("the overlap with agreeing surfaces", evidence.overlap_ratio(),
+                          params_.min_overlap_ratio);
+    reasons.need_at_most("the share of points in free space", evidence.violation_ratio(),
+                         params_.max_violation_ratio);
+    reasons.need_at_least("the margin to the next pose", margin, params_.min_margin);
+    add_loose(held, reasons);
+    reasons.need_at_most("the rotation between two halves of the points, deg,",
+                         deg_from_rad(halves.rotation_rad), params_.max_halves_rotation_deg);
+    reasons.need_at_most("the distance between two halves of the points, m,", halves.translation_m,
+                         params_.max_halves_translation_m);
+    if (estimate.rejection) reasons.words = *estimate.rejection + "; " + reasons.words;
+    if (!reasons.words.empty()) estimate.rejection = reasons.words;
+    estimate.diagnostics = {{"overlap_ratio", evidence.overlap_ratio()},
+                            {"violation_ratio", evidence.violation_ratio()},
+                            {"score", evidence.score()},
+                            {"margin", margin},
+                            {"strength", strength},
+                            {"strength_2", held.size() > 1 ? held[1].strength : 0.0},
+                            {"strength_3", held.size() > 2 ? held[2].strength : 0.0},
+                            {"halves_rotation_deg", deg_from_rad(halves.rotation_rad)},
+                            {"halves_translation_m", halves.translation_m}};
+    return estimate;
+  }
+
+ private:
+  /// Why a pose is rejected, in words and numbers.
+  struct Reasons {
+    std::string words;
+    void add(const std::string& reason) { words += (words.empty() ? "" : "; ") + reason; }
+    void need_at_least(const std::string& what, double value, double bound) {
+      if (value >= bound) return;
+      add(what + " is " + fixed_number(value, 3) + ", below " + fixed_number(bound, 3));
+    }
+    void need_at_most(const std::string& what, double value, double bound) {
+      if (value <= bound) return;
+      add(what + " is " + fixed_number(value, 3) + ", above " + fixed_number(bound, 3));
+    }
+  };
+
+  void add_loose(const std::vector<HeldDirection>& held, Reasons& reasons) const {
+    if (held.empty()) return reasons.add("no surfaces touch, so nothing is constrained");
+    std::vector<HeldDirection> loose;
+    for (const HeldDirection& direction : held) {
+      if (direction.strength < params_.min_strength) loose.push_back(direction);
+    }
+    if (loose.empty()) return;
+    reasons.add("not constrained: " + words_of(loose) + " (strength " +
+                fixed_number(loose.front().strength, 4) + ", below " +
+                fixed_number(params_.min_strength, 4) + ")");
+  }
+
+  /// The points of the sample whose number has the remainder `half` by `halves`.
+  static Cloud part(const SensorView& view, std::size_t half, std::size_t halves) {
+    Points points;
+    for (std::size_t i = half; i < view.sample.size(); i += halves) {
+      points.push_back(view.thinned->points()[view.sample[i]]);
+    }
+    return Cloud(PointCloud(std::move(points)), StreamKey(0));
+  }
+
+  /// Two halves of the points, started on either side of the pose in its loosest directions.
+  Halves halves_of(const SensorView& target, const SensorView& source, const RigidTransform& T,
+                   const std::vector<HeldDirection>& held) const {
+    constexpr double kNever = 1e3;
+    Halves worst;
+    const Cloud first = part(source, 0, 2);
+    const Cloud second = part(source, 1, 2);
+    for (int i = 0; i < params_.slides && i < static_cast<int>(held.size()); ++i) {
+      const Vector6d slide = params_.slide_m * held[static_cast<std::size_t>(i)].motion;
+      try {
+        const RigidTransform a =
+            params_.icp->align(*target.thinned, first, moved(T, slide)).T_target_source;
+        const RigidTransform b =
+            params_.icp->align(*target.thinned, second, moved(T, -slide)).T_target_source;
+        for (const PoseError& apart : {pose_error(a, b), pose_error(a, T), pose_error(b, T)}) {
+          worst.rotation_rad = std::max(worst.rotation_rad, apart.rotation_rad);
+          worst.translation_m = std::max(worst.translation_m, apart.translation_m);
+        }
+      } catch (const StageError&) {
+        return {kPi, kNever};  // Too few points correspond.
+      }
+    }
+    return worst;
+  }
+
+  /// The best score of the poses that a global search found elsewhere; -4 if there is none.
+  double best_other(const Estimate& estimate, const SensorView& target,
+                    const SensorView& source) const {
+    constexpr double kNone = -4.0;
+    constexpr std::size_t kRefined = 3;
+    const std::vector<Hypothesis>* const others = estimate.extras.find(kHypotheses);
+    if (others == nullptr) return kNone;
+    const Cloud points = part(source, 0, 2);
+    double best = kNone;
+    std::size_t refined = 0;
+    for (const Hypothesis& other : *others) {
+      if (is_near(other.T_target_source, estimate.T_target_source)) continue;
+      if (++refined > kRefined) break;
+      double score = other.score;
+      try {
+        const RigidTransform T =
+            params_.icp->align(*target.thinned, points, other.T_target_source).T_target_source;
+        if (!is_near(T, estimate.T_target_source)) {
+          score = std::max(score, pose_evidence(target, source, T, {}).score());
+        }
+      } catch (const StageError&) {
+      }  // It stays where it was found.
+      best = std::max(best, score);
+    }
+    return best;
+  }
+
+  static bool is_near(const RigidTransform& a, const RigidTransform& b) {
+    constexpr double kNear_deg = 1.0;
+    constexpr double kNear_m = 0.3;
+    const PoseError apart = pose_error(a, b);
+    return apart.rotation_rad <= rad_from_deg(kNear_deg) && apart.translation_m <= kNear_m;
+  }
+
+  Params params_;
+};
+
+}  // namespace
+
+StageEntry verdict() {
+  return stage_entry<Verdict>("verdict",
+                              "Accepts or rejects the pose: overlap, free space, the margin to "
+                              "other poses, directions that "
+                              "nothing constrains, agreement of two halves of the points.",
+                              "croon; directions after Gelfand et al., 3DIM 2003", table());
+}
+
+}  // namespace croon::stages::step

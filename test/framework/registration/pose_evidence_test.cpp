@@ -1,0 +1,126 @@
+#include "framework/registration/pose_evidence.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "framework/registration/constraint.hpp"
+#include "framework/registration/direction_balance.hpp"
+#include "test/support/random_geometry.hpp"
+
+namespace croon {
+namespace {
+
+SensorView view_of(const Points& points, std::uint64_t seed) {
+  SensorView view{
+      std::make_shared<const Cloud>(points, StreamKey(seed)), RangeImage(points, 90), 10, {}};
+  view.sample = balanced_sample(*view.thinned, view.normal_neighbours, 1500);
+  return view;
+}
+
+TEST(PoseEvidence, IsBestAtTheTruth) {
+  Rng rng = test::test_rng();
+  for (std::uint64_t i = 0; i < 5; ++i) {
+    const test::StreetPair pair =
+        test::street_pair(rng, i, test::random_pose(rng, 1.0), 20000, 12000, 0.01);
+    const SensorView target = view_of(pair.target, 1);
+    const SensorView source = view_of(pair.source, 2);
+    const PoseEvidence truth = pose_evidence(target, source, pair.T_target_source, {});
+    EXPECT_GT(truth.overlap_ratio(), 0.4) << "street " << i;
+    for (int k = 0; k < 10; ++k) {
+      const RigidTransform off = test::pose_near(rng, pair.T_target_source, 20.0, 2.0);
+      EXPECT_LT(pose_evidence(target, source, off, {}).score(), truth.score()) << "street " << i;
+    }
+  }
+}
+
+TEST(PoseEvidence, KnowsPointsInFreeSpace) {
+  Rng rng = test::test_rng(2);
+  Points wall;
+  Points board;
+  for (int i = 0; i < 20000; ++i) {
+    const auto y = static_cast<float>(rng.uniform(-6.0, 6.0));
+    const auto z = static_cast<float>(rng.uniform(-6.0, 6.0));
+    wall.emplace_back(10.0F, y, z);
+    if (i < 2000) board.emplace_back(5.0F, 0.2F * y, 0.2F * z);
+  }
+  const PoseEvidence evidence = pose_evidence(view_of(wall, 1), view_of(board, 2), {}, {});
+  EXPECT_GT(evidence.source.violate, evidence.source.points * 9 / 10);
+  EXPECT_GT(evidence.target.hidden, 0);
+  EXPECT_GT(evidence.violation_ratio(), 0.9);
+  EXPECT_EQ(evidence.overlap_ratio(), 0.0);
+}
+
+TEST(PoseEvidence, CountsEachPointOnce) {
+  Rng rng = test::test_rng(3);
+  const test::StreetPair pair =
+      test::street_pair(rng, 3, test::random_pose(rng, 1.0), 8000, 5000, 0.01);
+  const SensorView target = view_of(pair.target, 1);
+  const SensorView source = view_of(pair.source, 2);
+  const PoseEvidence evidence = pose_evidence(target, source, test::random_pose(rng, 3.0), {});
+  for (const OneWayEvidence& way : {evidence.source, evidence.target}) {
+    EXPECT_EQ(way.agree + way.disagree + way.violate + way.hidden + way.unseen, way.points);
+  }
+  EXPECT_EQ(evidence.source.points, static_cast<int>(source.sample.size()));
+}
+
+TEST(BalancedSample, KeepsSurfacesOfRareDirections) {
+  Rng rng = test::test_rng(4);
+  Points points;
+  for (int i = 0; i < 20000; ++i) {
+    const auto x = static_cast<float>(rng.uniform(-15.0, 15.0));
+    const auto y = static_cast<float>(rng.uniform(-15.0, 15.0));
+    if (i % 100 == 0) {
+      points.emplace_back(20.0F, 0.05F * y, 0.05F * x);
+    } else {
+      points.emplace_back(x, y, -2.0F);
+    }
+  }
+  const Cloud cloud(points, StreamKey(1));
+  const std::vector<int> sample = balanced_sample(cloud, 10, 1000);
+  EXPECT_LE(sample.size(), 1001U);
+  EXPECT_GT(sample.size(), 900U);
+  int rare = 0;
+  for (const int i : sample) rare += points[i].x() > 19.0F ? 1 : 0;
+  // 1 % of the points; by the square root of 200 and 19800 points, 9 % of the sample.
+  EXPECT_GT(rare, 60);
+  EXPECT_LT(rare, 130);
+}
+
+TEST(HeldDirections, AreLooseAlongATunnelOnly) {
+  Rng rng = test::test_rng(5);
+  Points tunnel;
+  for (int i = 0; i < 30000; ++i) {
+    const auto along = static_cast<float>(rng.uniform(-30.0, 30.0));
+    const auto across = static_cast<float>(rng.uniform(-4.0, 4.0));
+    if (i % 2 == 0) {
+      tunnel.emplace_back(along, across, -2.0F);
+    } else {
+      tunnel.emplace_back(along, i % 4 == 1 ? -4.0F : 4.0F, across + 2.0F);
+    }
+  }
+  const SensorView view = view_of(tunnel, 1);
+  const std::vector<HeldDirection> held = held_directions(view, view, {}, 0.3);
+  ASSERT_EQ(held.size(), 6U);
+  EXPECT_LT(held[0].strength, 0.03);
+  EXPECT_GT(held[1].strength, 0.05);
+  EXPECT_NEAR(std::abs(held[0].motion(3)), 1.0, 0.05);
+  EXPECT_EQ(words_of({held[0]}), "x");
+}
+
+TEST(DirectionBalance, WeighsDirectionsAlikeAtOne) {
+  EXPECT_EQ(direction_bin({0.1, 0.2, 1.0}), direction_bin({-0.1, -0.2, -1.0}));
+  Correspondences pairs(100);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    pairs[i].target_normal = i < 90 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
+  }
+  balanced_directions(1.0)(pairs);
+  EXPECT_NEAR(90.0 * pairs.front().weight, 10.0 * pairs.back().weight, 1e-9);
+  EXPECT_NEAR(90.0 * pairs.front().weight + 10.0 * pairs.back().weight, 100.0, 1e-9);
+  balanced_directions(0.0)(pairs);
+  EXPECT_EQ(pairs.front().weight, 1.0);
+  EXPECT_EQ(pairs.back().weight, 1.0);
+}
+
+}  // namespace
+}  // namespace croon

@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
+#include "framework/stage/hypotheses.hpp"
+#include "framework/stage/step.hpp"
+#include "test/support/random_geometry.hpp"
+#include "test/support/stages.hpp"
+
+namespace croon {
+namespace {
+
+Estimate estimate_of(const Points& target, const Points& source, const RigidTransform& T) {
+  Estimate estimate;
+  estimate.target = std::make_shared<const Cloud>(target, StreamKey(1).with("target"));
+  estimate.source = std::make_shared<const Cloud>(source, StreamKey(1).with("source"));
+  estimate.T_target_source = T;
+  return estimate;
+}
+
+Estimate street_estimate(Rng& rng, std::uint64_t scene_seed) {
+  const test::StreetPair pair =
+      test::street_pair(rng, scene_seed, test::random_pose(rng, 0.5), 20000, 12000, 0.01);
+  return estimate_of(pair.target, pair.source, pair.T_target_source);
+}
+
+params::Slot<Step> verdict() { return test::stage<Step>(R"({"step": "verdict"})"); }
+
+TEST(Verdict, AcceptsTheTruth) {
+  Rng rng = test::test_rng();
+  for (std::uint64_t i = 0; i < 5; ++i) {
+    const Estimate judged = verdict()->advance(street_estimate(rng, i), rng);
+    EXPECT_FALSE(judged.rejection) << "street " << i << ": " << *judged.rejection;
+  }
+}
+
+TEST(Verdict, LeavesThePoseAsItIs) {
+  Rng rng = test::test_rng(2);
+  const Estimate before = street_estimate(rng, 3);
+  const Estimate after = verdict()->advance(before, rng);
+  EXPECT_EQ(after.T_target_source.rotation, before.T_target_source.rotation);
+  EXPECT_EQ(after.T_target_source.translation, before.T_target_source.translation);
+}
+
+TEST(Verdict, RejectsPosesThatAreOff) {
+  Rng rng = test::test_rng(3);
+  const Estimate right = street_estimate(rng, 4);
+  for (const auto& [dof, by] :
+       {std::pair(Dof::yaw, rad_from_deg(90.0)), std::pair(Dof::yaw, rad_from_deg(180.0)),
+        std::pair(Dof::roll, kPi), std::pair(Dof::pitch, 0.02), std::pair(Dof::x, 1.0),
+        std::pair(Dof::x, 0.2), std::pair(Dof::y, -0.5), std::pair(Dof::z, 0.3)}) {
+    Estimate off = right;
+    Vector6d offset = Vector6d::Zero();
+    offset(static_cast<Eigen::Index>(dof)) = by;
+    off.T_target_source = moved(right.T_target_source, offset);
+    EXPECT_TRUE(verdict()->advance(off, rng).rejection)
+        << kDofNames[static_cast<std::size_t>(dof)] << " by " << by;
+  }
+}
+
+TEST(Verdict, NamesTheDirectionsThatNothingHolds) {
+  Rng rng = test::test_rng(4);
+  const auto plain = [&] {
+    Points points;
+    for (int i = 0; i < 20000; ++i) {
+      points.emplace_back(static_cast<float>(rng.uniform(-15.0, 15.0)),
+                          static_cast<float>(rng.uniform(-15.0, 15.0)), -2.0F);
+    }
+    return points;
+  };
+  const Estimate judged = verdict()->advance(estimate_of(plain(), plain(), {}), rng);
+  ASSERT_TRUE(judged.rejection);
+  EXPECT_NE(judged.rejection->find("not constrained: x, y and yaw"), std::string::npos)
+      << *judged.rejection;
+}
+
+TEST(Verdict, NamesTheAxisOfATunnel) {
+  Rng rng = test::test_rng(5);
+  const auto tunnel = [&] {
+    Points points;
+    for (int i = 0; i < 30000; ++i) {
+      const auto along = static_cast<float>(rng.uniform(-30.0, 30.0));
+      const auto across = static_cast<float>(rng.uniform(-4.0, 4.0));
+      const auto up = static_cast<float>(rng.uniform(-2.0, 4.0));
+      if (i % 3 == 0) points.emplace_back(along, across, -2.0F);
+      if (i % 3 == 1) points.emplace_back(along, -4.0F, up);
+      if (i % 3 == 2) points.emplace_back(along, 4.0F, up);
+    }
+    return points;
+  };
+  const Estimate judged = verdict()->advance(estimate_of(tunnel(), tunnel(), {}), rng);
+  ASSERT_TRUE(judged.rejection);
+  EXPECT_NE(judged.rejection->find("not constrained: x "), std::string::npos) << *judged.rejection;
+}
+
+TEST(Verdict, RejectsAPoseWithARivalThatScoresAsWell) {
+  Rng rng = test::test_rng(6);
+  Estimate estimate = street_estimate(rng, 5);
+  EXPECT_FALSE(verdict()->advance(estimate, rng).rejection);
+  Vector6d away = Vector6d::Zero();
+  away(3) = 2.0;
+  estimate.extras.put(
+      kHypotheses, {{estimate.T_target_source, 1.0}, {moved(estimate.T_target_source, away), 4.0}});
+  const auto rejection = verdict()->advance(estimate, rng).rejection;
+  ASSERT_TRUE(rejection);
+  EXPECT_NE(rejection->find("margin"), std::string::npos) << *rejection;
+}
+
+TEST(Verdict, KeepsTheReasonsOfStepsBefore) {
+  Rng rng = test::test_rng(7);
+  Estimate estimate = street_estimate(rng, 6);
+  estimate.rejection = "something before";
+  const Estimate judged = verdict()->advance(estimate, rng);
+  ASSERT_TRUE(judged.rejection);
+  EXPECT_EQ(judged.rejection->rfind("something before", 0), 0U);
+}
+
+}  // namespace
+}  // namespace croon
