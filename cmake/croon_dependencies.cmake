@@ -12,6 +12,13 @@ if(CROON_BUILD_TOOLS)
   find_package(embree REQUIRED)
   find_package(Boost REQUIRED)
 endif()
+if(CROON_WITH_PYTHON)
+  # The system's, which has the packages; another one that comes first on the path may not. Give Python3_EXECUTABLE
+  # for another.
+  find_program(Python3_EXECUTABLE python3 PATHS /usr/bin NO_DEFAULT_PATH)
+  find_package(Python3 REQUIRED COMPONENTS Interpreter Development.Module)
+  find_package(pybind11 REQUIRED)
+endif()
 
 # Only FindOpenVDB.cmake exists, and not on the default module path.
 file(GLOB openvdb_modules /usr/lib/*/cmake/OpenVDB)

@@ -55,7 +55,7 @@ fs::path extended_file(const json& keys, const fs::path& path, std::vector<Fault
   return {};
 }
 
-MergedFile read_merged(const fs::path& path, std::vector<fs::path> chain,
+MergedFile read_merged(const std::string& text, const fs::path& path, std::vector<fs::path> chain,
                        std::vector<Fault>& faults);
 
 /// Reads the file that `own`, the keys of the file `path`, extends; without keys if there is none
@@ -80,7 +80,7 @@ MergedFile read_extended(const json& own, const fs::path& path, const std::vecto
   if (!fs::is_regular_file(extended)) {
     return refused("expected an experiment file, found none at " + extended.string());
   }
-  MergedFile base = read_merged(extended, chain, faults);
+  MergedFile base = read_merged(read_whole_file(extended), extended, chain, faults);
   if (!base.keys.is_object()) {
     faults.push_back({extended.string(), "/", "expected an object"});
     return none;
@@ -89,10 +89,10 @@ MergedFile read_extended(const json& own, const fs::path& path, const std::vecto
   return base;
 }
 
-/// Reads the file `path` and those that it extends. `chain` are the files that led here.
-MergedFile read_merged(const fs::path& path, std::vector<fs::path> chain,
+/// Reads `text`, that of the file `path`, and the files that it extends. `chain` are the files that
+/// led here.
+MergedFile read_merged(const std::string& text, const fs::path& path, std::vector<fs::path> chain,
                        std::vector<Fault>& faults) {
-  const std::string text = read_whole_file(path);
   const ExperimentFile file = {path.filename().string(), sha256_of_text(text)};
   const json own = params::parse_json(text, path.string(), faults);
   if (!own.is_object()) return {own, {}, {file}};
@@ -135,8 +135,13 @@ class UnbuiltStages final : public params::StageBuilder {
 }  // namespace
 
 Experiment load_experiment(const fs::path& path, const Catalogue& catalogue) {
+  return parse_experiment(read_whole_file(path), path, catalogue);
+}
+
+Experiment parse_experiment(const std::string& text, const fs::path& path,
+                            const Catalogue& catalogue) {
   std::vector<Fault> faults;
-  const MergedFile merged = read_merged(path, {}, faults);
+  const MergedFile merged = read_merged(text, path, {}, faults);
   const Node root(merged.keys, path.string(), faults, merged.origins);
   Experiment experiment;
   if (root.is_object()) {

@@ -70,6 +70,11 @@ struct Experiment {
 /// at the data.
 Experiment load_experiment(const std::filesystem::path& path, const Catalogue& catalogue);
 
+/// The same from JSON `text`; `path` is its name in errors, and paths in it are relative to the
+/// folder of `path`.
+Experiment parse_experiment(const std::string& text, const std::filesystem::path& path,
+                            const Catalogue& catalogue);
+
 /// Canonical JSON of the experiment: every key with its default, claims expanded, each variant with
 /// its whole pipeline.
 std::string experiment_json(const Experiment& experiment);

@@ -74,14 +74,6 @@ Columns<std::optional<StatisticsTable>> statistics_columns(const std::string& of
   return columns;
 }
 
-Columns<TrialId> id_columns() {
-  Columns<TrialId> columns;
-  return columns.add({"variant"}, &TrialId::variant)
-      .add({"scene"}, &TrialId::scene)
-      .add({"sensor"}, &TrialId::sensor)
-      .add({"trial"}, &TrialId::trial);
-}
-
 /// The scenes of a summary by variant, sensor and scene.
 class ScenesByName {
  public:
@@ -367,16 +359,19 @@ std::string content_of(const Measure& measure, std::string content) {
   return content;
 }
 
-std::string trials_csv(const std::vector<TrialRecord>& records, const Summary& summary) {
-  return csv_of(trial_columns(ScenesByName(summary)), records);
+std::vector<Column> trial_rows(const std::vector<TrialRecord>& records, const Summary& summary,
+                               const RowUse& use) {
+  const ScenesByName scenes(summary);
+  Columns<TrialRecord> columns = trial_columns(scenes);
+  return use_rows(columns.add({"reason"}, &TrialRecord::reason), records, use);
 }
 
-std::string timings_csv(const std::vector<TimingRow>& rows) {
-  Columns<TimingRow> columns;
-  columns.add(id_columns(), &TimingRow::id)
-      .add({"step"}, &TimingRow::step)
-      .add({"seconds"}, &TimingRow::seconds);
-  return csv_of(columns, rows);
+std::vector<Column> summary_rows(const Summary& summary, const RowUse& use) {
+  return use_rows(summary_columns(), summary.rows, use);
+}
+
+std::string trials_csv(const std::vector<TrialRecord>& records, const Summary& summary) {
+  return csv_of(trial_columns(ScenesByName(summary)), records);
 }
 
 std::string summary_csv(const Summary& summary) { return csv_of(summary_columns(), summary.rows); }
@@ -393,18 +388,6 @@ std::string loops_csv(const Summary& summary) { return csv_of(loop_columns(), su
 
 std::string clouds_csv(const std::vector<CloudDescription>& clouds) {
   return csv_of(cloud_columns(), clouds);
-}
-
-std::string diagnostics_csv(const std::vector<TrialRecord>& records, const StepNumbers& steps) {
-  using N = StepNumber;
-  Columns<N> columns;
-  columns
-      .add(id_columns(),
-           [&](const N& number) -> const TrialId& { return records[number.record].id; })
-      .add({"step"}, [&](const N& number) { return steps.names[number.step]; })
-      .add({"name"}, [&](const N& number) { return steps.names[number.name]; })
-      .add({"value"}, &N::value);
-  return csv_of(columns, steps.numbers);
 }
 
 std::string summary_json(const Summary& summary, const std::vector<ClaimResult>& claims,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -29,6 +30,9 @@ Column statistic_column(const Measure& measure, const std::string& statistic,
 
 /// Values of the DOFs that are called `name`, "roll_within_scene_std_deg".
 Columns<DofValues> dof_columns(const std::string& name);
+
+/// Variant, scene, sensor and number of a trial.
+Columns<TrialId> id_columns();
 
 /// The ends of an interval that may not be there.
 inline std::optional<double> low_of(const std::optional<Interval>& interval) {
@@ -94,6 +98,28 @@ void add_measures(View& view, const std::array<std::size_t, n>& measures,
     view.columns.push_back({title_of(kMeasures[k]), content_of(kMeasures[k], content)});
   }
 }
+
+// The rows of files, one by one, for those who keep them in another form: a table of all cells of
+// many trials would be large. `use` gets the cells of each row, with the columns that are returned.
+
+using RowUse = std::function<void(const CellRow&)>;
+
+/// The general case.
+template <class Row>
+std::vector<Column> use_rows(const Columns<Row>& columns, const std::vector<Row>& rows,
+                             const RowUse& use) {
+  for (const Row& row : rows) use(columns.cells(row));
+  return columns.columns();
+}
+
+/// Those of trials.csv, and "reason" as the last column.
+std::vector<Column> trial_rows(const std::vector<TrialRecord>& records, const Summary& summary,
+                               const RowUse& use);
+/// Those of summary.csv, comparison.csv and diagnostics.csv.
+std::vector<Column> summary_rows(const Summary& summary, const RowUse& use);
+std::vector<Column> comparison_rows(const Summary& summary, const RowUse& use);
+std::vector<Column> diagnostic_rows(const std::vector<TrialRecord>& records,
+                                    const StepNumbers& steps, const RowUse& use);
 
 // The bytes of files.
 

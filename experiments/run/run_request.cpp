@@ -40,7 +40,8 @@ std::filesystem::path data_root(const std::filesystem::path& asked) {
 
 CheckedRun check_run(const RunRequest& request, const Catalogue& catalogue) {
   CheckedRun run;
-  run.experiment = load_experiment(request.experiment, catalogue);
+  run.experiment = request.text ? parse_experiment(*request.text, request.experiment, catalogue)
+                                : load_experiment(request.experiment, catalogue);
   run.data_root = data_root(request.data);
   std::vector<Fault> faults;
   collect_faults(faults, [&] { set_trials(run.experiment.starts, request.trials); });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,11 @@ std::filesystem::path data_root(const std::filesystem::path& asked);
 /// Which trials of which experiment are asked for.
 struct RunRequest {
   std::filesystem::path experiment;
-  std::filesystem::path out;   ///< Empty: results/<name>.
-  std::filesystem::path data;  ///< Empty: CROON_DATA, else data/.
-  int jobs = 0;                ///< 0: all cores.
-  int trials = 0;              ///< 0: as in the experiment.
+  std::optional<std::string> text = {};  ///< JSON in the place of the file's; see parse_experiment.
+  std::filesystem::path out;             ///< Empty: results/<name>.
+  std::filesystem::path data;            ///< Empty: CROON_DATA, else data/.
+  int jobs = 0;                          ///< 0: all cores.
+  int trials = 0;                        ///< 0: as in the experiment.
   std::vector<std::string> only;
   std::string shard;  ///< "K/N"; empty: all.
 };

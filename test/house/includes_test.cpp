@@ -45,6 +45,7 @@ const Layers& layers() {
        {"framework", "registry", "experiments/file", "experiments/run", "experiments/store",
         "experiments/analysis"}},
       {"experiments/cli", {"framework", "registry", "experiments"}},
+      {"experiments/python", {"framework", "registry", "experiments"}},
       {"benchmarks", {"framework", "registry", "experiments", "test/support"}},
       {"test", {"framework", "registry", "experiments", "benchmarks"}},
       {"docs", {"framework"}},

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace croon::python {
+
+// What the module has, each in a file of its own.
+
+void bind_errors();
+void bind_clouds(pybind11::module_& module);
+void bind_estimates(pybind11::module_& module);
+void bind_stages(pybind11::module_& module);
+void bind_pipelines(pybind11::module_& module);
+void bind_runs(pybind11::module_& module);
+void bind_datasets(pybind11::module_& module);
+
+}  // namespace croon::python

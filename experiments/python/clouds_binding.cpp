@@ -1,0 +1,115 @@
+// Clouds as stages see them, and the readers and writers of files.
+#include "experiments/python/arrays.hpp"
+#include "experiments/python/bindings.hpp"
+#include "experiments/python/interpreter.hpp"
+#include "framework/io/pcd_file.hpp"
+#include "framework/io/ply_file.hpp"
+#include "framework/io/point_cloud_file.hpp"
+#include "framework/spatial/cloud.hpp"
+
+namespace croon::python {
+namespace {
+
+using SharedCloud = std::shared_ptr<Cloud>;
+
+py::array read_cloud(const std::string& path) {
+  LoadedCloud cloud;
+  {
+    const WithoutGil no_gil;
+    cloud = read_point_cloud(path);
+  }
+  return structured_array(cloud);
+}
+
+/// Writes .pcd or .ply; croon._clouds has checked the words.
+void write_cloud(const std::string& path, const py::object& array, const std::string& suffix,
+                 const std::string& encoding) {
+  const PointCloud cloud = cloud_or_empty_from(array, "cloud");
+  const bool is_ascii = encoding == "ascii";
+  const WithoutGil no_gil;
+  if (suffix == ".ply") {
+    write_ply(path, cloud, is_ascii ? PlyFormat::ascii : PlyFormat::binary_little_endian);
+  } else {
+    write_pcd(path, cloud,
+              is_ascii                          ? PcdEncoding::ascii
+              : encoding == "binary_compressed" ? PcdEncoding::binary_compressed
+                                                : PcdEncoding::binary);
+  }
+}
+
+py::dict channels(const py::object& self) {
+  py::dict views;
+  for (const Channel& channel : py::cast<const Cloud&>(self).with_channels().channels) {
+    views[py::str(channel.name)] = channel_view(channel, self);
+  }
+  return views;
+}
+
+/// Indices of the nearest points of `cloud`, -1 if none is within `max_distance_m`, and distances.
+py::tuple nearest(const Cloud& cloud, const py::object& queries, double max_distance_m) {
+  const Points points = cloud_or_empty_from(queries, "points").points;
+  const auto size = static_cast<py::ssize_t>(points.size());
+  py::array_t<std::int64_t> indices(size);
+  py::array_t<double> distances(size);
+  std::int64_t* const index = indices.mutable_data();
+  double* const distance = distances.mutable_data();
+  {
+    const WithoutGil no_gil;
+    const KdTree& tree = cloud.kd_tree();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Neighbour found = std::isfinite(max_distance_m)
+                                  ? tree.nearest(points[i], static_cast<float>(max_distance_m))
+                                  : tree.nearest(points[i]);
+      index[i] = found.index;
+      distance[i] = found ? std::sqrt(static_cast<double>(found.squared_distance_m2))
+                          : std::numeric_limits<double>::infinity();
+    }
+  }
+  return py::make_tuple(indices, distances);
+}
+
+/// A unit normal per point, zero if it is not defined.
+py::array normals(const Cloud& cloud, int neighbours) {
+  py::array_t<float> array({static_cast<py::ssize_t>(cloud.points().size()), py::ssize_t{3}});
+  float* to = array.mutable_data();
+  const WithoutGil no_gil;
+  const Normals& shapes = cloud.normals(neighbours);
+  for (std::size_t i = 0; i < cloud.points().size(); ++i) {
+    const Eigen::Vector3f normal = shapes.at(static_cast<int>(i)).normal;
+    for (int axis = 0; axis < 3; ++axis) *to++ = normal(axis);
+  }
+  return array;
+}
+
+/// What `make` returns, called once for this cloud and `key`.
+py::object once(const Cloud& cloud, const std::string& key, const py::object& make) {
+  std::shared_ptr<const ObjectRef> value;
+  const ObjectRef function(make);
+  {
+    const WithoutGil no_gil;
+    value = cloud.once<ObjectRef>("python/" + key, [&] {
+      return in_python([&] { return std::make_shared<const ObjectRef>(function.get()()); });
+    });
+  }
+  return value->get();
+}
+
+}  // namespace
+
+void bind_clouds(py::module_& module) {
+  py::class_<Cloud, SharedCloud>(module, "Cloud")
+      .def("__len__", [](const Cloud& cloud) { return cloud.points().size(); })
+      .def_property_readonly("points",
+                             [](const py::object& self) {
+                               return points_view(py::cast<const Cloud&>(self).points(), self);
+                             })
+      .def_property_readonly("channels", channels)
+      .def("to_array", [](const Cloud& cloud) { return structured_array(cloud.with_channels()); })
+      .def("nearest", nearest)
+      .def("normals", normals)
+      .def("once", once);
+  module.def("read_cloud", read_cloud);
+  module.def("write_cloud", write_cloud);
+}
+
+}  // namespace croon::python

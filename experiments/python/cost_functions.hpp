@@ -1,0 +1,51 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+
+#include "experiments/python/interpreter.hpp"
+#include "framework/stage/pose_search.hpp"
+#include "framework/stage/yaw_search.hpp"
+
+namespace croon::python {
+
+/// The cost function of a search as a function of Python, for as long as this object lives: a call
+/// after that is a RuntimeError. It counts its calls. Needs the interpreter's lock.
+class CallableYawCost {
+ public:
+  explicit CallableYawCost(const YawCost& cost);
+  ~CallableYawCost();
+  CallableYawCost(const CallableYawCost&) = delete;
+  CallableYawCost& operator=(const CallableYawCost&) = delete;
+
+  py::object function() const { return function_; }
+  /// The minimum at the yaw that the search returned. Throws InputError if it is no finite number.
+  YawMinimum minimum(const py::object& result) const;
+
+ private:
+  struct State;
+  std::shared_ptr<State> state_;
+  py::object function_;
+};
+
+/// The same for a function of pose.
+class CallablePoseCost {
+ public:
+  CallablePoseCost(const PoseCost& cost, const RigidTransform& start);
+  ~CallablePoseCost();
+  CallablePoseCost(const CallablePoseCost&) = delete;
+  CallablePoseCost& operator=(const CallablePoseCost&) = delete;
+
+  py::object function() const { return function_; }
+  /// The minimum at the pose that the search returned, or at the start if that has a lower cost.
+  /// Throws InputError if it is no pose.
+  PoseMinimum minimum(const py::object& result) const;
+
+ private:
+  struct State;
+  std::shared_ptr<State> state_;
+  RigidTransform start_;
+  py::object function_;
+};
+
+}  // namespace croon::python

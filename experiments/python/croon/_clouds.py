@@ -1,0 +1,43 @@
+"""Clouds and files."""
+
+import numpy
+
+from . import _core
+from ._errors import InputError
+from ._json import path_of
+
+
+def read_cloud(path):
+    """Reads the cloud in a file: .pcd, .ply, or .bin as KITTI writes it.
+
+    Returns a structured array with the fields x, y and z (float32, metres, in the sensor's frame) and a field per
+    channel of the file: intensity, ring, time and others, each in its type. Points that are not finite are left out.
+    Raises InputError if the file cannot be read or is damaged.
+    """
+    return _core.read_cloud(path_of(path, "path"))
+
+
+def write_cloud(path, cloud, encoding="binary"):
+    """Writes a cloud, N×3 or structured, as .pcd or .ply.
+
+    `encoding` is binary, ascii or, for PCD, binary_compressed. What `read_cloud` then returns is the same cloud to the
+    last byte. Raises InputError for another suffix, and if the file cannot be written.
+    """
+    path = path_of(path, "path")
+    known = {".pcd": ("binary", "ascii", "binary_compressed"), ".ply": ("binary", "ascii")}
+    suffix = path[path.rfind("."):].lower() if "." in path else ""
+    if suffix not in known:
+        raise InputError(f"{path}: expected a file that ends in .pcd or .ply",
+                         [(path, "", "expected a file that ends in .pcd or .ply")])
+    if encoding not in known[suffix]:
+        message = f"expected one of {', '.join(known[suffix])}, found {encoding!r:.60}"
+        raise InputError(f"encoding: {message}", [("", "encoding", message)])
+    _core.write_cloud(path, cloud, suffix, encoding)
+
+
+def xyz(cloud):
+    """The points of a structured array, as `read_cloud` returns it, as an N×3 array of float32; a copy."""
+    points = numpy.empty((len(cloud), 3), numpy.float32)
+    for axis, name in enumerate("xyz"):
+        points[:, axis] = cloud[name]
+    return points

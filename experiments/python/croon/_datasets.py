@@ -1,0 +1,84 @@
+"""The scenes of datasets."""
+
+from . import _core
+from ._json import path_of, text_of, word
+
+
+class Scene:
+    """One recording of a rig: a cloud per sensor, and what is known of the sensors' poses.
+
+    A pose is `T_reference_sensor`, which maps a point of the sensor to the reference's frame.
+    """
+
+    def __init__(self, scene):
+        self._scene = scene
+
+    @property
+    def name(self):
+        """The scene's name, "000012"."""
+        return self._scene.name
+
+    @property
+    def kind(self):
+        """The kind of scene, "urban"; empty if it is not known."""
+        return self._scene.kind
+
+    @property
+    def reference(self):
+        """The name of the sensor that the others are calibrated to."""
+        return self._scene.reference
+
+    @property
+    def sensors(self):
+        """The names of the other sensors."""
+        return self._scene.sensors
+
+    @property
+    def truth(self):
+        """The true poses by sensor; a sensor whose pose is not known is not in it."""
+        return self._scene.truth
+
+    @property
+    def nominal(self):
+        """The poses of the rig's design, likewise."""
+        return self._scene.nominal
+
+    @property
+    def initial(self):
+        """The initial poses of the recording, likewise."""
+        return self._scene.initial
+
+    def cloud(self, sensor):
+        """The cloud of a sensor, or of the reference, as `read_cloud` returns it. It is read, or simulated, at each call."""
+        return self._scene.cloud(word(sensor, "sensor"))
+
+    @property
+    def clouds(self):
+        """The clouds of all sensors and of the reference by name."""
+        return {name: self._scene.cloud(name) for name in [self.reference, *self.sensors]}
+
+    def __repr__(self):
+        return f"<croon.Scene {self.name} {self.kind}: {', '.join([self.reference, *self.sensors])}>"
+
+
+def scenes(dataset, data=""):
+    """The scenes of a dataset, given as in an experiment: {"type": "opencalib", "path": "opencalib/real"}.
+
+    `data` is the data root; without it, it is the folder CROON_DATA, else data. Raises InputError.
+    """
+    data = path_of(data, "data") if data else ""
+    return [Scene(scene) for scene in _core.scenes(text_of(dataset, "dataset"), "dataset", data)]
+
+
+def simulate(scenes=1, **parameters):
+    """Simulated road scenes, as the dataset "simulated" of an experiment has them: the same points to the last bit.
+
+    The parameters are those of the dataset: rig, mix, noise, seed, first_scene; ``print(croon.help_on("dataset/simulated"))``
+    lists them. A scene is built when its first cloud is asked for. Returns a list of `Scene`. Raises InputError.
+
+        scene, = croon.simulate(rig="croon_five", mix={"urban": 1}, noise="real", seed=3)
+        top, left = scene.cloud("top"), scene.cloud("left")
+        scene.truth["left"]
+    """
+    text = text_of({"type": "simulated", "scenes": scenes, **parameters}, "simulate")
+    return [Scene(scene) for scene in _core.scenes(text, "simulate", "")]

@@ -1,0 +1,66 @@
+"""Pipelines on two clouds."""
+
+import dataclasses
+import json
+from typing import Dict, Optional
+
+import numpy
+
+from . import _core
+from ._json import text_and_name, whole, word
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Result:
+    """What a pipeline found."""
+
+    pose: numpy.ndarray
+    """The pose `T_target_source`, 4×4, float64: it maps a point of the source to the target's frame."""
+    information: Optional[numpy.ndarray]
+    """The information matrix of the pose, 6×6: roll, pitch, yaw (rad), x, y, z (m) in the target's frame, for residuals
+    of unit variance; None if no step computed it."""
+    diagnostics: Dict[str, Dict[str, float]]
+    """What each step reports of its work, by the step's name."""
+    rejection: Optional[str]
+    """Why the pose must not be trusted; None if a pipeline does not say so."""
+    seconds: Dict[str, float]
+    """The wall time of each step, without what was computed once for a cloud."""
+
+
+class Pipeline:
+    """The steps of a method.
+
+    `pipeline` is a list of steps, or a dict with such a list as "pipeline" (an experiment), as Python values, as JSON
+    text, or as the path of a JSON file. Raises InputError with all faults. A pipeline is not changed by running:
+    threads may share it. Stages in Python are known if they were registered before.
+    """
+
+    def __init__(self, pipeline):
+        text, name = text_and_name(pipeline, "pipeline")
+        self._pipeline = _core.load_pipeline(name) if text is None else _core.parse_pipeline(text, name)
+
+    @property
+    def steps(self):
+        """The steps with all their parameters, as a list of dicts that makes the same pipeline again."""
+        names = self._pipeline.names()
+        return [{"name": name, **json.loads(step)} for name, step in zip(names, self._pipeline.resolved())]
+
+    def run(self, target, source, initial=None, *, seed=1, scene="scene", reference="reference", sensor="sensor", trial=0):
+        """Calibrates the sensor of the cloud `source` to that of the cloud `target`.
+
+        A cloud is an N×3 array of float32 or float64, or a structured array with x, y, z and channels; all points must
+        be finite. An array of float32 is copied once. `initial` is a 4×4 pose `T_target_source`, the identity if it is
+        None. With the seed of an experiment, and the names of its scene, sensors and trial, the result has the same
+        bits as that of `croon run`. Other threads of Python run meanwhile.
+
+        Returns a `Result`. Raises InputError for wrong arguments, and StageError if a step cannot go on; its
+        ``__cause__`` is the exception of the stage, if that is one in Python.
+        """
+        names = [word(value, name) for name, value in
+                 (("scene", scene), ("reference", reference), ("sensor", sensor))]
+        seed = whole(seed, "seed", 0, 2**64 - 1)
+        trial = whole(trial, "trial", 0, 2**31 - 1)
+        return Result(*self._pipeline.run(target, source, initial, seed, *names, trial))
+
+    def __repr__(self):
+        return f"<croon.Pipeline {', '.join(self._pipeline.names())}>"

@@ -1,0 +1,156 @@
+"""Experiments: running them, and their results."""
+
+import functools
+import json
+
+import numpy
+
+from . import _core
+from ._json import path_of, text_and_name, whole, word
+
+
+class Results:
+    """A folder of results, read from its store alone.
+
+    Tables are structured arrays with the columns of the files of the same name; a number that is not there is NaN. The
+    methods that end in `_frame` return them as pandas.DataFrame.
+    """
+
+    def __init__(self, results, folder, complaints=()):
+        self._results = results
+        self.folder = folder
+        self.complaints = list(complaints)
+
+    @property
+    def name(self):
+        """The experiment's name."""
+        return self._results.name
+
+    @property
+    def description(self):
+        """The question that the experiment answers."""
+        return self._results.description
+
+    @property
+    def seed(self):
+        """The experiment's seed."""
+        return self._results.seed
+
+    @property
+    def planned(self):
+        """The number of trials of the whole experiment; fewer may be there."""
+        return self._results.planned
+
+    @functools.cached_property
+    def manifest(self):
+        """What was run, as a dict: the experiment with all defaults, versions, digests of the inputs."""
+        return json.loads(self._results.manifest)
+
+    @functools.cached_property
+    def extrinsics(self):
+        """What extrinsics.json has, as a dict: the poses that trials agree on."""
+        return json.loads(self._results.extrinsics())
+
+    @functools.cached_property
+    def trials(self):
+        """The trials, as in trials.csv, and the reason why one failed or was rejected."""
+        return self._results.trials()
+
+    @functools.cached_property
+    def poses(self):
+        """The pose `T_reference_sensor` of each of `trials`, N×4×4, float64; NaN if it has none."""
+        return self._results.poses()
+
+    @functools.cached_property
+    def summary(self):
+        """The statistics of each variant and sensor, as in summary.csv."""
+        return self._results.summary()
+
+    @functools.cached_property
+    def comparisons(self):
+        """Every variant against the first one, as in comparison.csv."""
+        return self._results.comparisons()
+
+    @functools.cached_property
+    def diagnostics(self):
+        """What steps report of their work, as in diagnostics.csv."""
+        return self._results.diagnostics()
+
+    def trials_frame(self):
+        """`trials` as a pandas.DataFrame. Raises ImportError without pandas."""
+        return _frame(self.trials)
+
+    def summary_frame(self):
+        """`summary` as a pandas.DataFrame."""
+        return _frame(self.summary)
+
+    def comparisons_frame(self):
+        """`comparisons` as a pandas.DataFrame."""
+        return _frame(self.comparisons)
+
+    def diagnostics_frame(self):
+        """`diagnostics` as a pandas.DataFrame."""
+        return _frame(self.diagnostics)
+
+    def __str__(self):
+        return self._results.text()
+
+    def __repr__(self):
+        return f"<croon.Results {self.name}: {len(self.trials)} trials in {self.folder}>"
+
+
+def _frame(array):
+    import pandas  # Only those who ask for a frame need it.
+
+    return pandas.DataFrame({name: array[name] for name in array.dtype.names})
+
+
+def _request(experiment, out="", data="", jobs=0, trials=0, only=(), shard=""):
+    text, name = text_and_name(experiment, "experiment")
+    if isinstance(only, str):
+        only = [only]
+    return {
+        "experiment": name,
+        "text": text,
+        "out": path_of(out, "out") if out else "",
+        "data": path_of(data, "data") if data else "",
+        "jobs": whole(jobs, "jobs", 0, 4096),
+        "trials": whole(trials, "trials", 0, 1000000000),
+        "only": [word(variant, "only") for variant in only],
+        "shard": word(shard, "shard"),
+    }
+
+
+def run(experiment, out="", data="", jobs=0, trials=0, only=(), shard="", fresh=False, same_build=False, progress=False):
+    """Runs an experiment, or what of it is missing in its folder, as the command `croon run` does.
+
+    `experiment` is a dict, JSON text, or the path of a file; paths in a dict are relative to the working directory. The
+    other arguments are the options of the command: `out` is the folder (default results/<name>), `data` the data root
+    (default CROON_DATA, else data), `jobs` the number of threads (0: all cores), `trials` the number of starts (0: as in
+    the experiment), `only` names of variants, `shard` a part "K/N". The files in the folder are those of the command,
+    to the last byte, for any number of jobs.
+
+    Returns the `Results` of the folder. `complaints` has a line for each cloud that could not be read. Raises
+    InputError. After KeyboardInterrupt, what is done is in the store, and the same call goes on with the rest.
+    """
+    request = _request(experiment, out, data, jobs, trials, only, shard)
+    request.update(fresh=bool(fresh), same_build=bool(same_build), progress=bool(progress))
+    folder, complaints = _core.run(request)
+    return Results(_core.load(folder), folder, complaints)
+
+
+def load(folder):
+    """The results in a folder, which `run` or the command `croon run` or `croon merge` filled. Raises InputError."""
+    folder = path_of(folder, "folder")
+    return Results(_core.load(folder), folder)
+
+
+def starts(experiment, data="", trials=0):
+    """The starts of an experiment, as a structured array: scene, sensor, trial, and the pose, 4×4.
+
+    From such a start, and with the seed and the names of its trial, `Pipeline.run` gives the same bits as `run`.
+    """
+    rows = _core.starts(_request(experiment, data=data, trials=trials))
+    width = [max((len(row[k]) for row in rows), default=1) for k in (0, 1)]
+    fields = [("scene", f"U{width[0]}"), ("sensor", f"U{width[1]}"), ("trial", "i8"), ("pose", "f8", (4, 4))]
+    return numpy.array(rows, fields)

@@ -1,0 +1,99 @@
+#include "experiments/python/interpreter.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+namespace croon::python {
+namespace {
+
+/// Set when the interpreter is about to end.
+std::atomic<bool> is_ending{false};
+/// Threads that wait for the lock, or have it through a WithGil.
+std::atomic<int> threads_inside{0};
+/// How many WithGil this thread has.
+thread_local int depth = 0;
+thread_local CauseOfFailure* cause = nullptr;
+
+/// Counts this thread as one inside Python. Does not return if the interpreter ends: to take its
+/// lock would then end the thread inside C++ code, and with it the process.
+void enter() {
+  if (depth > 0) return;
+  ++threads_inside;
+  if (!is_ending) return;
+  --threads_inside;
+  for (;;) ::pause();
+}
+
+void leave() {
+  if (depth == 0) --threads_inside;
+}
+
+void release(PyObject* object) {
+  if (object == nullptr || (is_ending && depth == 0) || Py_IsInitialized() == 0) return;
+  const WithGil gil;
+  Py_DECREF(object);
+}
+
+}  // namespace
+
+WithGil::WithGil() {
+  enter();
+  ++depth;
+  state_ = PyGILState_Ensure();
+}
+
+WithGil::~WithGil() {
+  PyGILState_Release(state_);
+  --depth;
+  leave();
+}
+
+WithoutGil::~WithoutGil() {
+  enter();
+  PyEval_RestoreThread(state_);
+  leave();
+}
+
+void end_python() {
+  is_ending = true;
+  ++depth;  // This thread comes back, and needs Python until the end.
+  const WithoutGil no_gil;
+  constexpr int kMostWaits = 500;
+  for (int i = 0; i < kMostWaits && threads_inside > 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+ObjectRef::ObjectRef(py::object object) : object_(object.release().ptr(), release) {}
+
+py::object ObjectRef::get() const { return py::reinterpret_borrow<py::object>(object_.get()); }
+
+CauseOfFailure::CauseOfFailure() : outer_(cause) { cause = this; }
+CauseOfFailure::~CauseOfFailure() { cause = outer_; }
+
+void throw_from_python(py::error_already_set& error) {
+  if (!error.matches(PyExc_Exception) || error.matches(PyExc_MemoryError)) throw;
+  const py::object type = error.type();
+  const bool is_stage_error = type.is(py::module_::import("croon._errors").attr("StageError"));
+  const std::string name = py::str(type.attr("__name__"));
+  const std::string message = py::str(error.value());
+  if (cause != nullptr) {
+    if (error.trace()) PyException_SetTraceback(error.value().ptr(), error.trace().ptr());
+    cause->exception = ObjectRef(error.value());
+  }
+  if (is_stage_error) throw StageError(message);
+  throw StageError(message.empty() ? name : name + ": " + message);
+}
+
+std::string text_of(const py::handle& object) { return py::cast<std::string>(py::str(object)); }
+
+std::string type_words(const py::handle& object) {
+  const std::string name = py::str(py::type::of(object).attr("__name__"));
+  const bool has_vowel = std::string("aeiouAEIOU").find(name.front()) != std::string::npos;
+  return (has_vowel ? "an " : "a ") + name;
+}
+
+}  // namespace croon::python

@@ -1,0 +1,220 @@
+// Stages of each kind that call Python.
+#include "experiments/python/stage_adapters.hpp"
+
+#include "experiments/python/arrays.hpp"
+#include "experiments/python/cost_functions.hpp"
+#include "experiments/python/estimates.hpp"
+#include "framework/stage/ground_extractor.hpp"
+#include "framework/stage/icp.hpp"
+#include "framework/stage/pose_search.hpp"
+#include "framework/stage/preprocessor.hpp"
+#include "framework/stage/volume_scorer.hpp"
+#include "framework/stage/yaw_search.hpp"
+
+namespace croon::python {
+namespace {
+
+/// A stage that calls methods of its object.
+class Caller {
+ public:
+  explicit Caller(ObjectRef instance) : instance_(std::move(instance)) {}
+
+ protected:
+  /// Needs the interpreter's lock.
+  template <class... Arguments>
+  py::object call(const char* method, Arguments&&... arguments) const {
+    return instance_.get().attr(method)(std::forward<Arguments>(arguments)...);
+  }
+
+ private:
+  ObjectRef instance_;
+};
+
+std::shared_ptr<Cloud> python_cloud(const std::shared_ptr<const Cloud>& cloud) {
+  return std::const_pointer_cast<Cloud>(cloud);
+}
+
+/// A copy for Python, which may keep it: the owner of `cloud` promises it for a call alone.
+std::shared_ptr<Cloud> copied(const Cloud& cloud) {
+  return std::make_shared<Cloud>(cloud.with_channels(), StreamKey(0));
+}
+
+class PythonStep final : public Step, Caller {
+ public:
+  using Caller::Caller;
+  Estimate advance(Estimate estimate, Rng& rng) const override {
+    return in_python([&] {
+      return estimate_from(call("advance", estimate, PythonRng{rng}), std::move(estimate));
+    });
+  }
+};
+
+class PythonYawSearch final : public YawSearch, Caller {
+ public:
+  using Caller::Caller;
+  YawMinimum minimise(const YawCost& cost) const override {
+    return in_python([&] {
+      CallableYawCost callable(cost);
+      return callable.minimum(call("minimise", callable.function()));
+    });
+  }
+};
+
+class PythonPoseSearch final : public PoseSearch, Caller {
+ public:
+  using Caller::Caller;
+  PoseMinimum minimise(const PoseCost& cost, const RigidTransform& start) const override {
+    return in_python([&] {
+      CallablePoseCost callable(cost, start);
+      return callable.minimum(call("minimise", callable.function(), array_from(start)));
+    });
+  }
+};
+
+class PythonPreprocessor final : public Preprocessor, Caller {
+ public:
+  using Caller::Caller;
+  PointCloud apply(const PointCloud& cloud) const override {
+    return in_python([&] {
+      const py::object result = call("apply", structured_array(cloud));
+      if (py::isinstance<py::array_t<bool>>(result)) return kept(cloud, result);
+      return cloud_or_empty_from(result, "apply");
+    });
+  }
+
+ private:
+  static PointCloud kept(const PointCloud& cloud, const py::object& result) {
+    const py::array_t<bool> mask(result);
+    if (mask.ndim() != 1 || static_cast<std::size_t>(mask.size()) != cloud.size()) {
+      throw InputError("", "apply", "expected a cloud, or true or false for each point");
+    }
+    return filtered(cloud, [&](std::size_t i) { return mask.at(static_cast<py::ssize_t>(i)); });
+  }
+};
+
+class PythonGroundExtractor final : public GroundExtractor, Caller {
+ public:
+  using Caller::Caller;
+  Ground extract(const PointCloud& cloud, Rng& rng) const override {
+    return in_python([&] {
+      const py::object stream = py::cast(PythonRng{rng});
+      const py::object result = call("extract", structured_array(cloud), stream);
+      rng = py::cast<const PythonRng&>(stream).rng;
+      return ground_from(result, cloud.size());
+    });
+  }
+
+ private:
+  static Ground ground_from(const py::object& result, std::size_t points) {
+    if (!py::isinstance<py::tuple>(result) || py::len(result) != 3) {
+      throw InputError(
+          "", "extract",
+          "expected a normal, an offset and a mask of the points, found " + type_words(result));
+    }
+    const py::tuple parts = result;
+    Ground ground;
+    ground.plane.normal = vector_from(parts[0], "extract: the normal");
+    const double length = ground.plane.normal.norm();
+    if (!(length > 0.0)) throw InputError("", "extract", "expected a normal, found zero");
+    ground.plane.normal /= length;
+    ground.plane.offset_m = py::cast<double>(py::float_(parts[1])) / length;
+    const py::array_t<bool, py::array::forcecast> mask(parts[2]);
+    if (mask.ndim() != 1 || static_cast<std::size_t>(mask.size()) != points) {
+      throw InputError("", "extract", "expected true or false for each point");
+    }
+    if (!std::isfinite(ground.plane.offset_m)) {
+      throw InputError("", "extract", "expected an offset that is finite");
+    }
+    for (py::ssize_t i = 0; i < mask.size(); ++i) ground.is_ground.push_back(mask.at(i) ? 1 : 0);
+    return ground;
+  }
+};
+
+class PythonIcp final : public Icp, Caller {
+ public:
+  using Caller::Caller;
+  Registration align(const Cloud& target, const Cloud& source,
+                     const RigidTransform& start) const override {
+    return in_python([&] {
+      return registration_from(
+          call("align", python_copy(target), python_copy(source), array_from(start)));
+    });
+  }
+
+ private:
+  /// The same object for the same cloud, whose derived data are computed once.
+  static py::object python_copy(const Cloud& cloud) {
+    const auto copy = [&] {
+      const WithoutGil no_gil;
+      return cloud.once<std::shared_ptr<Cloud>>("python/cloud", [&] {
+        return std::make_shared<const std::shared_ptr<Cloud>>(copied(cloud));
+      });
+    }();
+    return py::cast(*copy);
+  }
+
+  static Registration registration_from(const py::object& result) {
+    const py::object type = py::module_::import("croon._stages").attr("Registration");
+    Registration registration;
+    if (!py::isinstance(result, type)) {
+      registration.T_target_source = pose_from(result, "align");
+      return registration;
+    }
+    registration.T_target_source = pose_from(result.attr("pose"), "align");
+    registration.rmse_m = py::cast<double>(result.attr("rmse_m"));
+    registration.inlier_ratio = py::cast<double>(result.attr("inlier_ratio"));
+    registration.correspondences = py::cast<int>(result.attr("correspondences"));
+    registration.iterations = py::cast<int>(result.attr("iterations"));
+    registration.converged = py::cast<bool>(result.attr("converged"));
+    const py::object information = result.attr("information");
+    if (!information.is_none()) {
+      registration.information = information_from(information, "align: the information");
+    }
+    return registration;
+  }
+};
+
+class PythonVolumeScorer final : public VolumeScorer, Caller {
+ public:
+  using Caller::Caller;
+  VolumeFunction bind(std::shared_ptr<const Cloud> target,
+                      std::shared_ptr<const Cloud> source) const override {
+    return in_python([&]() -> VolumeFunction {
+      const py::object result = call("bind", python_cloud(target), python_cloud(source));
+      if (!py::isinstance<py::tuple>(result) || py::len(result) != 2) {
+        throw InputError("", "bind",
+                         "expected a function and a leaf size, found " + type_words(result));
+      }
+      const py::tuple parts = result;
+      const ObjectRef function{py::object(parts[0])};
+      const double leaf_size_m = py::cast<double>(py::float_(parts[1]));
+      return [function, leaf_size_m](const RigidTransform& T_target_source) {
+        return in_python([&] {
+          const py::object leaves = function.get()(array_from(T_target_source));
+          return OccupiedVolume{py::cast<std::int64_t>(py::int_(leaves)), leaf_size_m};
+        });
+      };
+    });
+  }
+};
+
+template <class Stage, class Kind>
+std::shared_ptr<const void> made(const ObjectRef& instance) {
+  const std::shared_ptr<const Kind> stage = std::make_shared<const Stage>(instance);
+  return stage;
+}
+
+}  // namespace
+
+std::shared_ptr<const void> python_stage(const std::string& kind, const ObjectRef& instance) {
+  if (kind == Step::kKind) return made<PythonStep, Step>(instance);
+  if (kind == YawSearch::kKind) return made<PythonYawSearch, YawSearch>(instance);
+  if (kind == PoseSearch::kKind) return made<PythonPoseSearch, PoseSearch>(instance);
+  if (kind == Preprocessor::kKind) return made<PythonPreprocessor, Preprocessor>(instance);
+  if (kind == GroundExtractor::kKind) return made<PythonGroundExtractor, GroundExtractor>(instance);
+  if (kind == Icp::kKind) return made<PythonIcp, Icp>(instance);
+  if (kind == VolumeScorer::kKind) return made<PythonVolumeScorer, VolumeScorer>(instance);
+  return nullptr;
+}
+
+}  // namespace croon::python

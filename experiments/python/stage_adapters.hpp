@@ -1,0 +1,14 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "experiments/python/interpreter.hpp"
+
+namespace croon::python {
+
+/// The stage of the kind `kind` that calls the methods of the Python object `instance`; points at
+/// the class of the kind. Null for a kind that Python has no class for.
+std::shared_ptr<const void> python_stage(const std::string& kind, const ObjectRef& instance);
+
+}  // namespace croon::python

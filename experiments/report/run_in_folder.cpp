@@ -1,0 +1,109 @@
+#include "experiments/report/run_in_folder.hpp"
+
+#include <map>
+#include <utility>
+
+#include "experiments/run/runner.hpp"
+#include "experiments/store/manifest.hpp"
+#include "experiments/store/store_writer.hpp"
+
+namespace croon::experiments {
+namespace {
+
+/// The plan for each of the variants alone, one after the other.
+std::vector<Plan> one_by_one(const Plan& plan) {
+  std::map<std::size_t, Plan> plans;
+  for (const PlannedStart& start : plan.starts) {
+    for (const std::size_t variant : plan.variants[start.variants]) {
+      Plan& alone = plans[variant];
+      alone.variants = {{variant}};
+      alone.starts.push_back({start.scene, start.sensor, start.trial, 0});
+      ++alone.trials;
+    }
+  }
+  std::vector<Plan> list;
+  for (auto& [variant, alone] : plans) list.push_back(std::move(alone));
+  return list;
+}
+
+/// Runs what is missing into the store. Returns a line for each cloud that was not available.
+std::vector<std::string> fill_store(const CheckedRun& run, const OutputFolder& folder,
+                                    const Work& work, const FolderRun& how, Progress& progress) {
+  progress.skip(work.done);
+  Store store(folder.store(), work.header);
+  TimingsFile timings(folder.file(kTimings));
+  StoreWriter writer(store, [&](const std::vector<Done>& batch) {
+    for (const Done& done : batch) {
+      timings.add(done.timings);
+      if (done.record) progress.advance();
+    }
+    timings.flush();
+  });
+  std::vector<std::string> complaints;
+  RunListener listener;
+  listener.on_unavailable = [&](const Fault& fault) {
+    complaints.push_back(fault.line() + "; its trials are not stored, the next run runs them");
+  };
+  listener.on_scene = [&](const std::string& scene) {
+    progress.set_scene(scene);
+    how.check();
+  };
+  listener.on_trial = [&](const TrialRecord& record, const std::vector<TimingRow>& rows) {
+    writer.add({record, rows});
+    how.check();
+  };
+  listener.on_scene_timings = [&](const std::vector<TimingRow>& rows) {
+    writer.add({std::nullopt, rows});
+  };
+  const std::vector<Plan> plans = how.no_share ? one_by_one(work.plan) : std::vector{work.plan};
+  for (const Plan& plan : plans) {
+    run_trials(run.experiment, run.scenes, plan, run.jobs, listener);
+  }
+  writer.finish();
+  progress.finish();
+  return complaints;
+}
+
+}  // namespace
+
+StoreHeader header_of(CheckedRun& run) {
+  const std::vector<InputFile> inputs = record_inputs(run.scenes, run.data_root, run.jobs);
+  const Provenance provenance = provenance_of(run.experiment, run.scenes, inputs);
+  return header_of(run.experiment, run.scenes, provenance,
+                   manifest_json(run.experiment, run.scenes, inputs, provenance));
+}
+
+Work work_of(const CheckedRun& run, StoreHeader header, const FolderRun& how) {
+  const std::filesystem::path path = store_path(run.out);
+  StoreHeader stored = how.fresh ? StoreHeader() : stored_header(path);
+  if (how.same_build) refuse_other_builds(path.string(), stored, header, kFreshRemedy);
+  const std::vector<TrialIndex> done =
+      how.fresh ? std::vector<TrialIndex>() : stored_trials(path, stored, header);
+  Work work{{}, {}, plan_trials(run.experiment, run.scenes, run.selection, done)};
+  // A build that adds no trial has no part in the results.
+  if (work.plan.trials == 0 && !stored.builds.empty()) header.builds.clear();
+  work.header = continued(stored, std::move(header));
+  work.stored = std::move(stored);
+  if (done.empty()) return work;
+  const Plan all = plan_trials(run.experiment, run.scenes, run.selection);
+  work.done = all.trials - work.plan.trials;
+  return work;
+}
+
+FolderResults run_in_folder(const CheckedRun& run, StoreHeader header, const OutputFolder& folder,
+                            const FolderRun& how, std::ostream& progress_out) {
+  if (how.fresh) folder.clear();
+  const Work work = work_of(run, std::move(header), how);
+  FolderResults end;
+  if (work.plan.trials > 0 || !is_same(work.stored, work.header)) {
+    Progress progress(progress_out, how.progress, work.plan.trials + work.done);
+    end.complaints = fill_store(run, folder, work, how, progress);
+  }
+  rewrite_in_order(folder.store());
+  end.results = read_results(run.out, Content::trials_and_steps);
+  folder.write_reports(end.results,
+                       manifest_with_host(end.results.manifest, run.data_root, run.jobs));
+  return end;
+}
+
+}  // namespace croon::experiments
