@@ -9,6 +9,7 @@ namespace croon::python {
 void bind_errors();
 void bind_clouds(pybind11::module_& module);
 void bind_estimates(pybind11::module_& module);
+void bind_rng(pybind11::module_& module);
 void bind_stages(pybind11::module_& module);
 void bind_pipelines(pybind11::module_& module);
 void bind_runs(pybind11::module_& module);

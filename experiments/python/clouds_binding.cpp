@@ -1,4 +1,8 @@
 // Clouds as stages see them, and the readers and writers of files.
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
 #include "experiments/python/arrays.hpp"
 #include "experiments/python/bindings.hpp"
 #include "experiments/python/interpreter.hpp"
@@ -48,6 +52,7 @@ py::dict channels(const py::object& self) {
 /// Indices of the nearest points of `cloud`, -1 if none is within `max_distance_m`, and distances.
 py::tuple nearest(const Cloud& cloud, const py::object& queries, double max_distance_m) {
   const Points points = cloud_or_empty_from(queries, "points").points;
+  if (!(max_distance_m >= 0.0)) throw InputError("", "max_distance_m", "expected a distance");
   const auto size = static_cast<py::ssize_t>(points.size());
   py::array_t<std::int64_t> indices(size);
   py::array_t<double> distances(size);
@@ -70,6 +75,9 @@ py::tuple nearest(const Cloud& cloud, const py::object& queries, double max_dist
 
 /// A unit normal per point, zero if it is not defined.
 py::array normals(const Cloud& cloud, int neighbours) {
+  if (neighbours < 3) {
+    throw InputError("", "neighbours", "expected at least 3, found " + std::to_string(neighbours));
+  }
   py::array_t<float> array({static_cast<py::ssize_t>(cloud.points().size()), py::ssize_t{3}});
   float* to = array.mutable_data();
   const WithoutGil no_gil;
@@ -97,17 +105,36 @@ py::object once(const Cloud& cloud, const std::string& key, const py::object& ma
 }  // namespace
 
 void bind_clouds(py::module_& module) {
-  py::class_<Cloud, SharedCloud>(module, "Cloud")
+  py::class_<Cloud, SharedCloud>(module, "Cloud",
+                                 "The cloud of one sensor as a stage sees it, in the sensor's "
+                                 "frame, metres. It never changes.")
       .def("__len__", [](const Cloud& cloud) { return cloud.points().size(); })
-      .def_property_readonly("points",
-                             [](const py::object& self) {
-                               return points_view(py::cast<const Cloud&>(self).points(), self);
-                             })
-      .def_property_readonly("channels", channels)
-      .def("to_array", [](const Cloud& cloud) { return structured_array(cloud.with_channels()); })
-      .def("nearest", nearest)
-      .def("normals", normals)
-      .def("once", once);
+      .def_property_readonly(
+          "points",
+          [](const py::object& self) {
+            return points_view(py::cast<const Cloud&>(self).points(), self);
+          },
+          "The points, N×3, float32; a read-only view.")
+      .def_property_readonly("channels", channels,
+                             "The channels by name, N or N×count each; read-only views.")
+      .def(
+          "to_array", [](const Cloud& cloud) { return structured_array(cloud.with_channels()); },
+          "A structured array with x, y, z and the channels; a copy.")
+      .def("nearest", nearest, py::arg("points"),
+           py::arg("max_distance_m") = std::numeric_limits<double>::infinity(),
+           "Of each of points (N×3) the index of the nearest point of this cloud within the "
+           "distance,\n"
+           "-1 if there is none, and its distance in metres: (indices, distances).")
+      .def("normals", normals, py::arg("neighbours"),
+           "A unit normal per point, N×3, towards the sensor, from so many nearest neighbours; "
+           "zero\n"
+           "where it is not defined. Computed once for the cloud.")
+      .def("once", once, py::arg("name"), py::arg("make"),
+           "What make() returns, computed at the first call for this cloud and name and then kept "
+           "for\n"
+           "all trials, variants and threads. The name says all that the value depends on besides "
+           "the\n"
+           "cloud.");
   module.def("read_cloud", read_cloud);
   module.def("write_cloud", write_cloud);
 }

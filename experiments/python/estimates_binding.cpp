@@ -23,9 +23,12 @@ py::dict diagnostics_dict(const Estimate& estimate) {
   return dict;
 }
 
-void set_diagnostics(Estimate& estimate, const py::dict& dict) {
+void set_diagnostics(Estimate& estimate, const py::object& numbers) {
+  if (!py::isinstance<py::dict>(numbers)) {
+    throw InputError("", "diagnostics", "expected a dict, found " + type_words(numbers));
+  }
   std::vector<Diagnostic> diagnostics;
-  for (const auto& [name, value] : dict) {
+  for (const auto& [name, value] : py::dict(numbers)) {
     if (!py::isinstance<py::str>(name) || PyNumber_Check(value.ptr()) == 0) {
       throw InputError("", "diagnostics",
                        "expected numbers by name, found " + text_of(py::repr(name)) + " with " +
@@ -52,6 +55,20 @@ py::object get_extra(const Estimate& estimate, const std::string& name) {
   return estimate.extras.get(Extra<ObjectRef>{name.c_str(), ""}).get();
 }
 
+py::object object_from(const std::optional<std::string>& text) {
+  return text ? py::object(py::str(*text)) : py::none();
+}
+
+void set_information(Estimate& estimate, const py::object& matrix) {
+  estimate.information.reset();
+  if (!matrix.is_none()) estimate.information = information_from(matrix, "information");
+}
+
+void set_rejection(Estimate& estimate, const py::object& reason) {
+  estimate.rejection.reset();
+  if (!reason.is_none()) estimate.rejection = text_of(reason);
+}
+
 py::object trial_object(const Estimate& estimate) {
   if (!estimate.trial) return py::none();
   const TrialName& trial = *estimate.trial;
@@ -75,55 +92,45 @@ std::string extra_type(bool is_number) {
 }
 
 void bind_estimates(py::module_& module) {
-  py::class_<Estimate>(module, "Estimate")
-      .def_property_readonly("target", [](const Estimate& e) { return python_cloud(e.target); })
-      .def_property_readonly("source", [](const Estimate& e) { return python_cloud(e.source); })
+  using E = Estimate;
+  py::class_<E>(module, "Estimate",
+                "The estimate of one sensor's pose, passed from step to step of a pipeline.")
+      .def_property_readonly(
+          "target", [](const E& e) { return python_cloud(e.target); },
+          "The reference's cloud, preprocessed so far.")
+      .def_property_readonly(
+          "source", [](const E& e) { return python_cloud(e.source); },
+          "The sensor's cloud, preprocessed so far.")
       .def_property(
-          "pose", [](const Estimate& e) { return array_from(e.T_target_source); },
-          [](Estimate& e, const py::object& pose) { e.T_target_source = pose_from(pose, "pose"); })
+          "pose", [](const E& e) { return array_from(e.T_target_source); },
+          [](E& e, const py::object& pose) { e.T_target_source = pose_from(pose, "pose"); },
+          "The pose T_target_source, 4×4, float64: a copy. Assign the changed one.")
       .def_property(
-          "information", [](const Estimate& e) { return object_from(e.information); },
-          [](Estimate& e, const py::object& matrix) {
-            e.information = matrix.is_none()
-                                ? std::nullopt
-                                : std::optional(information_from(matrix, "information"));
-          })
+          "information", [](const E& e) { return object_from(e.information); }, set_information,
+          "The information matrix that this step computed, 6×6: roll, pitch, yaw (rad), x, y, z "
+          "(m);\n"
+          "None if it computes none.")
       .def_property(
-          "rejection",
-          [](const Estimate& e) {
-            return e.rejection ? py::object(py::str(*e.rejection)) : py::none();
-          },
-          [](Estimate& e, const py::object& reason) {
-            e.rejection =
-                reason.is_none() ? std::nullopt : std::optional<std::string>(py::str(reason));
-          })
-      .def_property("diagnostics", diagnostics_dict, set_diagnostics)
-      .def_property_readonly("target_ground",
-                             [](const Estimate& e) { return ground_object(e.target_ground); })
-      .def_property_readonly("source_ground",
-                             [](const Estimate& e) { return ground_object(e.source_ground); })
-      .def_property_readonly("up", [](const Estimate& e) { return array_from(e.up()); })
-      .def_property_readonly("trial", trial_object)
-      .def("put", put_extra)
-      .def("get", get_extra);
-  py::class_<PythonRng>(module, "Rng")
-      .def("bits", [](PythonRng& self) { return self.rng.bits(); })
-      .def(
-          "uniform",
-          [](PythonRng& self, double low, double high) { return self.rng.uniform(low, high); },
-          py::arg("low") = 0.0, py::arg("high") = 1.0)
-      .def("below",
-           [](PythonRng& self, std::int64_t count) {
-             if (count < 1)
-               throw InputError("", "count",
-                                "expected a positive number, found " + std::to_string(count));
-             return self.rng.below(static_cast<std::uint64_t>(count));
-           })
-      .def("normal", [](PythonRng& self) { return self.rng.normal(); })
-      .def("numpy", [](PythonRng& self) {
-        const py::module_ random = py::module_::import("numpy.random");
-        return random.attr("Generator")(random.attr("PCG64")(self.rng.bits()));
-      });
+          "rejection", [](const E& e) { return object_from(e.rejection); }, set_rejection,
+          "Why the pose must not be trusted; None if it may be.")
+      .def_property("diagnostics", diagnostics_dict, set_diagnostics,
+                    "What this step reports of its work, numbers by name: a copy. Assign a dict.")
+      .def_property_readonly(
+          "target_ground", [](const E& e) { return ground_object(e.target_ground); },
+          "The ground of the target, a GroundSplit; None until a step has found it.")
+      .def_property_readonly(
+          "source_ground", [](const E& e) { return ground_object(e.source_ground); },
+          "The ground of the source, a GroundSplit; None until a step has found it.")
+      .def_property_readonly(
+          "up", [](const E& e) { return array_from(e.up()); },
+          "The axis of yaw in the target's frame: the ground's normal, or z if it is not known.")
+      .def_property_readonly("trial", trial_object,
+                             "Which Trial of an experiment this is; None outside one. What a step\n"
+                             "computes must not depend on it.")
+      .def("put", put_extra, py::arg("name"), py::arg("value"),
+           "Puts a value for later steps, see croon.extra.")
+      .def("get", get_extra, py::arg("name"),
+           "The value that an earlier step has put. Raises StageError if there is none.");
 }
 
 }  // namespace croon::python

@@ -8,6 +8,7 @@ PYBIND11_MODULE(_core, module) {
   bind_errors();
   bind_clouds(module);
   bind_estimates(module);
+  bind_rng(module);
   bind_stages(module);
   bind_pipelines(module);
   bind_runs(module);

@@ -44,7 +44,8 @@ class PythonStep final : public Step, Caller {
   using Caller::Caller;
   Estimate advance(Estimate estimate, Rng& rng) const override {
     return in_python([&] {
-      return estimate_from(call("advance", estimate, PythonRng{rng}), std::move(estimate));
+      const py::object result = call("advance", estimate, PythonRng{rng});
+      return estimate_from(result, std::move(estimate));
     });
   }
 };

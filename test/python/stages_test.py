@@ -111,7 +111,9 @@ class Steps(TestCase):
         self.assertEqual(estimate.target.nearest(np.full((1, 3), 1e6), 1.0)[0].tolist(), [-1])
         normals = estimate.target.normals(20)
         self.assertEqual(normals.shape, (len(TOP), 3))
-        self.assertLess(np.abs(np.linalg.norm(normals[::100], axis=1) - 1).max(), 1e-3)
+        lengths = np.linalg.norm(normals, axis=1)
+        self.assertLess(np.abs(lengths[lengths > 0] - 1).max(), 1e-3)
+        self.assertGreater((lengths > 0).mean(), 0.9)
 
     def test_compute_once_for_a_cloud(self):
         calls = []
@@ -232,7 +234,7 @@ class OtherKinds(TestCase):
             croon.choice("how", "mask", ["mask", "array", "wrong"], help="What it returns.")])
         class Far(croon.Preprocessor):
             def apply(self, cloud):
-                mask = (np.hypot(cloud["x"], cloud["y"]) > 3) & (cloud["ring"] >= 0)
+                mask = (np.hypot(cloud["x"], cloud["y"]) > 10) & (cloud["ring"] >= 0)
                 return {"mask": mask, "array": cloud[mask], "wrong": mask[1:]}[self.how]
 
         @croon.stage("ground_extractor", "test_flat", summary="Knows the height.", parameters=[
@@ -336,7 +338,7 @@ class Registering(TestCase):
     def test_by_many_threads(self):
         def register(k):
             for i in range(5):
-                croon.stage("step", f"test_thread_{k}_{i}", summary="Stays.")(type(f"S{k}{i}", (Nudge,), {}))
+                croon.stage("step", f"test_thread_{k}_{i}", summary="Stays.")(type(f"S{k}{i}", (croon.Step,), {}))
                 croon.Pipeline([{"step": f"test_thread_{k}_{i}"}])
 
         threads = [threading.Thread(target=register, args=(k,)) for k in range(4)]
