@@ -80,6 +80,9 @@ std::vector<GroundCandidate> ground_candidates(const Points& thinned,
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.score > b.score; });
+  while (!found.empty() && found.back().score < found.front().score - options.max_gap) {
+    found.pop_back();
+  }
   if (found.size() > static_cast<std::size_t>(options.candidates)) found.resize(options.candidates);
   return found;
 }

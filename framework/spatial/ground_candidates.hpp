@@ -16,6 +16,8 @@ struct GroundCandidateOptions {
   double below_margin_m = 0.5;  ///< A point this far behind a plane speaks against it.
   int planes = 8;               ///< Planes are taken from the cloud, largest first.
   int candidates = 3;           ///< The most plausible of them are returned.
+  /// And none whose score is less than the best by more than this.
+  double max_gap = 0.6;
 };
 
 /// A plane that may be the ground, its normal towards the sensor, and how plausible it is.

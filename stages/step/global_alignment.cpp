@@ -19,7 +19,7 @@ struct Params : LayeredMapOptions {
   params::Slot<Preprocessor> thinning;
   params::Slot<Icp> icp;
   int ground_candidates = 3;
-  int peaks = 6;
+  int peaks = 10;
   int hypotheses = 16;
   bool use_start = false;
   double max_rotation_deg = 45.0;

@@ -18,9 +18,9 @@ namespace {
 struct Params {
   params::Slot<Preprocessor> thinning;
   params::Slot<Icp> icp;
-  double min_overlap_ratio = 0.3;
+  double min_overlap_ratio = 0.15;
   double max_violation_ratio = 0.05;
-  double min_margin = 0.05;
+  double min_margin = 0.02;
   double min_strength = 0.01;
   double max_halves_rotation_deg = 0.5;
   double max_halves_translation_m = 0.1;
