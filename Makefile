@@ -35,6 +35,7 @@ test: packages
 benchmark: packages
 	$(call PRESET_BUILD,test)
 	set -e; for program in build/test/bin/bench_*; do "$$program"; done
+	PYTHONPATH=build/test/python /usr/bin/python3 benchmarks/python_call.py
 
 docs: release
 	.ci/generate_docs build/release/bin/croon docs

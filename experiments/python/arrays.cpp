@@ -186,14 +186,12 @@ PointCloud cloud_from(const py::object& array, const std::string& what) {
 
 py::array structured_array(const PointCloud& cloud) {
   py::list fields;
-  std::size_t bytes = sizeof(Eigen::Vector3f);
   for (const char* const name : {"x", "y", "z"}) fields.append(py::make_tuple(name, "<f4"));
   for (const Channel& channel : cloud.channels) {
     const std::string code = type_code(channel.type);
     fields.append(channel.count == 1
                       ? py::make_tuple(channel.name, code)
                       : py::make_tuple(channel.name, code, py::make_tuple(channel.count)));
-    bytes += channel.bytes_per_point();
   }
   const py::dtype type = py::dtype::from_args(fields);
   py::array array(type, std::vector<py::ssize_t>{static_cast<py::ssize_t>(cloud.size())});

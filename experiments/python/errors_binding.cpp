@@ -28,17 +28,18 @@ void raise_stage_error(const StageError& error) {
 }  // namespace
 
 void bind_errors() {
-  py::register_local_exception_translator([](std::exception_ptr pointer) {
-    try {
-      if (pointer) std::rethrow_exception(pointer);
-    } catch (const InputError& error) {
-      raise_input_error(error);
-    } catch (const StageError& error) {
-      raise_stage_error(error);
-    } catch (const std::filesystem::filesystem_error& error) {
-      raise_input_error(InputError(error.path1().string(), "", error.code().message()));
-    }
-  });
+  py::register_local_exception_translator(
+      [](std::exception_ptr pointer) {  // NOLINT(performance-unnecessary-value-param): pybind11's.
+        try {
+          if (pointer) std::rethrow_exception(pointer);
+        } catch (const InputError& error) {
+          raise_input_error(error);
+        } catch (const StageError& error) {
+          raise_stage_error(error);
+        } catch (const std::filesystem::filesystem_error& error) {
+          raise_input_error(InputError(error.path1().string(), "", error.code().message()));
+        }
+      });
 }
 
 }  // namespace croon::python

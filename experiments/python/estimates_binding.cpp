@@ -55,7 +55,7 @@ py::object get_extra(const Estimate& estimate, const std::string& name) {
   return estimate.extras.get(Extra<ObjectRef>{name.c_str(), ""}).get();
 }
 
-py::object object_from(const std::optional<std::string>& text) {
+py::object text_object(const std::optional<std::string>& text) {
   return text ? py::object(py::str(*text)) : py::none();
 }
 
@@ -111,7 +111,7 @@ void bind_estimates(py::module_& module) {
           "(m);\n"
           "None if it computes none.")
       .def_property(
-          "rejection", [](const E& e) { return object_from(e.rejection); }, set_rejection,
+          "rejection", [](const E& e) { return text_object(e.rejection); }, set_rejection,
           "Why the pose must not be trusted; None if it may be.")
       .def_property("diagnostics", diagnostics_dict, set_diagnostics,
                     "What this step reports of its work, numbers by name: a copy. Assign a dict.")

@@ -15,7 +15,7 @@ std::atomic<bool> is_ending{false};
 std::atomic<int> threads_inside{0};
 /// How many WithGil this thread has.
 thread_local int depth = 0;
-thread_local CauseOfFailure* cause = nullptr;
+thread_local CauseOfFailure* innermost_cause = nullptr;
 
 /// Counts this thread as one inside Python. Does not return if the interpreter ends: to take its
 /// lock would then end the thread inside C++ code, and with it the process.
@@ -71,27 +71,34 @@ ObjectRef::ObjectRef(py::object object) : object_(object.release().ptr(), releas
 
 py::object ObjectRef::get() const { return py::reinterpret_borrow<py::object>(object_.get()); }
 
-CauseOfFailure::CauseOfFailure() : outer_(cause) { cause = this; }
-CauseOfFailure::~CauseOfFailure() { cause = outer_; }
+CauseOfFailure::CauseOfFailure() : outer_(innermost_cause) { innermost_cause = this; }
+CauseOfFailure::~CauseOfFailure() { innermost_cause = outer_; }
 
 void throw_from_python(py::error_already_set& error) {
   if (!error.matches(PyExc_Exception) || error.matches(PyExc_MemoryError)) throw;
   const py::object type = error.type();
   const bool is_stage_error = type.is(py::module_::import("croon._errors").attr("StageError"));
-  const std::string name = py::str(type.attr("__name__"));
-  const std::string message = py::str(error.value());
-  if (cause != nullptr) {
+  const std::string name = text_of(type.attr("__name__"));
+  const std::string message = text_of(error.value());
+  if (innermost_cause != nullptr) {
     if (error.trace()) PyException_SetTraceback(error.value().ptr(), error.trace().ptr());
-    cause->exception = ObjectRef(error.value());
+    innermost_cause->exception = ObjectRef(error.value());
   }
   if (is_stage_error) throw StageError(message);
   throw StageError(message.empty() ? name : name + ": " + message);
 }
 
-std::string text_of(const py::handle& object) { return py::cast<std::string>(py::str(object)); }
+std::string text_of(const py::handle& object) {
+  const auto text = py::reinterpret_steal<py::object>(PyObject_Str(object.ptr()));
+  const auto bytes = py::reinterpret_steal<py::object>(
+      text ? PyUnicode_AsEncodedString(text.ptr(), "utf-8", "backslashreplace") : nullptr);
+  if (bytes) return py::cast<std::string>(bytes);
+  PyErr_Clear();  // Its str() raises an exception.
+  return "";
+}
 
 std::string type_words(const py::handle& object) {
-  const std::string name = py::str(py::type::of(object).attr("__name__"));
+  const std::string name = text_of(py::type::of(object).attr("__name__"));
   const bool has_vowel = std::string("aeiouAEIOU").find(name.front()) != std::string::npos;
   return (has_vowel ? "an " : "a ") + name;
 }

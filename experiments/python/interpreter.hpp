@@ -92,7 +92,7 @@ auto in_python(const Work& work) {
   }
 }
 
-/// What str() of Python gives.
+/// What str() of Python gives; empty if that raises an exception.
 std::string text_of(const py::handle& object);
 
 /// "a list", "a Step": the type of an object, for messages.

@@ -1,8 +1,12 @@
 #include "experiments/store/build.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
 #include <tuple>
 
@@ -77,10 +81,28 @@ std::string text_of(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
+/// The file that this code was loaded from: the program, or the module of another program.
+std::string loaded_file() {
+  const std::string program = "/proc/self/exe";
+  const auto address = reinterpret_cast<std::uintptr_t>(&loaded_file);
+  std::error_code error;
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; std::getline(maps, line);) {
+    std::uintptr_t begin = 0, end = 0;
+    char dash = 0;
+    std::istringstream(line) >> std::hex >> begin >> dash >> end;
+    const std::size_t path = line.find('/');
+    if (address < begin || address >= end || path == std::string::npos) continue;
+    const std::string file = line.substr(path);
+    return std::filesystem::equivalent(file, program, error) || error ? program : file;
+  }
+  return program;
+}
+
 }  // namespace
 
 Build this_build() {
-  static const std::string digest = sha256_of_file("/proc/self/exe");
+  static const std::string digest = sha256_of_file(loaded_file());
   return {croon_version(), croon_commit(), digest, stage_folders(), library_versions()};
 }
 

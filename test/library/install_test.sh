@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs a build of croon, then builds and runs what docs/library.md shows against the installed package.
-# Usage: install_test.sh BUILD_FOLDER SOURCE_FOLDER. Clouds are simulated; with recordings (CROON_DATA) the program
+# Usage: install_test.sh BUILD_FOLDER SOURCE_FOLDER [PYTHON]. With PYTHON, the Python package is tried too. Clouds are simulated; with recordings (CROON_DATA) the program
 # calibrates real/0001 too.
 set -euo pipefail
 
@@ -42,6 +42,21 @@ if [[ -n ${CROON_DATA:-} && -d $CROON_DATA/opencalib/real ]]; then
     "$(find "$CROON_DATA/opencalib/real" -name 'left*.pcd' | sort | head -1)")
   answer=$("$calibrate" "$pipeline" "${clouds[@]}")
   [[ $(wc -w <<<"$answer") == 48 ]] || fail "the program printed for ${clouds[*]}: $answer"
+fi
+
+# The Python package, without the build and the sources.
+python=${3:-}
+if [[ -n $python ]]; then
+  packages=$(echo "$folder"/prefix/lib/python3.*/site-packages)
+  (cd "$folder" && PYTHONPATH=$packages "$python" -B - "$pipeline" "$packages") <<'END' || fail 'the Python package does not run'
+import pathlib, sys
+import croon
+assert pathlib.Path(croon.__file__).parents[1] == pathlib.Path(sys.argv[2])
+for name in ("__init__.pyi", "py.typed"):
+    assert pathlib.Path(croon.__file__).with_name(name).exists(), name
+top, left = (croon.read_cloud(f"scenes/000000/{sensor}.pcd") for sensor in ("top", "left"))
+assert croon.Pipeline(sys.argv[1]).run(top, left).pose.shape == (4, 4)
+END
 fi
 
 # A paper's repository.

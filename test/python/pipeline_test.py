@@ -35,7 +35,7 @@ class Pipelines(TestCase):
 
     def test_take_what_json_has(self):
         for wrong in ([], {}, "[", None, 3, [{"step": "registration", "icp": float("nan")}], [object()], "", "none.json",
-                      "a\0b", b"[]", [{"step": "registration"}] * 2):
+                      "a\0b", b"[]", "\ud800", "[\ud800]", [{"step": "registration"}] * 2):
             with self.subTest(wrong=wrong):
                 self.assertTrue(self.line_of(croon.InputError, croon.Pipeline, wrong))
         steps = [{"step": "yaw_alignment", "max_points": np.int64(100), "max_distance_m": np.float32(0.5)}]
@@ -96,7 +96,8 @@ class Pipelines(TestCase):
     def test_refuse_wrong_names(self):
         pipeline = croon.Pipeline(XYZ)
         for name, wrong in (("seed", -1), ("seed", 2**64), ("seed", 1.5), ("seed", None), ("seed", True), ("trial", -1),
-                            ("trial", 2**31), ("trial", float("nan")), ("scene", 3), ("sensor", None), ("reference", b"top")):
+                            ("trial", 2**31), ("trial", float("nan")), ("scene", 3), ("sensor", None), ("reference", b"top"),
+                            ("scene", "\ud800")):
             message = self.line_of(croon.InputError, pipeline.run, TOP, LEFT, **{name: wrong})
             self.assertTrue(message.startswith(name + ": expected"), message)
 

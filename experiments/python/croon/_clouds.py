@@ -3,8 +3,7 @@
 import numpy
 
 from . import _core
-from ._errors import InputError
-from ._json import path_of
+from ._json import path_of, refusal
 
 
 def read_cloud(path):
@@ -27,11 +26,9 @@ def write_cloud(path, cloud, encoding="binary"):
     known = {".pcd": ("binary", "ascii", "binary_compressed"), ".ply": ("binary", "ascii")}
     suffix = path[path.rfind("."):].lower() if "." in path else ""
     if suffix not in known:
-        raise InputError(f"{path}: expected a file that ends in .pcd or .ply",
-                         [(path, "", "expected a file that ends in .pcd or .ply")])
+        raise refusal("path", f"expected a file that ends in .pcd or .ply, found {path!r}")
     if encoding not in known[suffix]:
-        message = f"expected one of {', '.join(known[suffix])}, found {encoding!r:.60}"
-        raise InputError(f"encoding: {message}", [("", "encoding", message)])
+        raise refusal("encoding", f"expected one of {', '.join(known[suffix])}, found {encoding!r:.60}")
     _core.write_cloud(path, cloud, suffix, encoding)
 
 

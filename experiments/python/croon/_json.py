@@ -25,8 +25,7 @@ def text_of(value, name):
     try:
         return json.dumps(value, default=_plain, allow_nan=False)
     except (TypeError, ValueError, RecursionError) as error:
-        fault = ("", name, f"expected what JSON has, but {error}")
-        raise InputError(f"{name}: {fault[2]}", [fault]) from None
+        raise refusal(name, f"expected what JSON has, but {error}") from None
 
 
 def text_and_name(value, name):
@@ -34,11 +33,10 @@ def text_and_name(value, name):
     if isinstance(value, (dict, list, tuple)):
         return text_of(value, name), name
     if isinstance(value, str) and value.lstrip()[:1] in ("{", "["):
-        return value, name
+        return word(value, name), name
     if isinstance(value, (str, os.PathLike)):
         return None, path_of(value, name)
-    message = f"expected a dict, JSON text or a path, found {_with_article(value)}"
-    raise InputError(f"{name}: {message}", [("", name, message)])
+    raise refusal(name, f"expected a dict, JSON text or a path, found {_with_article(value)}")
 
 
 def path_of(value, name):
@@ -47,9 +45,8 @@ def path_of(value, name):
         path = os.fspath(value)
     except TypeError:
         path = None
-    if not isinstance(path, str) or not path or "\0" in path:
-        message = f"expected a path, found {value!r:.60}"
-        raise InputError(f"{name}: {message}", [("", name, message)])
+    if not isinstance(path, str) or not path or "\0" in path or not _is_utf8(path):
+        raise refusal(name, f"expected a path, found {value!r:.60}")
     return path
 
 
@@ -60,17 +57,30 @@ def whole(value, name, low, high):
     except TypeError:
         number = None
     if number is None or isinstance(value, bool) or not low <= number <= high:
-        message = f"expected a whole number from {low} to {high}, found {value!r:.60}"
-        raise InputError(f"{name}: {message}", [("", name, message)])
+        raise refusal(name, f"expected a whole number from {low} to {high}, found {value!r:.60}")
     return number
 
 
 def word(value, name):
     """The text `value`."""
     if not isinstance(value, str):
-        message = f"expected a string, found {_with_article(value)}"
-        raise InputError(f"{name}: {message}", [("", name, message)])
+        raise refusal(name, f"expected a string, found {_with_article(value)}")
+    if not _is_utf8(value):
+        raise refusal(name, f"expected text that UTF-8 has, found {value!r:.60}")
     return value
+
+
+def refusal(where, message):
+    """The InputError of one fault."""
+    return InputError(f"{where}: {message}", [("", where, message)])
+
+
+def _is_utf8(text):
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def _with_article(value):

@@ -7,8 +7,7 @@ from typing import Any, NamedTuple, Optional, Tuple
 import numpy
 
 from . import _core
-from ._errors import InputError
-from ._json import text_of, whole, word
+from ._json import refusal, text_of, whole, word
 
 
 class _Stage:
@@ -164,13 +163,12 @@ class Extra(NamedTuple):
 def _parameter(key, kind, default, help, range=(None, None), choices=()):
     what = f"the parameter {key!r}"
     if not word(help, what):
-        raise InputError(f"{what}: expected a sentence of help", [("", what, "expected a sentence of help")])
+        raise refusal(what, "expected a sentence of help")
     try:
         low, high = range
         ends = tuple(None if end is None or math.isinf(end) else float(end) for end in (low, high))
     except (TypeError, ValueError):
-        message = f"expected a range (least, largest), found {range!r:.60}"
-        raise InputError(f"{what}: {message}", [("", what, message)]) from None
+        raise refusal(what, f"expected a range (least, largest), found {range!r:.60}") from None
     choices = tuple(word(choice, what) for choice in choices)
     return Parameter(word(key, "key"), kind, text_of(default, what), ends, choices, help)
 
@@ -220,9 +218,9 @@ _KINDS = {kind.kind: kind for kind in
 def stage(kind, name, *, summary, source="", parameters=(), version=1, channels=(), takes=(), gives=()):
     """Registers a class as a stage: ``@croon.stage("step", "my_step", summary="Does this.")``.
 
-    The class derives from that of its kind and has the kind's one method. For each stage of a pipeline one object is made, without
-    arguments: its parameters are attributes already when ``__init__`` begins. The object is shared by all trials and
-    threads, so its method must not change it.
+    The class derives from that of its kind and has the kind's one method. For each stage of a pipeline one object is
+    made, without arguments: its parameters are attributes already when ``__init__`` begins. The object is shared by all
+    trials and threads, so its method must not change it.
 
     `summary` is one sentence, `source` says where the method comes from. `parameters` are made by `number`, `integer`,
     `boolean`, `text`, `choice` and `numbers`: a wrong value in an experiment is then the same error as for a stage in
@@ -230,18 +228,16 @@ def stage(kind, name, *, summary, source="", parameters=(), version=1, channels=
     one store. `channels` names the channels that the stage needs of its clouds; `takes` and `gives` are the extras that
     it reads and puts, made by `extra`.
 
-    Any exception of the method but KeyboardInterrupt, SystemExit and MemoryError is a `StageError` with its message: it ends the trial. The same class may be
-    registered again, as in a cell of a notebook that runs twice.
+    Any exception of the method but KeyboardInterrupt, SystemExit and MemoryError is a `StageError` with its message: it
+    ends the trial. The same class may be registered again, as in a cell of a notebook that runs twice.
     """
     if kind not in _KINDS:
-        message = f"expected one of {', '.join(_KINDS)}, found {kind!r:.60}"
-        raise InputError(f"kind: {message}", [("", "kind", message)])
+        raise refusal("kind", f"expected one of {', '.join(_KINDS)}, found {kind!r:.60}")
 
     def register(cls):
         base = _KINDS[kind]
         if not (isinstance(cls, type) and issubclass(cls, base)):
-            message = f"expected a class that derives from croon.{base.__name__}, found {cls!r:.60}"
-            raise InputError(f"{kind}/{name}: {message}", [("", f"{kind}/{name}", message)])
+            raise refusal(f"{kind}/{name}", f"expected a class that derives from croon.{base.__name__}, found {cls!r:.60}")
         _core.register_stage({
             "kind": kind, "name": word(name, "name"), "summary": word(summary, "summary"),
             "source": word(source, "source") or cls.__module__, "version": whole(version, "version", 1, 2**31 - 1), "type": cls,
