@@ -59,6 +59,7 @@ Results results_of(StoredRun run, const std::string& file) {
       manifest_with_builds(run.header.manifest, run.header.builds, run.header.versions);
   const ReportOrder order = report_order(run.header);
   results.scenes = order.scenes.size();
+  results.scenes_per_trial = experiment.scenes_per_trial;
   for (const StoredName& sensor : run.header.sensors) {
     if (sensor.is_current) results.references[sensor.name] = sensor.detail;
   }

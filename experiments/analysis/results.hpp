@@ -25,10 +25,11 @@ struct Results {
   std::string commit;         ///< Of the program that made the trials; of the first of `builds`.
   std::vector<Build> builds;  ///< That contributed trials.
   std::uint64_t seed = 1;
-  int trials = 0;  ///< Starts per variant, scene and sensor.
-  std::size_t scenes = 0;
-  std::size_t planned = 0;           ///< Trials of the variants that were run; fewer may be there.
-  std::string manifest;              ///< JSON of manifest.json, without its host.
+  int trials = 0;            ///< Starts per variant, scene and sensor.
+  std::size_t scenes = 0;    ///< Or groups of scenes,
+  int scenes_per_trial = 1;  ///< if this is more than 1; what reports call a scene is then a group.
+  std::size_t planned = 0;   ///< Trials of the variants that were run; fewer may be there.
+  std::string manifest;      ///< JSON of manifest.json, without its host.
   std::vector<TrialRecord> records;  ///< In report order, without their steps.
   StepNumbers steps;                 ///< What steps report; empty unless it was asked for.
   std::vector<DiagnosticSummary> diagnostics;  ///< Of `steps`.

@@ -28,9 +28,16 @@ const Row& called(const std::string& option, const std::string& name,
 }
 
 ExportCaption caption_of(const Results& results, const std::vector<std::string>& kinds) {
-  return {results.name,    results.commit, results.seed,
-          results.scenes,  results.trials, results.records.size(),
-          results.planned, kinds,          build_sentences(results.builds)};
+  return {results.name,
+          results.commit,
+          results.seed,
+          results.scenes,
+          results.trials,
+          results.records.size(),
+          results.planned,
+          kinds,
+          build_sentences(results.builds),
+          results.scenes_per_trial};
 }
 
 /// Throws InputError if an option is given that the other kind of export has.

@@ -56,7 +56,8 @@ struct Experiment {
   StartRule starts;
   std::uint64_t seed = 1;
   SuccessBounds success;
-  bool loops = false;  ///< Sensors are calibrated to each other too (scenes_of).
+  int scenes_per_trial = 1;  ///< See `grouped`.
+  bool loops = false;        ///< Sensors are calibrated to each other too (scenes_of).
   std::vector<Claim> claims;
   std::vector<Quoted> quoted;     ///< Rows of other methods.
   std::vector<Variant> variants;  ///< The base first, then in the order of the file.

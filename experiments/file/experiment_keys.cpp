@@ -64,6 +64,9 @@ const Table<Experiment>& kept_table() {
       params::integer("seed", &P::seed, "Every start is drawn from (seed, scene, sensor, trial)."),
       params::group("success", &P::success, success_table(), {},
                     "How near the truth a trial must end to count as a success."),
+      params::integer("scenes_per_trial", &P::scenes_per_trial, {1.0, 1000.0},
+                      "A trial calibrates the rig from a group of so many scenes. The seed draws "
+                      "the groups, no two of which share a scene."),
       params::boolean("loops", &P::loops,
                       "Each two sensors of a scene are calibrated to each other too, which shows "
                       "how far the loop over the reference is from closing."),

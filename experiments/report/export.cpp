@@ -167,8 +167,11 @@ std::string counts_sentence(const ExportTable& table) {
   const ExportCaption& caption = table.caption;
   std::string kinds;
   for (const std::string& kind : caption.kinds) kinds += (kinds.empty() ? " of " : ", ") + kind;
-  std::string text = counted(caption.scenes, "scene") + kinds + ", " +
-                     counted(table.sensors.size(), "sensor") + ", ";
+  const bool has_groups = caption.scenes_per_trial > 1;
+  const std::string unit = has_groups ? "group" : "scene";
+  std::string text = counted(caption.scenes, unit);
+  if (has_groups) text += " of " + std::to_string(caption.scenes_per_trial) + " scenes";
+  text += kinds + ", " + counted(table.sensors.size(), "sensor") + ", ";
   if (table.variants.size() > 1) text += counted(table.variants.size(), "variant") + ", ";
   text += counted(static_cast<std::size_t>(caption.starts), "start") + " of each: ";
   if (caption.found < caption.planned) text += std::to_string(caption.found) + " of ";
@@ -176,7 +179,7 @@ std::string counts_sentence(const ExportTable& table) {
   if (table.table.rows.empty()) return text + ".";
   const std::string scenes = range_text(table.table, "scenes");
   return text + "; a row has " + range_text(table.table, "trials") + " of " + scenes +
-         (scenes == "1" ? " scene." : " scenes.");
+         (scenes == "1" ? " " + unit + "." : " " + unit + "s.");
 }
 
 /// The sentences of all experiments, each once; what names an experiment comes first.
@@ -344,6 +347,7 @@ std::string export_json(const ExportTable& table) {
                      {"commit", caption.commit},
                      {"seed", caption.seed},
                      {"scenes", caption.scenes},
+                     {"scenes_per_trial", caption.scenes_per_trial},
                      {"sensors", table.sensors.size()},
                      {"starts", caption.starts},
                      {"trials", caption.found},

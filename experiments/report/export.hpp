@@ -21,6 +21,7 @@ struct ExportCaption {
   std::size_t planned = 0;               ///< Trials of the whole experiment.
   std::vector<std::string> kinds = {};   ///< Of scenes, if these are chosen.
   std::vector<std::string> builds = {};  ///< See build_sentences.
+  int scenes_per_trial = 1;              ///< See Results.
 };
 
 /// How the cells of several columns are one for readers: "61.0 -- 100.0", "0.010 ± 0.002".

@@ -47,7 +47,12 @@ std::vector<std::string> texts_of(const Table& table, const std::string& column)
 std::string result_text(const Results& results, bool colours) {
   TableStyle style;
   style.colours = colours;
-  std::string text = summary_text(results.summary, style);
+  std::string text;
+  if (results.scenes_per_trial > 1) {
+    text = "a trial calibrates the rig from " + std::to_string(results.scenes_per_trial) +
+           " scenes; what is called a scene below is a group of so many\n";
+  }
+  text += summary_text(results.summary, style);
   if (results.basin) text += "\n" + basin_text(*results.basin, style);
   const std::string claims = claims_text(results.claims, results.quoted, results.summary, style);
   if (!claims.empty()) text += "\n" + claims;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "experiments/run/scene_groups.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "framework/base/error.hpp"
 
@@ -94,9 +95,9 @@ void check_channels(const Experiment& experiment, const std::vector<Scene>& scen
                     const Selection& selection) {
   const NeedsOfClouds needs = needs_of(experiment, selection);
   Lacking lacking(experiment.file);
-  for (const Scene& scene : scenes) {
-    lacking.look_at(scene.reference, needs.target);
-    for (const SensorScan& scan : scene.sensors) {
+  for (const Scene* const scene : parts_of(scenes)) {
+    lacking.look_at(scene->reference, needs.target);
+    for (const SensorScan& scan : scene->sensors) {
       // The clouds of a pair are those of its two sensors.
       if (!is_pair(scan)) lacking.look_at(scan, needs.source);
     }

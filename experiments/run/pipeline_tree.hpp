@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiments/run/trial_plan.hpp"
+#include "framework/pipeline/rig.hpp"
 
 namespace croon::experiments {
 
@@ -23,13 +24,13 @@ struct PipelineTree {
 /// draw the same numbers and compute the same bits. The experiment must outlive the tree.
 PipelineTree pipeline_tree(const Experiment& experiment, const std::vector<std::size_t>& variants);
 
-/// Takes `result` along all paths of `tree` and calls `at_end(variant, result)` for each variant.
+/// Takes `rig` along all paths of `tree` and calls `at_end(variant, rig)` for each variant. `key`
+/// names the random streams of steps that see the whole rig.
 template <class AtEnd>
-void run_tree(const PipelineTree& tree, PipelineResult result, const StreamKey& key,
-              const AtEnd& at_end) {
-  if (tree.step != nullptr) advance(result, *tree.step, key);
-  for (const std::size_t variant : tree.variants) at_end(variant, result);
-  for (const PipelineTree& branch : tree.branches) run_tree(branch, result, key, at_end);
+void run_tree(const PipelineTree& tree, Rig rig, const StreamKey& key, const AtEnd& at_end) {
+  if (tree.step != nullptr) advance(rig, *tree.step, key);
+  for (const std::size_t variant : tree.variants) at_end(variant, rig);
+  for (const PipelineTree& branch : tree.branches) run_tree(branch, rig, key, at_end);
 }
 
 /// How often a step runs, if none fails.

@@ -1,243 +1,51 @@
 #include "experiments/run/runner.hpp"
 
 #include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
 #include <algorithm>
-#include <chrono>
+#include <map>
 #include <mutex>
 #include <set>
 
 #include "experiments/run/channel_check.hpp"
+#include "experiments/run/loaded_scene.hpp"
 #include "experiments/run/pipeline_tree.hpp"
-#include "experiments/run/sensor_pairs.hpp"
+#include "experiments/run/scene_groups.hpp"
 #include "experiments/run/starts.hpp"
-#include "framework/base/angles.hpp"
-#include "framework/base/error.hpp"
-#include "framework/base/text.hpp"
+#include "experiments/run/trial_end.hpp"
 #include "framework/base/threads.hpp"
-#include "framework/base/whole_file.hpp"
-#include "framework/geometry/length_bound.hpp"
 #include "framework/pipeline/calibrate.hpp"
 
 namespace croon::experiments {
 namespace {
 
-/// One sensor's cloud, or why it has none.
-struct LoadedScan {
-  std::shared_ptr<const Cloud> cloud;
-  std::string failure;                    ///< The cloud is damaged or empty.
-  std::optional<Fault> unavailable = {};  ///< It cannot be read now.
-  double reading_s = 0.0;
-};
-
-TrialRecord failed(const TrialId& id, const std::string& reason) {
-  TrialRecord record;
-  record.id = id;
-  record.status = Status::failed;
-  record.reason = reason;
-  return record;
-}
-
-bool is_finite(const RigidTransform& T) {
-  return T.rotation.allFinite() && T.translation.allFinite();
-}
-
-/// Whether the error of the pose and its square are finite.
-bool is_near(const RigidTransform& T) {
-  return T.translation.cwiseAbs().maxCoeff() <= kLargestDistance_m;
-}
-
-bool is_within(const PoseError& error, const SuccessBounds& bounds) {
-  return error.rotation_rad <= rad_from_deg(bounds.rotation_deg) &&
-         error.translation_m <= bounds.translation_m;
-}
-
-/// The faults without the file's path: a reason must not depend on the data root.
-std::string reasons(const InputError& error) {
-  std::string text;
-  for (const Fault& fault : error.faults()) {
-    text += (text.empty() ? "" : "; ") + Fault{"", fault.where, fault.message}.line();
-  }
-  return text;
-}
-
-/// Reads the points of `scan`. Returns what is wrong with them, or an empty string. Throws
-/// UnavailableFile.
-std::string read_points(const SensorScan& scan, PointCloud& cloud) {
-  try {
-    cloud = scan.load();
-  } catch (const UnavailableFile&) {
-    throw;
-  } catch (const InputError& error) {
-    return reasons(error);
-  }
-  const auto is_finite_point = [](const Eigen::Vector3f& point) { return point.allFinite(); };
-  return std::any_of(cloud.points.begin(), cloud.points.end(), is_finite_point)
-             ? ""
-             : "it has no points";
-}
-
-/// Completes the record of a trial whose pipeline did not fail.
-void finish(TrialRecord& record, const Estimate& estimate, const SensorScan& scan,
-            const SuccessBounds& bounds) {
-  if (!is_finite(estimate.T_target_source)) {
-    record.reason = "the pose is not finite";
-    return;
-  }
-  if (!is_near(estimate.T_target_source)) {
-    record.reason = "the pose is farther away than " + fixed_number(kLargestDistance_m, 0) + " m";
-    return;
-  }
-  if (!is_rotation_matrix(estimate.T_target_source.rotation)) {
-    record.reason = "the pose has no rotation: the columns of its matrix are not orthonormal";
-    return;
-  }
-  record.T_reference_sensor = estimate.T_target_source;
-  if (scan.truth) record.error = pose_error(estimate.T_target_source, *scan.truth);
-  record.status = Status::finished;
-  if (record.error) {
-    record.status = is_within(*record.error, bounds) ? Status::success : Status::inaccurate;
-  }
-  if (estimate.rejection) {
-    record.status = Status::rejected;
-    record.reason = *estimate.rejection;
-  }
-}
-
-/// Reads the cloud of `scan`. Its random streams are named by seed, scene and sensor.
-LoadedScan load_scan(const SensorScan& scan, const std::string& scene, std::uint64_t seed,
-                     const std::set<std::string>& channels) {
-  const auto start = std::chrono::steady_clock::now();
-  LoadedScan loaded;
-  PointCloud points;
-  std::string why_not;
-  try {
-    why_not = read_points(scan, points);
-  } catch (const UnavailableFile& error) {
-    loaded.unavailable = error.faults().front();
-    return loaded;
-  }
-  if (why_not.empty()) {
-    // Others would be copied with each filtered cloud, and nothing would read them.
-    keep_channels(points, channels);
-    loaded.cloud =
-        std::make_shared<const Cloud>(std::move(points), cloud_stream(seed, scene, scan.sensor));
-  } else {
-    loaded.failure = "the cloud of " + scan.sensor + ": " + why_not;
-  }
-  loaded.reading_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return loaded;
-}
-
-/// Runs the start `planned` of `scene` through `tree`, and calls `at_end` with the record of each
-/// variant.
-void run_start(const Experiment& experiment, const PipelineTree& tree, const Scene& scene,
-               const PlannedStart& planned, const LoadedScan& target, const LoadedScan& source,
-               const std::function<void(const TrialRecord&)>& at_end) {
-  const SensorScan& scan = scene.sensors[planned.sensor];
-  const StreamKey key = trial_stream(
-      {experiment.seed, scene.name, scene.reference.sensor, scan.sensor, planned.trial});
-  const RigidTransform start = start_of(experiment, scene.name, scan, planned.trial);
-  PipelineResult result = at_start(target.cloud, source.cloud, start);
-  result.failure = target.failure.empty() ? source.failure : target.failure;
-  result.estimate.trial =
-      std::make_shared<const TrialName>(TrialName{scene.name, scan.sensor, planned.trial});
-  run_tree(tree, std::move(result), key, [&](std::size_t variant, const PipelineResult& end) {
-    TrialRecord record = failed(
-        {experiment.variants[variant].name, scene.name, scan.sensor, planned.trial}, end.failure);
-    record.steps = end.records;
-    if (end.failure.empty()) finish(record, end.estimate, scan, experiment.success);
-    at_end(record);
-  });
-}
-
-/// The part of a plan that is one scene's.
+/// The part of a plan that is one scene's, or one group's.
 struct ScenePlan {
   const PlannedStart* begin = nullptr;
   const PlannedStart* end = nullptr;
-  std::size_t size() const { return static_cast<std::size_t>(end - begin); }
 };
 
-/// The clouds of a scene; those of sensors without trials are not read.
-struct LoadedScene {
-  LoadedScan reference;
-  std::vector<LoadedScan> sensors;  ///< As Scene::sensors; empty for pairs of sensors.
+/// Planned starts of one trial that run together: those of all its sensors if a step sees the whole
+/// rig, else a single one.
+using Unit = std::vector<const PlannedStart*>;
+
+/// A scene or a group of scenes with its clouds.
+struct LoadedGroup {
+  const Scene* group = nullptr;
+  std::vector<LoadedScene> scenes;
 };
 
-/// The index of `sensor` in Scene::sensors.
-std::size_t index_of(const Scene& scene, const std::string& sensor) {
-  const auto is_it = [&](const SensorScan& scan) { return scan.sensor == sensor; };
-  const auto found = std::find_if(scene.sensors.begin(), scene.sensors.end(), is_it);
-  return static_cast<std::size_t>(found - scene.sensors.begin());
-}
-
-const LoadedScan& target_of(const Scene& scene, const LoadedScene& loaded, std::size_t sensor) {
-  const SensorScan& scan = scene.sensors[sensor];
-  return is_pair(scan) ? loaded.sensors[index_of(scene, scan.target)] : loaded.reference;
-}
-
-const LoadedScan& source_of(const Scene& scene, const LoadedScene& loaded, std::size_t sensor) {
-  const SensorScan& scan = scene.sensors[sensor];
-  return loaded.sensors[is_pair(scan) ? index_of(scene, scan.source) : sensor];
-}
-
-/// Whether the trials of `plan` need the cloud of each of Scene::sensors.
-std::vector<bool> needed_clouds(const Scene& scene, const ScenePlan& plan) {
-  std::vector<bool> is_needed(scene.sensors.size(), false);
-  for (const PlannedStart* planned = plan.begin; planned != plan.end; ++planned) {
-    is_needed[planned->sensor] = true;
-  }
-  for (std::size_t i = 0; i < scene.sensors.size(); ++i) {
-    const SensorScan& scan = scene.sensors[i];
-    if (!is_pair(scan) || !is_needed[i]) continue;
-    is_needed[i] = false;
-    is_needed[index_of(scene, scan.source)] = is_needed[index_of(scene, scan.target)] = true;
-  }
-  return is_needed;
-}
-
-LoadedScene load_scene(const Scene& scene, const ScenePlan& plan, std::uint64_t seed,
-                       const std::set<std::string>& channels) {
-  const std::vector<bool> is_needed = needed_clouds(scene, plan);
-  LoadedScene loaded;
-  loaded.sensors.resize(scene.sensors.size());
-  for_each_in_parallel(scene.sensors.size() + 1, [&](std::size_t i) {
-    const bool is_reference = i == scene.sensors.size();
-    if (!is_reference && !is_needed[i]) return;
-    const SensorScan& scan = is_reference ? scene.reference : scene.sensors[i];
-    LoadedScan& to = is_reference ? loaded.reference : loaded.sensors[i];
-    // Isolated as trials are, so that the time of reading is its own.
-    tbb::this_task_arena::isolate([&] { to = load_scan(scan, scene.name, seed, channels); });
-  });
-  return loaded;
-}
-
-std::vector<TimingRow> timings_of(const TrialRecord& record) {
-  std::vector<TimingRow> rows;
-  for (const StepRecord& step : record.steps) rows.push_back({record.id, step.name, step.seconds});
-  return rows;
-}
-
-void add_scan_timings(std::vector<TimingRow>& rows, const std::string& scene,
-                      const std::string& sensor, const LoadedScan& scan) {
-  if (!scan.cloud) return;
-  const TrialId once{"", scene, sensor, -1};
-  rows.push_back({once, "reading", scan.reading_s});
-  for (const OnceTiming& timing : scan.cloud->timings()) {
-    rows.push_back({once, timing.what, timing.seconds});
-  }
-}
-
-std::vector<TimingRow> scene_timings(const Scene& scene, const LoadedScene& loaded) {
-  std::vector<TimingRow> rows;
-  add_scan_timings(rows, scene.name, scene.reference.sensor, loaded.reference);
-  for (std::size_t i = 0; i < scene.sensors.size(); ++i) {
-    add_scan_timings(rows, scene.name, scene.sensors[i].sensor, loaded.sensors[i]);
-  }
-  return rows;
-}
+/// What all scenes of a run have in common.
+struct Run {
+  const Experiment& experiment;
+  const std::vector<Scene>& scenes;
+  const Plan& plan;
+  std::vector<PipelineTree> trees;  ///< By PlannedStart::variants.
+  std::set<std::string> channels;   ///< That a step of a variant needs.
+  bool sees_rig = false;            ///< Whether a step does.
+};
 
 /// Calls a run's listener, one call at a time. Makes no calls after an error has ended the run: the
 /// results that still arrive may be incomplete.
@@ -256,42 +64,169 @@ class SerialListener {
   std::mutex mutex_;
 };
 
-/// What all scenes of a run have in common.
-struct Run {
-  const Experiment& experiment;
-  const std::vector<Scene>& scenes;
-  std::vector<PipelineTree> trees;  ///< By PlannedStart::variants.
-  std::set<std::string> channels;   ///< That a step of a variant needs.
+std::vector<Unit> units_of(const ScenePlan& plan, bool sees_rig) {
+  std::vector<Unit> units;
+  std::map<int, std::size_t> unit_of_trial;
+  for (const PlannedStart* planned = plan.begin; planned != plan.end; ++planned) {
+    const auto [known, is_new] = unit_of_trial.emplace(planned->trial, units.size());
+    if (is_new || !sees_rig) {
+      units.push_back({planned});
+    } else {
+      units[known->second].push_back(planned);
+    }
+  }
+  return units;
+}
+
+/// The names of the sensors whose poses are estimated in the trials of `plan`: with a step that
+/// sees the rig also those whose results are known, because the others may depend on them.
+std::set<std::string> estimated_sensors(const Scene& group, const ScenePlan& plan, bool sees_rig) {
+  std::set<std::string> names;
+  for (const PlannedStart* planned = plan.begin; planned != plan.end; ++planned) {
+    names.insert(group.sensors[planned->sensor].sensor);
+  }
+  if (!sees_rig) return names;
+  for (const SensorScan& scan : group.sensors) names.insert(scan.sensor);
+  return names;
+}
+
+LoadedGroup load_group(const Run& run, const ScenePlan& plan) {
+  LoadedGroup loaded;
+  loaded.group = &run.scenes[plan.begin->scene];
+  const std::set<std::string> sensors = estimated_sensors(*loaded.group, plan, run.sees_rig);
+  const std::vector<const Scene*> parts = parts_of(*loaded.group);
+  loaded.scenes.resize(parts.size());
+  for_each_in_parallel(parts.size(), [&](std::size_t i) {
+    loaded.scenes[i] = load_scene(*parts[i], sensors, run.experiment.seed, run.channels);
+  });
+  return loaded;
+}
+
+/// The sensors of one trial in all scenes of its group, from one start for each sensor.
+struct Trial {
+  Rig rig;
+  std::vector<std::size_t> sensors;  ///< Of the members of the rig, as indices in Scene::sensors.
+  bool is_available = true;          ///< Whether all clouds can be read now.
 };
 
-void run_scene(const Run& run, const ScenePlan& plan, SerialListener& notify) {
-  const Scene& scene = run.scenes[plan.begin->scene];
-  notify([&](const RunListener& listener) { listener.on_scene(scene.name); });
-  const LoadedScene loaded = load_scene(scene, plan, run.experiment.seed, run.channels);
-  const auto notify_unavailable = [&](const LoadedScan& scan) {
-    if (!scan.unavailable) return;
-    notify([&](const RunListener& listener) { listener.on_unavailable(*scan.unavailable); });
+/// Adds the sensor with the index `sensor` in one scene of the group.
+void add_member(Trial& trial, const Run& run, const Scene& group, std::size_t sensor,
+                const LoadedScene& loaded, int number) {
+  const SensorScan& scan = group.sensors[sensor];
+  const Scene& scene = *loaded.scene;
+  const std::size_t index = index_of(scene, scan.sensor);
+  if (index == scene.sensors.size()) return;
+  const CloudPair clouds = cloud_pair(loaded, index);
+  if (clouds.target_scan->unavailable || clouds.source_scan->unavailable) {
+    trial.is_available = false;
+    return;
+  }
+  const StreamKey key =
+      trial_stream({run.experiment.seed, scene.name, group.reference.sensor, scan.sensor, number});
+  PipelineResult result = at_start(clouds.target_scan->cloud, clouds.source_scan->cloud,
+                                   start_of(run.experiment, group.name, scan, number));
+  const std::string& of_target = clouds.target_scan->failure;
+  result.failure = of_target.empty() ? clouds.source_scan->failure : of_target;
+  result.estimate.trial =
+      std::make_shared<const TrialName>(TrialName{group.name, scan.sensor, number});
+  trial.rig.push_back({scene.name, clouds.target, clouds.source, key, std::move(result)});
+  trial.sensors.push_back(sensor);
+}
+
+Trial trial_at_start(const Run& run, const LoadedGroup& loaded, const Unit& unit) {
+  const Scene& group = *loaded.group;
+  Trial trial;
+  for (const LoadedScene& scene : loaded.scenes) {
+    for (std::size_t sensor = 0; sensor < group.sensors.size(); ++sensor) {
+      if (!run.sees_rig && sensor != unit.front()->sensor) continue;
+      add_member(trial, run, group, sensor, scene, unit.front()->trial);
+    }
+  }
+  return trial;
+}
+
+/// What the members of `rig` that are the sensor with the index `sensor` come to. A reason says in
+/// which scene of a group.
+PipelineResult result_of(const Scene& group, const Rig& rig,
+                         const std::vector<std::size_t>& sensors, std::size_t sensor) {
+  std::vector<const RigMember*> members;
+  for (std::size_t i = 0; i < rig.size(); ++i) {
+    if (sensors[i] == sensor) members.push_back(&rig[i]);
+  }
+  PipelineResult result = result_of_sensor(members);
+  if (!group.parts.empty() && !result.failure.empty()) {
+    result.failure = "in all scenes; in " + members.front()->scene + ": " + result.failure;
+  }
+  return result;
+}
+
+/// The variants that a start of `unit` is planned for, in order.
+std::vector<std::size_t> variants_of(const Plan& plan, const Unit& unit) {
+  std::set<std::size_t> variants;
+  for (const PlannedStart* const planned : unit) {
+    const std::vector<std::size_t>& list = plan.variants[planned->variants];
+    variants.insert(list.begin(), list.end());
+  }
+  return {variants.begin(), variants.end()};
+}
+
+/// Runs the planned starts of one trial, and calls `at_end` with each record.
+void run_unit(const Run& run, const LoadedGroup& loaded, const Unit& unit,
+              const std::function<void(const TrialRecord&)>& at_end) {
+  Trial trial = trial_at_start(run, loaded, unit);
+  if (!trial.is_available) return;
+  const Scene& group = *loaded.group;
+  const int number = unit.front()->trial;
+  const auto record_variant = [&](std::size_t variant, const Rig& rig) {
+    for (const PlannedStart* const planned : unit) {
+      const std::vector<std::size_t>& list = run.plan.variants[planned->variants];
+      if (std::find(list.begin(), list.end(), variant) == list.end()) continue;
+      const SensorScan& scan = group.sensors[planned->sensor];
+      at_end(record_of({run.experiment.variants[variant].name, group.name, scan.sensor, number},
+                       result_of(group, rig, trial.sensors, planned->sensor), scan,
+                       run.experiment.success));
+    }
   };
-  notify_unavailable(loaded.reference);
-  for (const LoadedScan& scan : loaded.sensors) notify_unavailable(scan);
+  const StreamKey key = StreamKey(run.experiment.seed)
+                            .with("rig")
+                            .with(group.name)
+                            .with(static_cast<std::uint64_t>(number));
+  if (unit.size() == 1) {
+    run_tree(run.trees[unit.front()->variants], std::move(trial.rig), key, record_variant);
+  } else {
+    // The sensors of a trial may miss different variants after a kill.
+    run_tree(pipeline_tree(run.experiment, variants_of(run.plan, unit)), std::move(trial.rig), key,
+             record_variant);
+  }
+}
+
+std::vector<TimingRow> timings_of(const TrialRecord& record) {
+  std::vector<TimingRow> rows;
+  for (const StepRecord& step : record.steps) rows.push_back({record.id, step.name, step.seconds});
+  return rows;
+}
+
+void run_scene(const Run& run, const ScenePlan& plan, SerialListener& notify) {
+  const std::string& name = run.scenes[plan.begin->scene].name;
+  notify([&](const RunListener& listener) { listener.on_scene(name); });
+  const LoadedGroup loaded = load_group(run, plan);
+  for (const LoadedScene& scene : loaded.scenes) {
+    for (const Fault& fault : unavailable_clouds(scene)) {
+      notify([&](const RunListener& listener) { listener.on_unavailable(fault); });
+    }
+  }
   const auto notify_trial = [&](const TrialRecord& record) {
     notify([&](const RunListener& listener) { listener.on_trial(record, timings_of(record)); });
   };
-  for_each_in_parallel(plan.size(), [&](std::size_t i) {
-    const PlannedStart& planned = plan.begin[i];
-    const LoadedScan& target = target_of(scene, loaded, planned.sensor);
-    const LoadedScan& source = source_of(scene, loaded, planned.sensor);
-    if (target.unavailable || source.unavailable) return;
+  const std::vector<Unit> units = units_of(plan, run.sees_rig);
+  for_each_in_parallel(units.size(), [&](std::size_t i) {
     // Isolated: a thread that waits inside a step must not start another trial, whose time would
     // count as this one's.
-    tbb::this_task_arena::isolate([&] {
-      run_start(run.experiment, run.trees[planned.variants], scene, planned, target, source,
-                notify_trial);
-    });
+    tbb::this_task_arena::isolate([&] { run_unit(run, loaded, units[i], notify_trial); });
   });
-  notify([&](const RunListener& listener) {
-    listener.on_scene_timings(scene_timings(scene, loaded));
-  });
+  for (const LoadedScene& scene : loaded.scenes) {
+    notify([&](const RunListener& listener) { listener.on_scene_timings(scene_timings(scene)); });
+  }
 }
 
 /// The parts of the plan, one per scene.
@@ -321,18 +256,28 @@ void for_each_scene(const std::vector<ScenePlan>& plans, std::size_t in_flight, 
                      tbb::make_filter<ScenePlan, void>(tbb::filter_mode::parallel, use));
 }
 
+/// Whether a step of a planned variant sees the whole rig.
+bool sees_rig(const Experiment& experiment, const Plan& plan) {
+  return std::any_of(plan.variants.begin(), plan.variants.end(), [&](const auto& variants) {
+    return std::any_of(variants.begin(), variants.end(), [&](std::size_t variant) {
+      return has_rig_step(experiment.variants[variant].pipeline);
+    });
+  });
+}
+
 }  // namespace
 
 void run_trials(const Experiment& experiment, const std::vector<Scene>& scenes, const Plan& plan,
                 int jobs, const RunListener& listener) {
   SerialListener notify(listener);
-  Run run{experiment, scenes, {}, needed_channels(experiment)};
+  Run run{experiment, scenes, plan, {}, needed_channels(experiment), sees_rig(experiment, plan)};
   for (const std::vector<std::size_t>& variants : plan.variants) {
     run.trees.push_back(pipeline_tree(experiment, variants));
   }
+  // One more than threads: the next scene is loaded while the last trials of a scene run.
+  const int in_flight = jobs / experiment.scenes_per_trial + 1;
   on_threads(jobs, [&] {
-    // One more than threads: the next scene is loaded while the last trials of a scene run.
-    for_each_scene(split_by_scene(plan.starts), static_cast<std::size_t>(jobs) + 1,
+    for_each_scene(split_by_scene(plan.starts), static_cast<std::size_t>(in_flight),
                    [&](const ScenePlan& scene) { run_scene(run, scene, notify); });
   });
 }

@@ -25,9 +25,10 @@ struct RunListener {
 /// Runs `plan` on `jobs` threads. The clouds of a scene are read once and released when it is done;
 /// scenes start in order, and at most `jobs` + 1 are in memory at a time. The first steps that
 /// variants share run once per start, and their time counts for each variant. A record depends on
-/// (experiment, scene, variant, sensor, trial) alone. If a cloud is damaged or empty, or if a stage
-/// cannot go on, trials are `failed`; trials whose cloud is not available now (UnavailableFile) are
-/// left out; a std::logic_error ends the run.
+/// (experiment, scene, variant, sensor, trial) alone. If a step sees the whole rig, all sensors of
+/// a trial run together, and none of them if a cloud is not available. If a cloud is damaged or
+/// empty, or if a stage cannot go on, trials are `failed`; trials whose cloud is not available now
+/// (UnavailableFile) are left out; a std::logic_error ends the run.
 void run_trials(const Experiment& experiment, const std::vector<Scene>& scenes, const Plan& plan,
                 int jobs, const RunListener& listener);
 

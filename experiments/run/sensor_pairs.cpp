@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "experiments/run/scene_groups.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
 #include "framework/io/text_scan.hpp"
@@ -136,7 +137,7 @@ std::vector<Scene> scenes_of(const Experiment& experiment, const std::filesystem
     check_names_for_pairs(scenes, experiment.file);
     for (Scene& scene : scenes) add_pairs(scene);
   }
-  return scenes;
+  return grouped(experiment, std::move(scenes));
 }
 
 std::vector<Scene> without_pairs(std::vector<Scene> scenes) {

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "experiments/file/experiment.hpp"
+#include "experiments/run/scene_groups.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/trial_plan.hpp"
 #include "experiments/store/bounded_json.hpp"
@@ -127,9 +128,9 @@ std::vector<const SensorScan*> scans_with_files(const std::vector<Scene>& scenes
   const auto add = [&](const SensorScan& scan) {
     if (files.insert(scan.file).second) scans.push_back(&scan);
   };
-  for (const Scene& scene : scenes) {
-    add(scene.reference);
-    for (const SensorScan& scan : scene.sensors) add(scan);
+  for (const Scene* const scene : parts_of(scenes)) {
+    add(scene->reference);
+    for (const SensorScan& scan : scene->sensors) add(scan);
   }
   return scans;
 }
@@ -190,9 +191,9 @@ std::string inputs_json(const std::vector<Scene>& scenes, const std::vector<Inpu
   nlohmann::json json = {{"files", nlohmann::json::object()}};
   for (const InputFile& input : inputs) json["files"][input.path] = input.sha256;
   std::string poses;
-  for (const Scene& scene : scenes) {
-    poses += scene.name + "\n" + scene.reference.sensor + "\n";
-    for (const SensorScan& scan : scene.sensors) {
+  for (const Scene* const scene : parts_of(scenes)) {
+    poses += scene->name + "\n" + scene->reference.sensor + "\n";
+    for (const SensorScan& scan : scene->sensors) {
       if (is_pair(scan)) continue;  // Its poses follow from its sensors'.
       poses += scan.sensor + "\n" + pose_text(scan.truth) + "\n" + pose_text(scan.nominal) + "\n" +
                pose_text(scan.initial) + "\n";
@@ -203,6 +204,15 @@ std::string inputs_json(const std::vector<Scene>& scenes, const std::vector<Inpu
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+/// The names of the scenes of each group.
+Json groups_json(const std::vector<Scene>& groups) {
+  Json json = Json::object();
+  for (const Scene& group : groups) {
+    for (const Scene& scene : group.parts) json[group.name].push_back(scene.name);
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string manifest_json(const Experiment& experiment, const std::vector<Scene>& scenes,
@@ -210,6 +220,7 @@ std::string manifest_json(const Experiment& experiment, const std::vector<Scene>
   Json manifest;
   manifest["experiment"] = Json::parse(experiment_json(experiment));
   manifest["experiment_files"] = files_json(experiment.files);
+  if (experiment.scenes_per_trial > 1) manifest["groups"] = groups_json(scenes);
   manifest["inputs"] = inputs_json(inputs);
   manifest["provenance"] = {{"inputs", sha256_of_text(provenance.at("inputs"))},
                             {"pipelines", sha256_of_text(pipelines_text(experiment))}};
@@ -292,20 +303,29 @@ std::vector<InputFile> record_inputs(std::vector<Scene>& scenes, const fs::path&
   const auto hold = [&](SensorScan& scan) {
     if (!scan.file.empty()) scan.load = held_to(*by_file.at(scan.file), scan.load);
   };
-  for (Scene& scene : scenes) {
+  const auto hold_all = [&](Scene& scene) {
     hold(scene.reference);
     for (SensorScan& scan : scene.sensors) hold(scan);
+  };
+  for (Scene& scene : scenes) {
+    hold_all(scene);
+    for (Scene& part : scene.parts) hold_all(part);
   }
   return inputs;
 }
 
 Provenance provenance_of(const Experiment& experiment, const std::vector<Scene>& scenes,
                          const std::vector<InputFile>& inputs) {
-  return {{"dataset", experiment.dataset.resolved()},
-          {"inputs", inputs_json(scenes, inputs)},
-          {"seed", std::to_string(experiment.seed)},
-          {"starts", deciding_starts_json(experiment.starts)},
-          {"success", success_json(experiment.success)}};
+  Provenance provenance = {{"dataset", experiment.dataset.resolved()},
+                           {"inputs", inputs_json(scenes, inputs)},
+                           {"seed", std::to_string(experiment.seed)},
+                           {"starts", deciding_starts_json(experiment.starts)},
+                           {"success", success_json(experiment.success)}};
+  // Stores that were written before there were groups go on.
+  if (experiment.scenes_per_trial > 1) {
+    provenance["scenes_per_trial"] = std::to_string(experiment.scenes_per_trial);
+  }
+  return provenance;
 }
 
 StoreHeader header_of(const Experiment& experiment, const std::vector<Scene>& scenes,

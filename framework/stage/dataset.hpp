@@ -40,6 +40,9 @@ struct Scene {
   std::vector<SensorScan> sensors;
   /// Draws the scene from behind and above the car; empty if the dataset cannot draw.
   std::function<Image()> draw = {};
+  /// Datasets leave this empty. For a group of scenes from which a trial calibrates one rig: the
+  /// scenes; name and kind are the group's, the rest is of the first scene that has it.
+  std::vector<Scene> parts = {};
 };
 
 /// The scenes of a rig.

@@ -35,7 +35,35 @@ constexpr const char* kExperiment = R"({
     {"name": "ground alone", "remove": ["planar_alignment"]}
   ]
 })";
-constexpr std::size_t kTrials = 3 * 4 * 2 * 3;  // Variants, scenes, sensors, starts.
+
+// Groups of five scenes, and a step that sees all of their sensors and pairs of sensors at once.
+constexpr const char* kRigExperiment = R"({
+  "name": "rigs",
+  "dataset": {"type": "simulated", "rig": "croon_three", "scenes": 11},
+  "scenes_per_trial": 5,
+  "loops": true,
+  "starts": {"rotation_deg": 5, "translation_m": 0.1, "trials": 2},
+  "success": {"rotation_deg": 5, "translation_m": 0.5},
+  "pipeline": [
+    {"step": "preprocessing", "sensor": [{"type": "voxel_downsample", "leaf_size_m": 1}]},
+    {"step": "planar_alignment", "points": "all"},
+    {"step": "consensus", "rotation_deg": 5, "translation_m": 0.3},
+    {"step": "registration", "icp": {"type": "point_to_point", "max_iterations": 2}}
+  ],
+  "variants": [{"name": "one scene", "remove": ["consensus"]}]
+})";
+
+struct Case {
+  const char* name;
+  const char* experiment;
+  std::size_t trials;
+  int shards;
+};
+
+constexpr Case kCases[] = {
+    {"Pairs", kExperiment, 3 * 4 * 2 * 3, 4},    // Variants, scenes, sensors, starts.
+    {"Rigs", kRigExperiment, 2 * 2 * 3 * 2, 3},  // Variants, groups, sensors and pairs, starts.
+};
 constexpr int kKills = 20;
 
 /// The words of `text` between the `separator`s.
@@ -46,9 +74,9 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return words;
 }
 
-class InterruptedRun : public testing::Test {
+class InterruptedRun : public testing::TestWithParam<Case> {
  protected:
-  InterruptedRun() { folder_.write("small.json", kExperiment); }
+  InterruptedRun() { folder_.write("small.json", GetParam().experiment); }
 
   fs::path path(const std::string& name) const { return folder_.path() / name; }
 
@@ -77,8 +105,8 @@ class InterruptedRun : public testing::Test {
   test::TempFolder folder_;
 };
 
-/// Each trial is in the table and in the store, once.
-void expect_each_trial_once(const fs::path& folder) {
+/// Each of `trials` trials is in the table and in the store, once.
+void expect_each_trial_once(const fs::path& folder, std::size_t trials) {
   std::map<std::string, int> times;
   for (const std::string& row : split(read_whole_file(folder / "trials.csv"), '\n')) {
     const std::vector<std::string> cells = split(row, ',');
@@ -86,12 +114,12 @@ void expect_each_trial_once(const fs::path& folder) {
     ++times[cells[0] + "," + cells[1] + "," + cells[2] + "," + cells[3]];
   }
   EXPECT_EQ(times.erase("variant,scene,sensor,trial"), 1U);
-  EXPECT_EQ(times.size(), kTrials);
+  EXPECT_EQ(times.size(), trials);
   for (const auto& [trial, count] : times) EXPECT_EQ(count, 1) << trial;
   const Database store(folder / "store.sqlite", Access::read);
   Statement count = store.prepare("SELECT COUNT(*) FROM trials");
   ASSERT_TRUE(count.next());
-  EXPECT_EQ(count.integer(0), static_cast<std::int64_t>(kTrials));
+  EXPECT_EQ(count.integer(0), static_cast<std::int64_t>(trials));
 }
 
 /// A header, then whole rows that end in seconds.
@@ -112,11 +140,11 @@ void expect_well_formed_timings(const fs::path& file) {
   }
 }
 
-TEST_F(InterruptedRun, GoesOnAfterTwentyKillsAtAnyMoment) {
+TEST_P(InterruptedRun, GoesOnAfterTwentyKillsAtAnyMoment) {
   const auto begin = std::chrono::steady_clock::now();
   run("whole");
   const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - begin;
-  expect_each_trial_once(path("whole"));
+  expect_each_trial_once(path("whole"), GetParam().trials);
   Rng rng(StreamKey(1).with("kills"));
   // A folder is finished in ever shorter runs: kills fall into reading, trials and reports. Then
   // comes a new folder, as long as there are kills to make.
@@ -128,32 +156,36 @@ TEST_F(InterruptedRun, GoesOnAfterTwentyKillsAtAnyMoment) {
     }
     run(out);
     expect_same_results(out);
-    expect_each_trial_once(path(out));
+    expect_each_trial_once(path(out), GetParam().trials);
     expect_well_formed_timings(path(out) / "timings.csv");
   }
 }
 
-TEST_F(InterruptedRun, IsTheSameBytesOnOneThreadAndOnFour) {
+TEST_P(InterruptedRun, IsTheSameBytesOnOneThreadAndOnFour) {
   run("whole", "--jobs 1");
   run("four", "--jobs 4");
   expect_same_results("four");
-  expect_each_trial_once(path("four"));
+  expect_each_trial_once(path("four"), GetParam().trials);
 }
 
-TEST_F(InterruptedRun, IsTheSameBytesFromFourShards) {
+TEST_P(InterruptedRun, IsTheSameBytesFromShards) {
   run("whole");
   std::string merge = "merge";
-  for (const char* shard : {"1", "2", "3", "4"}) {
-    const std::string out = std::string("shard.") + shard;
-    run(out, std::string("--jobs 1 --shard ") + shard + "/4");
+  const std::string shards = std::to_string(GetParam().shards);
+  for (int shard = 1; shard <= GetParam().shards; ++shard) {
+    const std::string out = "shard." + std::to_string(shard);
+    run(out, "--jobs 1 --shard " + std::to_string(shard) + "/" + shards);
     EXPECT_FALSE(read_whole_file(path(out) / "trials.csv") ==
                  read_whole_file(path("whole/trials.csv")));
     merge += " \"" + path(out).string() + "\"";
   }
   expect_done(merge + " --out \"" + path("merged").string() + "\"");
   expect_same_results("merged");
-  expect_each_trial_once(path("merged"));
+  expect_each_trial_once(path("merged"), GetParam().trials);
 }
+
+INSTANTIATE_TEST_SUITE_P(All, InterruptedRun, testing::ValuesIn(kCases),
+                         [](const auto& each) { return std::string(each.param.name); });
 
 }  // namespace
 }  // namespace croon::experiments

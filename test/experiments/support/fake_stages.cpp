@@ -6,7 +6,7 @@
 #include "framework/base/error.hpp"
 #include "framework/params/choice.hpp"
 #include "framework/stage/dataset.hpp"
-#include "framework/stage/step.hpp"
+#include "framework/stage/rig_step.hpp"
 #include "framework/stage/yaw_search.hpp"
 #include "test/support/random_geometry.hpp"
 
@@ -22,6 +22,7 @@ struct FakeDatasetParams {
   int points = 50;
   int unreadable = -1;
   bool kinds = false;
+  bool one_rig = false;
   std::vector<std::string> channels = {};
 };
 
@@ -49,6 +50,7 @@ class FakeDataset final : public Dataset {
     Rng rng = test_rng(seed);
     SensorScan scan;
     scan.sensor = sensor;
+    if (params_.one_rig) rng = test_rng(static_cast<std::uint64_t>(index + 2));
     scan.nominal = random_pose(rng, 2.0);
     if (params_.truth) scan.truth = random_pose(rng, 2.0);
     // The reference has all that a sensor may lack.
@@ -167,6 +169,22 @@ class Need final : public Step {
   Estimate advance(Estimate estimate, Rng&) const override { return estimate; }
 };
 
+/// Gives all estimates of the rig the mean x of them.
+class Gather final : public RigStep {
+ public:
+  explicit Gather(TakeParams) {}
+
+  void adjust(std::vector<RigEstimate>& rig, Rng& rng) const override {
+    double sum = 0.0;
+    for (const RigEstimate& one : rig) sum += one.estimate.T_target_source.translation.x();
+    const double draw = rng.uniform();
+    for (RigEstimate& one : rig) {
+      one.estimate.T_target_source.translation.x() = sum / static_cast<double>(rig.size());
+      one.estimate.diagnostics = {{"estimates", static_cast<double>(rig.size())}, {"draw", draw}};
+    }
+  }
+};
+
 enum class How { pass, reject, defeat, memory, bug, nan, far, skewed };
 
 struct BehaveParams {
@@ -207,6 +225,7 @@ Catalogue fake_catalogue() {
        integer("points", &FakeDatasetParams::points, {0, 1e6}, "Points per cloud."),
        integer("unreadable", &FakeDatasetParams::unreadable, {-2, 10}, "The unreadable cloud."),
        boolean("kinds", &FakeDatasetParams::kinds, "Whether scenes have kinds."),
+       boolean("one_rig", &FakeDatasetParams::one_rig, "Whether poses are the same in all scenes."),
        texts("channels", &FakeDatasetParams::channels, "The channels of the sensors' clouds.")}));
   catalogue.add(stage_entry<FakeSearch<CoarseParams>, CoarseParams>(
       "coarse", "Looks nowhere.", "croon",
@@ -222,6 +241,7 @@ Catalogue fake_catalogue() {
       "give", "Gives an extra.", "croon",
       {number("value", &GiveParams::value, {-10, 10}, "Its value.")}));
   catalogue.add(stage_entry<Take, TakeParams>("take", "Takes an extra.", "croon", {}));
+  catalogue.add(stage_entry<Gather, TakeParams>("gather", "Sees the rig.", "croon", {}));
   catalogue.add(stage_entry<GiveOther, TakeParams>("give_other", "Gives another.", "croon", {}));
   catalogue.add(stage_entry<Need, TakeParams>("need", "Needs channels.", "croon", {}));
   catalogue.add(stage_entry<Behave, BehaveParams>("behave", "Behaves as it is told to.", "croon",

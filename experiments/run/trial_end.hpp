@@ -1,0 +1,14 @@
+#pragma once
+
+#include "experiments/file/experiment.hpp"
+#include "experiments/run/trial_record.hpp"
+
+namespace croon::experiments {
+
+/// The record of the trial `id` that ended with `result`, judged by the truth of `scan` and
+/// `bounds`. A pose that is not finite, too far away for its error to be, or no rotation, is a
+/// failure.
+TrialRecord record_of(const TrialId& id, const PipelineResult& result, const SensorScan& scan,
+                      const SuccessBounds& bounds);
+
+}  // namespace croon::experiments

@@ -1,0 +1,117 @@
+#include "framework/pipeline/rig.hpp"
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+#include "framework/base/error.hpp"
+#include "framework/base/threads.hpp"
+#include "framework/stage/rig_step.hpp"
+
+namespace croon {
+namespace {
+
+const RigStep* rig_step(const NamedStep& named) {
+  return dynamic_cast<const RigStep*>(&*named.step);
+}
+
+/// The estimates of the members that have not failed; their diagnostics are those of a new step.
+std::vector<RigEstimate> live_estimates(const std::vector<RigMember*>& members) {
+  std::vector<RigEstimate> estimates;
+  for (const RigMember* const member : members) {
+    estimates.push_back({member->scene, member->target, member->source, member->result.estimate});
+    estimates.back().estimate.diagnostics.clear();
+  }
+  return estimates;
+}
+
+/// Gives `member` what the step `name` made of its estimate in `seconds`.
+void take(RigMember& member, const std::string& name, RigEstimate&& adjusted, double seconds) {
+  Estimate before = std::exchange(member.result.estimate, std::move(adjusted.estimate));
+  Estimate& after = member.result.estimate;
+  const bool is_computed = after.information && after.information != before.information;
+  member.result.records.push_back(
+      {name, seconds, after.diagnostics, is_computed ? after.information : std::nullopt});
+  if (after.rejection && after.rejection != before.rejection) {
+    after.rejection = name + ": " + *after.rejection;
+  }
+  if (adjusted.failure.empty()) return;
+  after = std::move(before);
+  member.result.failure = name + ": " + adjusted.failure;
+}
+
+void adjust_all(Rig& rig, const RigStep& step, const std::string& name, const StreamKey& key) {
+  std::vector<RigMember*> live;
+  for (RigMember& member : rig) {
+    if (member.result.failure.empty()) live.push_back(&member);
+  }
+  if (live.empty()) return;
+  const double shared_before = seconds_spent_on_shared_work();
+  const auto begin = std::chrono::steady_clock::now();
+  Rng rng(key.with(name));
+  std::vector<RigEstimate> estimates = live_estimates(live);
+  try {
+    step.adjust(estimates, rng);
+  } catch (const StageError& error) {
+    estimates = live_estimates(live);
+    for (RigEstimate& estimate : estimates) estimate.failure = error.what();
+  }
+  if (estimates.size() != live.size()) {
+    throw std::logic_error("the step \"" + name + "\" changed the number of estimates");
+  }
+  const double wall =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double seconds =
+      (wall - (seconds_spent_on_shared_work() - shared_before)) / static_cast<double>(live.size());
+  for (std::size_t i = 0; i < live.size(); ++i) {
+    take(*live[i], name, std::move(estimates[i]), seconds);
+  }
+}
+
+/// 0 if the result can be trusted as far as the program knows, 1 if it is rejected, 2 if it failed.
+int rank(const RigMember& member) {
+  if (!member.result.failure.empty()) return 2;
+  return member.result.estimate.rejection ? 1 : 0;
+}
+
+}  // namespace
+
+bool has_rig_step(const Pipeline& pipeline) {
+  return std::any_of(pipeline.begin(), pipeline.end(),
+                     [](const NamedStep& step) { return rig_step(step) != nullptr; });
+}
+
+void advance(Rig& rig, const NamedStep& named, const StreamKey& key) {
+  if (const RigStep* const step = rig_step(named)) {
+    adjust_all(rig, *step, named.name, key);
+    return;
+  }
+  for_each_in_parallel(rig.size(), [&](std::size_t i) {
+    // Isolated: a thread that waits inside a step must not start another member, whose time would
+    // count as this one's.
+    tbb::this_task_arena::isolate([&] { advance(rig[i].result, named, rig[i].key); });
+  });
+}
+
+void run_pipeline(const Pipeline& pipeline, Rig& rig, const StreamKey& key) {
+  for (const NamedStep& step : pipeline) advance(rig, step, key);
+}
+
+PipelineResult result_of_sensor(const std::vector<const RigMember*>& members) {
+  const auto best =
+      std::min_element(members.begin(), members.end(),
+                       [](const RigMember* a, const RigMember* b) { return rank(*a) < rank(*b); });
+  PipelineResult result = (*best)->result;
+  for (std::size_t i = 0; i < result.records.size(); ++i) {
+    double& seconds = result.records[i].seconds = 0.0;
+    for (const RigMember* const member : members) {
+      const std::vector<StepRecord>& records = member->result.records;
+      if (i < records.size()) seconds += records[i].seconds;
+    }
+  }
+  return result;
+}
+
+}  // namespace croon

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "framework/stage/step.hpp"
+
+namespace croon {
+
+/// The estimate of one sensor's pose in one scene of a trial.
+struct RigEstimate {
+  std::string scene;
+  std::string target;  ///< The sensor in whose frame the pose is: the reference, or one of a pair.
+  std::string source;  ///< The sensor whose pose is estimated.
+  Estimate estimate;
+  std::string failure = {};  ///< Empty, or why the step could not go on with this estimate.
+};
+
+/// A step that sees all scenes and sensors of a trial at once, where other steps see one pair of
+/// clouds. It stands in the same pipelines; applied to one pair, it sees a rig of one estimate.
+class RigStep : public Step {
+ public:
+  /// Improves the estimates of a trial in place: those that no step before has failed on, by scene
+  /// and then by sensor. Unlike other steps it sees the rejections of steps before, and may take
+  /// them back. Draws only from `rng`. Throws StageError if the data defeat it for all estimates.
+  virtual void adjust(std::vector<RigEstimate>& rig, Rng& rng) const = 0;
+
+  /// `adjust` for a rig of one estimate, whose scene and sensors have the names of its trial, if it
+  /// has any. Throws StageError if `adjust` does or sets a failure.
+  Estimate advance(Estimate estimate, Rng& rng) const final;
+};
+
+}  // namespace croon

@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "framework/base/angles.hpp"
+#include "framework/base/text.hpp"
+#include "framework/geometry/pose_mean.hpp"
+#include "framework/stage/rig_step.hpp"
+#include "framework/stage/stage_entry.hpp"
+
+namespace croon::stages::step {
+namespace {
+
+struct Params {
+  double rotation_deg = 0.5;
+  double translation_m = 0.1;
+  double min_agreeing_ratio = 0.6;
+};
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table = {
+      params::number("rotation_deg", &Params::rotation_deg, {0.0, 180.0},
+                     "Poses of two scenes agree if the angle between them is at most this."),
+      params::number("translation_m", &Params::translation_m, {0.0, 1e6},
+                     "Poses of two scenes agree if their origins are at most this far apart."),
+      params::number("min_agreeing_ratio", &Params::min_agreeing_ratio, {0.0, 1.0},
+                     "The pose is rejected if the poses of fewer of the scenes agree with it."),
+  };
+  return table;
+}
+
+/// The estimates of one sensor.
+using OfSensor = std::vector<RigEstimate*>;
+
+/// The estimates that vote: those that no step has rejected, or all if there are no others.
+OfSensor voters(const OfSensor& estimates) {
+  OfSensor accepted;
+  for (RigEstimate* const one : estimates) {
+    if (!one->estimate.rejection) accepted.push_back(one);
+  }
+  return accepted.empty() ? estimates : accepted;
+}
+
+class ConsensusStep final : public RigStep {
+ public:
+  explicit ConsensusStep(const Params& params)
+      : params_(params), bounds_{rad_from_deg(params.rotation_deg), params.translation_m} {}
+
+  void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
+    std::map<std::pair<std::string, std::string>, OfSensor> sensors;
+    for (RigEstimate& one : rig) sensors[{one.target, one.source}].push_back(&one);
+    for (const auto& [names, estimates] : sensors) agree_on_pose(estimates);
+  }
+
+ private:
+  /// Gives all estimates of a sensor the pose that they agree on.
+  void agree_on_pose(const OfSensor& estimates) const {
+    const OfSensor votes = voters(estimates);
+    std::vector<RigidTransform> poses;
+    for (const RigEstimate* const vote : votes) poses.push_back(vote->estimate.T_target_source);
+    // The mean of one pose would differ from it in the last digits.
+    const RigidTransform pose = poses.size() == 1 ? poses.front() : consensus_pose(poses, bounds_);
+    OfSensor agreeing;
+    for (RigEstimate* const vote : votes) {
+      if (agree(vote->estimate.T_target_source, pose, bounds_)) agreeing.push_back(vote);
+    }
+    const double ratio =
+        static_cast<double>(agreeing.size()) / static_cast<double>(estimates.size());
+    const std::optional<Matrix6d> information = joint_information(agreeing);
+    const std::optional<std::string> rejection = verdict(estimates, votes, agreeing.size(), ratio);
+    for (RigEstimate* const one : estimates) {
+      one->estimate.T_target_source = pose;
+      one->estimate.information = information;
+      one->estimate.rejection = rejection;
+      one->estimate.diagnostics = {{"scenes", static_cast<double>(estimates.size())},
+                                   {"agreeing_ratio", ratio}};
+    }
+  }
+
+  /// Scenes are independent observations of one pose, so their information adds; std::nullopt if
+  /// one of them has none.
+  static std::optional<Matrix6d> joint_information(const OfSensor& agreeing) {
+    if (agreeing.empty()) return std::nullopt;
+    Matrix6d sum = Matrix6d::Zero();
+    for (const RigEstimate* const one : agreeing) {
+      if (!one->estimate.information) return std::nullopt;
+      sum += *one->estimate.information;
+    }
+    return sum;
+  }
+
+  /// Why the pose must not be trusted, if so.
+  std::optional<std::string> verdict(const OfSensor& estimates, const OfSensor& votes,
+                                     std::size_t agreeing, double ratio) const {
+    if (votes.front()->estimate.rejection) return votes.front()->estimate.rejection;
+    if (ratio >= params_.min_agreeing_ratio) return std::nullopt;
+    return "the poses of " + std::to_string(agreeing) + " of " +
+           counted(estimates.size(), "scene") + " agree, a share below " +
+           fixed_number(params_.min_agreeing_ratio, 2);
+  }
+
+  Params params_;
+  PoseBounds bounds_;
+};
+
+}  // namespace
+
+StageEntry consensus() {
+  return stage_entry<ConsensusStep>(
+      "consensus",
+      "Sees the whole rig: gives each sensor, in all scenes of a trial, the pose that most of its "
+      "scenes agree on.",
+      "the mean is that of Markley et al., Averaging Quaternions, JGCD 2007", table());
+}
+
+}  // namespace croon::stages::step

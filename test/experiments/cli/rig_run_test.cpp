@@ -1,0 +1,77 @@
+// Trials that calibrate a rig from several scenes, as a user runs them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "framework/base/whole_file.hpp"
+#include "test/experiments/support/program.hpp"
+#include "test/support/temp_folder.hpp"
+
+namespace croon::experiments {
+namespace {
+
+using ::testing::HasSubstr;
+
+class RigRun : public testing::Test {
+ protected:
+  /// Runs an experiment with groups of so many of its five scenes.
+  Answer run(int scenes_per_trial, const std::string& options = "") {
+    const std::string file = folder_.write("rigs.json", R"({
+      "name": "rigs", "dataset": {"type": "simulated", "rig": "croon_three", "scenes": 5},
+      "scenes_per_trial": )" + std::to_string(scenes_per_trial) +
+                                                            R"(,
+      "starts": {"rotation_deg": 0, "translation_m": 0, "trials": 1},
+      "pipeline": [{"step": "identity"}, {"step": "consensus"}]})");
+    return croon("run \"" + file + "\" --out \"" + out().string() + "\" --quiet " + options);
+  }
+
+  std::filesystem::path out() const { return folder_.path() / "out"; }
+
+  test::TempFolder folder_;
+};
+
+TEST_F(RigRun, SaysWhatAGroupIs) {
+  const Answer answer = run(2);
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  EXPECT_THAT(answer.text, HasSubstr("a trial calibrates the rig from 2 scenes"));
+  const auto manifest = nlohmann::json::parse(read_whole_file(out() / "manifest.json"));
+  ASSERT_EQ(manifest.at("groups").size(), 2U);
+  for (const auto& [name, scenes] : manifest.at("groups").items()) {
+    EXPECT_EQ(scenes.size(), 2U);
+    EXPECT_EQ(name, scenes[0].get<std::string>() + "+1");
+  }
+  const Answer table = croon("export \"" + out().string() + "\" --format markdown");
+  EXPECT_EQ(table.code, 0);
+  EXPECT_THAT(table.text, HasSubstr("2 groups of 2 scenes"));
+}
+
+TEST_F(RigRun, EveryPictureAndCloudIsMade) {
+  const Answer answer = run(2, "--png --clouds");
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  EXPECT_TRUE(std::filesystem::exists(out() / "before_after.png"));
+  EXPECT_FALSE(std::filesystem::is_empty(out() / "clouds"));
+}
+
+TEST_F(RigRun, IsRefusedWithFewerScenesThanAGroupHas) {
+  const Answer answer = run(6);
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_THAT(answer.text,
+              HasSubstr("rigs.json, /scenes_per_trial: expected at most the number of scenes, 5"));
+  EXPECT_FALSE(std::filesystem::exists(out()));
+}
+
+TEST_F(RigRun, GroupsOfAnotherSizeDoNotGoIntoOneStore) {
+  ASSERT_EQ(run(2).code, 0);
+  const Answer other = run(5);
+  EXPECT_EQ(other.code, 2);
+  EXPECT_THAT(other.text, HasSubstr("scenes_per_trial"));
+  EXPECT_EQ(run(2).code, 0);
+  const Answer single = run(1);
+  EXPECT_EQ(single.code, 2);
+  EXPECT_THAT(single.text, HasSubstr("scenes_per_trial"));
+}
+
+}  // namespace
+}  // namespace croon::experiments
