@@ -14,7 +14,7 @@ function(croon_expose_headers target)
     endforeach()
   endforeach()
   set(folders "$<BUILD_INTERFACE:${include_folder}>"
-    "$<INSTALL_INTERFACE:include>" "$<INSTALL_INTERFACE:include/croon>")
+    "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>" "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/croon>")
   get_target_property(type ${target} TYPE)
   if(type STREQUAL "INTERFACE_LIBRARY")
     target_include_directories(${target} INTERFACE ${folders})

@@ -1,7 +1,6 @@
 # The package: find_package(croon) gives croon::croon and what it consists of; the component `program` gives
 # croon_add_program, for which the package has the rest. docs/library.md shows both.
 include(CMakePackageConfigHelpers)
-include(GNUInstallDirs)
 
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/croon")
 

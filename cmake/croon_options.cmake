@@ -1,4 +1,5 @@
 # Language, warnings and output folders; included once by the root CMakeLists.txt.
+include(GNUInstallDirs)
 set(CMAKE_CXX_STANDARD 17)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)

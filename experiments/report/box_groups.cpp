@@ -1,6 +1,7 @@
 // What the boxes of a figure are of.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -71,18 +72,24 @@ std::vector<BoxGroup> box_groups(const Summary& summary, BoxOf of) {
 
 double robust_limit(const std::vector<BoxGroup>& groups, std::size_t measure) {
   constexpr double kWhiskers = 3.0;
+  constexpr double kMostWhiskers = 10.0;
   std::vector<double> reaches;
+  double of_sensors = 0.0;  // That the best box of each sensor is seen.
   for (const BoxGroup& group : groups) {
+    double best = std::numeric_limits<double>::infinity();
     for (const BoxSeries& box : group.boxes) {
       if (box.deviations.empty()) continue;
       const BoxPlot plot = box_plot(values_of(box.deviations, measure));
       reaches.push_back(std::max(std::abs(plot.lower_whisker), std::abs(plot.upper_whisker)));
+      best = std::min(best, reaches.back());
     }
+    if (std::isfinite(best)) of_sensors = std::max(of_sensors, best);
   }
   const double least = 10.0 * std::pow(10.0, -kMeasures[measure].decimals);
   if (reaches.empty()) return least;
   std::sort(reaches.begin(), reaches.end());
-  return std::max(least, kWhiskers * reaches[(reaches.size() - 1) / 2]);
+  const double median = reaches[(reaches.size() - 1) / 2];
+  return std::max({least, kWhiskers * median, std::min(of_sensors, kMostWhiskers * median)});
 }
 
 void shorten_labels(std::vector<BoxGroup>& groups, std::size_t columns) {

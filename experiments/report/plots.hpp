@@ -32,7 +32,7 @@ struct FigureOptions {
 /// sensor and kind of scene, or per sensor), and the meaning of a box in words. Boxes are quartiles
 /// with the median, whiskers reach the last value within 1.5 interquartile ranges (Tukey 1977),
 /// values beyond are dots; see box_drawing.hpp. Below a box stands how many of its trials it holds.
-/// An axis ends at three times the median whisker at most (see `robust_limit`); arrowheads at its
+/// Bad boxes may be cut by the axis (see `robust_limit`); arrowheads at its
 /// ends have the number of values beyond. Throws InputError if the boxes do not fit the sheet.
 Drawing box_plots(const Summary& summary, const FigureOptions& options = {});
 
@@ -70,8 +70,9 @@ void shorten_labels(std::vector<BoxGroup>& groups, std::size_t columns);
 Drawing success_curve_chart(const SuccessCurve& curve, const FigureOptions& options = {});
 
 /// The largest size that the axis of a measure has to show: three times the lower median of the
-/// boxes' longer whiskers, so that the boxes of bad variants do not flatten those of good ones; at
-/// least ten times the digit that tables show.
+/// boxes' longer whiskers, so that the boxes of bad variants do not flatten those of good ones, but
+/// no less than the best box of each sensor reaches, as far as ten times that median; at least ten
+/// times the digit that tables show.
 double robust_limit(const std::vector<BoxGroup>& groups, std::size_t measure);
 
 /// The figure of basin.svg: success over the size, all sensors together, a line per variant with

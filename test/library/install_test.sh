@@ -12,6 +12,11 @@ fail() { echo "install_test: $*" >&2; exit 1; }
 
 cmake --install "$build" --prefix "$folder/prefix" >"$folder/install.log"
 
+# As the packages of a distribution are made.
+DESTDIR=$folder/package cmake --install "$build" --prefix /opt/croon >>"$folder/install.log"
+[[ -f $folder/package/opt/croon/include/croon/framework/base/rng.hpp ]] || fail 'DESTDIR lacks the headers'
+rm -r "$folder/package"
+
 # fenced_block LANGUAGE: the first block of the page in this language.
 fenced_block() { awk -v start="\`\`\`$1" '$0 == start {on = 1; next} /^```/ {if (on) exit} on' "$source/docs/library.md"; }
 

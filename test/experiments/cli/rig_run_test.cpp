@@ -42,7 +42,7 @@ TEST_F(RigRun, SaysWhatAGroupIs) {
     EXPECT_EQ(scenes.size(), 2U);
     EXPECT_EQ(name, scenes[0].get<std::string>() + "+1");
   }
-  const Answer table = croon("export \"" + out().string() + "\" --format markdown");
+  const Answer table = croon("export \"" + out().string() + "\" --format md");
   EXPECT_EQ(table.code, 0);
   EXPECT_THAT(table.text, HasSubstr("2 groups of 2 scenes"));
 }
@@ -58,7 +58,7 @@ TEST_F(RigRun, IsRefusedWithFewerScenesThanAGroupHas) {
   const Answer answer = run(6);
   EXPECT_EQ(answer.code, 2);
   EXPECT_THAT(answer.text,
-              HasSubstr("rigs.json, /scenes_per_trial: expected at most the number of scenes, 5"));
+              HasSubstr("rigs.json: /scenes_per_trial: expected at most the number of scenes, 5"));
   EXPECT_FALSE(std::filesystem::exists(out()));
 }
 

@@ -105,6 +105,16 @@ Summary around(const std::vector<std::pair<std::string, double>>& variants) {
   return summarise(records, {20.0, 20.0}, {});
 }
 
+TEST(BoxPlots, TheBestBoxOfASensorIsSeen) {
+  constexpr std::size_t kX = 3;
+  std::vector<BoxGroup> groups = groups_of(around({{"a", 0.01}, {"b", 0.012}, {"c", 0.01}}), 12);
+  const std::vector<BoxGroup> worse = groups_of(around({{"a", 0.08}, {"b", 0.09}}), 12);
+  groups.push_back(worse.front());
+  EXPECT_NEAR(robust_limit(groups, kX), 0.08, 1e-9);
+  groups.back() = groups_of(around({{"a", 5.0}, {"b", 6.0}}), 12).front();
+  EXPECT_NEAR(robust_limit(groups, kX), 10.0 * 0.012, 1e-9);
+}
+
 TEST(BoxPlots, OneBadVariantDoesNotFlattenTheOthers) {
   const Summary summary = around({{"a", 0.01}, {"b", 0.012}, {"bad", 10.0}});
   const auto groups = groups_of(summary, 12);
