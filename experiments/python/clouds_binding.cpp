@@ -2,6 +2,8 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <set>
+#include <utility>
 
 #include "experiments/python/arrays.hpp"
 #include "experiments/python/bindings.hpp"
@@ -89,8 +91,29 @@ py::array normals(const Cloud& cloud, int neighbours) {
   return array;
 }
 
+/// Marks that this thread computes the value `key` of `cloud`: to ask for it meanwhile would wait
+/// forever. Throws StageError for that.
+class Computing {
+ public:
+  Computing(const Cloud& cloud, const std::string& key) : mark_(&cloud, key) {
+    if (!marks().insert(mark_).second) throw StageError("the value \"" + key + "\" needs itself");
+  }
+  ~Computing() { marks().erase(mark_); }
+  Computing(const Computing&) = delete;
+  Computing& operator=(const Computing&) = delete;
+
+ private:
+  using Mark = std::pair<const Cloud*, std::string>;
+  static std::set<Mark>& marks() {
+    thread_local std::set<Mark> marks;
+    return marks;
+  }
+  Mark mark_;
+};
+
 /// What `make` returns, called once for this cloud and `key`.
 py::object once(const Cloud& cloud, const std::string& key, const py::object& make) {
+  const Computing computing(cloud, key);
   std::shared_ptr<const ObjectRef> value;
   const ObjectRef function(make);
   {

@@ -1,6 +1,8 @@
 // Stages of each kind that call Python.
 #include "experiments/python/stage_adapters.hpp"
 
+#include <cmath>
+
 #include "experiments/python/arrays.hpp"
 #include "experiments/python/cost_functions.hpp"
 #include "experiments/python/estimates.hpp"
@@ -189,13 +191,26 @@ class PythonVolumeScorer final : public VolumeScorer, Caller {
       const py::tuple parts = result;
       const ObjectRef function{py::object(parts[0])};
       const double leaf_size_m = py::cast<double>(py::float_(parts[1]));
+      if (!(leaf_size_m > 0.0) || !std::isfinite(leaf_size_m)) {
+        throw InputError("", "bind", "expected a leaf size, found " + text_of(parts[1]));
+      }
       return [function, leaf_size_m](const RigidTransform& T_target_source) {
         return in_python([&] {
-          const py::object leaves = function.get()(array_from(T_target_source));
-          return OccupiedVolume{py::cast<std::int64_t>(py::int_(leaves)), leaf_size_m};
+          return OccupiedVolume{leaves_from(function.get()(array_from(T_target_source))),
+                                leaf_size_m};
         });
       };
     });
+  }
+
+ private:
+  static std::int64_t leaves_from(const py::object& result) {
+    const double leaves = py::cast<double>(py::float_(result));
+    constexpr double kMost = 9007199254740992.0;  // 2^53
+    if (!(leaves >= 0.0 && leaves <= kMost)) {
+      throw InputError("", "bind", "expected a number of leaves, found " + text_of(result));
+    }
+    return static_cast<std::int64_t>(leaves);
   }
 };
 

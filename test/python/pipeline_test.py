@@ -2,6 +2,7 @@
 
 import json
 import pathlib
+import pickle
 import threading
 import unittest
 
@@ -22,6 +23,7 @@ class Pipelines(TestCase):
         self.assertEqual([step["name"] for step in steps], ["ground_alignment", "yaw_alignment", "registration"])
         for given in ({"pipeline": METHOD}, json.dumps(METHOD), json.dumps({"pipeline": METHOD}), path, str(path), steps):
             self.assertEqual(croon.Pipeline(given).steps, steps)
+        self.assertEqual(pickle.loads(pickle.dumps(croon.Pipeline(METHOD))).steps, steps)
 
     def test_that_are_wrong_say_all_that_is(self):
         with self.assertRaises(croon.InputError) as raised:

@@ -127,6 +127,11 @@ class Steps(TestCase):
         self.assertGreater(abs(do(once).diagnostics["do"]["sum"]), 0)
         self.assertEqual(len(calls), 1)
 
+        def recurse(estimate, rng):
+            return estimate.target.once("a", lambda: estimate.target.once("a", list))
+
+        self.assertEqual(self.line_of(croon.StageError, do, recurse), 'do: the value "a" needs itself')
+
     def test_that_fail_are_stage_errors(self):
         def fail(estimate, rng):
             raise croon.StageError("there are no walls")
@@ -282,6 +287,16 @@ class OtherKinds(TestCase):
         self.assertTrue((result.information == np.eye(6)).all())
         self.assertGreater(result.diagnostics["volume_refinement"]["volume_m3"], 0)
 
+        @croon.stage("volume_scorer", "test_wrong", summary="Is wrong.", parameters=[
+            croon.number("leaves", 1, help="How many."), croon.number("leaf_size_m", 1, help="Their size.")])
+        class Wrong(croon.VolumeScorer):
+            def bind(self, target, source):
+                return lambda pose: self.leaves, self.leaf_size_m
+
+        for wrong in ({"leaves": -1}, {"leaves": 1e30}, {"leaf_size_m": 0}, {"leaf_size_m": -1}):
+            pipeline = croon.Pipeline([{"step": "volume_refinement", "scorer": {"type": "test_wrong", **wrong}}])
+            self.assertIn("bind: expected a", self.line_of(croon.StageError, pipeline.run, TOP, LEFT))
+
 
 class Registering(TestCase):
     def test_wants_what_is_right(self):
@@ -294,7 +309,10 @@ class Registering(TestCase):
                                 ({"name": ""}, "expected a name"), ({"name": "registration"}, "croon has a stage"),
                                 ({"name": "test_nudge"}, "has this name"), ({"version": 0}, "version"),
                                 ({"parameters": [number, number]}, "each key once"), ({"summary": 3}, "summary"),
-                                ({"parameters": [number._replace(key="a.b")]}, "expected a name"), ({"channels": [3]}, "channels")):
+                                ({"parameters": [number._replace(key="a.b")]}, "another key"),
+                                ({"parameters": [number._replace(key="advance")]}, "another key"),
+                                ({"parameters": [number._replace(key="__init__")]}, "another key"),
+                                ({"parameters": [number._replace(key="a-b")]}, "another key"), ({"channels": [3]}, "channels")):
             self.assertIn(expected, self.line_of(croon.InputError, register, **wrong))
         for call in (lambda: croon.number("a", 2, range=(0, 1), help="It."), lambda: croon.number("a", "x", help="It."),
                      lambda: croon.integer("a", 1.5, help="It."), lambda: croon.choice("a", "x", ["y"], help="It.")):

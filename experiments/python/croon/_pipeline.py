@@ -62,5 +62,8 @@ class Pipeline:
         trial = whole(trial, "trial", 0, 2**31 - 1)
         return Result(*self._pipeline.run(target, source, initial, seed, *names, trial))
 
+    def __reduce__(self):
+        return Pipeline, (self.steps,)
+
     def __repr__(self):
         return f"<croon.Pipeline {', '.join(self._pipeline.names())}>"

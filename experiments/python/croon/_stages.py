@@ -234,14 +234,20 @@ def stage(kind, name, *, summary, source="", parameters=(), version=1, channels=
     if kind not in _KINDS:
         raise refusal("kind", f"expected one of {', '.join(_KINDS)}, found {kind!r:.60}")
 
+    parameters = list(parameters)
+
     def register(cls):
         base = _KINDS[kind]
         if not (isinstance(cls, type) and issubclass(cls, base)):
             raise refusal(f"{kind}/{name}", f"expected a class that derives from croon.{base.__name__}, found {cls!r:.60}")
+        for parameter in parameters:
+            # It becomes an attribute, which must not hide a method.
+            if not parameter.key.isidentifier() or hasattr(base, parameter.key):
+                raise refusal(f"{kind}/{name}", f"expected another key than {parameter.key!r}: it is no attribute's name")
         _core.register_stage({
             "kind": kind, "name": word(name, "name"), "summary": word(summary, "summary"),
             "source": word(source, "source") or cls.__module__, "version": whole(version, "version", 1, 2**31 - 1), "type": cls,
-            "parameters": list(parameters), "channels": [word(channel, "channels") for channel in channels],
+            "parameters": parameters, "channels": [word(channel, "channels") for channel in channels],
             "takes": list(takes), "gives": list(gives),
         })
         return cls
