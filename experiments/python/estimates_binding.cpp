@@ -1,6 +1,7 @@
 #include "experiments/python/arrays.hpp"
 #include "experiments/python/bindings.hpp"
 #include "experiments/python/estimates.hpp"
+#include "framework/stage/rig_step.hpp"
 
 namespace croon::python {
 namespace {
@@ -69,6 +70,10 @@ void set_rejection(Estimate& estimate, const py::object& reason) {
   if (!reason.is_none()) estimate.rejection = text_of(reason);
 }
 
+void set_failure(RigEstimate& estimate, const py::object& reason) {
+  estimate.failure = reason.is_none() ? "" : text_of(reason);
+}
+
 py::object trial_object(const Estimate& estimate) {
   if (!estimate.trial) return py::none();
   const TrialName& trial = *estimate.trial;
@@ -131,6 +136,17 @@ void bind_estimates(py::module_& module) {
            "Puts a value for later steps, see croon.extra.")
       .def("get", get_extra, py::arg("name"),
            "The value that an earlier step has put. Raises StageError if there is none.");
+  py::class_<RigEstimate>(module, "RigEstimate",
+                          "The estimate of one sensor's pose in one scene of a trial.")
+      .def_readonly("scene", &RigEstimate::scene, "The scene's name.")
+      .def_readonly("target", &RigEstimate::target,
+                    "The sensor in whose frame the pose is: the reference, or one of a pair.")
+      .def_readonly("source", &RigEstimate::source, "The sensor whose pose is estimated.")
+      .def_readwrite("estimate", &RigEstimate::estimate,
+                     "Its Estimate, which may be changed in place.")
+      .def_property(
+          "failure", [](const RigEstimate& e) { return e.failure; }, set_failure,
+          "Empty, or why the step cannot go on with this estimate.");
 }
 
 }  // namespace croon::python

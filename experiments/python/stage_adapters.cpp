@@ -10,6 +10,7 @@
 #include "framework/stage/icp.hpp"
 #include "framework/stage/pose_search.hpp"
 #include "framework/stage/preprocessor.hpp"
+#include "framework/stage/rig_step.hpp"
 #include "framework/stage/volume_scorer.hpp"
 #include "framework/stage/yaw_search.hpp"
 
@@ -48,6 +49,24 @@ class PythonStep final : public Step, Caller {
     return in_python([&] {
       const py::object result = call("advance", estimate, PythonRng{rng});
       return estimate_from(result, std::move(estimate));
+    });
+  }
+};
+
+class PythonRigStep final : public RigStep, Caller {
+ public:
+  using Caller::Caller;
+  void adjust(std::vector<RigEstimate>& rig, Rng& rng) const override {
+    in_python([&] {
+      py::list list;
+      for (const RigEstimate& estimate : rig) list.append(py::cast(estimate));
+      const py::tuple kept(list);  // Whatever becomes of the list.
+      const py::object result = call("adjust", list, PythonRng{rng});
+      if (!result.is_none()) {
+        throw InputError("", "adjust",
+                         "expected changes in place and None, found " + type_words(result));
+      }
+      for (std::size_t i = 0; i < rig.size(); ++i) rig[i] = py::cast<RigEstimate>(kept[i]);
     });
   }
 };
@@ -222,7 +241,9 @@ std::shared_ptr<const void> made(const ObjectRef& instance) {
 
 }  // namespace
 
-std::shared_ptr<const void> python_stage(const std::string& kind, const ObjectRef& instance) {
+std::shared_ptr<const void> python_stage(const std::string& kind, bool is_rig_step,
+                                         const ObjectRef& instance) {
+  if (is_rig_step) return made<PythonRigStep, Step>(instance);
   if (kind == Step::kKind) return made<PythonStep, Step>(instance);
   if (kind == YawSearch::kKind) return made<PythonYawSearch, YawSearch>(instance);
   if (kind == PoseSearch::kKind) return made<PythonPoseSearch, PoseSearch>(instance);

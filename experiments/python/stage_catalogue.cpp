@@ -48,7 +48,8 @@ ObjectRef instance_of(const ObjectRef& type, const PythonParameters& parameters,
 
 std::function<params::BuiltStage(const params::Node&, const params::StageBuilder&)> builder_of(
     const PythonStage& stage, const DeclaredParameters& declared) {
-  return [kind = stage.kind, name = stage.name, flow = stage.flow, type = ObjectRef(stage.type),
+  return [is_rig_step = stage.is_rig_step, kind = stage.kind, name = stage.name, flow = stage.flow,
+          type = ObjectRef(stage.type),
           declared](const params::Node& node, const params::StageBuilder& builder) {
     const PythonParameters parameters =
         declared.table.read(node, reserved_keys(kind), builder, declared.defaults);
@@ -57,7 +58,7 @@ std::function<params::BuiltStage(const params::Node&, const params::StageBuilder
     if (!instance) return params::BuiltStage{};
     const std::string members = declared.table.members_json(parameters);
     const std::string head = "{\"" + name_key(kind) + "\":\"" + name + "\"";
-    return params::BuiltStage{python_stage(kind, instance),
+    return params::BuiltStage{python_stage(kind, is_rig_step, instance),
                               name,
                               head + (members.empty() ? "" : "," + members) + "}",
                               {},
@@ -148,7 +149,7 @@ void register_class(const py::dict& stage) {
   flow.gives = extras_from(stage["gives"]);
   register_stage({py::str(stage["kind"]), py::str(stage["name"]), py::str(stage["summary"]),
                   py::str(stage["source"]), py::cast<int>(stage["version"]), stage["type"],
-                  stage["parameters"], flow});
+                  stage["parameters"], flow, py::cast<bool>(stage["is_rig_step"])});
 }
 
 std::string help(const std::string& which, const std::string& format) {

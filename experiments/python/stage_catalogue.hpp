@@ -21,6 +21,7 @@ struct PythonStage {
   py::object type;      ///< The class.
   py::list parameters;  ///< Of croon._stages.Parameter.
   params::DataFlow flow;
+  bool is_rig_step = false;  ///< A step whose method is `adjust`.
 };
 
 /// Adds the stage, or replaces an earlier one of the same class: the cell of a notebook may run

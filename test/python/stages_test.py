@@ -298,6 +298,49 @@ class OtherKinds(TestCase):
             self.assertIn("bind: expected a", self.line_of(croon.StageError, pipeline.run, TOP, LEFT))
 
 
+class RigSteps(TestCase):
+    @croon.stage("step", "test_first", summary="Gives all scenes of a trial the pose of the first.", parameters=[
+        croon.choice("how", "right", ["right", "list", "result", "failure", "raise"], help="What it does.")])
+    class First(croon.RigStep):
+        def adjust(self, rig, rng):
+            if self.how == "raise":
+                raise ValueError("no rig")
+            first = {}
+            for sensor in rig:
+                pose = first.setdefault(sensor.source, sensor.estimate.pose)
+                sensor.estimate.pose = pose
+                sensor.estimate.diagnostics = {"size": len(rig)}
+                if self.how == "failure" and sensor.source == "left":
+                    sensor.failure = "left is odd"
+            if self.how == "list":
+                rig.clear()
+            return rig if self.how == "result" else None
+
+    @staticmethod
+    def steps(how):
+        return [{"step": "ground_alignment"}, {"step": "test_first", "how": how}]
+
+    def test_see_all_scenes_of_a_trial(self):
+        rigs = experiment(scenes_per_trial=2, pipeline=self.steps("right"), variants=[
+            {"name": "failure", "replace": {"test_first.how": "failure"}}])
+        for jobs in (1, 4):
+            croon.run(rigs, out=f"out{jobs}", jobs=jobs)
+        for name in ("trials.csv", "diagnostics.csv"):
+            self.assertEqual(pathlib.Path("out1", name).read_bytes(), pathlib.Path("out4", name).read_bytes())
+        results = croon.load("out1")
+        self.assertEqual(set(results.diagnostics["value"][results.diagnostics["name"] == "size"]), {4.0})
+        failed = results.trials[results.trials["status"] == "failed"]
+        self.assertEqual({tuple(row) for row in failed[["variant", "sensor", "reason"]].tolist()},
+                         {("failure", "left", "in all scenes; in 000000: test_first: left is odd")})
+
+    def test_see_one_pair_too(self):
+        for how in ("right", "list"):
+            result = croon.Pipeline(self.steps(how)).run(TOP, LEFT, TRUTH)
+            self.assertEqual(result.diagnostics["test_first"]["size"], 1)
+        for how, expected in (("result", "found a list"), ("raise", "ValueError: no rig")):
+            self.assertIn(expected, self.line_of(croon.StageError, croon.Pipeline(self.steps(how)).run, TOP, LEFT))
+
+
 class Registering(TestCase):
     def test_wants_what_is_right(self):
         def register(kind="step", name="test_other", base=croon.Step, **more):

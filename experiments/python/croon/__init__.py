@@ -6,19 +6,20 @@ name says otherwise.
 """
 
 from ._clouds import read_cloud, write_cloud, xyz
-from ._core import Cloud, Estimate, Rng
+from ._core import Cloud, Estimate, RigEstimate, Rng
 from ._core import version as __version__
 from ._datasets import Scene, scenes, simulate
 from ._errors import Fault, InputError, StageError
 from ._pipeline import Pipeline, Result
 from ._results import Results, load, run, starts
-from ._stages import (Extra, GroundExtractor, GroundSplit, Icp, Parameter, PoseSearch, Preprocessor, Registration, Step,
-                      Trial, VolumeScorer, YawSearch, boolean, choice, extra, help_on, integer, number, numbers, stage,
-                      text)
+from ._stages import (Extra, GroundExtractor, GroundSplit, Icp, Parameter, PoseSearch, Preprocessor, Registration, RigStep,
+                      Step, Trial, VolumeScorer, YawSearch, boolean, choice, extra, help_on, integer, number, numbers,
+                      stage, text)
 
 __all__ = [
     "Cloud", "Estimate", "Extra", "Fault", "GroundExtractor", "GroundSplit", "Icp", "InputError", "Parameter",
-    "Pipeline", "PoseSearch", "Preprocessor", "Registration", "Result", "Results", "Rng", "Scene", "StageError", "Step",
+    "Pipeline", "PoseSearch", "Preprocessor", "Registration", "Result", "Results", "RigEstimate", "RigStep",
+    "Rng", "Scene", "StageError", "Step",
     "Trial", "VolumeScorer", "YawSearch", "boolean", "choice", "extra", "help_on", "integer", "load", "number",
     "numbers", "read_cloud", "run", "scenes", "simulate", "stage", "starts", "text", "write_cloud", "xyz",
 ]

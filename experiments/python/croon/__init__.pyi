@@ -191,6 +191,20 @@ class Step:
     kind: str
     def advance(self, estimate: Estimate, rng: Rng) -> Union[Estimate, _ArrayLike]: ...
 
+class RigEstimate:
+    estimate: Estimate
+    failure: str
+    @property
+    def scene(self) -> str: ...
+    @property
+    def target(self) -> str: ...
+    @property
+    def source(self) -> str: ...
+
+class RigStep:
+    kind: str
+    def adjust(self, rig: List[RigEstimate], rng: Rng) -> None: ...
+
 class YawSearch:
     kind: str
     def minimise(self, cost: Callable[[float], float]) -> float: ...

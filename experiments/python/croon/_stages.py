@@ -26,6 +26,17 @@ class Step(_Stage):
         raise NotImplementedError(f"{type(self).__name__} has no method advance")
 
 
+class RigStep(_Stage):
+    """A step that sees all scenes and sensors of a trial at once (scenes_per_trial). It is registered as a "step"."""
+
+    kind = "step"
+
+    def adjust(self, rig, rng):
+        """Improves the estimates of a trial in place: a list of `RigEstimate`, by scene and then by sensor. Draws only
+        from `rng`."""
+        raise NotImplementedError(f"{type(self).__name__} has no method adjust")
+
+
 class YawSearch(_Stage):
     """Minimises a function of yaw. It never sees clouds."""
 
@@ -238,6 +249,8 @@ def stage(kind, name, *, summary, source="", parameters=(), version=1, channels=
 
     def register(cls):
         base = _KINDS[kind]
+        if base is Step and isinstance(cls, type) and issubclass(cls, RigStep):
+            base = RigStep
         if not (isinstance(cls, type) and issubclass(cls, base)):
             raise refusal(f"{kind}/{name}", f"expected a class that derives from croon.{base.__name__}, found {cls!r:.60}")
         for parameter in parameters:
@@ -247,7 +260,7 @@ def stage(kind, name, *, summary, source="", parameters=(), version=1, channels=
         _core.register_stage({
             "kind": kind, "name": word(name, "name"), "summary": word(summary, "summary"),
             "source": word(source, "source") or cls.__module__, "version": whole(version, "version", 1, 2**31 - 1), "type": cls,
-            "parameters": parameters, "channels": [word(channel, "channels") for channel in channels],
+            "parameters": parameters, "is_rig_step": base is RigStep, "channels": [word(channel, "channels") for channel in channels],
             "takes": list(takes), "gives": list(gives),
         })
         return cls
