@@ -13,6 +13,13 @@ namespace {
 constexpr int kFull = 4;  // Of a cell that holds points; less in its neighbours.
 constexpr int kLane = 16;
 
+/// The place of (row, column) in rows of `columns`.
+template <class Row>
+std::size_t index(Row row, int columns, int column) {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+         static_cast<std::size_t>(column);
+}
+
 /// The centres of the cells above the ground that hold points of the source, without duplicates; at
 /// most `max_cells` of them, evenly spaced.
 std::vector<Eigen::Vector3d> cell_centres(const Points& levelled,
@@ -62,20 +69,20 @@ std::vector<MapPeak> best_apart(std::vector<MapPeak> peaks, int count,
 
 const params::Table<LayeredMapOptions>& layered_map_table() {
   static const params::Table<LayeredMapOptions> table = {
-      params::number("cell_m", &LayeredMapOptions::cell_m, {0.1, 5.0},
-                     "Edge of a cell of the top view."),
+      params::number("cell_m", &LayeredMapOptions::cell_m, {0.2, 5.0},
+                     "Edge of a cell of the map from above."),
       params::number("min_height_m", &LayeredMapOptions::min_height_m, {0.0, 5.0},
-                     "Points lower above the ground are not in the top view."),
-      params::integer("layers", &LayeredMapOptions::layers, {1, 50},
-                      "Layers of the top view, cell_m high."),
-      params::number("radius_m", &LayeredMapOptions::radius_m, {1.0, 200.0},
-                     "Points of the sensor farther from it are not in the top view."),
-      params::number("reach_m", &LayeredMapOptions::reach_m, {0.5, 50.0},
+                     "Points lower above the ground are not in the map."),
+      params::integer("layers", &LayeredMapOptions::layers, {1, 20},
+                      "Layers of the map, cell_m high."),
+      params::number("radius_m", &LayeredMapOptions::radius_m, {1.0, 100.0},
+                     "Points of the sensor farther from it are not in the map."),
+      params::number("reach_m", &LayeredMapOptions::reach_m, {0.5, 30.0},
                      "The sensor is at most this far from the reference along x and along y."),
       params::number("yaw_step_deg", &LayeredMapOptions::yaw_step_deg, {0.5, 30.0},
                      "Yaws are tried in such steps."),
       params::integer("max_cells", &LayeredMapOptions::max_cells, {10, 10000},
-                      "At most this many cells of the sensor's top view are used."),
+                      "At most this many cells of the sensor's map are used."),
   };
   return table;
 }
@@ -86,12 +93,13 @@ LayeredMap::LayeredMap(const Points& levelled, const LayeredMapOptions& options)
       side_(2 * (static_cast<int>(std::ceil(options.radius_m / options.cell_m)) + reach_ + 2)),
       window_(2 * reach_ + 1),
       stride_((window_ + kLane - 1) / kLane * kLane),
-      cells_(static_cast<std::size_t>(options.layers * side_ * side_ + stride_)) {
+      cells_(index(index(options.layers, side_, 0), side_, 0) + index(1, stride_, 0)) {
+  const int middle = side_ / 2;
   for (const Eigen::Vector3f& p : levelled) {
     const Eigen::Vector3d cell = p.cast<double>() / options.cell_m;
     const double layer = std::floor(cell.z() - options.min_height_m / options.cell_m);
-    const double row = std::floor(cell.y()) + side_ / 2;
-    const double column = std::floor(cell.x()) + side_ / 2;
+    const double row = std::floor(cell.y()) + middle;
+    const double column = std::floor(cell.x()) + middle;
     if (!(layer >= 0.0 && layer < options.layers)) continue;
     if (!(row >= 0.0 && row < side_ && column >= 0.0 && column < side_)) continue;
     spread(static_cast<int>(layer), static_cast<int>(row), static_cast<int>(column), kFull);
@@ -104,7 +112,7 @@ void LayeredMap::spread(int layer, int row, int column, std::uint8_t value) {
       for (int c = std::max(0, column - 1); c <= std::min(side_ - 1, column + 1); ++c) {
         const int away = std::abs(l - layer) + std::abs(r - row) + std::abs(c - column);
         const auto spread_value = static_cast<std::uint8_t>(std::max(0, value - away));
-        std::uint8_t& cell = cells_[static_cast<std::size_t>((l * side_ + r) * side_ + c)];
+        std::uint8_t& cell = cells_[index(index(l, side_, r), side_, c)];
         cell = std::max(cell, spread_value);
       }
     }
@@ -114,17 +122,15 @@ void LayeredMap::spread(int layer, int row, int column, std::uint8_t value) {
 /// Adds the cells around (row, column), one for each shift.
 void LayeredMap::add_window(Sums& sums, int layer, int row, int column) const {
   for (int shift = 0; shift < window_; ++shift) {
-    const std::uint8_t* const from = &cells_[static_cast<std::size_t>(
-        (layer * side_ + row - reach_ + shift) * side_ + column - reach_)];
-    std::uint16_t* const to = &sums[static_cast<std::size_t>(shift * stride_)];
+    const std::size_t line = index(layer, side_, row - reach_ + shift);
+    const std::uint8_t* const from = &cells_[index(line, side_, column - reach_)];
+    std::uint16_t* const to = &sums[index(shift, stride_, 0)];
     for (int i = 0; i < stride_; ++i) to[i] = static_cast<std::uint16_t>(to[i] + from[i]);
   }
 }
 
 std::vector<std::pair<int, int>> LayeredMap::local_maxima(const Sums& sums) const {
-  const auto at = [&](int row, int column) {
-    return sums[static_cast<std::size_t>(row * stride_ + column)];
-  };
+  const auto at = [&](int row, int column) { return sums[index(row, stride_, column)]; };
   std::vector<std::pair<int, int>> maxima;
   for (int row = 0; row < window_; ++row) {
     for (int column = 0; column < window_; ++column) {
@@ -150,7 +156,7 @@ std::vector<MapPeak> LayeredMap::match(const Points& levelled_source, int count)
     const double yaw_rad = 2.0 * kPi * k / yaws;
     const double cosine = std::cos(yaw_rad);
     const double sine = std::sin(yaw_rad);
-    Sums sums(static_cast<std::size_t>(window_ * stride_));
+    Sums sums(index(window_, stride_, 0));
     for (const Eigen::Vector3d& p : centres) {
       const double x = (cosine * p.x() - sine * p.y()) / options_.cell_m;
       const double y = (sine * p.x() + cosine * p.y()) / options_.cell_m;
@@ -159,10 +165,9 @@ std::vector<MapPeak> LayeredMap::match(const Points& levelled_source, int count)
     }
     std::vector<MapPeak> of_yaw;
     for (const auto& [row, column] : local_maxima(sums)) {
-      of_yaw.push_back({yaw_rad, (column - reach_) * options_.cell_m,
-                        (row - reach_) * options_.cell_m,
-                        sums[static_cast<std::size_t>(row * stride_ + column)] /
-                            (kFull * static_cast<double>(centres.size()))});
+      of_yaw.push_back(
+          {yaw_rad, (column - reach_) * options_.cell_m, (row - reach_) * options_.cell_m,
+           sums[index(row, stride_, column)] / (kFull * static_cast<double>(centres.size()))});
     }
     for (const MapPeak& peak : best_apart(std::move(of_yaw), kKeptPerYaw, options_)) {
       peaks.push_back(peak);

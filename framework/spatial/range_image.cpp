@@ -6,7 +6,8 @@
 namespace croon {
 
 RangeImage::RangeImage(const Points& points, int cells)
-    : cells_(cells), returns_(static_cast<std::size_t>(6 * cells * cells)) {
+    : cells_(cells),
+      returns_(std::size_t{6} * static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells)) {
   for (const Eigen::Vector3f& point : points) {
     const float range_m = point.norm();
     if (!(range_m > 0.0F) || !std::isfinite(range_m)) continue;
@@ -28,7 +29,10 @@ RangeImage::Cell RangeImage::cell_of(const Eigen::Vector3d& point) const {
 }
 
 std::size_t RangeImage::index_of(const Cell& cell) const {
-  return static_cast<std::size_t>((cell.face * cells_ + cell.row) * cells_ + cell.column);
+  const auto cells = static_cast<std::size_t>(cells_);
+  return (static_cast<std::size_t>(cell.face) * cells + static_cast<std::size_t>(cell.row)) *
+             cells +
+         static_cast<std::size_t>(cell.column);
 }
 
 std::optional<RangeImage::Seen> RangeImage::at(const Eigen::Vector3d& point) const {

@@ -150,7 +150,7 @@ class GlobalAlignment final : public Step {
     return scan;
   }
 
-  /// The poses at which the top views above a pair of planes coincide, of all pairs; those that are
+  /// The poses at which the maps above a pair of planes coincide, of all pairs; those that are
   /// to be refined.
   std::vector<Hypothesis> proposed(const Cloud& cloud, const Scan& target,
                                    const Scan& source) const {
@@ -230,7 +230,7 @@ StageEntry global_alignment() {
   return stage_entry<GlobalAlignment>(
       "global_alignment",
       "Finds the pose without a start: planes of both clouds propose the ground, a correlation of "
-      "top views over all yaws proposes poses, and overlap and free space choose between them.",
+      "maps from above over all yaws proposes poses, overlap and free space choose between them.",
       "croon; correlation after Olson, Real-time correlative scan matching, 2009", table());
 }
 
