@@ -27,6 +27,7 @@ TEST(GroundCandidates, FaceTheSensorAndComeBestFirst) {
   Rng rng = test::test_rng(2);
   GroundCandidateOptions options;
   options.candidates = 5;
+  options.max_gap = 10.0;
   const std::vector<GroundCandidate> found =
       ground_candidates(test::random_street(rng, 3, 8000, 0.01), options, rng);
   ASSERT_GE(found.size(), 2U);
@@ -38,6 +39,24 @@ TEST(GroundCandidates, FaceTheSensorAndComeBestFirst) {
       EXPECT_LE(found[i].score, found[i - 1].score);
     }
   }
+}
+
+TEST(GroundCandidates, DropPlanesThatAreFarLessPlausible) {
+  GroundCandidateOptions options;
+  options.candidates = 5;
+  Rng street_rng = test::test_rng(4);
+  const Points cloud = test::random_street(street_rng, 3, 8000, 0.01);
+  std::size_t before = 0;
+  for (const double gap : {0.0, 0.6, 10.0}) {
+    options.max_gap = gap;
+    Rng rng = test::test_rng(5);
+    const std::vector<GroundCandidate> found = ground_candidates(cloud, options, rng);
+    ASSERT_FALSE(found.empty());
+    EXPECT_GE(found.back().score, found.front().score - gap);
+    EXPECT_GE(found.size(), before);
+    before = found.size();
+  }
+  EXPECT_GE(before, 2U);
 }
 
 TEST(GroundCandidates, AreNoneInACloudWithoutAPlane) {
