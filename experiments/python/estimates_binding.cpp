@@ -142,8 +142,8 @@ void bind_estimates(py::module_& module) {
       .def_readonly("target", &RigEstimate::target,
                     "The sensor in whose frame the pose is: the reference, or one of a pair.")
       .def_readonly("source", &RigEstimate::source, "The sensor whose pose is estimated.")
-      .def_readwrite("estimate", &RigEstimate::estimate,
-                     "Its Estimate, which may be changed in place.")
+      .def_readonly("estimate", &RigEstimate::estimate,
+                    "Its Estimate, which may be changed in place.")
       .def_property(
           "failure", [](const RigEstimate& e) { return e.failure; }, set_failure,
           "Empty, or why the step cannot go on with this estimate.");

@@ -3,6 +3,7 @@
 import json
 import pathlib
 import pickle
+import sys
 import threading
 import unittest
 
@@ -117,22 +118,31 @@ class Pipelines(TestCase):
 
     def test_leave_the_interpreter_to_others(self):
         counts = []
-        is_done = threading.Event()
+        has_started, is_done = threading.Event(), threading.Event()
+
+        @croon.stage("step", "test_mark", summary="Notes how far another thread has counted.")
+        class Mark(croon.Step):
+            def advance(self, estimate, rng):
+                has_started.set()
+                marks.append(len(counts))
+                return estimate
 
         def count():
-            counter = 0
-            while not is_done.is_set():
-                counter += 1
-            counts.append(counter)
+            has_started.wait()
+            while not is_done.is_set() and len(counts) < 10**6:
+                counts.append(1)
 
-        # Of a run that keeps the lock, the other thread sees nothing but its start and end.
+        # No thread is asked to give way: the other one runs only while this one lets it.
+        self.addCleanup(sys.setswitchinterval, sys.getswitchinterval())
+        sys.setswitchinterval(1000)
+        marks = []
         other = threading.Thread(target=count)
         other.start()
-        for _ in range(3):
-            croon.Pipeline(METHOD).run(TOP, LEFT, TRUTH)
+        mark = {"step": "test_mark"}
+        croon.Pipeline([{**mark, "name": "a"}, *METHOD, {**mark, "name": "b"}]).run(TOP, LEFT, TRUTH)
         is_done.set()
         other.join()
-        self.assertGreater(counts[0], 10000)
+        self.assertGreater(marks[1], marks[0])
 
     def test_are_shared_by_threads(self):
         pipeline = croon.Pipeline(METHOD)

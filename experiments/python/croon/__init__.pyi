@@ -192,8 +192,9 @@ class Step:
     def advance(self, estimate: Estimate, rng: Rng) -> Union[Estimate, _ArrayLike]: ...
 
 class RigEstimate:
-    estimate: Estimate
     failure: str
+    @property
+    def estimate(self) -> Estimate: ...
     @property
     def scene(self) -> str: ...
     @property
