@@ -14,7 +14,7 @@ namespace croon::experiments {
 struct Build {
   std::string version;  ///< croon's, "0.1.0".
   std::string commit;
-  std::string program_sha256;  ///< Of the program, or of the Python module.
+  std::string program_sha256;              ///< Of the program, or of the Python module.
   std::vector<StageFolder> stage_folders;  ///< Of stages from outside the tree.
   std::vector<std::pair<std::string, std::string>> libraries;
 };
