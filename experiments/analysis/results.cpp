@@ -70,6 +70,7 @@ Results results_of(StoredRun run, const std::string& file) {
   results.planned = asked_trials(run.header.manifest, results.summary);
   const std::optional<Sweep>& sweep = experiment.starts.sweep;
   if (sweep) results.basin = basin_of(results.records, *sweep, order);
+  results.verdicts = verdicts_of(results.records, results.summary);
   results.claims = check_claims(experiment.claims, results.summary);
   results.quoted = experiment.quoted;
   return results;

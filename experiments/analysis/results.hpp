@@ -11,6 +11,7 @@
 #include "experiments/analysis/claims.hpp"
 #include "experiments/analysis/diagnostics.hpp"
 #include "experiments/analysis/summary.hpp"
+#include "experiments/analysis/verdicts.hpp"
 #include "experiments/run/trial_record.hpp"
 #include "experiments/store/store.hpp"
 #include "experiments/store/store_header.hpp"
@@ -36,6 +37,7 @@ struct Results {
   Summary summary;
   std::map<std::string, std::string> references;  ///< The sensor that each is calibrated to.
   std::optional<Basin> basin;                     ///< Of a sweep.
+  Verdicts verdicts;                              ///< Of the program, against the truth.
   std::vector<ClaimResult> claims;                ///< The claims of the experiment, checked.
   std::vector<Quoted> quoted;                     ///< Rows of other methods.
 };

@@ -45,4 +45,29 @@ std::string success_curve_csv(const SuccessCurve& curve) {
   return csv_table(table);
 }
 
+std::string verdicts_csv(const Verdicts& verdicts) {
+  Table table{{{"variant"},
+               {"sensor"},
+               {"rotation", "deg"},
+               {"translation", "m"},
+               {"trials"},
+               {"accepted_right"},
+               {"accepted_wrong"},
+               {"rejected_right"},
+               {"rejected_wrong"},
+               {"failed"}},
+              {}};
+  for (const VerdictRow& row : verdicts.rows) {
+    for (std::size_t i = 0; i < row.at_thresholds.size(); ++i) {
+      const SuccessBounds& bounds = verdicts.thresholds[i];
+      const VerdictCounts& counts = row.at_thresholds[i];
+      table.rows.push_back(cell_row(row.variant, name_of_sensor(row.sensor), bounds.rotation_deg,
+                                    bounds.translation_m, counts.trials(), counts.accepted_right,
+                                    counts.accepted_wrong, counts.rejected_right,
+                                    counts.rejected_wrong, counts.failed));
+    }
+  }
+  return csv_table(table);
+}
+
 }  // namespace croon::experiments

@@ -70,6 +70,8 @@ const std::vector<ResultFile>& result_files() {
          if (r.summary.curve.rows.empty()) return std::nullopt;
          return svg_bytes(success_curve_chart(r.summary.curve));
        }},
+      {"verdicts.csv",
+       [](const R& r) { return if_any(r.verdicts.rows, verdicts_csv, r.verdicts); }},
       {"basin.csv", [](const R& r) { return r.basin ? Bytes(basin_csv(*r.basin)) : std::nullopt; }},
       {"basin.svg",
        [](const R& r) -> Bytes {

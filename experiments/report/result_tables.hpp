@@ -11,6 +11,7 @@
 #include "experiments/analysis/claims.hpp"
 #include "experiments/analysis/diagnostics.hpp"
 #include "experiments/analysis/summary.hpp"
+#include "experiments/analysis/verdicts.hpp"
 #include "experiments/run/trial_record.hpp"
 #include "framework/pipeline/cloud_description.hpp"
 #include "framework/table/table.hpp"
@@ -157,6 +158,10 @@ std::string basin_csv(const Basin& basin);
 /// success_curve.csv: a row per variant, sensor ("all" for all together), what is bounded
 /// (rotation, translation or both) and threshold; a bound that is not there is empty.
 std::string success_curve_csv(const SuccessCurve& curve);
+
+/// verdicts.csv: a row per variant, sensor ("all" for all together) and threshold, rotation and
+/// translation together, from which on a pose is wrong.
+std::string verdicts_csv(const Verdicts& verdicts);
 
 /// clouds.csv of `croon describe`: a row per cloud.
 std::string clouds_csv(const std::vector<CloudDescription>& clouds);

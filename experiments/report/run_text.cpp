@@ -53,12 +53,35 @@ std::string result_text(const Results& results, bool colours) {
            " scenes; what is called a scene below is a group of so many\n";
   }
   text += summary_text(results.summary, style);
+  if (!results.verdicts.rows.empty()) {
+    text += "\nverdicts: what the program accepts and rejects; right: within " +
+            bounds_text(results.summary.bounds) + "the truth\n" +
+            verdicts_text(results.verdicts, style);
+  }
   if (results.basin) text += "\n" + basin_text(*results.basin, style);
   const std::string claims = claims_text(results.claims, results.quoted, results.summary, style);
   if (!claims.empty()) text += "\n" + claims;
   for (const std::string& sentence : build_sentences(results.builds))
     text += "\n" + sentence + "\n";
   return text;
+}
+
+std::string verdicts_text(const Verdicts& verdicts, const TableStyle& style) {
+  Table table{{{"variant"},
+               {"sensor"},
+               {"accepted, right"},
+               {"accepted, wrong"},
+               {"rejected, right"},
+               {"rejected, wrong"},
+               {"failed"}},
+              {}};
+  for (const VerdictRow& row : verdicts.rows) {
+    const VerdictCounts& counts = row.at_bounds;
+    table.rows.push_back(cell_row(row.variant, name_of_sensor(row.sensor), counts.accepted_right,
+                                  counts.accepted_wrong, counts.rejected_right,
+                                  counts.rejected_wrong, counts.failed));
+  }
+  return text_table(table, whole_view(table, 2), style.colours);
 }
 
 std::string basin_text(const Basin& basin, const TableStyle& style) {

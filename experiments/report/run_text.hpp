@@ -27,6 +27,10 @@ std::string result_text(const Results& results, bool colours);
 /// per kind of scene and per scene, reasons for failures. Ends with a newline.
 std::string summary_text(const Summary& summary, const TableStyle& style = {});
 
+/// Right and wrong poses against accepted and rejected ones, per variant and sensor, at the bounds
+/// of success. Ends with a newline.
+std::string verdicts_text(const Verdicts& verdicts, const TableStyle& style = {});
+
 /// Success in % per variant (rows) and level (columns), all sensors together, and the radius; of
 /// many levels every second, third, ... is shown. Ends with a newline.
 std::string basin_text(const Basin& basin, const TableStyle& style = {});

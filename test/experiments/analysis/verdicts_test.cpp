@@ -1,0 +1,96 @@
+#include "experiments/analysis/verdicts.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "experiments/report/result_tables.hpp"
+#include "experiments/report/run_text.hpp"
+#include "test/support/trial_records.hpp"
+
+namespace croon::experiments {
+namespace {
+
+using test::kBounds;
+using ::testing::HasSubstr;
+
+/// A trial of `sensor` that ends `x_m` from the truth.
+TrialRecord ended(const std::string& sensor, int trial, Status status, double x_m) {
+  return test::finished({"base", std::to_string(trial), sensor, 0}, status, {},
+                        test::offset_of(0, 0, 0, x_m, 0, 0));
+}
+
+/// Of left 3 accepted and right, 1 accepted and wrong, 2 rejected and right, 1 rejected and wrong,
+/// 1 failed; of right 1 accepted and right.
+std::vector<TrialRecord> some_records() {
+  const double near = 0.5 * kBounds.translation_m, far = 3.0 * kBounds.translation_m;
+  std::vector<TrialRecord> records;
+  for (int i : {0, 1, 2}) records.push_back(ended("left", i, Status::success, near));
+  records.push_back(ended("left", 3, Status::inaccurate, far));
+  for (int i : {4, 5}) records.push_back(ended("left", i, Status::rejected, near));
+  records.push_back(ended("left", 6, Status::rejected, far));
+  records.push_back(test::unfinished({"base", "7", "left", 0}, Status::failed, "no ground"));
+  records.push_back(ended("right", 0, Status::success, near));
+  return records;
+}
+
+Verdicts verdicts_on(const std::vector<TrialRecord>& records) {
+  return verdicts_of(records, summarise(records, kBounds, {}));
+}
+
+TEST(Verdicts, CountRightAndWrongAgainstAcceptedAndRejected) {
+  const Verdicts verdicts = verdicts_on(some_records());
+  ASSERT_EQ(verdicts.rows.size(), 3U);
+  const VerdictCounts& left = verdicts.rows[0].at_bounds;
+  EXPECT_EQ(verdicts.rows[0].sensor, "left");
+  EXPECT_EQ(left.accepted_right, 3);
+  EXPECT_EQ(left.accepted_wrong, 1);
+  EXPECT_EQ(left.rejected_right, 2);
+  EXPECT_EQ(left.rejected_wrong, 1);
+  EXPECT_EQ(left.failed, 1);
+  EXPECT_EQ(verdicts.rows[1].at_bounds.accepted_right, 1);
+  EXPECT_EQ(verdicts.rows[2].sensor, "");
+  EXPECT_EQ(verdicts.rows[2].at_bounds.accepted_right, 4);
+  EXPECT_EQ(verdicts.rows[2].at_bounds.trials(), 9);
+}
+
+TEST(Verdicts, OverTheThresholdTheNumberOfTrialsStays) {
+  const Verdicts verdicts = verdicts_on(some_records());
+  for (const VerdictRow& row : verdicts.rows) {
+    ASSERT_EQ(row.at_thresholds.size(), verdicts.thresholds.size());
+    int last = 0;
+    for (const VerdictCounts& counts : row.at_thresholds) {
+      EXPECT_EQ(counts.trials(), row.at_bounds.trials());
+      EXPECT_GE(counts.accepted_right + counts.rejected_right, last);
+      last = counts.accepted_right + counts.rejected_right;
+    }
+    EXPECT_EQ(row.at_thresholds.front().accepted_right, 0);
+    EXPECT_EQ(row.at_thresholds.back().accepted_wrong, 0);
+    EXPECT_EQ(row.at_thresholds[12].accepted_right, row.at_bounds.accepted_right);
+  }
+}
+
+TEST(Verdicts, AreThereOnlyWhereTheProgramGaveOne) {
+  std::vector<TrialRecord> records = some_records();
+  const auto is_rejected = [](const TrialRecord& one) { return one.status == Status::rejected; };
+  records.erase(std::remove_if(records.begin(), records.end(), is_rejected), records.end());
+  EXPECT_TRUE(verdicts_on(records).rows.empty());
+  for (TrialRecord& record : records) record.error.reset();
+  EXPECT_TRUE(verdicts_on(records).rows.empty());
+}
+
+TEST(Verdicts, AreATableAndAFile) {
+  const Verdicts verdicts = verdicts_on(some_records());
+  const std::string csv = verdicts_csv(verdicts);
+  EXPECT_EQ(csv.rfind("variant,sensor,rotation_deg,translation_m,trials,accepted_right,"
+                      "accepted_wrong,rejected_right,rejected_wrong,failed\n",
+                      0),
+            0U);
+  EXPECT_THAT(csv, HasSubstr("\nbase,left,0.5,0.1,8,3,1,2,1,1\n"));
+  EXPECT_THAT(csv, HasSubstr("\nbase,all,0.5,0.1,9,4,1,2,1,1\n"));
+  EXPECT_THAT(verdicts_text(verdicts), HasSubstr("accepted, wrong"));
+}
+
+}  // namespace
+}  // namespace croon::experiments
