@@ -3,10 +3,12 @@
 #include <tbb/info.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "experiments/file/experiment.hpp"
 #include "experiments/report/result_files.hpp"
+#include "experiments/run/scene_groups.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
 #include "framework/base/angles.hpp"
@@ -54,10 +56,32 @@ std::string velocities_json(const Scene& scene) {
   return json.dump(2) + "\n";
 }
 
+/// The name under which the trials of each scene start: that of its group, if it is in one.
+using TrialScenes = std::map<std::string, std::string>;
+
+TrialScenes trial_scenes(const std::vector<Scene>& scenes, const std::vector<Scene>& started) {
+  TrialScenes names;
+  for (const Scene& scene : scenes) names[scene.name] = scene.name;
+  for (const Scene& group : started) {
+    for (const Scene* const part : parts_of(group)) names[part->name] = group.name;
+  }
+  return names;
+}
+
+/// The start of trial 0. A file of starts has none for a scene that fills no group, which gets the
+/// truth.
+RigidTransform first_start(const Experiment& experiment, const std::string& trial_scene,
+                           const SensorScan& scan) {
+  const auto& table = experiment.starts.table;
+  if (table && table->starts.count({trial_scene, scan.sensor}) == 0) return *scan.truth;
+  return start_of(experiment, trial_scene, scan, 0);
+}
+
 /// Writes the folder of `scene` below `dataset`: a PCD per sensor, `initial_extrinsic.txt` with the
 /// starts of trial 0, `velocities.json`, and last `lidar_cloud_path.txt`, which marks the scene as
 /// complete.
-void write_scene(const Experiment& experiment, const Scene& scene, const fs::path& dataset) {
+void write_scene(const Experiment& experiment, const Scene& scene, const std::string& trial_scene,
+                 const fs::path& dataset) {
   const fs::path folder = dataset / scene.name;
   make_folder_below(dataset, scene.name);
   write_pcd(dataset / cloud_path(scene, scene.reference), scene.reference.load());
@@ -68,7 +92,7 @@ void write_scene(const Experiment& experiment, const Scene& scene, const fs::pat
     const int device_id = static_cast<int>(clouds.size());
     write_pcd(dataset / cloud_path(scene, scan), scan.load());
     clouds.push_back({device_id, cloud_path(scene, scan), "", scan.sensor});
-    starts.push_back({device_id, start_of(experiment, scene.name, scan, 0), ""});
+    starts.push_back({device_id, first_start(experiment, trial_scene, scan), ""});
   }
   write_whole_file(folder / "initial_extrinsic.txt", pose_list_text(starts));
   write_whole_file(folder / "velocities.json", velocities_json(scene));
@@ -113,6 +137,7 @@ std::string recipe_json(const Experiment& experiment) {
       {"starts", nlohmann::ordered_json::parse(
                      "{" + start_table().members_json(experiment.starts, {"trials"}) + "}")},
       {"seed", experiment.seed}};
+  if (experiment.scenes_per_trial > 1) json["scenes_per_trial"] = experiment.scenes_per_trial;
   return json.dump(2) + "\n";
 }
 
@@ -163,12 +188,14 @@ std::string kinds_json(const std::vector<Scene>& scenes) {
 }
 
 void write_scenes(const SimulateOptions& options, const Experiment& experiment,
-                  const std::vector<Scene>& scenes, Progress& progress) {
+                  const std::vector<Scene>& scenes, const TrialScenes& names, Progress& progress) {
   const int jobs = options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();
   on_threads(jobs, [&] {
     for_each_in_parallel(scenes.size(), [&](std::size_t i) {
       const Scene& scene = scenes[i];
-      if (!is_written(scene, options.out)) write_scene(experiment, scene, options.out);
+      if (!is_written(scene, options.out)) {
+        write_scene(experiment, scene, names.at(scene.name), options.out);
+      }
       if (options.png) draw_scene(scene, options.out);
       progress.advance();
     });
@@ -181,11 +208,12 @@ int simulate_command(const SimulateOptions& options, const Catalogue& catalogue,
                      std::ostream& progress_out) {
   Experiment experiment = load_experiment(options.experiment, catalogue);
   const std::vector<Scene> started = scenes_to_write(experiment);
-  const std::vector<Scene> scenes = without_pairs(started);
+  // Those that fill no group too: without them, the written dataset would have other groups.
+  const std::vector<Scene> scenes = dataset_scenes(experiment, fs::path());
   prepare(options.out, recipe_json(experiment));
   {
     Progress progress(progress_out, progress_style_of_stderr(options.quiet), scenes.size());
-    write_scenes(options, experiment, scenes, progress);
+    write_scenes(options, experiment, scenes, trial_scenes(scenes, started), progress);
     progress.finish();
   }
   std::vector<OutputFile> files = {{options.out / "truth.json", truth_json(scenes.front())},

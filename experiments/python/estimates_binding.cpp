@@ -142,6 +142,8 @@ void bind_estimates(py::module_& module) {
       .def_readonly("target", &RigEstimate::target,
                     "The sensor in whose frame the pose is: the reference, or one of a pair.")
       .def_readonly("source", &RigEstimate::source, "The sensor whose pose is estimated.")
+      .def_readonly("scenes", &RigEstimate::scenes,
+                    "The number of scenes of the trial that have the sensor.")
       .def_readonly("estimate", &RigEstimate::estimate,
                     "Its Estimate, which may be changed in place.")
       .def_property(

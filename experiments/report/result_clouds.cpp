@@ -60,6 +60,24 @@ Points points_of(const SensorScan& scan) {
   }
 }
 
+bool is_readable(const Scene& scene) {
+  return !points_of(scene.reference).empty() &&
+         std::none_of(scene.sensors.begin(), scene.sensors.end(),
+                      [](const SensorScan& scan) { return points_of(scan).empty(); });
+}
+
+/// The scenes without pairs of sensors; of a group the first one, under the name of the group:
+/// clouds of several scenes are not of one place.
+std::vector<Scene> shown_scenes(const std::vector<Scene>& scenes) {
+  std::vector<Scene> shown;
+  for (Scene& scene : without_pairs(scenes)) {
+    const std::string name = scene.name;
+    shown.push_back(scene.parts.empty() ? std::move(scene) : std::move(scene.parts.front()));
+    shown.back().name = name;
+  }
+  return shown;
+}
+
 void write_clouds(const std::vector<ColouredCloud>& clouds, const fs::path& stem) {
   constexpr double kLeafSize_m = 0.05;
   write_fused_ply(stem.string() + ".ply", clouds);
@@ -75,10 +93,17 @@ void write_clouds(const std::vector<ColouredCloud>& clouds, const fs::path& stem
 
 std::string draw_before_after(const Experiment& experiment, const std::vector<Scene>& scenes,
                               const Summary& summary, const fs::path& path) {
-  for (const Scene& scene : without_pairs(scenes)) {
+  for (const Scene& scene : shown_scenes(scenes)) {
     const std::vector<Pose> poses = agreed_poses(summary, experiment.variants.front(), scene);
     if (std::count(poses.begin(), poses.end(), std::nullopt) > 0) continue;
-    write_png(path, drawn(experiment, scene, poses));
+    try {
+      const Image image = drawn(experiment, scene, poses);
+      write_png(path, image);
+    } catch (const InputError&) {
+      // Of a group, the poses may be those of other scenes, and this one's clouds damaged.
+      if (!is_readable(scene)) continue;
+      throw;
+    }
     return scene.name;
   }
   return "";
@@ -88,7 +113,7 @@ std::vector<std::string> write_fused_clouds(const Experiment& experiment,
                                             const std::vector<Scene>& scenes,
                                             const Summary& summary, const fs::path& folder) {
   std::vector<std::string> complaints;
-  for (const Scene& scene : without_pairs(scenes)) {
+  for (const Scene& scene : shown_scenes(scenes)) {
     const Points reference = points_of(scene.reference);
     std::vector<Points> points;
     for (const SensorScan& scan : scene.sensors) points.push_back(points_of(scan));

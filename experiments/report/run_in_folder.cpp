@@ -44,6 +44,9 @@ std::vector<std::string> fill_store(const CheckedRun& run, const OutputFolder& f
   listener.on_unavailable = [&](const Fault& fault) {
     complaints.push_back(fault.line() + "; its trials are not stored, the next run runs them");
   };
+  listener.on_damaged = [&](const std::string& reason) {
+    complaints.push_back(reason + "; its trials use the other scenes of the group");
+  };
   listener.on_scene = [&](const std::string& scene) {
     progress.set_scene(scene);
     how.check();

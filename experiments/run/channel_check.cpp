@@ -77,6 +77,15 @@ class Lacking {
   std::map<std::pair<std::string, std::string>, Entry> entries_;
 };
 
+/// The sensors that others are calibrated to.
+std::set<std::string> targets_of_pairs(const Scene& scene) {
+  std::set<std::string> targets;
+  for (const SensorScan& scan : scene.sensors) {
+    if (is_pair(scan)) targets.insert(scan.target);
+  }
+  return targets;
+}
+
 }  // namespace
 
 std::set<std::string> needed_channels(const Experiment& experiment) {
@@ -97,9 +106,13 @@ void check_channels(const Experiment& experiment, const std::vector<Scene>& scen
   Lacking lacking(experiment.file);
   for (const Scene* const scene : parts_of(scenes)) {
     lacking.look_at(scene->reference, needs.target);
+    const std::set<std::string> targets = targets_of_pairs(*scene);
     for (const SensorScan& scan : scene->sensors) {
       // The clouds of a pair are those of its two sensors.
-      if (!is_pair(scan)) lacking.look_at(scan, needs.source);
+      if (is_pair(scan)) continue;
+      Needs all = needs.source;
+      if (targets.count(scan.sensor) > 0) all.insert(needs.target.begin(), needs.target.end());
+      lacking.look_at(scan, all);
     }
   }
   std::vector<Fault> faults = lacking.faults();

@@ -132,6 +132,17 @@ std::vector<Fault> unavailable_clouds(const LoadedScene& loaded) {
   return faults;
 }
 
+std::vector<std::string> damaged_clouds(const LoadedScene& loaded) {
+  std::vector<std::string> reasons;
+  const auto add = [&](const LoadedScan& scan) {
+    if (!scan.failure.empty())
+      reasons.push_back("scene " + loaded.scene->name + ": " + scan.failure);
+  };
+  add(loaded.reference);
+  for (const LoadedScan& scan : loaded.sensors) add(scan);
+  return reasons;
+}
+
 std::vector<TimingRow> scene_timings(const LoadedScene& loaded) {
   const Scene& scene = *loaded.scene;
   std::vector<TimingRow> rows;

@@ -49,6 +49,9 @@ CloudPair cloud_pair(const LoadedScene& loaded, std::size_t sensor);
 /// The reasons for which clouds of the scene cannot be read now.
 std::vector<Fault> unavailable_clouds(const LoadedScene& loaded);
 
+/// What is wrong with clouds of the scene that are damaged or empty, with the scene's name.
+std::vector<std::string> damaged_clouds(const LoadedScene& loaded);
+
 /// The times of what was done once for the clouds.
 std::vector<TimingRow> scene_timings(const LoadedScene& loaded);
 

@@ -33,7 +33,7 @@ void run_tree(const PipelineTree& tree, Rig rig, const StreamKey& key, const AtE
   for (const PipelineTree& branch : tree.branches) run_tree(branch, rig, key, at_end);
 }
 
-/// How often a step runs, if none fails.
+/// How often a step runs, if none fails; a start of a group of scenes counts once.
 struct StepCount {
   std::string step;       ///< Its name.
   std::size_t alone = 0;  ///< If each variant runs by itself.

@@ -215,6 +215,13 @@ void run_scene(const Run& run, const ScenePlan& plan, SerialListener& notify) {
       notify([&](const RunListener& listener) { listener.on_unavailable(fault); });
     }
   }
+  if (!loaded.group->parts.empty()) {
+    for (const LoadedScene& scene : loaded.scenes) {
+      for (const std::string& reason : damaged_clouds(scene)) {
+        notify([&](const RunListener& listener) { listener.on_damaged(reason); });
+      }
+    }
+  }
   const auto notify_trial = [&](const TrialRecord& record) {
     notify([&](const RunListener& listener) { listener.on_trial(record, timings_of(record)); });
   };

@@ -142,8 +142,10 @@ std::vector<Scene> scenes_of(const Experiment& experiment, const std::filesystem
 
 std::vector<Scene> without_pairs(std::vector<Scene> scenes) {
   for (Scene& scene : scenes) {
-    const auto first = std::find_if(scene.sensors.begin(), scene.sensors.end(), is_pair);
-    scene.sensors.erase(first, scene.sensors.end());
+    // In a group, sensors that its first scene lacks stand behind pairs.
+    std::vector<SensorScan>& scans = scene.sensors;
+    scans.erase(std::remove_if(scans.begin(), scans.end(), is_pair), scans.end());
+    scene.parts = without_pairs(std::move(scene.parts));
   }
   return scenes;
 }

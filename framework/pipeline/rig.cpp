@@ -17,14 +17,38 @@ const RigStep* rig_step(const NamedStep& named) {
   return dynamic_cast<const RigStep*>(&*named.step);
 }
 
+template <class A, class B>
+bool is_of_same_sensor(const A& a, const B& b) {
+  return a.target == b.target && a.source == b.source;
+}
+
 /// The estimates of the members that have not failed; their diagnostics are those of a new step.
-std::vector<RigEstimate> live_estimates(const std::vector<RigMember*>& members) {
+std::vector<RigEstimate> live_estimates(const std::vector<RigMember*>& members, const Rig& rig) {
   std::vector<RigEstimate> estimates;
   for (const RigMember* const member : members) {
     estimates.push_back({member->scene, member->target, member->source, member->result.estimate});
     estimates.back().estimate.diagnostics.clear();
+    estimates.back().scenes =
+        static_cast<std::size_t>(std::count_if(rig.begin(), rig.end(), [&](const RigMember& other) {
+          return is_of_same_sensor(other, *member);
+        }));
   }
   return estimates;
+}
+
+/// A pose that is not finite is a failure: it must not spoil the other scenes of its sensor. The
+/// only scene of a sensor is judged at the end of its trial.
+void fail_if_not_finite(RigMember& member, const std::string& step, const Rig& rig) {
+  const RigidTransform& T = member.result.estimate.T_target_source;
+  if (!member.result.failure.empty() || (T.rotation.allFinite() && T.translation.allFinite())) {
+    return;
+  }
+  const auto is_other = [&](const RigMember& other) {
+    return &other != &member && is_of_same_sensor(other, member);
+  };
+  if (std::any_of(rig.begin(), rig.end(), is_other)) {
+    member.result.failure = step + ": the pose is not finite";
+  }
 }
 
 /// Gives `member` what the step `name` made of its estimate in `seconds`.
@@ -51,15 +75,20 @@ void adjust_all(Rig& rig, const RigStep& step, const std::string& name, const St
   const double shared_before = seconds_spent_on_shared_work();
   const auto begin = std::chrono::steady_clock::now();
   Rng rng(key.with(name));
-  std::vector<RigEstimate> estimates = live_estimates(live);
+  std::vector<RigEstimate> estimates = live_estimates(live, rig);
   try {
     step.adjust(estimates, rng);
   } catch (const StageError& error) {
-    estimates = live_estimates(live);
+    estimates = live_estimates(live, rig);
     for (RigEstimate& estimate : estimates) estimate.failure = error.what();
   }
-  if (estimates.size() != live.size()) {
-    throw std::logic_error("the step \"" + name + "\" changed the number of estimates");
+  const bool is_kept =
+      std::equal(estimates.begin(), estimates.end(), live.begin(), live.end(),
+                 [](const RigEstimate& estimate, const RigMember* member) {
+                   return estimate.scene == member->scene && is_of_same_sensor(estimate, *member);
+                 });
+  if (!is_kept) {
+    throw std::logic_error("the step \"" + name + "\" changed the number or order of estimates");
   }
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -86,6 +115,7 @@ bool has_rig_step(const Pipeline& pipeline) {
 void advance(Rig& rig, const NamedStep& named, const StreamKey& key) {
   if (const RigStep* const step = rig_step(named)) {
     adjust_all(rig, *step, named.name, key);
+    for (RigMember& member : rig) fail_if_not_finite(member, named.name, rig);
     return;
   }
   for_each_in_parallel(rig.size(), [&](std::size_t i) {
@@ -93,6 +123,7 @@ void advance(Rig& rig, const NamedStep& named, const StreamKey& key) {
     // count as this one's.
     tbb::this_task_arena::isolate([&] { advance(rig[i].result, named, rig[i].key); });
   });
+  for (RigMember& member : rig) fail_if_not_finite(member, named.name, rig);
 }
 
 void run_pipeline(const Pipeline& pipeline, Rig& rig, const StreamKey& key) {
@@ -104,6 +135,12 @@ PipelineResult result_of_sensor(const std::vector<const RigMember*>& members) {
       std::min_element(members.begin(), members.end(),
                        [](const RigMember* a, const RigMember* b) { return rank(*a) < rank(*b); });
   PipelineResult result = (*best)->result;
+  for (const RigMember* const member : members) {
+    const std::vector<StepRecord>& records = member->result.records;
+    for (std::size_t i = result.records.size(); i < records.size(); ++i) {
+      result.records.push_back({records[i].name, 0.0, {}, std::nullopt});
+    }
+  }
   for (std::size_t i = 0; i < result.records.size(); ++i) {
     double& seconds = result.records[i].seconds = 0.0;
     for (const RigMember* const member : members) {

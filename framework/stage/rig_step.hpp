@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ struct RigEstimate {
   std::string source;  ///< The sensor whose pose is estimated.
   Estimate estimate;
   std::string failure = {};  ///< Empty, or why the step could not go on with this estimate.
+  /// The scenes of the trial that have the sensor; in some of them a step may have failed.
+  std::size_t scenes = 1;
 };
 
 /// A step that sees all scenes and sensors of a trial at once, where other steps see one pair of
@@ -21,12 +24,13 @@ struct RigEstimate {
 class RigStep : public Step {
  public:
   /// Improves the estimates of a trial in place: those that no step before has failed on, by scene
-  /// and then by sensor. Unlike other steps it sees the rejections of steps before, and may take
-  /// them back. Draws only from `rng`. Throws StageError if the data defeat it for all estimates.
+  /// and then by sensor; their number and order stay. In a rig, unlike on one pair, it sees the
+  /// rejections and the information of steps before, and may change them. Draws only from `rng`.
+  /// Throws StageError if the data defeat it for all estimates.
   virtual void adjust(std::vector<RigEstimate>& rig, Rng& rng) const = 0;
 
-  /// `adjust` for a rig of one estimate, whose scene and sensors have the names of its trial, if it
-  /// has any. Throws StageError if `adjust` does or sets a failure.
+  /// `adjust` for a rig of one estimate, whose scene and sensor have the names of its trial, if it
+  /// has any; the target's name is empty. Throws StageError if `adjust` does or sets a failure.
   Estimate advance(Estimate estimate, Rng& rng) const final;
 };
 

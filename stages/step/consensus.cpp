@@ -23,8 +23,10 @@ const params::Table<Params>& table() {
                      "Poses of two scenes agree if the angle between them is at most this."),
       params::number("translation_m", &Params::translation_m, {0.0, 1e6},
                      "Poses of two scenes agree if their origins are at most this far apart."),
-      params::number("min_agreeing_ratio", &Params::min_agreeing_ratio, {0.0, 1.0},
-                     "The pose is rejected if the poses of fewer of the scenes agree with it."),
+      params::number(
+          "min_agreeing_ratio", &Params::min_agreeing_ratio, {0.0, 1.0},
+          "The pose is rejected if the poses of fewer of the scenes agree with it; those in which "
+          "a step failed do not."),
   };
   return table;
 }
@@ -65,14 +67,14 @@ class ConsensusStep final : public RigStep {
       if (agree(vote->estimate.T_target_source, pose, bounds_)) agreeing.push_back(vote);
     }
     const double ratio =
-        static_cast<double>(agreeing.size()) / static_cast<double>(estimates.size());
+        static_cast<double>(agreeing.size()) / static_cast<double>(estimates.front()->scenes);
     const std::optional<Matrix6d> information = joint_information(agreeing);
     const std::optional<std::string> rejection = verdict(estimates, votes, agreeing.size(), ratio);
     for (RigEstimate* const one : estimates) {
       one->estimate.T_target_source = pose;
       one->estimate.information = information;
       one->estimate.rejection = rejection;
-      one->estimate.diagnostics = {{"scenes", static_cast<double>(estimates.size())},
+      one->estimate.diagnostics = {{"scenes", static_cast<double>(estimates.front()->scenes)},
                                    {"agreeing_ratio", ratio}};
     }
   }
@@ -95,7 +97,7 @@ class ConsensusStep final : public RigStep {
     if (votes.front()->estimate.rejection) return votes.front()->estimate.rejection;
     if (ratio >= params_.min_agreeing_ratio) return std::nullopt;
     return "the poses of " + std::to_string(agreeing) + " of " +
-           counted(estimates.size(), "scene") + " agree, a share below " +
+           counted(estimates.front()->scenes, "scene") + " agree, a share below " +
            fixed_number(params_.min_agreeing_ratio, 2);
   }
 

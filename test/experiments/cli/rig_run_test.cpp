@@ -27,6 +27,12 @@ class RigRun : public testing::Test {
     return croon("run \"" + file + "\" --out \"" + out().string() + "\" --quiet " + options);
   }
 
+  /// The groups in the manifest of a run that must have ended well.
+  std::string groups_after(const Answer& answer) const {
+    EXPECT_EQ(answer.code, 0) << answer.text;
+    return nlohmann::json::parse(read_whole_file(out() / "manifest.json")).at("groups").dump();
+  }
+
   std::filesystem::path out() const { return folder_.path() / "out"; }
 
   test::TempFolder folder_;
@@ -52,6 +58,21 @@ TEST_F(RigRun, EveryPictureAndCloudIsMade) {
   EXPECT_EQ(answer.code, 0) << answer.text;
   EXPECT_TRUE(std::filesystem::exists(out() / "before_after.png"));
   EXPECT_FALSE(std::filesystem::is_empty(out() / "clouds"));
+}
+
+TEST_F(RigRun, SimulatedScenesHaveTheSameGroupsAndStarts) {
+  const std::string before = groups_after(run(2));
+  const std::string trials = read_whole_file(out() / "trials.csv");
+  const std::filesystem::path scenes = folder_.path() / "scenes";
+  const Answer written = croon("simulate \"" + (folder_.path() / "rigs.json").string() +
+                               "\" --out \"" + scenes.string() + "\" --quiet");
+  ASSERT_EQ(written.code, 0) << written.text;
+  EXPECT_THAT(written.text, HasSubstr("5 scenes are in"));
+  const Answer again =
+      croon("run \"" + (scenes / "experiment.json").string() + "\" --data \"" + scenes.string() +
+            "\" --out \"" + out().string() + "\" --fresh --quiet");
+  EXPECT_EQ(groups_after(again), before);
+  EXPECT_EQ(read_whole_file(out() / "trials.csv"), trials);
 }
 
 TEST_F(RigRun, IsRefusedWithFewerScenesThanAGroupHas) {

@@ -184,6 +184,18 @@ TEST(Rigs, ASceneThatDefeatsAStepDoesNotEndTheTrial) {
   }
 }
 
+TEST(Rigs, ADamagedCloudIsSaid) {
+  const Experiment experiment = in_groups(4, 2, "", R"(, "one_rig": true, "unreadable": 0)");
+  const std::vector<Scene> scenes = scenes_of(experiment, "");
+  std::vector<std::string> reasons;
+  RunListener listener;
+  listener.on_damaged = [&](const std::string& reason) { reasons.push_back(reason); };
+  run_trials(experiment, scenes,
+             plan_trials(experiment, scenes, {select_variants(experiment, {}), {}}), 2, listener);
+  ASSERT_EQ(reasons.size(), 4U);
+  EXPECT_THAT(reasons.front(), HasSubstr(": the cloud of s1: byte 7"));
+}
+
 TEST(Rigs, GroupsWithoutARigStepGiveOnePosePerSensor) {
   const std::vector<TrialRecord> records =
       run(in_groups(6, 3, "", R"(, "one_rig": true)", R"([{"step": "drift"}])"));

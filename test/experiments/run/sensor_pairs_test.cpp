@@ -51,6 +51,19 @@ TEST(SensorPairs, GoAgain) {
   }
 }
 
+TEST(SensorPairs, GoFromGroupsWhoseScenesHaveOtherSensorsToo) {
+  Scene group;
+  group.name = "a+1";
+  for (const char* name : {"left", "right>left", "zed"}) group.sensors.emplace_back().sensor = name;
+  group.sensors[1].source = "right";
+  group.sensors[1].target = "left";
+  group.parts = {group, group};
+  const Scene without = without_pairs({group}).front();
+  ASSERT_EQ(without.sensors.size(), 2U);
+  EXPECT_EQ(without.sensors[1].sensor, "zed");
+  EXPECT_EQ(without.parts.front().sensors.size(), 2U);
+}
+
 std::vector<Scene> scenes_with(const std::vector<std::string>& sensors) {
   Scene scene;
   scene.name = "s";

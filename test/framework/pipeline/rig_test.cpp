@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
+#include <limits>
 #include <stdexcept>
 
 #include "framework/base/error.hpp"
@@ -136,6 +138,36 @@ TEST(Rig, ARigStepThatLosesAnEstimateIsABug) {
                std::logic_error);
 }
 
+TEST(Rig, ARigStepThatReordersEstimatesIsABug) {
+  Rig rig = four();
+  const auto reverse =
+      named<Adjusting>("all", [](auto& all, Rng&) { std::reverse(all.begin(), all.end()); });
+  EXPECT_THROW(run_pipeline({reverse}, rig, StreamKey(9)), std::logic_error);
+}
+
+TEST(Rig, AnEstimateKnowsInHowManyScenesItsSensorIs) {
+  Rig rig = four();
+  rig[0].result.failure = "no ground";
+  rig.push_back(member("c", "left"));
+  run_pipeline({named<Adjusting>("all",
+                                 [](std::vector<RigEstimate>& all, Rng&) {
+                                   for (const RigEstimate& one : all) {
+                                     EXPECT_EQ(one.scenes, one.source == "left" ? 3U : 2U);
+                                   }
+                                 })},
+               rig, StreamKey(9));
+}
+
+TEST(Rig, APoseThatIsNotFiniteDoesNotSpoilOtherScenes) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Rig rig = {member("a", "left", nan), member("b", "left", 2.0), member("b", "right", nan)};
+  run_pipeline({named<Moving>("move")}, rig, StreamKey(9));
+  EXPECT_EQ(rig[0].result.failure, "move: the pose is not finite");
+  EXPECT_EQ(rig[1].result.failure, "");
+  EXPECT_EQ(rig[2].result.failure, "");  // Its only scene; the end of the trial judges it.
+  EXPECT_EQ(result_of_sensor({&rig[0], &rig[1]}).failure, "");
+}
+
 TEST(Rig, ARigStepMayRejectAndTakeARejectionBack) {
   Rig rig = four();
   rig[0].result.estimate.rejection = "first: no";
@@ -196,6 +228,7 @@ TEST(Rig, TheResultOfASensorIsTheFirstThatCanBeTrusted) {
   EXPECT_EQ(result_of_sensor({&failed}).failure, "no ground");
   EXPECT_EQ(result_of_sensor({&second, &failed, &first}).records[0].seconds, 3.0);
   EXPECT_EQ(result_of_sensor({&second, &failed, &first}).records[1].seconds, 0.5);
+  EXPECT_EQ(result_of_sensor({&first, &second}).records.at(1).seconds, 0.5);
 }
 
 TEST(Rig, KnowsWhetherAStepSeesIt) {

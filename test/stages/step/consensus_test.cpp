@@ -21,8 +21,17 @@ std::vector<RigEstimate> near_estimates(Rng& rng, const std::string& sensor,
   return rig;
 }
 
-void adjust(std::vector<RigEstimate>& rig, const std::string& parameters = "") {
+/// Adjusts the rig; in `failed` more scenes a step before has failed.
+void adjust(std::vector<RigEstimate>& rig, const std::string& parameters = "",
+            std::size_t failed = 0) {
   Rng rng = test::test_rng();
+  for (RigEstimate& one : rig) {
+    const auto is_of_sensor = [&](const RigEstimate& other) {
+      return other.target == one.target && other.source == one.source;
+    };
+    one.scenes =
+        static_cast<std::size_t>(std::count_if(rig.begin(), rig.end(), is_of_sensor)) + failed;
+  }
   const auto step = test::stage<Step>(R"({"step": "consensus")" + parameters + "}");
   dynamic_cast<const RigStep&>(*step).adjust(rig, rng);
 }
@@ -87,6 +96,13 @@ TEST(Consensus, RejectsWhereScenesDoNotAgree) {
   }
   adjust(lenient, R"(, "min_agreeing_ratio": 0.5)");
   EXPECT_FALSE(lenient.front().estimate.rejection);
+}
+
+TEST(Consensus, AFailedSceneDoesNotAgree) {
+  Rng rng = test::test_rng(9);
+  std::vector<RigEstimate> rig = near_estimates(rng, "left", test::random_pose(rng, 3.0), 2);
+  adjust(rig, "", 3);
+  EXPECT_EQ(rig.front().estimate.rejection, "the poses of 2 of 5 scenes agree, a share below 0.60");
 }
 
 TEST(Consensus, RejectedPosesHaveNoVoteBesideAcceptedOnes) {
