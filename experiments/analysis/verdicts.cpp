@@ -4,13 +4,10 @@
 #include <map>
 #include <utility>
 
+#include "experiments/run/trial_end.hpp"
+
 namespace croon::experiments {
 namespace {
-
-bool is_within(const PoseError& error, const SuccessBounds& threshold) {
-  const PoseBounds bounds = pose_bounds(threshold);
-  return error.rotation_rad <= bounds.rotation_rad && error.translation_m <= bounds.translation_m;
-}
 
 void add(VerdictCounts& counts, const TrialRecord& record, const SuccessBounds& threshold) {
   if (!record.error) {

@@ -60,12 +60,6 @@ Points points_of(const SensorScan& scan) {
   }
 }
 
-bool is_readable(const Scene& scene) {
-  return !points_of(scene.reference).empty() &&
-         std::none_of(scene.sensors.begin(), scene.sensors.end(),
-                      [](const SensorScan& scan) { return points_of(scan).empty(); });
-}
-
 /// The scenes without pairs of sensors; of a group the first one, under the name of the group:
 /// clouds of several scenes are not of one place.
 std::vector<Scene> shown_scenes(const std::vector<Scene>& scenes) {
@@ -96,14 +90,14 @@ std::string draw_before_after(const Experiment& experiment, const std::vector<Sc
   for (const Scene& scene : shown_scenes(scenes)) {
     const std::vector<Pose> poses = agreed_poses(summary, experiment.variants.front(), scene);
     if (std::count(poses.begin(), poses.end(), std::nullopt) > 0) continue;
+    std::optional<Image> image;
     try {
-      const Image image = drawn(experiment, scene, poses);
-      write_png(path, image);
+      image = drawn(experiment, scene, poses);
     } catch (const InputError&) {
-      // Of a group, the poses may be those of other scenes, and this one's clouds damaged.
-      if (!is_readable(scene)) continue;
-      throw;
+      continue;  // Of a group, the poses may be those of other scenes, and this one's clouds
+                 // damaged.
     }
+    write_png(path, *image);
     return scene.name;
   }
   return "";

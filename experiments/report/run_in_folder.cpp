@@ -26,7 +26,8 @@ std::vector<Plan> one_by_one(const Plan& plan) {
   return list;
 }
 
-/// Runs what is missing into the store. Returns a line for each cloud that was not available.
+/// Runs what is missing into the store. Returns a line for each cloud that was not available or, in
+/// a group, damaged.
 std::vector<std::string> fill_store(const CheckedRun& run, const OutputFolder& folder,
                                     const Work& work, const FolderRun& how, Progress& progress) {
   progress.skip(work.done);

@@ -16,11 +16,6 @@ bool is_near(const RigidTransform& T) {
   return T.translation.cwiseAbs().maxCoeff() <= kLargestDistance_m;
 }
 
-bool is_within(const PoseError& error, const SuccessBounds& bounds) {
-  return error.rotation_rad <= rad_from_deg(bounds.rotation_deg) &&
-         error.translation_m <= bounds.translation_m;
-}
-
 /// Completes the record of a trial whose pipeline did not fail.
 void finish(TrialRecord& record, const Estimate& estimate, const SensorScan& scan,
             const SuccessBounds& bounds) {
@@ -49,6 +44,11 @@ void finish(TrialRecord& record, const Estimate& estimate, const SensorScan& sca
 }
 
 }  // namespace
+
+bool is_within(const PoseError& error, const SuccessBounds& bounds) {
+  return error.rotation_rad <= rad_from_deg(bounds.rotation_deg) &&
+         error.translation_m <= bounds.translation_m;
+}
 
 TrialRecord record_of(const TrialId& id, const PipelineResult& result, const SensorScan& scan,
                       const SuccessBounds& bounds) {

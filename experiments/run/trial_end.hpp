@@ -5,6 +5,9 @@
 
 namespace croon::experiments {
 
+/// Whether a pose with this error is right.
+bool is_within(const PoseError& error, const SuccessBounds& bounds);
+
 /// The record of the trial `id` that ended with `result`, judged by the truth of `scan` and
 /// `bounds`. A pose that is not finite, too far away for its error to be, or no rotation, is a
 /// failure.

@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include "framework/geometry/rigid_transform.hpp"
+#include "framework/base/angles.hpp"
+#include "framework/geometry/pose_mean.hpp"
 #include "framework/stage/extras.hpp"
 
 namespace croon {
@@ -12,6 +13,9 @@ struct Hypothesis {
   RigidTransform T_target_source;
   double score = 0.0;
 };
+
+/// Poses that agree within these bounds are one hypothesis.
+inline const PoseBounds kSameHypothesis = {rad_from_deg(1.0), 0.3};
 
 /// The poses between which a global search chose, best first, no two of them near each other.
 inline constexpr Extra<std::vector<Hypothesis>> kHypotheses{

@@ -74,11 +74,6 @@ struct Scan {
   std::vector<Levelled> levels;         ///< Above each plane that may be the ground.
 };
 
-bool is_near(const RigidTransform& a, const RigidTransform& b, double angle_deg, double length_m) {
-  const PoseError apart = pose_error(a, b);
-  return apart.rotation_rad <= rad_from_deg(angle_deg) && apart.translation_m <= length_m;
-}
-
 void sort_by_score(std::vector<Hypothesis>& poses) {
   std::stable_sort(poses.begin(), poses.end(),
                    [](const auto& a, const auto& b) { return a.score > b.score; });
@@ -86,13 +81,11 @@ void sort_by_score(std::vector<Hypothesis>& poses) {
 
 /// The best poses that are not near a better one.
 std::vector<Hypothesis> apart(std::vector<Hypothesis> poses) {
-  constexpr double kNear_deg = 1.0;
-  constexpr double kNear_m = 0.3;
   sort_by_score(poses);
   std::vector<Hypothesis> kept;
   for (const Hypothesis& pose : poses) {
     const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const Hypothesis& other) {
-      return is_near(pose.T_target_source, other.T_target_source, kNear_deg, kNear_m);
+      return agree(pose.T_target_source, other.T_target_source, kSameHypothesis);
     });
     if (is_new) kept.push_back(pose);
   }
@@ -103,7 +96,12 @@ class GlobalAlignment final : public Step {
  public:
   explicit GlobalAlignment(Params params) : params_(std::move(params)) {}
 
-  static params::DataFlow data_flow(const Params&) { return {{}, {}, {}, {kHypotheses.doc()}}; }
+  static params::DataFlow data_flow(const Params& params) {
+    params::DataFlow flow = params.thinning.flow();
+    flow.add(params.icp.flow());
+    flow.gives.push_back(kHypotheses.doc());
+    return flow;
+  }
 
   Estimate advance(Estimate estimate, Rng&) const override {
     const auto target = scan_of(*estimate.target, "reference");
@@ -204,12 +202,10 @@ class GlobalAlignment final : public Step {
 
   std::vector<Hypothesis> near_start(const std::vector<Hypothesis>& poses,
                                      const RigidTransform& start) const {
+    const PoseBounds bounds{rad_from_deg(params_.max_rotation_deg), params_.max_translation_m};
     std::vector<Hypothesis> near;
     for (const Hypothesis& pose : poses) {
-      if (is_near(pose.T_target_source, start, params_.max_rotation_deg,
-                  params_.max_translation_m)) {
-        near.push_back(pose);
-      }
+      if (agree(pose.T_target_source, start, bounds)) near.push_back(pose);
     }
     return near;
   }

@@ -178,13 +178,13 @@ class Verdict final : public Step {
     double best = kNone;
     std::size_t refined = 0;
     for (const Hypothesis& other : *others) {
-      if (is_near(other.T_target_source, estimate.T_target_source)) continue;
+      if (agree(other.T_target_source, estimate.T_target_source, kSameHypothesis)) continue;
       if (++refined > kRefined) break;
       double score = other.score;
       try {
         const RigidTransform T =
             params_.icp->align(*target.thinned, points, other.T_target_source).T_target_source;
-        if (!is_near(T, estimate.T_target_source)) {
+        if (!agree(T, estimate.T_target_source, kSameHypothesis)) {
           score = std::max(score, pose_evidence(target, source, T, {}).score());
         }
       } catch (const StageError&) {
@@ -192,13 +192,6 @@ class Verdict final : public Step {
       best = std::max(best, score);
     }
     return best;
-  }
-
-  static bool is_near(const RigidTransform& a, const RigidTransform& b) {
-    constexpr double kNear_deg = 1.0;
-    constexpr double kNear_m = 0.3;
-    const PoseError apart = pose_error(a, b);
-    return apart.rotation_rad <= rad_from_deg(kNear_deg) && apart.translation_m <= kNear_m;
   }
 
   Params params_;
