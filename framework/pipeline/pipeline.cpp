@@ -1,23 +1,12 @@
 #include "framework/pipeline/pipeline.hpp"
 
-#include <chrono>
 #include <optional>
 #include <utility>
 
 #include "framework/base/error.hpp"
+#include "framework/pipeline/own_time.hpp"
 
 namespace croon {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-/// Seconds since `start`, less the shared work that this thread did or waited for in between.
-double own_seconds(Clock::time_point start, double shared_before) {
-  const double wall = std::chrono::duration<double>(Clock::now() - start).count();
-  return wall - (seconds_spent_on_shared_work() - shared_before);
-}
-
-}  // namespace
 
 PipelineResult at_start(std::shared_ptr<const Cloud> target, std::shared_ptr<const Cloud> source,
                         const RigidTransform& start) {
@@ -31,8 +20,7 @@ PipelineResult at_start(std::shared_ptr<const Cloud> target, std::shared_ptr<con
 void advance(PipelineResult& result, const NamedStep& named, const StreamKey& key) {
   if (!result.failure.empty()) return;
   const auto& [name, step] = named;
-  const double shared_before = seconds_spent_on_shared_work();
-  const Clock::time_point step_start = Clock::now();
+  const OwnTime time;
   Rng rng(key.with(name));
   Estimate before = std::move(result.estimate);
   const std::optional<std::string> rejection = std::exchange(before.rejection, std::nullopt);
@@ -45,8 +33,7 @@ void advance(PipelineResult& result, const NamedStep& named, const StreamKey& ke
     result.failure = name + ": " + error.what();
   }
   Estimate& after = result.estimate;
-  result.records.push_back(
-      {name, own_seconds(step_start, shared_before), after.diagnostics, after.information});
+  result.records.push_back({name, time.seconds(), after.diagnostics, after.information});
   if (!after.information) after.information = information;
   after.rejection = after.rejection ? std::optional(name + ": " + *after.rejection) : rejection;
 }

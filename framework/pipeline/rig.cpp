@@ -3,11 +3,11 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 
 #include "framework/base/error.hpp"
 #include "framework/base/threads.hpp"
+#include "framework/pipeline/own_time.hpp"
 #include "framework/stage/rig_step.hpp"
 
 namespace croon {
@@ -72,8 +72,7 @@ void adjust_all(Rig& rig, const RigStep& step, const std::string& name, const St
     if (member.result.failure.empty()) live.push_back(&member);
   }
   if (live.empty()) return;
-  const double shared_before = seconds_spent_on_shared_work();
-  const auto begin = std::chrono::steady_clock::now();
+  const OwnTime time;
   Rng rng(key.with(name));
   std::vector<RigEstimate> estimates = live_estimates(live, rig);
   try {
@@ -90,10 +89,7 @@ void adjust_all(Rig& rig, const RigStep& step, const std::string& name, const St
   if (!is_kept) {
     throw std::logic_error("the step \"" + name + "\" changed the number or order of estimates");
   }
-  const double wall =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const double seconds =
-      (wall - (seconds_spent_on_shared_work() - shared_before)) / static_cast<double>(live.size());
+  const double seconds = time.seconds() / static_cast<double>(live.size());
   for (std::size_t i = 0; i < live.size(); ++i) {
     take(*live[i], name, std::move(estimates[i]), seconds);
   }
@@ -115,14 +111,13 @@ bool has_rig_step(const Pipeline& pipeline) {
 void advance(Rig& rig, const NamedStep& named, const StreamKey& key) {
   if (const RigStep* const step = rig_step(named)) {
     adjust_all(rig, *step, named.name, key);
-    for (RigMember& member : rig) fail_if_not_finite(member, named.name, rig);
-    return;
+  } else {
+    for_each_in_parallel(rig.size(), [&](std::size_t i) {
+      // Isolated: a thread that waits inside a step must not start another member, whose time would
+      // count as this one's.
+      tbb::this_task_arena::isolate([&] { advance(rig[i].result, named, rig[i].key); });
+    });
   }
-  for_each_in_parallel(rig.size(), [&](std::size_t i) {
-    // Isolated: a thread that waits inside a step must not start another member, whose time would
-    // count as this one's.
-    tbb::this_task_arena::isolate([&] { advance(rig[i].result, named, rig[i].key); });
-  });
   for (RigMember& member : rig) fail_if_not_finite(member, named.name, rig);
 }
 
