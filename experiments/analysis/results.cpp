@@ -71,6 +71,7 @@ Results results_of(StoredRun run, const std::string& file) {
   const std::optional<Sweep>& sweep = experiment.starts.sweep;
   if (sweep) results.basin = basin_of(results.records, *sweep, order);
   results.verdicts = verdicts_of(results.records, results.summary);
+  results.coverage = coverage_of(results.records, results.summary);
   results.claims = check_claims(experiment.claims, results.summary);
   results.quoted = experiment.quoted;
   return results;

@@ -9,6 +9,7 @@
 
 #include "experiments/analysis/basin.hpp"
 #include "experiments/analysis/claims.hpp"
+#include "experiments/analysis/coverage.hpp"
 #include "experiments/analysis/diagnostics.hpp"
 #include "experiments/analysis/summary.hpp"
 #include "experiments/analysis/verdicts.hpp"
@@ -38,6 +39,7 @@ struct Results {
   std::map<std::string, std::string> references;  ///< The sensor that each is calibrated to.
   std::optional<Basin> basin;                     ///< Of a sweep.
   Verdicts verdicts;                              ///< Of the program, against the truth.
+  Coverage coverage;                              ///< Of covariances, against the truth.
   std::vector<ClaimResult> claims;                ///< The claims of the experiment, checked.
   std::vector<Quoted> quoted;                     ///< Rows of other methods.
 };

@@ -38,6 +38,32 @@ Agreeing agreeing_with(const RigidTransform& pose, const SceneRecords& records,
           root_mean_square(translations)};
 }
 
+/// The covariance of the pose that trials of one scene agree on.
+std::optional<PoseCovariance> covariance_near(const RigidTransform& pose,
+                                              const SceneRecords& records,
+                                              const PoseBounds& bounds) {
+  std::vector<PoseCovariance> near;
+  for (const TrialRecord* record : records) {
+    if (!is_near(*record, pose, bounds).value_or(false)) continue;
+    if (!record->covariance) return std::nullopt;
+    near.push_back(*record->covariance);
+  }
+  return near.empty() ? std::nullopt : std::optional(mean_covariance(near));
+}
+
+/// The covariance of the pose that scenes agree on.
+std::optional<PoseCovariance> covariance_near(const RigidTransform& pose,
+                                              const std::vector<SceneSummary>& scenes,
+                                              const PoseBounds& bounds) {
+  std::vector<PoseCovariance> near;
+  for (const SceneSummary& scene : scenes) {
+    if (!scene.consensus || !agree(*scene.consensus, pose, bounds)) continue;
+    if (!scene.covariance) return std::nullopt;
+    near.push_back(*scene.covariance);
+  }
+  return near.empty() ? std::nullopt : std::optional(covariance_of_mean(near));
+}
+
 /// The outcomes of a scene and the pose that its trials agree on: all that does not need the other
 /// scenes.
 SceneSummary without_deviations(const SceneRecords& records, const PoseBounds& bounds) {
@@ -54,6 +80,7 @@ SceneSummary without_deviations(const SceneRecords& records, const PoseBounds& b
   scene.deviations_from = std::min(scene.deviations_from, DeviationsFrom::consensus);
   scene.consensus = consensus_pose(poses, bounds);
   scene.agreeing = agreeing_with(*scene.consensus, records, bounds);
+  scene.covariance = covariance_near(*scene.consensus, records, bounds);
   return scene;
 }
 
@@ -298,6 +325,7 @@ SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds
   if (!consensus.empty()) {
     row.consensus = consensus_pose(consensus, bounds, votes);
     row.agreeing = agreeing_with(*row.consensus, all, bounds);
+    row.covariance = covariance_near(*row.consensus, row.scenes, bounds);
   }
   // Truth if one trial of any scene has it.
   const DeviationsFrom from = pooled_counts(scenes_of({&row})).deviations_from;

@@ -105,9 +105,12 @@ struct SceneSummary : TrialSummary {
   std::string scene;
   std::string scene_kind;  ///< "urban"; empty if the dataset names none.
   std::optional<RigidTransform>
-      consensus;                     ///< `T_reference_sensor` that its usable poses agree on.
-  Agreeing agreeing;                 ///< The trials that `agrees` is true for.
-  std::vector<Measures> deviations;  ///< Of the trials that count, by trial.
+      consensus;  ///< `T_reference_sensor` that its usable poses agree on.
+  /// Of `consensus`: the mean over the trials near it, which share their data; std::nullopt if one
+  /// of them has none.
+  std::optional<PoseCovariance> covariance;
+  Agreeing agreeing;                        ///< The trials that `agrees` is true for.
+  std::vector<Measures> deviations;         ///< Of the trials that count, by trial.
   std::vector<Measures> usable_deviations;  ///< Of the trials with a usable pose.
   /// The deviations of the same trials from what they agree on.
   std::vector<Measures> spread;
@@ -124,6 +127,9 @@ struct SummaryRow : TrialSummary {
   /// The pose that the consensus poses of the scenes agree on, each with as many votes as trials of
   /// its scene agree with it.
   std::optional<RigidTransform> consensus;
+  /// Of `consensus`, a mean over the scenes near it, whose errors are taken as independent;
+  /// std::nullopt if one of them has none.
+  std::optional<PoseCovariance> covariance;
   Agreeing agreeing;  ///< The trials of all scenes that are near `consensus`.
   /// The sample std of the trials that count about their scene's consensus, pooled over scenes by
   /// degrees of freedom; std::nullopt if no scene has two such trials.

@@ -9,6 +9,15 @@
 namespace croon::experiments {
 namespace {
 
+VerdictCounts& operator+=(VerdictCounts& sum, const VerdictCounts& other) {
+  sum.accepted_right += other.accepted_right;
+  sum.accepted_wrong += other.accepted_wrong;
+  sum.rejected_right += other.rejected_right;
+  sum.rejected_wrong += other.rejected_wrong;
+  sum.failed += other.failed;
+  return sum;
+}
+
 void add(VerdictCounts& counts, const TrialRecord& record, const SuccessBounds& threshold) {
   if (!record.error) {
     ++counts.failed;
@@ -48,20 +57,23 @@ Verdicts verdicts_of(const std::vector<TrialRecord>& records, const Summary& sum
   std::map<std::pair<std::string, std::string>, VerdictRow> rows;
   for (const TrialRecord& record : records) {
     if (!is_judged(record)) continue;
-    for (const std::string& sensor : {record.id.sensor, std::string()}) {
-      add(rows[{record.id.variant, sensor}], record, summary.bounds, verdicts.thresholds);
-    }
+    add(rows[{record.id.variant, record.id.sensor}], record, summary.bounds, verdicts.thresholds);
   }
-  std::vector<std::string> sensors = sensors_of(summary);
-  sensors.emplace_back();
   for (const std::string& variant : variants_of(summary)) {
-    for (const std::string& sensor : sensors) {
+    VerdictRow all{variant, "", {}, std::vector<VerdictCounts>(verdicts.thresholds.size())};
+    for (const std::string& sensor : sensors_of(summary)) {
       const auto found = rows.find({variant, sensor});
       if (found == rows.end()) continue;
-      found->second.variant = variant;
-      found->second.sensor = sensor;
-      verdicts.rows.push_back(std::move(found->second));
+      VerdictRow& row = found->second;
+      row.variant = variant;
+      row.sensor = sensor;
+      all.at_bounds += row.at_bounds;
+      for (std::size_t i = 0; i < all.at_thresholds.size(); ++i) {
+        all.at_thresholds[i] += row.at_thresholds[i];
+      }
+      verdicts.rows.push_back(std::move(row));
     }
+    if (all.at_bounds.trials() > 0) verdicts.rows.push_back(std::move(all));
   }
   return verdicts;
 }

@@ -255,7 +255,7 @@ py::array_t<double> array_from(const RigidTransform& pose) {
   return matrix_array<4, 4>(matrix);
 }
 
-Matrix6d information_from(const py::object& object, const std::string& what) {
+Matrix6d matrix6_from(const py::object& object, const std::string& what) {
   const py::array_t<double> values = numbers(object, what, "a 6×6 matrix of numbers", {6, 6});
   const auto view = values.unchecked<2>();
   Matrix6d matrix;

@@ -37,7 +37,7 @@ RigidTransform pose_from(const py::object& array, const std::string& what);
 py::array_t<double> array_from(const RigidTransform& pose);
 
 /// A 6×6 matrix. Throws InputError for another shape and for numbers that are not finite.
-Matrix6d information_from(const py::object& array, const std::string& what);
+Matrix6d matrix6_from(const py::object& array, const std::string& what);
 py::array_t<double> array_from(const Matrix6d& matrix);
 /// None if there is none.
 py::object object_from(const std::optional<Matrix6d>& matrix);

@@ -19,4 +19,7 @@ Estimate estimate_from(const py::object& result, Estimate given);
 /// The type of an extra of Python in C++, for `float` and for any other object.
 std::string extra_type(bool is_number);
 
+/// The words of a covariance by the names of the degrees of freedom, a dict; None if there is none.
+py::object words_from(const std::optional<PoseCovariance>& covariance);
+
 }  // namespace croon::python

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "experiments/python/arrays.hpp"
 #include "experiments/python/bindings.hpp"
 #include "experiments/python/estimates.hpp"
@@ -62,7 +64,42 @@ py::object text_object(const std::optional<std::string>& text) {
 
 void set_information(Estimate& estimate, const py::object& matrix) {
   estimate.information.reset();
-  if (!matrix.is_none()) estimate.information = information_from(matrix, "information");
+  if (!matrix.is_none()) estimate.information = matrix6_from(matrix, "information");
+}
+
+py::object covariance_object(const Estimate& estimate) {
+  return estimate.covariance ? py::object(array_from(estimate.covariance->matrix)) : py::none();
+}
+
+void set_covariance(Estimate& estimate, const py::object& matrix) {
+  estimate.covariance.reset();
+  if (matrix.is_none()) return;
+  const Matrix6d covariance = matrix6_from(matrix, "covariance");
+  if (!is_covariance(covariance)) {
+    throw InputError("", "covariance",
+                     "expected a symmetric matrix without negative eigenvalues, found another");
+  }
+  estimate.covariance = PoseCovariance{covariance, {}};
+}
+
+void set_observability(Estimate& estimate, const py::object& words) {
+  if (!estimate.covariance) {
+    throw InputError("", "observability", "expected a covariance before the words, found none");
+  }
+  if (!py::isinstance<py::dict>(words)) {
+    throw InputError("", "observability", "expected a dict, found " + type_words(words));
+  }
+  for (const auto& [name, word] : py::dict(words)) {
+    const auto dof = std::find(kDofNames.begin(), kDofNames.end(), text_of(py::str(name)));
+    const std::optional<Observability> known = observability_of(text_of(py::str(word)));
+    if (dof == kDofNames.end() || !known) {
+      throw InputError("", "observability",
+                       "expected determined, weak or unobservable for roll, pitch, yaw, x, y or z, "
+                       "found " +
+                           text_of(py::repr(name)) + ": " + text_of(py::repr(word)));
+    }
+    estimate.covariance->dofs.at(static_cast<std::size_t>(dof - kDofNames.begin())) = *known;
+  }
 }
 
 void set_rejection(Estimate& estimate, const py::object& reason) {
@@ -82,6 +119,15 @@ py::object trial_object(const Estimate& estimate) {
 }
 
 }  // namespace
+
+py::object words_from(const std::optional<PoseCovariance>& covariance) {
+  if (!covariance) return py::none();
+  py::dict words;
+  for (std::size_t i = 0; i < kDofNames.size(); ++i) {
+    words[py::str(kDofNames[i])] = name_of(covariance->dofs[i]);
+  }
+  return std::move(words);
+}
 
 Estimate estimate_from(const py::object& result, Estimate given) {
   if (py::isinstance<Estimate>(result)) return py::cast<Estimate>(result);
@@ -115,6 +161,14 @@ void bind_estimates(py::module_& module) {
           "The information matrix that this step computed, 6×6: roll, pitch, yaw (rad), x, y, z "
           "(m);\n"
           "None if it computes none.")
+      .def_property("covariance", covariance_object, set_covariance,
+                    "The covariance of the pose, 6×6: roll, pitch, yaw (rad), x, y, z (m) in the\n"
+                    "target's frame; None if no step has estimated it. A step that moves the pose\n"
+                    "assigns a new one, or there is none.")
+      .def_property(
+          "observability", [](const E& e) { return words_from(e.covariance); }, set_observability,
+          "How well the data hold each degree of freedom, by its name: determined, weak or\n"
+          "unobservable; None without a covariance. Assign a dict after the covariance.")
       .def_property(
           "rejection", [](const E& e) { return text_object(e.rejection); }, set_rejection,
           "Why the pose must not be trusted; None if it may be.")

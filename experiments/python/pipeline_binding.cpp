@@ -2,6 +2,7 @@
 
 #include "experiments/python/arrays.hpp"
 #include "experiments/python/bindings.hpp"
+#include "experiments/python/estimates.hpp"
 #include "experiments/python/interpreter.hpp"
 #include "experiments/python/stage_catalogue.hpp"
 #include "framework/pipeline/calibrate.hpp"
@@ -39,7 +40,7 @@ class SharedPipeline {
  public:
   explicit SharedPipeline(Pipeline pipeline) : pipeline_(std::move(pipeline)) {}
 
-  /// pose, information, diagnostics, rejection, seconds.
+  /// pose, information, covariance, observability, diagnostics, rejection, seconds.
   py::tuple run(const py::object& target, const py::object& source, const py::object& initial,
                 std::uint64_t seed, const std::string& scene, const std::string& reference,
                 const std::string& sensor, int trial) const {
@@ -58,7 +59,8 @@ class SharedPipeline {
     const Estimate& estimate = result.estimate;
     return py::make_tuple(
         array_from(estimate.T_target_source), object_from(estimate.information),
-        steps_dict(result.records),
+        estimate.covariance ? py::object(array_from(estimate.covariance->matrix)) : py::none(),
+        words_from(estimate.covariance), steps_dict(result.records),
         estimate.rejection ? py::object(py::str(*estimate.rejection)) : py::none(),
         seconds_dict(result.records));
   }

@@ -179,6 +179,10 @@ void bind_runs(py::module_& module) {
              return array_of(
                  [&](const RowUse& use) { return diagnostic_rows(r.records, r.steps, use); });
            })
+      .def("covariances",
+           [](const R& r) {
+             return array_of([&](const RowUse& use) { return covariance_rows(r.records, use); });
+           })
       .def("poses", poses)
       .def("extrinsics", [](const R& r) { return extrinsics_json(r.summary, r.references); })
       .def("text", [](const R& r) { return result_text(r, false); });

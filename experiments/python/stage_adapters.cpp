@@ -190,7 +190,7 @@ class PythonIcp final : public Icp, Caller {
     registration.converged = py::cast<bool>(result.attr("converged"));
     const py::object information = result.attr("information");
     if (!information.is_none()) {
-      registration.information = information_from(information, "align: the information");
+      registration.information = matrix6_from(information, "align: the information");
     }
     return registration;
   }

@@ -70,4 +70,38 @@ std::string verdicts_csv(const Verdicts& verdicts) {
   return csv_table(table);
 }
 
+std::string coverage_csv(const Coverage& coverage) {
+  Table table{{{"variant"},
+               {"sensor"},
+               {"dof"},
+               {"level", "ratio"},
+               {"trials"},
+               {"held"},
+               {"held", "ratio"},
+               {"held_low", "ratio"},
+               {"held_high", "ratio"}},
+              {}};
+  for (const CoverageRow& row : coverage.rows) {
+    for (std::size_t k = 0; k < row.held.size(); ++k) {
+      const Share& share = row.held[k];
+      table.rows.push_back(cell_row(row.variant, name_of_sensor(row.sensor), name_of_dof(row),
+                                    kCoverageLevels.at(k), share.trials, share.count, share.ratio,
+                                    low_of(share.interval), high_of(share.interval)));
+    }
+  }
+  return csv_table(table);
+}
+
+std::string nees_csv(const Coverage& coverage) {
+  Table table{
+      {{"variant"}, {"sensor"}, {"trials"}, {"mean"}, {"median"}, {"median_low"}, {"median_high"}},
+      {}};
+  for (const NormalisedErrors& errors : coverage.errors) {
+    table.rows.push_back(cell_row(errors.variant, name_of_sensor(errors.sensor), errors.trials,
+                                  errors.mean, errors.median, low_of(errors.interval),
+                                  high_of(errors.interval)));
+  }
+  return csv_table(table);
+}
+
 }  // namespace croon::experiments

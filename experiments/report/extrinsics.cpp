@@ -16,21 +16,31 @@ struct Extrinsics {
   std::string reference_sensor;
 };
 
-Columns<Extrinsics> extrinsics_columns() {
+/// The covariance of an agreed pose; only results with covariances have it.
+Columns<AgreedPose> agreed_covariance_columns(bool has_covariances) {
+  Columns<AgreedPose> columns;
+  if (has_covariances) columns.add(covariance_columns("/covariance"), &AgreedPose::covariance);
+  return columns;
+}
+
+Columns<Extrinsics> extrinsics_columns(bool has_covariances) {
   using E = Extrinsics;
   Columns<E> columns;
   return columns.add({"variant"}, [](const E& e) { return e.row->variant; })
       .add({"sensor"}, [](const E& e) { return e.row->sensor; })
       .add({"reference_sensor"}, [](const E& e) { return nothing_if_empty(e.reference_sensor); })
-      .add(agreed_pose_columns(), [](const E& e) { return agreed_pose(*e.row); });
+      .add(agreed_pose_columns(), [](const E& e) { return agreed_pose(*e.row); })
+      .add(agreed_covariance_columns(has_covariances),
+           [](const E& e) { return agreed_pose(*e.row); });
 }
 
-Columns<SceneSummary> scene_columns() {
+Columns<SceneSummary> scene_columns(bool has_covariances) {
   using S = SceneSummary;
+  const auto pose = [](const S& scene) { return agreed_pose(scene); };
   Columns<S> columns;
-  return columns.add({"scene"}, &S::scene).add(agreed_pose_columns(), [](const S& scene) {
-    return agreed_pose(scene);
-  });
+  return columns.add({"scene"}, &S::scene)
+      .add(agreed_pose_columns(), pose)
+      .add(agreed_covariance_columns(has_covariances), pose);
 }
 
 /// The 4x4 matrix of a pose.
@@ -39,6 +49,16 @@ Eigen::Matrix4d homogeneous(const RigidTransform& T) {
   matrix.topLeftCorner<3, 3>() = T.rotation;
   matrix.topRightCorner<3, 1>() = T.translation;
   return matrix;
+}
+
+/// Whether a scene has a covariance.
+bool has_covariance(const Summary& summary) {
+  for (const SummaryRow& row : summary.rows) {
+    for (const SceneSummary& scene : row.scenes) {
+      if (scene.covariance) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -91,16 +111,17 @@ Columns<AgreedPose> agreed_pose_columns() {
 }
 
 AgreedPose agreed_pose(const SummaryRow& row) {
-  return {row.consensus, row.outcomes.trials, row.agreeing};
+  return {row.consensus, row.outcomes.trials, row.agreeing, row.covariance};
 }
 
 AgreedPose agreed_pose(const SceneSummary& scene) {
-  return {scene.consensus, scene.outcomes.trials, scene.agreeing};
+  return {scene.consensus, scene.outcomes.trials, scene.agreeing, scene.covariance};
 }
 
 std::string extrinsics_json(const Summary& summary,
                             const std::map<std::string, std::string>& references) {
   std::vector<Extrinsics> extrinsics;
+  const bool has_covariances = has_covariance(summary);
   for (const SummaryRow& row : summary.rows) {
     const auto reference = references.find(row.sensor);
     extrinsics.push_back({&row, reference == references.end() ? "" : reference->second});
@@ -113,9 +134,17 @@ std::string extrinsics_json(const Summary& summary,
   json["bounds"] = {{"rotation_deg", summary.bounds.rotation_deg},
                     {"translation_m", summary.bounds.translation_m}};
   json["roll_pitch_yaw"] = "R = Rz(yaw) Ry(pitch) Rx(roll)";
-  json["extrinsics"] = json_rows(extrinsics_columns().table(extrinsics));
+  if (has_covariances) {
+    json["covariance"] =
+        "of the error (roll, pitch, yaw of T_estimate T_truth^-1, t_estimate - t_truth), rad and "
+        "m, "
+        "in the reference's frame; of the pose of all scenes: of the mean of independent scenes "
+        "(docs/trust.md)";
+  }
+  json["extrinsics"] = json_rows(extrinsics_columns(has_covariances).table(extrinsics));
   for (std::size_t i = 0; i < extrinsics.size(); ++i) {
-    json["extrinsics"][i]["scenes"] = json_rows(scene_columns().table(extrinsics[i].row->scenes));
+    json["extrinsics"][i]["scenes"] =
+        json_rows(scene_columns(has_covariances).table(extrinsics[i].row->scenes));
   }
   return json_bytes(json);
 }

@@ -62,6 +62,12 @@ const std::vector<Figure>& figures() {
          return box_plots(results.summary, options);
        },
        ""},
+      {"coverage",
+       [](const Results& results, const FigureOptions& options) -> std::optional<Drawing> {
+         if (results.coverage.rows.empty()) return std::nullopt;
+         return coverage_chart(results.coverage, options);
+       },
+       "covariances and a dataset with truth"},
       {"success_curve",
        [](const Results& results, const FigureOptions& options) -> std::optional<Drawing> {
          if (results.summary.curve.rows.empty()) return std::nullopt;
@@ -112,6 +118,7 @@ Results restricted(Results results, const TrialChoice& choice) {
                              : order.variants.size() * order.sensors.size() * order.scenes.size() *
                                    static_cast<std::size_t>(results.trials);
   results.summary = summarise(results.records, results.summary.bounds, order);
+  results.coverage = coverage_of(results.records, results.summary);
   if (results.basin) results.basin = basin_of(results.records, results.basin->sweep, order);
   return results;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "experiments/analysis/basin.hpp"
+#include "experiments/analysis/coverage.hpp"
 #include "experiments/analysis/summary.hpp"
 #include "framework/picture/drawing.hpp"
 #include "framework/pipeline/cloud_description.hpp"
@@ -68,6 +69,11 @@ void shorten_labels(std::vector<BoxGroup>& groups, std::size_t columns);
 /// variant, all sensors together; of one variant alone a line per sensor. The band about a line is
 /// the interval over scenes, if there are enough.
 Drawing success_curve_chart(const SuccessCurve& curve, const FigureOptions& options = {});
+
+/// The figure of coverage.svg, a calibration plot: how often intervals hold the truth over their
+/// level, a panel per degree of freedom. A line per variant, all sensors together; of one variant
+/// alone a line per sensor.
+Drawing coverage_chart(const Coverage& coverage, const FigureOptions& options = {});
 
 /// The largest size that the axis of a measure has to show: three times the lower median of the
 /// boxes' longer whiskers, so that the boxes of bad variants do not flatten those of good ones, but

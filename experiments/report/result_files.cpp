@@ -72,6 +72,20 @@ const std::vector<ResultFile>& result_files() {
        }},
       {"verdicts.csv",
        [](const R& r) { return if_any(r.verdicts.rows, verdicts_csv, r.verdicts); }},
+      {"covariance.csv",
+       [](const R& r) -> Bytes {
+         const auto has_one = [](const TrialRecord& record) { return !!record.covariance; };
+         if (std::none_of(r.records.begin(), r.records.end(), has_one)) return std::nullopt;
+         return covariance_csv(r.records);
+       }},
+      {"coverage.csv",
+       [](const R& r) { return if_any(r.coverage.rows, coverage_csv, r.coverage); }},
+      {"coverage.svg",
+       [](const R& r) -> Bytes {
+         if (r.coverage.rows.empty()) return std::nullopt;
+         return svg_bytes(coverage_chart(r.coverage));
+       }},
+      {"nees.csv", [](const R& r) { return if_any(r.coverage.errors, nees_csv, r.coverage); }},
       {"basin.csv", [](const R& r) { return r.basin ? Bytes(basin_csv(*r.basin)) : std::nullopt; }},
       {"basin.svg",
        [](const R& r) -> Bytes {

@@ -18,6 +18,13 @@ Columns<StepNumber> step_number_columns(const std::vector<TrialRecord>& records,
   return columns;
 }
 
+/// The columns of covariance.csv.
+Columns<TrialRecord> covariance_row_columns() {
+  Columns<TrialRecord> columns;
+  columns.add(id_columns(), &TrialRecord::id);
+  return columns.add(covariance_columns(), &TrialRecord::covariance);
+}
+
 }  // namespace
 
 Columns<TrialId> id_columns() {
@@ -26,6 +33,39 @@ Columns<TrialId> id_columns() {
       .add({"scene"}, &TrialId::scene)
       .add({"sensor"}, &TrialId::sensor)
       .add({"trial"}, &TrialId::trial);
+}
+
+Columns<PoseCovariance> covariance_columns(const std::string& path) {
+  using C = PoseCovariance;
+  Columns<C> columns;
+  for (int i = 0; i < 6; ++i) {
+    // JSON has both triangles, so that a reader needs not know which.
+    for (int j = path.empty() ? i : 0; j < 6; ++j) {
+      const std::string index = std::to_string(i) + "/" + std::to_string(j);
+      columns.add({"c" + std::to_string(i) + std::to_string(j), "",
+                   path + "/roll_pitch_yaw_rad_x_y_z_m/" + index, kAllDigits},
+                  [=](const C& covariance) { return covariance.matrix(i, j); });
+    }
+  }
+  for (std::size_t i = 0; i < kDofNames.size(); ++i) {
+    columns.add({kDofNames[i], "", path + "/" + kDofNames[i]},
+                [i](const C& covariance) { return name_of(covariance.dofs[i]); });
+  }
+  return columns;
+}
+
+std::vector<Column> covariance_rows(const std::vector<TrialRecord>& records, const RowUse& use) {
+  const Columns<TrialRecord> columns = covariance_row_columns();
+  for (const TrialRecord& record : records) {
+    if (record.covariance) use(columns.cells(record));
+  }
+  return columns.columns();
+}
+
+std::string covariance_csv(const std::vector<TrialRecord>& records) {
+  Table table;
+  table.columns = covariance_rows(records, [&](const CellRow& row) { table.rows.push_back(row); });
+  return csv_table(table);
 }
 
 std::vector<Column> comparison_rows(const Summary& summary, const RowUse& use) {

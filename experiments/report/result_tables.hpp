@@ -9,6 +9,7 @@
 
 #include "experiments/analysis/basin.hpp"
 #include "experiments/analysis/claims.hpp"
+#include "experiments/analysis/coverage.hpp"
 #include "experiments/analysis/diagnostics.hpp"
 #include "experiments/analysis/summary.hpp"
 #include "experiments/analysis/verdicts.hpp"
@@ -53,6 +54,7 @@ struct AgreedPose {
   std::optional<RigidTransform> pose;  ///< `T_reference_sensor`; std::nullopt if no trial has one.
   int trials = 0;                      ///< All, those without a pose too.
   Agreeing agreeing;
+  std::optional<PoseCovariance> covariance;  ///< If the poses that agree have one.
 };
 
 /// What all scenes agree on, and what the trials of one scene do.
@@ -105,6 +107,10 @@ void add_measures(View& view, const std::array<std::size_t, n>& measures,
 
 using RowUse = std::function<void(const CellRow&)>;
 
+/// The columns of a covariance: the upper triangle by rows, `c00` to `c55`, and the words of the
+/// degrees of freedom, `roll` to `z`; in JSON below `path`, the whole matrix.
+Columns<PoseCovariance> covariance_columns(const std::string& path = "");
+
 /// The general case.
 template <class Row>
 std::vector<Column> use_rows(const Columns<Row>& columns, const std::vector<Row>& rows,
@@ -121,6 +127,8 @@ std::vector<Column> summary_rows(const Summary& summary, const RowUse& use);
 std::vector<Column> comparison_rows(const Summary& summary, const RowUse& use);
 std::vector<Column> diagnostic_rows(const std::vector<TrialRecord>& records,
                                     const StepNumbers& steps, const RowUse& use);
+/// Those of covariance.csv.
+std::vector<Column> covariance_rows(const std::vector<TrialRecord>& records, const RowUse& use);
 
 // The bytes of files.
 
@@ -162,6 +170,16 @@ std::string success_curve_csv(const SuccessCurve& curve);
 /// verdicts.csv: a row per variant, sensor ("all" for all together) and threshold, rotation and
 /// translation together, from which on a pose is wrong.
 std::string verdicts_csv(const Verdicts& verdicts);
+
+/// covariance.csv: a row per trial with a covariance.
+std::string covariance_csv(const std::vector<TrialRecord>& records);
+
+/// coverage.csv: a row per variant, sensor ("all" for all together), degree of freedom ("all" for
+/// the ellipsoid of all six) and level.
+std::string coverage_csv(const Coverage& coverage);
+
+/// nees.csv: a row per variant and sensor ("all" for all together).
+std::string nees_csv(const Coverage& coverage);
 
 /// clouds.csv of `croon describe`: a row per cloud.
 std::string clouds_csv(const std::vector<CloudDescription>& clouds);

@@ -58,6 +58,13 @@ std::string result_text(const Results& results, bool colours) {
             bounds_text(results.summary.bounds) + "the truth\n" +
             verdicts_text(results.verdicts, style);
   }
+  if (!results.coverage.rows.empty()) {
+    text +=
+        "\ncovariances: how often intervals hold the truth, of accepted trials, in % [95 % "
+        "interval "
+        "over scenes];\n  nees: the normalised squared error, whose median would be 5.35\n" +
+        coverage_text(results.coverage, style);
+  }
   if (results.basin) text += "\n" + basin_text(*results.basin, style);
   const std::string claims = claims_text(results.claims, results.quoted, results.summary, style);
   if (!claims.empty()) text += "\n" + claims;
@@ -82,6 +89,42 @@ std::string verdicts_text(const Verdicts& verdicts, const TableStyle& style) {
                                   counts.rejected_wrong, counts.failed));
   }
   return text_table(table, whole_view(table, 2), style.colours);
+}
+
+std::string coverage_text(const Coverage& coverage, const TableStyle& style) {
+  using Row = CoverageRow;
+  Columns<Row> columns;
+  columns.add({"variant"}, &Row::variant)
+      .add({"sensor"}, [](const Row& row) { return name_of_sensor(row.sensor); })
+      .add({"dof"}, name_of_dof)
+      .add({"trials"}, [](const Row& row) { return row.held.front().trials; });
+  for (const double level : kShownCoverageLevels) {
+    const auto k = static_cast<std::size_t>(
+        std::find(kCoverageLevels.begin(), kCoverageLevels.end(), level) - kCoverageLevels.begin());
+    columns.add({fixed_number(100.0 * level, 0) + " %"}, [k](const Row& row) {
+      const Share& share = row.held.at(k);
+      const auto percent = [](double ratio) { return fixed_number(100.0 * ratio, 1); };
+      return percent(share.ratio) + (share.interval ? " [" + percent(share.interval->low) + ", " +
+                                                          percent(share.interval->high) + "]"
+                                                    : "");
+    });
+  }
+  columns.add({"nees"}, [&](const Row& row) -> std::optional<std::string> {
+    const auto is_it = [&](const NormalisedErrors& errors) {
+      return errors.variant == row.variant && errors.sensor == row.sensor;
+    };
+    const auto found = std::find_if(coverage.errors.begin(), coverage.errors.end(), is_it);
+    if (row.dof || found == coverage.errors.end()) return std::nullopt;
+    return fixed_number(found->median, 2) +
+           (found->interval ? " [" + fixed_number(found->interval->low, 2) + ", " +
+                                  fixed_number(found->interval->high, 2) + "]"
+                            : "");
+  });
+  std::vector<Row> shown;
+  for (const Row& row : coverage.rows) {
+    if (row.sensor.empty()) shown.push_back(row);
+  }
+  return text_table(columns.table(shown), whole_view(columns.table(shown), 3), style.colours);
 }
 
 std::string basin_text(const Basin& basin, const TableStyle& style) {

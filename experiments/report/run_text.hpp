@@ -31,6 +31,10 @@ std::string summary_text(const Summary& summary, const TableStyle& style = {});
 /// of success. Ends with a newline.
 std::string verdicts_text(const Verdicts& verdicts, const TableStyle& style = {});
 
+/// How often the intervals of covariances hold the truth, per variant and degree of freedom, all
+/// sensors together. Ends with a newline.
+std::string coverage_text(const Coverage& coverage, const TableStyle& style = {});
+
 /// Success in % per variant (rows) and level (columns), all sensors together, and the radius; of
 /// many levels every second, third, ... is shown. Ends with a newline.
 std::string basin_text(const Basin& basin, const TableStyle& style = {});

@@ -31,7 +31,13 @@ void finish(TrialRecord& record, const Estimate& estimate, const SensorScan& sca
     record.reason = "the pose has no rotation: the columns of its matrix are not orthonormal";
     return;
   }
+  if (estimate.covariance && !is_covariance(estimate.covariance->matrix)) {
+    record.reason =
+        "the covariance is none: it is not symmetric, finite and positive semi-definite";
+    return;
+  }
   record.T_reference_sensor = estimate.T_target_source;
+  record.covariance = estimate.covariance;
   if (scan.truth) record.error = pose_error(estimate.T_target_source, *scan.truth);
   record.status = Status::finished;
   if (record.error) {

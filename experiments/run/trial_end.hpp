@@ -10,7 +10,7 @@ bool is_within(const PoseError& error, const SuccessBounds& bounds);
 
 /// The record of the trial `id` that ended with `result`, judged by the truth of `scan` and
 /// `bounds`. A pose that is not finite, too far away for its error to be, or no rotation, is a
-/// failure.
+/// failure, and so is one with a covariance that is none.
 TrialRecord record_of(const TrialId& id, const PipelineResult& result, const SensorScan& scan,
                       const SuccessBounds& bounds);
 

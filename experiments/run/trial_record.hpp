@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "framework/geometry/dof.hpp"
+#include "framework/geometry/pose_covariance.hpp"
 #include "framework/pipeline/pipeline.hpp"
 
 namespace croon::experiments {
@@ -48,6 +48,7 @@ struct TrialRecord {
   std::string reason;                                ///< Why it is rejected or failed; else empty.
   std::optional<PoseError> error;                    ///< If there is truth and the trial finished.
   std::optional<RigidTransform> T_reference_sensor;  ///< If it finished.
+  std::optional<PoseCovariance> covariance;          ///< Of that pose, if a step has estimated it.
   std::vector<StepRecord> steps;  ///< Figures of each step (its seconds go to timings.csv alone).
 };
 

@@ -63,6 +63,23 @@ std::string with_main_ids(const std::string& from, const std::string& table,
 
 constexpr const char* kStepColumns = "place, step, figures, information";
 
+/// A table with a row per trial or step, and its columns after the key.
+using StoredTable = std::pair<std::string, std::string>;
+
+/// Throws InputError if `rows`, which are of `table` in `shard`, and main have other values of
+/// `columns` for the same trial.
+void refuse_doubled(const Database& database, const fs::path& shard, const std::string& table,
+                    const std::string& rows, const std::string& columns) {
+  Statement doubled = database.prepare(
+      "SELECT count(*) FROM (" + rows + " EXCEPT SELECT variant, scene, sensor, trial, " + columns +
+      " FROM main." + table + ") s JOIN main." + table + " m USING(variant, scene, sensor, trial)");
+  doubled.next();
+  if (doubled.integer(0) == 0) return;
+  throw InputError(
+      shard.string(), "",
+      std::to_string(doubled.integer(0)) + " of its trials ended differently in another store");
+}
+
 /// The trials of `header` that are in the store, in the order of the store.
 std::vector<TrialIndex> trials_in(const fs::path& path, const StoreHeader& header) {
   const Database database = open_to_read(path);
@@ -96,6 +113,33 @@ std::vector<IndexedRecord> records_in(const Database& database, const StoreHeade
   return rows;
 }
 
+/// The index of the record of a trial in `rows`, which are sorted; std::nullopt if it has none.
+std::optional<std::size_t> find_record(const std::vector<IndexedRecord>& rows,
+                                       const TrialIndex& index) {
+  const auto is_before = [](const IndexedRecord& row, const TrialIndex& wanted) {
+    return row.first < wanted;
+  };
+  const auto found = std::lower_bound(rows.begin(), rows.end(), index, is_before);
+  if (found == rows.end() || found->first != index) return std::nullopt;
+  return static_cast<std::size_t>(found - rows.begin());
+}
+
+/// Gives `rows`, which are sorted, their covariances.
+void add_covariances(const Database& database, const StoreHeader& header,
+                     std::vector<IndexedRecord>& rows) {
+  if (!has_covariances(database)) return;
+  const StoredIndices indices(database, header);
+  Statement select = select_covariances(database);
+  TrialIndex index;
+  while (select.next()) {
+    const PoseCovariance covariance = stored_covariance_of(select);
+    check_covariance(database, covariance.matrix);
+    if (!indices.find(row_of(select), index)) continue;
+    const std::optional<std::size_t> record = find_record(rows, index);
+    if (record) rows[*record].second.covariance = covariance;
+  }
+}
+
 /// Reads the numbers of the steps of `rows`, which are sorted.
 class StepReader {
  public:
@@ -117,12 +161,9 @@ class StepReader {
   void add_row() {
     TrialIndex index;
     if (!indices_.find(row_of(select_), index)) return;
-    const auto is_before = [](const IndexedRecord& row, const TrialIndex& wanted) {
-      return row.first < wanted;
-    };
-    const auto found = std::lower_bound(rows_.begin(), rows_.end(), index, is_before);
-    if (found == rows_.end() || found->first != index) return;
-    const auto record = static_cast<std::uint32_t>(found - rows_.begin());
+    const std::optional<std::size_t> found = find_record(rows_, index);
+    if (!found) return;
+    const auto record = static_cast<std::uint32_t>(*found);
     const auto [step, figures] = figures_of(select_);
     for (const auto& [name, value] : figures) {
       steps_.numbers.push_back({record, index_of(step), index_of(name), value});
@@ -156,6 +197,7 @@ StoredRun run_in(const Database& database, Content content) {
   if (!std::is_sorted(rows.begin(), rows.end(), is_before)) {
     std::sort(rows.begin(), rows.end(), is_before);
   }
+  add_covariances(database, run.header, rows);
   if (content == Content::trials_and_steps) {
     run.steps = StepReader(database, run.header, rows).read();
   }
@@ -195,22 +237,14 @@ void Store::merge(const fs::path& shard, const StoreHeader& from) {
   const Attachment attachment(database_, shard, "shard");
   Transaction transaction(database_);
   database_.run(id_maps("shard"));
-  const std::string rows = with_main_ids("shard", "trials", result_columns());
-  {
-    Statement doubled =
-        database_.prepare("SELECT count(*) FROM (" + rows +
-                          " EXCEPT SELECT variant, scene, sensor, trial, " + result_columns() +
-                          " FROM main.trials) s JOIN main.trials m"
-                          " USING(variant, scene, sensor, trial)");
-    doubled.next();
-    if (doubled.integer(0) > 0) {
-      throw InputError(
-          shard.string(), "",
-          std::to_string(doubled.integer(0)) + " of its trials ended differently in another store");
-    }
+  std::vector<StoredTable> tables = {{"trials", result_columns()}, {"steps", kStepColumns}};
+  if (has_covariances(database_, "shard"))
+    tables.push_back({"covariances", stored_covariance_columns()});
+  for (const auto& [table, columns] : tables) {
+    const std::string rows = with_main_ids("shard", table, columns);
+    if (table != "steps") refuse_doubled(database_, shard, table, rows, columns);
+    database_.run("INSERT OR IGNORE INTO main." + table + " " + rows);
   }
-  database_.run("INSERT OR IGNORE INTO main.trials " + rows + ";INSERT OR IGNORE INTO main.steps " +
-                with_main_ids("shard", "steps", kStepColumns));
   transaction.commit();
 }
 
@@ -220,6 +254,7 @@ StoreHeader stored_header(const fs::path& path) {
     const Database database = open_to_read(path);
     check_content(database);
     check_rotations(database);
+    check_covariances(database);
     return read_header(database);
   });
 }
@@ -250,6 +285,11 @@ void rewrite_in_order(const fs::path& path) {
                  with_main_ids("old", "trials", result_columns()) +
                  " ORDER BY 1, 2, 3, 4; INSERT INTO main.steps " +
                  with_main_ids("old", "steps", kStepColumns) + " ORDER BY 1, 2, 3, 4, 5");
+    if (has_covariances(database, "old")) {
+      database.run("INSERT INTO main.covariances " +
+                   with_main_ids("old", "covariances", stored_covariance_columns()) +
+                   " ORDER BY 1, 2, 3, 4");
+    }
     transaction.commit();
   });
 }

@@ -36,14 +36,12 @@ std::vector<SchemaEntry> schema_of(const Database& database) {
   return schema;
 }
 
-/// The schema of a store, by a store that is made in memory.
-const std::vector<SchemaEntry>& expected_schema() {
-  static const std::vector<SchemaEntry> schema = [] {
-    Database database("", Access::memory);
-    database.run(header_tables() + record_tables());
-    return schema_of(database);
-  }();
-  return schema;
+/// The schema of a store, by a store that is made in memory; stores of format 3 and before have no
+/// covariances.
+std::vector<SchemaEntry> expected_schema(bool with_covariances) {
+  Database database("", Access::memory);
+  database.run(header_tables() + record_tables() + (with_covariances ? covariance_table() : ""));
+  return schema_of(database);
 }
 
 /// A condition in SQL that is true for a row with a fault, and what the fault is.
@@ -136,12 +134,28 @@ std::vector<RowFault> key_faults() {
   return faults;
 }
 
+/// Throws InputError if a row of `table`, with `what` in it, is of no trial, or of one that
+/// `condition` excludes.
+void refuse_orphans(const Database& database, const std::string& table, const std::string& what,
+                    const std::string& condition = "") {
+  // Both are read in the order of their keys; a lookup per row takes three times as long.
+  const std::string key = "SELECT variant, scene, sensor, trial FROM ";
+  Statement orphans = database.prepare("SELECT 1 FROM (" + key + table + " EXCEPT " + key +
+                                       "trials" + condition + " ORDER BY 1, 2, 3, 4) LIMIT 1");
+  if (orphans.next()) refuse(database, what);
+}
+
+/// SQL for a list of texts: "'success', 'failed'".
+template <class Words>
+std::string quoted(const Words& words) {
+  std::string list;
+  for (const char* word : words) list += (list.empty() ? "'" : ", '") + std::string(word) + "'";
+  return list;
+}
+
 void check_trials(const Database& database) {
   std::vector<RowFault> faults = key_faults();
-  std::string words;
-  for (const char* word : kStatusNames) {
-    words += (words.empty() ? "'" : ", '") + std::string(word) + "'";
-  }
+  const std::string words = quoted(kStatusNames);
   faults.emplace_back("status NOT IN (" + words + ") OR status IS NULL",
                       "a status is none of " + words);
   faults.emplace_back("typeof(reason) <> 'text'", "a reason is no text");
@@ -160,6 +174,20 @@ void check_trials(const Database& database) {
   refuse_rows(database, "trials", faults);
 }
 
+void check_covariance_rows(const Database& database) {
+  if (!has_covariances(database)) return;
+  std::vector<RowFault> faults = key_faults();
+  const std::string words = quoted(kObservabilityNames);
+  for (const std::string& column : names_in(stored_covariance_columns())) {
+    const bool is_number = column.front() == 'c';
+    faults.emplace_back(is_number ? "typeof(" + column + ") <> 'real'"
+                                  : column + " IS NULL OR " + column + " NOT IN (" + words + ")",
+                        is_number ? "a number has another type" : "a word is none of " + words);
+  }
+  refuse_rows(database, "covariances", faults);
+  refuse_orphans(database, "covariances", "a covariance has no pose", " WHERE r00 IS NOT NULL");
+}
+
 void check_steps(const Database& database) {
   std::vector<RowFault> faults = key_faults();
   faults.emplace_back(
@@ -169,11 +197,7 @@ void check_steps(const Database& database) {
       "information IS NOT NULL AND (typeof(information) <> 'blob' OR length(information) <> 288)",
       "an information matrix has another size");
   refuse_rows(database, "steps", faults);
-  // Both are read in the order of their keys; a lookup per step takes three times as long.
-  const std::string key = "SELECT variant, scene, sensor, trial FROM ";
-  Statement orphans = database.prepare("SELECT 1 FROM (" + key + "steps EXCEPT " + key +
-                                       "trials ORDER BY 1, 2, 3, 4) LIMIT 1");
-  if (orphans.next()) refuse(database, "a step has no trial");
+  refuse_orphans(database, "steps", "a step has no trial");
 }
 
 }  // namespace
@@ -181,7 +205,7 @@ void check_steps(const Database& database) {
 void check_schema(const Database& database) {
   Statement encoding = database.prepare("PRAGMA encoding");
   if (!encoding.next() || encoding.text(0) != "UTF-8") refuse(database, "its text is not UTF-8");
-  const std::vector<SchemaEntry>& expected = expected_schema();
+  const std::vector<SchemaEntry> expected = expected_schema(has_covariances(database));
   const std::vector<SchemaEntry> found = schema_of(database);
   const auto difference =
       std::mismatch(expected.begin(), expected.end(), found.begin(), found.end());
@@ -210,6 +234,16 @@ void check_rotations(const Database& database) {
   }
 }
 
+void check_covariance(const Database& database, const Matrix6d& matrix) {
+  if (!is_covariance(matrix)) refuse(database, "covariances: a matrix is no covariance");
+}
+
+void check_covariances(const Database& database) {
+  if (!has_covariances(database)) return;
+  Statement select = select_covariances(database);
+  while (select.next()) check_covariance(database, stored_covariance_of(select).matrix);
+}
+
 void check_content(const Database& database) {
   check_pages(database);
   refuse_rows(database, "meta",
@@ -222,6 +256,7 @@ void check_content(const Database& database) {
   check_names(database, "scenes", "kind");
   check_names(database, "sensors", "reference");
   check_trials(database);
+  check_covariance_rows(database);
   check_steps(database);
 }
 

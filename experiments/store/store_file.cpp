@@ -201,8 +201,8 @@ Database open_snapshot(const fs::path& path) {
 Database open_to_write(const fs::path& path) {
   provide_log(path);
   Database database(path, Access::write);
-  database.run(
-      "PRAGMA main.locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; BEGIN EXCLUSIVE; COMMIT;");
+  database.run("PRAGMA main.locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; BEGIN EXCLUSIVE;" +
+               covariance_table() + "COMMIT;");
   return database;
 }
 
@@ -211,7 +211,8 @@ void build_store(const fs::path& path, const std::function<void(Database&)>& fil
     Database database(working, Access::create);
     database.run(
         "PRAGMA journal_mode = MEMORY; PRAGMA synchronous = FULL; PRAGMA application_id = " +
-        std::to_string(kApplicationId) + ";BEGIN;" + header_tables() + record_tables() + "COMMIT;");
+        std::to_string(kApplicationId) + ";BEGIN;" + header_tables() + record_tables() +
+        covariance_table() + "COMMIT;");
     fill(database);
   });
 }

@@ -17,7 +17,9 @@
 namespace croon::experiments {
 namespace {
 
-constexpr const char* kFormat = "3";
+constexpr const char* kFormat = "4";
+/// Without the table `covariances`, which is added when the store is written to.
+constexpr const char* kFormatWithoutCovariances = "3";
 /// Without versions of stages: it is read, but nothing is added to it.
 constexpr const char* kEarlierFormat = "2";
 /// The entry of `meta` that marks a store as not in order.
@@ -182,13 +184,17 @@ StoreHeader read_header(const Database& database) {
   while (select.next()) header.provenance[select.text(0)] = select.text(1);
   if (header.provenance.empty()) return header;
   const std::string format = taken(header.provenance, "format");
-  if (format != kFormat && format != kEarlierFormat) {
+  const bool is_extensible = format == kFormat || format == kFormatWithoutCovariances;
+  if (!is_extensible && format != kEarlierFormat) {
     throw InputError(database.file(), "",
                      "is a store of format \"" + format + "\", expected \"" + kFormat +
                          "\", of another version of croon; croon run --fresh starts over");
   }
   header.manifest = taken(header.provenance, "manifest");
-  if (format == kFormat) {
+  if (format == kFormat && !has_covariances(database)) {
+    throw std::runtime_error("it has no table covariances");
+  }
+  if (is_extensible) {
     header.versions = read_versions(taken(header.provenance, "versions"));
     header.builds = read_builds(taken(header.provenance, "builds"));
   } else {

@@ -17,6 +17,7 @@ using nlohmann::ordered_json;
 constexpr int kKeyColumns = 4;
 constexpr int kErrorColumns = 8;
 constexpr int kPoseColumns = 12;
+constexpr int kCovarianceColumns = 21 + 6;
 constexpr int kResultColumns = 2 + kErrorColumns + kPoseColumns;
 
 constexpr const char* kKey = "variant INTEGER, scene INTEGER, sensor INTEGER, trial INTEGER";
@@ -70,6 +71,14 @@ void bind_key(Statement& insert, const TrialRow& row) {
   insert.bind(3, static_cast<std::int64_t>(row.trial));
 }
 
+void bind_covariance(Statement& insert, const PoseCovariance& covariance) {
+  int column = kKeyColumns;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j) insert.bind(column++, covariance.matrix(i, j));
+  }
+  for (const Observability word : covariance.dofs) insert.bind(column++, name_of(word));
+}
+
 void bind_result(Statement& insert, const TrialRecord& record) {
   int column = kKeyColumns;
   insert.bind(column++, status_name(record.status));
@@ -108,12 +117,41 @@ const std::string& result_columns() {
   return columns;
 }
 
-std::pair<std::vector<std::string>, std::vector<std::string>> number_columns() {
-  std::istringstream stream(result_columns());
+std::vector<std::string> names_in(const std::string& columns) {
+  std::istringstream stream(columns);
   std::vector<std::string> names;
   for (std::string name; std::getline(stream >> std::ws, name, ',');) names.push_back(name);
+  return names;
+}
+
+std::pair<std::vector<std::string>, std::vector<std::string>> number_columns() {
+  const std::vector<std::string> names = names_in(result_columns());
   const auto errors = names.begin() + 2, pose = errors + kErrorColumns;
   return {{errors, pose}, {pose, names.end()}};
+}
+
+const std::string& stored_covariance_columns() {
+  static const std::string columns = [] {
+    std::string names;
+    for (int i = 0; i < 6; ++i) {
+      for (int j = i; j < 6; ++j) names += "c" + std::to_string(i) + std::to_string(j) + ", ";
+    }
+    for (const std::string& name : kDofNames) names += name + (name == "z" ? "" : ", ");
+    return names;
+  }();
+  return columns;
+}
+
+std::string covariance_table() {
+  return std::string("CREATE TABLE IF NOT EXISTS covariances(") + kKey + ", " +
+         stored_covariance_columns() +
+         ", PRIMARY KEY(variant, scene, sensor, trial)) WITHOUT ROWID;" +
+         named_view("named_covariances", "covariances", stored_covariance_columns());
+}
+
+bool has_covariances(const Database& database, const std::string& schema) {
+  return database.prepare("SELECT 1 FROM " + schema + ".sqlite_master WHERE name = 'covariances'")
+      .next();
 }
 
 std::string record_tables() {
@@ -144,6 +182,8 @@ std::string current_results() {
 RecordInserter::RecordInserter(const Database& database)
     : trial_(database.prepare("INSERT INTO trials VALUES(" +
                               question_marks(kKeyColumns + kResultColumns) + ")")),
+      covariance_(database.prepare("INSERT INTO covariances VALUES(" +
+                                   question_marks(kKeyColumns + kCovarianceColumns) + ")")),
       step_(database.prepare("INSERT INTO steps VALUES(" + question_marks(kKeyColumns + 4) + ")")) {
 }
 
@@ -152,6 +192,12 @@ void RecordInserter::add(const TrialRow& row, const TrialRecord& record) {
   bind_result(trial_, record);
   trial_.next();
   trial_.reset();
+  if (record.covariance) {
+    bind_key(covariance_, row);
+    bind_covariance(covariance_, *record.covariance);
+    covariance_.next();
+    covariance_.reset();
+  }
   std::int64_t index = 0;
   for (const StepRecord& step : record.steps) {
     bind_key(step_, row);
@@ -193,6 +239,27 @@ TrialRecord result_of(const Statement& select) {
     for (int i = 0; i < 3; ++i) T.translation(i) = select.real(column + 9 + i);
   }
   return record;
+}
+
+Statement select_covariances(const Database& database) {
+  return database.prepare("SELECT variant, scene, sensor, trial, " + stored_covariance_columns() +
+                          " FROM covariances");
+}
+
+PoseCovariance stored_covariance_of(const Statement& select) {
+  PoseCovariance covariance;
+  int column = kKeyColumns;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j) {
+      covariance.matrix(i, j) = covariance.matrix(j, i) = select.real(column++);
+    }
+  }
+  for (Observability& dof : covariance.dofs) {
+    const auto word = observability_of(select.text(column++));
+    if (!word) throw std::runtime_error("covariances: a word is none");
+    dof = *word;
+  }
+  return covariance;
 }
 
 Statement select_figures(const Database& database) {

@@ -21,22 +21,36 @@ struct TrialRow {
 /// (the rotation by rows, m). Error and pose are null if the trial has none.
 const std::string& result_columns();
 
-/// The columns of numbers among them: those of the error, and those of the pose.
+/// The names in such a list.
+std::vector<std::string> names_in(const std::string& columns);
+
+/// The columns of numbers among those of results: those of the error, and those of the pose.
 std::pair<std::vector<std::string>, std::vector<std::string>> number_columns();
+
+/// The columns of `covariances` after the four of a TrialRow: the upper triangle by rows, `c00` to
+/// `c55`, and the words of the degrees of freedom, `roll` to `z`.
+const std::string& stored_covariance_columns();
 
 /// SQL that creates the tables `trials` and `steps` if they do not exist, and views on them with
 /// names in place of ids.
 std::string record_tables();
 
+/// The same for `covariances`, which stores of format 3 and before do not have.
+std::string covariance_table();
+
+/// Whether the store has the table `covariances`.
+bool has_covariances(const Database& database, const std::string& schema = "main");
+
 /// Adds rows to a store.
 class RecordInserter {
  public:
   explicit RecordInserter(const Database& database);
-  /// Adds `record` and its steps as the trial `row`.
+  /// Adds `record`, its covariance and its steps as the trial `row`.
   void add(const TrialRow& row, const TrialRecord& record);
 
  private:
   Statement trial_;
+  Statement covariance_;
   Statement step_;
 };
 
@@ -45,6 +59,10 @@ Statement select_results(const Database& database);
 TrialRow row_of(const Statement& select);
 /// The result, without its id.
 TrialRecord result_of(const Statement& select);
+
+/// The statement whose rows `row_of` and `stored_covariance_of` read, in the order of the store.
+Statement select_covariances(const Database& database);
+PoseCovariance stored_covariance_of(const Statement& select);
 
 /// The statement whose rows `row_of` and `figures_of` read, in the order of the store.
 Statement select_figures(const Database& database);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 namespace croon {
 namespace {
@@ -20,6 +21,27 @@ int direction_bin(const Eigen::Vector3d& normal) {
     return std::clamp(static_cast<int>(share * kCells), 0, kCells - 1);
   };
   return (axis * kCells + cell(1)) * kCells + cell(2);
+}
+
+std::vector<double> patch_weights(const Cloud& cloud, const std::vector<int>& indices,
+                                  int normal_neighbours, double patch_m, double exponent) {
+  const Normals& normals = cloud.normals(normal_neighbours);
+  using Patch = std::array<int, 4>;
+  std::map<Patch, int> counts;
+  std::vector<Patch> patches;
+  for (const int i : indices) {
+    Patch patch{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double cell = std::floor(cloud.points()[i](axis) / patch_m);
+      patch[axis] = static_cast<int>(std::clamp(cell, -1e9, 1e9));
+    }
+    patch[3] = direction_bin(normals.at(i).normal.cast<double>());
+    ++counts[patch];
+    patches.push_back(patch);
+  }
+  std::vector<double> weights;
+  for (const Patch& patch : patches) weights.push_back(std::pow(counts[patch], -exponent));
+  return weights;
 }
 
 SelectCorrespondences balanced_directions(double exponent) {

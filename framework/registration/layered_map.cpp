@@ -13,7 +13,7 @@ namespace {
 constexpr int kFull = 4;  // Of a cell that holds points; less in its neighbours.
 constexpr int kLane = 16;
 
-/// The place of (row, column) in rows of `columns`.
+/// The index of (row, column) in rows of `columns` cells.
 template <class Row>
 std::size_t index(Row row, int columns, int column) {
   return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +

@@ -9,6 +9,7 @@
 #include "framework/base/rng.hpp"
 #include "framework/geometry/dof.hpp"
 #include "framework/geometry/plane.hpp"
+#include "framework/geometry/pose_covariance.hpp"
 #include "framework/spatial/cloud.hpp"
 #include "framework/stage/extras.hpp"
 
@@ -38,9 +39,12 @@ struct Estimate {
   std::shared_ptr<const GroundSplit> target_ground;  ///< Null until a step has found it.
   std::shared_ptr<const GroundSplit> source_ground;  ///< Null until a step has found it.
   std::optional<Matrix6d> information;               ///< See Registration::information.
-  std::optional<std::string> rejection;              ///< Why the pose must not be trusted, if so.
-  std::vector<Diagnostic> diagnostics;               ///< What the last step reports of its work.
-  Extras extras;                                     ///< What steps put here for later ones.
+  /// Of T_target_source, if a step has estimated it. A later step that moves the pose has to give
+  /// it a covariance anew, or it has none.
+  std::optional<PoseCovariance> covariance = std::nullopt;
+  std::optional<std::string> rejection;  ///< Why the pose must not be trusted, if so.
+  std::vector<Diagnostic> diagnostics;   ///< What the last step reports of its work.
+  Extras extras;                         ///< What steps put here for later ones.
   /// Null outside an experiment. For steps that take results from a file; what a step computes must
   /// not depend on it.
   std::shared_ptr<const TrialName> trial = nullptr;

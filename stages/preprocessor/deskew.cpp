@@ -1,10 +1,5 @@
-#include <algorithm>
-#include <cmath>
-
+#include "framework/spatial/deskew.hpp"
 #include "framework/base/angles.hpp"
-#include "framework/base/error.hpp"
-#include "framework/base/text.hpp"
-#include "framework/geometry/twist.hpp"
 #include "framework/params/choice.hpp"
 #include "framework/stage/preprocessor.hpp"
 #include "framework/stage/stage_entry.hpp"
@@ -59,31 +54,17 @@ class Deskew final : public Preprocessor {
     const std::vector<double> times = times_s(cloud);
     const double reference_s = reference_time_s(times);
     PointCloud moved = cloud;
-    RigidTransform T_reference_now;
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      // All rings fire at one time, one after the other in most clouds.
-      if (i == 0 || times[i] != times[i - 1]) {
-        T_reference_now = motion_over(velocity_, times[i] - reference_s);
-      }
-      moved.points[i] = (T_reference_now * cloud.points[i].cast<double>()).cast<float>();
-    }
+    moved.points = deskewed(cloud.points, times, velocity_, reference_s);
     return moved;
   }
 
  private:
-  /// Throws StageError if a time is not finite, or farther from the reference than a scan lasts.
   double reference_time_s(const std::vector<double>& times) const {
-    const auto [first, last] = std::minmax_element(times.begin(), times.end());
+    const TimeSpan span = span_of(times);
     const double reference_s = reference_ == Reference::zero    ? 0.0
-                               : reference_ == Reference::first ? *first
-                                                                : 0.5 * (*first + *last);
-    constexpr double kLongest_s = 60.0;
-    for (const double time_s : times) {
-      if (std::abs(time_s - reference_s) <= kLongest_s) continue;
-      throw StageError("a point's time is more than " + fixed_number(kLongest_s, 0) +
-                       " s from the reference time: is its zero another one than the scan's "
-                       "(reference_time)?");
-    }
+                               : reference_ == Reference::first ? span.first_s
+                                                                : span.middle_s();
+    require_near(times, reference_s);
     return reference_s;
   }
 

@@ -69,10 +69,12 @@ class ConsensusStep final : public RigStep {
     const double ratio =
         static_cast<double>(agreeing.size()) / static_cast<double>(estimates.front()->scenes);
     const std::optional<Matrix6d> information = joint_information(agreeing);
+    const std::optional<PoseCovariance> covariance = joint_covariance(agreeing);
     const std::optional<std::string> rejection = verdict(estimates, votes, agreeing.size(), ratio);
     for (RigEstimate* const one : estimates) {
       one->estimate.T_target_source = pose;
       one->estimate.information = information;
+      one->estimate.covariance = covariance;
       one->estimate.rejection = rejection;
       one->estimate.diagnostics = {{"scenes", static_cast<double>(estimates.front()->scenes)},
                                    {"agreeing_ratio", ratio}};
@@ -89,6 +91,18 @@ class ConsensusStep final : public RigStep {
       sum += *one->estimate.information;
     }
     return sum;
+  }
+
+  /// The pose is the mean of the poses of these scenes, whose errors are independent; std::nullopt
+  /// if one of them has no covariance.
+  static std::optional<PoseCovariance> joint_covariance(const OfSensor& agreeing) {
+    std::vector<PoseCovariance> covariances;
+    for (const RigEstimate* const one : agreeing) {
+      if (!one->estimate.covariance) return std::nullopt;
+      covariances.push_back(*one->estimate.covariance);
+    }
+    if (covariances.empty()) return std::nullopt;
+    return covariance_of_mean(covariances);
   }
 
   /// Why the pose must not be trusted, if so.

@@ -1,42 +1,24 @@
 #include <algorithm>
 
-#include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
 #include "framework/params/values.hpp"
-#include "framework/pipeline/shared_view.hpp"
+#include "framework/pipeline/hypothesis_choice.hpp"
 #include "framework/registration/layered_map.hpp"
-#include "framework/registration/pose_evidence.hpp"
 #include "framework/spatial/ground_candidates.hpp"
-#include "framework/stage/hypotheses.hpp"
-#include "framework/stage/icp.hpp"
 #include "framework/stage/stage_entry.hpp"
-#include "framework/stage/step.hpp"
 
 namespace croon::stages::step {
 namespace {
 
-struct Params : LayeredMapOptions {
-  params::Slot<Preprocessor> thinning;
-  params::Slot<Icp> icp;
+struct Params : LayeredMapOptions, HypothesisChoice {
   int ground_candidates = 3;
   int peaks = 10;
   int hypotheses = 16;
-  bool use_start = false;
-  double max_rotation_deg = 45.0;
-  double max_translation_m = 0.5;
 };
 
 const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
-          params::slot("thinning", &Params::thinning,
-                       R"({"type": "voxel_downsample", "leaf_size_m": 0.25})",
-                       "Makes the clouds even, so that numbers of points are areas."),
-          params::slot("icp", &Params::icp,
-                       R"({"type": "point_to_plane", "max_distances_m": [1.5, 0.8, 0.4], )"
-                       R"("max_iterations": 8, "coarse_points": 300, "normal_neighbours": 10, )"
-                       R"("rotation_tolerance_deg": 0.05, "translation_tolerance_m": 0.005})",
-                       "Refines each hypothesis before they are compared."),
           params::integer("ground_candidates", &Params::ground_candidates, {1, 20},
                           "How many planes of each cloud are tried as its ground."),
           params::integer("peaks", &Params::peaks, {1, 1000},
@@ -44,14 +26,8 @@ const params::Table<Params>& table() {
           params::integer("hypotheses", &Params::hypotheses, {1, 1000},
                           "How many hypotheses are refined: the best of each pair of planes, then "
                           "the best of the others."),
-          params::boolean("use_start", &Params::use_start,
-                          "Poses beyond max_rotation_deg or max_translation_m from the start are "
-                          "dropped; without it the start does not matter."),
-          params::number("max_rotation_deg", &Params::max_rotation_deg, {0.0, 180.0},
-                         "See use_start."),
-          params::number("max_translation_m", &Params::max_translation_m, {0.0, 1e6},
-                         "See use_start."),
       }
+          .inherit(hypothesis_choice_table())
           .inherit(layered_map_table());
   return table;
 }
@@ -67,99 +43,58 @@ struct Levelled {
   Points points;
 };
 
-/// What is known of one cloud alone.
-struct Scan {
-  std::shared_ptr<const SensorView> view;
-  std::shared_ptr<const Cloud> sample;  ///< The points that hypotheses are refined with.
-  std::vector<Levelled> levels;         ///< Above each plane that may be the ground.
-};
-
-void sort_by_score(std::vector<Hypothesis>& poses) {
-  std::stable_sort(poses.begin(), poses.end(),
-                   [](const auto& a, const auto& b) { return a.score > b.score; });
-}
-
-/// The best poses that are not near a better one.
-std::vector<Hypothesis> apart(std::vector<Hypothesis> poses) {
-  sort_by_score(poses);
-  std::vector<Hypothesis> kept;
-  for (const Hypothesis& pose : poses) {
-    const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const Hypothesis& other) {
-      return agree(pose.T_target_source, other.T_target_source, kSameHypothesis);
-    });
-    if (is_new) kept.push_back(pose);
-  }
-  return kept;
-}
+/// A cloud above each of its planes that may be the ground.
+using Levels = std::vector<Levelled>;
 
 class GlobalAlignment final : public Step {
  public:
   explicit GlobalAlignment(Params params) : params_(std::move(params)) {}
 
-  static params::DataFlow data_flow(const Params& params) {
-    params::DataFlow flow = params.thinning.flow();
-    flow.add(params.icp.flow());
-    flow.gives.push_back(kHypotheses.doc());
-    return flow;
-  }
+  static params::DataFlow data_flow(const Params& params) { return params.flow(); }
 
   Estimate advance(Estimate estimate, Rng&) const override {
-    const auto target = scan_of(*estimate.target, "reference");
-    const auto source = scan_of(*estimate.source, "sensor");
-    std::vector<Hypothesis> poses =
-        judged(proposed(*estimate.target, *target, *source), *target, *source);
-    if (params_.use_start) poses = near_start(poses, estimate.T_target_source);
-    if (poses.empty()) throw StageError("no pose was found at which the clouds agree");
-    estimate.T_target_source = poses.front().T_target_source;
-    estimate.diagnostics = {{"score", poses.front().score},
-                            {"hypotheses", static_cast<double>(poses.size())}};
-    if (poses.size() > 1) estimate.diagnostics.emplace_back("next_score", poses[1].score);
-    estimate.extras.put(kHypotheses, std::move(poses));
-    return estimate;
+    const auto target = levels_of(*estimate.target, "reference");
+    const auto source = levels_of(*estimate.source, "sensor");
+    const std::vector<Hypothesis> poses = proposed(*estimate.target, *target, *source);
+    return at_best(std::move(estimate), poses, params_);
   }
 
  private:
-  std::shared_ptr<const Scan> scan_of(const Cloud& cloud, const char* whose) const {
-    if (cloud.empty()) throw StageError(std::string("the ") + whose + " cloud is empty");
+  std::shared_ptr<const Levels> levels_of(const Cloud& cloud, const char* whose) const {
+    const auto view = view_of(cloud, params_, whose);
     const std::string what = "global_alignment";
     const std::string parameters =
         params_.thinning.resolved() + " " + std::to_string(params_.ground_candidates);
-    const auto scan = cloud.once<Scan>(what, parameters, [&] {
-      constexpr int kPoints = 400;
-      Scan made{shared_view(cloud, params_.thinning), nullptr, {}};
-      const Cloud& thinned = *made.view->thinned;
-      Points sample;
-      for (const int i : balanced_sample(thinned, made.view->normal_neighbours, kPoints)) {
-        sample.push_back(thinned.points()[i]);
-      }
-      made.sample = thinned.derived(std::move(sample), "sample");
+    const auto levels = cloud.once<Levels>(what, parameters, [&] {
+      const Points& thinned = view->thinned->points();
       GroundCandidateOptions options;
       options.candidates = params_.ground_candidates;
       Rng rng = cloud.rng(what);
-      for (const auto& ground : croon::ground_candidates(thinned.points(), options, rng)) {
+      Levels made;
+      for (const auto& ground : croon::ground_candidates(thinned, options, rng)) {
         const RigidTransform T_level_cloud = levelling(ground.plane);
-        made.levels.push_back({T_level_cloud, transformed(thinned.points(), T_level_cloud)});
+        made.push_back({T_level_cloud, transformed(thinned, T_level_cloud)});
       }
-      return std::make_shared<const Scan>(std::move(made));
+      return std::make_shared<const Levels>(std::move(made));
     });
-    if (scan->levels.empty()) {
+    if (levels->empty()) {
       throw StageError(std::string("the ") + whose + " cloud has no plane that may be the ground");
     }
-    return scan;
+    return levels;
   }
 
   /// The poses at which the maps above a pair of planes coincide, of all pairs; those that are
   /// to be refined.
-  std::vector<Hypothesis> proposed(const Cloud& cloud, const Scan& target,
-                                   const Scan& source) const {
+  std::vector<Hypothesis> proposed(const Cloud& cloud, const Levels& target,
+                                   const Levels& source) const {
     std::vector<Hypothesis> first;
     std::vector<Hypothesis> others;
-    for (std::size_t k = 0; k < target.levels.size(); ++k) {
+    for (std::size_t k = 0; k < target.size(); ++k) {
       const auto view = cloud.once<LayeredMap>("layered_map", map_key(k), [&] {
-        return std::make_shared<const LayeredMap>(target.levels[k].points, params_);
+        return std::make_shared<const LayeredMap>(target[k].points, params_);
       });
-      const RigidTransform T_target_level = target.levels[k].T_level_cloud.inverse();
-      for (const Levelled& above : source.levels) {
+      const RigidTransform T_target_level = target[k].T_level_cloud.inverse();
+      for (const Levelled& above : source) {
         const std::vector<MapPeak> peaks = view->match(above.points, params_.peaks);
         for (std::size_t i = 0; i < peaks.size(); ++i) {
           const RigidTransform T_level_level{
@@ -172,42 +107,13 @@ class GlobalAlignment final : public Step {
     }
     if (first.empty()) {
       // Nothing stands on the ground in both clouds: the planes alone give roll, pitch and z.
-      first.push_back(
-          {target.levels.front().T_level_cloud.inverse() * source.levels.front().T_level_cloud,
-           0.0});
+      first.push_back({target.front().T_level_cloud.inverse() * source.front().T_level_cloud, 0.0});
     }
     sort_by_score(first);
     sort_by_score(others);
     first.insert(first.end(), others.begin(), others.end());
     first.resize(std::min(first.size(), static_cast<std::size_t>(params_.hypotheses)));
     return first;
-  }
-
-  /// The poses refined, with their evidence, best first, apart from each other.
-  std::vector<Hypothesis> judged(const std::vector<Hypothesis>& poses, const Scan& target,
-                                 const Scan& source) const {
-    std::vector<Hypothesis> refined;
-    for (const Hypothesis& pose : poses) {
-      try {
-        const RigidTransform T =
-            params_.icp->align(*target.view->thinned, *source.sample, pose.T_target_source)
-                .T_target_source;
-        refined.push_back({T, pose_evidence(*target.view, *source.view, T, {}).score()});
-      } catch (const StageError&) {
-        continue;  // Too few points correspond.
-      }
-    }
-    return apart(std::move(refined));
-  }
-
-  std::vector<Hypothesis> near_start(const std::vector<Hypothesis>& poses,
-                                     const RigidTransform& start) const {
-    const PoseBounds bounds{rad_from_deg(params_.max_rotation_deg), params_.max_translation_m};
-    std::vector<Hypothesis> near;
-    for (const Hypothesis& pose : poses) {
-      if (agree(pose.T_target_source, start, bounds)) near.push_back(pose);
-    }
-    return near;
   }
 
   /// All that the target's map above plane `index` depends on.

@@ -113,6 +113,8 @@ class Tables(TestCase):
         self.assertIn("all", self.results.comparisons["sensor"])
         self.assertEqual(set(self.results.diagnostics.dtype.names),
                          {"variant", "scene", "sensor", "trial", "step", "name", "value"})
+        self.assertEqual(len(self.results.covariances), 0)
+        self.assertIn("c00", self.results.covariances.dtype.names)
         self.assertEqual(self.results.poses.shape, (len(trials), 4, 4))
         self.assertEqual(self.results.extrinsics["extrinsics"][0]["variant"], "base")
 
@@ -123,6 +125,7 @@ class Tables(TestCase):
         self.assertLess(by_variant["base"], by_variant["no yaw"])
         self.assertEqual(len(self.results.summary_frame()), len(self.results.summary))
         self.assertEqual(len(self.results.comparisons_frame()), len(self.results.comparisons))
+        self.assertEqual(len(self.results.covariances_frame()), 0)
         self.assertEqual(len(self.results.diagnostics_frame()), len(self.results.diagnostics))
 
 

@@ -167,6 +167,26 @@ class Steps(TestCase):
                      lambda e, rng: e.target.nearest(np.zeros((2, 2), "f4"))):
             self.assertTrue(self.line_of(croon.StageError, do, call).startswith("do: "))
 
+    def test_may_give_a_covariance(self):
+        def judge(estimate, rng):
+            self.assertIsNone(estimate.covariance)
+            self.assertIsNone(estimate.observability)
+            estimate.covariance = 4 * np.eye(6)
+            estimate.observability = {"yaw": "weak"}
+            return estimate
+
+        result = do(judge)
+        self.assertTrue((result.covariance == 4 * np.eye(6)).all())
+        self.assertEqual((result.observability["yaw"], result.observability["x"]), ("weak", "determined"))
+        self.assertIsNone(do(lambda e, rng: e).covariance)
+        for name, wrong in (("covariance", -np.eye(6)), ("covariance", np.eye(5)), ("covariance", np.triu(np.ones((6, 6)))),
+                            ("observability", {"x": "weak"})):
+            def assign(estimate, rng):
+                setattr(estimate, name, wrong)
+                return estimate
+
+            self.assertTrue(self.line_of(croon.StageError, do, assign).startswith("do: "))
+
     def test_let_an_interrupt_through(self):
         def interrupt(estimate, rng):
             raise KeyboardInterrupt

@@ -63,6 +63,24 @@ RigidTransform pose_near(Rng& rng, const RigidTransform& pose, double rotation_d
   return moved(pose, offset);
 }
 
+Vector6d pose_vector(Rng& rng) {
+  Vector6d vector;
+  for (int i = 0; i < 6; ++i) vector(i) = (i < 3 ? 0.01 : 0.1) * rng.normal();
+  return vector;
+}
+
+PoseCovariance random_covariance(Rng& rng) {
+  PoseCovariance covariance;
+  for (int i = 0; i < 8; ++i) {
+    const Vector6d direction = pose_vector(rng);
+    covariance.matrix += direction * direction.transpose();
+  }
+  for (Observability& word : covariance.dofs) {
+    word = kObservabilities.at(rng.below(kObservabilities.size()));
+  }
+  return covariance;
+}
+
 Points random_cloud(Rng& rng, int count, double extent_m) {
   Points cloud;
   for (int i = 0; i < count; ++i) {

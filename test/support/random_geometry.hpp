@@ -1,8 +1,8 @@
 #pragma once
 
 #include "framework/base/rng.hpp"
-#include "framework/geometry/dof.hpp"
 #include "framework/geometry/point_cloud.hpp"
+#include "framework/geometry/pose_covariance.hpp"
 
 namespace croon::test {
 
@@ -16,6 +16,12 @@ RigidTransform random_pose(Rng& rng, double extent_m);
 /// drawn.
 RigidTransform pose_near(Rng& rng, const RigidTransform& pose, double rotation_deg,
                          double translation_m);
+
+/// A vector as errors of poses are: rotations of about 0.01 rad, translations of about 0.1 m.
+Vector6d pose_vector(Rng& rng);
+
+/// A covariance of such errors, with words drawn at random.
+PoseCovariance random_covariance(Rng& rng);
 
 /// `count` points uniform in a cube of +-`extent_m`.
 Points random_cloud(Rng& rng, int count, double extent_m);

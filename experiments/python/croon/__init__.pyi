@@ -54,6 +54,8 @@ def simulate(scenes: int = 1, **parameters: Any) -> List[Scene]: ...
 class Result:
     pose: _Array
     information: Optional[_Array]
+    covariance: Optional[_Array]
+    observability: Optional[Dict[str, str]]
     diagnostics: Dict[str, Dict[str, float]]
     rejection: Optional[str]
     seconds: Dict[str, float]
@@ -100,10 +102,13 @@ class Results:
     def comparisons(self) -> _Array: ...
     @property
     def diagnostics(self) -> _Array: ...
+    @property
+    def covariances(self) -> _Array: ...
     def trials_frame(self) -> pandas.DataFrame: ...
     def summary_frame(self) -> pandas.DataFrame: ...
     def comparisons_frame(self) -> pandas.DataFrame: ...
     def diagnostics_frame(self) -> pandas.DataFrame: ...
+    def covariances_frame(self) -> pandas.DataFrame: ...
 
 def run(
     experiment: _Json,
@@ -144,6 +149,8 @@ class Trial(NamedTuple):
 class Estimate:
     pose: _Array
     information: Optional[_Array]
+    covariance: Optional[_Array]
+    observability: Optional[Dict[str, str]]
     rejection: Optional[str]
     diagnostics: Dict[str, float]
     @property

@@ -19,6 +19,12 @@ class Result:
     information: Optional[numpy.ndarray]
     """The information matrix of the pose, 6×6: roll, pitch, yaw (rad), x, y, z (m) in the target's frame, for residuals
     of unit variance; None if no step computed it."""
+    covariance: Optional[numpy.ndarray]
+    """The covariance of the error of the pose, 6×6: roll, pitch, yaw (rad), x, y, z (m) in the target's frame; None if no
+    step estimated it."""
+    observability: Optional[Dict[str, str]]
+    """How well the data hold "roll", "pitch", "yaw", "x", "y" and "z": "determined", "weak" or "unobservable"; None without
+    a covariance."""
     diagnostics: Dict[str, Dict[str, float]]
     """What each step reports of its work, by the step's name."""
     rejection: Optional[str]

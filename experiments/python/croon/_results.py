@@ -76,6 +76,11 @@ class Results:
         """What steps report of their work, as in diagnostics.csv."""
         return self._results.diagnostics()
 
+    @functools.cached_property
+    def covariances(self):
+        """The covariance of each result that has one, as in covariance.csv."""
+        return self._results.covariances()
+
     def trials_frame(self):
         """`trials` as a pandas.DataFrame. Raises ImportError without pandas."""
         return _frame(self.trials)
@@ -91,6 +96,10 @@ class Results:
     def diagnostics_frame(self):
         """`diagnostics` as a pandas.DataFrame."""
         return _frame(self.diagnostics)
+
+    def covariances_frame(self):
+        """`covariances` as a pandas.DataFrame."""
+        return _frame(self.covariances)
 
     def __str__(self):
         return self._results.text()

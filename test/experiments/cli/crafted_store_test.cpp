@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExperiment = R"({
   "name": "x", "dataset": {"type": "fake", "sensors": 1}, "starts": {"trials": 3},
-  "pipeline": [{"step": "drift"}]})";
+  "pipeline": [{"step": "drift"}, {"step": "behave", "how": "judge"}]})";
 
 /// Runs SQL without SQLite's defences.
 void run_sql(const fs::path& path, const std::string& sql) {
@@ -180,6 +180,17 @@ TEST_F(CraftedStore, IsRefusedInOneLine) {
       "UPDATE sensors SET reference = '+1'",
       "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 10001) "
       "INSERT INTO variants(name, pipeline, place) SELECT 'v' || i, '[]', i FROM n",
+      "UPDATE covariances SET c00 = NULL",
+      "UPDATE covariances SET c00 = 'much'",
+      "UPDATE covariances SET c00 = -1.0",
+      "UPDATE covariances SET c00 = 9e999",
+      "UPDATE covariances SET c33 = 1e15",
+      "UPDATE covariances SET c01 = 1.5",
+      "UPDATE covariances SET c01 = 0.9, c12 = 0.9, c02 = -0.9",
+      "UPDATE covariances SET yaw = NULL",
+      "UPDATE covariances SET yaw = 'certain'",
+      "UPDATE covariances SET sensor = 77",
+      "UPDATE covariances SET trial = 999999 WHERE trial = 1",
       "UPDATE steps SET figures = NULL",
       "UPDATE steps SET information = X'00'",
       manifest("experiment.variants", "[]"),
@@ -212,6 +223,8 @@ TEST_F(CraftedStore, IsRefusedInOneLine) {
       meta("format", "'1e9'"),
       "DELETE FROM meta WHERE name = 'manifest'",
       "DROP TABLE steps",
+      "DROP TABLE covariances",
+      "DROP VIEW named_covariances; DROP TABLE covariances",
       "DROP VIEW named_trials",
       "CREATE TABLE more(a)",
       "CREATE TRIGGER t AFTER UPDATE ON variants BEGIN DELETE FROM trials; END",

@@ -28,7 +28,8 @@ constexpr const char* kExperiment = R"({
   "pipeline": [
     {"step": "preprocessing", "sensor": [{"type": "voxel_downsample", "leaf_size_m": 0.5}]},
     {"step": "ground_alignment"},
-    {"step": "planar_alignment"}
+    {"step": "planar_alignment"},
+    {"step": "covariance"}
   ],
   "variants": [
     {"name": "coarse", "replace": {"preprocessing.sensor": [{"type": "voxel_downsample", "leaf_size_m": 2}]}},
@@ -47,10 +48,11 @@ constexpr const char* kRigExperiment = R"({
   "pipeline": [
     {"step": "preprocessing", "sensor": [{"type": "voxel_downsample", "leaf_size_m": 1}]},
     {"step": "planar_alignment", "points": "all"},
+    {"step": "covariance"},
     {"step": "consensus", "rotation_deg": 5, "translation_m": 0.3},
     {"step": "registration", "icp": {"type": "point_to_point", "max_iterations": 2}}
   ],
-  "variants": [{"name": "one scene", "remove": ["consensus"]}]
+  "variants": [{"name": "one scene", "remove": ["consensus"]}, {"name": "covariance", "remove": ["registration"]}]
 })";
 
 struct Case {
@@ -62,7 +64,7 @@ struct Case {
 
 constexpr Case kCases[] = {
     {"Pairs", kExperiment, 3 * 4 * 2 * 3, 4},    // Variants, scenes, sensors, starts.
-    {"Rigs", kRigExperiment, 2 * 2 * 3 * 2, 3},  // Variants, groups, sensors and pairs, starts.
+    {"Rigs", kRigExperiment, 3 * 2 * 3 * 2, 3},  // Variants, groups, sensors and pairs, starts.
 };
 constexpr int kKills = 20;
 
@@ -96,7 +98,8 @@ class InterruptedRun : public testing::TestWithParam<Case> {
   }
 
   void expect_same_results(const std::string& out) const {
-    for (const char* file : {"trials.csv", "summary.csv", "summary.json", "summary_by_kind.csv"}) {
+    for (const char* file :
+         {"trials.csv", "covariance.csv", "summary.csv", "summary.json", "summary_by_kind.csv"}) {
       EXPECT_TRUE(read_whole_file(path(out) / file) == read_whole_file(path("whole") / file))
           << out << "/" << file;
     }

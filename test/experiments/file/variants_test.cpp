@@ -119,7 +119,7 @@ TEST(Variants, FaultsStandWhereTheFileHasThem) {
           "/variants/0/replace/first.search/step_dg: unknown key \"step_dg\"; did you mean "
           "\"step_deg\"?",
           "/variants/2/replace/behave.how: expected one of pass, reject, defeat, memory, bug, nan, "
-          "far, skewed, "
+          "far, skewed, judge, misjudge, "
           "found \"pas\"; "
           "did you mean \"pass\"?",
           "/variants/3/replace/first/size_m: expected a number, found []",

@@ -60,6 +60,35 @@ TEST(Extrinsics, AreThePoseThatMostTrialsAgreeOn) {
   EXPECT_EQ(found["scenes"][2]["agreeing"], 0);  // No two of them agree.
 }
 
+TEST(Extrinsics, HaveACovarianceIfAllThatAgreeHaveOne) {
+  Rng rng = test_rng(4);
+  std::vector<TrialRecord> records = records_at(random_pose(rng, 3.0));
+  const auto json = [&] {
+    return nlohmann::json::parse(extrinsics_json(summarise(records, kBounds, {}), {}));
+  };
+  EXPECT_FALSE(json()["extrinsics"][0].contains("covariance"));
+  PoseCovariance covariance = croon::test::random_covariance(rng);
+  covariance.dofs.fill(Observability::determined);
+  covariance.dofs[2] = Observability::weak;
+  for (TrialRecord& record : records) record.covariance = covariance;
+  const auto found = json()["extrinsics"][0];
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      const auto at = [&](const nlohmann::json& of) {
+        return of["covariance"]["roll_pitch_yaw_rad_x_y_z_m"][i][j].get<double>();
+      };
+      // Trials of one scene share their data, scenes do not; two scenes agree.
+      EXPECT_NEAR(at(found["scenes"][0]), covariance.matrix(i, j), 1e-12);
+      EXPECT_NEAR(at(found), covariance.matrix(i, j) / 2.0, 1e-12);
+    }
+  }
+  EXPECT_EQ(found["covariance"]["yaw"], "weak");
+  EXPECT_EQ(found["covariance"]["x"], "determined");
+  records.front().covariance.reset();
+  EXPECT_TRUE(json()["extrinsics"][0]["covariance"].is_null());
+  EXPECT_FALSE(json()["extrinsics"][0]["scenes"][1]["covariance"].is_null());
+}
+
 TEST(Extrinsics, AreTheSameBytesInAnyOrder) {
   Rng rng = test_rng();
   const auto records = records_at(random_pose(rng, 3.0));

@@ -250,6 +250,9 @@ TEST(Runner, SaysHowATrialEnded) {
         Case{"defeat", Status::failed, "behave: no ground", false},
         Case{"nan", Status::failed, "the pose is not finite", false},
         Case{"far", Status::failed, "the pose is farther away than 1000000000 m", false},
+        Case{"misjudge", Status::failed,
+             "the covariance is none: it is not symmetric, finite and positive semi-definite",
+             false},
         Case{"skewed", Status::failed,
              "the pose has no rotation: the columns of its matrix are not orthonormal", false}}) {
     json experiment = drifting();

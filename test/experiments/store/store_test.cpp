@@ -39,6 +39,7 @@ TrialRecord random_record(Rng& rng, const std::string& variant, int trial) {
   }
   record.T_reference_sensor = test::random_pose(rng, 1e3);
   record.T_reference_sensor->translation.y() = trial % 2 == 0 ? -0.0 : 5.0;
+  if (trial % 3 != 0) record.covariance = test::random_covariance(rng);
   const bool is_judged = record.status == Status::success || record.status == Status::inaccurate;
   if (is_judged || (record.status == Status::rejected && rng.below(2) == 0)) {
     record.error = pose_error(*record.T_reference_sensor, test::random_pose(rng, 1e3));
@@ -74,6 +75,13 @@ void expect_same(const TrialRecord& a, const TrialRecord& b) {
     for (int i = 0; i < 3; ++i) {
       expect_same_bits(a.T_reference_sensor->translation(i), b.T_reference_sensor->translation(i));
     }
+  }
+  ASSERT_EQ(a.covariance.has_value(), b.covariance.has_value());
+  if (a.covariance) {
+    for (int i = 0; i < 36; ++i) {
+      expect_same_bits(a.covariance->matrix(i), b.covariance->matrix(i));
+    }
+    EXPECT_EQ(a.covariance->dofs, b.covariance->dofs);
   }
   if (a.error) {
     for (int i = 0; i < 6; ++i) expect_same_bits(a.error->dof(i), b.error->dof(i));
@@ -270,6 +278,46 @@ TEST(Store, OfAnEarlierFormatIsReadAndNotExtended) {
   EXPECT_EQ(message,
             "is a store of an earlier croon, whose stages had no versions: it can be exported, but "
             "not extended or merged; croon run --fresh starts over");
+}
+
+/// Makes the store `path` one of format 3, which has no covariances.
+void make_without_covariances(const std::filesystem::path& path) {
+  Database(path, Access::write).run(R"(UPDATE meta SET value = '3' WHERE name = 'format';
+              DROP VIEW named_covariances; DROP TABLE covariances)");
+}
+
+TEST(Store, OfTheFormatWithoutCovariancesIsReadAndExtended) {
+  const test::TempFolder folder;
+  const std::filesystem::path path = folder.path() / "s", whole = folder.path() / "whole";
+  const std::vector<TrialRecord> records = random_records(20);
+  TrialRecord bare = records.front();
+  bare.covariance.reset();
+  {
+    Store store(path, header());
+    add(store, bare);
+  }
+  make_without_covariances(path);
+  EXPECT_EQ(read_store(path).records.size(), 1U);
+  EXPECT_EQ(stored_trials(path, stored_header(path), header()).size(), 1U);
+  {
+    // A merge reads it too.
+    Store store(folder.path() / "merged", header());
+    store.merge(path, stored_header(path));
+  }
+  EXPECT_EQ(read_store(folder.path() / "merged").records.size(), 1U);
+  {
+    Store store(path, header()), all(whole, header());
+    add(all, bare);
+    for (std::size_t i = 1; i < records.size(); ++i) {
+      add(store, records[i]);
+      add(all, records[i]);
+    }
+  }
+  rewrite_in_order(path);
+  rewrite_in_order(whole);
+  EXPECT_EQ(read_whole_file(path), read_whole_file(whole));
+  Database(path, Access::write).run("DROP VIEW named_covariances; DROP TABLE covariances");
+  EXPECT_THROW(read_store(path), InputError);  // A store of the present format has the table.
 }
 
 TEST(Store, TakesMoreVariantsTrialsAndAnotherOrder) {

@@ -185,7 +185,7 @@ class Gather final : public RigStep {
   }
 };
 
-enum class How { pass, reject, defeat, memory, bug, nan, far, skewed };
+enum class How { pass, reject, defeat, memory, bug, nan, far, skewed, judge, misjudge };
 
 struct BehaveParams {
   How how = How::pass;
@@ -204,6 +204,10 @@ class Behave final : public Step {
       estimate.T_target_source.translation.x() = std::numeric_limits<double>::quiet_NaN();
     }
     if (params_.how == How::skewed) estimate.T_target_source.rotation(0, 0) += 0.01;
+    if (params_.how == How::judge || params_.how == How::misjudge) {
+      const double sign = params_.how == How::judge ? 1.0 : -1.0;
+      estimate.covariance = PoseCovariance{sign * Matrix6d::Identity(), {}};
+    }
     if (params_.how == How::far) estimate.T_target_source.translation.x() = -1e18;
     return estimate;
   }
@@ -253,7 +257,9 @@ Catalogue fake_catalogue() {
                                                            {"bug", How::bug},
                                                            {"nan", How::nan},
                                                            {"far", How::far},
-                                                           {"skewed", How::skewed}},
+                                                           {"skewed", How::skewed},
+                                                           {"judge", How::judge},
+                                                           {"misjudge", How::misjudge}},
                                                           "What it does.")}));
   return catalogue;
 }

@@ -48,6 +48,35 @@ TEST(RunPipeline, TakesTheEstimateThroughTheSteps) {
             result.records[0].diagnostics[0].second + result.records[1].diagnostics[0].second);
 }
 
+/// Gives the pose a covariance of `variance`.
+class Judge final : public Step {
+ public:
+  explicit Judge(double variance) : variance_(variance) {}
+  Estimate advance(Estimate estimate, Rng&) const override {
+    if (variance_ > 0.0) {
+      estimate.covariance = PoseCovariance{variance_ * Matrix6d::Identity(), {}};
+    }
+    return estimate;
+  }
+
+ private:
+  double variance_;
+};
+
+NamedStep judge(const std::string& name, double variance) {
+  const std::shared_ptr<const Step> step = std::make_shared<const Judge>(variance);
+  return {name, params::Slot<Step>(params::BuiltStage{step, "judge", "{}"})};
+}
+
+TEST(RunPipeline, ACovarianceIsOfThePoseThatItWasEstimatedFor) {
+  EXPECT_FALSE(run({move("a")}).estimate.covariance);
+  const auto kept = run({move("a"), judge("b", 4.0), judge("leaves it", 0.0)}).estimate.covariance;
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->matrix(3, 3), 4.0);
+  EXPECT_FALSE(run({judge("a", 4.0), move("b")}).estimate.covariance);
+  EXPECT_TRUE(run({judge("a", 4.0), move("b"), judge("c", 4.0)}).estimate.covariance);
+}
+
 TEST(RunPipeline, StepsDrawFromStreamsOfTheirOwn) {
   const double a = run({move("a"), move("b")}).records[0].diagnostics[0].second;
   const double b = run({move("a"), move("b")}).records[1].diagnostics[0].second;

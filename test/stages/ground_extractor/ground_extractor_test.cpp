@@ -48,6 +48,13 @@ double angle_deg(const Plane& a, const Plane& b) {
 /// The ground of test::random_street.
 Plane street_ground() { return {Eigen::Vector3d::UnitZ(), 2.0}; }
 
+/// T_sensor_street of a sensor that is turned anyhow, 0.5 to 4 m above the road.
+RigidTransform pose_above_road(Rng& rng) {
+  RigidTransform T_street_sensor = test::random_pose(rng, 3.0);
+  T_street_sensor.translation.z() = rng.uniform(-1.5, 2.0);
+  return T_street_sensor.inverse();
+}
+
 /// All ground extractors that this build has.
 class EveryGroundExtractor : public testing::TestWithParam<std::string> {};
 
@@ -55,7 +62,7 @@ TEST_P(EveryGroundExtractor, FindsTheGroundOfAStreetUnderAnyPose) {
   Rng rng = test::test_rng();
   const auto stage = extractor(GetParam());
   for (int i = 0; i < 20; ++i) {
-    const RigidTransform T_sensor_street = test::random_pose(rng, 3.0);
+    const RigidTransform T_sensor_street = pose_above_road(rng);
     const Points street = test::random_street(rng, i, 15000, 0.01);
     const Ground ground = extracted(*stage, transformed(street, T_sensor_street));
     const Plane expected = mapped(T_sensor_street, street_ground());
@@ -83,7 +90,7 @@ TEST_P(EveryGroundExtractor, ARotatedCloudHasTheRotatedGround) {
   const auto stage = extractor(GetParam());
   for (int i = 0; i < 10; ++i) {
     const Points street = test::random_street(rng, i, 15000, 0.01);
-    const RigidTransform T = test::random_pose(rng, 3.0);
+    const RigidTransform T = pose_above_road(rng);
     const Plane expected = mapped(T, extracted(*stage, street).plane);
     const Plane found = turned_to(extracted(*stage, transformed(street, T)).plane, expected);
     EXPECT_LT(angle_deg(found, expected), 0.002);
@@ -175,6 +182,46 @@ TEST_P(EveryGroundExtractor, FitsTheFinalPlaneWithinTheSlab) {
   const Plane equal = plane_of(R"(, "threshold_m": 0.1, "refit_threshold_m": 0.1)");
   EXPECT_EQ(wide.normal, equal.normal);
   EXPECT_EQ(wide.offset_m, equal.offset_m);
+}
+
+/// A road with a wall beside it that has more points, as a lorry's side near a sensor has.
+Points road_beside_a_wall(Rng& rng) {
+  Points cloud = test::random_street(rng, 5, 15000, 0.01);
+  for (int i = 0; i < 20000; ++i) {
+    const Eigen::Vector3d point(rng.uniform(-4.0, 4.0), 2.0, rng.uniform(-1.8, 1.0));
+    cloud.push_back((point + 0.01 * Eigen::Vector3d(0, rng.normal(), 0)).cast<float>());
+  }
+  return cloud;
+}
+
+TEST(GroundThatIsTheGround, IsTheRoadIfAWallHasMorePoints) {
+  Rng rng = test::test_rng(9);
+  for (int i = 0; i < 5; ++i) {
+    const RigidTransform T = pose_above_road(rng);
+    const Points cloud = transformed(road_beside_a_wall(rng), T);
+    const Plane road = mapped(T, street_ground());
+    EXPECT_GT(angle_deg(extracted(*extractor("ransac"), cloud).plane, road), 80.0);
+    for (const char* const name : {"plausible_plane", "patchwork"}) {
+      const Plane found = extracted(*extractor(name), cloud).plane;
+      EXPECT_LT(angle_deg(found, road), 0.05) << name;
+      EXPECT_LT(std::abs(turned_to(found, road).offset_m - road.offset_m), 0.005) << name;
+    }
+  }
+}
+
+TEST(Patchwork, TakesTheSensorsZForUpOnlyIfAsked) {
+  Rng rng = test::test_rng(10);
+  const auto z_up = extractor("patchwork", R"(, "up": "sensor_z")");
+  const Points level = test::random_street(rng, 5, 15000, 0.01);
+  EXPECT_LT(angle_deg(extracted(*z_up, level).plane, street_ground()), 0.03);
+  for (const double pitch_deg : {50.0, 90.0}) {
+    const RigidTransform T = {rotation_from_rpy({0.0, rad_from_deg(pitch_deg), 0.0}), {0, 0, 0}};
+    const Points tilted = transformed(level, T);
+    EXPECT_LT(
+        angle_deg(extracted(*extractor("patchwork"), tilted).plane, mapped(T, street_ground())),
+        0.03);
+    EXPECT_THROW(extracted(*z_up, tilted), StageError);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Registered, EveryGroundExtractor,

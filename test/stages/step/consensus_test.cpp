@@ -160,5 +160,25 @@ TEST(Consensus, KeepsPairsOfOneSensorApart) {
   EXPECT_LT(distance(rig.back().estimate.T_target_source, to_left), 0.02);
 }
 
+TEST(Consensus, HasTheCovarianceOfAMeanOfScenes) {
+  Rng rng = test::test_rng(12);
+  const PoseCovariance covariance = test::random_covariance(rng);
+  const RigidTransform truth = test::random_pose(rng, 3.0);
+  std::vector<RigEstimate> rig = near_estimates(rng, "left", truth, 4);
+  for (RigEstimate& one : rig) one.estimate.covariance = covariance;
+  rig.push_back({"astray", "top", "left", {}});
+  rig.back().estimate.T_target_source = test::random_pose(rng, 9.0);
+  auto without = rig;
+  adjust(rig);
+  for (const RigEstimate& one : rig) {
+    ASSERT_TRUE(one.estimate.covariance);  // Also where the pose was another.
+    EXPECT_LT((4.0 * one.estimate.covariance->matrix - covariance.matrix).norm(), 1e-9);
+    EXPECT_EQ(one.estimate.covariance->dofs, covariance.dofs);
+  }
+  without.front().estimate.covariance.reset();
+  adjust(without);
+  EXPECT_FALSE(without.back().estimate.covariance);
+}
+
 }  // namespace
 }  // namespace croon

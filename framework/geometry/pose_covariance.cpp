@@ -1,0 +1,61 @@
+#include "framework/geometry/pose_covariance.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <stdexcept>
+
+namespace croon {
+namespace {
+
+/// The sum times `factor`, and of each degree of freedom the worst word.
+PoseCovariance scaled_sum(const std::vector<PoseCovariance>& covariances, double factor) {
+  if (covariances.empty()) throw std::logic_error("no covariances");
+  PoseCovariance sum;
+  for (const PoseCovariance& one : covariances) {
+    sum.matrix += one.matrix;
+    for (std::size_t i = 0; i < sum.dofs.size(); ++i) {
+      sum.dofs[i] = std::max(sum.dofs[i], one.dofs[i]);
+    }
+  }
+  sum.matrix *= factor;
+  return sum;
+}
+
+}  // namespace
+
+std::optional<Observability> observability_of(const std::string& name) {
+  for (const Observability word : kObservabilities) {
+    if (name == name_of(word)) return word;
+  }
+  return std::nullopt;
+}
+
+bool is_covariance(const Matrix6d& matrix) {
+  if (!matrix.allFinite() || matrix != matrix.transpose()) return false;
+  const Vector6d variances = matrix.diagonal();
+  if (variances.minCoeff() < 0.0 || variances.maxCoeff() > kLargestVariance) return false;
+  // Rotations and translations have other units, so the matrix of correlations is looked at.
+  Matrix6d correlations;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      const double scale = std::sqrt(variances(i)) * std::sqrt(variances(j));
+      if (!(scale > 0.0) && matrix(i, j) != 0.0) return false;
+      correlations(i, j) = scale > 0.0 ? matrix(i, j) / scale : 0.0;
+    }
+  }
+  if (!(correlations.cwiseAbs().maxCoeff() <= 1.0 + 1e-9)) return false;
+  constexpr double kRounding = 1e-9;
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(correlations, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()(0) >= -kRounding;
+}
+
+PoseCovariance covariance_of_mean(const std::vector<PoseCovariance>& covariances) {
+  const auto count = static_cast<double>(covariances.size());
+  return scaled_sum(covariances, 1.0 / (count * count));
+}
+
+PoseCovariance mean_covariance(const std::vector<PoseCovariance>& covariances) {
+  return scaled_sum(covariances, 1.0 / static_cast<double>(covariances.size()));
+}
+
+}  // namespace croon

@@ -1,0 +1,121 @@
+#include "framework/pipeline/hypothesis_choice.hpp"
+
+#include <algorithm>
+
+#include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
+#include "framework/pipeline/shared_view.hpp"
+#include "framework/registration/pose_evidence.hpp"
+
+namespace croon {
+namespace {
+
+/// The points that poses of the cloud are refined with.
+std::shared_ptr<const Cloud> refinement_sample(const Cloud& cloud, const HypothesisChoice& choice) {
+  return cloud.once<Cloud>("refinement_sample", choice.thinning.resolved(), [&] {
+    constexpr int kPoints = 400;
+    const auto view = shared_view(cloud, choice.thinning);
+    const Cloud& thinned = *view->thinned;
+    Points sample;
+    for (const int i : balanced_sample(thinned, view->normal_neighbours, kPoints)) {
+      sample.push_back(thinned.points()[i]);
+    }
+    return thinned.derived(std::move(sample), "sample");
+  });
+}
+
+/// The best poses that are not near a better one.
+std::vector<Hypothesis> apart(std::vector<Hypothesis> poses) {
+  sort_by_score(poses);
+  std::vector<Hypothesis> kept;
+  for (const Hypothesis& pose : poses) {
+    const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const Hypothesis& other) {
+      return agree(pose.T_target_source, other.T_target_source, kSameHypothesis);
+    });
+    if (is_new) kept.push_back(pose);
+  }
+  return kept;
+}
+
+/// The poses refined, with their evidence, best first, apart from each other.
+std::vector<Hypothesis> judged(const std::vector<Hypothesis>& poses, const Estimate& estimate,
+                               const HypothesisChoice& choice) {
+  const auto target = shared_view(*estimate.target, choice.thinning);
+  const auto source = shared_view(*estimate.source, choice.thinning);
+  const auto sample = refinement_sample(*estimate.source, choice);
+  std::vector<Hypothesis> refined;
+  for (const Hypothesis& pose : poses) {
+    try {
+      const RigidTransform T =
+          choice.icp->align(*target->thinned, *sample, pose.T_target_source).T_target_source;
+      refined.push_back({T, pose_evidence(*target, *source, T, {}).score()});
+    } catch (const StageError&) {
+      continue;  // Too few points correspond.
+    }
+  }
+  return apart(std::move(refined));
+}
+
+}  // namespace
+
+params::DataFlow HypothesisChoice::flow() const {
+  params::DataFlow flow = thinning.flow();
+  flow.add(icp.flow());
+  flow.gives.push_back(kHypotheses.doc());
+  return flow;
+}
+
+const params::Table<HypothesisChoice>& hypothesis_choice_table() {
+  static const params::Table<HypothesisChoice> table = {
+      params::slot("thinning", &HypothesisChoice::thinning,
+                   R"({"type": "voxel_downsample", "leaf_size_m": 0.25})",
+                   "Makes the clouds even, so that numbers of points are areas."),
+      params::slot("icp", &HypothesisChoice::icp,
+                   R"({"type": "point_to_plane", "max_distances_m": [1.5, 0.8, 0.4], )"
+                   R"("max_iterations": 8, "coarse_points": 300, "normal_neighbours": 10, )"
+                   R"("rotation_tolerance_deg": 0.05, "translation_tolerance_m": 0.005})",
+                   "Refines each hypothesis before they are compared."),
+      params::boolean("use_start", &HypothesisChoice::use_start,
+                      "Poses beyond max_rotation_deg or max_translation_m from the start are "
+                      "dropped; without it the start does not matter."),
+      params::number("max_rotation_deg", &HypothesisChoice::max_rotation_deg, {0.0, 180.0},
+                     "See use_start."),
+      params::number("max_translation_m", &HypothesisChoice::max_translation_m, {0.0, 1e6},
+                     "See use_start."),
+  };
+  return table;
+}
+
+void sort_by_score(std::vector<Hypothesis>& poses) {
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const auto& a, const auto& b) { return a.score > b.score; });
+}
+
+std::shared_ptr<const SensorView> view_of(const Cloud& cloud, const HypothesisChoice& choice,
+                                          const char* whose) {
+  if (cloud.empty()) throw StageError(std::string("the ") + whose + " cloud is empty");
+  return shared_view(cloud, choice.thinning);
+}
+
+Estimate at_best(Estimate estimate, const std::vector<Hypothesis>& proposed,
+                 const HypothesisChoice& choice) {
+  std::vector<Hypothesis> poses = judged(proposed, estimate, choice);
+  if (choice.use_start) {
+    const PoseBounds bounds{rad_from_deg(choice.max_rotation_deg), choice.max_translation_m};
+    const RigidTransform start = estimate.T_target_source;
+    poses.erase(std::remove_if(poses.begin(), poses.end(),
+                               [&](const Hypothesis& pose) {
+                                 return !agree(pose.T_target_source, start, bounds);
+                               }),
+                poses.end());
+  }
+  if (poses.empty()) throw StageError("no pose was found at which the clouds agree");
+  estimate.T_target_source = poses.front().T_target_source;
+  estimate.diagnostics = {{"score", poses.front().score},
+                          {"hypotheses", static_cast<double>(poses.size())}};
+  if (poses.size() > 1) estimate.diagnostics.emplace_back("next_score", poses[1].score);
+  estimate.extras.put(kHypotheses, std::move(poses));
+  return estimate;
+}
+
+}  // namespace croon

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "framework/geometry/point_cloud.hpp"
+
+namespace croon {
+
+/// Correspondences by index: `target[i]` is said to be `source[i]`, both with a unit normal.
+struct OrientedPairs {
+  Points target;
+  Points target_normals;
+  Points source;
+  Points source_normals;
+
+  std::size_t size() const { return target.size(); }
+};
+
+/// When two correspondences may be of one pose.
+struct ConsistencyOptions {
+  double tolerance_m = 0.4;        ///< Of the distance between the two points.
+  double normal_tolerance = 0.35;  ///< Of the products of the normals with each other and with the
+                                   ///< line between the points; 2: normals do not count.
+};
+
+/// Which correspondences agree with which: no motion changes the distance of two points, nor the
+/// angles between their normals and the line between them. Correct correspondences all agree with
+/// each other, so they are a clique. After Yang, Shi and Carlone, TEASER, T-RO 2021 (distances),
+/// and Lusk, Fathian and How, CLIPPER, ICRA 2021 (normals).
+class ConsistencyGraph {
+ public:
+  ConsistencyGraph(const OrientedPairs& pairs, const ConsistencyOptions& options);
+
+  /// The core number of each vertex: the largest k such that it is in a subgraph each of whose
+  /// vertices has k neighbours in it (Matula and Beck 1983). A clique of n vertices is in the
+  /// (n-1)-core (Shi et al., ROBIN, ICRA 2021).
+  std::vector<int> core_numbers() const;
+
+  /// A clique with `seed` that no other vertex can join: of the vertices that agree with all so
+  /// far, the next is that with the most neighbours among them; of equals the first. They are
+  /// counted anew each time that half of the vertices have dropped out.
+  std::vector<int> clique(int seed) const;
+
+  int size() const { return size_; }
+  bool are_consistent(int a, int b) const {
+    return ((rows_[word(a, b)] >> (static_cast<unsigned>(b) % 64U)) & 1U) != 0;
+  }
+
+ private:
+  using Bits = std::vector<std::uint64_t>;
+  std::size_t word(int row, int column) const {
+    return static_cast<std::size_t>(row) * words_ + static_cast<std::size_t>(column) / 64;
+  }
+  int common(int vertex, const Bits& set) const;
+  std::vector<int> members(const Bits& set) const;
+  std::vector<int> by_neighbours(const Bits& set) const;
+
+  int size_;
+  std::size_t words_;  ///< Of a row.
+  Bits rows_;          ///< Bit b of row a: a and b are consistent; not of a with itself.
+};
+
+}  // namespace croon

@@ -1,0 +1,210 @@
+#include "framework/registration/joint_registration.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "framework/base/threads.hpp"
+#include "framework/registration/joint_pair.hpp"
+
+namespace croon {
+namespace {
+
+/// Where some unknowns of a pair, `size` of them from `from` on, are among all unknowns.
+struct Block {
+  int from, size, at;
+};
+
+class Problem {
+ public:
+  Problem(const std::vector<JointScene>& scenes, const JointOptions& options, std::size_t sensors)
+      : scenes_(scenes), options_(options), sensors_(static_cast<int>(sensors)) {
+    size_ = 6 * sensors_;
+    for (const JointScene& scene : scenes) {
+      velocity_at_.push_back(scene.is_moving ? size_ : -1);
+      if (scene.is_moving) size_ += 6;
+    }
+    if (options.clock_offset_std_s > 0.0) {
+      offset_at_ = size_;
+      size_ += sensors_;
+    }
+  }
+
+  /// Moves `outcome` by Gauss-Newton at one distance until it stays.
+  void run(JointRegistration& outcome, double max_distance_m) const {
+    outcome.converged = false;
+    for (int i = 0; i < options_.max_iterations && !outcome.converged; ++i) {
+      const Eigen::VectorXd step = step_at(outcome, max_distance_m);
+      outcome.converged = is_small(step);
+      move(outcome.state, step);
+      ++outcome.iterations;
+    }
+  }
+
+ private:
+  Eigen::VectorXd step_at(JointRegistration& outcome, double max_distance_m) const {
+    std::vector<std::vector<PairEquations>> pairs(scenes_.size());
+    for_each_in_parallel(scenes_.size(), [&](std::size_t s) {
+      const JointScene& scene = scenes_[s];
+      const Twist& velocity = outcome.state.velocities[s];
+      const StillTarget target(scene, velocity, options_.normal_neighbours);
+      for (const JointScene::Source& source : scene.sources) {
+        pairs[s].push_back(pair_equations(source, target, scene.reference_s, velocity,
+                                          outcome.state, max_distance_m, options_));
+      }
+    });
+    Eigen::MatrixXd information = Eigen::MatrixXd::Zero(size_, size_);
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(size_);
+    double square_sum = 0.0, weight_sum = 0.0;
+    outcome.correspondences.assign(scenes_.size(), {});
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      for (std::size_t j = 0; j < pairs[s].size(); ++j) {
+        const PairEquations& pair = pairs[s][j];
+        outcome.correspondences[s].push_back(pair.correspondences);
+        if (pair.correspondences < kLeastJointCorrespondences) continue;
+        add(pair, blocks_of(s, scenes_[s].sources[j].sensor), information, gradient);
+        square_sum += pair.weighted_square_sum;
+        weight_sum += pair.weight_sum;
+      }
+    }
+    outcome.rmse_m = weight_sum > 0.0 ? std::sqrt(square_sum / weight_sum) : 0.0;
+    add_priors(outcome.state, information, gradient);
+    return -information.ldlt().solve(gradient);
+  }
+
+  std::vector<Block> blocks_of(std::size_t scene, std::size_t sensor) const {
+    const int k = static_cast<int>(sensor);
+    std::vector<Block> blocks = {{kPairPose, 6, 6 * k}};
+    if (velocity_at_[scene] >= 0) blocks.push_back({kPairVelocity, 6, velocity_at_[scene]});
+    if (offset_at_ >= 0) blocks.push_back({kPairOffset, 1, offset_at_ + k});
+    return blocks;
+  }
+
+  static void add(const PairEquations& pair, const std::vector<Block>& blocks,
+                  Eigen::MatrixXd& information, Eigen::VectorXd& gradient) {
+    for (const Block& a : blocks) {
+      gradient.segment(a.at, a.size) += pair.gradient.segment(a.from, a.size);
+      for (const Block& b : blocks) {
+        information.block(a.at, b.at, a.size, b.size) +=
+            pair.information.block(a.from, b.from, a.size, b.size);
+      }
+    }
+  }
+
+  /// What is expected of velocities and offsets before any point is seen, as residuals of the
+  /// kernel's width; and a damping, so that a pose stays in directions that nothing constrains.
+  void add_priors(const JointState& state, Eigen::MatrixXd& information,
+                  Eigen::VectorXd& gradient) const {
+    constexpr double kDamping = 1e-6;
+    information.diagonal() *= 1.0 + kDamping;
+    information.diagonal().array() += 1e-12;
+    const auto expect_zero = [&](int at, double value, double std) {
+      const double share = options_.kernel_width_m / std;
+      information(at, at) += share * share;
+      gradient(at) += share * share * value;
+    };
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      if (velocity_at_[s] < 0) continue;
+      const Twist& velocity = state.velocities[s];
+      for (int axis = 0; axis < 3; ++axis) {
+        const int at = velocity_at_[s] + axis;
+        expect_zero(at, velocity.angular_radps(axis), options_.velocity_std[1]);
+        expect_zero(at + 3, velocity.linear_mps(axis), options_.velocity_std[0]);
+      }
+    }
+    if (offset_at_ < 0) return;
+    for (int k = 0; k < sensors_; ++k) {
+      expect_zero(offset_at_ + k, state.clock_offsets_s[k], options_.clock_offset_std_s);
+    }
+  }
+
+  /// A step is cut to half a radian, because the linearisation is not valid beyond.
+  void move(JointState& state, const Eigen::VectorXd& step) const {
+    for (int k = 0; k < sensors_; ++k) {
+      const Vector6d pose = step.segment<6>(6 * k);
+      const double angle = pose.head<3>().norm();
+      const double share = angle > 0.5 ? 0.5 / angle : 1.0;
+      RigidTransform& T = state.T_target_sensor[k];
+      T = {nearest_rotation(rotation_exp(share * pose.head<3>()) * T.rotation),
+           T.translation + share * pose.tail<3>()};
+      if (offset_at_ >= 0) state.clock_offsets_s[k] += step(offset_at_ + k);
+    }
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      if (velocity_at_[s] < 0) continue;
+      state.velocities[s].angular_radps += step.segment<3>(velocity_at_[s]);
+      state.velocities[s].linear_mps += step.segment<3>(velocity_at_[s] + 3);
+    }
+  }
+
+  /// Whether no pose moves, and no point of a scan by its velocity.
+  bool is_small(const Eigen::VectorXd& step) const {
+    constexpr double kRotation_rad = 1e-4, kTranslation_m = 1e-3, kScan_s = 0.1;
+    const auto is_still = [&](int at, double scale) {
+      return step.segment<3>(at).norm() * scale <= kRotation_rad &&
+             step.segment<3>(at + 3).norm() * scale <= kTranslation_m;
+    };
+    for (int k = 0; k < sensors_; ++k) {
+      if (!is_still(6 * k, 1.0)) return false;
+    }
+    return std::all_of(velocity_at_.begin(), velocity_at_.end(),
+                       [&](int at) { return at < 0 || is_still(at, kScan_s); });
+  }
+
+  const std::vector<JointScene>& scenes_;
+  const JointOptions& options_;
+  int sensors_;
+  std::vector<int> velocity_at_;  ///< By scene: where its velocity is among the unknowns, or -1.
+  int offset_at_ = -1;            ///< Where the clocks' offsets are, or -1.
+  int size_ = 0;
+};
+
+}  // namespace
+
+const params::Table<JointOptions>& joint_table() {
+  static const params::Table<JointOptions> table = [] {
+    params::Table<JointOptions> rows = {
+        params::numbers("max_distances_m", &JointOptions::max_distances_m, {1e-6, 1e6},
+                        "Points that are farther apart do not correspond; one pass for each."),
+        params::numbers("velocity_std", &JointOptions::velocity_std, {1e-9, 1e6},
+                        "What is expected of a velocity before any point is seen: standard "
+                        "deviations of 0 m/s along each axis and of 0 rad/s about it."),
+        params::number("clock_offset_std_s", &JointOptions::clock_offset_std_s, {0.0, 1e6},
+                       "The same of the sensors' clocks against the target's; at 0 they agree."),
+        params::integer("max_iterations", &JointOptions::max_iterations, {1, 10000},
+                        "The most iterations of each pass."),
+        params::integer("points", &JointOptions::points, {30, 100000000},
+                        "How many points of each scan take part, evenly through it."),
+        params::integer("normal_neighbours", &JointOptions::normal_neighbours, {3, 1000},
+                        "The number of neighbours that a normal is computed from."),
+        params::number("max_normal_angle_deg", &JointOptions::max_normal_angle_deg, {0.0, 180.0},
+                       "Points whose normals differ by more do not correspond."),
+        params::number("patch_m", &JointOptions::patch_m, {1e-3, 1e6},
+                       "A patch is a surface of about one direction in a cube of this edge."),
+        params::number("patch_balance", &JointOptions::patch_balance, {0.0, 1.0},
+                       "Each of the n points of a patch weighs n to the minus this: at 1 every "
+                       "patch weighs the same, at 0 every point. It keeps one large thing that "
+                       "moves from outvoting many small ones that stand."),
+        params::number("kernel_width_m", &JointOptions::kernel_width_m, {1e-6, 1e6},
+                       "Residuals above it begin to lose weight; in a coarse pass a quarter of its "
+                       "distance."),
+    };
+    rows.require([](const JointOptions& o) { return !o.max_distances_m.empty(); },
+                 "max_distances_m must have a number");
+    rows.require([](const JointOptions& o) { return o.velocity_std.size() == 2; },
+                 "velocity_std must have two numbers");
+    return rows;
+  }();
+  return table;
+}
+
+JointRegistration register_jointly(const std::vector<JointScene>& scenes, JointState start,
+                                   const JointOptions& options) {
+  JointRegistration outcome;
+  const std::size_t sensors = start.T_target_sensor.size();
+  outcome.state = std::move(start);
+  const Problem problem(scenes, options, sensors);
+  for (const double distance : options.max_distances_m) problem.run(outcome, distance);
+  return outcome;
+}
+
+}  // namespace croon

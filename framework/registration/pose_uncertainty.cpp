@@ -1,0 +1,353 @@
+#include "framework/registration/pose_uncertainty.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "framework/base/statistics.hpp"
+#include "framework/registration/direction_balance.hpp"
+#include "framework/registration/gauss_newton.hpp"
+
+namespace croon {
+namespace {
+
+constexpr std::size_t kFewestContacts = 12;
+constexpr int kDofCount = 6;
+
+/// A cell and a direction: contacts that share them are one surface.
+using SurfaceKey = std::array<int, 4>;
+
+/// A source point on a surface of the target.
+struct Contact {
+  Eigen::Vector3d arm;                   ///< As Correspondence has it.
+  Eigen::Vector3d offset;                ///< Likewise.
+  Eigen::Vector3d point;                 ///< The source point in the target's frame.
+  Eigen::Vector3d of_target, of_source;  ///< Normals in the target's axes, to the same side.
+  SurfaceKey surface;
+  double delay_s;  ///< Of the source point's measurement against the target point's.
+  bool is_grazed;  ///< One of the sensors sees its surface at a grazing angle.
+};
+
+/// Velocities along x, y and z, and the rate of turning about z.
+constexpr int kMotions = 4;
+
+/// The contacts of two clouds at a pose, in the order of the source's points.
+class ContactFinder {
+ public:
+  ContactFinder(const Cloud& target, const Cloud& source, const UncertaintyOptions& options)
+      : target_(target),
+        source_(source),
+        options_(options),
+        tree_(target.kd_tree()),
+        target_normals_(target.normals(options.normal_neighbours)),
+        source_normals_(source.normals(options.normal_neighbours)) {
+    if (!is_motion_unknown(options)) return;
+    target_times_ = times_s(target.with_channels());
+    source_times_ = times_s(source.with_channels());
+  }
+
+  /// Of at most `most` points, evenly through the source.
+  std::vector<Contact> contacts(const RigidTransform& T, std::int64_t most) const {
+    std::vector<Contact> found;
+    const auto size = static_cast<std::int64_t>(source_.points().size());
+    const std::int64_t count = std::min(size, most);
+    Contact contact;
+    for (std::int64_t i = 0; i < count; ++i) {
+      if (find(static_cast<int>(i * size / count), T, contact)) found.push_back(contact);
+    }
+    return found;
+  }
+
+ private:
+  bool find(int index, const RigidTransform& T, Contact& contact) const {
+    contact.arm = T.rotation * source_.points()[index].cast<double>();
+    const Eigen::Vector3d point = contact.arm + T.translation;
+    contact.point = point;
+    const Neighbour nearest =
+        tree_.nearest(point.cast<float>(), static_cast<float>(options_.max_distance_m));
+    if (!nearest) return false;
+    contact.of_target = target_normals_.at(nearest.index).normal.cast<double>();
+    contact.of_source = T.rotation * source_normals_.at(index).normal.cast<double>();
+    if (contact.of_target.isZero() || contact.of_source.isZero()) return false;
+    if (contact.of_target.dot(contact.of_source) < 0.0) contact.of_source *= -1.0;
+    contact.offset = point - target_.points()[nearest.index].cast<double>();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double cell = point(static_cast<Eigen::Index>(k)) / options_.surface_size_m;
+      contact.surface.at(k) = static_cast<int>(std::floor(cell));
+    }
+    contact.surface[3] = direction_bin(contact.of_target);
+    contact.delay_s = source_times_.empty()
+                          ? 0.0
+                          : source_times_.at(static_cast<std::size_t>(index)) -
+                                target_times_.at(static_cast<std::size_t>(nearest.index));
+    constexpr double kGrazing = 0.5;  // The cosine of 60 degrees.
+    contact.is_grazed =
+        std::abs(contact.of_target.dot(point)) < kGrazing * point.norm() ||
+        std::abs(contact.of_source.dot(contact.arm)) < kGrazing * contact.arm.norm();
+    return true;
+  }
+
+  const Cloud& target_;
+  const Cloud& source_;
+  const UncertaintyOptions& options_;
+  const KdTree& tree_;
+  const Normals& target_normals_;
+  const Normals& source_normals_;
+  std::vector<double> target_times_, source_times_;  ///< Empty if the motion is known.
+};
+
+/// The weight of each direction, see balanced_directions.
+std::array<double, kDirectionBins> direction_weights(const std::vector<Contact>& contacts,
+                                                     double exponent) {
+  std::array<int, kDirectionBins> counts{};
+  for (const Contact& contact : contacts) ++counts.at(static_cast<std::size_t>(contact.surface[3]));
+  std::array<double, kDirectionBins> weights{};
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts.at(i) > 0) weights.at(i) = std::pow(counts.at(i), -exponent);
+  }
+  return weights;
+}
+
+/// The cost of contacts to second order.
+struct Quadratic {
+  Vector6d gradient = Vector6d::Zero();
+  Matrix6d hessian = Matrix6d::Zero();      ///< With the curvature of the robust kernel.
+  Matrix6d information = Matrix6d::Zero();  ///< Along the mean of the two normals,
+  Matrix6d noise = Matrix6d::Zero();        ///< and half of what they differ by.
+  Vector6d grazed = Vector6d::Zero();  ///< What the gradient gains if grazed surfaces are 1 m off.
+  /// The same if the car moved at 1 m/s along each axis, or turned at 1 rad/s.
+  Eigen::Matrix<double, 6, kMotions> moved = Eigen::Matrix<double, 6, kMotions>::Zero();
+
+  void add(const Quadratic& other) {
+    gradient += other.gradient;
+    hessian += other.hessian;
+    information += other.information;
+    noise += other.noise;
+    grazed += other.grazed;
+    moved += other.moved;
+  }
+};
+
+Vector6d jacobian_along(const Eigen::Vector3d& arm, const Eigen::Vector3d& normal) {
+  Vector6d J;
+  J << arm.cross(normal), normal;
+  return J;
+}
+
+/// Half of `weight * rho(r^T Omega r)` with Omega of Generalized-ICP, which weighs a distance
+/// across two planes that agree by one, and rho of Geman and McClure.
+Quadratic quadratic_of(const Contact& contact, double weight, double kernel_width_m) {
+  constexpr double kEpsilon = 0.001;  // The variance across a surface over that along it.
+  const Eigen::Vector3d &a = contact.of_target, &b = contact.of_source;
+  const Eigen::Matrix3d covariance = 2.0 * Eigen::Matrix3d::Identity() -
+                                     (1.0 - kEpsilon) * (a * a.transpose() + b * b.transpose());
+  const Eigen::Matrix3d Omega = 2.0 * kEpsilon * covariance.inverse();
+  const Eigen::Matrix<double, 3, 6> J = point_jacobian(contact.arm);
+  const Eigen::Matrix<double, 3, 6> OJ = Omega * J;
+  const Vector6d slope = OJ.transpose() * contact.offset;
+  const double inverse_width = 1.0 / (kernel_width_m * kernel_width_m);
+  const double share = 1.0 / (1.0 + inverse_width * contact.offset.dot(Omega * contact.offset));
+  const double w = weight * share * share;
+  // By the offset and by the pose: the gradient as the kernel lets it change.
+  const Eigen::Matrix<double, 6, 3> by_offset =
+      w * OJ.transpose() -
+      (4.0 * w * share * inverse_width) * (slope * (Omega * contact.offset).transpose());
+  Quadratic sums;
+  sums.gradient = w * slope;
+  sums.hessian = by_offset * J;
+  const Eigen::Vector3d normal = (a + b).normalized();
+  const double along = w * normal.dot(Omega * normal);
+  const Vector6d mean = jacobian_along(contact.arm, normal);
+  const Vector6d half = 0.5 * jacobian_along(contact.arm, a - b);
+  sums.information = along * (mean * mean.transpose());
+  if (contact.delay_s != 0.0) {
+    Eigen::Matrix<double, 3, kMotions> shift;
+    shift << Eigen::Matrix3d::Identity(), Eigen::Vector3d::UnitZ().cross(contact.point);
+    sums.moved = contact.delay_s * (by_offset * shift);
+  }
+  if (contact.is_grazed) sums.grazed = by_offset * a;
+  sums.noise = along * (half * half.transpose());
+  return sums;
+}
+
+Matrix6d symmetric(const Matrix6d& matrix) { return 0.5 * (matrix + matrix.transpose()); }
+
+/// The inverse of a symmetric matrix; of directions that it does not make positive, that of 1e-6 of
+/// its diagonal.
+Matrix6d inverse_of(const Matrix6d& matrix) {
+  const Vector6d scale = matrix.diagonal().cwiseMax(1e-12).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(
+      symmetric(scale.asDiagonal() * matrix * scale.asDiagonal()));
+  const Vector6d values = solver.eigenvalues().cwiseMax(1e-6).cwiseInverse();
+  const Matrix6d inverse =
+      solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
+  return symmetric(scale.asDiagonal() * inverse * scale.asDiagonal());
+}
+
+/// The variances of a pose of which nothing is known.
+Vector6d unknown_variances() {
+  Vector6d variances;
+  variances << Eigen::Vector3d::Constant(kUnknown_rad * kUnknown_rad),
+      Eigen::Vector3d::Constant(kUnknown_m * kUnknown_m);
+  return variances;
+}
+
+/// What is left of the uncertainty `covariance` if no pose can be farther off than an unknown one:
+/// `(C^-1 + P^-1)^-1` with its variances P.
+Matrix6d bounded(const Matrix6d& covariance) {
+  const Vector6d root = unknown_variances().cwiseSqrt();
+  const Vector6d inverse_root = root.cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(
+      symmetric(inverse_root.asDiagonal() * covariance * inverse_root.asDiagonal()));
+  Vector6d values = solver.eigenvalues().cwiseMax(0.0);
+  for (int i = 0; i < kDofCount; ++i) values(i) /= 1.0 + values(i);
+  const Matrix6d inside =
+      solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
+  return symmetric(root.asDiagonal() * inside * root.asDiagonal());
+}
+
+/// What the contacts say of a pose.
+class ContactModel {
+ public:
+  ContactModel(const ContactFinder& finder, const RigidTransform& T,
+               const UncertaintyOptions& options)
+      : finder_(finder), pose_(T), options_(options) {
+    constexpr std::int64_t kMost = 20000;
+    const std::vector<Contact> contacts = finder.contacts(T, kMost);
+    count_ = contacts.size();
+    weights_ = direction_weights(contacts, options.direction_balance);
+    std::vector<double> across_m;
+    for (const Contact& contact : contacts) {
+      across_m.push_back(std::abs(contact.of_target.dot(contact.offset)));
+      const Quadratic one = quadratic(contact);
+      surfaces_[contact.surface].add(one);
+      all_.add(one);
+    }
+    constexpr double kStdOfMedian = 1.4826;  // Of the magnitude of a normal variable.
+    if (!across_m.empty()) noise_m_ = kStdOfMedian * median(std::move(across_m));
+  }
+
+  std::size_t count() const { return count_; }
+  const Quadratic& all() const { return all_; }
+
+  /// The jackknife over surfaces: the sum of the squares of the steps that the pose makes if one
+  /// surface is left out.
+  Matrix6d jackknife() const {
+    Matrix6d sum = Matrix6d::Zero();
+    for (const auto& [key, surface] : surfaces_) {
+      const Vector6d step = inverse_of(all_.hessian - surface.hessian) * surface.gradient;
+      sum += step * step.transpose();
+    }
+    return sum;
+  }
+
+  /// The step that the pose makes if grazed surfaces are off by the noise.
+  Vector6d grazing_step() const { return noise_m_ * (inverse_of(all_.hessian) * all_.grazed); }
+
+  /// The covariance of the step that the pose makes for a motion that is not known.
+  Matrix6d covariance_of_motion() const {
+    Eigen::Matrix<double, kMotions, 1> stds;
+    stds << Eigen::Vector3d(options_.velocity_std_mps.data()), options_.turning_std_radps;
+    const Eigen::Matrix<double, 6, kMotions> steps =
+        inverse_of(all_.hessian) * all_.moved * stds.asDiagonal();
+    return steps * steps.transpose();
+  }
+
+  /// How much farther a pose moves than contacts that stay the same let it: `H_m^-1 H` of the
+  /// Hessian with the same contacts and the one of differences of gradients with new contacts.
+  Matrix6d stretch() const {
+    constexpr std::int64_t kMost = 4000;
+    constexpr double kStep_rad = 0.0005, kStep_m = 0.01;
+    Matrix6d fixed = Matrix6d::Zero();
+    for (const Contact& contact : finder_.contacts(pose_, kMost))
+      fixed += quadratic(contact).hessian;
+    Matrix6d found;
+    for (int i = 0; i < kDofCount; ++i) {
+      const double step = i < 3 ? kStep_rad : kStep_m;
+      found.col(i) = (gradient_at(i, step, kMost) - gradient_at(i, -step, kMost)) / (2.0 * step);
+    }
+    return inverse_of(symmetric(found)) * fixed;
+  }
+
+ private:
+  Quadratic quadratic(const Contact& contact) const {
+    return quadratic_of(contact, weights_.at(static_cast<std::size_t>(contact.surface[3])),
+                        options_.kernel_width_m);
+  }
+
+  Vector6d gradient_at(int dof, double step, std::int64_t most) const {
+    Vector6d sum = Vector6d::Zero();
+    for (const Contact& contact :
+         finder_.contacts(moved(pose_, step * Vector6d::Unit(dof)), most)) {
+      sum += quadratic(contact).gradient;
+    }
+    return sum;
+  }
+
+  const ContactFinder& finder_;
+  const RigidTransform& pose_;
+  const UncertaintyOptions& options_;
+  std::size_t count_ = 0;
+  double noise_m_ = 0.0;
+  std::array<double, kDirectionBins> weights_{};
+  std::map<SurfaceKey, Quadratic> surfaces_;
+  Quadratic all_;
+};
+
+/// Gives each degree of freedom its word, and those that noise alone holds the variance of an
+/// unknown pose. A motion by one unit of a degree of freedom, with all others following such that
+/// the least information resists, is a column of the inverse.
+void judge_dofs(const Quadratic& all, const UncertaintyOptions& options,
+                PoseCovariance& covariance) {
+  const Matrix6d inverse = inverse_of(all.information);
+  for (int i = 0; i < kDofCount; ++i) {
+    const Vector6d motion = inverse.col(i) / inverse(i, i);
+    const double information = motion.dot(all.information * motion);
+    const double noise = motion.dot(all.noise * motion);
+    Observability& word = covariance.dofs.at(static_cast<std::size_t>(i));
+    word =
+        information > options.weak_ratio * noise ? Observability::determined : Observability::weak;
+    if (information > options.unobservable_ratio * noise) continue;
+    word = Observability::unobservable;
+    covariance.matrix += unknown_variances()(i) * (motion * motion.transpose());
+  }
+}
+
+}  // namespace
+
+bool is_motion_unknown(const UncertaintyOptions& options) {
+  const std::vector<double>& linear = options.velocity_std_mps;
+  return options.turning_std_radps > 0.0 ||
+         std::any_of(linear.begin(), linear.end(), [](double std) { return std > 0.0; });
+}
+
+PoseCovariance pose_uncertainty(const Cloud& target, const Cloud& source,
+                                const RigidTransform& T_target_source,
+                                const UncertaintyOptions& options) {
+  PoseCovariance covariance;
+  covariance.matrix = unknown_variances().asDiagonal();
+  covariance.dofs.fill(Observability::unobservable);
+  if (target.empty() || source.empty()) return covariance;
+  const ContactFinder finder(target, source, options);
+  const ContactModel model(finder, T_target_source, options);
+  if (model.count() < kFewestContacts) return covariance;
+  Matrix6d matrix = options.scale * options.scale * model.jackknife();
+  const Vector6d grazing = options.grazing_error_ratio * model.grazing_step();
+  matrix += grazing * grazing.transpose();
+  if (options.follows_contacts) {
+    const Matrix6d stretch = model.stretch();
+    matrix = stretch * matrix * stretch.transpose();
+  }
+  // All contacts move with the car, and the pose follows them: nothing resists less.
+  matrix += model.covariance_of_motion();
+  covariance.matrix = symmetric(matrix);
+  judge_dofs(model.all(), options, covariance);
+  covariance.matrix = bounded(covariance.matrix);
+  return covariance;
+}
+
+}  // namespace croon

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <vector>
+
+#include "framework/geometry/pose_covariance.hpp"
+#include "framework/spatial/cloud.hpp"
+
+namespace croon {
+
+/// How the uncertainty of a pose is estimated, from the surfaces on which two clouds touch.
+struct UncertaintyOptions {
+  // Which points touch, and how much they count: as in the registration that found the pose.
+  double max_distance_m = 0.3;
+  int normal_neighbours = 10;
+  double direction_balance = 0.5;
+  double kernel_width_m = 0.05;
+  double surface_size_m = 8.0;  ///< Contacts of one direction in a cell of this edge are a surface.
+  bool follows_contacts = true;  ///< Whether other points touch if the pose moves.
+  double scale = 0.92;           ///< Multiplies standard deviations; found on scenes with truth.
+  double grazing_error_ratio = 0.075;  ///< Of the noise: the error that grazed surfaces share.
+  /// The standard deviations of what is not known of the car's velocity during the scans, along the
+  /// axes of the target, and of its rate of turning about z. If one is not zero, both clouds need
+  /// the channel time, with a common zero.
+  std::vector<double> velocity_std_mps = {0.0, 0.0, 0.0};
+  double turning_std_radps = 0.0;
+  double weak_ratio = 10.0;         ///< Information below so many times the noise is weak,
+  double unobservable_ratio = 2.0;  ///< below so many times unobservable.
+};
+
+/// Whether a velocity or the rate of turning is not known.
+bool is_motion_unknown(const UncertaintyOptions& options);
+
+/// The standard deviations of a degree of freedom that nothing holds: any angle, and 10 m.
+inline constexpr double kUnknown_rad = 1.8;
+inline constexpr double kUnknown_m = 10.0;
+
+/// The uncertainty of the pose `T_target_source` that Generalized-ICP has found, or that it would
+/// not move, by the surfaces on which the two clouds touch.
+///
+/// Errors of points on one surface are not independent, those of surfaces are. So contacts are
+/// gathered into surfaces k, each with its gradient g_k and its Hessian H_k of the cost, and the
+/// covariance is the jackknife over surfaces: the sum of d_k d_k^T of the steps
+/// `d_k = (H - H_k)^-1 g_k` that the pose makes if surface k is left out (Efron 1982; for dependent
+/// observations the cluster jackknife, Bell and McCaffrey 2002). The Hessian has the curvature of
+/// the robust kernel (Huber 1981). Points touch others if the pose moves, and resist less than the
+/// same contacts would; that is measured by differences of gradients.
+///
+/// Surfaces that are seen at a grazing angle, more than 60 degrees off their normals, share an
+/// error: noise along the rays makes them appear nearer or farther. It is a share of the noise,
+/// which is the median distance of contacts across their surfaces.
+///
+/// While the car drives, a point that is measured later by dt appears moved by -v dt; the step that
+/// the pose makes for it is known, so an unknown velocity adds its variance along that step.
+///
+/// A degree of freedom is held if the information about it is above what noise of normals pretends:
+/// both follow from the two normals of a contact, which agree but for their noise. Information is
+/// that of one degree of freedom with all others free (the Schur complement), so units and other
+/// directions do not matter.
+PoseCovariance pose_uncertainty(const Cloud& target, const Cloud& source,
+                                const RigidTransform& T_target_source,
+                                const UncertaintyOptions& options);
+
+}  // namespace croon

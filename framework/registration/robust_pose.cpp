@@ -1,0 +1,124 @@
+#include "framework/registration/robust_pose.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "framework/base/error.hpp"
+
+namespace croon {
+namespace {
+
+using Vectors = std::vector<Eigen::Vector3d>;
+
+/// The rotation with the least sum of `weights[i] |target[i] - R source[i]|^2`.
+Eigen::Matrix3d weighted_rotation(const Vectors& target, const Vectors& source,
+                                  const std::vector<double>& weights) {
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < target.size(); ++i) {
+    products.noalias() += weights[i] * target[i] * source[i].transpose();
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  if (!(svd.singularValues()(1) > 1e-6 * svd.singularValues()(0))) {
+    throw StageError("the correspondences that agree lie on one line");
+  }
+  Eigen::Matrix3d R = svd.matrixU() * svd.matrixV().transpose();
+  if (R.determinant() < 0.0) {
+    Eigen::Matrix3d U = svd.matrixU();
+    U.col(2) = -U.col(2);
+    R = U * svd.matrixV().transpose();
+  }
+  return R;
+}
+
+std::vector<double> squared_residuals(const Vectors& target, const Vectors& source,
+                                      const Eigen::Matrix3d& R) {
+  std::vector<double> residuals;
+  for (std::size_t i = 0; i < target.size(); ++i) {
+    residuals.push_back((target[i] - R * source[i]).squaredNorm());
+  }
+  return residuals;
+}
+
+/// The weight of a residual in the surrogate of the truncated least squares with control `mu`
+/// (equation 14 of Yang et al. 2020).
+double surrogate_weight(double squared_residual, double squared_bound, double mu) {
+  if (squared_residual >= (mu + 1.0) / mu * squared_bound) return 0.0;
+  if (squared_residual <= mu / (mu + 1.0) * squared_bound) return 1.0;
+  return std::sqrt(squared_bound / squared_residual * mu * (mu + 1.0)) - mu;
+}
+
+}  // namespace
+
+Eigen::Matrix3d robust_rotation(const Vectors& target, const Vectors& source, double bound_m) {
+  constexpr double kGrowth = 1.4;
+  constexpr int kMaxRounds = 100;
+  std::vector<double> weights(target.size(), 1.0);
+  if (target.size() < 2) throw StageError("less than two vectors give no rotation");
+  Eigen::Matrix3d R = weighted_rotation(target, source, weights);
+  std::vector<double> residuals = squared_residuals(target, source, R);
+  const double bound = bound_m * bound_m;
+  const double largest = *std::max_element(residuals.begin(), residuals.end());
+  if (!(2.0 * largest > bound)) return R;
+  double mu = bound / (2.0 * largest - bound);
+  for (int round = 0; round < kMaxRounds; ++round, mu *= kGrowth) {
+    bool is_binary = true;
+    for (std::size_t i = 0; i < residuals.size(); ++i) {
+      weights[i] = surrogate_weight(residuals[i], bound, mu);
+      is_binary = is_binary && (weights[i] == 0.0 || weights[i] == 1.0);
+    }
+    R = weighted_rotation(target, source, weights);
+    if (is_binary) break;
+    residuals = squared_residuals(target, source, R);
+  }
+  return R;
+}
+
+double most_voted(std::vector<double> values, double bound) {
+  std::sort(values.begin(), values.end());
+  std::size_t first = 0;
+  std::size_t most = 0;
+  double best = 0.0;
+  double sum = 0.0;
+  for (std::size_t last = 0; last < values.size(); ++last) {
+    sum += values[last];
+    // One number is within the bound of all of them if their range is at most twice the bound.
+    while (values[last] - values[first] > 2.0 * bound) sum -= values[first++];
+    const std::size_t count = last - first + 1;
+    if (count > most) {
+      most = count;
+      best = sum / static_cast<double>(count);
+    }
+  }
+  return best;
+}
+
+RigidTransform robust_pose(const Points& target, const Points& source, double bound_m) {
+  constexpr std::size_t kPairs = 2000;  // Of all differences, evenly spaced.
+  const std::size_t count = target.size();
+  const std::size_t all = count * (count > 0 ? count - 1 : 0) / 2;
+  const std::size_t stride = std::max<std::size_t>(1, all / kPairs);
+  Vectors target_differences;
+  Vectors source_differences;
+  std::size_t number = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = i + 1; j < count; ++j) {
+      if (number++ % stride != 0) continue;
+      target_differences.push_back((target[j] - target[i]).cast<double>());
+      source_differences.push_back((source[j] - source[i]).cast<double>());
+    }
+  }
+  RigidTransform T;
+  // Both ends of a difference are off by the bound.
+  T.rotation = robust_rotation(target_differences, source_differences, 2.0 * bound_m);
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> votes;
+    for (std::size_t i = 0; i < count; ++i) {
+      votes.push_back((target[i].cast<double>() - T.rotation * source[i].cast<double>())(axis));
+    }
+    T.translation(axis) = most_voted(std::move(votes), bound_m);
+  }
+  return T;
+}
+
+}  // namespace croon

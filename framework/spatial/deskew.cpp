@@ -1,0 +1,41 @@
+#include "framework/spatial/deskew.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
+
+namespace croon {
+
+Points deskewed(const Points& points, const std::vector<double>& times_s, const Twist& velocity,
+                double reference_s) {
+  Points moved;
+  moved.reserve(points.size());
+  RigidTransform T_reference_now;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    // All rings fire at one time, one after the other in most clouds.
+    if (i == 0 || times_s[i] != times_s[i - 1]) {
+      T_reference_now = motion_over(velocity, times_s[i] - reference_s);
+    }
+    moved.push_back((T_reference_now * points[i].cast<double>()).cast<float>());
+  }
+  return moved;
+}
+
+TimeSpan span_of(const std::vector<double>& times_s) {
+  const auto [first, last] = std::minmax_element(times_s.begin(), times_s.end());
+  return {*first, *last};
+}
+
+void require_near(const std::vector<double>& times_s, double reference_s) {
+  constexpr double kLongest_s = 60.0;
+  for (const double time_s : times_s) {
+    if (std::abs(time_s - reference_s) <= kLongest_s) continue;
+    throw StageError("a point's time is more than " + fixed_number(kLongest_s, 0) +
+                     " s from the reference time: is its zero another one than the scan's "
+                     "(reference_time)?");
+  }
+}
+
+}  // namespace croon

@@ -1,0 +1,184 @@
+#include "framework/spatial/ground_regions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+#include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/statistics.hpp"
+#include "framework/geometry/plane.hpp"
+
+namespace croon {
+namespace {
+
+/// A zone of the concentric zone model: rings between two ranges, cut into sectors.
+struct Zone {
+  double share = 1.0;  ///< Of the range between min_range_m and max_range_m, where it ends.
+  int rings = 1;
+  int sectors = 1;
+};
+/// The zones of the source: sectors are wide near the sensor, where a narrow one has few rays, and
+/// far from it, where points are few.
+constexpr std::array<Zone, 4> kZones = {
+    {{0.125, 2, 16}, {0.25, 4, 32}, {0.5, 4, 54}, {1.0, 4, 32}}};
+
+/// A region whose points, by index, lie on a plane.
+struct Region {
+  std::vector<int> on_plane;
+  Plane plane;
+  double elevation_m = 0.0;  ///< The mean of its points.
+  double flatness_m = 0.0;   ///< Root mean square of their distances from the plane.
+  bool is_near = false;      ///< In one of the two inner zones.
+};
+
+class GroundRegions {
+ public:
+  explicit GroundRegions(const GroundRegionOptions& options) : options_(options) {}
+
+  /// The points of the regions that are ground; z is up.
+  std::vector<int> ground_points(const Points& level) const {
+    std::vector<Region> upright;
+    for (const auto& [points, is_near] : regions_of(level)) {
+      Region region = fitted(level, points);
+      region.is_near = is_near;
+      if (!region.on_plane.empty()) upright.push_back(std::move(region));
+    }
+    if (upright.empty()) {
+      throw StageError("none of the regions around the sensor is upright; is the sensor level?");
+    }
+    const double road_m = road_elevation_m(upright);
+    std::vector<int> ground;
+    for (const Region& region : upright) {
+      const bool is_level = std::abs(region.elevation_m - road_m) <= options_.max_elevation_m;
+      // In the inner zones a flat region that is high is a roof or a bonnet and no slope.
+      const bool is_slope = !region.is_near && region.flatness_m <= options_.max_flatness_m;
+      if (!is_level && !is_slope) continue;
+      ground.insert(ground.end(), region.on_plane.begin(), region.on_plane.end());
+    }
+    if (ground.size() < 3)
+      throw StageError("no region is at the road's height; is the sensor level?");
+    return ground;
+  }
+
+ private:
+  /// The indices of the points of each region, and whether it is near.
+  std::vector<std::pair<std::vector<int>, bool>> regions_of(const Points& level) const {
+    std::vector<std::pair<std::vector<int>, bool>> regions;
+    std::array<std::size_t, kZones.size()> first{};
+    for (std::size_t k = 0; k < kZones.size(); ++k) {
+      first[k] = regions.size();
+      regions.resize(regions.size() + static_cast<std::size_t>(kZones[k].rings * kZones[k].sectors),
+                     {{}, k < 2});
+    }
+    for (std::size_t i = 0; i < level.size(); ++i) {
+      const Eigen::Vector3d point = level[i].cast<double>();
+      const double range_m = point.head<2>().norm();
+      const double share =
+          (range_m - options_.min_range_m) / (options_.max_range_m - options_.min_range_m);
+      if (!(share >= 0.0 && share < 1.0)) continue;
+      std::size_t k = 0;
+      while (share >= kZones[k].share) ++k;
+      const double begin = k == 0 ? 0.0 : kZones[k - 1].share;
+      const auto& zone = kZones[k];
+      const auto bin = [](double part, int bins) {
+        return std::clamp(static_cast<int>(part * bins), 0, bins - 1);
+      };
+      const int ring = bin((share - begin) / (zone.share - begin), zone.rings);
+      const double turn = 0.5 * (std::atan2(point.y(), point.x()) / kPi + 1.0);
+      const int sector = bin(turn, zone.sectors);
+      regions[first[k] + static_cast<std::size_t>(ring * zone.sectors + sector)].first.push_back(
+          static_cast<int>(i));
+    }
+    return regions;
+  }
+
+  /// The upright plane at the bottom of a region; a plane that is not upright is a wall, and the
+  /// region is fitted again without its points (region-wise vertical plane fitting). No points if
+  /// there is none.
+  Region fitted(const Points& level, std::vector<int> points) const {
+    constexpr int kWalls = 3;
+    const double min_cosine = std::cos(rad_from_deg(options_.max_tilt_deg));
+    for (int round = 0; round <= kWalls; ++round) {
+      if (static_cast<int>(points.size()) < options_.min_points) return {};
+      Region region;
+      try {
+        region = lowest_plane(level, points);
+      } catch (const StageError&) {
+        return {};  // The points are on one line: of one ring.
+      }
+      if (static_cast<int>(region.on_plane.size()) < options_.min_points) return {};
+      if (region.plane.normal.z() >= min_cosine) return region;
+      std::vector<int> rest;
+      std::set_difference(points.begin(), points.end(), region.on_plane.begin(),
+                          region.on_plane.end(), std::back_inserter(rest));
+      points = std::move(rest);
+    }
+    return {};
+  }
+
+  /// The plane of the lowest points of a region, then of those near it (region-wise plane fitting).
+  Region lowest_plane(const Points& level, const std::vector<int>& points) const {
+    constexpr int kLowest = 20;
+    constexpr int kRounds = 3;
+    std::vector<float> heights;
+    for (const int i : points) heights.push_back(level[static_cast<std::size_t>(i)].z());
+    const std::size_t lowest = std::min<std::size_t>(kLowest, heights.size());
+    std::partial_sort(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(lowest),
+                      heights.end());
+    const double bottom_m =
+        std::accumulate(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(lowest),
+                        0.0) /
+        static_cast<double>(lowest);
+    Region region;
+    for (const int i : points) {
+      if (level[static_cast<std::size_t>(i)].z() <= bottom_m + options_.seed_height_m) {
+        region.on_plane.push_back(i);
+      }
+    }
+    for (int round = 0; round < kRounds; ++round) {
+      region.plane = fit_plane(level, region.on_plane);
+      if (region.plane.normal.z() < 0.0) region.plane = region.plane.flipped();
+      region.on_plane.clear();
+      double elevations_m = 0.0;
+      double squares_m2 = 0.0;
+      for (const int i : points) {
+        const Eigen::Vector3d point = level[static_cast<std::size_t>(i)].cast<double>();
+        const double distance_m = region.plane.signed_distance(point);
+        if (std::abs(distance_m) > options_.region_threshold_m) continue;
+        region.on_plane.push_back(i);
+        elevations_m += point.z();
+        squares_m2 += distance_m * distance_m;
+      }
+      if (region.on_plane.size() < 3) return {};
+      const auto count = static_cast<double>(region.on_plane.size());
+      region.elevation_m = elevations_m / count;
+      region.flatness_m = std::sqrt(squares_m2 / count);
+    }
+    return region;
+  }
+
+  /// The median elevation of the regions near the sensor, or of all if none is near. The source
+  /// learns it from scan to scan; here there is one scan.
+  static double road_elevation_m(const std::vector<Region>& regions) {
+    std::vector<double> near_m;
+    std::vector<double> all_m;
+    for (const Region& region : regions) {
+      all_m.push_back(region.elevation_m);
+      if (region.is_near) near_m.push_back(region.elevation_m);
+    }
+    return median(near_m.empty() ? all_m : near_m);
+  }
+
+  GroundRegionOptions options_;
+};
+
+}  // namespace
+
+std::vector<int> ground_region_points(const Points& level, const GroundRegionOptions& options) {
+  return GroundRegions(options).ground_points(level);
+}
+
+}  // namespace croon

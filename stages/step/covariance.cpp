@@ -1,0 +1,107 @@
+#include "framework/base/angles.hpp"
+#include "framework/registration/pose_uncertainty.hpp"
+#include "framework/stage/stage_entry.hpp"
+#include "framework/stage/step.hpp"
+
+namespace croon::stages::step {
+namespace {
+
+struct Params : UncertaintyOptions {
+  double turning_std_degps = 0.0;
+};
+
+/// The rows of UncertaintyOptions.
+const params::Table<UncertaintyOptions>& option_table() {
+  using O = UncertaintyOptions;
+  static const params::Table<O> table = {
+      params::number("max_distance_m", &O::max_distance_m, {0.0, 1e6},
+                     "Points of the two clouds touch if they are at most this far apart."),
+      params::integer("normal_neighbours", &O::normal_neighbours, {3, 1000},
+                      "The number of neighbours that a normal is computed from."),
+      params::number("direction_balance", &O::direction_balance, {0.0, 1.0},
+                     "As in the registration whose pose is judged: n contacts of about one "
+                     "direction weigh n to the minus this."),
+      params::number("kernel_width_m", &O::kernel_width_m, {1e-6, 1e6},
+                     "As in that registration: residuals above it lose weight."),
+      params::number("surface_size_m", &O::surface_size_m, {0.01, 1e6},
+                     "Contacts of one direction in a cell of this edge are one surface, whose "
+                     "errors are not independent."),
+      params::boolean("follows_contacts", &O::follows_contacts,
+                      "Whether it is measured that other points touch if the pose moves."),
+      params::number("scale", &O::scale, {0.0, 1e6},
+                     "Multiplies the standard deviations; found on scenes with truth."),
+      params::number("grazing_error_ratio", &O::grazing_error_ratio, {0.0, 1e3},
+                     "Surfaces that a sensor sees more than 60 degrees off their normals share an "
+                     "error of so many times the noise."),
+      params::numbers("velocity_std_mps", &O::velocity_std_mps, {0.0, 1000.0},
+                      "What is not known of the car's velocity during the scans, along x, y, z of "
+                      "the reference: standard deviations. If it is not zero, the clouds need the "
+                      "channel time."),
+      params::number("weak_ratio", &O::weak_ratio, {0.0, 1e9},
+                     "A degree of freedom is weak if its information is below so many times what "
+                     "the noise of normals pretends."),
+      params::number("unobservable_ratio", &O::unobservable_ratio, {0.0, 1e9},
+                     "Below so many times it is unobservable."),
+  };
+  return table;
+}
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table = [] {
+    params::Table<Params> rows =
+        params::Table<Params>{
+            params::number("turning_std_degps", &Params::turning_std_degps, {0.0, 3600.0},
+                           "What is not known of its rate of turning about z."),
+        }
+            .inherit(option_table());
+    rows.require([](const Params& p) { return p.velocity_std_mps.size() == 3; },
+                 "velocity_std_mps must have three numbers");
+    return rows;
+  }();
+  return table;
+}
+
+class CovarianceStep final : public Step {
+ public:
+  explicit CovarianceStep(const Params& chosen) : options_(options_of(chosen)) {}
+
+  static params::DataFlow data_flow(const Params& chosen) {
+    if (!is_motion_unknown(options_of(chosen))) return {};
+    return params::needs_channels({kTime});
+  }
+
+  Estimate advance(Estimate estimate, Rng&) const override {
+    estimate.covariance =
+        pose_uncertainty(*estimate.target, *estimate.source, estimate.T_target_source, options_);
+    estimate.diagnostics.clear();
+    for (int i = 0; i < 6; ++i) {
+      const double std = std::sqrt(estimate.covariance->matrix(i, i));
+      const std::string& name = kDofNames.at(static_cast<std::size_t>(i));
+      estimate.diagnostics.emplace_back(name + (i < 3 ? "_std_deg" : "_std_m"),
+                                        i < 3 ? deg_from_rad(std) : std);
+    }
+    return estimate;
+  }
+
+ private:
+  static UncertaintyOptions options_of(const Params& chosen) {
+    UncertaintyOptions options = chosen;
+    options.turning_std_radps = rad_from_deg(chosen.turning_std_degps);
+    return options;
+  }
+
+  UncertaintyOptions options_;
+};
+
+}  // namespace
+
+StageEntry covariance() {
+  return stage_entry<CovarianceStep>(
+      "covariance",
+      "Estimates the covariance of the pose, and says of each degree of freedom whether the "
+      "surfaces hold it.",
+      "croon; the jackknife over clusters is that of Bell and McCaffrey, Survey Methodology 2002",
+      table());
+}
+
+}  // namespace croon::stages::step

@@ -1,0 +1,69 @@
+#include "framework/geometry/pose_covariance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "test/support/random_geometry.hpp"
+
+namespace croon {
+namespace {
+
+using test::random_covariance;
+
+TEST(PoseCovariance, EveryProductOfAMatrixAndItsTransposeIsOne) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 200; ++i) EXPECT_TRUE(is_covariance(random_covariance(rng).matrix));
+  EXPECT_TRUE(is_covariance(Matrix6d::Zero()));
+  // Of rank one.
+  const Vector6d direction = test::pose_vector(rng);
+  EXPECT_TRUE(is_covariance(direction * direction.transpose()));
+}
+
+TEST(PoseCovariance, IsSymmetricFiniteBoundedAndNotNegative) {
+  Rng rng = test::test_rng(2);
+  const Matrix6d good = random_covariance(rng).matrix;
+  const auto is_one_with = [&](int i, int j, double value) {
+    Matrix6d matrix = good;
+    matrix(i, j) = matrix(j, i) = value;
+    return is_covariance(matrix);
+  };
+  Matrix6d skew = good;
+  skew(0, 3) += 1e-18 + 1e-12 * std::abs(skew(0, 3));
+  EXPECT_FALSE(is_covariance(skew));
+  EXPECT_FALSE(is_one_with(1, 1, -1e-9));
+  EXPECT_FALSE(is_one_with(2, 2, std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_FALSE(is_one_with(2, 3, std::numeric_limits<double>::infinity()));
+  EXPECT_FALSE(is_one_with(4, 4, 2.0 * kLargestVariance));
+  EXPECT_FALSE(is_one_with(0, 1, 2.0 * std::sqrt(good(0, 0) * good(1, 1))));
+  EXPECT_FALSE(is_one_with(5, 5, 0.0));  // Others still vary with it.
+  // Every pair may vary together, but not all three.
+  Matrix6d three = Matrix6d::Identity();
+  for (const auto& [i, j] : {std::pair(0, 1), {1, 2}, {0, 2}}) three(i, j) = three(j, i) = -0.9;
+  EXPECT_FALSE(is_covariance(three));
+}
+
+TEST(PoseCovariance, OfAMeanOfManyFallsWithTheirNumber) {
+  Rng rng = test::test_rng(3);
+  PoseCovariance one = random_covariance(rng);
+  one.dofs = {};
+  std::vector<PoseCovariance> four(4, one);
+  four[2].dofs[3] = Observability::weak;
+  const PoseCovariance mean = covariance_of_mean(four);
+  EXPECT_LT((4.0 * mean.matrix - one.matrix).norm(), 1e-12 * one.matrix.norm());
+  EXPECT_EQ(mean.dofs[3], Observability::weak);
+  EXPECT_EQ(mean.dofs[0], Observability::determined);
+  EXPECT_LT((mean_covariance(four).matrix - one.matrix).norm(), 1e-12 * one.matrix.norm());
+  EXPECT_THROW(covariance_of_mean({}), std::logic_error);
+}
+
+TEST(PoseCovariance, WordsHaveNames) {
+  for (const Observability word : kObservabilities) {
+    EXPECT_EQ(observability_of(name_of(word)), word);
+  }
+  EXPECT_FALSE(observability_of("certain"));
+}
+
+}  // namespace
+}  // namespace croon

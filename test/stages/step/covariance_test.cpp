@@ -1,0 +1,221 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
+#include "framework/registration/pose_uncertainty.hpp"
+#include "framework/stage/dataset.hpp"
+#include "framework/stage/icp.hpp"
+#include "framework/stage/preprocessor.hpp"
+#include "framework/stage/step.hpp"
+#include "test/support/random_geometry.hpp"
+#include "test/support/stages.hpp"
+
+namespace croon {
+namespace {
+
+constexpr auto kDetermined = Observability::determined;
+constexpr auto kUnobservable = Observability::unobservable;
+
+Estimate estimate_of(const Points& target, const Points& source, const RigidTransform& T) {
+  Estimate estimate;
+  estimate.target = std::make_shared<const Cloud>(target, StreamKey(1).with("target"));
+  estimate.source = std::make_shared<const Cloud>(source, StreamKey(1).with("source"));
+  estimate.T_target_source = T;
+  return estimate;
+}
+
+Estimate judged(Estimate estimate, const std::string& parameters = "") {
+  Rng rng = test::test_rng();
+  return test::stage<Step>(R"({"step": "covariance")" + parameters + "}")
+      ->advance(std::move(estimate), rng);
+}
+
+/// The standard deviation of a degree of freedom.
+double std_of(const PoseCovariance& covariance, Dof dof) {
+  const auto i = static_cast<Eigen::Index>(dof);
+  return std::sqrt(covariance.matrix(i, i));
+}
+
+Observability word_of(const PoseCovariance& covariance, Dof dof) {
+  return covariance.dofs.at(static_cast<std::size_t>(dof));
+}
+
+/// A level plain 2 m below the sensor, other points at each call.
+Points plain(Rng& rng, double noise_m) {
+  Points points;
+  for (int i = 0; i < 20000; ++i) {
+    points.emplace_back(static_cast<float>(rng.uniform(-15.0, 15.0)),
+                        static_cast<float>(rng.uniform(-15.0, 15.0)),
+                        static_cast<float>(-2.0 + noise_m * rng.normal()));
+  }
+  return points;
+}
+
+/// Ground and two walls along x, which go on at both ends.
+Points corridor(Rng& rng, double noise_m) {
+  Points points;
+  for (int i = 0; i < 30000; ++i) {
+    const auto along = static_cast<float>(rng.uniform(-30.0, 30.0));
+    const auto across = static_cast<float>(rng.uniform(-4.0, 4.0));
+    const auto up = static_cast<float>(rng.uniform(-2.0, 4.0));
+    const auto noise = static_cast<float>(noise_m * rng.normal());
+    if (i % 3 == 0) points.emplace_back(along, across, -2.0F + noise);
+    if (i % 3 == 1) points.emplace_back(along, -4.0F + noise, up);
+    if (i % 3 == 2) points.emplace_back(along, 4.0F + noise, up);
+  }
+  return points;
+}
+
+TEST(CovarianceStep, LeavesThePoseAsItIsAndReportsStandardDeviations) {
+  Rng rng = test::test_rng();
+  const test::StreetPair pair =
+      test::street_pair(rng, 3, test::random_pose(rng, 0.5), 20000, 12000, 0.01);
+  const Estimate before = estimate_of(pair.target, pair.source, pair.T_target_source);
+  const Estimate after = judged(before);
+  EXPECT_EQ(after.T_target_source.rotation, before.T_target_source.rotation);
+  EXPECT_EQ(after.T_target_source.translation, before.T_target_source.translation);
+  ASSERT_TRUE(after.covariance);
+  EXPECT_TRUE(is_covariance(after.covariance->matrix));
+  ASSERT_EQ(after.diagnostics.size(), 6U);
+  EXPECT_EQ(after.diagnostics[2].first, "yaw_std_deg");
+  EXPECT_EQ(after.diagnostics[2].second, deg_from_rad(std_of(*after.covariance, Dof::yaw)));
+  EXPECT_EQ(after.diagnostics[5].first, "z_std_m");
+}
+
+TEST(CovarianceStep, AStreetDeterminesAllDegreesOfFreedom) {
+  Rng rng = test::test_rng(2);
+  for (std::uint64_t i = 0; i < 5; ++i) {
+    const test::StreetPair pair =
+        test::street_pair(rng, i, test::random_pose(rng, 0.5), 20000, 12000, 0.01);
+    const auto covariance =
+        *judged(estimate_of(pair.target, pair.source, pair.T_target_source)).covariance;
+    for (std::size_t k = 0; k < 6; ++k) {
+      const double bound = k < 3 ? rad_from_deg(0.5) : 0.1;
+      EXPECT_EQ(covariance.dofs.at(k), kDetermined) << i << " " << kDofNames.at(k);
+      EXPECT_LT(std_of(covariance, static_cast<Dof>(k)), bound) << i << " " << kDofNames.at(k);
+    }
+  }
+}
+
+TEST(CovarianceStep, APlainAloneDoesNotHoldXYAndYaw) {
+  Rng rng = test::test_rng(3);
+  for (const double noise_m : {0.0, 0.005, 0.02}) {
+    const auto covariance =
+        *judged(estimate_of(plain(rng, noise_m), plain(rng, noise_m), {})).covariance;
+    for (const Dof dof : {Dof::x, Dof::y, Dof::yaw}) {
+      EXPECT_EQ(word_of(covariance, dof), kUnobservable) << noise_m;
+      EXPECT_GT(std_of(covariance, dof), 0.5) << noise_m;
+    }
+    for (const Dof dof : {Dof::z, Dof::roll, Dof::pitch}) {
+      EXPECT_EQ(word_of(covariance, dof), kDetermined) << noise_m;
+      EXPECT_LT(std_of(covariance, dof), 0.1);
+    }
+  }
+}
+
+TEST(CovarianceStep, ACorridorDoesNotHoldItsAxis) {
+  Rng rng = test::test_rng(4);
+  for (const double noise_m : {0.0, 0.005, 0.02}) {
+    const auto covariance =
+        *judged(estimate_of(corridor(rng, noise_m), corridor(rng, noise_m), {})).covariance;
+    EXPECT_NE(word_of(covariance, Dof::x), kDetermined) << noise_m;
+    for (const Dof dof : {Dof::y, Dof::z, Dof::roll, Dof::pitch, Dof::yaw}) {
+      EXPECT_EQ(word_of(covariance, dof), kDetermined) << noise_m;
+    }
+  }
+}
+
+/// The clouds of a simulated scene of this kind, at the truth.
+std::vector<Estimate> simulated_estimates(const std::string& kind) {
+  const auto dataset = test::stage<Dataset>(
+      R"({"type": "simulated", "rig": "croon_three", "scenes": 2, "noise": "real_still", "mix": {")" +
+      kind + R"(": 1}})");
+  const auto thinning = test::stage<Preprocessor>(R"({"type": "voxel_downsample"})");
+  std::vector<Estimate> estimates;
+  for (const Scene& scene : dataset->scenes("nowhere")) {
+    const PointCloud target = thinning->apply(scene.reference.load());
+    for (const SensorScan& scan : scene.sensors) {
+      const PointCloud source = thinning->apply(scan.load());
+      estimates.push_back(estimate_of(target.points, source.points, *scan.truth));
+    }
+  }
+  return estimates;
+}
+
+TEST(CovarianceStep, AnEmptySceneDoesNotHoldXYAndYaw) {
+  for (const Estimate& estimate : simulated_estimates("empty")) {
+    const PoseCovariance covariance = *judged(estimate).covariance;
+    for (const Dof dof : {Dof::x, Dof::y, Dof::yaw}) {
+      EXPECT_EQ(word_of(covariance, dof), kUnobservable);
+    }
+  }
+}
+
+TEST(CovarianceStep, ASimulatedCorridorDoesNotHoldItsAxis) {
+  for (const Estimate& estimate : simulated_estimates("corridor")) {
+    const PoseCovariance covariance = *judged(estimate).covariance;
+    EXPECT_NE(word_of(covariance, Dof::x), kDetermined);
+    EXPECT_EQ(word_of(covariance, Dof::yaw), kDetermined);
+  }
+}
+
+TEST(CovarianceStep, AnUnknownVelocityAddsToTheDirectionOfTravel) {
+  Rng rng = test::test_rng(8);
+  const test::StreetPair pair =
+      test::street_pair(rng, 3, test::random_pose(rng, 0.5), 20000, 12000, 0.01);
+  const auto timed = [](const Points& points, double time_s) {
+    PointCloud cloud(points);
+    cloud.channels.push_back(make_channel(kTime, std::vector<double>(points.size(), time_s)));
+    return std::make_shared<const Cloud>(std::move(cloud), StreamKey(1));
+  };
+  Estimate estimate = estimate_of(pair.target, pair.source, pair.T_target_source);
+  const PoseCovariance known = *judged(estimate).covariance;
+  const std::string unknown = R"(, "velocity_std_mps": [2, 0, 0])";
+  EXPECT_THROW(judged(estimate, unknown), StageError);  // No channel.
+  estimate.target = timed(pair.target, 0.0);
+  estimate.source = timed(pair.source, 0.05);
+  // The whole source is 50 ms later, so the pose is off by as much as the car moves.
+  const PoseCovariance driving = *judged(estimate, unknown).covariance;
+  const double added = driving.matrix(3, 3) - known.matrix(3, 3);
+  EXPECT_NEAR(std::sqrt(added), 0.1, 0.01);
+  EXPECT_NEAR(std_of(driving, Dof::z), std_of(known, Dof::z), 0.003);
+}
+
+TEST(CovarianceStep, OfCloudsThatDoNotTouchNothingIsKnown) {
+  Rng rng = test::test_rng(5);
+  RigidTransform far;
+  far.translation.z() = 100.0;
+  const auto covariance = *judged(estimate_of(plain(rng, 0.0), plain(rng, 0.0), far)).covariance;
+  for (std::size_t k = 0; k < 6; ++k) {
+    EXPECT_EQ(covariance.dofs.at(k), kUnobservable);
+    EXPECT_EQ(std_of(covariance, static_cast<Dof>(k)), k < 3 ? kUnknown_rad : kUnknown_m);
+  }
+}
+
+TEST(CovarianceStep, IsAboutAsLargeAsTheErrorsOfTheRegistration) {
+  Rng rng = test::test_rng(6);
+  const auto icp = test::stage<Icp>(
+      R"({"type": "gicp", "normal_neighbours": 10, "direction_balance": 0.5,
+          "max_distances_m": [0.3], "kernel_width_m": 0.05})");
+  double sum = 0.0;
+  constexpr int kStreets = 8;
+  for (std::uint64_t i = 0; i < kStreets; ++i) {
+    const test::StreetPair pair =
+        test::street_pair(rng, 100 + i, test::random_pose(rng, 0.5), 20000, 12000, 0.01);
+    Estimate estimate = estimate_of(pair.target, pair.source, pair.T_target_source);
+    estimate.T_target_source =
+        icp->align(*estimate.target, *estimate.source, pair.T_target_source).T_target_source;
+    const Vector6d error = pose_error(estimate.T_target_source, pair.T_target_source).dof;
+    const Estimate after = judged(estimate);
+    for (int k = 0; k < 6; ++k) {
+      sum += error(k) * error(k) / after.covariance->matrix(k, k) / (6.0 * kStreets);
+    }
+  }
+  EXPECT_GT(sum, 0.25);
+  EXPECT_LT(sum, 3.0);
+}
+
+}  // namespace
+}  // namespace croon

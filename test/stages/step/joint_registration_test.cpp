@@ -1,0 +1,211 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "framework/base/angles.hpp"
+#include "framework/simulation/rig.hpp"
+#include "framework/simulation/sensor_model.hpp"
+#include "framework/simulation/simulated_scene.hpp"
+#include "framework/stage/motion.hpp"
+#include "framework/stage/preprocessor.hpp"
+#include "framework/stage/rig_step.hpp"
+#include "test/support/random_geometry.hpp"
+#include "test/support/stages.hpp"
+
+namespace croon {
+namespace {
+
+std::shared_ptr<const simulation::Recipe> recipe(const simulation::Noise& noise) {
+  auto made = std::make_shared<simulation::Recipe>();
+  made->rig = simulation::rigs().front().second;
+  made->noise = noise;
+  made->seed = 8101;
+  return made;
+}
+
+std::shared_ptr<const Cloud> thinned(PointCloud cloud) {
+  const auto thin =
+      test::stage<Preprocessor>(R"({"type": "voxel_downsample", "leaf_size_m": 0.2})");
+  return std::make_shared<const Cloud>(thin->apply(cloud), StreamKey(1));
+}
+
+/// The left and the right sensor in the scenes `indices`, with starts near the truth.
+struct DrivingRig {
+  std::vector<RigEstimate> estimates;
+  std::map<std::string, RigidTransform> truth;  ///< By sensor.
+  std::map<std::string, Twist> velocities;      ///< Of the target, by scene.
+};
+
+DrivingRig rig_of(const simulation::Noise& noise, const std::vector<std::uint64_t>& indices,
+                  bool with_times = true) {
+  DrivingRig rig;
+  Rng rng = test::test_rng();
+  const auto made = recipe(noise);
+  for (const std::uint64_t index : indices) {
+    const simulation::SimulatedScene scene(made, index);
+    const std::string name = std::to_string(index);
+    rig.velocities[name] = scene.velocity_of("top");
+    const auto scan = [&](const std::string& sensor) {
+      PointCloud cloud = scene.scan_of(sensor);
+      if (!with_times) cloud.channels.clear();
+      return thinned(std::move(cloud));
+    };
+    const auto target = scan("top");
+    for (const auto& [sensor, mounting] : made->rig.sensors) {
+      if (sensor != "left" && sensor != "right") continue;
+      rig.truth[sensor] = mounting.T_reference_sensor();
+      rig.estimates.push_back({name, "top", sensor, {}});
+      Estimate& estimate = rig.estimates.back().estimate;
+      estimate.target = target;
+      estimate.source = scan(sensor);
+      estimate.T_target_source = test::pose_near(rng, rig.truth[sensor], 0.5, 0.1);
+    }
+  }
+  return rig;
+}
+
+/// The indices of the first scenes of the recipe that are faster than 4 m/s.
+std::vector<std::uint64_t> moving_scenes(std::size_t count) {
+  std::vector<std::uint64_t> indices;
+  for (std::uint64_t index = 0; indices.size() < count; ++index) {
+    const simulation::SimulatedScene scene(recipe(simulation::real_noise()), index);
+    if (scene.world().car.motion.speed_mps > 4.0) indices.push_back(index);
+  }
+  return indices;
+}
+
+void adjust(std::vector<RigEstimate>& rig, const std::string& parameters = "") {
+  Rng rng = test::test_rng();
+  const auto step = test::stage<Step>(R"({"step": "joint_registration")" + parameters + "}");
+  dynamic_cast<const RigStep&>(*step).adjust(rig, rng);
+}
+
+TEST(JointRegistration, FindsThePosesAndTheVelocityOfADrivingRig) {
+  DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(2));
+  adjust(rig.estimates);
+  for (const RigEstimate& one : rig.estimates) {
+    ASSERT_EQ(one.failure, "");
+    const PoseError error = pose_error(one.estimate.T_target_source, rig.truth[one.source]);
+    EXPECT_LT(deg_from_rad(error.rotation_rad), 0.4) << one.scene << one.source;
+    EXPECT_LT(error.translation_m, 0.06) << one.scene << one.source;
+    const Twist& found = one.estimate.extras.get(kMotion);
+    EXPECT_LT((found.linear_mps - rig.velocities[one.scene].linear_mps).norm(), 0.8) << one.scene;
+  }
+}
+
+TEST(JointRegistration, MovesTheCloudsToOneTime) {
+  DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
+  const auto before = rig.estimates.front().estimate;
+  adjust(rig.estimates);
+  const Estimate& after = rig.estimates.front().estimate;
+  EXPECT_NE(after.target, before.target);
+  EXPECT_EQ(after.target, rig.estimates.back().estimate.target);
+  EXPECT_EQ(after.source->points().size(), before.source->points().size());
+  EXPECT_EQ(times_s(after.source->with_channels()), times_s(before.source->with_channels()));
+}
+
+TEST(JointRegistration, LeavesTheCloudsOfAStandingRig) {
+  DrivingRig rig = rig_of(simulation::real_still_noise(), {0});
+  const auto before = rig.estimates;
+  adjust(rig.estimates, R"(, "min_speed_mps": 1, "min_turn_degps": 5)");
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(rig.estimates[i].estimate.target, before[i].estimate.target);
+    EXPECT_EQ(rig.estimates[i].estimate.source, before[i].estimate.source);
+    EXPECT_TRUE(rig.estimates[i].estimate.extras.get(kMotion).linear_mps.isZero());
+  }
+}
+
+TEST(JointRegistration, TakesCloudsWithoutTimesAsStanding) {
+  DrivingRig rig = rig_of(simulation::real_still_noise(), {0}, false);
+  adjust(rig.estimates);
+  for (const RigEstimate& one : rig.estimates) {
+    ASSERT_EQ(one.failure, "");
+    EXPECT_TRUE(one.estimate.extras.get(kMotion).linear_mps.isZero());
+    const PoseError error = pose_error(one.estimate.T_target_source, rig.truth[one.source]);
+    EXPECT_LT(error.translation_m, 0.05) << one.source;
+  }
+}
+
+TEST(JointRegistration, GivesASensorOnePoseInAllScenes) {
+  DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(2));
+  for (RigEstimate& one : rig.estimates) {
+    one.estimate.T_target_source =
+        rig.estimates[one.source == "left" ? 0 : 1].estimate.T_target_source;
+  }
+  adjust(rig.estimates, R"(, "poses": "common")");
+  ASSERT_EQ(rig.estimates.size(), 4U);
+  for (const std::size_t k : {0U, 1U}) {
+    const RigidTransform& first = rig.estimates[k].estimate.T_target_source;
+    EXPECT_EQ(first.translation, rig.estimates[k + 2].estimate.T_target_source.translation);
+    EXPECT_EQ(first.rotation, rig.estimates[k + 2].estimate.T_target_source.rotation);
+    EXPECT_LT(pose_error(first, rig.truth[rig.estimates[k].source]).translation_m, 0.05);
+  }
+}
+
+/// The cloud with `shift_s` added to its times.
+std::shared_ptr<const Cloud> later(const Cloud& cloud, double shift_s) {
+  PointCloud shifted = cloud.with_channels();
+  std::vector<double> times = times_s(shifted);
+  for (double& time_s : times) time_s += shift_s;
+  keep_channels(shifted, {});
+  shifted.channels.push_back(make_channel(kTime, times));
+  return std::make_shared<const Cloud>(std::move(shifted), StreamKey(1));
+}
+
+TEST(JointRegistration, FindsTheOffsetOfAClockFromScenesOfDifferentVelocities) {
+  constexpr double kShift_s = 0.03;
+  std::vector<std::uint64_t> indices = moving_scenes(2);
+  for (std::uint64_t index = 0; indices.size() < 4; ++index) {
+    const simulation::SimulatedScene scene(recipe(simulation::real_noise()), index);
+    if (scene.world().car.motion.speed_mps < 0.1) indices.push_back(index);
+  }
+  DrivingRig rig = rig_of(simulation::real_noise(), indices);
+  for (std::size_t i = 0; i < rig.estimates.size(); ++i) {
+    RigEstimate& one = rig.estimates[i];
+    one.estimate.T_target_source = rig.estimates[i % 2].estimate.T_target_source;
+    if (one.source == "left") one.estimate.source = later(*one.estimate.source, -kShift_s);
+  }
+  adjust(rig.estimates, R"(, "poses": "common", "clock_offset_std_s": 0.1)");
+  for (const RigEstimate& one : rig.estimates) {
+    ASSERT_EQ(one.failure, "");
+    double offset_s = NAN;
+    for (const auto& [name, value] : one.estimate.diagnostics) {
+      if (name == "clock_offset_s") offset_s = value;
+    }
+    EXPECT_NEAR(offset_s, one.source == "left" ? kShift_s : 0.0, 0.005) << one.scene << one.source;
+    const PoseError error = pose_error(one.estimate.T_target_source, rig.truth[one.source]);
+    EXPECT_LT(error.translation_m, 0.05) << one.source;
+  }
+}
+
+TEST(JointRegistration, FailsTheSensorWithAnEmptyCloudAlone) {
+  DrivingRig rig = rig_of(simulation::real_still_noise(), {0, 1});
+  rig.estimates[0].estimate.source = std::make_shared<const Cloud>(PointCloud(), StreamKey(1));
+  adjust(rig.estimates);
+  EXPECT_NE(rig.estimates[0].failure.find("empty"), std::string::npos);
+  for (const std::size_t i : {1U, 2U, 3U}) EXPECT_EQ(rig.estimates[i].failure, "");
+}
+
+TEST(JointRegistration, FailsTheSensorThatIsFarFromAllSurfacesAlone) {
+  DrivingRig rig = rig_of(simulation::real_still_noise(), {0});
+  rig.estimates[0].estimate.T_target_source.translation.z() += 500.0;
+  adjust(rig.estimates);
+  EXPECT_NE(rig.estimates[0].failure.find("0 points correspond"), std::string::npos);
+  ASSERT_EQ(rig.estimates[1].failure, "");
+  const PoseError error =
+      pose_error(rig.estimates[1].estimate.T_target_source, rig.truth[rig.estimates[1].source]);
+  EXPECT_LT(error.translation_m, 0.05);
+}
+
+TEST(JointRegistration, StartsACommonPoseWhereMostScenesAgree) {
+  DrivingRig rig = rig_of(simulation::real_still_noise(), {0, 1, 2});
+  rig.estimates[0].estimate.T_target_source.translation.x() += 8.0;
+  adjust(rig.estimates, R"(, "poses": "common", "motion": false)");
+  for (const RigEstimate& one : rig.estimates) {
+    EXPECT_LT(pose_error(one.estimate.T_target_source, rig.truth[one.source]).translation_m, 0.05);
+  }
+}
+
+}  // namespace
+}  // namespace croon
