@@ -46,7 +46,7 @@ std::vector<Patch> street(std::uint64_t scene_seed) {
 Rng test_rng(std::uint64_t seed) { return Rng(StreamKey(seed).with("test")); }
 
 RigidTransform random_pose(Rng& rng, double extent_m) {
-  Eigen::Vector4d q(rng.normal(), rng.normal(), rng.normal(), rng.normal());
+  Eigen::Vector4d q{rng.normal(), rng.normal(), rng.normal(), rng.normal()};
   q.normalize();
   RigidTransform T;
   T.rotation = Eigen::Quaterniond(q(0), q(1), q(2), q(3)).toRotationMatrix();
@@ -105,7 +105,7 @@ Points random_street(Rng& rng, std::uint64_t scene_seed, int count, double noise
     }
     const Patch& patch = patches[chosen];
     const double u = rng.uniform(), v = rng.uniform();
-    const Eigen::Vector3d noise(rng.normal(), rng.normal(), rng.normal());
+    const Eigen::Vector3d noise{rng.normal(), rng.normal(), rng.normal()};
     cloud.push_back((patch.origin + u * patch.a + v * patch.b + noise_m * noise).cast<float>());
   }
   return cloud;

@@ -14,7 +14,7 @@ TEST(RigidTransform, InverseUndoesAndFramesCancel) {
   for (int i = 0; i < 1000; ++i) {
     const RigidTransform T_a_b = test::random_pose(rng, 10.0);
     const RigidTransform T_b_c = test::random_pose(rng, 10.0);
-    const Eigen::Vector3d point(rng.uniform(-5, 5), rng.uniform(-5, 5), rng.uniform(-5, 5));
+    const Eigen::Vector3d point{rng.uniform(-5, 5), rng.uniform(-5, 5), rng.uniform(-5, 5)};
     EXPECT_LT((T_a_b.inverse() * (T_a_b * point) - point).norm(), 1e-12);
     EXPECT_LT(((T_a_b * T_b_c) * point - T_a_b * (T_b_c * point)).norm(), 1e-12);
   }
@@ -23,8 +23,8 @@ TEST(RigidTransform, InverseUndoesAndFramesCancel) {
 TEST(RigidTransform, RollPitchYawThereAndBack) {
   Rng rng = test::test_rng();
   for (int i = 0; i < 1000; ++i) {
-    const Eigen::Vector3d rpy(rng.uniform(-kPi, kPi), rng.uniform(-kPi / 2, kPi / 2),
-                              rng.uniform(-kPi, kPi));
+    const Eigen::Vector3d rpy{rng.uniform(-kPi, kPi), rng.uniform(-kPi / 2, kPi / 2),
+                              rng.uniform(-kPi, kPi)};
     EXPECT_LT((rpy_from_rotation(rotation_from_rpy(rpy)) - rpy).norm(), 1e-9);
     const RigidTransform T = test::random_pose(rng, 1.0);
     EXPECT_LT((rotation_from_rpy(rpy_from_rotation(T.rotation)) - T.rotation).norm(), 1e-12);

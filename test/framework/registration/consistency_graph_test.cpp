@@ -11,7 +11,7 @@ namespace croon {
 namespace {
 
 Eigen::Vector3f direction(Rng& rng) {
-  return Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal()).normalized().cast<float>();
+  return Eigen::Vector3d{rng.normal(), rng.normal(), rng.normal()}.normalized().cast<float>();
 }
 
 /// `right` correspondences of the pose T_target_source, then `wrong` ones at random.

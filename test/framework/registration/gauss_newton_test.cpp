@@ -13,7 +13,7 @@ TEST(PointJacobian, IsTheDerivativeOfTheMovedPoint) {
   Rng rng = test::test_rng();
   for (int trial = 0; trial < 100; ++trial) {
     const RigidTransform T = test::random_pose(rng, 5.0);
-    const Eigen::Vector3d point(rng.uniform(-20, 20), rng.uniform(-20, 20), rng.uniform(-20, 20));
+    const Eigen::Vector3d point{rng.uniform(-20, 20), rng.uniform(-20, 20), rng.uniform(-20, 20)};
     const Eigen::Matrix<double, 3, 6> J = point_jacobian(T.rotation * point);
     constexpr double h = 1e-6;
     for (int k = 0; k < 6; ++k) {
@@ -42,8 +42,8 @@ TEST(NormalEquations, ScalarAndVectorResidualsAgree) {
   NormalEquations scalars;
   NormalEquations vectors;
   for (int i = 0; i < 20; ++i) {
-    const Eigen::Vector3d arm(rng.normal(), rng.normal(), rng.normal());
-    const Eigen::Vector3d r(rng.normal(), rng.normal(), rng.normal());
+    const Eigen::Vector3d arm{rng.normal(), rng.normal(), rng.normal()};
+    const Eigen::Vector3d r{rng.normal(), rng.normal(), rng.normal()};
     const Eigen::Matrix<double, 3, 6> J = point_jacobian(arm);
     for (int k = 0; k < 3; ++k) scalars.add(J.row(k).transpose(), r(k), 0.7);
     vectors.add(J, r, Eigen::Matrix3d::Identity(), 0.7);
@@ -58,7 +58,7 @@ TEST(NormalEquations, DoesNotMoveWhereTheSceneIsOpen) {
   Rng rng = test::test_rng();
   NormalEquations equations;
   for (int i = 0; i < 100; ++i) {
-    const Eigen::Vector3d arm(rng.uniform(-5, 5), rng.uniform(-5, 5), 0.0);
+    const Eigen::Vector3d arm{rng.uniform(-5, 5), rng.uniform(-5, 5), 0.0};
     Vector6d J;
     J << arm.cross(Eigen::Vector3d::UnitZ()), Eigen::Vector3d::UnitZ();
     equations.add(J, 0.1, 1.0);

@@ -14,8 +14,8 @@ std::shared_ptr<const Cloud> two_patches() {
   Points points;
   for (int i = 0; i < 110; ++i) {
     const double x = i < 100 ? 0.1 : 10.1;
-    points.emplace_back(static_cast<float>(x + 0.8 * rng.uniform()),
-                        static_cast<float>(0.1 + 0.8 * rng.uniform()), 0.5F);
+    points.push_back(
+        Eigen::Vector3d{x + 0.8 * rng.uniform(), 0.1 + 0.8 * rng.uniform(), 0.5}.cast<float>());
   }
   return std::make_shared<const Cloud>(PointCloud(std::move(points)), StreamKey(1));
 }

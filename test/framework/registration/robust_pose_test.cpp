@@ -11,7 +11,7 @@ namespace croon {
 namespace {
 
 Eigen::Vector3f noise(Rng& rng, double std_m) {
-  return (std_m * Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal())).cast<float>();
+  return (std_m * Eigen::Vector3d{rng.normal(), rng.normal(), rng.normal()}).cast<float>();
 }
 
 TEST(RobustPose, IsExactWithoutNoise) {

@@ -50,7 +50,7 @@ TEST(GroundRegions, AreNoneInACloudThatLiesOnItsSide) {
   Points wall;
   for (int i = 0; i < 20000; ++i) {
     wall.push_back(
-        Eigen::Vector3d(5.0, rng.uniform(-20.0, 20.0), rng.uniform(-2.0, 20.0)).cast<float>());
+        Eigen::Vector3d{5.0, rng.uniform(-20.0, 20.0), rng.uniform(-2.0, 20.0)}.cast<float>());
   }
   EXPECT_THROW(ground_region_points(wall, {}), StageError);
   EXPECT_THROW(ground_region_points({}, {}), StageError);

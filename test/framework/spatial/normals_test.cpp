@@ -16,7 +16,7 @@ TEST(Normals, OfRandomPlanesAreTheirsAndFaceTheSensor) {
     Points cloud;
     for (int i = 0; i < 300; ++i) {
       cloud.push_back(
-          (pose * Eigen::Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), 0)).cast<float>());
+          (pose * Eigen::Vector3d{rng.uniform(-1, 1), rng.uniform(-1, 1), 0}).cast<float>());
     }
     const KdTree tree(cloud);
     const Normals normals(cloud, tree, 40);

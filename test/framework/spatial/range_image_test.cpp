@@ -23,13 +23,13 @@ TEST(RangeImage, TellsFrontFromBehindInAllDirections) {
   Rng rng = test::test_rng(2);
   Points sphere;
   for (int i = 0; i < 400000; ++i) {
-    const Eigen::Vector3f point(rng.normal(), rng.normal(), rng.normal());
-    sphere.push_back(10.0F * point.normalized());
+    const Eigen::Vector3d towards{rng.normal(), rng.normal(), rng.normal()};
+    sphere.push_back((10.0 * towards.normalized()).cast<float>());
   }
   const RangeImage image(sphere, 60);
   for (int i = 0; i < 1000; ++i) {
     const Eigen::Vector3d towards =
-        Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal()).normalized();
+        Eigen::Vector3d{rng.normal(), rng.normal(), rng.normal()}.normalized();
     const auto seen = image.at(3.0 * towards);
     ASSERT_TRUE(seen);
     EXPECT_NEAR(seen->nearest_m, 10.0, 1e-4);

@@ -188,7 +188,7 @@ TEST_P(EveryGroundExtractor, FitsTheFinalPlaneWithinTheSlab) {
 Points road_beside_a_wall(Rng& rng) {
   Points cloud = test::random_street(rng, 5, 15000, 0.01);
   for (int i = 0; i < 20000; ++i) {
-    const Eigen::Vector3d point(rng.uniform(-4.0, 4.0), 2.0, rng.uniform(-1.8, 1.0));
+    const Eigen::Vector3d point{rng.uniform(-4.0, 4.0), 2.0, rng.uniform(-1.8, 1.0)};
     cloud.push_back((point + 0.01 * Eigen::Vector3d(0, rng.normal(), 0)).cast<float>());
   }
   return cloud;

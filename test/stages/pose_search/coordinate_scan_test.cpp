@@ -34,7 +34,7 @@ TEST(CoordinateScan, AuthorsSettingsStepAlongXThenY) {
   Rng rng = test::test_rng();
   for (int i = 0; i < 200; ++i) {
     const RigidTransform start = test::random_pose(rng, 5.0);
-    const Eigen::Vector2d least_m(rng.uniform(-0.25, 0.25), rng.uniform(-0.25, 0.25));
+    const Eigen::Vector2d least_m{rng.uniform(-0.25, 0.25), rng.uniform(-0.25, 0.25)};
     const PoseMinimum minimum = search->minimise(planar_bowl(start, least_m), start);
     for (int k = 0; k < 2; ++k) {
       const double steps = std::round((minimum.pose.translation - start.translation)(k) / 0.02);
@@ -142,7 +142,7 @@ TEST(CoordinateScan, NeverCostsMoreThanTheStartCountsAndIsDeterministic) {
         stop + "\"}");
     for (int i = 0; i < 100; ++i) {
       const RigidTransform start = test::random_pose(rng, 5.0);
-      const Eigen::Vector3d wave(rng.normal(), rng.normal(), rng.normal());
+      const Eigen::Vector3d wave{rng.normal(), rng.normal(), rng.normal()};
       int calls = 0;
       const PoseCost cost = [&](const RigidTransform& pose) {
         ++calls;

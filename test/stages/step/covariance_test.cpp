@@ -46,9 +46,9 @@ Observability word_of(const PoseCovariance& covariance, Dof dof) {
 Points plain(Rng& rng, double noise_m) {
   Points points;
   for (int i = 0; i < 20000; ++i) {
-    points.emplace_back(static_cast<float>(rng.uniform(-15.0, 15.0)),
-                        static_cast<float>(rng.uniform(-15.0, 15.0)),
-                        static_cast<float>(-2.0 + noise_m * rng.normal()));
+    points.push_back(Eigen::Vector3d{rng.uniform(-15.0, 15.0), rng.uniform(-15.0, 15.0),
+                                     -2.0 + noise_m * rng.normal()}
+                         .cast<float>());
   }
   return points;
 }
@@ -102,8 +102,8 @@ TEST(CovarianceStep, AStreetDeterminesAllDegreesOfFreedom) {
 TEST(CovarianceStep, APlainAloneDoesNotHoldXYAndYaw) {
   Rng rng = test::test_rng(3);
   for (const double noise_m : {0.0, 0.005, 0.02}) {
-    const auto covariance =
-        *judged(estimate_of(plain(rng, noise_m), plain(rng, noise_m), {})).covariance;
+    const Points target = plain(rng, noise_m);
+    const auto covariance = *judged(estimate_of(target, plain(rng, noise_m), {})).covariance;
     for (const Dof dof : {Dof::x, Dof::y, Dof::yaw}) {
       EXPECT_EQ(word_of(covariance, dof), kUnobservable) << noise_m;
       EXPECT_GT(std_of(covariance, dof), 0.5) << noise_m;
@@ -118,8 +118,8 @@ TEST(CovarianceStep, APlainAloneDoesNotHoldXYAndYaw) {
 TEST(CovarianceStep, ACorridorDoesNotHoldItsAxis) {
   Rng rng = test::test_rng(4);
   for (const double noise_m : {0.0, 0.005, 0.02}) {
-    const auto covariance =
-        *judged(estimate_of(corridor(rng, noise_m), corridor(rng, noise_m), {})).covariance;
+    const Points target = corridor(rng, noise_m);
+    const auto covariance = *judged(estimate_of(target, corridor(rng, noise_m), {})).covariance;
     EXPECT_NE(word_of(covariance, Dof::x), kDetermined) << noise_m;
     for (const Dof dof : {Dof::y, Dof::z, Dof::roll, Dof::pitch, Dof::yaw}) {
       EXPECT_EQ(word_of(covariance, dof), kDetermined) << noise_m;
@@ -187,7 +187,8 @@ TEST(CovarianceStep, OfCloudsThatDoNotTouchNothingIsKnown) {
   Rng rng = test::test_rng(5);
   RigidTransform far;
   far.translation.z() = 100.0;
-  const auto covariance = *judged(estimate_of(plain(rng, 0.0), plain(rng, 0.0), far)).covariance;
+  const Points target = plain(rng, 0.0);
+  const auto covariance = *judged(estimate_of(target, plain(rng, 0.0), far)).covariance;
   for (std::size_t k = 0; k < 6; ++k) {
     EXPECT_EQ(covariance.dofs.at(k), kUnobservable);
     EXPECT_EQ(std_of(covariance, static_cast<Dof>(k)), k < 3 ? kUnknown_rad : kUnknown_m);

@@ -16,7 +16,7 @@ TEST(OverlapAlignment, MovesBackOverTheGroundAndNowhereElse) {
   for (int trial = 0; trial < 5; ++trial) {
     test::StreetEstimate street = test::street_estimate(4);
     RigidTransform& T = street.estimate.T_target_source;
-    T.translation += Eigen::Vector3d(rng.uniform(-2.5, 2.5), rng.uniform(-2.5, 2.5), 0.05);
+    T.translation += Eigen::Vector3d{rng.uniform(-2.5, 2.5), rng.uniform(-2.5, 2.5), 0.05};
     const Estimate after = step->advance(street.estimate, rng);
     const Vector6d error = pose_error(after.T_target_source, street.truth).dof;
     // A cell is 0.2 m.

@@ -14,7 +14,7 @@ TEST(PlanarAlignment, MovesBackOverTheGroundAndNowhereElse) {
   for (int trial = 0; trial < 5; ++trial) {
     test::StreetEstimate street = test::street_estimate(4);
     RigidTransform& T = street.estimate.T_target_source;
-    T.translation += Eigen::Vector3d(rng.uniform(-0.4, 0.4), rng.uniform(-0.4, 0.4), 0.05);
+    T.translation += Eigen::Vector3d{rng.uniform(-0.4, 0.4), rng.uniform(-0.4, 0.4), 0.05};
     const Estimate after = step->advance(street.estimate, rng);
     const Vector6d error = pose_error(after.T_target_source, street.truth).dof;
     // Its step is 0.1 m.

@@ -63,8 +63,8 @@ TEST(Verdict, NamesTheDirectionsThatNothingHolds) {
   const auto plain = [&] {
     Points points;
     for (int i = 0; i < 20000; ++i) {
-      points.emplace_back(static_cast<float>(rng.uniform(-15.0, 15.0)),
-                          static_cast<float>(rng.uniform(-15.0, 15.0)), -2.0F);
+      points.push_back(
+          Eigen::Vector3d{rng.uniform(-15.0, 15.0), rng.uniform(-15.0, 15.0), -2.0}.cast<float>());
     }
     return points;
   };

@@ -63,9 +63,9 @@ TEST(VolumeScorers, CountLikeTheSetOnTheBordersOfLeaves) {
   for (const double leaf_size_m : kLeafSizes) {
     Points cloud;
     for (int i = 0; i < 600; ++i) {
-      const Eigen::Vector3d corner(static_cast<double>(rng.below(16)) - 8,
+      const Eigen::Vector3d corner{static_cast<double>(rng.below(16)) - 8,
                                    static_cast<double>(rng.below(16)) - 8,
-                                   static_cast<double>(rng.below(16)) - 8);
+                                   static_cast<double>(rng.below(16)) - 8};
       cloud.push_back((leaf_size_m * corner).cast<float>());
     }
     const std::vector<RigidTransform> poses = {

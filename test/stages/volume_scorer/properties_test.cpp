@@ -32,7 +32,7 @@ SplitStreet split_street(Rng& rng, int count) {
 
 /// A translation of `low_m` to `high_m` in any direction.
 Eigen::Vector3d random_translation(Rng& rng, double low_m, double high_m) {
-  const Eigen::Vector3d direction(rng.normal(), rng.normal(), rng.normal());
+  const Eigen::Vector3d direction{rng.normal(), rng.normal(), rng.normal()};
   return rng.uniform(low_m, high_m) * direction.normalized();
 }
 

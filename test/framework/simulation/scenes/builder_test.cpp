@@ -72,7 +72,8 @@ TEST(SceneBuilder, KeepsTheSpaceOfTheCarClear) {
     builder.put_car(pose, kCar, rng.uniform(0.0, 20.0));
     for (int i = 0; i < 200; ++i) {
       const double s_m = rng.uniform(-6.0, 6.0);
-      builder.stand(make_bollard(rng), {s_m, pose.d_m + rng.uniform(-6.0, 6.0), 0.0});
+      const double d_m = pose.d_m + rng.uniform(-6.0, 6.0);
+      builder.stand(make_bollard(rng), {s_m, d_m, 0.0});
     }
     const World world = builder.finish();
     const Mesh objects = test::without_ground(world, shape);

@@ -25,8 +25,9 @@ RoadPose random_pose(Rng& rng) {
 RoadBox random_box(Rng& rng) {
   const double s_m = rng.uniform(-10.0, 10.0);
   const double d_m = rng.uniform(-10.0, 10.0);
-  return road_box({s_m, s_m + rng.uniform(0.1, 6.0)}, {d_m, d_m + rng.uniform(0.1, 6.0)},
-                  rng.uniform(0.5, 5.0));
+  const double length_m = rng.uniform(0.1, 6.0);
+  const double width_m = rng.uniform(0.1, 6.0);
+  return road_box({s_m, s_m + length_m}, {d_m, d_m + width_m}, rng.uniform(0.5, 5.0));
 }
 
 TEST(BoxesOf, HoldTheObjectHoweverTheRoadBends) {
@@ -130,7 +131,8 @@ TEST(Roadside, HasBoxesBetweenItsPoses) {
     const Span out_m = {rng.uniform(1.0, 5.0), rng.uniform(6.0, 20.0)};
     const RoadBox box = side.box(along_m, out_m, 2.0);
     EXPECT_NEAR(box.volume(), along_m.length() * out_m.length() * 2.0, 1e-6);
-    const RoadPose inside = side.at(draw(rng, along_m), draw(rng, out_m));
+    const double s_m = draw(rng, along_m);
+    const RoadPose inside = side.at(s_m, draw(rng, out_m));
     EXPECT_TRUE(box.contains(Vector3d(inside.s_m, inside.d_m, 1.0)));
   }
 }
