@@ -1,0 +1,173 @@
+#include "framework/registration/adaptive_voxels.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "framework/spatial/leaf_grid.hpp"
+
+namespace croon {
+namespace {
+
+/// A point in the common frame and in its sensor's.
+struct PlacedPoint {
+  Eigen::Vector3f common;
+  Eigen::Vector3f own;
+  int view;  ///< An index into the clouds.
+};
+
+struct LeafOfPoint {
+  Eigen::Vector3i leaf;
+  int point;
+};
+
+using Iterator = std::vector<PlacedPoint>::iterator;
+
+class PatchSearch {
+ public:
+  PatchSearch(const std::vector<SensorCloud>& clouds, const VoxelOptions& options,
+              std::vector<PlanePatch>& patches)
+      : clouds_(clouds), options_(options), patches_(patches) {}
+
+  /// Adds the patches of the cube around `centre` that holds these points.
+  void search(Iterator begin, Iterator end, const Eigen::Vector3f& centre, double edge_m) {
+    if (end - begin < options_.min_points || !is_seen_by_two(begin, end)) return;
+    PointSums sums;
+    // Relative to the centre, so that no digits are lost far from the sensor.
+    for (Iterator point = begin; point != end; ++point) {
+      sums.add((point->common - centre).cast<double>());
+    }
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> shape;
+    shape.computeDirect(sums.scatter() / sums.weight);
+    const Eigen::Vector3d& variances = shape.eigenvalues();
+    if (variances(0) <= options_.max_thickness_ratio * variances(1)) {
+      const Eigen::Vector3d mean = sums.sum / sums.weight;
+      const double rms_m = std::sqrt(std::max(variances(0), 0.0));
+      if (!may_be_cut(mean, shape.eigenvectors().col(0), rms_m, edge_m)) {
+        add_patch(begin, end, rms_m);
+      }
+      return;
+    }
+    if (0.5 * edge_m < options_.least_voxel_m * (1.0 - 1e-9)) return;
+    cut(begin, end, centre, edge_m);
+  }
+
+ private:
+  static bool is_seen_by_two(Iterator begin, Iterator end) {
+    return std::any_of(begin, end,
+                       [&](const PlacedPoint& point) { return point.view != begin->view; });
+  }
+
+  /// Whether the plane runs along a face of its cube, nearer than points scatter.
+  static bool may_be_cut(const Eigen::Vector3d& mean, const Eigen::Vector3d& normal, double rms_m,
+                         double edge_m) {
+    int axis = 0;
+    normal.cwiseAbs().maxCoeff(&axis);
+    return 0.5 * edge_m - std::abs(mean(axis)) < 3.0 * rms_m;
+  }
+
+  void cut(Iterator begin, Iterator end, const Eigen::Vector3f& centre, double edge_m) {
+    const auto quarter = static_cast<float>(0.25 * edge_m);
+    const auto halves = [&](Iterator from, Iterator to, int axis) {
+      return std::stable_partition(
+          from, to, [&](const PlacedPoint& point) { return point.common(axis) < centre(axis); });
+    };
+    const Iterator x = halves(begin, end, 0);
+    for (const bool is_right : {false, true}) {
+      const Iterator x0 = is_right ? x : begin, x1 = is_right ? end : x;
+      const Iterator y = halves(x0, x1, 1);
+      for (const bool is_back : {false, true}) {
+        const Iterator y0 = is_back ? y : x0, y1 = is_back ? x1 : y;
+        const Iterator z = halves(y0, y1, 2);
+        for (const bool is_high : {false, true}) {
+          const Eigen::Vector3f towards(is_right ? 1.0F : -1.0F, is_back ? 1.0F : -1.0F,
+                                        is_high ? 1.0F : -1.0F);
+          search(is_high ? z : y0, is_high ? y1 : z, centre + quarter * towards, 0.5 * edge_m);
+        }
+      }
+    }
+  }
+
+  void add_patch(Iterator begin, Iterator end, double rms_m) {
+    std::vector<PointSums> sums(clouds_.size());
+    for (Iterator point = begin; point != end; ++point) {
+      sums[point->view].add(point->own.cast<double>());
+    }
+    const double noise_m = std::max(rms_m, options_.noise_m);
+    PlanePatch patch;
+    for (std::size_t view = 0; view < clouds_.size(); ++view) {
+      const double count = sums[view].weight;
+      if (count < options_.min_sensor_points) continue;
+      const double variance =
+          noise_m * noise_m / count + options_.surface_error_m * options_.surface_error_m;
+      patch.views.push_back({clouds_[view].sensor, sums[view].scaled(1.0 / (variance * count))});
+      patch.own_cost += least_eigenvalue(patch.views.back().sums.scatter());
+    }
+    if (patch.views.size() > 1) patches_.push_back(std::move(patch));
+  }
+
+  const std::vector<SensorCloud>& clouds_;
+  const VoxelOptions& options_;
+  std::vector<PlanePatch>& patches_;
+};
+
+std::vector<PlacedPoint> placed_points(const std::vector<SensorCloud>& clouds,
+                                       const std::vector<RigidTransform>& poses, int stride) {
+  std::vector<PlacedPoint> points;
+  for (std::size_t view = 0; view < clouds.size(); ++view) {
+    const RigidTransform& T = poses[clouds[view].sensor];
+    const Points& own = clouds[view].cloud->points();
+    for (std::size_t i = 0; i < own.size(); i += static_cast<std::size_t>(stride)) {
+      points.push_back({(T * own[i].cast<double>()).cast<float>(), own[i], static_cast<int>(view)});
+    }
+  }
+  return points;
+}
+
+/// The points by the cubes that hold them; `leaves` has the cube of each.
+std::vector<PlacedPoint> sorted(const std::vector<PlacedPoint>& points,
+                                std::vector<LeafOfPoint>& leaves) {
+  std::sort(leaves.begin(), leaves.end(), [](const LeafOfPoint& a, const LeafOfPoint& b) {
+    return std::tie(a.leaf.x(), a.leaf.y(), a.leaf.z(), a.point) <
+           std::tie(b.leaf.x(), b.leaf.y(), b.leaf.z(), b.point);
+  });
+  std::vector<PlacedPoint> result;
+  result.reserve(points.size());
+  for (const LeafOfPoint& leaf : leaves) result.push_back(points[leaf.point]);
+  return result;
+}
+
+}  // namespace
+
+std::vector<PlanePatch> plane_patches(const std::vector<SensorCloud>& clouds,
+                                      const std::vector<RigidTransform>& poses, int stride,
+                                      const VoxelOptions& options) {
+  std::vector<PlanePatch> patches;
+  const std::vector<PlacedPoint> points = placed_points(clouds, poses, stride);
+  const LeafGrid grid(options.voxel_m);
+  for (const double share : {0.0, 1.0 / 3.0}) {
+    const Eigen::Vector3d shift = Eigen::Vector3d::Constant(share * options.voxel_m);
+    std::vector<LeafOfPoint> leaves;
+    leaves.reserve(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      leaves.push_back(
+          {grid.leaf_of(points[i].common.cast<double>() + shift), static_cast<int>(i)});
+    }
+    std::vector<PlacedPoint> ordered = sorted(points, leaves);
+    PatchSearch search(clouds, options, patches);
+    for (std::size_t from = 0; from < leaves.size();) {
+      std::size_t to = from;
+      while (to < leaves.size() && leaves[to].leaf == leaves[from].leaf) ++to;
+      const Eigen::Vector3d centre =
+          (leaves[from].leaf.cast<double>().array() + 0.5) * options.voxel_m - shift.array();
+      const auto begin = ordered.begin();
+      search.search(begin + static_cast<std::ptrdiff_t>(from),
+                    begin + static_cast<std::ptrdiff_t>(to), centre.cast<float>(), options.voxel_m);
+      from = to;
+    }
+  }
+  return patches;
+}
+
+}  // namespace croon

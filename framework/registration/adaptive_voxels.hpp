@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "framework/registration/plane_cost.hpp"
+#include "framework/spatial/cloud.hpp"
+
+namespace croon {
+
+/// How planes are found in the points of all sensors together.
+struct VoxelOptions {
+  double voxel_m = 2.0;
+  double least_voxel_m = 0.5;
+  double max_thickness_ratio = 0.0625;
+  int min_points = 15;
+  int min_sensor_points = 5;
+  double noise_m = 0.005;          ///< Planes are not trusted to be known better per point,
+  double surface_error_m = 0.003;  ///< nor surfaces to be planes, whatever the number of points.
+};
+
+/// One cloud of a scene and whose it is.
+struct SensorCloud {
+  std::size_t sensor = 0;
+  const Cloud* cloud = nullptr;
+};
+
+/// The pieces of planes that at least two of the clouds of one scene see at `poses` (of a common
+/// frame, by sensor), by adaptive voxels (MLCC: Liu, Yuan and Zhang, T-IM 2022): a cube of edge
+/// `voxel_m` whose points are no plane is cut into eight, down to `least_voxel_m`. Points are on a
+/// plane if the least eigenvalue of their covariance is at most `max_thickness_ratio` of the
+/// middle one. Of each cloud every `stride`-th point takes part.
+///
+/// Two grids, shifted by a third of an edge, are searched: a plane that a face of its cube may have
+/// cut along its surface is not taken, because what is cut off depends on the poses; it is inside
+/// of a cube of the other grid. Most planes are in both.
+///
+/// The points of a view weigh together `1 / (s^2 / n + e^2)` for n points with the variance s^2
+/// off the plane and the error e of the surface, so that the cost is in units of its own noise, and
+/// a wall with a thousand points does not outvote ten with a hundred.
+std::vector<PlanePatch> plane_patches(const std::vector<SensorCloud>& clouds,
+                                      const std::vector<RigidTransform>& poses, int stride,
+                                      const VoxelOptions& options);
+
+}  // namespace croon

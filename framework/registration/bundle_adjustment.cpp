@@ -1,0 +1,300 @@
+#include "framework/registration/bundle_adjustment.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "framework/base/angles.hpp"
+#include "framework/base/threads.hpp"
+
+namespace croon {
+namespace {
+
+/// Patches are summed in parts of fixed size, so that no sum depends on the number of threads.
+constexpr std::size_t kPatchesOfPart = 256;
+
+std::size_t parts_of(std::size_t patches) {
+  return (patches + kPatchesOfPart - 1) / kPatchesOfPart;
+}
+
+/// Calls `use(part, patch)` for each patch, the parts in parallel.
+template <class Use>
+void for_each_patch(const std::vector<PlanePatch>& patches, const Use& use) {
+  for_each_in_parallel(parts_of(patches.size()), [&](std::size_t part) {
+    const std::size_t end = std::min(patches.size(), (part + 1) * kPatchesOfPart);
+    for (std::size_t i = part * kPatchesOfPart; i < end; ++i) use(part, patches[i]);
+  });
+}
+
+double bundle_value(const std::vector<PlanePatch>& patches,
+                    const std::vector<RigidTransform>& poses, double kernel_width) {
+  const double bound = kernel_width * kernel_width;
+  std::vector<double> parts(parts_of(patches.size()), 0.0);
+  for_each_patch(patches, [&](std::size_t part, const PlanePatch& patch) {
+    const double cost = plane_cost_value(patch, poses);
+    parts[part] += cost * bound / (bound + cost);
+  });
+  double sum = 0.0;
+  for (const double part : parts) sum += part;
+  return sum;
+}
+
+void add(const PlanePatch& patch, const PlaneCost& cost, double bound, BundleCost& sum) {
+  const double share = bound / (bound + cost.value);
+  const double slope = share * share;
+  const double curvature = -2.0 * slope * share / bound;
+  sum.value += share * cost.value;
+  for (std::size_t a = 0; a < cost.views.size(); ++a) {
+    const PlaneCost::View& view_a = cost.views[a];
+    const auto at_a = static_cast<Eigen::Index>(6 * patch.views[a].sensor);
+    sum.gradient.segment<6>(at_a) += slope * view_a.gradient;
+    sum.hessian.block<6, 6>(at_a, at_a) += slope * view_a.direct;
+    for (std::size_t b = 0; b < cost.views.size(); ++b) {
+      const PlaneCost::View& view_b = cost.views[b];
+      const auto at_b = static_cast<Eigen::Index>(6 * patch.views[b].sensor);
+      sum.hessian.block<6, 6>(at_a, at_b) +=
+          curvature * view_a.gradient * view_b.gradient.transpose() -
+          slope * view_a.to_plane * view_b.to_plane.transpose();
+    }
+  }
+}
+
+/// The pose after a step of six, in the order of Dof.
+RigidTransform stepped(const RigidTransform& T, const Vector6d& step) {
+  return {nearest_rotation(rotation_exp(step.head<3>()) * T.rotation),
+          T.translation + step.tail<3>()};
+}
+
+bool is_step_small(const Eigen::VectorXd& step, double rotation_rad, double translation_m) {
+  for (Eigen::Index at = 0; at < step.size(); at += 6) {
+    if (step.segment<3>(at).norm() > rotation_rad ||
+        step.segment<3>(at + 3).norm() > translation_m) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// How far `T` is from `start`, in the order of Dof, in units of `start_std`.
+Vector6d moved_by(const RigidTransform& T, const RigidTransform& start, const Vector6d& std) {
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(T.rotation * start.rotation.transpose()));
+  Vector6d offset;
+  offset << turn.angle() * turn.axis(), T.translation - start.translation;
+  return offset.cwiseQuotient(std);
+}
+
+class Adjustment {
+ public:
+  Adjustment(const std::vector<BundleScene>& scenes, const BundleOptions& options, Bundle& bundle)
+      : scenes_(scenes), options_(options), bundle_(bundle), start_(bundle.poses) {
+    start_std_ << Eigen::Vector3d::Constant(rad_from_deg(options.start_std[0])),
+        Eigen::Vector3d::Constant(options.start_std[1]);
+  }
+
+  /// Looks for planes and moves the sensors until they stay. Whether they stayed at once.
+  bool pass(bool is_coarse) {
+    const std::vector<PlanePatch> patches = patches_at(is_coarse);
+    const std::vector<RigidTransform> before = bundle_.poses;
+    minimise(patches);
+    ++bundle_.passes;
+    return are_same(before, bundle_.poses);
+  }
+
+ private:
+  std::vector<PlanePatch> patches_at(bool is_coarse) {
+    VoxelOptions voxels;
+    voxels.voxel_m = options_.voxels_m.front();
+    voxels.least_voxel_m = options_.voxels_m.back();
+    voxels.max_thickness_ratio = options_.max_thickness_ratio;
+    voxels.min_points = options_.min_points;
+    voxels.min_sensor_points = options_.min_sensor_points;
+    voxels.surface_error_m = options_.surface_error_m;
+    const int stride = is_coarse ? options_.coarse_stride : 1;
+    std::vector<std::vector<PlanePatch>> parts(scenes_.size());
+    for_each_in_parallel(scenes_.size(), [&](std::size_t s) {
+      parts[s] = plane_patches(scenes_[s], bundle_.poses, stride, voxels);
+    });
+    std::vector<PlanePatch> patches;
+    for (std::vector<PlanePatch>& part : parts) {
+      std::move(part.begin(), part.end(), std::back_inserter(patches));
+    }
+    count_planes(patches);
+    return patches;
+  }
+
+  void count_planes(const std::vector<PlanePatch>& patches) {
+    bundle_.planes.assign(bundle_.poses.size(), 0);
+    for (const PlanePatch& patch : patches) {
+      for (const PlanePatch::View& view : patch.views) ++bundle_.planes[view.sensor];
+    }
+  }
+
+  /// The sensors whose poses are unknown.
+  std::vector<std::size_t> free_sensors() const {
+    std::vector<std::size_t> sensors;
+    for (std::size_t k = 1; k < bundle_.poses.size(); ++k) {
+      if (bundle_.planes[k] >= options_.min_planes) sensors.push_back(k);
+    }
+    return sensors;
+  }
+
+  void minimise(const std::vector<PlanePatch>& patches) {
+    const std::vector<std::size_t> sensors = free_sensors();
+    bundle_.converged = sensors.empty();
+    double damping = 1e-6;
+    for (int i = 0; i < options_.max_iterations && !bundle_.converged; ++i) {
+      const BundleCost cost = bundle_cost(patches, bundle_.poses, options_.kernel_width);
+      bundle_.cost_per_plane =
+          cost.value / static_cast<double>(std::max<std::size_t>(patches.size(), 1));
+      bundle_.converged = !improve(patches, sensors, cost, damping);
+      ++bundle_.iterations;
+    }
+  }
+
+  /// What moving the sensors from their start costs.
+  double start_cost(const std::vector<RigidTransform>& poses) const {
+    double sum = 0.0;
+    for (std::size_t k = 1; k < poses.size(); ++k) {
+      sum += moved_by(poses[k], start_[k], start_std_).squaredNorm();
+    }
+    return sum;
+  }
+
+  /// One step that lowers the cost. Whether it moved anything.
+  bool improve(const std::vector<PlanePatch>& patches, const std::vector<std::size_t>& sensors,
+               const BundleCost& cost, double& damping) {
+    constexpr double kLargestDamping = 1e6;
+    const auto size = static_cast<Eigen::Index>(6 * sensors.size());
+    Eigen::MatrixXd hessian(size, size);
+    Eigen::VectorXd gradient(size);
+    for (std::size_t a = 0; a < sensors.size(); ++a) {
+      const auto from_a = static_cast<Eigen::Index>(6 * sensors[a]);
+      const auto at_a = static_cast<Eigen::Index>(6 * a);
+      const Vector6d offset = moved_by(bundle_.poses[sensors[a]], start_[sensors[a]], start_std_);
+      gradient.segment<6>(at_a) =
+          cost.gradient.segment<6>(from_a) + 2.0 * offset.cwiseQuotient(start_std_);
+      for (std::size_t b = 0; b < sensors.size(); ++b) {
+        hessian.block<6, 6>(at_a, static_cast<Eigen::Index>(6 * b)) =
+            cost.hessian.block<6, 6>(from_a, static_cast<Eigen::Index>(6 * sensors[b]));
+      }
+      hessian.block<6, 6>(at_a, at_a).diagonal() += 2.0 * start_std_.cwiseAbs2().cwiseInverse();
+    }
+    const double present = cost.value + start_cost(bundle_.poses);
+    for (; damping <= kLargestDamping; damping *= 10.0) {
+      Eigen::MatrixXd damped = hessian;
+      damped.diagonal() += damping * hessian.diagonal().cwiseAbs();
+      const Eigen::LLT<Eigen::MatrixXd> factors(damped);
+      if (factors.info() != Eigen::Success) continue;
+      const Eigen::VectorXd step = -factors.solve(gradient);
+      if (is_step_small(step, 1e-8, 1e-7)) return false;
+      std::vector<RigidTransform> poses = bundle_.poses;
+      for (std::size_t a = 0; a < sensors.size(); ++a) {
+        RigidTransform& T = poses[sensors[a]];
+        T = stepped(T, step.segment<6>(static_cast<Eigen::Index>(6 * a)));
+      }
+      const double value = bundle_value(patches, poses, options_.kernel_width) + start_cost(poses);
+      if (!(value < present)) continue;
+      bundle_.poses = std::move(poses);
+      damping = std::max(0.1 * damping, 1e-9);
+      return true;
+    }
+    return false;
+  }
+
+  static bool are_same(const std::vector<RigidTransform>& a, const std::vector<RigidTransform>& b) {
+    constexpr double kRotation_rad = 2e-6, kTranslation_m = 2e-5;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      const PoseError moved = pose_error(a[k], b[k]);
+      if (moved.rotation_rad > kRotation_rad || moved.translation_m > kTranslation_m) return false;
+    }
+    return true;
+  }
+
+  const std::vector<BundleScene>& scenes_;
+  const BundleOptions& options_;
+  Bundle& bundle_;
+  std::vector<RigidTransform> start_;
+  Vector6d start_std_;
+};
+
+}  // namespace
+
+const params::Table<BundleOptions>& bundle_table() {
+  using O = BundleOptions;
+  static const params::Table<O> table = [] {
+    params::Table<O> rows = {
+        params::numbers("voxels_m", &O::voxels_m, {1e-3, 1e6},
+                        "The edges of the largest and of the smallest voxels; a voxel that holds "
+                        "no plane is cut into eight."),
+        params::number("max_thickness_ratio", &O::max_thickness_ratio, {0.0, 1.0},
+                       "Points are on a plane if their variance across it is at most this share of "
+                       "the middle one."),
+        params::integer("min_points", &O::min_points, {4, 1000000},
+                        "A plane has at least so many points, of all sensors together."),
+        params::integer("min_sensor_points", &O::min_sensor_points, {1, 1000000},
+                        "A sensor that has fewer points on a plane does not see it."),
+        params::number("surface_error_m", &O::surface_error_m, {0.0, 1e3},
+                       "What a surface is off a plane: however many points a sensor has on it, "
+                       "they do not know the plane better."),
+        params::number("kernel_width", &O::kernel_width, {1e-3, 1e9},
+                       "Planes that fit worse than so many standard deviations lose weight."),
+        params::numbers("start_std", &O::start_std, {1e-9, 1e9},
+                        "How far a start is expected to be off, degrees and metres: standard "
+                        "deviations about each axis and along it. It keeps sensors from moving "
+                        "where no plane holds them."),
+        params::integer("coarse_stride", &O::coarse_stride, {1, 1000000},
+                        "Coarse passes take one of so many points."),
+        params::integer("coarse_passes", &O::coarse_passes, {0, 1000},
+                        "The number of coarse passes."),
+        params::integer("max_passes", &O::max_passes, {1, 1000},
+                        "The most passes over all points; they end when no sensor moves."),
+        params::integer("max_iterations", &O::max_iterations, {1, 10000},
+                        "The most iterations of each pass."),
+        params::integer("min_planes", &O::min_planes, {1, 1000000},
+                        "A sensor that shares fewer planes with others fails."),
+    };
+    rows.require([](const O& o) { return o.voxels_m.size() == 2; },
+                 "voxels_m must have two numbers");
+    rows.require([](const O& o) { return o.start_std.size() == 2; },
+                 "start_std must have two numbers");
+    return rows;
+  }();
+  return table;
+}
+
+BundleCost bundle_cost(const std::vector<PlanePatch>& patches,
+                       const std::vector<RigidTransform>& poses, double kernel_width) {
+  const auto size = static_cast<Eigen::Index>(6 * poses.size());
+  BundleCost zero;
+  zero.gradient = Eigen::VectorXd::Zero(size);
+  zero.hessian = Eigen::MatrixXd::Zero(size, size);
+  std::vector<BundleCost> parts(parts_of(patches.size()), zero);
+  std::vector<PlaneCost> costs(parts.size());
+  for_each_patch(patches, [&](std::size_t part, const PlanePatch& patch) {
+    plane_cost(patch, poses, costs[part]);
+    add(patch, costs[part], kernel_width * kernel_width, parts[part]);
+  });
+  BundleCost sum = zero;
+  for (const BundleCost& part : parts) {
+    sum.value += part.value;
+    sum.gradient += part.gradient;
+    sum.hessian += part.hessian;
+  }
+  return sum;
+}
+
+Bundle adjust_bundle(const std::vector<BundleScene>& scenes,
+                     const std::vector<RigidTransform>& start, const BundleOptions& options) {
+  Bundle bundle;
+  bundle.poses = start;
+  Adjustment adjustment(scenes, options, bundle);
+  for (int i = 0; i < options.coarse_passes; ++i) {
+    if (adjustment.pass(true)) break;
+  }
+  bool stays = false;
+  for (int i = 0; i < options.max_passes && !stays; ++i) stays = adjustment.pass(false);
+  bundle.converged = stays;
+  return bundle;
+}
+
+}  // namespace croon

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <vector>
+
+#include "framework/params/table.hpp"
+#include "framework/registration/adaptive_voxels.hpp"
+
+namespace croon {
+
+/// The parameters of `adjust_bundle`.
+struct BundleOptions {
+  std::vector<double> voxels_m = {2.0, 0.5};
+  double max_thickness_ratio = 0.0625;
+  int min_points = 15;
+  int min_sensor_points = 5;
+  double surface_error_m = 0.003;
+  double kernel_width = 3.0;
+  std::vector<double> start_std = {1.0, 0.2};
+  int coarse_stride = 4;
+  int coarse_passes = 3;
+  int max_passes = 8;
+  int max_iterations = 20;
+  int min_planes = 30;
+};
+
+/// The rows of BundleOptions.
+const params::Table<BundleOptions>& bundle_table();
+
+/// The clouds of one scene, each cloud of one moment.
+using BundleScene = std::vector<SensorCloud>;
+
+/// The result of a bundle adjustment.
+struct Bundle {
+  std::vector<RigidTransform> poses;  ///< By sensor; the first is the common frame and stays.
+  std::vector<int> planes;            ///< By sensor: how many planes it shares with another one.
+  double cost_per_plane = 0.0;        ///< In units of the planes' noise, see plane_patches.
+  int passes = 0;
+  int iterations = 0;
+  bool converged = false;
+};
+
+/// Moves the sensors of a rig so that what they see in all scenes lies on planes: least squares of
+/// the distances of all points to planes that are unknown too, eliminated in closed form (see
+/// PlaneCost), with the kernel of Geman and McClure on the cost of each plane, by Newton's method
+/// with the damping of Levenberg and Marquardt. Each pass looks for planes at the present poses
+/// and sums their points once; after that an iteration costs nothing per point. All sensors that
+/// see a plane hold each other, not only those that share it with the first. Coarse passes take a
+/// part of the points. A sensor with less than `min_planes` keeps its pose and takes no part.
+///
+/// `start` is by sensor, the first of them the identity.
+Bundle adjust_bundle(const std::vector<BundleScene>& scenes,
+                     const std::vector<RigidTransform>& start, const BundleOptions& options);
+
+/// The robust cost of `patches` and its derivatives by the poses of all sensors, 6 for each: the
+/// sum of `w^2 c / (w^2 + c)` over the costs c of the planes, with the width w of the kernel.
+struct BundleCost {
+  double value = 0.0;
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd hessian;
+};
+BundleCost bundle_cost(const std::vector<PlanePatch>& patches,
+                       const std::vector<RigidTransform>& poses, double kernel_width);
+
+}  // namespace croon
