@@ -1,5 +1,6 @@
 // What does the occupied volume cost: to bind a scorer to two clouds, and then per pose?
 
+#include <cstdlib>
 #include <stdexcept>
 
 #include "benchmarks/support/clouds.hpp"
@@ -14,6 +15,7 @@ namespace {
 using Scorer = params::Slot<VolumeScorer>;
 
 constexpr int kPoses = 32;
+constexpr int kBatch = 64;
 const std::vector<double> kLeafSizes = {0.02, 0.05, 0.1, 0.2};
 
 Scorer scorer(const std::string& name, double leaf_size_m) {
@@ -24,7 +26,8 @@ Scorer scorer(const std::string& name, double leaf_size_m) {
 std::vector<std::int64_t> counts(const Scorer& scorer, const CloudPair& pair) {
   const VolumeFunction volume = scorer->bind(fresh(pair.target), fresh(pair.source));
   std::vector<std::int64_t> counts;
-  for (const RigidTransform& pose : poses_near(pair, kPoses, 1.0, 0.1)) {
+  const int poses = pair.source.size() > 500000 ? 2 : kPoses;
+  for (const RigidTransform& pose : poses_near(pair, poses, 1.0, 0.1)) {
     counts.push_back(volume(pose).leaves);
   }
   return counts;
@@ -49,7 +52,7 @@ void measure_bind(benchmark::State& state, const Scorer& scorer, const CloudPair
   VolumeFunction volume;
   for (auto _ : state) {
     state.PauseTiming();
-    volume = nullptr;
+    volume = {};
     target = fresh(pair.target);
     source = fresh(pair.source);
     state.ResumeTiming();
@@ -67,10 +70,31 @@ void measure_pose(benchmark::State& state, const Scorer& scorer, const CloudPair
   state.counters["leaves"] = static_cast<double>(volume(pair.T_target_source).leaves);
 }
 
+/// The time of one pose of a batch, which the scorer may spread over all cores.
+void measure_batch(benchmark::State& state, const Scorer& scorer, const CloudPair& pair) {
+  const VolumeFunction volume = scorer->bind(fresh(pair.target), fresh(pair.source));
+  const std::vector<RigidTransform> poses = poses_near(pair, kBatch, 1.0, 0.1);
+  for (auto _ : state) benchmark::DoNotOptimize(volume.at(poses));
+  state.counters["poses"] = static_cast<double>(poses.size());
+  state.counters["per_pose"] = benchmark::Counter(
+      static_cast<double>(poses.size()),
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
 void check_and_add() {
   std::vector<CloudPair> pairs;
-  for (const int count : {2000, 5000, 20000, 100000}) pairs.push_back(street(count, count));
-  for (const CloudPair& pair : samples()) pairs.push_back(non_ground(pair));
+  std::vector<int> sizes = {2000, 5000, 20000, 100000};
+  // Minutes, so only on request.
+  const char* most_points = std::getenv("CROON_BENCHMARK_POINTS");
+  if (most_points != nullptr) {
+    for (int count = 1000000; count <= std::atoi(most_points); count *= 10) sizes.push_back(count);
+  }
+  for (const int count : sizes) pairs.push_back(street(count, count));
+  for (CloudPair& pair : samples()) {
+    pairs.push_back(non_ground(pair));
+    pair.name += "_with_ground";
+    pairs.push_back(std::move(pair));
+  }
   const std::vector<std::string> names = registry().names(VolumeScorer::kKind);
   for (const CloudPair& pair : pairs) {
     for (const double leaf_size_m : kLeafSizes) {
@@ -83,6 +107,8 @@ void check_and_add() {
             [=](benchmark::State& state) { measure_bind(state, subject, pair); });
         add("pose/" + place, benchmark::kMillisecond,
             [=](benchmark::State& state) { measure_pose(state, subject, pair); });
+        add("batch/" + place, benchmark::kMillisecond,
+            [=](benchmark::State& state) { measure_batch(state, subject, pair); });
       }
     }
   }

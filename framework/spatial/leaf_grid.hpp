@@ -26,6 +26,8 @@ class LeafGrid {
     return {floor(scaled.x()), floor(scaled.y()), floor(scaled.z())};
   }
   double leaf_size_m() const { return leaf_size_m_; }
+  /// What leaf_of multiplies with: the rounded reciprocal of the leaf size.
+  double leaves_per_m() const { return inverse_; }
 
  private:
   /// std::floor for values that fit an int; without SSE 4.1 std::floor is a library call.

@@ -1,13 +1,42 @@
 #pragma once
 
 #include <functional>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "framework/geometry/rigid_transform.hpp"
 
 namespace croon {
 
 /// Cost of a pose; never NaN.
-using PoseCost = std::function<double(const RigidTransform&)>;
+class PoseCost {
+ public:
+  using OfPose = std::function<double(const RigidTransform&)>;
+  using OfPoses = std::function<std::vector<double>(const std::vector<RigidTransform>&)>;
+
+  /// From a function of one pose, and one of many that gives the same costs and may use threads.
+  /// Without it they are computed one after the other.
+  template <class Function, class = std::enable_if_t<std::is_invocable_r_v<double, const Function&,
+                                                                           const RigidTransform&>>>
+  // A function is converted where one is expected.
+  PoseCost(Function of_pose, OfPoses of_poses = {})  // NOLINT(*-explicit-*)
+      : of_pose_(std::move(of_pose)), of_poses_(std::move(of_poses)) {}
+
+  double operator()(const RigidTransform& pose) const { return of_pose_(pose); }
+
+  /// The costs of poses that are all needed, in their order.
+  std::vector<double> at(const std::vector<RigidTransform>& poses) const {
+    if (of_poses_) return of_poses_(poses);
+    std::vector<double> costs;
+    for (const RigidTransform& pose : poses) costs.push_back(of_pose_(pose));
+    return costs;
+  }
+
+ private:
+  OfPose of_pose_;
+  OfPoses of_poses_;
+};
 
 /// The pose of least cost that a search found.
 struct PoseMinimum {

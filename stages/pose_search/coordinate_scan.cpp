@@ -78,8 +78,11 @@ class Scan {
       if (params_.stop == Stop::never) {
         lower = scan_range(origin, dof, step) || lower;
       } else {
-        lower = descend(origin, dof, step) || lower;
-        lower = descend(origin, dof, -step) || lower;
+        // The first step to each side is always needed.
+        const std::vector<double> first_costs =
+            cost_.at({stepped(origin, dof, 1, step), stepped(origin, dof, -1, step)});
+        lower = descend(origin, dof, step, first_costs[0]) || lower;
+        lower = descend(origin, dof, -step, first_costs[1]) || lower;
       }
     }
     return lower;
@@ -94,25 +97,31 @@ class Scan {
   }
 
   /// Steps in one direction from `origin` as long as each step lowers the least cost so far.
-  bool descend(const RigidTransform& origin, Dof dof, double step) {
+  bool descend(const RigidTransform& origin, Dof dof, double step, double first_cost) {
     for (int i = 1; i <= params_.max_steps; ++i) {
-      if (!take_if_lower(stepped(origin, dof, i, step))) return i > 1;
+      const RigidTransform pose = stepped(origin, dof, i, step);
+      if (!take_if_lower(pose, i == 1 ? first_cost : cost_(pose))) return i > 1;
     }
     return true;
   }
 
   /// Evaluates the whole range, the nearest poses first, and takes the best.
   bool scan_range(const RigidTransform& origin, Dof dof, double step) {
-    bool lower = false;
+    std::vector<RigidTransform> poses;
     for (int i = 1; i <= params_.max_steps; ++i) {
-      lower = take_if_lower(stepped(origin, dof, i, step)) || lower;
-      lower = take_if_lower(stepped(origin, dof, -i, step)) || lower;
+      poses.push_back(stepped(origin, dof, i, step));
+      poses.push_back(stepped(origin, dof, -i, step));
+    }
+    const std::vector<double> costs = cost_.at(poses);
+    bool lower = false;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      lower = take_if_lower(poses[i], costs[i]) || lower;
     }
     return lower;
   }
 
-  bool take_if_lower(const RigidTransform& pose) {
-    const double pose_cost = cost_(pose);
+  /// Counts an evaluation.
+  bool take_if_lower(const RigidTransform& pose, double pose_cost) {
     ++best_.evaluations;
     const bool lower = best_.cost - pose_cost > params_.min_decrease_ratio * std::abs(best_.cost);
     if (lower) {

@@ -1,3 +1,5 @@
+#include <vector>
+
 #include "framework/pipeline/step_options.hpp"
 #include "framework/stage/pose_search.hpp"
 #include "framework/stage/stage_entry.hpp"
@@ -32,8 +34,13 @@ class VolumeRefinement final : public Step {
     const SelectedClouds clouds = selected_clouds(estimate, params_.points);
     const VolumeFunction volume = params_.scorer->bind(clouds.target, clouds.source);
     const double before_m3 = volume(estimate.T_target_source).m3();
-    const PoseMinimum minimum = params_.search->minimise(
-        [&](const RigidTransform& pose) { return volume(pose).m3(); }, estimate.T_target_source);
+    const PoseCost cost([&](const RigidTransform& pose) { return volume(pose).m3(); },
+                        [&](const std::vector<RigidTransform>& poses) {
+                          std::vector<double> costs;
+                          for (const OccupiedVolume& v : volume.at(poses)) costs.push_back(v.m3());
+                          return costs;
+                        });
+    const PoseMinimum minimum = params_.search->minimise(cost, estimate.T_target_source);
     estimate.T_target_source = minimum.pose;
     estimate.diagnostics = {{"volume_before_m3", before_m3},
                             {"volume_m3", minimum.cost},

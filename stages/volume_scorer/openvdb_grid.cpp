@@ -56,16 +56,18 @@ class OpenvdbGrid final : public VolumeScorer {
       return tree;
     });
     const std::int64_t target_leaves = leaves(*target_tree);
-    return [grid, target_tree, target_leaves, source](const RigidTransform& T_target_source) {
-      Tree added;
-      Accessor<Tree> added_voxels(added);
-      const Accessor<const Tree> target_voxels(*target_tree);
-      for (const Eigen::Vector3f& point : source->points()) {
-        const openvdb::Coord voxel = coord(grid.leaf_of(T_target_source * point.cast<double>()));
-        if (!target_voxels.isValueOn(voxel)) added_voxels.setValueOn(voxel);
-      }
-      return OccupiedVolume{target_leaves + leaves(added), grid.leaf_size_m()};
-    };
+    return {[grid, target_tree, target_leaves, source](const RigidTransform& T_target_source) {
+              Tree added;
+              Accessor<Tree> added_voxels(added);
+              const Accessor<const Tree> target_voxels(*target_tree);
+              for (const Eigen::Vector3f& point : source->points()) {
+                const openvdb::Coord voxel =
+                    coord(grid.leaf_of(T_target_source * point.cast<double>()));
+                if (!target_voxels.isValueOn(voxel)) added_voxels.setValueOn(voxel);
+              }
+              return OccupiedVolume{target_leaves + leaves(added), grid.leaf_size_m()};
+            },
+            Poses::in_parallel};
   }
 
  private:

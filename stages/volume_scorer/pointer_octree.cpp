@@ -125,16 +125,18 @@ class PointerOctree final : public VolumeScorer {
       }
       return tree;
     });
-    return [grid, target_tree, source](const RigidTransform& T_target_source) {
-      // One per thread: allocating its memory again for each pose would take most of the time.
-      thread_local Octree added;
-      added.clear();
-      for (const Eigen::Vector3f& point : source->points()) {
-        const Eigen::Vector3i leaf = grid.leaf_of(T_target_source * point.cast<double>());
-        if (!target_tree->contains(leaf)) added.insert(leaf);
-      }
-      return OccupiedVolume{target_tree->leaves() + added.leaves(), grid.leaf_size_m()};
-    };
+    return {[grid, target_tree, source](const RigidTransform& T_target_source) {
+              // One per thread: allocating its memory again for each pose would take most of the
+              // time.
+              thread_local Octree added;
+              added.clear();
+              for (const Eigen::Vector3f& point : source->points()) {
+                const Eigen::Vector3i leaf = grid.leaf_of(T_target_source * point.cast<double>());
+                if (!target_tree->contains(leaf)) added.insert(leaf);
+              }
+              return OccupiedVolume{target_tree->leaves() + added.leaves(), grid.leaf_size_m()};
+            },
+            Poses::in_parallel};
   }
 
  private:

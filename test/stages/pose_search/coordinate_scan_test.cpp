@@ -158,6 +158,38 @@ TEST(CoordinateScan, NeverCostsMoreThanTheStartCountsAndIsDeterministic) {
   }
 }
 
+TEST(CoordinateScan, AsksForManyPosesAtOnceAndFindsTheSame) {
+  Rng rng = test::test_rng();
+  for (const char* stop : {"first_rise", "never"}) {
+    const auto search = test::stage<PoseSearch>(
+        std::string(R"({"type": "coordinate_scan", "dofs": ["x", "y", "yaw"], "stop": ")") + stop +
+        "\"}");
+    for (int i = 0; i < 50; ++i) {
+      const RigidTransform start = test::random_pose(rng, 5.0);
+      const Eigen::Vector2d least_m{rng.uniform(-0.05, 0.05), rng.uniform(-0.05, 0.05)};
+      const PoseCost one_by_one = planar_bowl(start, least_m);
+      int calls = 0;
+      std::size_t most = 0;
+      const PoseCost many(
+          [&](const RigidTransform& pose) {
+            ++calls;
+            return one_by_one(pose);
+          },
+          [&](const std::vector<RigidTransform>& poses) {
+            calls += static_cast<int>(poses.size());
+            most = std::max(most, poses.size());
+            return one_by_one.at(poses);
+          });
+      const PoseMinimum minimum = search->minimise(many, start);
+      const PoseMinimum expected = search->minimise(one_by_one, start);
+      EXPECT_TRUE(same_bits(minimum.pose, expected.pose));
+      EXPECT_EQ(minimum.cost, expected.cost);
+      EXPECT_EQ(minimum.evaluations, calls);
+      EXPECT_EQ(most, stop == std::string("never") ? 18U : 2U);
+    }
+  }
+}
+
 TEST(CoordinateScan, ReturnsTheStartItselfWhereNothingIsLower) {
   Rng rng = test::test_rng(5);
   const auto search = test::stage<PoseSearch>(

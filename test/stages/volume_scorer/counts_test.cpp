@@ -112,6 +112,54 @@ TEST(VolumeScorers, RefuseWhatIsOutsideOfTheGrid) {
   }
 }
 
+TEST(VolumeScorers, CountLikeTheSetFarFromTheOrigin) {
+  Rng rng = test::test_rng();
+  // As in map coordinates: farther from the origin than the keys of leaves reach from their centre.
+  const Points target = transformed(test::random_cloud(rng, 500, 10.0), shifted(4e5, -5e6, 300));
+  const Points source = test::random_cloud(rng, 400, 10.0);
+  std::vector<RigidTransform> poses = random_poses(rng, 3, 10.0);
+  for (int i = 0; i < 4; ++i) {
+    poses.push_back(shifted(4e5, -5e6, 300) * test::random_pose(rng, 3.0));
+  }
+  test::expect_equal_counts(target, source, poses, 0.05);
+}
+
+TEST(VolumeScorers, CountLikeTheSetWithFewPointsFarFromTheOthers) {
+  Rng rng = test::test_rng();
+  Points target = test::random_cloud(rng, 300, 1.0);
+  Points source = test::random_cloud(rng, 300, 1.0);
+  for (const float far_m : {1e5F, -3e5F, 2e6F}) {
+    target.push_back({far_m, 0.01F, 0.02F});
+    source.push_back({far_m, 0.01F, 0.02F});
+    source.push_back({0.3F, far_m, far_m});
+    source.push_back({0.3F, far_m, far_m});
+  }
+  std::vector<RigidTransform> poses = random_poses(rng, 4, 1.0);
+  poses.push_back(shifted(0, 0, 1e5));
+  test::expect_equal_counts(target, source, poses, 0.02);
+  std::reverse(target.begin(), target.end());  // What the keys are centred on is then far.
+  std::rotate(target.begin(), target.begin() + 149, target.end());
+  test::expect_equal_counts(target, source, poses, 0.02);
+}
+
+TEST(VolumeScorers, CountLikeTheSetAfterAnExceptionAndAfterALargerCloud) {
+  Rng rng = test::test_rng();
+  const Points large = test::random_cloud(rng, 30000, 30.0);
+  Points small = test::random_cloud(rng, 300, 1.0);
+  const std::vector<RigidTransform> poses = random_poses(rng, 3, 1.0);
+  test::expect_equal_counts(small, large, poses, 0.05);
+  test::expect_equal_counts(large, small, poses, 0.05);
+  Points beyond = small;
+  beyond.push_back({0.0F, 1e9F, 0.0F});
+  for (const auto& [name, scorer] : test::all_scorers(0.05)) {
+    SCOPED_TRACE(name);
+    const VolumeFunction refused = scorer->bind(test::cloud_of(small), test::cloud_of(beyond));
+    EXPECT_THROW(refused(RigidTransform{}), StageError);
+    const VolumeFunction volume = scorer->bind(test::cloud_of(small), test::cloud_of(large));
+    EXPECT_EQ(volume(poses[1]).leaves, test::leaves_by_set(small, large, poses[1], 0.05));
+  }
+}
+
 TEST(VolumeScorers, CountFewPointsAndNone) {
   Rng rng = test::test_rng();
   const Points one = {{-0.3F, 0.7F, 2.0F}};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <thread>
 
+#include "framework/base/error.hpp"
+#include "framework/base/threads.hpp"
 #include "test/stages/volume_scorer/scorers.hpp"
 #include "test/support/random_geometry.hpp"
 
@@ -119,6 +121,43 @@ TEST(VolumeScorers, FourThreadsAtOnceGetWhatOneGets) {
       const std::int64_t expected = test::leaves_by_set(split.target, split.source, poses[i], 0.05);
       for (const std::vector<std::int64_t>& mine : counts) EXPECT_EQ(mine[i], expected);
     }
+  }
+}
+
+TEST(VolumeScorers, ManyPosesOnManyThreadsGetWhatOneGetsAlone) {
+  Rng rng = test::test_rng();
+  const SplitStreet split = split_street(rng, 6000);
+  std::vector<RigidTransform> poses;
+  for (int i = 0; i < 33; ++i) {
+    poses.push_back(test::pose_near(rng, split.T_target_source, 5.0, 0.5));
+  }
+  for (const auto& [name, scorer] : test::all_scorers(0.05)) {
+    SCOPED_TRACE(name);
+    const VolumeFunction volume =
+        scorer->bind(test::cloud_of(split.target), test::cloud_of(split.source));
+    EXPECT_TRUE(volume.at({}).empty());
+    for (const int jobs : {1, 4}) {
+      on_threads(jobs, [&] {
+        const std::vector<OccupiedVolume> volumes = volume.at(poses);
+        ASSERT_EQ(volumes.size(), poses.size());
+        for (std::size_t i = 0; i < poses.size(); ++i) {
+          EXPECT_EQ(volumes[i].leaves, volume(poses[i]).leaves);
+          EXPECT_EQ(volumes[i].leaf_size_m, 0.05);
+        }
+      });
+    }
+  }
+}
+
+TEST(VolumeScorers, AnExceptionAtOneOfManyPosesReachesTheCallerFromItsThread) {
+  Rng rng = test::test_rng();
+  const Points points = test::random_cloud(rng, 300, 1.0);
+  const RigidTransform outside{Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 1e12, 0)};
+  for (const auto& [name, scorer] : test::all_scorers(0.05)) {
+    SCOPED_TRACE(name);
+    const VolumeFunction volume = scorer->bind(test::cloud_of(points), test::cloud_of(points));
+    EXPECT_THROW(volume.at({{}, {}, outside, {}}), StageError);
+    EXPECT_EQ(volume.at({{}, {}}).at(1).leaves, test::leaves_by_set(points, points, {}, 0.05));
   }
 }
 

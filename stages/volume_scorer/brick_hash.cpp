@@ -1,0 +1,219 @@
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "framework/params/values.hpp"
+#include "framework/spatial/leaf_window.hpp"
+#include "framework/stage/stage_entry.hpp"
+#include "framework/stage/volume_scorer.hpp"
+
+namespace croon::stages::volume_scorer {
+namespace {
+
+struct Params {
+  double leaf_size_m = 0.05;
+};
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table = {
+      params::number("leaf_size_m", &Params::leaf_size_m, {1e-3, 1e3},
+                     "Edge of the leaves that are counted."),
+  };
+  return table;
+}
+
+/// The number of bits that are set. Without an instruction for it, which not every x86-64 has, the
+/// compiler calls a function.
+std::int64_t bit_count(std::uint64_t bits) {
+  bits -= bits >> 1 & 0x5555555555555555;
+  bits = (bits & 0x3333333333333333) + (bits >> 2 & 0x3333333333333333);
+  bits = (bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0f;
+  return static_cast<std::int64_t>(bits * 0x0101010101010101 >> 56);
+}
+
+/// Bricks of 4 x 4 x 4 leaves, one bit for each leaf, found by hashing with open addressing.
+class BrickTable {
+ public:
+  BrickTable() { resize(kLeastBits); }
+
+  /// Occupies the leaves of `keys` (LeafWindow). Nothing in the loop depends on what a point hits
+  /// but the search for a free slot, which seldom goes beyond the first: wrong predictions of
+  /// branches would cost more than all else.
+  void occupy(const std::uint64_t* keys, std::size_t count) {
+    while (slot_count() < 2 * (used_count_ + count)) grow();
+    Brick* const slots = slots_.data();
+    std::uint32_t* const used = used_.data();
+    const int shift = shift_;
+    std::size_t used_count = used_count_;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint64_t brick_key = keys[i] >> LeafWindow::kLeafBits;
+      const std::size_t slot = slot_of(brick_key, slots, shift);
+      used[used_count] = static_cast<std::uint32_t>(slot);
+      used_count += static_cast<std::size_t>(slots[slot].key == kNone);
+      slots[slot].key = brick_key;
+      slots[slot].leaves |= std::uint64_t{1} << (keys[i] % 64);
+    }
+    used_count_ = used_count;
+  }
+
+  std::int64_t leaves() const {
+    std::int64_t count = 0;
+    for (std::size_t i = 0; i < used_count_; ++i) count += bit_count(slots_[used_[i]].leaves);
+    return count;
+  }
+
+  /// How many leaves are occupied here and not in `other`. Empties this table on the way.
+  std::int64_t take_leaves_not_in(const BrickTable& other) {
+    std::int64_t count = 0;
+    for (std::size_t i = 0; i < used_count_; ++i) {
+      // The other table is larger than a cache, and a wrong prediction is noticed when its slot has
+      // arrived: slots are asked for long before.
+      const std::size_t ahead = std::min(i + kAhead, used_count_ - 1);
+      __builtin_prefetch(&other.slots_[first_slot(slots_[used_[ahead]].key, other.shift_)]);
+      Brick& brick = slots_[used_[i]];
+      const std::size_t slot = slot_of(brick.key, other.slots_.data(), other.shift_);
+      count += bit_count(brick.leaves & ~other.slots_[slot].leaves);
+      brick = Brick{};
+    }
+    begin_again();
+    return count;
+  }
+
+  /// Empties the table.
+  void clear() {
+    for (std::size_t i = 0; i < used_count_; ++i) slots_[used_[i]] = Brick{};
+    if (used_count_ > 0) begin_again();
+  }
+
+ private:
+  struct Brick {
+    std::uint64_t key = kNone;
+    std::uint64_t leaves = 0;
+  };
+  static constexpr std::uint64_t kNone = ~std::uint64_t{0};
+  static constexpr int kLeastBits = 10;
+  static constexpr std::size_t kAhead = 16;  ///< Half of them or twice as many are as fast.
+
+  std::size_t slot_count() const { return std::size_t{1} << (64 - shift_); }
+
+  /// Fibonacci hashing (Knuth, The Art of Computer Programming, 6.4).
+  static std::size_t first_slot(std::uint64_t brick_key, int shift) {
+    return brick_key * 0x9e3779b97f4a7c15 >> shift;
+  }
+
+  /// Whether a slot is taken, and by another brick. The least of two numbers is 0 if one of them
+  /// is: one branch, which is seldom taken. With && there would be two, and which of them ends a
+  /// search is not predictable.
+  static bool is_of_another(const Brick& brick, std::uint64_t brick_key) {
+    return std::min(brick.key ^ brick_key, brick.key ^ kNone) != 0;
+  }
+
+  /// The slot of a brick, or the free one that it would get. A free slot has no leaves.
+  static std::size_t slot_of(std::uint64_t brick_key, const Brick* slots, int shift) {
+    std::size_t slot = first_slot(brick_key, shift);
+    while (is_of_another(slots[slot], brick_key)) {
+      slot = (slot + 1) & ((std::size_t{1} << (64 - shift)) - 1);
+    }
+    return slot;
+  }
+
+  /// Uses 2^bits slots, which are free, from now on.
+  void resize(int bits) {
+    shift_ = 64 - bits;
+    if (slots_.size() < slot_count()) {
+      slots_.resize(slot_count());
+      used_.resize(slot_count() / 2 + 1);
+    }
+  }
+
+  void grow() {
+    moved_.clear();
+    for (std::size_t i = 0; i < used_count_; ++i) {
+      moved_.push_back(slots_[used_[i]]);
+      slots_[used_[i]] = Brick{};
+    }
+    resize(64 - shift_ + 1);
+    for (std::size_t i = 0; i < used_count_; ++i) {
+      const std::size_t slot = slot_of(moved_[i].key, slots_.data(), shift_);
+      slots_[slot] = moved_[i];
+      used_[i] = static_cast<std::uint32_t>(slot);
+    }
+  }
+
+  /// The next pose needs about as many slots as the last one; all that were ever needed would be
+  /// more than the cache has. The memory is kept.
+  void begin_again() {
+    int bits = kLeastBits;
+    while (std::size_t{1} << bits < 2 * (used_count_ + LeafWindow::kBlock)) ++bits;
+    used_count_ = 0;
+    resize(bits);
+  }
+
+  std::vector<Brick> slots_;  ///< The first slot_count() are in use, at most half of them taken.
+  std::vector<std::uint32_t> used_;
+  std::vector<Brick> moved_;
+  std::size_t used_count_ = 0;
+  int shift_ = 0;
+};
+
+/// The leaves of the target.
+struct Target {
+  LeafWindow window;
+  BrickTable bricks;
+  FarLeaves far;
+  std::int64_t leaves = 0;
+};
+
+std::shared_ptr<const Target> target_of(const Points& points, double leaf_size_m) {
+  const Eigen::Vector3d middle = points.empty() ? Eigen::Vector3d::Zero().eval()
+                                                : points[points.size() / 2].cast<double>().eval();
+  const auto target =
+      std::make_shared<Target>(Target{LeafWindow(LeafGrid(leaf_size_m), middle), {}, {}, 0});
+  target->far = target->window.for_each_block(
+      PointColumns(points), RigidTransform{},
+      [&](const std::uint64_t* keys, std::size_t count) { target->bricks.occupy(keys, count); });
+  target->leaves = target->bricks.leaves() + static_cast<std::int64_t>(target->far.size());
+  return target;
+}
+
+class BrickHash final : public VolumeScorer {
+ public:
+  explicit BrickHash(const Params& params) : leaf_size_m_(params.leaf_size_m) {}
+
+  VolumeFunction bind(std::shared_ptr<const Cloud> target,
+                      std::shared_ptr<const Cloud> source) const override {
+    const auto bound =
+        target->once<Target>("volume_scorer/brick_hash", params::value_json(leaf_size_m_),
+                             [&] { return target_of(target->points(), leaf_size_m_); });
+    const auto points = source->once<PointColumns>(
+        "volume_scorer/columns", [&] { return std::make_shared<PointColumns>(source->points()); });
+    return {[bound, points, leaf_size_m = leaf_size_m_](const RigidTransform& T_target_source) {
+              // One per thread: no pose allocates memory after the first.
+              thread_local BrickTable added;
+              added.clear();
+              const FarLeaves far = bound->window.for_each_block(
+                  *points, T_target_source,
+                  [&](const std::uint64_t* keys, std::size_t count) { added.occupy(keys, count); });
+              return OccupiedVolume{bound->leaves + added.take_leaves_not_in(bound->bricks) +
+                                        count_new(far, bound->far),
+                                    leaf_size_m};
+            },
+            Poses::in_parallel};
+  }
+
+ private:
+  double leaf_size_m_;
+};
+
+}  // namespace
+
+StageEntry brick_hash() {
+  return stage_entry<BrickHash>(
+      "brick_hash", "Counts the bits of a hash table of bricks of 4 x 4 x 4 leaves.",
+      "bricks of bits as in the leaf nodes of OpenVDB (Museth 2013), found by hashing as in "
+      "Niessner et al. 2013; for the volume of CROON (arXiv 2203.03182)",
+      table());
+}
+
+}  // namespace croon::stages::volume_scorer
