@@ -2,10 +2,14 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <map>
 
 #include "framework/base/angles.hpp"
 #include "framework/base/threads.hpp"
+#include "framework/registration/direction_balance.hpp"
 
 namespace croon {
 namespace {
@@ -91,11 +95,35 @@ class Adjustment {
         Eigen::Vector3d::Constant(options.start_std[1]);
   }
 
+  /// The covariances at the present poses, by the planes of the last pass.
+  void find_covariances() {
+    bundle_.covariances.assign(bundle_.poses.size(), {});
+    const std::vector<std::size_t> sensors = free_sensors();
+    if (sensors.empty()) return;
+    const BundleCost cost = bundle_cost(patches_, bundle_.poses, options_.kernel_width);
+    Eigen::MatrixXd hessian = part_of(cost.hessian, sensors);
+    for (std::size_t a = 0; a < sensors.size(); ++a) add_start_information(hessian, a);
+    const Eigen::MatrixXd inverse =
+        hessian.ldlt().solve(Eigen::MatrixXd::Identity(hessian.rows(), hessian.cols()));
+    const Eigen::MatrixXd covariance = inverse * part_of(scatter_of_gradients(), sensors) * inverse;
+    const double scale = options_.covariance_scale * options_.covariance_scale;
+    for (std::size_t a = 0; a < sensors.size(); ++a) {
+      const auto at = static_cast<Eigen::Index>(6 * a);
+      const Matrix6d own = scale * covariance.block<6, 6>(at, at);
+      PoseCovariance& result = bundle_.covariances[sensors[a]];
+      result.matrix = 0.5 * (own + own.transpose());
+      for (std::size_t dof = 0; dof < result.dofs.size(); ++dof) {
+        const auto i = static_cast<Eigen::Index>(dof);
+        result.dofs[dof] = word_of(std::sqrt(result.matrix(i, i)) / start_std_(i));
+      }
+    }
+  }
+
   /// Looks for planes and moves the sensors until they stay. Whether they stayed at once.
   bool pass(bool is_coarse) {
-    const std::vector<PlanePatch> patches = patches_at(is_coarse);
+    patches_ = patches_at(is_coarse);
     const std::vector<RigidTransform> before = bundle_.poses;
-    minimise(patches);
+    minimise(patches_);
     ++bundle_.passes;
     return are_same(before, bundle_.poses);
   }
@@ -115,8 +143,10 @@ class Adjustment {
       parts[s] = plane_patches(scenes_[s], bundle_.poses, stride, voxels);
     });
     std::vector<PlanePatch> patches;
+    scene_ends_.clear();
     for (std::vector<PlanePatch>& part : parts) {
       std::move(part.begin(), part.end(), std::back_inserter(patches));
+      scene_ends_.push_back(patches.size());
     }
     count_planes(patches);
     return patches;
@@ -127,6 +157,64 @@ class Adjustment {
     for (const PlanePatch& patch : patches) {
       for (const PlanePatch::View& view : patch.views) ++bundle_.planes[view.sensor];
     }
+  }
+
+  /// The rows and columns of the unknown poses.
+  static Eigen::MatrixXd part_of(const Eigen::MatrixXd& matrix,
+                                 const std::vector<std::size_t>& sensors) {
+    const auto size = static_cast<Eigen::Index>(6 * sensors.size());
+    Eigen::MatrixXd part(size, size);
+    for (std::size_t a = 0; a < sensors.size(); ++a) {
+      for (std::size_t b = 0; b < sensors.size(); ++b) {
+        part.block<6, 6>(static_cast<Eigen::Index>(6 * a), static_cast<Eigen::Index>(6 * b)) =
+            matrix.block<6, 6>(static_cast<Eigen::Index>(6 * sensors[a]),
+                               static_cast<Eigen::Index>(6 * sensors[b]));
+      }
+    }
+    return part;
+  }
+
+  /// Adds what is known of a start to the Hessian of the unknown pose number `a`.
+  void add_start_information(Eigen::MatrixXd& hessian, std::size_t a) const {
+    const auto at = static_cast<Eigen::Index>(6 * a);
+    hessian.block<6, 6>(at, at).diagonal() += 2.0 * start_std_.cwiseAbs2().cwiseInverse();
+  }
+
+  static Observability word_of(double std_ratio) {
+    constexpr double kWeak = 0.1, kUnobservable = 0.5;
+    if (std_ratio > kUnobservable) return Observability::unobservable;
+    return std_ratio > kWeak ? Observability::weak : Observability::determined;
+  }
+
+  /// The sum of g g^T over the gradients g of clusters of planes, and what is known of the starts.
+  Eigen::MatrixXd scatter_of_gradients() const {
+    constexpr double kCell_m = 8.0;
+    const double bound = options_.kernel_width * options_.kernel_width;
+    const auto size = static_cast<Eigen::Index>(6 * bundle_.poses.size());
+    std::map<std::array<int, 5>, Eigen::VectorXd> gradients;
+    PlaneCost cost;
+    int scene = 0;
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+      while (i >= scene_ends_[static_cast<std::size_t>(scene)]) ++scene;
+      plane_cost(patches_[i], bundle_.poses, cost);
+      const Eigen::Vector3d cell = cost.centre / kCell_m;
+      const std::array<int, 5> cluster = {
+          scene, direction_bin(cost.normal), static_cast<int>(std::floor(cell.x())),
+          static_cast<int>(std::floor(cell.y())), static_cast<int>(std::floor(cell.z()))};
+      Eigen::VectorXd& gradient =
+          gradients.emplace(cluster, Eigen::VectorXd::Zero(size)).first->second;
+      const double share = bound / (bound + cost.value);
+      for (std::size_t k = 0; k < cost.views.size(); ++k) {
+        gradient.segment<6>(static_cast<Eigen::Index>(6 * patches_[i].views[k].sensor)) +=
+            share * share * cost.views[k].gradient;
+      }
+    }
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size, size);
+    for (const auto& [cluster, gradient] : gradients) sum += gradient * gradient.transpose();
+    for (Eigen::Index at = 0; at < size; at += 6) {
+      sum.block<6, 6>(at, at).diagonal() += 4.0 * start_std_.cwiseAbs2().cwiseInverse();
+    }
+    return sum;
   }
 
   /// The sensors whose poses are unknown.
@@ -165,19 +253,15 @@ class Adjustment {
                const BundleCost& cost, double& damping) {
     constexpr double kLargestDamping = 1e6;
     const auto size = static_cast<Eigen::Index>(6 * sensors.size());
-    Eigen::MatrixXd hessian(size, size);
+    Eigen::MatrixXd hessian = part_of(cost.hessian, sensors);
     Eigen::VectorXd gradient(size);
     for (std::size_t a = 0; a < sensors.size(); ++a) {
-      const auto from_a = static_cast<Eigen::Index>(6 * sensors[a]);
-      const auto at_a = static_cast<Eigen::Index>(6 * a);
-      const Vector6d offset = moved_by(bundle_.poses[sensors[a]], start_[sensors[a]], start_std_);
-      gradient.segment<6>(at_a) =
-          cost.gradient.segment<6>(from_a) + 2.0 * offset.cwiseQuotient(start_std_);
-      for (std::size_t b = 0; b < sensors.size(); ++b) {
-        hessian.block<6, 6>(at_a, static_cast<Eigen::Index>(6 * b)) =
-            cost.hessian.block<6, 6>(from_a, static_cast<Eigen::Index>(6 * sensors[b]));
-      }
-      hessian.block<6, 6>(at_a, at_a).diagonal() += 2.0 * start_std_.cwiseAbs2().cwiseInverse();
+      const std::size_t sensor = sensors[a];
+      const Vector6d offset = moved_by(bundle_.poses[sensor], start_[sensor], start_std_);
+      gradient.segment<6>(static_cast<Eigen::Index>(6 * a)) =
+          cost.gradient.segment<6>(static_cast<Eigen::Index>(6 * sensor)) +
+          2.0 * offset.cwiseQuotient(start_std_);
+      add_start_information(hessian, a);
     }
     const double present = cost.value + start_cost(bundle_.poses);
     for (; damping <= kLargestDamping; damping *= 10.0) {
@@ -215,6 +299,8 @@ class Adjustment {
   Bundle& bundle_;
   std::vector<RigidTransform> start_;
   Vector6d start_std_;
+  std::vector<PlanePatch> patches_;      ///< Of the last pass, by scene.
+  std::vector<std::size_t> scene_ends_;  ///< By scene: the number of patches up to its last.
 };
 
 }  // namespace
@@ -252,6 +338,8 @@ const params::Table<BundleOptions>& bundle_table() {
                         "The most iterations of each pass."),
         params::integer("min_planes", &O::min_planes, {1, 1000000},
                         "A sensor that shares fewer planes with others fails."),
+        params::number("covariance_scale", &O::covariance_scale, {0.0, 1e6},
+                       "Multiplies the standard deviations; found on scenes with truth."),
     };
     rows.require([](const O& o) { return o.voxels_m.size() == 2; },
                  "voxels_m must have two numbers");
@@ -294,6 +382,7 @@ Bundle adjust_bundle(const std::vector<BundleScene>& scenes,
   bool stays = false;
   for (int i = 0; i < options.max_passes && !stays; ++i) stays = adjustment.pass(false);
   bundle.converged = stays;
+  adjustment.find_covariances();
   return bundle;
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "framework/geometry/pose_covariance.hpp"
 #include "framework/params/table.hpp"
 #include "framework/registration/adaptive_voxels.hpp"
 
@@ -21,6 +22,7 @@ struct BundleOptions {
   int max_passes = 8;
   int max_iterations = 20;
   int min_planes = 30;
+  double covariance_scale = 1.25;
 };
 
 /// The rows of BundleOptions.
@@ -33,7 +35,9 @@ using BundleScene = std::vector<SensorCloud>;
 struct Bundle {
   std::vector<RigidTransform> poses;  ///< By sensor; the first is the common frame and stays.
   std::vector<int> planes;            ///< By sensor: how many planes it shares with another one.
-  double cost_per_plane = 0.0;        ///< In units of the planes' noise, see plane_patches.
+  /// By sensor, see adjust_bundle; zero for the first and for those that took no part.
+  std::vector<PoseCovariance> covariances;
+  double cost_per_plane = 0.0;  ///< In units of the planes' noise, see plane_patches.
   int passes = 0;
   int iterations = 0;
   bool converged = false;
@@ -46,6 +50,12 @@ struct Bundle {
 /// and sums their points once; after that an iteration costs nothing per point. All sensors that
 /// see a plane hold each other, not only those that share it with the first. Coarse passes take a
 /// part of the points. A sensor with less than `min_planes` keeps its pose and takes no part.
+///
+/// Covariances are those of the M-estimator with dependent errors (the sandwich of Huber 1967 over
+/// clusters, Liang and Zeger 1986): `H^-1 (sum of g_c g_c^T) H^-1` with the gradient g_c of the
+/// planes c of one scene, one direction and one cube of 8 m, whose errors are not independent. A
+/// degree of freedom is weak if its standard deviation is more than a tenth of what was expected of
+/// the start, and unobservable if it is more than a half.
 ///
 /// `start` is by sensor, the first of them the identity.
 Bundle adjust_bundle(const std::vector<BundleScene>& scenes,

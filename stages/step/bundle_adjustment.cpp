@@ -77,6 +77,7 @@ class BundleAdjustmentStep final : public RigStep {
       }
       one.estimate.T_target_source = result.poses[sensor];
       one.estimate.information.reset();
+      one.estimate.covariance = result.covariances[sensor];
       one.estimate.diagnostics = {{"scenes", static_cast<double>(rig.scenes.size())},
                                   {"planes", static_cast<double>(result.planes[sensor])},
                                   {"cost_per_plane", result.cost_per_plane},
@@ -96,7 +97,7 @@ StageEntry bundle_adjustment() {
       "bundle_adjustment",
       "Sees the whole rig: gives each sensor, in all scenes of a trial, the pose at which what all "
       "sensors see lies best on common planes.",
-      "Liu and Zhang, BALM, RA-L 2021; Liu, Yuan and Zhang, MLCC, T-IM 2022", bundle_table());
+      "Liu and Zhang, BALM, RA-L 2021; Liu, Yuan and Zhang, MLCC, T-IM 2022", bundle_table(), 2);
 }
 
 }  // namespace croon::stages::step

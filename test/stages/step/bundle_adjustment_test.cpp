@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
 #include "framework/base/angles.hpp"
@@ -73,6 +74,49 @@ TEST(BundleAdjustment, FindsOnePoseForEachSensorInAllScenes) {
     const RigidTransform& first = found.emplace(one.source, T).first->second;
     EXPECT_EQ(first.rotation, T.rotation);
     EXPECT_EQ(first.translation, T.translation);
+  }
+}
+
+TEST(BundleAdjustment, SaysHowWellEachPoseIsHeld) {
+  StandingRig rig = standing_rig(2);
+  adjust(rig.estimates);
+  for (const RigEstimate& one : rig.estimates) {
+    ASSERT_TRUE(one.estimate.covariance);
+    const PoseCovariance& covariance = *one.estimate.covariance;
+    EXPECT_TRUE(is_covariance(covariance.matrix));
+    const PoseError error = pose_error(one.estimate.T_target_source, rig.truth[one.source]);
+    for (int dof = 0; dof < 6; ++dof) {
+      EXPECT_EQ(covariance.dofs[static_cast<std::size_t>(dof)], Observability::determined);
+      EXPECT_LT(std::abs(error.dof(dof)), 5.0 * std::sqrt(covariance.matrix(dof, dof)));
+    }
+  }
+}
+
+TEST(BundleAdjustment, FlatGroundHoldsNeitherXNorYNorYaw) {
+  Rng rng = test::test_rng();
+  const auto ground = [&](double height_m) {
+    PointCloud cloud;
+    for (int i = 0; i < 20000; ++i) {
+      Eigen::Vector3d point;
+      for (const int axis : {0, 1}) point(axis) = rng.uniform(-15.0, 15.0);
+      point.z() = 0.02 * rng.normal() - height_m;
+      cloud.points.push_back(point.cast<float>());
+    }
+    return std::make_shared<const Cloud>(std::move(cloud), StreamKey(1));
+  };
+  Estimate estimate;
+  estimate.target = ground(2.0);
+  estimate.source = ground(1.0);
+  estimate.T_target_source.translation = {0.0, 0.0, -0.95};
+  const Estimate found =
+      test::stage<Step>(R"({"step": "bundle_adjustment"})")->advance(estimate, rng);
+  EXPECT_NEAR(found.T_target_source.translation.z(), -1.0, 0.001);
+  ASSERT_TRUE(found.covariance);
+  for (const Dof dof : {Dof::x, Dof::y, Dof::yaw}) {
+    EXPECT_NE(found.covariance->dofs[static_cast<std::size_t>(dof)], Observability::determined);
+  }
+  for (const Dof dof : {Dof::roll, Dof::pitch, Dof::z}) {
+    EXPECT_EQ(found.covariance->dofs[static_cast<std::size_t>(dof)], Observability::determined);
   }
 }
 
