@@ -68,7 +68,7 @@ RUN_TESTS = for program in $(addprefix build/$(1)/bin/test_,$(or $(4),*)); do pr
 
 # What adds nothing under a sanitizer and takes minutes there: the same code hundreds of times, for a rate, for every
 # ray or for every part of a scene, and comparisons of what a program prints.
-REPETITIVE = *NoGap*:*EveryPointLies*:*KeepsItsLevel*:*Covers*:*FindsAnEffect*:*HoldsTheTrueOne*:*OverTrialsWouldNot*:*NearTheExact*:ExportedLatex.*:GeneratedPages.*:Kinds/*:*Kinds.*:Roads.*:Building.*:Crossing.*:AddPlots.*:House.*:Hall.*:Body.*
+REPETITIVE = *NoGap*:*EveryPointLies*:*KeepsItsLevel*:*Covers*:*FindsAnEffect*:*HoldsTheTrueOne*:*OverTrialsWouldNot*:*NearTheExact*:*TurnedAnyhow*:*UpsideDown*:*DoesNotDependOnTheStart*:FeatureAlignment.FindsThe*:*UndoesTheDistortion*:*SaysHowWellIt*:*FindsTheOffset*:*GivesASensorOnePose*:*RejectsASceneWhose*:*MovesTheCloudsTo*:*StartsACommonPose*:*ReturnsToTheTruth*:ExportedLatex.*:GeneratedPages.*:Kinds/*:*Kinds.*:Roads.*:Building.*:Crossing.*:AddPlots.*:House.*:Hall.*:Body.*
 SANITIZED_TESTS ?=
 sanitize: sanitizer_packages
 	cmake --preset sanitized

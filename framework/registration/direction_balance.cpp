@@ -23,24 +23,31 @@ int direction_bin(const Eigen::Vector3d& normal) {
   return (axis * kCells + cell(1)) * kCells + cell(2);
 }
 
-std::vector<double> patch_weights(const Cloud& cloud, const std::vector<int>& indices,
-                                  int normal_neighbours, double patch_m, double exponent) {
+std::vector<int> patches_of(const Cloud& cloud, const std::vector<int>& indices,
+                            int normal_neighbours, double patch_m) {
   const Normals& normals = cloud.normals(normal_neighbours);
-  using Patch = std::array<int, 4>;
-  std::map<Patch, int> counts;
-  std::vector<Patch> patches;
+  std::map<std::array<int, 4>, int> numbers;
+  std::vector<int> patches;
   for (const int i : indices) {
-    Patch patch{};
+    std::array<int, 4> place{};
     for (int axis = 0; axis < 3; ++axis) {
       const double cell = std::floor(cloud.points()[i](axis) / patch_m);
-      patch[axis] = static_cast<int>(std::clamp(cell, -1e9, 1e9));
+      place[axis] = static_cast<int>(std::clamp(cell, -1e9, 1e9));
     }
-    patch[3] = direction_bin(normals.at(i).normal.cast<double>());
+    place[3] = direction_bin(normals.at(i).normal.cast<double>());
+    patches.push_back(numbers.emplace(place, static_cast<int>(numbers.size())).first->second);
+  }
+  return patches;
+}
+
+std::vector<double> patch_weights(const std::vector<int>& patches, double exponent) {
+  std::vector<int> counts;
+  for (const int patch : patches) {
+    if (patch >= static_cast<int>(counts.size())) counts.resize(patch + 1);
     ++counts[patch];
-    patches.push_back(patch);
   }
   std::vector<double> weights;
-  for (const Patch& patch : patches) weights.push_back(std::pow(counts[patch], -exponent));
+  for (const int patch : patches) weights.push_back(std::pow(counts[patch], -exponent));
   return weights;
 }
 

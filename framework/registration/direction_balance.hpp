@@ -15,10 +15,13 @@ int direction_bin(const Eigen::Vector3d& normal);
 /// ground and fronts outvote the few surfaces that hold the pose along the street.
 SelectCorrespondences balanced_directions(double exponent);
 
-/// The weights n^-`exponent` of the points `indices` of `cloud`, where n of these points are in one
-/// cube of edge `patch_m` and have normals of about one direction. Points without a normal must not
-/// be among them.
-std::vector<double> patch_weights(const Cloud& cloud, const std::vector<int>& indices,
-                                  int normal_neighbours, double patch_m, double exponent);
+/// Which patch of surface each of the points `indices` of `cloud` is on, numbered from 0 in their
+/// order: those in one cube of edge `patch_m` whose normals have about one direction. Points
+/// without a normal must not be among them.
+std::vector<int> patches_of(const Cloud& cloud, const std::vector<int>& indices,
+                            int normal_neighbours, double patch_m);
+
+/// The weights n^-`exponent` of points, n of which are on one patch.
+std::vector<double> patch_weights(const std::vector<int>& patches, double exponent);
 
 }  // namespace croon

@@ -8,6 +8,7 @@
 #include "framework/registration/direction_balance.hpp"
 #include "framework/registration/icp_options.hpp"
 #include "framework/spatial/deskew.hpp"
+#include "framework/spatial/leaf_grid.hpp"
 
 namespace croon {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 /// The points of a scan that take part: evenly through it, those with a normal, and their weights.
 struct Sample {
   std::vector<int> indices;
+  std::vector<int> patches;
   std::vector<double> weights;
 };
 
@@ -32,10 +34,94 @@ std::shared_ptr<const Sample> sample_of(const Cloud& cloud, const JointOptions& 
       const auto i = static_cast<int>(n * size / count);
       if (!normals.at(i).normal.isZero()) sample->indices.push_back(i);
     }
-    sample->weights = patch_weights(cloud, sample->indices, options.normal_neighbours,
-                                    options.patch_m, options.patch_balance);
+    sample->patches =
+        patches_of(cloud, sample->indices, options.normal_neighbours, options.patch_m);
+    sample->weights = patch_weights(sample->patches, options.patch_balance);
     return sample;
   });
+}
+
+/// A point on a surface of the target, linearised.
+struct JointTerm {
+  PairVector J;
+  double residual_m;
+  int patch;
+  double weight;          ///< Of the patch.
+  Eigen::Vector3d point;  ///< Of the target.
+};
+
+RobustKernel kernel_at(double max_distance_m, const JointOptions& options) {
+  return {Kernel::geman_mcclure, std::max(options.kernel_width_m, max_distance_m / 4.0)};
+}
+
+/// The second derivative of Geman and McClure's kernel over its weight, which is the square of
+/// `1 / (1 + r^2 / width^2)`: 1 without a residual, negative for large ones.
+double curvature_share(double weight) { return 4.0 * std::sqrt(weight) - 3.0; }
+
+/// Weighs a patch that is off as a whole less: it moves by itself.
+void weigh_patches(std::vector<JointTerm>& terms, const JointView& view) {
+  if (view.options.patch_kernel_m <= 0.0) return;
+  struct Mean {
+    double sum_m = 0.0, weight = 0.0;
+  };
+  const RobustKernel kernel = kernel_at(view.max_distance_m, view.options);
+  const RobustKernel of_patch(Kernel::geman_mcclure,
+                              std::max(view.options.patch_kernel_m, view.max_distance_m / 10.0));
+  std::vector<Mean> means;
+  for (const JointTerm& term : terms) {
+    if (term.patch >= static_cast<int>(means.size())) means.resize(term.patch + 1);
+    const double w = kernel.weight(term.residual_m * term.residual_m);
+    means[term.patch].sum_m += w * term.residual_m;
+    means[term.patch].weight += w;
+  }
+  for (JointTerm& term : terms) {
+    const Mean& mean = means[term.patch];
+    if (mean.weight <= 0.0) continue;
+    const double mean_m = mean.sum_m / mean.weight;
+    term.weight *= of_patch.weight(mean_m * mean_m);
+  }
+}
+
+/// The terms of the points of `source` that correspond, in their order.
+std::vector<JointTerm> terms_of(const JointScene::Source& source, const StillTarget& target,
+                                const JointView& view) {
+  using Eigen::Vector3d;
+  const JointOptions& options = view.options;
+  const Twist& velocity = view.velocity;
+  const RigidTransform& T = view.state.T_target_sensor[source.sensor];
+  const Cloud& cloud = *source.scan.cloud;
+  const Normals& normals = cloud.normals(options.normal_neighbours);
+  const double min_cosine = std::cos(rad_from_deg(options.max_normal_angle_deg));
+  const auto max_distance_m = static_cast<float>(view.max_distance_m);
+  const std::shared_ptr<const Sample> sample = sample_of(cloud, options);
+  std::vector<JointTerm> terms;
+  JointTerm term;
+  for (std::size_t k = 0; k < sample->indices.size(); ++k) {
+    const int i = sample->indices[k];
+    const double source_s =
+        source.scan.times_s[i] + view.state.clock_offsets_s[source.sensor] - target.reference_s();
+    const RigidTransform motion = motion_over(velocity, source_s);
+    const Vector3d turned = T.rotation * cloud.points()[i].cast<double>();
+    const Vector3d q = motion * Vector3d(turned + T.translation);
+    const Neighbour nearest = target.cloud().kd_tree().nearest(q.cast<float>(), max_distance_m);
+    if (!nearest) continue;
+    const Vector3d n = target.normals().at(nearest.index).normal.cast<double>();
+    const Vector3d source_normal =
+        motion.rotation * (T.rotation * normals.at(i).normal.cast<double>());
+    if (n.isZero() || n.dot(source_normal) < min_cosine) continue;
+    const Vector3d p = target.cloud().points()[nearest.index].cast<double>();
+    const double target_s = target.time_s(nearest.index);
+    term.residual_m = n.dot(q - p);
+    term.patch = sample->patches[k];
+    term.weight = sample->weights[k];
+    term.point = p;
+    // The derivatives of exp(xi t) at small xi t: a scan turns by a few degrees at most.
+    term.J << (motion.rotation * turned).cross(n), n, source_s * q.cross(n) - target_s * p.cross(n),
+        (source_s - target_s) * n, n.dot(velocity.angular_radps.cross(q) + velocity.linear_mps);
+    terms.push_back(term);
+  }
+  weigh_patches(terms, view);
+  return terms;
 }
 
 }  // namespace
@@ -48,47 +134,37 @@ StillTarget::StillTarget(const JointScene& scene, const Twist& velocity, int nor
       normals_(cloud_.normals(normal_neighbours)) {}
 
 PairEquations pair_equations(const JointScene::Source& source, const StillTarget& target,
-                             double reference_s, const Twist& velocity, const JointState& state,
-                             double max_distance_m, const JointOptions& options) {
-  using Eigen::Vector3d;
-  const RigidTransform& T = state.T_target_sensor[source.sensor];
-  const Cloud& cloud = *source.scan.cloud;
-  const Normals& normals = cloud.normals(options.normal_neighbours);
-  const double min_cosine = std::cos(rad_from_deg(options.max_normal_angle_deg));
-  const RobustKernel kernel(Kernel::geman_mcclure,
-                            std::max(options.kernel_width_m, max_distance_m / 4.0));
-  const std::shared_ptr<const Sample> sample = sample_of(cloud, options);
+                             const JointView& view) {
+  const RobustKernel kernel = kernel_at(view.max_distance_m, view.options);
   PairEquations sums;
-  for (std::size_t k = 0; k < sample->indices.size(); ++k) {
-    const int i = sample->indices[k];
-    const double source_s =
-        source.scan.times_s[i] + state.clock_offsets_s[source.sensor] - reference_s;
-    const RigidTransform motion = motion_over(velocity, source_s);
-    const Vector3d turned = T.rotation * cloud.points()[i].cast<double>();
-    const Vector3d q = motion * Vector3d(turned + T.translation);
-    const Neighbour nearest =
-        target.cloud().kd_tree().nearest(q.cast<float>(), static_cast<float>(max_distance_m));
-    if (!nearest) continue;
-    const Vector3d n = target.normals().at(nearest.index).normal.cast<double>();
-    const Vector3d source_normal =
-        motion.rotation * (T.rotation * normals.at(i).normal.cast<double>());
-    if (n.isZero() || n.dot(source_normal) < min_cosine) continue;
-    const Vector3d p = target.cloud().points()[nearest.index].cast<double>();
-    const double target_s = target.time_s(nearest.index);
-    const double residual = n.dot(q - p);
-    // The derivatives of exp(xi t) at small xi t: a scan turns by a few degrees at most.
-    Eigen::Matrix<double, kPairUnknowns, 1> J;
-    J << (motion.rotation * turned).cross(n), n, source_s * q.cross(n) - target_s * p.cross(n),
-        (source_s - target_s) * n, n.dot(velocity.angular_radps.cross(q) + velocity.linear_mps);
-    const double w = sample->weights[k] * kernel.weight(residual * residual);
-    sums.information.selfadjointView<Eigen::Lower>().rankUpdate(J, w);
-    sums.gradient += (w * residual) * J;
-    sums.weighted_square_sum += w * residual * residual;
+  for (const JointTerm& term : terms_of(source, target, view)) {
+    const double square = term.residual_m * term.residual_m;
+    const double w = term.weight * kernel.weight(square);
+    sums.information.selfadjointView<Eigen::Lower>().rankUpdate(term.J, w);
+    sums.gradient += (w * term.residual_m) * term.J;
+    sums.weighted_square_sum += w * square;
     sums.weight_sum += w;
     ++sums.correspondences;
   }
   sums.information.triangularView<Eigen::StrictlyUpper>() = sums.information.transpose();
   return sums;
+}
+
+std::map<JointCell, CellEquations> cell_equations(const JointScene::Source& source,
+                                                  const StillTarget& target, const JointView& view,
+                                                  double cell_m) {
+  const RobustKernel kernel = kernel_at(view.max_distance_m, view.options);
+  const LeafGrid grid(cell_m);
+  std::map<JointCell, CellEquations> cells;
+  for (const JointTerm& term : terms_of(source, target, view)) {
+    const Eigen::Vector3i leaf = grid.leaf_of(term.point);
+    CellEquations& sums = cells[{leaf.x(), leaf.y(), leaf.z()}];
+    const double square = term.residual_m * term.residual_m;
+    const double w = term.weight * kernel.weight(square);
+    sums.hessian += (w * curvature_share(kernel.weight(square))) * (term.J * term.J.transpose());
+    sums.gradient += (w * term.residual_m) * term.J;
+  }
+  return cells;
 }
 
 }  // namespace croon

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <map>
+
 #include "framework/registration/joint_registration.hpp"
 
 namespace croon {
@@ -13,6 +16,7 @@ class StillTarget {
   const Normals& normals() const { return normals_; }
   /// When point `index` was measured, from the reference time on.
   double time_s(int index) const { return scene_.target.times_s[index] - scene_.reference_s; }
+  double reference_s() const { return scene_.reference_s; }
 
  private:
   const JointScene& scene_;
@@ -26,21 +30,42 @@ inline constexpr int kPairPose = 0;
 inline constexpr int kPairVelocity = 6;
 inline constexpr int kPairOffset = 12;
 inline constexpr int kPairUnknowns = 13;
+using PairVector = Eigen::Matrix<double, kPairUnknowns, 1>;
+using PairMatrix = Eigen::Matrix<double, kPairUnknowns, kPairUnknowns>;
+
+/// Where the points of a scene are compared, and which of them correspond.
+struct JointView {
+  const JointState& state;
+  const Twist& velocity;  ///< Of the scene.
+  double max_distance_m;
+  const JointOptions& options;
+};
 
 /// The sums of Gauss-Newton over the correspondences of one pair of clouds, see NormalEquations.
 struct PairEquations {
-  Eigen::Matrix<double, kPairUnknowns, kPairUnknowns> information =
-      Eigen::Matrix<double, kPairUnknowns, kPairUnknowns>::Zero();
-  Eigen::Matrix<double, kPairUnknowns, 1> gradient =
-      Eigen::Matrix<double, kPairUnknowns, 1>::Zero();
+  PairMatrix information = PairMatrix::Zero();
+  PairVector gradient = PairVector::Zero();
   double weighted_square_sum = 0.0;
   double weight_sum = 0.0;
   int correspondences = 0;
 };
 
-/// The sums for one source of a scene at `state`, with the velocity of that scene.
 PairEquations pair_equations(const JointScene::Source& source, const StillTarget& target,
-                             double reference_s, const Twist& velocity, const JointState& state,
-                             double max_distance_m, const JointOptions& options);
+                             const JointView& view);
+
+/// A cube of space around the target: its indices along the axes.
+using JointCell = std::array<int, 3>;
+
+/// What the correspondences in one cube add to the cost's gradient and Hessian, which has the
+/// curvature of the robust kernel.
+struct CellEquations {
+  PairMatrix hessian = PairMatrix::Zero();
+  PairVector gradient = PairVector::Zero();
+};
+
+/// The same correspondences, by cubes of edge `cell_m`. Throws StageError for points beyond them.
+std::map<JointCell, CellEquations> cell_equations(const JointScene::Source& source,
+                                                  const StillTarget& target, const JointView& view,
+                                                  double cell_m);
 
 }  // namespace croon

@@ -49,8 +49,8 @@ class Problem {
       const Twist& velocity = outcome.state.velocities[s];
       const StillTarget target(scene, velocity, options_.normal_neighbours);
       for (const JointScene::Source& source : scene.sources) {
-        pairs[s].push_back(pair_equations(source, target, scene.reference_s, velocity,
-                                          outcome.state, max_distance_m, options_));
+        pairs[s].push_back(
+            pair_equations(source, target, {outcome.state, velocity, max_distance_m, options_}));
       }
     });
     Eigen::MatrixXd information = Eigen::MatrixXd::Zero(size_, size_);
@@ -184,6 +184,10 @@ const params::Table<JointOptions>& joint_table() {
                        "Each of the n points of a patch weighs n to the minus this: at 1 every "
                        "patch weighs the same, at 0 every point. It keeps one large thing that "
                        "moves from outvoting many small ones that stand."),
+        params::number("patch_kernel_m", &JointOptions::patch_kernel_m, {0.0, 1e6},
+                       "A patch whose residuals are above it in the mean begins to lose weight as "
+                       "a whole: it moves by itself. In a coarse pass it is a tenth of its "
+                       "distance; at 0 no patch loses weight."),
         params::number("kernel_width_m", &JointOptions::kernel_width_m, {1e-6, 1e6},
                        "Residuals above it begin to lose weight; in a coarse pass a quarter of its "
                        "distance."),

@@ -46,6 +46,7 @@ struct JointOptions {
   double max_normal_angle_deg = 45.0;
   double patch_m = 3.0;
   double patch_balance = 0.8;
+  double patch_kernel_m = 0.03;
   double kernel_width_m = 0.05;
 };
 

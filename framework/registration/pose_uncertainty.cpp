@@ -11,6 +11,7 @@
 #include "framework/base/statistics.hpp"
 #include "framework/registration/direction_balance.hpp"
 #include "framework/registration/gauss_newton.hpp"
+#include "framework/registration/guarded_inverse.hpp"
 
 namespace croon {
 namespace {
@@ -32,9 +33,6 @@ struct Contact {
   bool is_grazed;  ///< One of the sensors sees its surface at a grazing angle.
 };
 
-/// Velocities along x, y and z, and the rate of turning about z.
-constexpr int kMotions = 4;
-
 /// The contacts of two clouds at a pose, in the order of the source's points.
 class ContactFinder {
  public:
@@ -45,7 +43,7 @@ class ContactFinder {
         tree_(target.kd_tree()),
         target_normals_(target.normals(options.normal_neighbours)),
         source_normals_(source.normals(options.normal_neighbours)) {
-    if (!is_motion_unknown(options)) return;
+    if (options.motion_covariance.isZero(0.0)) return;
     target_times_ = times_s(target.with_channels());
     source_times_ = times_s(source.with_channels());
   }
@@ -119,8 +117,8 @@ struct Quadratic {
   Matrix6d information = Matrix6d::Zero();  ///< Along the mean of the two normals,
   Matrix6d noise = Matrix6d::Zero();        ///< and half of what they differ by.
   Vector6d grazed = Vector6d::Zero();  ///< What the gradient gains if grazed surfaces are 1 m off.
-  /// The same if the car moved at 1 m/s along each axis, or turned at 1 rad/s.
-  Eigen::Matrix<double, 6, kMotions> moved = Eigen::Matrix<double, 6, kMotions>::Zero();
+  /// The same if the target turned at 1 rad/s about each axis, or moved at 1 m/s along it.
+  Matrix6d moved = Matrix6d::Zero();
 
   void add(const Quadratic& other) {
     gradient += other.gradient;
@@ -165,27 +163,11 @@ Quadratic quadratic_of(const Contact& contact, double weight, double kernel_widt
   const Vector6d half = 0.5 * jacobian_along(contact.arm, a - b);
   sums.information = along * (mean * mean.transpose());
   if (contact.delay_s != 0.0) {
-    Eigen::Matrix<double, 3, kMotions> shift;
-    shift << Eigen::Matrix3d::Identity(), Eigen::Vector3d::UnitZ().cross(contact.point);
-    sums.moved = contact.delay_s * (by_offset * shift);
+    sums.moved = contact.delay_s * (by_offset * point_jacobian(contact.point));
   }
   if (contact.is_grazed) sums.grazed = by_offset * a;
   sums.noise = along * (half * half.transpose());
   return sums;
-}
-
-Matrix6d symmetric(const Matrix6d& matrix) { return 0.5 * (matrix + matrix.transpose()); }
-
-/// The inverse of a symmetric matrix; of directions that it does not make positive, that of 1e-6 of
-/// its diagonal.
-Matrix6d inverse_of(const Matrix6d& matrix) {
-  const Vector6d scale = matrix.diagonal().cwiseMax(1e-12).cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(
-      symmetric(scale.asDiagonal() * matrix * scale.asDiagonal()));
-  const Vector6d values = solver.eigenvalues().cwiseMax(1e-6).cwiseInverse();
-  const Matrix6d inverse =
-      solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
-  return symmetric(scale.asDiagonal() * inverse * scale.asDiagonal());
 }
 
 /// The variances of a pose of which nothing is known.
@@ -202,12 +184,12 @@ Matrix6d bounded(const Matrix6d& covariance) {
   const Vector6d root = unknown_variances().cwiseSqrt();
   const Vector6d inverse_root = root.cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(
-      symmetric(inverse_root.asDiagonal() * covariance * inverse_root.asDiagonal()));
+      symmetric<6>(inverse_root.asDiagonal() * covariance * inverse_root.asDiagonal()));
   Vector6d values = solver.eigenvalues().cwiseMax(0.0);
   for (int i = 0; i < kDofCount; ++i) values(i) /= 1.0 + values(i);
   const Matrix6d inside =
       solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
-  return symmetric(root.asDiagonal() * inside * root.asDiagonal());
+  return symmetric<6>(root.asDiagonal() * inside * root.asDiagonal());
 }
 
 /// What the contacts say of a pose.
@@ -239,22 +221,21 @@ class ContactModel {
   Matrix6d jackknife() const {
     Matrix6d sum = Matrix6d::Zero();
     for (const auto& [key, surface] : surfaces_) {
-      const Vector6d step = inverse_of(all_.hessian - surface.hessian) * surface.gradient;
+      const Vector6d step = guarded_inverse<6>(all_.hessian - surface.hessian) * surface.gradient;
       sum += step * step.transpose();
     }
     return sum;
   }
 
   /// The step that the pose makes if grazed surfaces are off by the noise.
-  Vector6d grazing_step() const { return noise_m_ * (inverse_of(all_.hessian) * all_.grazed); }
+  Vector6d grazing_step() const {
+    return noise_m_ * (guarded_inverse<6>(all_.hessian) * all_.grazed);
+  }
 
   /// The covariance of the step that the pose makes for a motion that is not known.
   Matrix6d covariance_of_motion() const {
-    Eigen::Matrix<double, kMotions, 1> stds;
-    stds << Eigen::Vector3d(options_.velocity_std_mps.data()), options_.turning_std_radps;
-    const Eigen::Matrix<double, 6, kMotions> steps =
-        inverse_of(all_.hessian) * all_.moved * stds.asDiagonal();
-    return steps * steps.transpose();
+    const Matrix6d steps = guarded_inverse<6>(all_.hessian) * all_.moved;
+    return steps * options_.motion_covariance * steps.transpose();
   }
 
   /// How much farther a pose moves than contacts that stay the same let it: `H_m^-1 H` of the
@@ -270,7 +251,7 @@ class ContactModel {
       const double step = i < 3 ? kStep_rad : kStep_m;
       found.col(i) = (gradient_at(i, step, kMost) - gradient_at(i, -step, kMost)) / (2.0 * step);
     }
-    return inverse_of(symmetric(found)) * fixed;
+    return guarded_inverse<6>(symmetric<6>(found)) * fixed;
   }
 
  private:
@@ -303,7 +284,7 @@ class ContactModel {
 /// the least information resists, is a column of the inverse.
 void judge_dofs(const Quadratic& all, const UncertaintyOptions& options,
                 PoseCovariance& covariance) {
-  const Matrix6d inverse = inverse_of(all.information);
+  const Matrix6d inverse = guarded_inverse<6>(all.information);
   for (int i = 0; i < kDofCount; ++i) {
     const Vector6d motion = inverse.col(i) / inverse(i, i);
     const double information = motion.dot(all.information * motion);
@@ -318,12 +299,6 @@ void judge_dofs(const Quadratic& all, const UncertaintyOptions& options,
 }
 
 }  // namespace
-
-bool is_motion_unknown(const UncertaintyOptions& options) {
-  const std::vector<double>& linear = options.velocity_std_mps;
-  return options.turning_std_radps > 0.0 ||
-         std::any_of(linear.begin(), linear.end(), [](double std) { return std > 0.0; });
-}
 
 PoseCovariance pose_uncertainty(const Cloud& target, const Cloud& source,
                                 const RigidTransform& T_target_source,
@@ -344,7 +319,7 @@ PoseCovariance pose_uncertainty(const Cloud& target, const Cloud& source,
   }
   // All contacts move with the car, and the pose follows them: nothing resists less.
   matrix += model.covariance_of_motion();
-  covariance.matrix = symmetric(matrix);
+  covariance.matrix = symmetric<6>(matrix);
   judge_dofs(model.all(), options, covariance);
   covariance.matrix = bounded(covariance.matrix);
   return covariance;

@@ -18,17 +18,13 @@ struct UncertaintyOptions {
   bool follows_contacts = true;  ///< Whether other points touch if the pose moves.
   double scale = 0.92;           ///< Multiplies standard deviations; found on scenes with truth.
   double grazing_error_ratio = 0.075;  ///< Of the noise: the error that grazed surfaces share.
-  /// The standard deviations of what is not known of the car's velocity during the scans, along the
-  /// axes of the target, and of its rate of turning about z. If one is not zero, both clouds need
-  /// the channel time, with a common zero.
-  std::vector<double> velocity_std_mps = {0.0, 0.0, 0.0};
-  double turning_std_radps = 0.0;
+  /// The covariance of what is not known of the target's velocity during the scans: about its axes
+  /// in rad/s, along them in m/s. If it is not zero, both clouds need the channel time, with a
+  /// common zero.
+  Matrix6d motion_covariance = Matrix6d::Zero();
   double weak_ratio = 10.0;         ///< Information below so many times the noise is weak,
   double unobservable_ratio = 2.0;  ///< below so many times unobservable.
 };
-
-/// Whether a velocity or the rate of turning is not known.
-bool is_motion_unknown(const UncertaintyOptions& options);
 
 /// The standard deviations of a degree of freedom that nothing holds: any angle, and 10 m.
 inline constexpr double kUnknown_rad = 1.8;

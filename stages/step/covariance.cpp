@@ -1,5 +1,6 @@
 #include "framework/base/angles.hpp"
 #include "framework/registration/pose_uncertainty.hpp"
+#include "framework/stage/motion.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/step.hpp"
 
@@ -7,6 +8,7 @@ namespace croon::stages::step {
 namespace {
 
 struct Params : UncertaintyOptions {
+  std::vector<double> velocity_std_mps = {0.0, 0.0, 0.0};
   double turning_std_degps = 0.0;
 };
 
@@ -33,10 +35,6 @@ const params::Table<UncertaintyOptions>& option_table() {
       params::number("grazing_error_ratio", &O::grazing_error_ratio, {0.0, 1e3},
                      "Surfaces that a sensor sees more than 60 degrees off their normals share an "
                      "error of so many times the noise."),
-      params::numbers("velocity_std_mps", &O::velocity_std_mps, {0.0, 1000.0},
-                      "What is not known of the car's velocity during the scans, along x, y, z of "
-                      "the reference: standard deviations. If it is not zero, the clouds need the "
-                      "channel time."),
       params::number("weak_ratio", &O::weak_ratio, {0.0, 1e9},
                      "A degree of freedom is weak if its information is below so many times what "
                      "the noise of normals pretends."),
@@ -50,6 +48,11 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table = [] {
     params::Table<Params> rows =
         params::Table<Params>{
+            params::numbers("velocity_std_mps", &Params::velocity_std_mps, {0.0, 1000.0},
+                            "What is not known of the car's velocity during the scans, along x, "
+                            "y, z of the reference: standard deviations, beside what a step says "
+                            "of a velocity that it estimated. If it is not zero, the clouds need "
+                            "the channel time."),
             params::number("turning_std_degps", &Params::turning_std_degps, {0.0, 3600.0},
                            "What is not known of its rate of turning about z."),
         }
@@ -66,13 +69,17 @@ class CovarianceStep final : public Step {
   explicit CovarianceStep(const Params& chosen) : options_(options_of(chosen)) {}
 
   static params::DataFlow data_flow(const Params& chosen) {
-    if (!is_motion_unknown(options_of(chosen))) return {};
+    if (options_of(chosen).motion_covariance.isZero(0.0)) return {};
     return params::needs_channels({kTime});
   }
 
   Estimate advance(Estimate estimate, Rng&) const override {
+    UncertaintyOptions options = options_;
+    if (const Matrix6d* const motion = estimate.extras.find(kMotionCovariance)) {
+      options.motion_covariance += *motion;
+    }
     estimate.covariance =
-        pose_uncertainty(*estimate.target, *estimate.source, estimate.T_target_source, options_);
+        pose_uncertainty(*estimate.target, *estimate.source, estimate.T_target_source, options);
     estimate.diagnostics.clear();
     for (int i = 0; i < 6; ++i) {
       const double std = std::sqrt(estimate.covariance->matrix(i, i));
@@ -86,7 +93,10 @@ class CovarianceStep final : public Step {
  private:
   static UncertaintyOptions options_of(const Params& chosen) {
     UncertaintyOptions options = chosen;
-    options.turning_std_radps = rad_from_deg(chosen.turning_std_degps);
+    Vector6d stds;
+    stds << 0.0, 0.0, rad_from_deg(chosen.turning_std_degps),
+        Eigen::Vector3d(chosen.velocity_std_mps.data());
+    options.motion_covariance = stds.cwiseAbs2().asDiagonal();
     return options;
   }
 
@@ -101,7 +111,7 @@ StageEntry covariance() {
       "Estimates the covariance of the pose, and says of each degree of freedom whether the "
       "surfaces hold it.",
       "croon; the jackknife over clusters is that of Bell and McCaffrey, Survey Methodology 2002",
-      table());
+      table(), 2);
 }
 
 }  // namespace croon::stages::step

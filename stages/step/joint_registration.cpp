@@ -1,15 +1,18 @@
-#include "framework/registration/joint_registration.hpp"
-
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 #include "framework/geometry/pose_mean.hpp"
 #include "framework/params/choice.hpp"
 #include "framework/pipeline/shared_view.hpp"
+#include "framework/registration/guarded_inverse.hpp"
+#include "framework/registration/joint_uncertainty.hpp"
 #include "framework/spatial/deskew.hpp"
 #include "framework/stage/motion.hpp"
 #include "framework/stage/rig_step.hpp"
@@ -25,8 +28,8 @@ struct Params : JointOptions {
   params::Slot<Preprocessor> thinning;
   std::vector<double> coarse_distances_m = {2.0, 1.0, 0.5};
   bool motion = true;
-  double min_speed_mps = 0.3;
-  double min_turn_degps = 0.5;
+  double min_motion = 100.0;
+  double max_speed_std_mps = 0.25;
 };
 
 const params::Table<Params>& table() {
@@ -43,10 +46,14 @@ const params::Table<Params>& table() {
           params::boolean("motion", &Params::motion,
                           "Whether the rig moves while it scans, with a constant velocity in each "
                           "scene; needs the channel time."),
-          params::number("min_speed_mps", &Params::min_speed_mps, {0.0, 1e6},
-                         "A scene that is slower and turns more slowly stands still."),
-          params::number("min_turn_degps", &Params::min_turn_degps, {0.0, 1e6},
-                         "See min_speed_mps."),
+          params::number("min_motion", &Params::min_motion, {0.0, 1e9},
+                         "A scene stands still if its velocity's squared distance from zero, in "
+                         "standard deviations, is below; that of standing cars was 6 to 67 on "
+                         "tuning scenes."),
+          params::number("max_speed_std_mps", &Params::max_speed_std_mps, {0.0, 1e6},
+                         "With a pose per scene, a scene is rejected if its speed along x and y of "
+                         "the reference is less certain: what moves by itself cannot be told "
+                         "from what stands."),
       }
           .inherit(joint_table());
   return table;
@@ -77,6 +84,7 @@ class JointRegistrationStep final : public RigStep {
     params::DataFlow flow = params.thinning.flow();
     if (params.motion) flow.add(params::needs_channels({kTime}));
     flow.gives.push_back(kMotion.doc());
+    flow.gives.push_back(kMotionCovariance.doc());
     return flow;
   }
 
@@ -93,11 +101,23 @@ class JointRegistrationStep final : public RigStep {
   void register_group(const std::vector<RigEstimate*>& estimates) const {
     const Group group = group_of(estimates);
     if (group.scenes.empty()) return;
-    JointOptions coarse = params_;
+    const JointRegistration result = registered(group, params_);
+    std::optional<JointState> every_patch;
+    if (params_.motion && params_.patch_kernel_m > 0.0) {
+      JointOptions options = params_;
+      options.patch_kernel_m = 0.0;
+      every_patch = registered(group, options).state;
+    }
+    for (std::size_t s = 0; s < group.scenes.size(); ++s) {
+      give(group, s, result, motion_of(group.scenes[s], s, result.state, every_patch));
+    }
+  }
+
+  JointRegistration registered(const Group& group, const JointOptions& options) const {
+    JointOptions coarse = options;
     coarse.max_distances_m = params_.coarse_distances_m;
-    JointRegistration result = register_jointly(thinned(group.scenes), group.state, coarse);
-    result = register_jointly(group.scenes, result.state, params_);
-    for (std::size_t s = 0; s < group.scenes.size(); ++s) give(group, s, result);
+    const JointState near = register_jointly(thinned(group.scenes), group.state, coarse).state;
+    return register_jointly(group.scenes, near, options);
   }
 
   /// The estimates that can take part; the others fail.
@@ -170,13 +190,42 @@ class JointRegistrationStep final : public RigStep {
     return index;
   }
 
-  void give(const Group& group, std::size_t s, const JointRegistration& result) const {
-    const Twist& velocity = result.state.velocities[s];
+  /// What is known of the motion of a scene.
+  struct Motion {
+    Twist velocity;
+    Matrix6d covariance = Matrix6d::Zero();
+    bool is_moving = false;
+  };
+
+  /// The motion of scene `s` in `state`. What moves by itself may decide between two velocities:
+  /// that in the state `every_patch`, in which no patch loses weight, is then another, and by so
+  /// much the velocity is not known.
+  Motion motion_of(const JointScene& scene, std::size_t s, const JointState& state,
+                   const std::optional<JointState>& every_patch) const {
+    Motion motion;
+    if (!scene.is_moving) return motion;
+    const Vector6d velocity = vector_of(state.velocities[s]);
+    motion.covariance = velocity_covariance(scene, state.velocities[s], state, params_);
+    if (every_patch) {
+      const Vector6d apart = velocity - vector_of(every_patch->velocities[s]);
+      motion.covariance += apart * apart.transpose();
+    }
+    motion.is_moving =
+        velocity.dot(guarded_inverse<6>(motion.covariance) * velocity) >= params_.min_motion;
+    if (motion.is_moving) motion.velocity = state.velocities[s];
+    return motion;
+  }
+
+  static Vector6d vector_of(const Twist& velocity) {
+    Vector6d vector;
+    vector << velocity.angular_radps, velocity.linear_mps;
+    return vector;
+  }
+
+  void give(const Group& group, std::size_t s, const JointRegistration& result,
+            const Motion& motion) const {
     const JointScene& scene = group.scenes[s];
-    const double turn_degps = deg_from_rad(velocity.angular_radps.norm());
-    const bool is_moving =
-        scene.is_moving && (velocity.linear_mps.norm() >= params_.min_speed_mps ||
-                            turn_degps >= params_.min_turn_degps);
+    const double speed_std_mps = std::sqrt(motion.covariance(3, 3) + motion.covariance(4, 4));
     std::shared_ptr<const Cloud> target;
     for (std::size_t j = 0; j < scene.sources.size(); ++j) {
       Estimate& estimate = group.estimates[s][j]->estimate;
@@ -186,8 +235,9 @@ class JointRegistrationStep final : public RigStep {
             "only " + std::to_string(result.correspondences[s][j]) + " points correspond";
         continue;
       }
-      estimate.diagnostics = {{"speed_mps", velocity.linear_mps.norm()},
-                              {"turn_degps", turn_degps},
+      estimate.diagnostics = {{"speed_mps", motion.velocity.linear_mps.norm()},
+                              {"speed_std_mps", speed_std_mps},
+                              {"turn_degps", deg_from_rad(motion.velocity.angular_radps.norm())},
                               {"rmse_m", result.rmse_m},
                               {"iterations", static_cast<double>(result.iterations)},
                               {"converged", result.converged ? 1.0 : 0.0}};
@@ -195,15 +245,21 @@ class JointRegistrationStep final : public RigStep {
         estimate.diagnostics.emplace_back("clock_offset_s",
                                           result.state.clock_offsets_s[source.sensor]);
       }
-      estimate.extras.put(kMotion, is_moving ? velocity : Twist());
+      if (params_.poses == Poses::per_scene && speed_std_mps > params_.max_speed_std_mps) {
+        estimate.rejection = "the standard deviation of the speed, m/s, is " +
+                             fixed_number(speed_std_mps, 3) + ", above " +
+                             fixed_number(params_.max_speed_std_mps, 3);
+      }
+      estimate.extras.put(kMotion, motion.velocity);
+      estimate.extras.put(kMotionCovariance, motion.covariance);
       const RigidTransform& T = result.state.T_target_sensor[source.sensor];
       estimate.T_target_source = T;
-      if (!is_moving) continue;
-      if (!target) target = still(scene.target, velocity, scene.reference_s);
+      if (!motion.is_moving) continue;
+      if (!target) target = still(scene.target, motion.velocity, scene.reference_s);
       estimate.target = target;
       const double offset_s = result.state.clock_offsets_s[source.sensor];
-      estimate.source =
-          still(source.scan, velocity_in(T.inverse(), velocity), scene.reference_s - offset_s);
+      estimate.source = still(source.scan, velocity_in(T.inverse(), motion.velocity),
+                              scene.reference_s - offset_s);
     }
   }
 
@@ -224,7 +280,7 @@ StageEntry joint_registration() {
       "joint_registration",
       "Sees the whole rig: registers all sensors together with the velocity of each scene, and "
       "removes the distortion of the scans by it.",
-      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table());
+      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 2);
 }
 
 }  // namespace croon::stages::step

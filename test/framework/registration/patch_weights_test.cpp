@@ -23,7 +23,7 @@ std::shared_ptr<const Cloud> two_patches() {
 std::vector<double> weights(double exponent) {
   std::vector<int> indices(110);
   std::iota(indices.begin(), indices.end(), 0);
-  return patch_weights(*two_patches(), indices, 5, 2.0, exponent);
+  return patch_weights(patches_of(*two_patches(), indices, 5, 2.0), exponent);
 }
 
 TEST(PatchWeights, AreOneWithoutBalance) {

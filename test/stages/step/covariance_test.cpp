@@ -7,6 +7,7 @@
 #include "framework/registration/pose_uncertainty.hpp"
 #include "framework/stage/dataset.hpp"
 #include "framework/stage/icp.hpp"
+#include "framework/stage/motion.hpp"
 #include "framework/stage/preprocessor.hpp"
 #include "framework/stage/step.hpp"
 #include "test/support/random_geometry.hpp"
@@ -178,6 +179,11 @@ TEST(CovarianceStep, AnUnknownVelocityAddsToTheDirectionOfTravel) {
   estimate.source = timed(pair.source, 0.05);
   // The whole source is 50 ms later, so the pose is off by as much as the car moves.
   const PoseCovariance driving = *judged(estimate, unknown).covariance;
+  // A step that estimated the velocity says how well.
+  Estimate corrected = estimate;
+  corrected.extras.put(kMotionCovariance,
+                       Matrix6d((2.0 * Vector6d::Unit(3)).cwiseAbs2().asDiagonal()));
+  EXPECT_EQ(judged(corrected).covariance->matrix, driving.matrix);
   const double added = driving.matrix(3, 3) - known.matrix(3, 3);
   EXPECT_NEAR(std::sqrt(added), 0.1, 0.01);
   EXPECT_NEAR(std_of(driving, Dof::z), std_of(known, Dof::z), 0.003);

@@ -94,6 +94,38 @@ TEST(JointRegistration, FindsThePosesAndTheVelocityOfADrivingRig) {
   }
 }
 
+TEST(JointRegistration, SaysHowWellItKnowsTheVelocity) {
+  DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(4));
+  adjust(rig.estimates);
+  for (std::size_t i = 0; i < rig.estimates.size(); i += 2) {
+    const Estimate& estimate = rig.estimates[i].estimate;
+    const Twist& truth = rig.velocities[rig.estimates[i].scene];
+    const Twist& found = estimate.extras.get(kMotion);
+    Vector6d error;
+    error << found.angular_radps - truth.angular_radps, found.linear_mps - truth.linear_mps;
+    const Matrix6d& covariance = estimate.extras.get(kMotionCovariance);
+    EXPECT_EQ(covariance, rig.estimates[i + 1].estimate.extras.get(kMotionCovariance));
+    for (int k = 0; k < 6; ++k) {
+      const double std = std::sqrt(covariance(k, k));
+      EXPECT_LT(std::abs(error(k)), 5.0 * std) << rig.estimates[i].scene << " " << k;
+      EXPECT_LT(std, k < 3 ? rad_from_deg(10.0) : 2.0) << rig.estimates[i].scene << " " << k;
+    }
+  }
+}
+
+TEST(JointRegistration, RejectsASceneWhoseVelocityIsNotCertain) {
+  DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
+  DrivingRig strict = rig;
+  adjust(rig.estimates, R"(, "max_speed_std_mps": 10)");
+  adjust(strict.estimates, R"(, "max_speed_std_mps": 0.001)");
+  for (std::size_t i = 0; i < rig.estimates.size(); ++i) {
+    EXPECT_FALSE(rig.estimates[i].estimate.rejection);
+    ASSERT_TRUE(strict.estimates[i].estimate.rejection);
+    EXPECT_NE(strict.estimates[i].estimate.rejection->find("of the speed, m/s, is 0."),
+              std::string::npos);
+  }
+}
+
 TEST(JointRegistration, MovesTheCloudsToOneTime) {
   DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
   const auto before = rig.estimates.front().estimate;
@@ -108,7 +140,7 @@ TEST(JointRegistration, MovesTheCloudsToOneTime) {
 TEST(JointRegistration, LeavesTheCloudsOfAStandingRig) {
   DrivingRig rig = rig_of(simulation::real_still_noise(), {0});
   const auto before = rig.estimates;
-  adjust(rig.estimates, R"(, "min_speed_mps": 1, "min_turn_degps": 5)");
+  adjust(rig.estimates);
   for (std::size_t i = 0; i < before.size(); ++i) {
     EXPECT_EQ(rig.estimates[i].estimate.target, before[i].estimate.target);
     EXPECT_EQ(rig.estimates[i].estimate.source, before[i].estimate.source);

@@ -1,0 +1,67 @@
+#include "framework/registration/joint_uncertainty.hpp"
+
+#include "framework/registration/guarded_inverse.hpp"
+#include "framework/registration/joint_pair.hpp"
+
+namespace croon {
+namespace {
+
+constexpr double kCell_m = 6.0;  // A car is in few of them.
+
+using Cells = std::map<JointCell, CellEquations>;
+
+/// The step of the velocity that follows from the sums of each sensor, with its pose free: the
+/// Schur complement of the poses.
+Vector6d velocity_step(const std::vector<CellEquations>& sensors, const Matrix6d& prior) {
+  Matrix6d information = prior;
+  Vector6d gradient = Vector6d::Zero();
+  for (const CellEquations& sums : sensors) {
+    const Matrix6d pose = sums.hessian.block<6, 6>(kPairPose, kPairPose);
+    const Matrix6d mixed = sums.hessian.block<6, 6>(kPairVelocity, kPairPose);
+    const Matrix6d by_pose = mixed * guarded_inverse<6>(pose);
+    information += sums.hessian.block<6, 6>(kPairVelocity, kPairVelocity);
+    information -= by_pose * mixed.transpose();
+    gradient += sums.gradient.segment<6>(kPairVelocity);
+    gradient -= by_pose * sums.gradient.segment<6>(kPairPose);
+  }
+  return guarded_inverse<6>(information) * gradient;
+}
+
+/// As if what is expected of a velocity were residuals of the kernel's width.
+Matrix6d prior_of(const JointOptions& options) {
+  Vector6d shares;
+  shares << Eigen::Vector3d::Constant(options.kernel_width_m / options.velocity_std[1]),
+      Eigen::Vector3d::Constant(options.kernel_width_m / options.velocity_std[0]);
+  return shares.cwiseAbs2().asDiagonal();
+}
+
+}  // namespace
+
+Matrix6d velocity_covariance(const JointScene& scene, const Twist& velocity,
+                             const JointState& state, const JointOptions& options) {
+  const StillTarget target(scene, velocity, options.normal_neighbours);
+  std::vector<CellEquations> all(scene.sources.size());
+  std::map<JointCell, std::vector<CellEquations>> cells;
+  for (std::size_t j = 0; j < scene.sources.size(); ++j) {
+    const Cells of_source =
+        cell_equations(scene.sources[j], target,
+                       {state, velocity, options.max_distances_m.back(), options}, kCell_m);
+    for (const auto& [place, sums] : of_source) {
+      all[j].hessian += sums.hessian;
+      std::vector<CellEquations>& cell = cells[place];
+      cell.resize(scene.sources.size());
+      cell[j] = sums;
+    }
+  }
+  const Matrix6d prior = prior_of(options);
+  Matrix6d covariance = Matrix6d::Zero();
+  for (auto& [place, cell] : cells) {
+    for (std::size_t j = 0; j < cell.size(); ++j)
+      cell[j].hessian = all[j].hessian - cell[j].hessian;
+    const Vector6d step = velocity_step(cell, prior);
+    covariance += step * step.transpose();
+  }
+  return covariance;
+}
+
+}  // namespace croon
