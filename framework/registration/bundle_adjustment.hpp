@@ -61,14 +61,4 @@ struct Bundle {
 Bundle adjust_bundle(const std::vector<BundleScene>& scenes,
                      const std::vector<RigidTransform>& start, const BundleOptions& options);
 
-/// The robust cost of `patches` and its derivatives by the poses of all sensors, 6 for each: the
-/// sum of `w^2 c / (w^2 + c)` over the costs c of the planes, with the width w of the kernel.
-struct BundleCost {
-  double value = 0.0;
-  Eigen::VectorXd gradient;
-  Eigen::MatrixXd hessian;
-};
-BundleCost bundle_cost(const std::vector<PlanePatch>& patches,
-                       const std::vector<RigidTransform>& poses, double kernel_width);
-
 }  // namespace croon

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/registration/bundle_adjustment.hpp"
+#include "framework/registration/bundle_cost.hpp"
 #include "test/support/random_geometry.hpp"
 
 namespace croon {
