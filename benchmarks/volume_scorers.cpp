@@ -6,6 +6,7 @@
 #include "benchmarks/support/clouds.hpp"
 #include "benchmarks/support/run.hpp"
 #include "framework/params/values.hpp"
+#include "framework/spatial/leaf_window.hpp"
 #include "framework/stage/volume_scorer.hpp"
 #include "test/support/stages.hpp"
 
@@ -81,6 +82,21 @@ void measure_batch(benchmark::State& state, const Scorer& scorer, const CloudPai
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
+/// What no scorer can do without: the points at the pose, and the keys of their leaves.
+void measure_floor(benchmark::State& state, const CloudPair& pair, double leaf_size_m) {
+  const PointColumns points(pair.source);
+  const LeafWindow window(LeafGrid(leaf_size_m), pair.T_target_source.translation);
+  const std::vector<RigidTransform> poses = poses_near(pair, kPoses, 1.0, 0.1);
+  std::size_t next = 0;
+  for (auto _ : state) {
+    window.for_each_block(points, poses[next++ % poses.size()],
+                          [](const std::uint64_t* keys, std::size_t count) {
+                            benchmark::DoNotOptimize(keys[count - 1]);
+                          });
+  }
+  state.counters["source_points"] = static_cast<double>(pair.source.size());
+}
+
 void check_and_add() {
   std::vector<CloudPair> pairs;
   std::vector<int> sizes = {2000, 5000, 20000, 100000};
@@ -99,6 +115,9 @@ void check_and_add() {
   for (const CloudPair& pair : pairs) {
     for (const double leaf_size_m : kLeafSizes) {
       check_equal_counts(names, pair, leaf_size_m);
+      add("floor/" + pair.name + "/leaf_size_m:" + params::value_json(leaf_size_m) + "/keys",
+          benchmark::kMillisecond,
+          [=](benchmark::State& state) { measure_floor(state, pair, leaf_size_m); });
       for (const std::string& name : names) {
         const Scorer subject = scorer(name, leaf_size_m);
         const std::string place =

@@ -5,6 +5,7 @@
 #include "framework/base/angles.hpp"
 #include "framework/geometry/dof.hpp"
 #include "framework/params/choice.hpp"
+#include "framework/stage/dof_words.hpp"
 #include "framework/stage/pose_search.hpp"
 #include "framework/stage/stage_entry.hpp"
 
@@ -26,15 +27,8 @@ struct Params {
 };
 
 const params::Table<Params>& table() {
-  static const params::Words<Dof> dof_words = [] {
-    params::Words<Dof> words;
-    for (std::size_t i = 0; i < kDofNames.size(); ++i) {
-      words.emplace_back(kDofNames[i], static_cast<Dof>(i));
-    }
-    return words;
-  }();
   static const params::Table<Params> table = {
-      params::choices("dofs", &Params::dofs, dof_words,
+      params::choices("dofs", &Params::dofs, dof_words(),
                       "The degrees of freedom that are scanned, in this order."),
       params::number("translation_step_m", &Params::translation_step_m, {1e-6, 100.0},
                      "Step along x, y and z; the authors' 0.02."),

@@ -1,0 +1,97 @@
+#include "benchmarks/report/measurements.hpp"
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
+
+namespace croon::benchmarks {
+namespace {
+
+using nlohmann::json;
+
+double in_ms(double time, const std::string& unit) {
+  static const std::map<std::string, double> ms = {
+      {"ns", 1e-6}, {"us", 1e-3}, {"ms", 1.0}, {"s", 1e3}};
+  return time * ms.at(unit);
+}
+
+/// The parts of a name; nothing if it asks something else.
+std::optional<Measurement> measurement_of(const std::string& name) {
+  static const std::regex pattern(
+      R"(^(pose|bind|batch|floor)/(.+)/leaf_size_m:([0-9.]+)/(\w+)(/real_time)?$)");
+  std::smatch match;
+  if (!std::regex_match(name, match, pattern)) return std::nullopt;
+  Measurement measurement;
+  measurement.question = match[1];
+  measurement.clouds = match[2];
+  measurement.leaf_size_m = std::stod(match[3]);
+  measurement.scorer = match[4];
+  return measurement;
+}
+
+Machine machine_of(const json& context) {
+  Machine machine;
+  machine.date = context.at("date");
+  machine.cores = context.at("num_cpus");
+  machine.build = context.at("library_build_type");
+  machine.commit = context.value("commit", "unknown");
+  machine.cpu = context.value("cpu", "unknown");
+  const json load = context.value("load_avg", json::array());
+  if (!load.empty()) machine.load = load[0];
+  for (const json& cache : context.value("caches", json::array())) {
+    if (cache.at("type") == "Instruction") continue;
+    machine.caches.push_back("L" + std::to_string(cache.at("level").get<int>()) + " " +
+                             std::to_string(cache.at("size").get<long>() / 1024) + " KiB");
+  }
+  return machine;
+}
+
+/// Adds what one line says of a measurement that may have other lines: with repetitions there is
+/// one for the median, and one for the coefficient of variation.
+void add_line(const json& line, Measurement& measurement) {
+  const std::string aggregate = line.value("aggregate_name", "");
+  if (aggregate == "cv") {
+    measurement.spread = line.at("real_time").get<double>();
+  } else if (aggregate.empty() || aggregate == "median") {
+    measurement.time_ms = in_ms(line.at("real_time"), line.at("time_unit"));
+    if (line.contains("poses")) measurement.time_ms /= line.at("poses").get<double>();
+    if (line.contains("source_points")) measurement.source_points = line.at("source_points");
+  }
+}
+
+BenchmarkRun run_of(const json& content, const std::string& file) {
+  BenchmarkRun run;
+  const json& context = content.at("context");
+  run.program = std::filesystem::path(context.at("executable").get<std::string>()).filename();
+  run.machine = machine_of(context);
+  std::map<std::string, std::size_t> places;
+  for (const json& line : content.at("benchmarks")) {
+    const std::string name = line.at("run_name");
+    if (line.value("error_occurred", false)) {
+      throw InputError(file, name, "the benchmark failed: " + line.value("error_message", ""));
+    }
+    const std::optional<Measurement> measurement = measurement_of(name);
+    if (!measurement) continue;
+    const auto [place, is_new] = places.emplace(name, run.measurements.size());
+    if (is_new) run.measurements.push_back(*measurement);
+    add_line(line, run.measurements[place->second]);
+  }
+  return run;
+}
+
+}  // namespace
+
+BenchmarkRun read_run(const std::filesystem::path& file) {
+  const std::string text = read_whole_file(file);
+  try {
+    return run_of(json::parse(text), file.string());
+  } catch (const json::exception& error) {
+    throw InputError(file.string(), "",
+                     std::string("expected what --benchmark_out writes: ") + error.what());
+  }
+}
+
+}  // namespace croon::benchmarks

@@ -1,0 +1,265 @@
+#include "benchmarks/report/page.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "benchmarks/report/times_chart.hpp"
+#include "framework/base/text.hpp"
+#include "framework/table/renderers.hpp"
+
+namespace croon::benchmarks {
+namespace {
+
+using Measurements = std::vector<const Measurement*>;
+
+/// The measurements that `holds` is true for, in their order.
+template <class Holds>
+Measurements those(const BenchmarkRun& run, const Holds& holds) {
+  Measurements found;
+  for (const Measurement& one : run.measurements) {
+    if (holds(one)) found.push_back(&one);
+  }
+  return found;
+}
+
+/// The different values of `of`, in the order of the measurements.
+template <class Value, class Of>
+std::vector<Value> distinct(const Measurements& measurements, const Of& of) {
+  std::vector<Value> values;
+  for (const Measurement* one : measurements) {
+    const Value& value = std::invoke(of, *one);
+    if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+  }
+  return values;
+}
+
+const Measurement* find(const Measurements& measurements, const std::string& clouds,
+                        double leaf_size_m, const std::string& scorer) {
+  for (const Measurement* one : measurements) {
+    if (one->clouds == clouds && one->leaf_size_m == leaf_size_m && one->scorer == scorer) {
+      return one;
+    }
+  }
+  return nullptr;
+}
+
+/// Three digits that count.
+std::string three_digits(double value) {
+  const int before = value > 0.0 ? static_cast<int>(std::floor(std::log10(value))) : 0;
+  return fixed_number(value, std::clamp(2 - before, 0, 6));
+}
+
+std::string row_of(const std::vector<std::string>& cells) {
+  std::string row = "|";
+  for (const std::string& cell : cells) row += " " + cell + " |";
+  return row + "\n";
+}
+
+std::string header_of(const std::vector<std::string>& titles) {
+  std::string text = row_of(titles) + "|";
+  for (std::size_t i = 0; i < titles.size(); ++i) text += i == 0 ? "---|" : "---:|";
+  return text + "\n";
+}
+
+std::string code(const std::string& name) { return "`" + name + "`"; }
+
+std::string size_text(double leaf_size_m) { return shortest_number(leaf_size_m) + " m"; }
+
+/// A row for the clouds and leaf sizes of a question, a column for each scorer, the best bold.
+std::string times_table(const BenchmarkRun& run, const std::string& question) {
+  const Measurements all =
+      those(run, [&](const Measurement& one) { return one.question == question; });
+  if (all.empty()) return "";
+  const auto scorers = distinct<std::string>(all, &Measurement::scorer);
+  std::vector<std::string> titles = {"clouds, leaf size"};
+  for (const std::string& scorer : scorers) titles.push_back(code(scorer));
+  std::string text = header_of(titles);
+  for (const std::string& clouds : distinct<std::string>(all, &Measurement::clouds)) {
+    for (const double leaf_size_m : distinct<double>(all, &Measurement::leaf_size_m)) {
+      double best_ms = std::numeric_limits<double>::infinity();
+      for (const std::string& scorer : scorers) {
+        const Measurement* one = find(all, clouds, leaf_size_m, scorer);
+        if (one != nullptr) best_ms = std::min(best_ms, one->time_ms);
+      }
+      if (std::isinf(best_ms)) continue;
+      std::vector<std::string> cells = {clouds + ", " + size_text(leaf_size_m)};
+      for (const std::string& scorer : scorers) {
+        const Measurement* one = find(all, clouds, leaf_size_m, scorer);
+        const std::string time = one == nullptr ? "-" : three_digits(one->time_ms);
+        cells.push_back(one != nullptr && one->time_ms == best_ms ? "**" + time + "**" : time);
+      }
+      text += row_of(cells);
+    }
+  }
+  return text;
+}
+
+/// How many times as long as the fastest each takes for a pose, where a peer was measured.
+std::string ratios_table(const BenchmarkRun& run) {
+  const Measurements all =
+      those(run, [](const Measurement& one) { return one.question == "pose"; });
+  const auto scorers = distinct<std::string>(all, &Measurement::scorer);
+  std::vector<std::string> titles = {"clouds, leaf size"};
+  for (const std::string& scorer : scorers) titles.push_back(code(scorer));
+  std::string text = header_of(titles);
+  for (const std::string& clouds : distinct<std::string>(all, &Measurement::clouds)) {
+    for (const double leaf_size_m : distinct<double>(all, &Measurement::leaf_size_m)) {
+      double best_ms = std::numeric_limits<double>::infinity();
+      for (const Measurement* one : all) {
+        if (one->clouds == clouds && one->leaf_size_m == leaf_size_m) {
+          best_ms = std::min(best_ms, one->time_ms);
+        }
+      }
+      std::vector<std::string> cells = {clouds + ", " + size_text(leaf_size_m)};
+      for (const std::string& scorer : scorers) {
+        const Measurement* one = find(all, clouds, leaf_size_m, scorer);
+        cells.push_back(one == nullptr ? "-" : three_digits(one->time_ms / best_ms));
+      }
+      text += row_of(cells);
+    }
+  }
+  return text;
+}
+
+/// The times of a pose of all scorers over `x`, at the measurements that `holds` is true for.
+template <class Holds, class X>
+std::vector<TimesLine> lines_over(const BenchmarkRun& run, const Holds& holds, const X& x) {
+  const Measurements all =
+      those(run, [&](const Measurement& one) { return one.question == "pose" && holds(one); });
+  std::vector<TimesLine> lines;
+  for (const std::string& scorer : distinct<std::string>(all, &Measurement::scorer)) {
+    std::vector<std::pair<double, double>> points;
+    for (const Measurement* one : all) {
+      if (one->scorer == scorer) points.emplace_back(x(*one), one->time_ms);
+    }
+    std::sort(points.begin(), points.end());
+    TimesLine line{scorer, {}, {}};
+    for (const auto& [at, time_ms] : points) {
+      line.xs.push_back(at);
+      line.times_ms.push_back(time_ms);
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+bool is_street(const Measurement& one) { return one.clouds.rfind("street", 0) == 0; }
+
+/// What a pose of each scorer costs per point of the source, and how far the transformation of the
+/// points with the keys of their leaves alone (`floor`) is below it.
+std::string limits_table(const BenchmarkRun& run) {
+  const Measurements floors =
+      those(run, [](const Measurement& one) { return one.question == "floor"; });
+  if (floors.empty()) return "";
+  const Measurements poses =
+      those(run, [](const Measurement& one) { return one.question == "pose"; });
+  const auto scorers = distinct<std::string>(poses, &Measurement::scorer);
+  std::vector<std::string> titles = {"clouds, leaf size", "points", "keys alone, ns"};
+  for (const std::string& scorer : scorers) titles.push_back(code(scorer) + ", ns");
+  titles.emplace_back("fastest over keys alone");
+  std::string text = header_of(titles);
+  for (const Measurement* floor : floors) {
+    const double points = floor->source_points.value_or(NAN);
+    std::vector<std::string> cells = {floor->clouds + ", " + size_text(floor->leaf_size_m),
+                                      fixed_number(points, 0),
+                                      three_digits(1e6 * floor->time_ms / points)};
+    double best_ms = std::numeric_limits<double>::infinity();
+    for (const std::string& scorer : scorers) {
+      const Measurement* one = find(poses, floor->clouds, floor->leaf_size_m, scorer);
+      cells.push_back(one == nullptr ? "-" : three_digits(1e6 * one->time_ms / points));
+      if (one != nullptr) best_ms = std::min(best_ms, one->time_ms);
+    }
+    cells.push_back(three_digits(best_ms / floor->time_ms));
+    text += row_of(cells);
+  }
+  return text;
+}
+
+std::string machine_sentence(const BenchmarkRun& run) {
+  const Machine& machine = run.machine;
+  std::string text = code(run.program) + ", " + machine.date + ", commit " + machine.commit + ": " +
+                     std::to_string(machine.cores) + " cores, " + machine.cpu;
+  for (const std::string& cache : machine.caches) text += ", " + cache;
+  text += "; load before the run " + fixed_number(machine.load, 2) + ".";
+  double widest = 0.0;
+  for (const Measurement& one : run.measurements) widest = std::max(widest, one.spread.value_or(0));
+  if (widest > 0.0) {
+    text += " The coefficient of variation of the repetitions is at most " +
+            fixed_number(100.0 * widest, 0) + " %.";
+  }
+  return text + "\n\n";
+}
+
+void add_picture(Page& page, const std::string& name, const std::string& title,
+                 const std::string& x_title, const std::vector<TimesLine>& lines) {
+  const bool is_line = std::any_of(lines.begin(), lines.end(),
+                                   [](const TimesLine& line) { return line.xs.size() > 1; });
+  if (!is_line) return;
+  page.markdown += "![" + title + "](pictures/" + name + ")\n\n";
+  page.pictures.push_back({name, times_chart(title, x_title, lines)});
+}
+
+void add_section(Page& page, const std::string& title, const std::string& sentence,
+                 const std::string& table) {
+  if (table.empty()) return;
+  page.markdown += "### " + title + "\n\n" + sentence + "\n\n" + table + "\n";
+}
+
+void add_run(Page& page, const BenchmarkRun& run) {
+  page.markdown += "## " + code(run.program) + "\n\n" + machine_sentence(run);
+  const bool has_peers =
+      std::any_of(run.measurements.begin(), run.measurements.end(),
+                  [](const Measurement& one) { return one.scorer.rfind("peer_", 0) == 0; });
+  add_section(page, "One pose",
+              "To score one pose of clouds to which the scorer is bound, ms. The fastest is bold.",
+              times_table(run, "pose"));
+  if (has_peers) {
+    add_section(page, "Against the fastest", "The same over the fastest of the row.",
+                ratios_table(run));
+  }
+  const std::string prefix = "benchmarks_" + run.program + "_";
+  add_picture(page, prefix + "points.svg", "One pose, leaves of 0.05 m, streets",
+              "points of the source",
+              lines_over(
+                  run,
+                  [](const Measurement& one) {
+                    return is_street(one) && one.leaf_size_m == 0.05 && one.source_points;
+                  },
+                  [](const Measurement& one) { return *one.source_points; }));
+  const Measurements samples = those(run, [](const Measurement& one) { return !is_street(one); });
+  for (const std::string& clouds : distinct<std::string>(samples, &Measurement::clouds)) {
+    std::string file = clouds;
+    std::replace(file.begin(), file.end(), '/', '_');
+    add_picture(page, prefix + file + ".svg", "One pose, " + clouds, "leaf size, m",
+                lines_over(
+                    run, [&](const Measurement& one) { return one.clouds == clouds; },
+                    [](const Measurement& one) { return one.leaf_size_m; }));
+  }
+  add_section(page, "Per point, and what limits it",
+              "A pose must transform every point of the source and find the key of its leaf: 12 "
+              "bytes read, 18 multiplications and additions and three keys for a point. That "
+              "alone, with the same code, is the limit; all else is the table of leaves.",
+              limits_table(run));
+  add_section(page, "Many poses",
+              "One pose of a batch of 64, which a scorer may spread over all cores, ms.",
+              times_table(run, "batch"));
+  add_section(page, "To bind", "To bind a scorer to two new clouds, ms.", times_table(run, "bind"));
+}
+
+}  // namespace
+
+Page page_of(const std::vector<BenchmarkRun>& runs) {
+  Page page;
+  page.markdown =
+      "# What the occupied volume costs\n\n"
+      "`benchmarks/report.sh` wrote this page from the files of Google Benchmark; "
+      "[benchmarks](../benchmarks/README.md) says what is measured. Before anything is timed, all "
+      "scorers must count the same leaves. Times are medians of wall time.\n\n";
+  for (const BenchmarkRun& run : runs) add_run(page, run);
+  while (page.markdown.size() > 1 && page.markdown[page.markdown.size() - 2] == '\n') {
+    page.markdown.pop_back();
+  }
+  return page;
+}
+
+}  // namespace croon::benchmarks

@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/report/page.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
+#include "framework/picture/writers.hpp"
+#include "test/support/temp_folder.hpp"
+
+namespace croon::benchmarks {
+namespace {
+
+using nlohmann::json;
+
+json line(const std::string& name, double time, const std::string& unit = "ms") {
+  return {{"run_name", name + "/real_time"},
+          {"real_time", time},
+          {"time_unit", unit},
+          {"source_points", 1000.0}};
+}
+
+json file_of(const json& lines) {
+  return {{"context",
+           {{"date", "2026-11-23"},
+            {"executable", "some/bin/bench_volume_scorers"},
+            {"num_cpus", 2},
+            {"library_build_type", "release"},
+            {"load_avg", {0.1, 0.2, 0.3}},
+            {"caches", {{{"type", "Data"}, {"level", 1}, {"size", 32768}}}},
+            {"commit", "abc"}}},
+          {"benchmarks", lines}};
+}
+
+BenchmarkRun read(const json& file) {
+  const test::TempFolder folder;
+  write_whole_file(folder.path() / "run.json", file.dump());
+  return read_run(folder.path() / "run.json");
+}
+
+TEST(BenchmarkReport, ReadsWhatIsMeasuredOfWhat) {
+  const BenchmarkRun run =
+      read(file_of({line("pose/carla/004069/front/leaf_size_m:0.05/brick_hash", 200.0, "us"),
+                    line("query/street_1000/near", 1.0)}));
+  ASSERT_EQ(run.measurements.size(), 1U);
+  const Measurement& one = run.measurements.front();
+  EXPECT_EQ(one.question, "pose");
+  EXPECT_EQ(one.clouds, "carla/004069/front");
+  EXPECT_EQ(one.leaf_size_m, 0.05);
+  EXPECT_EQ(one.scorer, "brick_hash");
+  EXPECT_DOUBLE_EQ(one.time_ms, 0.2);
+  EXPECT_EQ(one.source_points, 1000.0);
+  EXPECT_FALSE(one.spread);
+  EXPECT_EQ(run.program, "bench_volume_scorers");
+  EXPECT_EQ(run.machine.caches, std::vector<std::string>({"L1 32 KiB"}));
+}
+
+TEST(BenchmarkReport, TakesTheMedianOfRepetitions) {
+  const std::string name = "batch/street_1000/leaf_size_m:0.1/brick_hash";
+  json median = line(name, 64.0), mean = line(name, 99.0), spread = line(name, 0.03);
+  median["aggregate_name"] = "median";
+  median["poses"] = 64.0;
+  mean["aggregate_name"] = "mean";
+  spread["aggregate_name"] = "cv";
+  const BenchmarkRun run = read(file_of({mean, median, spread}));
+  ASSERT_EQ(run.measurements.size(), 1U);
+  EXPECT_EQ(run.measurements[0].time_ms, 1.0);
+  EXPECT_EQ(run.measurements[0].spread, 0.03);
+}
+
+TEST(BenchmarkReport, RefusesWhatIsNoRun) {
+  EXPECT_THROW(read(json::array()), InputError);
+  EXPECT_THROW(read(file_of(json::array({{{"name", "x"}}}))), InputError);
+  json failed = line("pose/street_1000/leaf_size_m:0.1/brick_hash", 1.0);
+  failed["error_occurred"] = true;
+  failed["error_message"] = "no ground";
+  try {
+    read(file_of(json::array({failed})));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(error.faults().at(0).line().find("no ground"), std::string::npos);
+  }
+}
+
+TEST(BenchmarkReport, HasTheFastestBoldAndAPictureOverPoints) {
+  json lines = json::array();
+  for (const int count : {1000, 10000}) {
+    for (const auto& [scorer, time] : {std::pair("brick_hash", 1.0), {"peer_slow", 30.0}}) {
+      const std::string name =
+          "pose/street_" + std::to_string(count) + "/leaf_size_m:0.05/" + scorer;
+      lines.push_back(line(name, time * count));
+      lines.back()["source_points"] = count;
+    }
+  }
+  const Page page = page_of({read(file_of(lines))});
+  EXPECT_NE(page.markdown.find("| street_1000, 0.05 m | **1000** | 30000 |"), std::string::npos)
+      << page.markdown;
+  EXPECT_NE(page.markdown.find("| street_1000, 0.05 m | 1.00 | 30.0 |"), std::string::npos);
+  ASSERT_EQ(page.pictures.size(), 1U);
+  EXPECT_NE(page.markdown.find(page.pictures[0].name), std::string::npos);
+  const std::string svg = svg_bytes(page.pictures[0].drawing);
+  EXPECT_NE(svg.find("peer_slow"), std::string::npos);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace croon::benchmarks
