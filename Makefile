@@ -67,8 +67,9 @@ RUN_TESTS = for program in $(addprefix build/$(1)/bin/test_,$(or $(4),*)); do pr
     GTEST_SHARD_INDEX=$$1 "$$0" --gtest_brief=1 --gtest_filter="$(3)" || exit 255'
 
 # What adds nothing under a sanitizer and takes minutes there: the same code hundreds of times, for a rate, for every
-# ray or for every part of a scene, and comparisons of what a program prints.
-REPETITIVE = *NoGap*:*EveryPointLies*:*KeepsItsLevel*:*Covers*:*FindsAnEffect*:*HoldsTheTrueOne*:*OverTrialsWouldNot*:*NearTheExact*:*TurnedAnyhow*:*UpsideDown*:*DoesNotDependOnTheStart*:FeatureAlignment.FindsThe*:*UndoesTheDistortion*:*SaysHowWellIt*:*FindsTheOffset*:*GivesASensorOnePose*:*RejectsASceneWhose*:*MovesTheCloudsTo*:*StartsACommonPose*:*ReturnsToTheTruth*:ExportedLatex.*:GeneratedPages.*:Kinds/*:*Kinds.*:Roads.*:Building.*:Crossing.*:AddPlots.*:House.*:Hall.*:Body.*
+# ray or for every part of a scene, comparisons of what a program prints, and long tests of a stage that shorter ones run
+# too (those of test/contract run every stage).
+REPETITIVE = *NoGap*:*EveryPointLies*:*KeepsItsLevel*:*Covers*:*FindsAnEffect*:*HoldsTheTrueOne*:*OverTrialsWouldNot*:*NearTheExact*:*TurnedAnyhow*:*UpsideDown*:*DoesNotDependOnTheStart*:FeatureAlignment.FindsThe*:*UndoesTheDistortion*:*SaysHowWellIt*:*FindsTheOffset*:*GivesASensorOnePose*:*RejectsASceneWhose*:*MovesTheCloudsTo*:*StartsACommonPose*:*ReturnsToTheTruth*:*ThreadsDoNotChange*:*WithAnEmptyCloudAlone*:*KeepsToTheStartIfAsked/feature*:*ApartFromEachOther*:*WhicheverComeWithIt*:*HasTheRotatedGround*:*LeavesTheCloudsOf*:*FarFromAllSurfacesAlone*:*FindsOnePoseForEach*:*MovesBackOverTheGround*:*TurnsBackFromAnyYaw*:*IsAboutAsLargeAs*:*ASimulatedCorridor*:*GroundOnSamples*:SimulatedScene.IsTheSame*:AddBoundaryPieces.*:ExportedLatex.*:GeneratedPages.*:Kinds/*:*Kinds.*:Roads.*:Building.*:Crossing.*:AddPlots.*:House.*:Hall.*:Body.*
 SANITIZED_TESTS ?=
 sanitize: sanitizer_packages
 	cmake --preset sanitized
