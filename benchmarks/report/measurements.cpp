@@ -36,7 +36,6 @@ Machine machine_of(const json& context) {
   Machine machine;
   machine.date = context.at("date");
   machine.cores = context.at("num_cpus");
-  machine.build = context.at("library_build_type");
   machine.commit = context.value("commit", "unknown");
   machine.cpu = context.value("cpu", "unknown");
   const json load = context.value("load_avg", json::array());

@@ -21,7 +21,7 @@ struct Measurement {
 
 /// Where and when a run was made.
 struct Machine {
-  std::string date, commit, cpu, build;
+  std::string date, commit, cpu;
   int cores = 0;
   double load = 0.0;  ///< Of the minute before the run.
   std::vector<std::string> caches;

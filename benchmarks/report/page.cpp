@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 
 #include "benchmarks/report/times_chart.hpp"
 #include "framework/base/text.hpp"
@@ -65,39 +67,15 @@ std::string code(const std::string& name) { return "`" + name + "`"; }
 
 std::string size_text(double leaf_size_m) { return shortest_number(leaf_size_m) + " m"; }
 
-/// A row for the clouds and leaf sizes of a question, a column for each scorer, the best bold.
-std::string times_table(const BenchmarkRun& run, const std::string& question) {
-  const Measurements all =
-      those(run, [&](const Measurement& one) { return one.question == question; });
-  if (all.empty()) return "";
-  const auto scorers = distinct<std::string>(all, &Measurement::scorer);
-  std::vector<std::string> titles = {"clouds, leaf size"};
-  for (const std::string& scorer : scorers) titles.push_back(code(scorer));
-  std::string text = header_of(titles);
-  for (const std::string& clouds : distinct<std::string>(all, &Measurement::clouds)) {
-    for (const double leaf_size_m : distinct<double>(all, &Measurement::leaf_size_m)) {
-      double best_ms = std::numeric_limits<double>::infinity();
-      for (const std::string& scorer : scorers) {
-        const Measurement* one = find(all, clouds, leaf_size_m, scorer);
-        if (one != nullptr) best_ms = std::min(best_ms, one->time_ms);
-      }
-      if (std::isinf(best_ms)) continue;
-      std::vector<std::string> cells = {clouds + ", " + size_text(leaf_size_m)};
-      for (const std::string& scorer : scorers) {
-        const Measurement* one = find(all, clouds, leaf_size_m, scorer);
-        const std::string time = one == nullptr ? "-" : three_digits(one->time_ms);
-        cells.push_back(one != nullptr && one->time_ms == best_ms ? "**" + time + "**" : time);
-      }
-      text += row_of(cells);
-    }
-  }
-  return text;
+Measurements asking(const BenchmarkRun& run, const std::string& question) {
+  return those(run, [&](const Measurement& one) { return one.question == question; });
 }
 
-/// How many times as long as the fastest each takes for a pose, where a peer was measured.
-std::string ratios_table(const BenchmarkRun& run) {
-  const Measurements all =
-      those(run, [](const Measurement& one) { return one.question == "pose"; });
+/// A row for each clouds and leaf size, a column for each scorer. `cell` makes the text of a time
+/// from it and the least of its row.
+template <class CellText>
+std::string scorers_table(const Measurements& all, const CellText& cell) {
+  if (all.empty()) return "";
   const auto scorers = distinct<std::string>(all, &Measurement::scorer);
   std::vector<std::string> titles = {"clouds, leaf size"};
   for (const std::string& scorer : scorers) titles.push_back(code(scorer));
@@ -110,15 +88,31 @@ std::string ratios_table(const BenchmarkRun& run) {
           best_ms = std::min(best_ms, one->time_ms);
         }
       }
+      if (std::isinf(best_ms)) continue;
       std::vector<std::string> cells = {clouds + ", " + size_text(leaf_size_m)};
       for (const std::string& scorer : scorers) {
         const Measurement* one = find(all, clouds, leaf_size_m, scorer);
-        cells.push_back(one == nullptr ? "-" : three_digits(one->time_ms / best_ms));
+        cells.push_back(one == nullptr ? "-" : cell(one->time_ms, best_ms));
       }
       text += row_of(cells);
     }
   }
   return text;
+}
+
+/// The times, the best of each row bold.
+std::string times_table(const BenchmarkRun& run, const std::string& question) {
+  return scorers_table(asking(run, question), [](double time_ms, double best_ms) {
+    const std::string text = three_digits(time_ms);
+    return time_ms == best_ms ? "**" + text + "**" : text;
+  });
+}
+
+/// How many times as long as the fastest each takes for a pose.
+std::string ratios_table(const BenchmarkRun& run) {
+  return scorers_table(asking(run, "pose"), [](double time_ms, double best_ms) {
+    return three_digits(time_ms / best_ms);
+  });
 }
 
 /// The times of a pose of all scorers over `x`, at the measurements that `holds` is true for.
@@ -148,11 +142,9 @@ bool is_street(const Measurement& one) { return one.clouds.rfind("street", 0) ==
 /// What a pose of each scorer costs per point of the source, and how far the transformation of the
 /// points with the keys of their leaves alone (`floor`) is below it.
 std::string limits_table(const BenchmarkRun& run) {
-  const Measurements floors =
-      those(run, [](const Measurement& one) { return one.question == "floor"; });
+  const Measurements floors = asking(run, "floor");
   if (floors.empty()) return "";
-  const Measurements poses =
-      those(run, [](const Measurement& one) { return one.question == "pose"; });
+  const Measurements poses = asking(run, "pose");
   const auto scorers = distinct<std::string>(poses, &Measurement::scorer);
   std::vector<std::string> titles = {"clouds, leaf size", "points", "keys alone, ns"};
   for (const std::string& scorer : scorers) titles.push_back(code(scorer) + ", ns");
