@@ -124,14 +124,31 @@ std::vector<JointTerm> terms_of(const JointScene::Source& source, const StillTar
   return terms;
 }
 
+/// The points of the target where they were at the reference time. Those of one that does not move
+/// are its own, whose tree and normals there may be already.
+std::shared_ptr<const Cloud> still_cloud(const JointScene& scene, const Twist& velocity) {
+  if (velocity.linear_mps.isZero(0.0) && velocity.angular_radps.isZero(0.0)) {
+    return scene.target.cloud;
+  }
+  return std::make_shared<const Cloud>(
+      PointCloud(deskewed(scene.target.cloud->points(), scene.target.times_s, velocity,
+                          scene.reference_s)),
+      StreamKey(0));
+}
+
 }  // namespace
+
+Vector6d velocity_information(const JointOptions& options) {
+  Vector6d shares;
+  shares << Eigen::Vector3d::Constant(options.kernel_width_m / options.velocity_std[1]),
+      Eigen::Vector3d::Constant(options.kernel_width_m / options.velocity_std[0]);
+  return shares.cwiseAbs2();
+}
 
 StillTarget::StillTarget(const JointScene& scene, const Twist& velocity, int normal_neighbours)
     : scene_(scene),
-      cloud_(
-          deskewed(scene.target.cloud->points(), scene.target.times_s, velocity, scene.reference_s),
-          StreamKey(0)),
-      normals_(cloud_.normals(normal_neighbours)) {}
+      cloud_(still_cloud(scene, velocity)),
+      normals_(cloud_->normals(normal_neighbours)) {}
 
 PairEquations pair_equations(const JointScene::Source& source, const StillTarget& target,
                              const JointView& view) {

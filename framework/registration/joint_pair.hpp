@@ -12,7 +12,7 @@ class StillTarget {
  public:
   StillTarget(const JointScene& scene, const Twist& velocity, int normal_neighbours);
 
-  const Cloud& cloud() const { return cloud_; }
+  const Cloud& cloud() const { return *cloud_; }
   const Normals& normals() const { return normals_; }
   /// When point `index` was measured, from the reference time on.
   double time_s(int index) const { return scene_.target.times_s[index] - scene_.reference_s; }
@@ -20,7 +20,7 @@ class StillTarget {
 
  private:
   const JointScene& scene_;
-  Cloud cloud_;
+  std::shared_ptr<const Cloud> cloud_;
   const Normals& normals_;
 };
 
@@ -32,6 +32,10 @@ inline constexpr int kPairOffset = 12;
 inline constexpr int kPairUnknowns = 13;
 using PairVector = Eigen::Matrix<double, kPairUnknowns, 1>;
 using PairMatrix = Eigen::Matrix<double, kPairUnknowns, kPairUnknowns>;
+
+/// What is expected of a velocity before any point is seen, as the information of residuals of the
+/// kernel's width: about the axes, along them.
+Vector6d velocity_information(const JointOptions& options);
 
 /// Where the points of a scene are compared, and which of them correspond.
 struct JointView {

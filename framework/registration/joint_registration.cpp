@@ -98,23 +98,19 @@ class Problem {
     constexpr double kDamping = 1e-6;
     information.diagonal() *= 1.0 + kDamping;
     information.diagonal().array() += 1e-12;
-    const auto expect_zero = [&](int at, double value, double std) {
-      const double share = options_.kernel_width_m / std;
-      information(at, at) += share * share;
-      gradient(at) += share * share * value;
-    };
+    const Vector6d of_velocity = velocity_information(options_);
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
       if (velocity_at_[s] < 0) continue;
-      const Twist& velocity = state.velocities[s];
-      for (int axis = 0; axis < 3; ++axis) {
-        const int at = velocity_at_[s] + axis;
-        expect_zero(at, velocity.angular_radps(axis), options_.velocity_std[1]);
-        expect_zero(at + 3, velocity.linear_mps(axis), options_.velocity_std[0]);
-      }
+      Vector6d velocity;
+      velocity << state.velocities[s].angular_radps, state.velocities[s].linear_mps;
+      information.diagonal().segment<6>(velocity_at_[s]) += of_velocity;
+      gradient.segment<6>(velocity_at_[s]) += of_velocity.cwiseProduct(velocity);
     }
     if (offset_at_ < 0) return;
+    const double share = options_.kernel_width_m / options_.clock_offset_std_s;
     for (int k = 0; k < sensors_; ++k) {
-      expect_zero(offset_at_ + k, state.clock_offsets_s[k], options_.clock_offset_std_s);
+      information(offset_at_ + k, offset_at_ + k) += share * share;
+      gradient(offset_at_ + k) += share * share * state.clock_offsets_s[k];
     }
   }
 

@@ -27,14 +27,6 @@ Vector6d velocity_step(const std::vector<CellEquations>& sensors, const Matrix6d
   return guarded_inverse<6>(information) * gradient;
 }
 
-/// As if what is expected of a velocity were residuals of the kernel's width.
-Matrix6d prior_of(const JointOptions& options) {
-  Vector6d shares;
-  shares << Eigen::Vector3d::Constant(options.kernel_width_m / options.velocity_std[1]),
-      Eigen::Vector3d::Constant(options.kernel_width_m / options.velocity_std[0]);
-  return shares.cwiseAbs2().asDiagonal();
-}
-
 }  // namespace
 
 Matrix6d velocity_covariance(const JointScene& scene, const Twist& velocity,
@@ -53,7 +45,7 @@ Matrix6d velocity_covariance(const JointScene& scene, const Twist& velocity,
       cell[j] = sums;
     }
   }
-  const Matrix6d prior = prior_of(options);
+  const Matrix6d prior = velocity_information(options).asDiagonal();
   Matrix6d covariance = Matrix6d::Zero();
   for (auto& [place, cell] : cells) {
     for (std::size_t j = 0; j < cell.size(); ++j)

@@ -101,22 +101,27 @@ class JointRegistrationStep final : public RigStep {
   void register_group(const std::vector<RigEstimate*>& estimates) const {
     const Group group = group_of(estimates);
     if (group.scenes.empty()) return;
-    const JointRegistration result = registered(group, params_);
+    const std::vector<JointScene> coarse = thinned(group.scenes);
+    const JointRegistration result = registered(group, coarse, params_);
+    const bool is_any_moving = std::any_of(group.scenes.begin(), group.scenes.end(),
+                                           [](const JointScene& scene) { return scene.is_moving; });
     std::optional<JointState> every_patch;
-    if (params_.motion && params_.patch_kernel_m > 0.0) {
+    if (is_any_moving && params_.patch_kernel_m > 0.0) {
       JointOptions options = params_;
       options.patch_kernel_m = 0.0;
-      every_patch = registered(group, options).state;
+      every_patch = registered(group, coarse, options).state;
     }
     for (std::size_t s = 0; s < group.scenes.size(); ++s) {
       give(group, s, result, motion_of(group.scenes[s], s, result.state, every_patch));
     }
   }
 
-  JointRegistration registered(const Group& group, const JointOptions& options) const {
-    JointOptions coarse = options;
-    coarse.max_distances_m = params_.coarse_distances_m;
-    const JointState near = register_jointly(thinned(group.scenes), group.state, coarse).state;
+  /// The passes over the thinned scenes `coarse`, then those over all points.
+  JointRegistration registered(const Group& group, const std::vector<JointScene>& coarse,
+                               const JointOptions& options) const {
+    JointOptions coarse_options = options;
+    coarse_options.max_distances_m = params_.coarse_distances_m;
+    const JointState near = register_jointly(coarse, group.state, coarse_options).state;
     return register_jointly(group.scenes, near, options);
   }
 
