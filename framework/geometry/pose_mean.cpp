@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "framework/base/statistics.hpp"
-#include "framework/geometry/dof.hpp"
+#include "framework/geometry/guarded_inverse.hpp"
 
 namespace croon {
 
@@ -139,6 +139,24 @@ Eigen::Matrix3d mean_rotation(const std::vector<RigidTransform>& poses) {
 RigidTransform mean_pose(const std::vector<RigidTransform>& poses) {
   require_poses(poses);
   return mean_of_ordered(poses_of(in_fixed_order(poses)));
+}
+
+InformedPose informed_mean(const std::vector<InformedPose>& poses) {
+  if (poses.empty()) throw std::logic_error("a mean of no poses");
+  InformedPose mean = poses.front();
+  if (poses.size() == 1) return mean;
+  mean.information.setZero();
+  for (const InformedPose& one : poses) mean.information += one.information;
+  const Matrix6d covariance = guarded_inverse<6>(mean.information);
+  // Poses are near each other, so that two rounds are enough; more cost nothing.
+  for (int i = 0; i < 5; ++i) {
+    Vector6d pull = Vector6d::Zero();
+    for (const InformedPose& one : poses) {
+      pull += one.information * pose_error(one.pose, mean.pose).dof;
+    }
+    mean.pose = moved(mean.pose, covariance * pull);
+  }
+  return mean;
 }
 
 RigidTransform consensus_pose(const std::vector<RigidTransform>& poses, const PoseBounds& bounds,

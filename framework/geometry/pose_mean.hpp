@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "framework/geometry/rigid_transform.hpp"
+#include "framework/geometry/dof.hpp"
 
 namespace croon {
 
@@ -26,6 +26,18 @@ Eigen::Matrix3d mean_rotation(const std::vector<RigidTransform>& poses);
 /// The mean rotation with the arithmetic mean of the translations; commutes with a motion from the
 /// left. Throws std::logic_error if `poses` is empty.
 RigidTransform mean_pose(const std::vector<RigidTransform>& poses);
+
+/// A pose and the inverse of its covariance, see PoseCovariance.
+struct InformedPose {
+  RigidTransform pose;
+  Matrix6d information = Matrix6d::Zero();
+};
+
+/// The mean of independent observations of one pose, weighed by their information, with the sum of
+/// it (the pose with the least squared Mahalanobis distance to all: Barfoot and Furgale, T-RO 2014,
+/// section V). Directions without information stay as in the first pose. Throws std::logic_error
+/// if `poses` is empty.
+InformedPose informed_mean(const std::vector<InformedPose>& poses);
 
 /// The pose that most poses agree on, robust against outliers: the pose with the most others near
 /// it (the smallest sum of `min(1, distance / bounds)`, ties by the smallest sum of distances),

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "framework/spatial/leaf_grid.hpp"
@@ -14,6 +15,7 @@ namespace {
 struct PlacedPoint {
   Eigen::Vector3f common;
   Eigen::Vector3f own;
+  float time_s;
   int view;  ///< An index into the clouds.
 };
 
@@ -90,18 +92,27 @@ class PatchSearch {
   }
 
   void add_patch(Iterator begin, Iterator end, double rms_m) {
-    std::vector<PointSums> sums(clouds_.size());
+    std::vector<PlanePatch::View> views(clouds_.size());
     for (Iterator point = begin; point != end; ++point) {
-      sums[point->view].add(point->own.cast<double>());
+      PlanePatch::View& view = views[point->view];
+      const Eigen::Vector3d own = point->own.cast<double>();
+      view.sums.add(own);
+      const double time_s = point->time_s;
+      if (time_s == 0.0) continue;
+      view.timed.add(own, time_s);
+      view.timed_twice.add(own, time_s * time_s);
     }
     const double noise_m = std::max(rms_m, options_.noise_m);
     PlanePatch patch;
-    for (std::size_t view = 0; view < clouds_.size(); ++view) {
-      const double count = sums[view].weight;
+    for (std::size_t k = 0; k < clouds_.size(); ++k) {
+      const PlanePatch::View& view = views[k];
+      const double count = view.sums.weight;
       if (count < options_.min_sensor_points) continue;
       const double variance =
           noise_m * noise_m / count + options_.surface_error_m * options_.surface_error_m;
-      patch.views.push_back({clouds_[view].sensor, sums[view].scaled(1.0 / (variance * count))});
+      const double weight = 1.0 / (variance * count);
+      patch.views.push_back({clouds_[k].sensor, view.sums.scaled(weight), view.timed.scaled(weight),
+                             view.timed_twice.scaled(weight)});
       patch.own_cost += least_eigenvalue(patch.views.back().sums.scatter());
     }
     if (patch.views.size() > 1) patches_.push_back(std::move(patch));
@@ -113,13 +124,22 @@ class PatchSearch {
 };
 
 std::vector<PlacedPoint> placed_points(const std::vector<SensorCloud>& clouds,
-                                       const std::vector<RigidTransform>& poses, int stride) {
+                                       const RigState& state, int stride) {
   std::vector<PlacedPoint> points;
   for (std::size_t view = 0; view < clouds.size(); ++view) {
-    const RigidTransform& T = poses[clouds[view].sensor];
+    const RigidTransform& T = state.poses[clouds[view].sensor];
     const Points& own = clouds[view].cloud->points();
+    const std::vector<double>& times_s = clouds[view].times_s;
+    std::optional<Twist> velocity;
+    if (state.velocity && !times_s.empty()) velocity = velocity_in(T.inverse(), *state.velocity);
     for (std::size_t i = 0; i < own.size(); i += static_cast<std::size_t>(stride)) {
-      points.push_back({(T * own[i].cast<double>()).cast<float>(), own[i], static_cast<int>(view)});
+      const double time_s = times_s.empty() ? 0.0 : times_s.at(i);
+      Eigen::Vector3d point = own[i].cast<double>();
+      if (velocity) {
+        point += time_s * (velocity->linear_mps + velocity->angular_radps.cross(point));
+      }
+      points.push_back({(T * point).cast<float>(), point.cast<float>(), static_cast<float>(time_s),
+                        static_cast<int>(view)});
     }
   }
   return points;
@@ -140,11 +160,10 @@ std::vector<PlacedPoint> sorted(const std::vector<PlacedPoint>& points,
 
 }  // namespace
 
-std::vector<PlanePatch> plane_patches(const std::vector<SensorCloud>& clouds,
-                                      const std::vector<RigidTransform>& poses, int stride,
-                                      const VoxelOptions& options) {
+std::vector<PlanePatch> plane_patches(const std::vector<SensorCloud>& clouds, const RigState& state,
+                                      int stride, const VoxelOptions& options) {
   std::vector<PlanePatch> patches;
-  const std::vector<PlacedPoint> points = placed_points(clouds, poses, stride);
+  const std::vector<PlacedPoint> points = placed_points(clouds, state, stride);
   const LeafGrid grid(options.voxel_m);
   for (const double share : {0.0, 1.0 / 3.0}) {
     const Eigen::Vector3d shift = Eigen::Vector3d::Constant(share * options.voxel_m);

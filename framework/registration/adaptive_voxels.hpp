@@ -9,11 +9,11 @@ namespace croon {
 
 /// How planes are found in the points of all sensors together.
 struct VoxelOptions {
-  double voxel_m = 2.0;
-  double least_voxel_m = 0.5;
-  double max_thickness_ratio = 0.0625;
-  int min_points = 15;
-  int min_sensor_points = 5;
+  double voxel_m = 1.0;
+  double least_voxel_m = 0.25;
+  double max_thickness_ratio = 0.1;
+  int min_points = 10;
+  int min_sensor_points = 3;
   double noise_m = 0.005;          ///< Planes are not trusted to be known better per point,
   double surface_error_m = 0.003;  ///< nor surfaces to be planes, whatever the number of points.
 };
@@ -22,10 +22,12 @@ struct VoxelOptions {
 struct SensorCloud {
   std::size_t sensor = 0;
   const Cloud* cloud = nullptr;
+  /// When its points were measured, seconds, around zero; empty if no motion is of interest.
+  std::vector<double> times_s = {};
 };
 
-/// The pieces of planes that at least two of the clouds of one scene see at `poses` (of a common
-/// frame, by sensor), by adaptive voxels (MLCC: Liu, Yuan and Zhang, T-IM 2022): a cube of edge
+/// The pieces of planes that at least two of the clouds of one scene see in the `state` of the rig,
+/// by adaptive voxels (MLCC: Liu, Yuan and Zhang, T-IM 2022): a cube of edge
 /// `voxel_m` whose points are no plane is cut into eight, down to `least_voxel_m`. Points are on a
 /// plane if the least eigenvalue of their covariance is at most `max_thickness_ratio` of the
 /// middle one. Of each cloud every `stride`-th point takes part.
@@ -34,11 +36,13 @@ struct SensorCloud {
 /// cut along its surface is not taken, because what is cut off depends on the poses; it is inside
 /// of a cube of the other grid. Most planes are in both.
 ///
+/// The sums are of the points as they are at the velocity of `state`; where times are given, the
+/// views have the sums by which a further velocity moves them.
+///
 /// The points of a view weigh together `1 / (s^2 / n + e^2)` for n points with the variance s^2
 /// off the plane and the error e of the surface, so that the cost is in units of its own noise, and
 /// a wall with a thousand points does not outvote ten with a hundred.
-std::vector<PlanePatch> plane_patches(const std::vector<SensorCloud>& clouds,
-                                      const std::vector<RigidTransform>& poses, int stride,
-                                      const VoxelOptions& options);
+std::vector<PlanePatch> plane_patches(const std::vector<SensorCloud>& clouds, const RigState& state,
+                                      int stride, const VoxelOptions& options);
 
 }  // namespace croon

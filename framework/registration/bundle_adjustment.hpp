@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "framework/geometry/pose_covariance.hpp"
@@ -10,31 +11,48 @@ namespace croon {
 
 /// The parameters of `adjust_bundle`.
 struct BundleOptions {
-  std::vector<double> voxels_m = {2.0, 0.5};
-  double max_thickness_ratio = 0.0625;
-  int min_points = 15;
-  int min_sensor_points = 5;
+  std::vector<double> voxels_m = {1.0, 0.25};
+  double max_thickness_ratio = 0.1;
+  int min_points = 10;
+  int min_sensor_points = 3;
   double surface_error_m = 0.003;
-  double kernel_width = 3.0;
+  double kernel_width = 5.0;
   std::vector<double> start_std = {1.0, 0.2};
+  double start_weight = 0.25;
   int coarse_stride = 4;
   int coarse_passes = 3;
   int max_passes = 8;
   int max_iterations = 20;
-  int min_planes = 30;
-  double covariance_scale = 1.25;
+  int min_planes = 6;
+  double covariance_scale = 1.05;
 };
 
 /// The rows of BundleOptions.
 const params::Table<BundleOptions>& bundle_table();
 
-/// The clouds of one scene, each cloud of one moment.
-using BundleScene = std::vector<SensorCloud>;
+/// The clouds of one scene, each corrected to be of one moment.
+struct BundleScene {
+  std::vector<SensorCloud> clouds;
+  /// Of what is not known of the common frame's velocity during the scans, by which they were
+  /// corrected: about its axes in rad/s, along them in m/s. If it is not zero, all clouds need
+  /// their times, with a common zero.
+  Matrix6d motion_covariance = Matrix6d::Zero();
+};
+
+/// Where a sensor starts, and what is known of that pose beside BundleOptions::start_std: the
+/// inverse of its covariance, in the order of Dof; zero if nothing is.
+struct BundleStart {
+  RigidTransform T_common_sensor;
+  Matrix6d information = Matrix6d::Zero();
+};
 
 /// The result of a bundle adjustment.
 struct Bundle {
   std::vector<RigidTransform> poses;  ///< By sensor; the first is the common frame and stays.
-  std::vector<int> planes;            ///< By sensor: how many planes it shares with another one.
+  /// By scene: what was added to the velocity by which it was corrected; none where that is
+  /// certain.
+  std::vector<std::optional<Twist>> velocities;
+  std::vector<int> planes;  ///< By sensor: how many planes it shares with another one.
   /// By sensor, see adjust_bundle; zero for the first and for those that took no part.
   std::vector<PoseCovariance> covariances;
   double cost_per_plane = 0.0;  ///< In units of the planes' noise, see plane_patches.
@@ -48,17 +66,23 @@ struct Bundle {
 /// PlaneCost), with the kernel of Geman and McClure on the cost of each plane, by Newton's method
 /// with the damping of Levenberg and Marquardt. Each pass looks for planes at the present poses
 /// and sums their points once; after that an iteration costs nothing per point. All sensors that
-/// see a plane hold each other, not only those that share it with the first. Coarse passes take a
-/// part of the points. A sensor with less than `min_planes` keeps its pose and takes no part.
+/// see a plane hold each other, not only those that share it with the first. The velocity of a
+/// scene that is not certain is an unknown as well, expected to differ by its covariance. Coarse
+/// passes take a part of the points. A sensor with less than `min_planes` keeps its pose and takes
+/// no part.
 ///
-/// Covariances are those of the M-estimator with dependent errors (the sandwich of Huber 1967 over
-/// clusters, Liang and Zeger 1986): `H^-1 (sum of g_c g_c^T) H^-1` with the gradient g_c of the
-/// planes c of one scene, one direction and one cube of 8 m, whose errors are not independent. A
-/// degree of freedom is weak if its standard deviation is more than a tenth of what was expected of
-/// the start, and unobservable if it is more than a half.
+/// What is known of the starts is an observation like a plane, weighed with `start_weight`: a
+/// registration sees what is no plane, and its error is nearly independent of that of the planes.
+///
+/// Covariances are the jackknife over clusters: the sum of d_c d_c^T of the steps
+/// `d_c = (H - H_c)^-1 g_c` that the poses make if the planes c of one scene, one direction and one
+/// cube of 8 m are left out, whose errors are not independent (see pose_uncertainty). Poses
+/// and velocities are eliminated from each other, and what is known of starts and velocities adds
+/// its own. A degree of freedom is weak if its standard deviation is more than a tenth of
+/// `start_std`, and unobservable if it is more than a half.
 ///
 /// `start` is by sensor, the first of them the identity.
-Bundle adjust_bundle(const std::vector<BundleScene>& scenes,
-                     const std::vector<RigidTransform>& start, const BundleOptions& options);
+Bundle adjust_bundle(const std::vector<BundleScene>& scenes, const std::vector<BundleStart>& start,
+                     const BundleOptions& options);
 
 }  // namespace croon

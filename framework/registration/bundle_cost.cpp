@@ -23,34 +23,49 @@ void for_each_patch(const std::vector<PlanePatch>& patches, const Use& use) {
   });
 }
 
+/// One of the unknowns of six of a patch, and where it is in the gradient.
+struct Place {
+  const PlaneCost::Part* part;
+  Eigen::Index at;
+};
+
 void add(const PlanePatch& patch, const PlaneCost& cost, double bound, BundleCost& sum) {
   const double share = bound / (bound + cost.value);
   const double slope = share * share;
   const double curvature = -2.0 * slope * share / bound;
   sum.value += share * cost.value;
-  for (std::size_t a = 0; a < cost.views.size(); ++a) {
-    const PlaneCost::View& view_a = cost.views[a];
-    const auto at_a = static_cast<Eigen::Index>(6 * patch.views[a].sensor);
-    sum.gradient.segment<6>(at_a) += slope * view_a.gradient;
-    sum.hessian.block<6, 6>(at_a, at_a) += slope * view_a.direct;
-    for (std::size_t b = 0; b < cost.views.size(); ++b) {
-      const PlaneCost::View& view_b = cost.views[b];
-      const auto at_b = static_cast<Eigen::Index>(6 * patch.views[b].sensor);
-      sum.hessian.block<6, 6>(at_a, at_b) +=
-          curvature * view_a.gradient * view_b.gradient.transpose() -
-          slope * view_a.to_plane * view_b.to_plane.transpose();
+  std::vector<Place> places;
+  for (std::size_t k = 0; k < cost.views.size(); ++k) {
+    places.push_back({&cost.views[k], static_cast<Eigen::Index>(6 * patch.views[k].sensor)});
+  }
+  if (!cost.view_velocity.empty()) {
+    const Eigen::Index at = sum.gradient.size() - 6;
+    for (std::size_t k = 0; k < cost.views.size(); ++k) {
+      const Matrix6d mixed = slope * cost.view_velocity[k];
+      sum.hessian.block<6, 6>(places[k].at, at) += mixed;
+      sum.hessian.block<6, 6>(at, places[k].at) += mixed.transpose();
+    }
+    places.push_back({&cost.velocity, at});
+  }
+  for (const Place& a : places) {
+    sum.gradient.segment<6>(a.at) += slope * a.part->gradient;
+    sum.hessian.block<6, 6>(a.at, a.at) += slope * a.part->direct;
+    for (const Place& b : places) {
+      sum.hessian.block<6, 6>(a.at, b.at) +=
+          curvature * a.part->gradient * b.part->gradient.transpose() -
+          slope * a.part->to_plane * b.part->to_plane.transpose();
     }
   }
 }
 
 }  // namespace
 
-double bundle_value(const std::vector<PlanePatch>& patches,
-                    const std::vector<RigidTransform>& poses, double kernel_width) {
+double bundle_value(const std::vector<PlanePatch>& patches, const RigState& state,
+                    double kernel_width) {
   const double bound = kernel_width * kernel_width;
   std::vector<double> parts(parts_of(patches.size()), 0.0);
   for_each_patch(patches, [&](std::size_t part, const PlanePatch& patch) {
-    const double cost = plane_cost_value(patch, poses);
+    const double cost = plane_cost_value(patch, state);
     parts[part] += cost * bound / (bound + cost);
   });
   double sum = 0.0;
@@ -58,16 +73,16 @@ double bundle_value(const std::vector<PlanePatch>& patches,
   return sum;
 }
 
-BundleCost bundle_cost(const std::vector<PlanePatch>& patches,
-                       const std::vector<RigidTransform>& poses, double kernel_width) {
-  const auto size = static_cast<Eigen::Index>(6 * poses.size());
+BundleCost bundle_cost(const std::vector<PlanePatch>& patches, const RigState& state,
+                       double kernel_width) {
+  const auto size = static_cast<Eigen::Index>(6 * (state.poses.size() + (state.velocity ? 1 : 0)));
   BundleCost zero;
   zero.gradient = Eigen::VectorXd::Zero(size);
   zero.hessian = Eigen::MatrixXd::Zero(size, size);
   std::vector<BundleCost> parts(parts_of(patches.size()), zero);
   std::vector<PlaneCost> costs(parts.size());
   for_each_patch(patches, [&](std::size_t part, const PlanePatch& patch) {
-    plane_cost(patch, poses, costs[part]);
+    plane_cost(patch, state, costs[part]);
     add(patch, costs[part], kernel_width * kernel_width, parts[part]);
   });
   BundleCost sum = zero;

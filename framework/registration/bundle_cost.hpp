@@ -6,18 +6,19 @@
 
 namespace croon {
 
-/// The robust cost of `patches` and its derivatives by the poses of all sensors, 6 for each: the
-/// sum of `w^2 c / (w^2 + c)` over the costs c of the planes, with the width w of the kernel.
+/// The robust cost of the `patches` of one scene and its derivatives by the poses of all sensors, 6
+/// for each, and then by the velocity, if `state` has one: the sum of `w^2 c / (w^2 + c)` over the
+/// costs c of the planes, with the width w of the kernel.
 struct BundleCost {
   double value = 0.0;
   Eigen::VectorXd gradient;
   Eigen::MatrixXd hessian;
 };
-BundleCost bundle_cost(const std::vector<PlanePatch>& patches,
-                       const std::vector<RigidTransform>& poses, double kernel_width);
+BundleCost bundle_cost(const std::vector<PlanePatch>& patches, const RigState& state,
+                       double kernel_width);
 
 /// Its value alone.
-double bundle_value(const std::vector<PlanePatch>& patches,
-                    const std::vector<RigidTransform>& poses, double kernel_width);
+double bundle_value(const std::vector<PlanePatch>& patches, const RigState& state,
+                    double kernel_width);
 
 }  // namespace croon

@@ -1,6 +1,6 @@
 #include "framework/registration/joint_uncertainty.hpp"
 
-#include "framework/registration/guarded_inverse.hpp"
+#include "framework/geometry/guarded_inverse.hpp"
 #include "framework/registration/joint_pair.hpp"
 
 namespace croon {

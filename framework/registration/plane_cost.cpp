@@ -12,23 +12,116 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
   return matrix;
 }
 
-PointSums joined(const PlanePatch& patch, const std::vector<RigidTransform>& poses) {
+/// The sums of a view's points in its sensor's frame, after the motion for their times.
+PlanePatch::View displaced(const PlanePatch::View& view, const Twist& own) {
+  const Eigen::Vector3d& u = own.linear_mps;
+  const Eigen::Matrix3d turn = cross_matrix(own.angular_radps);
+  PlanePatch::View after = view;
+  // A point p moves by t d with d = u + w x p, so p p^T by t (d p^T + p d^T) + t^2 d d^T.
+  const auto once = [&](const PointSums& timed) -> Eigen::Matrix3d {
+    const Eigen::Matrix3d half = u * timed.sum.transpose() + turn * timed.products;
+    return half + half.transpose();
+  };
+  const PointSums &timed = view.timed, &twice = view.timed_twice;
+  const Eigen::Matrix3d across = turn * twice.sum * u.transpose();
+  after.sums.sum += timed.weight * u + turn * timed.sum;
+  after.sums.products += once(timed) + twice.weight * u * u.transpose() + across +
+                         across.transpose() + turn * twice.products * turn.transpose();
+  after.timed.sum += twice.weight * u + turn * twice.sum;
+  after.timed.products += once(twice);
+  return after;
+}
+
+/// The view of a patch at the velocity of `state`.
+PlanePatch::View at_velocity(const PlanePatch::View& view, const RigState& state) {
+  if (!state.velocity) return view;
+  return displaced(view, velocity_in(state.poses[view.sensor].inverse(), *state.velocity));
+}
+
+/// The views of a patch at the velocity of a state, and the sums of all points in the common frame.
+struct Joined {
+  std::vector<PlanePatch::View> views;
   PointSums all;
+};
+
+Joined joined(const PlanePatch& patch, const RigState& state) {
+  Joined result;
+  result.views.reserve(patch.views.size());
   for (const PlanePatch::View& view : patch.views) {
-    const PointSums part = moved(view.sums, poses[view.sensor]);
-    all.weight += part.weight;
-    all.sum += part.sum;
-    all.products += part.products;
+    result.views.push_back(at_velocity(view, state));
+    const PointSums part = moved(result.views.back().sums, state.poses[view.sensor]);
+    result.all.weight += part.weight;
+    result.all.sum += part.sum;
+    result.all.products += part.products;
   }
-  return all;
+  return result;
+}
+
+/// The plane of a patch: its axes, the normal first, the square roots of the second derivatives by
+/// its turns about the two other axes and its motion along the normal, and the mean of its points.
+struct FittedPlane {
+  Eigen::Matrix3d axes;
+  Eigen::Vector3d stiffness;
+  Eigen::Vector3d centre;
+};
+
+/// How points move by the six of a part: a turn is a rotation, which bends their ways, or a rate of
+/// turning, which does not.
+enum class Turn { rotation, rate };
+
+/// The derivatives by the six of a turn about the origin of `T` and a translation of the points
+/// with these sums.
+PlaneCost::Part part_of(const PointSums& sums, const RigidTransform& T, const FittedPlane& plane,
+                        Turn turn) {
+  using Eigen::Matrix3d;
+  using Eigen::Vector3d;
+  const Vector3d n = plane.axes.col(0);
+  const Matrix3d N = cross_matrix(n);
+  // With arms a = R s and offsets o = a + t - c: sums of a, o, a a^T and a o^T.
+  const Vector3d shift = T.translation - plane.centre;
+  const Vector3d arm = T.rotation * sums.sum;
+  const Vector3d offset = arm + sums.weight * shift;
+  const Matrix3d arms = T.rotation * sums.products * T.rotation.transpose();
+  const Matrix3d mixed = arms + arm * shift.transpose();
+  // A point moves by (turn x a + d), its distance r = n . o by the row j = ((a x n)^T, n^T).
+  const Vector3d arm_distance = mixed * n;  // sum of a r
+  const double distance = offset.dot(n);    // sum of r
+  PlaneCost::Part part;
+  part.gradient << 2.0 * arm_distance.cross(n), 2.0 * distance * n;
+  Matrix3d bend = Matrix3d::Zero();  // The second derivative of a turned arm.
+  if (turn == Turn::rotation) {
+    bend = 0.5 * (n * arm_distance.transpose() + arm_distance * n.transpose());
+    bend.diagonal().array() -= n.dot(arm_distance);
+  }
+  const Vector3d turned = -(N * arm);
+  part.direct.topLeftCorner<3, 3>() = 2.0 * (N * arms * N.transpose() + bend);
+  part.direct.topRightCorner<3, 3>() = 2.0 * turned * n.transpose();
+  part.direct.bottomLeftCorner<3, 3>() = 2.0 * n * turned.transpose();
+  part.direct.bottomRightCorner<3, 3>() = 2.0 * sums.weight * n * n.transpose();
+  for (int i = 0; i < 2; ++i) {
+    const Vector3d q = plane.axes.col(i + 1);
+    part.to_plane.col(i) << 2.0 * (arm_distance.cross(q) - N * (mixed * q)),
+        2.0 * (distance * q + n * offset.dot(q));
+  }
+  part.to_plane.col(2) << 2.0 * turned, 2.0 * sums.weight * n;
+  part.to_plane *= plane.stiffness.cwiseInverse().asDiagonal();
+  return part;
+}
+
+/// The velocity of the origin of a sensor at `origin` follows from that of the common frame:
+/// `(w, u + w x origin)`.
+Matrix6d at_origin(const Eigen::Vector3d& origin) {
+  Matrix6d map = Matrix6d::Identity();
+  map.bottomLeftCorner<3, 3>() = -cross_matrix(origin);
+  return map;
 }
 
 }  // namespace
 
-void PointSums::add(const Eigen::Vector3d& point) {
-  weight += 1.0;
-  sum += point;
-  products.noalias() += point * point.transpose();
+void PointSums::add(const Eigen::Vector3d& point, double point_weight) {
+  weight += point_weight;
+  sum += point_weight * point;
+  products.noalias() += point_weight * point * point.transpose();
 }
 
 PointSums PointSums::scaled(double factor) const {
@@ -56,59 +149,41 @@ double least_eigenvalue(const Eigen::Matrix3d& scatter) {
   return std::max(solver.eigenvalues()(0), 0.0);
 }
 
-double plane_cost_value(const PlanePatch& patch, const std::vector<RigidTransform>& poses) {
-  return std::max(least_eigenvalue(joined(patch, poses).scatter()) - patch.own_cost, 0.0);
+double plane_cost_value(const PlanePatch& patch, const RigState& state) {
+  const Joined points = joined(patch, state);
+  return std::max(least_eigenvalue(points.all.scatter()) - patch.own_cost, 0.0);
 }
 
-void plane_cost(const PlanePatch& patch, const std::vector<RigidTransform>& poses,
-                PlaneCost& cost) {
-  using Eigen::Matrix3d;
-  using Eigen::Vector3d;
-  const PointSums all = joined(patch, poses);
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(all.scatter());
-  const Vector3d& variances = solver.eigenvalues();
+void plane_cost(const PlanePatch& patch, const RigState& state, PlaneCost& cost) {
+  const Joined points = joined(patch, state);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(points.all.scatter());
+  const Eigen::Vector3d& variances = solver.eigenvalues();
   const double least = std::max(variances(0), 0.0);
-  const Vector3d n = solver.eigenvectors().col(0);
   cost.value = std::max(least - patch.own_cost, 0.0);
-  cost.normal = n;
-  cost.centre = all.sum / all.weight;
-  cost.views.assign(patch.views.size(), {});
+  cost.normal = solver.eigenvectors().col(0);
+  cost.centre = points.all.sum / points.all.weight;
   // The plane turns about the two other eigenvectors and moves along n. The second derivatives by
   // these three are 2 (l_1 - l_0), 2 (l_2 - l_0) and 2 w; they do not mix.
   const double smallest_gap = 1e-12 * variances(2) + 1e-300;
-  const Vector3d curvature =
-      2.0 * Vector3d(std::max(variances(1) - least, smallest_gap),
-                     std::max(variances(2) - least, smallest_gap), all.weight);
-  const Matrix3d N = cross_matrix(n);
-  for (std::size_t k = 0; k < patch.views.size(); ++k) {
-    const PointSums& sums = patch.views[k].sums;
-    const RigidTransform& T = poses[patch.views[k].sensor];
-    PlaneCost::View& view = cost.views[k];
-    // With arms a = R s and offsets o = a + t - c: sums of a, o, a a^T and a o^T.
-    const Vector3d shift = T.translation - cost.centre;
-    const Vector3d arm = T.rotation * sums.sum;
-    const Vector3d offset = arm + sums.weight * shift;
-    const Matrix3d arms = T.rotation * sums.products * T.rotation.transpose();
-    const Matrix3d mixed = arms + arm * shift.transpose();
-    // A point moves by (turn x a + d), its distance r = n . o by the row j = ((a x n)^T, n^T).
-    const Vector3d arm_distance = mixed * n;  // sum of a r
-    const double distance = offset.dot(n);    // sum of r
-    view.gradient << 2.0 * arm_distance.cross(n), 2.0 * distance * n;
-    Matrix3d bend = n * arm_distance.transpose();  // The second derivative of a turned arm.
-    bend = 0.5 * (bend + bend.transpose()).eval();
-    bend.diagonal().array() -= n.dot(arm_distance);
-    const Vector3d turned = -(N * arm);
-    view.direct.topLeftCorner<3, 3>() = 2.0 * (N * arms * N.transpose() + bend);
-    view.direct.topRightCorner<3, 3>() = 2.0 * turned * n.transpose();
-    view.direct.bottomLeftCorner<3, 3>() = 2.0 * n * turned.transpose();
-    view.direct.bottomRightCorner<3, 3>() = 2.0 * sums.weight * n * n.transpose();
-    for (int i = 0; i < 2; ++i) {
-      const Vector3d q = solver.eigenvectors().col(i + 1);
-      view.to_plane.col(i) << 2.0 * (arm_distance.cross(q) - N * (mixed * q)),
-          2.0 * (distance * q + n * offset.dot(q));
-    }
-    view.to_plane.col(2) << 2.0 * turned, 2.0 * sums.weight * n;
-    view.to_plane *= curvature.cwiseSqrt().cwiseInverse().asDiagonal();
+  const Eigen::Vector3d curvature =
+      2.0 * Eigen::Vector3d(std::max(variances(1) - least, smallest_gap),
+                            std::max(variances(2) - least, smallest_gap), points.all.weight);
+  const FittedPlane plane = {solver.eigenvectors(), curvature.cwiseSqrt(), cost.centre};
+  cost.views.clear();
+  cost.view_velocity.clear();
+  cost.velocity = {};
+  for (const PlanePatch::View& view : points.views) {
+    const RigidTransform& T = state.poses[view.sensor];
+    cost.views.push_back(part_of(view.sums, T, plane, Turn::rotation));
+    if (!state.velocity) continue;
+    // For its time t a point moves by the velocity as it does by a step of the pose t times that.
+    const Matrix6d from_common = at_origin(T.translation);
+    const PlaneCost::Part once = part_of(view.timed, T, plane, Turn::rotation);
+    const PlaneCost::Part twice = part_of(view.timed_twice, T, plane, Turn::rate);
+    cost.velocity.gradient += from_common.transpose() * once.gradient;
+    cost.velocity.to_plane += from_common.transpose() * once.to_plane;
+    cost.velocity.direct += from_common.transpose() * twice.direct * from_common;
+    cost.view_velocity.emplace_back(once.direct * from_common);
   }
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "framework/geometry/dof.hpp"
+#include "framework/geometry/twist.hpp"
 
 namespace croon {
 
@@ -14,7 +16,7 @@ struct PointSums {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
 
-  void add(const Eigen::Vector3d& point);
+  void add(const Eigen::Vector3d& point, double point_weight = 1.0);
   /// The sums with all weights times `factor`.
   PointSums scaled(double factor) const;
   /// `sum w (p - c)(p - c)^T` around the mean c, m^2; zero without points.
@@ -33,21 +35,34 @@ struct PlanePatch {
   struct View {
     std::size_t sensor = 0;
     PointSums sums;
+    /// The same with each weight times the point's time, s, and times its square; zero if the times
+    /// are not known.
+    PointSums timed = {};
+    PointSums timed_twice = {};
   };
   std::vector<View> views;
   /// The sum of what each sensor leaves on a plane of its own: no poses make the cost smaller.
   double own_cost = 0.0;
 };
 
-/// The cost of a patch at given poses, and its derivatives by the poses. With `n` the normal and
-/// `c` the mean of all its points the cost is `min over planes of sum w (n . (p - c))^2`, the least
-/// eigenvalue of the scatter, less PlanePatch::own_cost. The plane is eliminated in closed form
-/// (BALM: Liu and Zhang, RA-L 2021; Liu, Liu and Zhang, T-RO 2023).
+/// The sensors of a rig in a common frame, by which they see planes.
+struct RigState {
+  std::vector<RigidTransform> poses;  ///< T_common_sensor, by sensor.
+  /// If the rig moves while it scans: by how much the common frame's velocity differs from that by
+  /// which the points were corrected to be of the time zero. A point p moves by t (u + w x p).
+  std::optional<Twist> velocity = std::nullopt;
+};
+
+/// The cost of a patch, and its derivatives. With `n` the normal and `c` the mean of all its points
+/// the cost is `min over planes of sum w (n . (p - c))^2`, the least eigenvalue of the scatter,
+/// less PlanePatch::own_cost. The plane is eliminated in closed form (BALM: Liu and Zhang, RA-L
+/// 2021; Liu, Liu and Zhang, T-RO 2023).
 struct PlaneCost {
-  /// The part of one view, by the turn about the sensor's own origin from the left (rad) and the
-  /// translation (m), in the order of Dof. The Hessian by the views a and b is `(a == b) direct_a -
-  /// to_plane_a to_plane_b^T`: the poses are coupled by the plane alone.
-  struct View {
+  /// The part of one unknown of six: the pose of a view's sensor, as a turn about its own origin
+  /// from the left (rad) and a translation (m), in the order of Dof; or the velocity. The Hessian
+  /// by two unknowns a and b is `mixed_ab - to_plane_a to_plane_b^T`, where mixed_ab is not zero
+  /// for an unknown with itself (`direct`), and for a pose with the velocity.
+  struct Part {
     Vector6d gradient = Vector6d::Zero();
     Matrix6d direct = Matrix6d::Zero();
     Eigen::Matrix<double, 6, 3> to_plane = Eigen::Matrix<double, 6, 3>::Zero();
@@ -55,13 +70,17 @@ struct PlaneCost {
   double value = 0.0;  ///< Not negative.
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  std::vector<View> views;  ///< In the order of PlanePatch::views.
+  std::vector<Part> views;  ///< In the order of PlanePatch::views.
+  /// Of the velocity; zero if RigState has none.
+  Part velocity;
+  std::vector<Matrix6d> view_velocity;  ///< By view: mixed_ab with the velocity.
 };
 
-/// Only the value of the cost; `T_common_sensor` is by sensor.
-double plane_cost_value(const PlanePatch& patch, const std::vector<RigidTransform>& poses);
+/// Only the value of the cost.
+double plane_cost_value(const PlanePatch& patch, const RigState& state);
 
-/// The cost with its derivatives; writes into `cost` to use its memory again.
-void plane_cost(const PlanePatch& patch, const std::vector<RigidTransform>& poses, PlaneCost& cost);
+/// The cost with its derivatives; writes into `cost` to use its memory again. To first order in the
+/// velocity.
+void plane_cost(const PlanePatch& patch, const RigState& state, PlaneCost& cost);
 
 }  // namespace croon

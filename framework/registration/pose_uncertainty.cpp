@@ -11,7 +11,7 @@
 #include "framework/base/statistics.hpp"
 #include "framework/registration/direction_balance.hpp"
 #include "framework/registration/gauss_newton.hpp"
-#include "framework/registration/guarded_inverse.hpp"
+#include "framework/geometry/guarded_inverse.hpp"
 
 namespace croon {
 namespace {

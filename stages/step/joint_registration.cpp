@@ -11,7 +11,7 @@
 #include "framework/geometry/pose_mean.hpp"
 #include "framework/params/choice.hpp"
 #include "framework/pipeline/shared_view.hpp"
-#include "framework/registration/guarded_inverse.hpp"
+#include "framework/geometry/guarded_inverse.hpp"
 #include "framework/registration/joint_uncertainty.hpp"
 #include "framework/spatial/deskew.hpp"
 #include "framework/stage/motion.hpp"
@@ -29,7 +29,7 @@ struct Params : JointOptions {
   std::vector<double> coarse_distances_m = {2.0, 1.0, 0.5};
   bool motion = true;
   double min_motion = 100.0;
-  double max_speed_std_mps = 0.25;
+  double max_speed_std_mps = 0.4;
 };
 
 const params::Table<Params>& table() {
@@ -285,7 +285,7 @@ StageEntry joint_registration() {
       "joint_registration",
       "Sees the whole rig: registers all sensors together with the velocity of each scene, and "
       "removes the distortion of the scans by it.",
-      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 2);
+      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 3);
 }
 
 }  // namespace croon::stages::step

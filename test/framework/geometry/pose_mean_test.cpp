@@ -204,6 +204,44 @@ TEST(ConsensusPose, APoseWithMoreVotesWins) {
   EXPECT_THROW(consensus_pose({RigidTransform()}, kBounds, {1.0, 2.0}), std::logic_error);
 }
 
+/// The information of an observation with these standard deviations of all six.
+Matrix6d information_of(double std) { return Matrix6d::Identity() / (std * std); }
+
+TEST(InformedMean, OfEquallyKnownPosesIsTheirMean) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 50; ++i) {
+    std::vector<InformedPose> informed;
+    const std::vector<RigidTransform> poses = poses_near(rng, test::random_pose(rng, 3.0), 5);
+    for (const RigidTransform& pose : poses) informed.push_back({pose, information_of(0.1)});
+    const InformedPose mean = informed_mean(informed);
+    expect_near(mean.pose, mean_pose(poses), 1e-5);
+    EXPECT_LT((mean.information - 5.0 * information_of(0.1)).norm(), 1e-9);
+  }
+}
+
+TEST(InformedMean, TakesEachDirectionFromThePoseThatKnowsIt) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 50; ++i) {
+    const RigidTransform one = test::random_pose(rng, 3.0);
+    const RigidTransform other = test::pose_near(rng, one, 0.2, 0.03);
+    Matrix6d knows_x = information_of(1e-1), knows_others = information_of(1e-4);
+    const auto x = static_cast<Eigen::Index>(Dof::x);
+    knows_x(x, x) = 1e8;
+    knows_others(x, x) = 1e2;
+    const InformedPose mean = informed_mean({{one, knows_x}, {other, knows_others}});
+    EXPECT_NEAR(mean.pose.translation.x(), one.translation.x(), 1e-6);
+    EXPECT_NEAR(mean.pose.translation.y(), other.translation.y(), 1e-6);
+    EXPECT_LT(pose_error(mean.pose, other).rotation_rad, 1e-6);
+  }
+}
+
+TEST(InformedMean, OfOnePoseIsThePoseToTheLastBit) {
+  Rng rng = test::test_rng();
+  const RigidTransform pose = test::random_pose(rng, 3.0);
+  EXPECT_EQ(informed_mean({{pose, information_of(0.1)}}).pose.rotation, pose.rotation);
+  EXPECT_THROW(informed_mean({}), std::logic_error);
+}
+
 TEST(Agree, CountsTheBoundItselfAndIsSymmetric) {
   const RigidTransform a;
   const RigidTransform b = {Eigen::Matrix3d::Identity(), {0.1, 0.0, 0.0}};

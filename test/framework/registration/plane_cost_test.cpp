@@ -61,13 +61,13 @@ TEST(PlaneCost, IsTheSquaredDistanceToTheBestPlaneLessThatOfEachSensor) {
   Rng rng = test::test_rng();
   const PlanesInView made = planes_in_view(rng, 20, 0.0);
   for (const PlanePatch& patch : made.patches) {
-    EXPECT_NEAR(plane_cost_value(patch, made.poses), 0.0, 1e-9);
+    EXPECT_NEAR(plane_cost_value(patch, {made.poses}), 0.0, 1e-9);
     // Moved by 0.1 m along its normal, a third of the points leaves a cost of n (0.1 m)^2 2 / 9.
     PlaneCost cost;
-    plane_cost(patch, made.poses, cost);
+    plane_cost(patch, {made.poses}, cost);
     std::vector<RigidTransform> poses = made.poses;
     poses[1].translation += 0.1 * cost.normal;
-    EXPECT_NEAR(plane_cost_value(patch, poses), 60 * 0.01 * 2.0 / 9.0, 0.02);
+    EXPECT_NEAR(plane_cost_value(patch, {poses}), 60 * 0.01 * 2.0 / 9.0, 0.02);
   }
 }
 
@@ -76,19 +76,19 @@ TEST(PlaneCost, IsNeverNegative) {
   const PlanesInView made = planes_in_view(rng, 50, 0.2);
   for (int i = 0; i < 20; ++i) {
     const auto poses = stepped(made.poses, random_step(rng, 0.3));
-    for (const PlanePatch& patch : made.patches) EXPECT_GE(plane_cost_value(patch, poses), 0.0);
+    for (const PlanePatch& patch : made.patches) EXPECT_GE(plane_cost_value(patch, {poses}), 0.0);
   }
 }
 
 TEST(PlaneCost, TheTruthIsTheLeastOnPlanesWithoutNoise) {
   Rng rng = test::test_rng();
   const PlanesInView made = planes_in_view(rng, 30, 0.0);
-  const BundleCost at_truth = bundle_cost(made.patches, made.poses, 3.0);
+  const BundleCost at_truth = bundle_cost(made.patches, {made.poses}, 3.0);
   EXPECT_NEAR(at_truth.value, 0.0, 1e-9);
   EXPECT_LT(at_truth.gradient.norm(), 1e-6);
   for (int i = 0; i < 50; ++i) {
     const auto poses = stepped(made.poses, random_step(rng, 0.01));
-    EXPECT_GT(bundle_cost(made.patches, poses, 3.0).value, 1e-3);
+    EXPECT_GT(bundle_cost(made.patches, {poses}, 3.0).value, 1e-3);
   }
 }
 
@@ -98,9 +98,9 @@ TEST(BundleCost, HasTheDerivativesOfItsValue) {
   for (const double kernel_width : {0.5, 3.0, 1e6}) {
     const auto poses = stepped(made.poses, random_step(rng, 0.02));
     const auto value = [&](const Eigen::VectorXd& step) {
-      return bundle_cost(made.patches, stepped(poses, step), kernel_width).value;
+      return bundle_cost(made.patches, {stepped(poses, step)}, kernel_width).value;
     };
-    const BundleCost cost = bundle_cost(made.patches, poses, kernel_width);
+    const BundleCost cost = bundle_cost(made.patches, {poses}, kernel_width);
     EXPECT_NEAR((cost.hessian - cost.hessian.transpose()).norm(), 0.0, 1e-9 * cost.hessian.norm());
     for (int i = 0; i < 20; ++i) {
       const Eigen::VectorXd direction = random_step(rng, 1.0);
@@ -116,15 +116,78 @@ TEST(BundleCost, HasTheDerivativesOfItsValue) {
   }
 }
 
+/// A point, when it was measured, and by whom.
+struct TimedPoint {
+  std::size_t sensor;
+  Eigen::Vector3d point;
+  double time_s;
+};
+
+/// The patch of these points after they have moved with the common frame's `velocity`.
+PlanePatch patch_of(const std::vector<TimedPoint>& points, const std::vector<RigidTransform>& poses,
+                    const Twist& velocity) {
+  PlanePatch patch;
+  for (std::size_t k = 0; k < kSensors; ++k) {
+    PlanePatch::View view;
+    view.sensor = k;
+    for (const TimedPoint& one : points) {
+      if (one.sensor != k) continue;
+      const Eigen::Vector3d common = poses[k] * one.point;
+      const Eigen::Vector3d moved =
+          common + one.time_s * (velocity.linear_mps + velocity.angular_radps.cross(common));
+      const Eigen::Vector3d own = poses[k].inverse() * moved;
+      view.sums.add(own);
+      view.timed.add(own, one.time_s);
+      view.timed_twice.add(own, one.time_s * one.time_s);
+    }
+    patch.views.push_back(view);
+  }
+  return patch;
+}
+
+TEST(BundleCost, FollowsTheVelocityAsIfThePointsHadMoved) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 20; ++i) {
+    std::vector<RigidTransform> poses;
+    for (std::size_t k = 0; k < kSensors; ++k) poses.push_back(test::random_pose(rng, 2.0));
+    std::vector<TimedPoint> points;
+    for (int n = 0; n < 60; ++n) {
+      Eigen::Vector3d point;
+      for (int axis = 0; axis < 3; ++axis) point(axis) = rng.uniform(-1.0, 1.0);
+      point.z() *= 0.05;
+      const double time_s = rng.uniform(-0.1, 0.1);
+      points.push_back({static_cast<std::size_t>(n) % kSensors, point, time_s});
+    }
+    const Vector6d direction = random_step(rng, 1.0).head<6>();
+    const auto velocity = [&](double size) {
+      return Twist{size * direction.head<3>(), size * direction.tail<3>()};
+    };
+    const std::vector<PlanePatch> patches = {patch_of(points, poses, {})};
+    const auto value = [&](double size) {
+      return bundle_value(patches, {poses, velocity(size)}, 3.0);
+    };
+    EXPECT_NEAR(value(0.5), bundle_value({patch_of(points, poses, velocity(0.5))}, {poses}, 3.0),
+                1e-9);
+    const BundleCost cost = bundle_cost(patches, {poses, Twist()}, 3.0);
+    constexpr double kShort = 1e-5, kLong = 1e-2;
+    const Vector6d gradient = cost.gradient.tail(6);
+    EXPECT_NEAR(gradient.dot(direction), (value(kShort) - value(-kShort)) / (2.0 * kShort),
+                1e-5 * gradient.norm() + 1e-9);
+    const double curvature = (value(kLong) - 2.0 * value(0.0) + value(-kLong)) / (kLong * kLong);
+    const Matrix6d hessian = cost.hessian.bottomRightCorner(6, 6);
+    EXPECT_NEAR(direction.dot(hessian * direction), curvature, 1e-3 * hessian.norm());
+  }
+}
+
 TEST(BundleCost, DoesNotChangeIfAllMoveTogether) {
   Rng rng = test::test_rng();
   const PlanesInView made = planes_in_view(rng, 20, 0.1);
   const auto poses = stepped(made.poses, random_step(rng, 0.02));
-  const BundleCost before = bundle_cost(made.patches, poses, 3.0);
+  const BundleCost before = bundle_cost(made.patches, {poses}, 3.0);
   const RigidTransform motion = test::random_pose(rng, 5.0);
   std::vector<RigidTransform> together;
   for (const RigidTransform& T : poses) together.push_back(motion * T);
-  EXPECT_NEAR(bundle_cost(made.patches, together, 3.0).value, before.value, 1e-8 * before.value);
+  EXPECT_NEAR(bundle_cost(made.patches, {together}, 3.0).value, before.value, 1e-8 * before.value);
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
   for (Eigen::Index at = 3; at < before.gradient.size(); at += 6) {
     shift += before.gradient.segment<3>(at);

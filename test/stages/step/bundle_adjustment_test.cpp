@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -10,6 +11,7 @@
 #include "framework/simulation/rig.hpp"
 #include "framework/simulation/sensor_model.hpp"
 #include "framework/simulation/simulated_scene.hpp"
+#include "framework/stage/motion.hpp"
 #include "framework/stage/rig_step.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"
@@ -55,9 +57,10 @@ StandingRig standing_rig(std::uint64_t scenes) {
   return rig;
 }
 
-void adjust(std::vector<RigEstimate>& rig) {
+void adjust(std::vector<RigEstimate>& rig,
+            const std::string& step_json = R"({"step": "bundle_adjustment"})") {
   Rng rng = test::test_rng();
-  const auto step = test::stage<Step>(R"({"step": "bundle_adjustment"})");
+  const auto step = test::stage<Step>(step_json);
   dynamic_cast<const RigStep&>(*step).adjust(rig, rng);
 }
 
@@ -160,6 +163,84 @@ TEST(BundleAdjustment, ASensorIsHeldByOthersThanTheReference) {
   }
 }
 
+/// The estimate of `sensor`.
+RigEstimate& of_sensor(StandingRig& rig, const std::string& sensor) {
+  return *std::find_if(rig.estimates.begin(), rig.estimates.end(),
+                       [&](const RigEstimate& one) { return one.source == sensor; });
+}
+
+TEST(BundleAdjustment, ARejectedPoseTakesNoPart) {
+  StandingRig rig = standing_rig(1), without = rig;
+  Estimate& astray = of_sensor(rig, "left").estimate;
+  astray.T_target_source.translation.x() += 3.0;
+  astray.rejection = "astray";
+  const RigidTransform before = astray.T_target_source;
+  without.estimates.erase(without.estimates.begin() +
+                          (&of_sensor(without, "left") - without.estimates.data()));
+  adjust(rig.estimates);
+  adjust(without.estimates);
+  EXPECT_EQ(astray.T_target_source.translation, before.translation);
+  EXPECT_EQ(astray.rejection, "astray");
+  for (const RigEstimate& one : without.estimates) {
+    EXPECT_EQ(one.estimate.T_target_source.translation,
+              of_sensor(rig, one.source).estimate.T_target_source.translation);
+  }
+}
+
+TEST(BundleAdjustment, ASensorThatWouldMoveFarIsRejectedAndTheOthersDoWithoutIt) {
+  StandingRig rig = standing_rig(1);
+  for (RigEstimate& one : rig.estimates) one.estimate.T_target_source = rig.truth[one.source];
+  Estimate& astray = of_sensor(rig, "left").estimate;
+  astray.T_target_source.translation.z() += 0.2;
+  const RigidTransform before = astray.T_target_source;
+  adjust(rig.estimates, R"({"step": "bundle_adjustment", "max_correction_m": 0.15})");
+  ASSERT_TRUE(astray.rejection);
+  EXPECT_THAT(*astray.rejection, HasSubstr("above 180.000 or 0.150"));
+  EXPECT_EQ(astray.T_target_source.translation, before.translation);
+  for (RigEstimate& one : rig.estimates) {
+    if (one.source == "left") continue;
+    EXPECT_FALSE(one.estimate.rejection);
+    const PoseError error = pose_error(one.estimate.T_target_source, rig.truth[one.source]);
+    EXPECT_NEAR(error.dof(static_cast<Eigen::Index>(Dof::z)), 0.0, 0.003) << one.source;
+  }
+}
+
+/// The standing rig with a time for each point: sensors scan one after another.
+void add_times(StandingRig& rig) {
+  const auto timed = [](const Cloud& cloud, double time_s) {
+    PointCloud with = cloud.with_channels();
+    with.channels.push_back(make_channel(kTime, std::vector<double>(with.points.size(), time_s)));
+    return std::make_shared<const Cloud>(std::move(with), StreamKey(1));
+  };
+  double time_s = 1000.0;
+  for (RigEstimate& one : rig.estimates) {
+    one.estimate.target = timed(*one.estimate.target, 1000.0);
+    one.estimate.source = timed(*one.estimate.source, time_s += 0.02);
+  }
+}
+
+TEST(BundleAdjustment, WhatIsNotKnownOfTheVelocityMovesASensorByTheTimeBetweenScans) {
+  StandingRig rig = standing_rig(1), known = rig;
+  add_times(rig);
+  Matrix6d motion = 1e-12 * Matrix6d::Identity();
+  motion(3, 3) = 1.0;  // 1 m/s along x.
+  for (RigEstimate& one : rig.estimates) one.estimate.extras.put(kMotionCovariance, motion);
+  const std::string step =
+      R"({"step": "bundle_adjustment", "start_weight": 1, "start_std": [10, 10]})";
+  adjust(rig.estimates, step);
+  adjust(known.estimates, step);
+  // All points of a sensor are of one time, so that nothing but the covariance holds the velocity.
+  double delay_s = 0.0;
+  for (const RigEstimate& one : rig.estimates) {
+    delay_s += 0.02;
+    const Matrix6d more =
+        one.estimate.covariance->matrix - of_sensor(known, one.source).estimate.covariance->matrix;
+    EXPECT_NEAR(std::sqrt(more(3, 3)), delay_s, 0.1 * delay_s) << one.source;
+    EXPECT_LT(more(4, 4), 0.01 * more(3, 3)) << one.source;
+    EXPECT_LT(more(5, 5), 0.01 * more(3, 3)) << one.source;
+  }
+}
+
 TEST(BundleAdjustment, TooFewPlanesAreAnErrorWithItsReason) {
   Rng rng = test::test_rng();
   Estimate estimate;
@@ -174,6 +255,22 @@ TEST(BundleAdjustment, TooFewPlanesAreAnErrorWithItsReason) {
   } catch (const StageError& error) {
     EXPECT_THAT(error.what(), HasSubstr("shared with another sensor"));
   }
+}
+
+TEST(BundleAdjustment, TooFewPlanesLeaveAPoseThatIsKnown) {
+  Rng rng = test::test_rng();
+  Estimate estimate;
+  estimate.target =
+      std::make_shared<const Cloud>(test::random_cloud(rng, 2000, 10.0), StreamKey(1));
+  estimate.source =
+      std::make_shared<const Cloud>(test::random_cloud(rng, 2000, 10.0), StreamKey(2));
+  estimate.T_target_source = test::random_pose(rng, 1.0);
+  estimate.covariance = PoseCovariance{1e-4 * Matrix6d::Identity(), {}};
+  const Estimate kept =
+      test::stage<Step>(R"({"step": "bundle_adjustment"})")->advance(estimate, rng);
+  EXPECT_EQ(kept.T_target_source.rotation, estimate.T_target_source.rotation);
+  EXPECT_EQ(kept.T_target_source.translation, estimate.T_target_source.translation);
+  EXPECT_LT((kept.covariance->matrix - estimate.covariance->matrix).norm(), 1e-12);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "framework/registration/guarded_inverse.hpp"
+#include "framework/geometry/guarded_inverse.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,185 @@
+#include "framework/registration/bundle_system.hpp"
+
+#include "framework/base/angles.hpp"
+#include "framework/base/threads.hpp"
+#include "framework/geometry/guarded_inverse.hpp"
+
+namespace croon {
+namespace {
+
+/// How far `T` is from `start`, in the order of Dof.
+Vector6d moved_by(const RigidTransform& T, const RigidTransform& start) {
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(T.rotation * start.rotation.transpose()));
+  Vector6d offset;
+  offset << turn.angle() * turn.axis(), T.translation - start.translation;
+  return offset;
+}
+
+Vector6d vector_of(const Twist& velocity) {
+  Vector6d vector;
+  vector << velocity.angular_radps, velocity.linear_mps;
+  return vector;
+}
+
+/// The cost by these unknowns of six each alone.
+BundleCost part_of(const BundleCost& cost, const std::vector<std::size_t>& unknowns) {
+  const auto size = static_cast<Eigen::Index>(6 * unknowns.size());
+  BundleCost part = {cost.value, Eigen::VectorXd(size), Eigen::MatrixXd(size, size)};
+  for (std::size_t a = 0; a < unknowns.size(); ++a) {
+    const auto to_a = static_cast<Eigen::Index>(6 * a);
+    const auto from_a = static_cast<Eigen::Index>(6 * unknowns[a]);
+    part.gradient.segment<6>(to_a) = cost.gradient.segment<6>(from_a);
+    for (std::size_t b = 0; b < unknowns.size(); ++b) {
+      part.hessian.block<6, 6>(to_a, static_cast<Eigen::Index>(6 * b)) =
+          cost.hessian.block<6, 6>(from_a, static_cast<Eigen::Index>(6 * unknowns[b]));
+    }
+  }
+  return part;
+}
+
+}  // namespace
+
+Twist stepped(const Twist& velocity, const Vector6d& step) {
+  return {velocity.angular_radps + step.head<3>(), velocity.linear_mps + step.tail<3>()};
+}
+
+RigidTransform stepped(const RigidTransform& T, const Vector6d& step) {
+  return {nearest_rotation(rotation_exp(step.head<3>()) * T.rotation),
+          T.translation + step.tail<3>()};
+}
+
+ReducedCost reduced(const BundleCost& cost, bool has_velocity) {
+  ReducedCost result = {cost.gradient, cost.hessian, {}, {}};
+  if (!has_velocity) return result;
+  const Eigen::Index size = cost.gradient.size() - 6;
+  const Matrix6d inverse = guarded_inverse<6>(cost.hessian.bottomRightCorner<6, 6>());
+  const Eigen::MatrixXd mixed = cost.hessian.bottomLeftCorner(6, size);
+  result.by_pose = -inverse * mixed;
+  result.rest = -inverse * cost.gradient.tail<6>();
+  result.gradient = cost.gradient.head(size) + mixed.transpose() * result.rest;
+  result.hessian = cost.hessian.topLeftCorner(size, size) + mixed.transpose() * result.by_pose;
+  return result;
+}
+
+BundleSystem::BundleSystem(const std::vector<BundleScene>& scenes,
+                           const std::vector<BundleStart>& start, const BundleOptions& options)
+    : scenes_(scenes), start_(start), options_(options) {
+  start_std_ << Eigen::Vector3d::Constant(rad_from_deg(options.start_std[0])),
+      Eigen::Vector3d::Constant(options.start_std[1]);
+  for (const BundleStart& one : start) state_.poses.push_back(one.T_common_sensor);
+  for (const BundleScene& scene : scenes) {
+    const bool is_certain = scene.motion_covariance.isZero(0.0);
+    state_.velocities.push_back(is_certain ? std::nullopt : std::optional<Twist>(Twist()));
+    Matrix6d information = Matrix6d::Zero();
+    if (!is_certain) {
+      information = options.start_weight * guarded_inverse<6>(scene.motion_covariance);
+    }
+    velocity_information_.push_back(information);
+  }
+  planes_velocities_ = state_.velocities;
+}
+
+void BundleSystem::find_planes(int stride) {
+  VoxelOptions voxels;
+  voxels.voxel_m = options_.voxels_m.front();
+  voxels.least_voxel_m = options_.voxels_m.back();
+  voxels.max_thickness_ratio = options_.max_thickness_ratio;
+  voxels.min_points = options_.min_points;
+  voxels.min_sensor_points = options_.min_sensor_points;
+  voxels.surface_error_m = options_.surface_error_m;
+  planes_.resize(scenes_.size());
+  planes_velocities_ = state_.velocities;
+  for_each_in_parallel(scenes_.size(), [&](std::size_t s) {
+    planes_[s] =
+        plane_patches(scenes_[s].clouds, {state_.poses, state_.velocities[s]}, stride, voxels);
+  });
+  free_sensors_.clear();
+  const std::vector<int> planes = planes_of_sensors();
+  for (std::size_t k = 1; k < planes.size(); ++k) {
+    if (planes[k] >= options_.min_planes) free_sensors_.push_back(k);
+  }
+}
+
+std::size_t BundleSystem::number_of_planes() const {
+  std::size_t number = 0;
+  for (const auto& of_scene : planes_) number += of_scene.size();
+  return number;
+}
+
+std::vector<int> BundleSystem::planes_of_sensors() const {
+  std::vector<int> planes(state_.poses.size(), 0);
+  for (const auto& of_scene : planes_) {
+    for (const PlanePatch& patch : of_scene) {
+      for (const PlanePatch::View& view : patch.views) ++planes[view.sensor];
+    }
+  }
+  return planes;
+}
+
+RigState BundleSystem::rig_state(const BundleState& state, std::size_t scene) const {
+  RigState result = {state.poses, state.velocities[scene]};
+  if (result.velocity) {
+    result.velocity = stepped(*result.velocity, -vector_of(*planes_velocities_[scene]));
+  }
+  return result;
+}
+
+double BundleSystem::value_in(const BundleState& state) const {
+  double sum = start_value(state.poses);
+  for (std::size_t s = 0; s < scenes_.size(); ++s) {
+    sum += bundle_value(planes_[s], rig_state(state, s), options_.kernel_width);
+    if (!state.velocities[s]) continue;
+    const Vector6d velocity = vector_of(*state.velocities[s]);
+    sum += velocity.dot(velocity_information_[s] * velocity);
+  }
+  return sum;
+}
+
+BundleCost BundleSystem::scene_cost(std::size_t scene, const std::vector<PlanePatch>& planes,
+                                    bool with_prior) const {
+  std::vector<std::size_t> unknowns = free_sensors_;
+  const std::optional<Twist>& velocity = state_.velocities[scene];
+  if (velocity) unknowns.push_back(state_.poses.size());
+  BundleCost cost =
+      part_of(bundle_cost(planes, rig_state(state_, scene), options_.kernel_width), unknowns);
+  if (velocity && with_prior) {
+    const Matrix6d& information = velocity_information_[scene];
+    const Vector6d off = vector_of(*velocity);
+    cost.value += off.dot(information * off);
+    cost.gradient.tail<6>() += 2.0 * information * off;
+    cost.hessian.bottomRightCorner<6, 6>() += 2.0 * information;
+  }
+  return cost;
+}
+
+BundleCost BundleSystem::start_cost() const {
+  const auto size = static_cast<Eigen::Index>(6 * free_sensors_.size());
+  BundleCost cost = {start_value(state_.poses), Eigen::VectorXd(size),
+                     Eigen::MatrixXd::Zero(size, size)};
+  for (std::size_t a = 0; a < free_sensors_.size(); ++a) {
+    const std::size_t sensor = free_sensors_[a];
+    const auto at = static_cast<Eigen::Index>(6 * a);
+    const Matrix6d information = start_information(sensor);
+    const Vector6d off = moved_by(state_.poses[sensor], start_[sensor].T_common_sensor);
+    cost.gradient.segment<6>(at) = 2.0 * information * off;
+    cost.hessian.block<6, 6>(at, at) = 2.0 * information;
+  }
+  return cost;
+}
+
+Matrix6d BundleSystem::start_information(std::size_t sensor) const {
+  Matrix6d information = options_.start_weight * start_[sensor].information;
+  information.diagonal() += start_std_.cwiseAbs2().cwiseInverse();
+  return information;
+}
+
+double BundleSystem::start_value(const std::vector<RigidTransform>& poses) const {
+  double sum = 0.0;
+  for (std::size_t k = 1; k < poses.size(); ++k) {
+    const Vector6d off = moved_by(poses[k], start_[k].T_common_sensor);
+    sum += off.dot(start_information(k) * off);
+  }
+  return sum;
+}
+
+}  // namespace croon

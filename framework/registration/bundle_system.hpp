@@ -1,0 +1,93 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "framework/registration/bundle_adjustment.hpp"
+#include "framework/registration/bundle_cost.hpp"
+
+namespace croon {
+
+/// The unknowns of a bundle adjustment.
+struct BundleState {
+  std::vector<RigidTransform> poses;  ///< T_common_sensor, by sensor.
+  /// By scene: by how much its velocity differs from that by which its clouds were corrected; none
+  /// where that is certain.
+  std::vector<std::optional<Twist>> velocities;
+};
+
+/// The second-order terms of a cost by the free poses of the sensors, 6 for each, after each
+/// scene's velocity was eliminated: for any step of the poses it makes its own best step (the Schur
+/// complement).
+struct ReducedCost {
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd hessian;
+  /// The step of the velocity: `rest + by_pose * step of the poses`; of size zero without one.
+  Eigen::MatrixXd by_pose;
+  Eigen::VectorXd rest;
+};
+
+/// The cost of a bundle of planes: what adjust_bundle minimises.
+class BundleSystem {
+ public:
+  BundleSystem(const std::vector<BundleScene>& scenes, const std::vector<BundleStart>& start,
+               const BundleOptions& options);
+
+  const BundleState& state() const { return state_; }
+  void set_state(BundleState state) { state_ = std::move(state); }
+
+  /// Finds the planes of all scenes at the present state, of every `stride`-th point.
+  void find_planes(int stride);
+  /// By scene.
+  const std::vector<std::vector<PlanePatch>>& planes() const { return planes_; }
+  std::size_t number_of_planes() const;
+  /// By sensor: how many planes it shares with others.
+  std::vector<int> planes_of_sensors() const;
+  /// The sensors that share enough planes to be moved; never the first.
+  const std::vector<std::size_t>& free_sensors() const { return free_sensors_; }
+
+  /// The value in another state, by the present planes.
+  double value_in(const BundleState& state) const;
+  /// The cost of some planes of a scene and, if `with_prior`, of what is known of its velocity, by
+  /// the free poses and then by the velocity.
+  BundleCost scene_cost(std::size_t scene, const std::vector<PlanePatch>& planes,
+                        bool with_prior) const;
+  /// What is known of the velocity of a scene: the inverse of its covariance, weighed as that of a
+  /// start.
+  const Matrix6d& velocity_information(std::size_t scene) const {
+    return velocity_information_[scene];
+  }
+  /// The cost of what is known of the starts, by the free poses.
+  BundleCost start_cost() const;
+  /// What is known of the start of a sensor, the inverse of its covariance.
+  Matrix6d start_information(std::size_t sensor) const;
+  /// The standard deviations of BundleOptions::start_std, in the order of Dof.
+  const Vector6d& start_std() const { return start_std_; }
+
+  /// Planes of a scene and its state, relative to that in which they were found.
+  RigState rig_state(const BundleState& state, std::size_t scene) const;
+
+ private:
+  double start_value(const std::vector<RigidTransform>& poses) const;
+
+  const std::vector<BundleScene>& scenes_;
+  const std::vector<BundleStart>& start_;
+  const BundleOptions& options_;
+  Vector6d start_std_;
+  std::vector<Matrix6d> velocity_information_;  ///< By scene.
+  BundleState state_;
+  std::vector<std::vector<PlanePatch>> planes_;
+  std::vector<std::optional<Twist>> planes_velocities_;  ///< At which the planes were found.
+  std::vector<std::size_t> free_sensors_;
+};
+
+/// Eliminates the velocity, the last six of the unknowns of `cost`, if `has_velocity`.
+ReducedCost reduced(const BundleCost& cost, bool has_velocity);
+
+/// The velocity `velocity` plus `step`, in the order angular, linear.
+Twist stepped(const Twist& velocity, const Vector6d& step);
+
+/// The pose after a step of six, in the order of Dof.
+RigidTransform stepped(const RigidTransform& T, const Vector6d& step);
+
+}  // namespace croon

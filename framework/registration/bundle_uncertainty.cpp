@@ -1,0 +1,116 @@
+#include "framework/registration/bundle_uncertainty.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "framework/base/threads.hpp"
+#include "framework/geometry/guarded_inverse.hpp"
+#include "framework/registration/direction_balance.hpp"
+
+namespace croon {
+namespace {
+
+/// The planes of one scene by direction and place: the errors in a cluster are not independent.
+std::vector<std::vector<PlanePatch>> clusters_of(const std::vector<PlanePatch>& planes,
+                                                 const RigState& state) {
+  constexpr double kCell_m = 8.0;
+  std::map<std::array<int, 4>, std::vector<PlanePatch>> clusters;
+  PlaneCost cost;
+  for (const PlanePatch& plane : planes) {
+    plane_cost(plane, state, cost);
+    const Eigen::Vector3d cell = cost.centre / kCell_m;
+    clusters[{direction_bin(cost.normal), static_cast<int>(std::floor(cell.x())),
+              static_cast<int>(std::floor(cell.y())), static_cast<int>(std::floor(cell.z()))}]
+        .push_back(plane);
+  }
+  std::vector<std::vector<PlanePatch>> result;
+  for (auto& [place, cluster] : clusters) result.push_back(std::move(cluster));
+  return result;
+}
+
+/// The gradient and the Hessian of `cost` along the motion in which the velocity follows the poses.
+BundleCost along(const BundleCost& cost, const ReducedCost& scene) {
+  if (scene.by_pose.size() == 0) return cost;
+  const Eigen::Index size = cost.gradient.size() - 6;
+  Eigen::MatrixXd follow(size + 6, size);
+  follow << Eigen::MatrixXd::Identity(size, size), scene.by_pose;
+  return {cost.value, follow.transpose() * cost.gradient,
+          follow.transpose() * cost.hessian * follow};
+}
+
+/// The steps that the poses make if a cluster is left out, each of which is `(H - H_c)^-1 g_c`.
+/// `K` is a root of the inverse of the Hessian, `H^-1 = K K^T`.
+std::vector<Eigen::VectorXd> steps_without(const BundleSystem& system, std::size_t scene,
+                                           const ReducedCost& scene_cost,
+                                           const Eigen::MatrixXd& K) {
+  // A cluster that alone holds a direction has a leverage of one there, and no finite step.
+  constexpr double kLargestLeverage = 0.9;
+  const auto clusters =
+      clusters_of(system.planes()[scene], system.rig_state(system.state(), scene));
+  std::vector<Eigen::VectorXd> steps(clusters.size());
+  for_each_in_parallel(clusters.size(), [&](std::size_t c) {
+    const BundleCost own = along(system.scene_cost(scene, clusters[c], false), scene_cost);
+    // (H - H_c)^-1 g = K (1 - K^T H_c K)^-1 K^T g.
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> leverage(K.transpose() * own.hessian * K);
+    const Eigen::VectorXd rest =
+        1.0 - leverage.eigenvalues().array().max(0.0).min(kLargestLeverage);
+    const Eigen::VectorXd inner =
+        leverage.eigenvectors().transpose() * K.transpose() * own.gradient;
+    steps[c] = K * leverage.eigenvectors() * inner.cwiseQuotient(rest);
+  });
+  return steps;
+}
+
+Observability word_of(double std_ratio) {
+  constexpr double kWeak = 0.1, kUnobservable = 0.5;
+  if (std_ratio > kUnobservable) return Observability::unobservable;
+  return std_ratio > kWeak ? Observability::weak : Observability::determined;
+}
+
+}  // namespace
+
+std::vector<PoseCovariance> bundle_covariances(const BundleSystem& system,
+                                               const BundleOptions& options) {
+  std::vector<PoseCovariance> result(system.state().poses.size());
+  const std::vector<std::size_t>& sensors = system.free_sensors();
+  if (sensors.empty()) return result;
+  const std::size_t scenes = system.planes().size();
+  // The cost is twice the negative logarithm of a likelihood, so the Hessian of what is known
+  // beforehand is twice its information, and the covariance of its gradient four times that.
+  Eigen::MatrixXd hessian = system.start_cost().hessian;
+  Eigen::MatrixXd scatter = 2.0 * hessian;
+  std::vector<ReducedCost> costs;
+  for (std::size_t s = 0; s < scenes; ++s) {
+    const bool has_velocity = system.state().velocities[s].has_value();
+    costs.push_back(reduced(system.scene_cost(s, system.planes()[s], true), has_velocity));
+    hessian += costs.back().hessian;
+    if (!has_velocity) continue;
+    const Eigen::MatrixXd& by_pose = costs.back().by_pose;
+    scatter += 4.0 * by_pose.transpose() * system.velocity_information(s) * by_pose;
+  }
+  const Eigen::MatrixXd inverse = guarded_inverse<Eigen::Dynamic>(hessian);
+  const Eigen::MatrixXd K = Eigen::LLT<Eigen::MatrixXd>(inverse).matrixL();
+  Eigen::MatrixXd jackknife = Eigen::MatrixXd::Zero(hessian.rows(), hessian.cols());
+  for (std::size_t s = 0; s < scenes; ++s) {
+    for (const Eigen::VectorXd& step : steps_without(system, s, costs[s], K)) {
+      jackknife += step * step.transpose();
+    }
+  }
+  const Eigen::MatrixXd covariance =
+      options.covariance_scale * options.covariance_scale * jackknife + inverse * scatter * inverse;
+  for (std::size_t a = 0; a < sensors.size(); ++a) {
+    const auto at = static_cast<Eigen::Index>(6 * a);
+    PoseCovariance& own = result[sensors[a]];
+    own.matrix = symmetric<6>(covariance.block<6, 6>(at, at));
+    for (std::size_t dof = 0; dof < own.dofs.size(); ++dof) {
+      const auto i = static_cast<Eigen::Index>(dof);
+      own.dofs[dof] = word_of(std::sqrt(own.matrix(i, i)) / system.start_std()(i));
+    }
+  }
+  return result;
+}
+
+}  // namespace croon
