@@ -29,7 +29,7 @@ struct Params : JointOptions {
   std::vector<double> coarse_distances_m = {2.0, 1.0, 0.5};
   bool motion = true;
   double min_motion = 100.0;
-  double max_speed_std_mps = 0.4;
+  double max_speed_std_mps = 0.25;
 };
 
 const params::Table<Params>& table() {
@@ -285,7 +285,7 @@ StageEntry joint_registration() {
       "joint_registration",
       "Sees the whole rig: registers all sensors together with the velocity of each scene, and "
       "removes the distortion of the scans by it.",
-      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 3);
+      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 2);
 }
 
 }  // namespace croon::stages::step
