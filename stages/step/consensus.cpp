@@ -4,14 +4,19 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/base/text.hpp"
+#include "framework/geometry/guarded_inverse.hpp"
 #include "framework/geometry/pose_mean.hpp"
+#include "framework/params/choice.hpp"
 #include "framework/stage/rig_step.hpp"
 #include "framework/stage/stage_entry.hpp"
 
 namespace croon::stages::step {
 namespace {
 
+enum class Weights { equal, covariance };
+
 struct Params {
+  Weights weights = Weights::equal;
   double rotation_deg = 0.5;
   double translation_m = 0.1;
   double min_agreeing_ratio = 0.6;
@@ -19,6 +24,10 @@ struct Params {
 
 const params::Table<Params>& table() {
   static const params::Table<Params> table = {
+      params::choice("weights", &Params::weights,
+                     {{"equal", Weights::equal}, {"covariance", Weights::covariance}},
+                     "Whether all scenes that agree count alike, or each direction of each pose by "
+                     "its covariance, which a step before has to estimate."),
       params::number("rotation_deg", &Params::rotation_deg, {0.0, 180.0},
                      "Poses of two scenes agree if the angle between them is at most this."),
       params::number("translation_m", &Params::translation_m, {0.0, 1e6},
@@ -61,7 +70,7 @@ class ConsensusStep final : public RigStep {
     std::vector<RigidTransform> poses;
     for (const RigEstimate* const vote : votes) poses.push_back(vote->estimate.T_target_source);
     // The mean of one pose would differ from it in the last digits.
-    const RigidTransform pose = poses.size() == 1 ? poses.front() : consensus_pose(poses, bounds_);
+    RigidTransform pose = poses.size() == 1 ? poses.front() : consensus_pose(poses, bounds_);
     OfSensor agreeing;
     for (RigEstimate* const vote : votes) {
       if (agree(vote->estimate.T_target_source, pose, bounds_)) agreeing.push_back(vote);
@@ -69,7 +78,18 @@ class ConsensusStep final : public RigStep {
     const double ratio =
         static_cast<double>(agreeing.size()) / static_cast<double>(estimates.front()->scenes);
     const std::optional<Matrix6d> information = joint_information(agreeing);
-    const std::optional<PoseCovariance> covariance = joint_covariance(agreeing);
+    std::optional<PoseCovariance> covariance = joint_covariance(agreeing);
+    if (params_.weights == Weights::covariance && !agreeing.empty()) {
+      if (!covariance) {
+        for (RigEstimate* const one : estimates) {
+          one->failure = "weights \"covariance\" needs a step before that estimates one";
+        }
+        return;
+      }
+      const InformedPose mean = informed_mean(informed(agreeing));
+      pose = mean.pose;
+      covariance->matrix = guarded_inverse<6>(mean.information);
+    }
     const std::optional<std::string> rejection = verdict(estimates, votes, agreeing.size(), ratio);
     for (RigEstimate* const one : estimates) {
       one->estimate.T_target_source = pose;
@@ -79,6 +99,16 @@ class ConsensusStep final : public RigStep {
       one->estimate.diagnostics = {{"scenes", static_cast<double>(estimates.front()->scenes)},
                                    {"agreeing_ratio", ratio}};
     }
+  }
+
+  /// The poses of these estimates, all of which have a covariance.
+  static std::vector<InformedPose> informed(const OfSensor& agreeing) {
+    std::vector<InformedPose> poses;
+    for (const RigEstimate* const one : agreeing) {
+      poses.push_back(
+          {one->estimate.T_target_source, guarded_inverse<6>(one->estimate.covariance->matrix)});
+    }
+    return poses;
   }
 
   /// Scenes are independent observations of one pose, so their information adds; std::nullopt if

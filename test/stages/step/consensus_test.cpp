@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "framework/geometry/dof.hpp"
 #include "framework/stage/rig_step.hpp"
@@ -122,6 +123,25 @@ TEST(Consensus, RejectedPosesHaveNoVoteBesideAcceptedOnes) {
   for (RigEstimate& one : rig) one.estimate.rejection = "verdict: no overlap";
   adjust(rig);
   for (const RigEstimate& one : rig) EXPECT_EQ(one.estimate.rejection, "verdict: no overlap");
+}
+
+TEST(Consensus, ByCovarianceFollowsTheScenesThatKnowBest) {
+  Rng rng = test::test_rng();
+  const RigidTransform truth = test::random_pose(rng, 3.0);
+  std::vector<RigEstimate> rig = near_estimates(rng, "left", truth, 5);
+  for (std::size_t i = 0; i < rig.size(); ++i) {
+    const double std = i == 3 ? 1e-5 : 1e-2;
+    rig[i].estimate.covariance = PoseCovariance{std * std * Matrix6d::Identity(), {}};
+  }
+  const RigidTransform best = rig[3].estimate.T_target_source;
+  adjust(rig, R"(, "weights": "covariance")");
+  for (const RigEstimate& one : rig) {
+    EXPECT_LT(distance(one.estimate.T_target_source, best), 1e-6);
+    EXPECT_NEAR(std::sqrt(one.estimate.covariance->matrix(0, 0)), 1e-5, 1e-7);
+  }
+  std::vector<RigEstimate> unknown = near_estimates(rng, "left", truth, 2);
+  adjust(unknown, R"(, "weights": "covariance")");
+  for (const RigEstimate& one : unknown) EXPECT_NE(one.failure, "");
 }
 
 TEST(Consensus, LeavesOneSceneAsItIs) {
