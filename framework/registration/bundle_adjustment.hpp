@@ -55,7 +55,8 @@ struct Bundle {
   std::vector<int> planes;  ///< By sensor: how many planes it shares with another one.
   /// By sensor, see adjust_bundle; zero for the first and for those that took no part.
   std::vector<PoseCovariance> covariances;
-  double cost_per_plane = 0.0;  ///< In units of the planes' noise, see plane_patches.
+  /// The cost over the planes, with that of what was known before, in units of the planes' noise.
+  double cost_per_plane = 0.0;
   int passes = 0;
   int iterations = 0;
   bool converged = false;

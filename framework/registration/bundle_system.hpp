@@ -64,7 +64,8 @@ class BundleSystem {
   /// The standard deviations of BundleOptions::start_std, in the order of Dof.
   const Vector6d& start_std() const { return start_std_; }
 
-  /// Planes of a scene and its state, relative to that in which they were found.
+  /// The rig in `state` as planes() of a scene see it: its velocity is relative to that at which
+  /// they were found.
   RigState rig_state(const BundleState& state, std::size_t scene) const;
 
  private:

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "framework/base/statistics.hpp"
+#include "framework/geometry/guarded_inverse.hpp"
 #include "framework/registration/direction_balance.hpp"
 #include "framework/registration/gauss_newton.hpp"
-#include "framework/geometry/guarded_inverse.hpp"
 
 namespace croon {
 namespace {
