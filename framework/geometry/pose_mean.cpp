@@ -17,7 +17,8 @@ namespace {
 /// A medoid of more poses is that of a sample: its time grows with their square.
 constexpr std::size_t kMedoidSample = 2000;
 
-void require_poses(const std::vector<RigidTransform>& poses) {
+template <class Pose>
+void require_poses(const std::vector<Pose>& poses) {
   if (poses.empty()) throw std::logic_error("a mean of no poses");
 }
 
@@ -141,14 +142,18 @@ RigidTransform mean_pose(const std::vector<RigidTransform>& poses) {
   return mean_of_ordered(poses_of(in_fixed_order(poses)));
 }
 
+InformedPose informed(const RigidTransform& pose, const Matrix6d& covariance) {
+  return {pose, guarded_inverse<6>(covariance)};
+}
+
 InformedPose informed_mean(const std::vector<InformedPose>& poses) {
-  if (poses.empty()) throw std::logic_error("a mean of no poses");
+  require_poses(poses);
   InformedPose mean = poses.front();
   if (poses.size() == 1) return mean;
   mean.information.setZero();
   for (const InformedPose& one : poses) mean.information += one.information;
   const Matrix6d covariance = guarded_inverse<6>(mean.information);
-  // Poses are near each other, so that two rounds are enough; more cost nothing.
+  // The offsets are linear only to first order; the poses are near each other, so few rounds do.
   for (int i = 0; i < 5; ++i) {
     Vector6d pull = Vector6d::Zero();
     for (const InformedPose& one : poses) {
@@ -171,6 +176,10 @@ RigidTransform consensus_pose(const std::vector<RigidTransform>& poses, const Po
   }
   // Rounding may put a pose a hair off itself, and bounds may be zero.
   return near.empty() ? centre : mean_of_ordered(near);
+}
+
+RigidTransform common_start(const std::vector<RigidTransform>& poses) {
+  return poses.size() == 1 ? poses.front() : consensus_pose(poses, kNearStart);
 }
 
 }  // namespace croon

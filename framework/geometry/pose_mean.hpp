@@ -27,11 +27,14 @@ Eigen::Matrix3d mean_rotation(const std::vector<RigidTransform>& poses);
 /// left. Throws std::logic_error if `poses` is empty.
 RigidTransform mean_pose(const std::vector<RigidTransform>& poses);
 
-/// A pose and the inverse of its covariance, see PoseCovariance.
+/// A pose and the inverse of its covariance, see PoseCovariance; zero if nothing is known of it.
 struct InformedPose {
   RigidTransform pose;
   Matrix6d information = Matrix6d::Zero();
 };
+
+/// The pose with the information of its `covariance`.
+InformedPose informed(const RigidTransform& pose, const Matrix6d& covariance);
 
 /// The mean of independent observations of one pose, weighed by their information, with the sum of
 /// it (the pose with the least squared Mahalanobis distance to all: Barfoot and Furgale, T-RO 2014,
@@ -47,5 +50,13 @@ InformedPose informed_mean(const std::vector<InformedPose>& poses);
 /// for any order of the poses. Throws std::logic_error if `poses` is empty.
 RigidTransform consensus_pose(const std::vector<RigidTransform>& poses, const PoseBounds& bounds,
                               const std::vector<double>& weights = {});
+
+/// Poses of one sensor in several scenes that are farther apart went astray.
+inline constexpr PoseBounds kNearStart = {0.05, 0.5};
+
+/// One pose for the scenes of a rig to start from, each of which has one of `poses`: their
+/// consensus within kNearStart. One pose alone is itself, to the last bit. Throws std::logic_error
+/// if `poses` is empty.
+RigidTransform common_start(const std::vector<RigidTransform>& poses);
 
 }  // namespace croon

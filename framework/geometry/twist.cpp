@@ -4,6 +4,16 @@
 
 namespace croon {
 
+Vector6d vector_of(const Twist& velocity) {
+  Vector6d vector;
+  vector << velocity.angular_radps, velocity.linear_mps;
+  return vector;
+}
+
+Twist stepped(const Twist& velocity, const Vector6d& step) {
+  return {velocity.angular_radps + step.head<3>(), velocity.linear_mps + step.tail<3>()};
+}
+
 RigidTransform motion_over(const Twist& velocity, double time_s) {
   const Eigen::Vector3d turn_rad = velocity.angular_radps * time_s;
   const Eigen::Vector3d way_m = velocity.linear_mps * time_s;

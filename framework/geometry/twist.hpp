@@ -1,6 +1,6 @@
 #pragma once
 
-#include "framework/geometry/rigid_transform.hpp"
+#include "framework/geometry/dof.hpp"
 
 namespace croon {
 
@@ -10,6 +10,12 @@ struct Twist {
   Eigen::Vector3d angular_radps = Eigen::Vector3d::Zero();
   Eigen::Vector3d linear_mps = Eigen::Vector3d::Zero();
 };
+
+/// The six numbers of a velocity: about the axes in rad/s, along them in m/s.
+Vector6d vector_of(const Twist& velocity);
+
+/// The velocity plus `step`, in the order of `vector_of`.
+Twist stepped(const Twist& velocity, const Vector6d& step);
 
 /// The motion `T_now_later` of a body with the constant `velocity` over `time_s` seconds: the
 /// exponential of SE(3) (Barfoot, State Estimation for Robotics, 2017, eq. 7.85 and 7.86).

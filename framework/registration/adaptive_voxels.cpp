@@ -51,7 +51,7 @@ class PatchSearch {
       }
       return;
     }
-    if (0.5 * edge_m < options_.least_voxel_m * (1.0 - 1e-9)) return;
+    if (0.5 * edge_m < options_.voxels_m.back() * (1.0 - 1e-9)) return;
     cut(begin, end, centre, edge_m);
   }
 
@@ -160,13 +160,38 @@ std::vector<PlacedPoint> sorted(const std::vector<PlacedPoint>& points,
 
 }  // namespace
 
+const params::Table<VoxelOptions>& voxel_table() {
+  using O = VoxelOptions;
+  static const params::Table<O> table = [] {
+    params::Table<O> rows = {
+        params::numbers("voxels_m", &O::voxels_m, {1e-3, 1e6},
+                        "The edges of the largest and of the smallest voxels; a voxel that holds "
+                        "no plane is cut into eight."),
+        params::number("max_thickness_ratio", &O::max_thickness_ratio, {0.0, 1.0},
+                       "Points are on a plane if their variance across it is at most this share of "
+                       "the middle one."),
+        params::integer("min_points", &O::min_points, {4, 1000000},
+                        "A plane has at least so many points, of all sensors together."),
+        params::integer("min_sensor_points", &O::min_sensor_points, {1, 1000000},
+                        "A sensor that has fewer points on a plane does not see it."),
+        params::number("surface_error_m", &O::surface_error_m, {0.0, 1e3},
+                       "What a surface is off a plane: however many points a sensor has on it, "
+                       "they do not know the plane better."),
+    };
+    rows.require([](const O& o) { return o.voxels_m.size() == 2; },
+                 "voxels_m must have two numbers");
+    return rows;
+  }();
+  return table;
+}
+
 std::vector<PlanePatch> plane_patches(const std::vector<SensorCloud>& clouds, const RigState& state,
                                       int stride, const VoxelOptions& options) {
   std::vector<PlanePatch> patches;
   const std::vector<PlacedPoint> points = placed_points(clouds, state, stride);
-  const LeafGrid grid(options.voxel_m);
+  const LeafGrid grid(options.voxels_m.front());
   for (const double share : {0.0, 1.0 / 3.0}) {
-    const Eigen::Vector3d shift = Eigen::Vector3d::Constant(share * options.voxel_m);
+    const Eigen::Vector3d shift = Eigen::Vector3d::Constant(share * options.voxels_m.front());
     std::vector<LeafOfPoint> leaves;
     leaves.reserve(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -179,10 +204,12 @@ std::vector<PlanePatch> plane_patches(const std::vector<SensorCloud>& clouds, co
       std::size_t to = from;
       while (to < leaves.size() && leaves[to].leaf == leaves[from].leaf) ++to;
       const Eigen::Vector3d centre =
-          (leaves[from].leaf.cast<double>().array() + 0.5) * options.voxel_m - shift.array();
+          (leaves[from].leaf.cast<double>().array() + 0.5) * options.voxels_m.front() -
+          shift.array();
       const auto begin = ordered.begin();
       search.search(begin + static_cast<std::ptrdiff_t>(from),
-                    begin + static_cast<std::ptrdiff_t>(to), centre.cast<float>(), options.voxel_m);
+                    begin + static_cast<std::ptrdiff_t>(to), centre.cast<float>(),
+                    options.voxels_m.front());
       from = to;
     }
   }

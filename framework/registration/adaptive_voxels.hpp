@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "framework/params/table.hpp"
 #include "framework/registration/plane_cost.hpp"
 #include "framework/spatial/cloud.hpp"
 
@@ -9,14 +10,16 @@ namespace croon {
 
 /// How planes are found in the points of all sensors together.
 struct VoxelOptions {
-  double voxel_m = 1.0;
-  double least_voxel_m = 0.25;
+  std::vector<double> voxels_m = {1.0, 0.25};  ///< The edges of the largest and the smallest.
   double max_thickness_ratio = 0.1;
   int min_points = 10;
   int min_sensor_points = 3;
   double noise_m = 0.005;          ///< Planes are not trusted to be known better per point,
   double surface_error_m = 0.003;  ///< nor surfaces to be planes, whatever the number of points.
 };
+
+/// The rows of VoxelOptions that users set.
+const params::Table<VoxelOptions>& voxel_table();
 
 /// One cloud of a scene and whose it is.
 struct SensorCloud {
@@ -28,9 +31,9 @@ struct SensorCloud {
 
 /// The pieces of planes that at least two of the clouds of one scene see in the `state` of the rig,
 /// by adaptive voxels (MLCC: Liu, Yuan and Zhang, T-IM 2022): a cube of edge
-/// `voxel_m` whose points are no plane is cut into eight, down to `least_voxel_m`. Points are on a
-/// plane if the least eigenvalue of their covariance is at most `max_thickness_ratio` of the
-/// middle one. Of each cloud every `stride`-th point takes part.
+/// `voxels_m.front()` whose points are no plane is cut into eight, down to `voxels_m.back()`.
+/// Points are on a plane if the least eigenvalue of their covariance is at most
+/// `max_thickness_ratio` of the middle one. Of each cloud every `stride`-th point takes part.
 ///
 /// Two grids, shifted by a third of an edge, are searched: a plane that a face of its cube may have
 /// cut along its surface is not taken, because what is cut off depends on the poses; it is inside

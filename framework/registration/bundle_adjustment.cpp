@@ -30,66 +30,62 @@ bool are_same(const std::vector<RigidTransform>& a, const std::vector<RigidTrans
   return true;
 }
 
-bool is_unmoved(const BundleState& state, const BundleState& before) {
-  for (std::size_t k = 0; k < state.poses.size(); ++k) {
-    if (state.poses[k].rotation != before.poses[k].rotation ||
-        state.poses[k].translation != before.poses[k].translation) {
-      return false;
-    }
-  }
-  return true;
-}
-
 /// The damping of Levenberg and Marquardt: the diagonal grows by this share of itself.
 BundleCost damped(BundleCost cost, double damping) {
   cost.hessian.diagonal() += damping * cost.hessian.diagonal().cwiseAbs();
   return cost;
 }
 
-/// The state after Newton's step with this damping; none if the Hessian is not positive, and the
-/// state itself if the step is small.
-std::optional<BundleState> newton_step(const BundleSystem& system,
-                                       const std::vector<BundleCost>& scenes,
-                                       const BundleCost& start, double damping) {
-  BundleState state = system.state();
+/// A step of Newton's method: where it leads, and whether it is too small to be made.
+struct NewtonStep {
+  BundleState state;
+  bool is_small = false;
+};
+
+/// The step with this damping; none if the Hessian is not positive.
+std::optional<NewtonStep> newton_step(const BundleSystem& system,
+                                      const std::vector<BundleCost>& scenes,
+                                      const BundleCost& start, double damping) {
+  NewtonStep result = {system.state()};
   BundleCost poses = damped(start, damping);
   std::vector<ReducedCost> costs;
   for (std::size_t s = 0; s < scenes.size(); ++s) {
-    costs.push_back(reduced(damped(scenes[s], damping), state.velocities[s].has_value()));
+    costs.push_back(reduced(damped(scenes[s], damping), result.state.velocities[s].has_value()));
     poses.gradient += costs.back().gradient;
     poses.hessian += costs.back().hessian;
   }
   const Eigen::LLT<Eigen::MatrixXd> factors(poses.hessian);
   if (factors.info() != Eigen::Success) return std::nullopt;
   const Eigen::VectorXd step = -factors.solve(poses.gradient);
-  if (is_step_small(step)) return state;
+  result.is_small = is_step_small(step);
   const std::vector<std::size_t>& sensors = system.free_sensors();
   for (std::size_t a = 0; a < sensors.size(); ++a) {
-    RigidTransform& T = state.poses[sensors[a]];
+    RigidTransform& T = result.state.poses[sensors[a]];
     T = stepped(T, step.segment<6>(static_cast<Eigen::Index>(6 * a)));
   }
   for (std::size_t s = 0; s < scenes.size(); ++s) {
-    std::optional<Twist>& velocity = state.velocities[s];
+    std::optional<Twist>& velocity = result.state.velocities[s];
     if (velocity) velocity = stepped(*velocity, costs[s].rest + costs[s].by_pose * step);
   }
-  return state;
+  return result;
 }
 
-/// One step that lowers the cost. Whether it moved a sensor.
-bool improve(BundleSystem& system, double& damping) {
+/// One step that lowers the cost, whose present value is `value`. Whether it moved a sensor.
+bool improve(BundleSystem& system, double& value, double& damping) {
   constexpr double kLargestDamping = 1e6;
   const BundleCost start = system.start_cost();
   std::vector<BundleCost> scenes;
   for (std::size_t s = 0; s < system.planes().size(); ++s) {
     scenes.push_back(system.scene_cost(s, system.planes()[s], true));
   }
-  const double present = system.value_in(system.state());
   for (; damping <= kLargestDamping; damping *= 10.0) {
-    std::optional<BundleState> next = newton_step(system, scenes, start, damping);
+    std::optional<NewtonStep> next = newton_step(system, scenes, start, damping);
     if (!next) continue;
-    if (is_unmoved(*next, system.state())) return false;
-    if (!(system.value_in(*next) < present)) continue;
-    system.set_state(std::move(*next));
+    if (next->is_small) return false;
+    const double next_value = system.value_in(next->state);
+    if (!(next_value < value)) continue;
+    value = next_value;
+    system.set_state(std::move(next->state));
     damping = std::max(0.1 * damping, 1e-9);
     return true;
   }
@@ -102,33 +98,23 @@ bool pass(BundleSystem& system, int stride, const BundleOptions& options, Bundle
   const std::vector<RigidTransform> before = system.state().poses;
   ++bundle.passes;
   if (system.free_sensors().empty()) return true;
-  double damping = 1e-6;
+  double value = system.value_in(system.state()), damping = 1e-6;
   for (int i = 0; i < options.max_iterations; ++i) {
     ++bundle.iterations;
-    if (!improve(system, damping)) break;
+    if (!improve(system, value, damping)) break;
   }
   return are_same(before, system.state().poses);
 }
 
 }  // namespace
 
+// Not in the header: in aggregates with such a base GCC 12 takes vectors for uninitialized.
+BundleOptions::BundleOptions() = default;
+
 const params::Table<BundleOptions>& bundle_table() {
   using O = BundleOptions;
   static const params::Table<O> table = [] {
     params::Table<O> rows = {
-        params::numbers("voxels_m", &O::voxels_m, {1e-3, 1e6},
-                        "The edges of the largest and of the smallest voxels; a voxel that holds "
-                        "no plane is cut into eight."),
-        params::number("max_thickness_ratio", &O::max_thickness_ratio, {0.0, 1.0},
-                       "Points are on a plane if their variance across it is at most this share of "
-                       "the middle one."),
-        params::integer("min_points", &O::min_points, {4, 1000000},
-                        "A plane has at least so many points, of all sensors together."),
-        params::integer("min_sensor_points", &O::min_sensor_points, {1, 1000000},
-                        "A sensor that has fewer points on a plane does not see it."),
-        params::number("surface_error_m", &O::surface_error_m, {0.0, 1e3},
-                       "What a surface is off a plane: however many points a sensor has on it, "
-                       "they do not know the plane better."),
         params::number("kernel_width", &O::kernel_width, {1e-3, 1e9},
                        "Planes that fit worse than so many standard deviations lose weight."),
         params::numbers("start_std", &O::start_std, {1e-9, 1e9},
@@ -155,8 +141,7 @@ const params::Table<BundleOptions>& bundle_table() {
         params::number("covariance_scale", &O::covariance_scale, {0.0, 1e6},
                        "Multiplies the standard deviations; found on scenes with truth."),
     };
-    rows.require([](const O& o) { return o.voxels_m.size() == 2; },
-                 "voxels_m must have two numbers");
+    rows.inherit(voxel_table());
     rows.require([](const O& o) { return o.start_std.size() == 2; },
                  "start_std must have two numbers");
     return rows;
@@ -164,7 +149,7 @@ const params::Table<BundleOptions>& bundle_table() {
   return table;
 }
 
-Bundle adjust_bundle(const std::vector<BundleScene>& scenes, const std::vector<BundleStart>& start,
+Bundle adjust_bundle(const std::vector<BundleScene>& scenes, const std::vector<InformedPose>& start,
                      const BundleOptions& options) {
   Bundle bundle;
   BundleSystem system(scenes, start, options);

@@ -4,18 +4,16 @@
 #include <vector>
 
 #include "framework/geometry/pose_covariance.hpp"
+#include "framework/geometry/pose_mean.hpp"
 #include "framework/params/table.hpp"
 #include "framework/registration/adaptive_voxels.hpp"
 
 namespace croon {
 
 /// The parameters of `adjust_bundle`.
-struct BundleOptions {
-  std::vector<double> voxels_m = {1.0, 0.25};
-  double max_thickness_ratio = 0.1;
-  int min_points = 10;
-  int min_sensor_points = 3;
-  double surface_error_m = 0.003;
+struct BundleOptions : VoxelOptions {
+  BundleOptions();
+
   double kernel_width = 5.0;
   std::vector<double> start_std = {1.0, 0.2};
   double start_weight = 0.25;
@@ -37,13 +35,6 @@ struct BundleScene {
   /// corrected: about its axes in rad/s, along them in m/s. If it is not zero, all clouds need
   /// their times, with a common zero.
   Matrix6d motion_covariance = Matrix6d::Zero();
-};
-
-/// Where a sensor starts, and what is known of that pose beside BundleOptions::start_std: the
-/// inverse of its covariance, in the order of Dof; zero if nothing is.
-struct BundleStart {
-  RigidTransform T_common_sensor;
-  Matrix6d information = Matrix6d::Zero();
 };
 
 /// The result of a bundle adjustment.
@@ -82,8 +73,9 @@ struct Bundle {
 /// its own. A degree of freedom is weak if its standard deviation is more than a tenth of
 /// `start_std`, and unobservable if it is more than a half.
 ///
-/// `start` is by sensor, the first of them the identity.
-Bundle adjust_bundle(const std::vector<BundleScene>& scenes, const std::vector<BundleStart>& start,
+/// `start` is by sensor, T_common_sensor and what is known of it beside BundleOptions::start_std;
+/// the first of them is the identity.
+Bundle adjust_bundle(const std::vector<BundleScene>& scenes, const std::vector<InformedPose>& start,
                      const BundleOptions& options);
 
 }  // namespace croon

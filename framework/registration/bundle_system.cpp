@@ -15,12 +15,6 @@ Vector6d moved_by(const RigidTransform& T, const RigidTransform& start) {
   return offset;
 }
 
-Vector6d vector_of(const Twist& velocity) {
-  Vector6d vector;
-  vector << velocity.angular_radps, velocity.linear_mps;
-  return vector;
-}
-
 /// The cost by these unknowns of six each alone.
 BundleCost part_of(const BundleCost& cost, const std::vector<std::size_t>& unknowns) {
   const auto size = static_cast<Eigen::Index>(6 * unknowns.size());
@@ -39,15 +33,6 @@ BundleCost part_of(const BundleCost& cost, const std::vector<std::size_t>& unkno
 
 }  // namespace
 
-Twist stepped(const Twist& velocity, const Vector6d& step) {
-  return {velocity.angular_radps + step.head<3>(), velocity.linear_mps + step.tail<3>()};
-}
-
-RigidTransform stepped(const RigidTransform& T, const Vector6d& step) {
-  return {nearest_rotation(rotation_exp(step.head<3>()) * T.rotation),
-          T.translation + step.tail<3>()};
-}
-
 ReducedCost reduced(const BundleCost& cost, bool has_velocity) {
   ReducedCost result = {cost.gradient, cost.hessian, {}, {}};
   if (!has_velocity) return result;
@@ -62,11 +47,11 @@ ReducedCost reduced(const BundleCost& cost, bool has_velocity) {
 }
 
 BundleSystem::BundleSystem(const std::vector<BundleScene>& scenes,
-                           const std::vector<BundleStart>& start, const BundleOptions& options)
+                           const std::vector<InformedPose>& start, const BundleOptions& options)
     : scenes_(scenes), start_(start), options_(options) {
   start_std_ << Eigen::Vector3d::Constant(rad_from_deg(options.start_std[0])),
       Eigen::Vector3d::Constant(options.start_std[1]);
-  for (const BundleStart& one : start) state_.poses.push_back(one.T_common_sensor);
+  for (const InformedPose& one : start) state_.poses.push_back(one.pose);
   for (const BundleScene& scene : scenes) {
     const bool is_certain = scene.motion_covariance.isZero(0.0);
     state_.velocities.push_back(is_certain ? std::nullopt : std::optional<Twist>(Twist()));
@@ -80,18 +65,11 @@ BundleSystem::BundleSystem(const std::vector<BundleScene>& scenes,
 }
 
 void BundleSystem::find_planes(int stride) {
-  VoxelOptions voxels;
-  voxels.voxel_m = options_.voxels_m.front();
-  voxels.least_voxel_m = options_.voxels_m.back();
-  voxels.max_thickness_ratio = options_.max_thickness_ratio;
-  voxels.min_points = options_.min_points;
-  voxels.min_sensor_points = options_.min_sensor_points;
-  voxels.surface_error_m = options_.surface_error_m;
   planes_.resize(scenes_.size());
   planes_velocities_ = state_.velocities;
   for_each_in_parallel(scenes_.size(), [&](std::size_t s) {
     planes_[s] =
-        plane_patches(scenes_[s].clouds, {state_.poses, state_.velocities[s]}, stride, voxels);
+        plane_patches(scenes_[s].clouds, {state_.poses, state_.velocities[s]}, stride, options_);
   });
   free_sensors_.clear();
   const std::vector<int> planes = planes_of_sensors();
@@ -160,7 +138,7 @@ BundleCost BundleSystem::start_cost() const {
     const std::size_t sensor = free_sensors_[a];
     const auto at = static_cast<Eigen::Index>(6 * a);
     const Matrix6d information = start_information(sensor);
-    const Vector6d off = moved_by(state_.poses[sensor], start_[sensor].T_common_sensor);
+    const Vector6d off = moved_by(state_.poses[sensor], start_[sensor].pose);
     cost.gradient.segment<6>(at) = 2.0 * information * off;
     cost.hessian.block<6, 6>(at, at) = 2.0 * information;
   }
@@ -176,7 +154,7 @@ Matrix6d BundleSystem::start_information(std::size_t sensor) const {
 double BundleSystem::start_value(const std::vector<RigidTransform>& poses) const {
   double sum = 0.0;
   for (std::size_t k = 1; k < poses.size(); ++k) {
-    const Vector6d off = moved_by(poses[k], start_[k].T_common_sensor);
+    const Vector6d off = moved_by(poses[k], start_[k].pose);
     sum += off.dot(start_information(k) * off);
   }
   return sum;

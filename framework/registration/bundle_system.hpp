@@ -30,7 +30,7 @@ struct ReducedCost {
 /// The cost of a bundle of planes: what adjust_bundle minimises.
 class BundleSystem {
  public:
-  BundleSystem(const std::vector<BundleScene>& scenes, const std::vector<BundleStart>& start,
+  BundleSystem(const std::vector<BundleScene>& scenes, const std::vector<InformedPose>& start,
                const BundleOptions& options);
 
   const BundleState& state() const { return state_; }
@@ -72,7 +72,7 @@ class BundleSystem {
   double start_value(const std::vector<RigidTransform>& poses) const;
 
   const std::vector<BundleScene>& scenes_;
-  const std::vector<BundleStart>& start_;
+  const std::vector<InformedPose>& start_;
   const BundleOptions& options_;
   Vector6d start_std_;
   std::vector<Matrix6d> velocity_information_;  ///< By scene.
@@ -84,11 +84,5 @@ class BundleSystem {
 
 /// Eliminates the velocity, the last six of the unknowns of `cost`, if `has_velocity`.
 ReducedCost reduced(const BundleCost& cost, bool has_velocity);
-
-/// The velocity `velocity` plus `step`, in the order angular, linear.
-Twist stepped(const Twist& velocity, const Vector6d& step);
-
-/// The pose after a step of six, in the order of Dof.
-RigidTransform stepped(const RigidTransform& T, const Vector6d& step);
 
 }  // namespace croon

@@ -119,15 +119,6 @@ class Loop {
     return sums;
   }
 
-  /// (R, t) moved to (exp(w) R, t + d). A step is cut to half a radian, because the linearisation
-  /// is not valid beyond.
-  static RigidTransform stepped(const RigidTransform& T, const Vector6d& step) {
-    const double angle = step.head<3>().norm();
-    const double share = angle > 0.5 ? 0.5 / angle : 1.0;
-    return {nearest_rotation(rotation_exp(share * step.head<3>()) * T.rotation),
-            T.translation + share * step.tail<3>()};
-  }
-
   static void note(const Linearised& sums, Registration& outcome) {
     const NormalEquations& equations = sums.equations;
     outcome.information = equations.full_information();

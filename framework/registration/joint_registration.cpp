@@ -101,8 +101,7 @@ class Problem {
     const Vector6d of_velocity = velocity_information(options_);
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
       if (velocity_at_[s] < 0) continue;
-      Vector6d velocity;
-      velocity << state.velocities[s].angular_radps, state.velocities[s].linear_mps;
+      const Vector6d velocity = vector_of(state.velocities[s]);
       information.diagonal().segment<6>(velocity_at_[s]) += of_velocity;
       gradient.segment<6>(velocity_at_[s]) += of_velocity.cwiseProduct(velocity);
     }
@@ -114,21 +113,15 @@ class Problem {
     }
   }
 
-  /// A step is cut to half a radian, because the linearisation is not valid beyond.
   void move(JointState& state, const Eigen::VectorXd& step) const {
     for (int k = 0; k < sensors_; ++k) {
-      const Vector6d pose = step.segment<6>(6 * k);
-      const double angle = pose.head<3>().norm();
-      const double share = angle > 0.5 ? 0.5 / angle : 1.0;
       RigidTransform& T = state.T_target_sensor[k];
-      T = {nearest_rotation(rotation_exp(share * pose.head<3>()) * T.rotation),
-           T.translation + share * pose.tail<3>()};
+      T = stepped(T, step.segment<6>(6 * k));
       if (offset_at_ >= 0) state.clock_offsets_s[k] += step(offset_at_ + k);
     }
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
       if (velocity_at_[s] < 0) continue;
-      state.velocities[s].angular_radps += step.segment<3>(velocity_at_[s]);
-      state.velocities[s].linear_mps += step.segment<3>(velocity_at_[s] + 3);
+      state.velocities[s] = stepped(state.velocities[s], step.segment<6>(velocity_at_[s]));
     }
   }
 

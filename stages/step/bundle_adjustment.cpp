@@ -38,11 +38,10 @@ const params::Table<Params>& table() {
 
 /// The estimates of one reference that are adjusted together.
 struct RigBundle {
-  std::vector<RigEstimate*> estimates;
   std::vector<std::size_t> sensors;   ///< Of each estimate, as an index into `start`.
   std::vector<std::size_t> scene_of;  ///< Of each estimate, as an index into `scenes`.
   std::vector<BundleScene> scenes;
-  std::vector<BundleStart> start;  ///< By sensor, first the reference.
+  std::vector<InformedPose> start;  ///< By sensor, first the reference.
 };
 
 class BundleAdjustmentStep final : public RigStep {
@@ -65,22 +64,28 @@ class BundleAdjustmentStep final : public RigStep {
  private:
   static RigBundle rig_bundle(const std::vector<RigEstimate*>& estimates) {
     RigBundle bundle;
-    bundle.estimates = estimates;
     std::map<std::string, std::size_t> scenes, sensors;
+    std::vector<double> zeros_s;  // By scene: the zero of its times, so that they are small.
     std::vector<std::vector<const Estimate*>> starts;
     for (const RigEstimate* const one : estimates) {
+      const Estimate& estimate = one->estimate;
       const auto [scene, is_new_scene] = scenes.emplace(one->scene, bundle.scenes.size());
-      if (is_new_scene) bundle.scenes.push_back(scene_with_reference(one->estimate));
+      if (is_new_scene) {
+        bundle.scenes.emplace_back();
+        const Matrix6d* const motion = estimate.extras.find(kMotionCovariance);
+        if (motion != nullptr) bundle.scenes.back().motion_covariance = *motion;
+        const bool is_moving = motion != nullptr && !motion->isZero(0.0);
+        zeros_s.push_back(is_moving ? span_of(times_s(estimate.target->with_channels())).middle_s()
+                                    : 0.0);
+        add_cloud(0, *estimate.target, zeros_s.back(), bundle.scenes.back());
+      }
       const auto [sensor, is_new_sensor] = sensors.emplace(one->source, starts.size() + 1);
       if (is_new_sensor) starts.emplace_back();
-      starts[sensor->second - 1].push_back(&one->estimate);
+      starts[sensor->second - 1].push_back(&estimate);
       bundle.sensors.push_back(sensor->second);
       bundle.scene_of.push_back(scene->second);
-      BundleScene& present = bundle.scenes[scene->second];
-      present.clouds.push_back({sensor->second, one->estimate.source.get()});
-      if (!present.motion_covariance.isZero(0.0)) {
-        present.clouds.back().times_s = times_after(*one->estimate.source, zero_s(one->estimate));
-      }
+      add_cloud(sensor->second, *estimate.source, zeros_s[scene->second],
+                bundle.scenes[scene->second]);
     }
     for (BundleScene& scene : bundle.scenes) {
       std::sort(scene.clouds.begin(), scene.clouds.end(),
@@ -93,45 +98,27 @@ class BundleAdjustmentStep final : public RigStep {
     return bundle;
   }
 
+  /// Adds a cloud with its times after `zero_s`, if the scene's velocity is not certain.
+  static void add_cloud(std::size_t sensor, const Cloud& cloud, double zero_s, BundleScene& scene) {
+    scene.clouds.push_back({sensor, &cloud});
+    if (scene.motion_covariance.isZero(0.0)) return;
+    std::vector<double>& times = scene.clouds.back().times_s;
+    times = times_s(cloud.with_channels());
+    for (double& time : times) time -= zero_s;
+  }
+
   /// The start of a sensor that has these estimates, one per scene.
-  static BundleStart start_of(const std::vector<const Estimate*>& estimates) {
-    // Scenes that went astray must not pull the start.
-    constexpr PoseBounds kNear = {0.05, 0.5};
+  static InformedPose start_of(const std::vector<const Estimate*>& estimates) {
     std::vector<RigidTransform> poses;
     for (const Estimate* const one : estimates) poses.push_back(one->T_target_source);
-    const RigidTransform centre = poses.size() == 1 ? poses.front() : consensus_pose(poses, kNear);
-    std::vector<InformedPose> informed;
+    const RigidTransform centre = common_start(poses);
+    std::vector<InformedPose> known;
     for (const Estimate* const one : estimates) {
       if (!one->covariance) return {centre, Matrix6d::Zero()};
-      if (!agree(one->T_target_source, centre, kNear)) continue;
-      informed.push_back({one->T_target_source, guarded_inverse<6>(one->covariance->matrix)});
+      if (!agree(one->T_target_source, centre, kNearStart)) continue;
+      known.push_back(informed(one->T_target_source, one->covariance->matrix));
     }
-    if (informed.empty()) return {centre, Matrix6d::Zero()};
-    const InformedPose mean = informed_mean(informed);
-    return {mean.pose, mean.information};
-  }
-
-  /// The scene of an estimate, with its reference alone.
-  static BundleScene scene_with_reference(const Estimate& estimate) {
-    BundleScene scene;
-    scene.clouds.push_back({0, estimate.target.get()});
-    const Matrix6d* const motion = estimate.extras.find(kMotionCovariance);
-    if (motion != nullptr && !motion->isZero(0.0)) {
-      scene.motion_covariance = *motion;
-      scene.clouds.front().times_s = times_after(*estimate.target, zero_s(estimate));
-    }
-    return scene;
-  }
-
-  /// The zero of a scene's times, so that they are small.
-  static double zero_s(const Estimate& estimate) {
-    return span_of(times_s(estimate.target->with_channels())).middle_s();
-  }
-
-  static std::vector<double> times_after(const Cloud& cloud, double zero_s) {
-    std::vector<double> times = times_s(cloud.with_channels());
-    for (double& time : times) time -= zero_s;
-    return times;
+    return known.empty() ? InformedPose{centre, Matrix6d::Zero()} : informed_mean(known);
   }
 
   void adjust_rig(const std::vector<RigEstimate*>& estimates) const {
@@ -151,7 +138,7 @@ class BundleAdjustmentStep final : public RigStep {
       return adjust_rig(others);
     }
     for (std::size_t i = 0; i < estimates.size(); ++i) {
-      give(rig, result, i);
+      give(result, rig.start[rig.sensors[i]], rig.sensors[i], rig.scene_of[i], *estimates[i]);
     }
   }
 
@@ -166,7 +153,7 @@ class BundleAdjustmentStep final : public RigStep {
     std::optional<Far> far;
     double largest = 1.0;
     for (std::size_t k = 1; k < rig.start.size(); ++k) {
-      const PoseError moved = pose_error(result.poses[k], rig.start[k].T_common_sensor);
+      const PoseError moved = pose_error(result.poses[k], rig.start[k].pose);
       const double factor = std::max(deg_from_rad(moved.rotation_rad) / params_.max_correction_deg,
                                      moved.translation_m / params_.max_correction_m);
       if (factor <= largest) continue;
@@ -186,10 +173,8 @@ class BundleAdjustmentStep final : public RigStep {
     estimate.diagnostics = {{"moved_deg", rotation_deg}, {"moved_m", moved.translation_m}};
   }
 
-  void give(const RigBundle& rig, const Bundle& result, std::size_t i) const {
-    const std::size_t sensor = rig.sensors[i], scene = rig.scene_of[i];
-    RigEstimate& one = *rig.estimates[i];
-    const BundleStart& start = rig.start[sensor];
+  void give(const Bundle& result, const InformedPose& start, std::size_t sensor, std::size_t scene,
+            RigEstimate& one) const {
     const bool is_adjusted = result.planes[sensor] >= params_.min_planes;
     if (!is_adjusted && start.information.isZero(0.0)) {
       one.failure = "only " + counted(static_cast<std::size_t>(result.planes[sensor]), "plane") +

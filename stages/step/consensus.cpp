@@ -86,7 +86,11 @@ class ConsensusStep final : public RigStep {
         }
         return;
       }
-      const InformedPose mean = informed_mean(informed(agreeing));
+      std::vector<InformedPose> known;
+      for (const RigEstimate* const one : agreeing) {
+        known.push_back(informed(one->estimate.T_target_source, one->estimate.covariance->matrix));
+      }
+      const InformedPose mean = informed_mean(known);
       pose = mean.pose;
       covariance->matrix = guarded_inverse<6>(mean.information);
     }
@@ -99,16 +103,6 @@ class ConsensusStep final : public RigStep {
       one->estimate.diagnostics = {{"scenes", static_cast<double>(estimates.front()->scenes)},
                                    {"agreeing_ratio", ratio}};
     }
-  }
-
-  /// The poses of these estimates, all of which have a covariance.
-  static std::vector<InformedPose> informed(const OfSensor& agreeing) {
-    std::vector<InformedPose> poses;
-    for (const RigEstimate* const one : agreeing) {
-      poses.push_back(
-          {one->estimate.T_target_source, guarded_inverse<6>(one->estimate.covariance->matrix)});
-    }
-    return poses;
   }
 
   /// Scenes are independent observations of one pose, so their information adds; std::nullopt if

@@ -151,11 +151,7 @@ class JointRegistrationStep final : public RigStep {
       }
     }
     group.state.clock_offsets_s.assign(starts.size(), 0.0);
-    constexpr PoseBounds kNear = {0.05, 0.5};
-    for (const auto& poses : starts) {
-      group.state.T_target_sensor.push_back(poses.size() == 1 ? poses.front()
-                                                              : consensus_pose(poses, kNear));
-    }
+    for (const auto& poses : starts) group.state.T_target_sensor.push_back(common_start(poses));
     return group;
   }
 
@@ -219,12 +215,6 @@ class JointRegistrationStep final : public RigStep {
         velocity.dot(guarded_inverse<6>(motion.covariance) * velocity) >= params_.min_motion;
     if (motion.is_moving) motion.velocity = state.velocities[s];
     return motion;
-  }
-
-  static Vector6d vector_of(const Twist& velocity) {
-    Vector6d vector;
-    vector << velocity.angular_radps, velocity.linear_mps;
-    return vector;
   }
 
   void give(const Group& group, std::size_t s, const JointRegistration& result,

@@ -207,6 +207,18 @@ TEST(ConsensusPose, APoseWithMoreVotesWins) {
 /// The information of an observation with these standard deviations of all six.
 Matrix6d information_of(double std) { return Matrix6d::Identity() / (std * std); }
 
+TEST(CommonStart, IsThePoseThatMostScenesAreNearAndOneAloneToTheLastBit) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 50; ++i) {
+    const std::vector<RigidTransform> poses = poses_with_outliers(rng, 5, 2);
+    expect_near(common_start(poses), consensus_pose(poses, kNearStart), 1e-12);
+    expect_near(common_start(poses), poses.front(), 0.05);
+    EXPECT_EQ(common_start({poses[0]}).rotation, poses[0].rotation);
+    EXPECT_EQ(common_start({poses[0]}).translation, poses[0].translation);
+  }
+  EXPECT_THROW(common_start({}), std::logic_error);
+}
+
 TEST(InformedMean, OfEquallyKnownPosesIsTheirMean) {
   Rng rng = test::test_rng();
   for (int i = 0; i < 50; ++i) {

@@ -80,5 +80,21 @@ TEST(PoseError, IsTheOffsetThatAStartWasMovedBy) {
   }
 }
 
+TEST(Stepped, TurnsAboutTheOwnOriginAndIsUndoneByTheOppositeStep) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 200; ++i) {
+    const RigidTransform T = test::random_pose(rng, 10.0);
+    Vector6d step;
+    for (double& part : step) part = rng.uniform(-0.2, 0.2);
+    const RigidTransform after = stepped(T, step);
+    EXPECT_NEAR(pose_error(after, T).rotation_rad, step.head<3>().norm(), 1e-9);
+    EXPECT_LT((after.translation - T.translation - step.tail<3>()).norm(), 1e-12);
+    EXPECT_LT(pose_error(stepped(after, -step), T).rotation_rad, 1e-7);
+    // A long step is cut to half a radian as a whole.
+    const RigidTransform far = stepped(T, 10.0 / step.head<3>().norm() * step);
+    EXPECT_NEAR(pose_error(far, T).rotation_rad, 0.5, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace croon

@@ -241,13 +241,19 @@ TEST(BundleAdjustment, WhatIsNotKnownOfTheVelocityMovesASensorByTheTimeBetweenSc
   }
 }
 
-TEST(BundleAdjustment, TooFewPlanesAreAnErrorWithItsReason) {
-  Rng rng = test::test_rng();
+/// Two clouds of points that are on no plane.
+Estimate without_planes(Rng& rng) {
   Estimate estimate;
   estimate.target =
       std::make_shared<const Cloud>(test::random_cloud(rng, 2000, 10.0), StreamKey(1));
   estimate.source =
       std::make_shared<const Cloud>(test::random_cloud(rng, 2000, 10.0), StreamKey(2));
+  return estimate;
+}
+
+TEST(BundleAdjustment, TooFewPlanesAreAnErrorWithItsReason) {
+  Rng rng = test::test_rng();
+  Estimate estimate = without_planes(rng);
   const auto step = test::stage<Step>(R"({"step": "bundle_adjustment"})");
   try {
     step->advance(estimate, rng);
@@ -259,11 +265,7 @@ TEST(BundleAdjustment, TooFewPlanesAreAnErrorWithItsReason) {
 
 TEST(BundleAdjustment, TooFewPlanesLeaveAPoseThatIsKnown) {
   Rng rng = test::test_rng();
-  Estimate estimate;
-  estimate.target =
-      std::make_shared<const Cloud>(test::random_cloud(rng, 2000, 10.0), StreamKey(1));
-  estimate.source =
-      std::make_shared<const Cloud>(test::random_cloud(rng, 2000, 10.0), StreamKey(2));
+  Estimate estimate = without_planes(rng);
   estimate.T_target_source = test::random_pose(rng, 1.0);
   estimate.covariance = PoseCovariance{1e-4 * Matrix6d::Identity(), {}};
   const Estimate kept =
