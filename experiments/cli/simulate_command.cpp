@@ -21,6 +21,7 @@
 #include "framework/io/pcd_file.hpp"
 #include "framework/picture/top_view.hpp"
 #include "framework/stage/rig_files.hpp"
+#include "framework/table/renderers.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -32,6 +33,9 @@ constexpr const char* kRecipe = "simulation.json";
 
 /// The starts of an experiment that reads them, beside the scenes.
 constexpr const char* kStarts = "starts.csv";
+
+/// The velocity of each scene, for the step known_velocity.
+constexpr const char* kVelocities = "velocities.csv";
 
 constexpr const char* kCloudList = "lidar_cloud_path.txt";
 
@@ -54,6 +58,27 @@ std::string velocities_json(const Scene& scene) {
   add(scene.reference);
   for (const SensorScan& scan : scene.sensors) add(scan);
   return json.dump(2) + "\n";
+}
+
+/// A row of the file of velocities; see kVelocityHeader.
+struct VelocityRow {
+  std::string scene;
+  Twist velocity;  ///< Of the reference, in its own frame.
+};
+
+std::string velocities_csv(const std::vector<VelocityRow>& rows) {
+  Columns<VelocityRow> columns;
+  columns.add({"scene"}, &VelocityRow::scene);
+  for (const int i : {0, 1, 2}) {
+    columns.add({std::string("v") + "xyz"[i], "mps"},
+                [i](const VelocityRow& row) { return row.velocity.linear_mps(i); });
+  }
+  for (const int i : {0, 1, 2}) {
+    columns.add(
+        {std::string(kDofNames.at(static_cast<std::size_t>(i))) + "_rate", "degps"},
+        [i](const VelocityRow& row) { return deg_from_rad(row.velocity.angular_radps(i)); });
+  }
+  return csv_of(columns, rows);
 }
 
 /// The name under which the trials of each scene start: that of its group, if it is in one.
@@ -187,8 +212,11 @@ std::string kinds_json(const std::vector<Scene>& scenes) {
   return json.dump(2) + "\n";
 }
 
-void write_scenes(const SimulateOptions& options, const Experiment& experiment,
-                  const std::vector<Scene>& scenes, const TrialScenes& names, Progress& progress) {
+/// Returns the velocities of the scenes whose dataset knows them.
+std::vector<VelocityRow> write_scenes(const SimulateOptions& options, const Experiment& experiment,
+                                      const std::vector<Scene>& scenes, const TrialScenes& names,
+                                      Progress& progress) {
+  std::vector<VelocityRow> velocities(scenes.size());
   const int jobs = options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();
   on_threads(jobs, [&] {
     for_each_in_parallel(scenes.size(), [&](std::size_t i) {
@@ -197,9 +225,14 @@ void write_scenes(const SimulateOptions& options, const Experiment& experiment,
         write_scene(experiment, scene, names.at(scene.name), options.out);
       }
       if (options.png) draw_scene(scene, options.out);
+      if (scene.reference.velocity) velocities[i] = {scene.name, scene.reference.velocity()};
       progress.advance();
     });
   });
+  velocities.erase(std::remove_if(velocities.begin(), velocities.end(),
+                                  [](const VelocityRow& row) { return row.scene.empty(); }),
+                   velocities.end());
+  return velocities;
 }
 
 }  // namespace
@@ -211,14 +244,18 @@ int simulate_command(const SimulateOptions& options, const Catalogue& catalogue,
   // Those that fill no group too: without them, the written dataset would have other groups.
   const std::vector<Scene> scenes = dataset_scenes(experiment, fs::path());
   prepare(options.out, recipe_json(experiment));
+  std::vector<VelocityRow> velocities;
   {
     Progress progress(progress_out, progress_style_of_stderr(options.quiet), scenes.size());
-    write_scenes(options, experiment, scenes, trial_scenes(scenes, started), progress);
+    velocities = write_scenes(options, experiment, scenes, trial_scenes(scenes, started), progress);
     progress.finish();
   }
   std::vector<OutputFile> files = {{options.out / "truth.json", truth_json(scenes.front())},
                                    {options.out / "scene_kinds.json", kinds_json(scenes)},
                                    {options.out / "experiment.json", experiment_on(experiment)}};
+  if (!velocities.empty()) {
+    files.push_back({options.out / kVelocities, velocities_csv(velocities)});
+  }
   if (experiment.starts.table) {
     files.push_back({options.out / kStarts, starts_csv(experiment, started)});
   }

@@ -6,6 +6,7 @@
 #include "experiments/run/starts.hpp"
 #include "framework/base/memory.hpp"
 #include "framework/base/text.hpp"
+#include "framework/stage/given_motions.hpp"
 #include "framework/table/renderers.hpp"
 
 namespace croon::experiments {
@@ -59,6 +60,12 @@ std::vector<std::filesystem::path> inputs_of(const Experiment& experiment,
   inputs.insert(inputs.end(), {root / experiment.starts.file, folder / experiment.starts.file});
   for (const Variant& variant : experiment.variants) {
     inputs.insert(inputs.end(), {root / variant.poses.name, folder / variant.poses.name});
+    for (const NamedStep& named : variant.pipeline) {
+      const auto* const given = dynamic_cast<const GivenMotionStep*>(&*named.step);
+      if (given == nullptr) continue;
+      const std::string name = given->file().name;
+      inputs.insert(inputs.end(), {root / name, folder / name});
+    }
   }
   return inputs;
 }

@@ -4,51 +4,16 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <string_view>
 
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
-#include "framework/base/whole_file.hpp"
 #include "framework/geometry/length_bound.hpp"
-#include "framework/io/data_path.hpp"
-#include "framework/io/digest.hpp"
 #include "framework/io/text_scan.hpp"
 
 namespace croon::experiments {
 namespace {
 
 constexpr double kUnitTolerance = 1e-6;
-
-/// Throws the InputError of a line: expected ..., found ...
-[[noreturn]] void refuse(const std::string& expected, const std::string& found) {
-  throw InputError("", "", "expected " + expected + ", found " + found);
-}
-
-/// The fields of a line of RFC 4180, without the quotes.
-std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields = {""};
-  bool is_quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const bool is_doubled = is_quoted && line.compare(i, 2, "\"\"") == 0;
-    if (line[i] == '"' && !is_doubled) {
-      is_quoted = !is_quoted;
-    } else if (line[i] == ',' && !is_quoted) {
-      fields.emplace_back();
-    } else {
-      fields.back() += line[i];
-      if (is_doubled) ++i;
-    }
-  }
-  if (is_quoted) refuse("a second quote", in_quotes(line));
-  return fields;
-}
-
-double finite_number(const std::string& text) {
-  const std::optional<double> number = number_from(text);
-  if (!number) refuse("a number", in_quotes(text));
-  if (!std::isfinite(*number)) refuse("a finite number", in_quotes(text));
-  return *number;
-}
 
 double coordinate(const std::string& text) {
   const double number_m = finite_number(text);
@@ -77,13 +42,12 @@ Eigen::Quaterniond unit(const Eigen::Quaterniond& q) {
   return std::abs(length - 1.0) <= kRounding ? q : q.normalized();
 }
 
-/// The parts of the line `text`. Throws InputError: expected ..., found ...
-PoseLine read_line(const std::string& text, bool has_trial) {
-  const std::vector<std::string> fields = fields_of(text);
+/// The parts of a line. Throws InputError: expected ..., found ...
+PoseLine read_line(const CsvLine& csv) {
+  const bool has_trial = csv.header == kStartHeader;
+  const std::vector<std::string>& fields = csv.fields;
   const std::size_t names = has_trial ? 3 : 2;
-  if (fields.size() != names + 7) {
-    refuse(std::to_string(names + 7) + " fields", std::to_string(fields.size()));
-  }
+  require_fields(csv, names + 7);
   PoseLine line{fields[0], fields[1], has_trial ? trial_number(fields[2]) : -1, {}};
   for (std::size_t i = 0; i < 3; ++i) {
     line.pose.translation(static_cast<int>(i)) = coordinate(fields[names + i]);
@@ -94,20 +58,6 @@ PoseLine read_line(const std::string& text, bool has_trial) {
   }
   line.pose.rotation = unit(q);
   return line;
-}
-
-/// Spreadsheets write a byte order mark before the first line.
-std::string_view without_byte_order_mark(std::string_view bytes) {
-  constexpr std::string_view kMark = "\xef\xbb\xbf";
-  return bytes.substr(0, kMark.size()) == kMark ? bytes.substr(kMark.size()) : bytes;
-}
-
-/// `"a"`, or `"a" or "b"`.
-std::string any_of(const std::vector<std::string>& headers) {
-  std::string text;
-  for (const std::string& header : headers)
-    text += (text.empty() ? "" : " or ") + in_quotes(header);
-  return text;
 }
 
 }  // namespace
@@ -138,62 +88,12 @@ void DatasetNames::check(const std::string& scene, const std::string& sensor) co
 std::string read_pose_file(const std::filesystem::path& path,
                            const std::vector<std::string>& headers, const DatasetNames& names,
                            const std::function<void(const PoseLine&)>& add) {
-  const std::string bytes = read_whole_file(path);
-  const std::string file = path.string();
-  LineReader reader(without_byte_order_mark(bytes));
-  if (!reader.next() || std::find(headers.begin(), headers.end(), reader.line()) == headers.end()) {
-    throw InputError(file, "line 1",
-                     "expected " + any_of(headers) + ", found " + in_quotes(reader.line()));
-  }
-  const bool has_trial = reader.line() == kStartHeader;
-  std::vector<Fault> faults;
-  std::size_t more = 0;
-  while (reader.next()) {
-    const bool is_shown = faults.size() < kShownFaults;
-    try {
-      const PoseLine line = read_line(std::string(reader.line()), has_trial);
-      if (!is_shown && !names.has(line.scene, line.sensor)) {
-        ++more;
-        continue;
-      }
-      names.check(line.scene, line.sensor);
-      add(line);
-    } catch (const InputError& error) {
-      if (is_shown) faults.push_back({file, reader.place(), error.faults().front().message});
-      if (!is_shown) ++more;
-    }
-  }
-  if (!faults.empty()) throw_first(std::move(faults), file, more);
-  return sha256_of_text(bytes);
-}
-
-void throw_first(std::vector<Fault> faults, const std::string& file, std::size_t more) {
-  if (faults.size() > kShownFaults) {
-    more += faults.size() - kShownFaults;
-    faults.resize(kShownFaults);
-  }
-  if (more > 0) faults.push_back({file, "", "and " + std::to_string(more) + " more faults"});
-  throw InputError(std::move(faults));
-}
-
-std::filesystem::path found_input(const Experiment& experiment, const std::string& name,
-                                  const std::filesystem::path& data_root, const Fault& at,
-                                  const std::string& what) {
-  namespace fs = std::filesystem;
-  const fs::path beside = fs::path(experiment.file).parent_path();
-  std::string found;
-  for (const fs::path& folder : {data_root, beside.empty() ? fs::path(".") : beside}) {
-    const fs::path path = folder / name;
-    std::error_code error;
-    if (fs::is_regular_file(path, error)) {
-      if (is_within(fs::canonical(path, error), fs::canonical(folder, error))) return path;
-      found = path.string() + ", which is outside the folder " + folder.string();
-    }
-  }
-  if (found.empty()) {
-    found = "neither " + (data_root / name).string() + " nor " + (beside / name).string();
-  }
-  throw InputError(at.file, at.where, "expected " + what + ", found " + found);
+  return read_given_csv(path, headers, [&](const CsvLine& csv) {
+    const PoseLine line = read_line(csv);
+    if (!csv.is_shown && !names.has(line.scene, line.sensor)) refuse("", "");
+    names.check(line.scene, line.sensor);
+    add(line);
+  });
 }
 
 }  // namespace croon::experiments

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "experiments/file/experiment.hpp"
+#include "experiments/run/given_csv.hpp"
 
 namespace croon::experiments {
 
@@ -16,9 +16,6 @@ inline constexpr const char* kStartHeader = "scene,sensor,trial,tx_m,ty_m,tz_m,q
 
 /// The first line of a file with one pose for all trials of a sensor in a scene.
 inline constexpr const char* kPoseHeader = "scene,sensor,tx_m,ty_m,tz_m,qx,qy,qz,qw";
-
-/// So many faults are shown; the others are counted.
-inline constexpr std::size_t kShownFaults = 10;
 
 /// A line of a file of poses.
 struct PoseLine {
@@ -51,16 +48,5 @@ class DatasetNames {
 std::string read_pose_file(const std::filesystem::path& path,
                            const std::vector<std::string>& headers, const DatasetNames& names,
                            const std::function<void(const PoseLine&)>& add);
-
-/// Throws the first of `faults` of `file`, and how many more there are; `more` are not in the list.
-[[noreturn]] void throw_first(std::vector<Fault> faults, const std::string& file,
-                              std::size_t more = 0);
-
-/// The file that `experiment` names as `name`, below `data_root`, else below the folder of the
-/// experiment. Throws InputError at the file and position of `at` if there is none, or if the path
-/// with its links leaves the folder; `what` is "a file of starts".
-std::filesystem::path found_input(const Experiment& experiment, const std::string& name,
-                                  const std::filesystem::path& data_root, const Fault& at,
-                                  const std::string& what);
 
 }  // namespace croon::experiments

@@ -8,6 +8,7 @@
 #include "experiments/file/experiment.hpp"
 #include "experiments/run/channel_check.hpp"
 #include "experiments/run/given_poses.hpp"
+#include "experiments/run/given_velocities.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
 #include "framework/base/error.hpp"
@@ -56,6 +57,7 @@ CheckedRun check_run(const RunRequest& request, const Catalogue& catalogue) {
     check_plan_size(run.experiment, run.scenes, run.selection);
     check_channels(run.experiment, run.scenes, run.selection);
     resolve_poses(run.experiment, run.scenes, run.data_root);
+    resolve_velocities(run.experiment, run.scenes, run.data_root);
     check_claimed_sensors(run.experiment, sensor_names(run.scenes));
   });
   if (!faults.empty()) throw InputError(std::move(faults));

@@ -142,6 +142,10 @@ Table<Noise> noise_table() {
              "back 10 % of the light; 0: all rays come back."),
       boolean("sweep_distortion", &Noise::moves_during_scan,
               "Whether the car and others move while the sensors sweep; else all is of one time."),
+      params::optional(
+          number("clock_offset_s", &Noise::clock_offset_s, {-10.0, 10.0},
+                 "How much too late the times of all sensors but the reference are: their clocks "
+                 "are not the reference's.")),
   };
 }
 
@@ -159,6 +163,10 @@ const params::Table<Recipe>& recipe_table() {
                      {"real_still", real_still_noise()},
                      {"real", real_noise()}},
                     "What the sensors do wrong."),
+      params::optional(
+          number("speed_mps", &Recipe::speed_mps, {0.0, 100.0},
+                 "The speed of the car in each scene; without it each scene has its own. Matters "
+                 "with sweep_distortion.")),
       integer("seed", &Recipe::seed, {0, std::numeric_limits<int>::max()},
               "Other scenes for another seed; the experiment's own seed moves starts alone."),
   };

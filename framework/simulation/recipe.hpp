@@ -13,10 +13,11 @@ struct Recipe {
   Rig rig = rigs().front().second;
   Mix mix = paper_mix();
   Noise noise;
+  double speed_mps = -1.0;  ///< Of the car in each scene; below zero, each scene has its own.
   int seed = 1;
 };
 
-/// The rows of a recipe: "rig", "mix", "noise", "seed".
+/// The rows of a recipe: "rig", "mix", "noise", "speed_mps", "seed".
 const params::Table<Recipe>& recipe_table();
 
 }  // namespace croon::simulation

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 struct Firing {
   Vector3d nominal_direction;  ///< In the sensor's frame.
   std::uint16_t ring = 0;
-  double time_s = 0.0;
+  double time_s = 0.0;  ///< By the sensor's clock.
 };
 
 Vector3d direction_of(double azimuth_rad, double elevation_rad) {
@@ -43,7 +43,7 @@ void fire(const SensorModel& sensor, const Noise& noise, const ScanPlan& plan, R
         fired = direction_of(azimuth_rad + across, elevation_rad + up);
       }
       rays.push_back({T_world_sensor.translation, T_world_sensor.rotation * fired, time_s});
-      firings.push_back({nominal, static_cast<std::uint16_t>(ring), fired_s});
+      firings.push_back({nominal, static_cast<std::uint16_t>(ring), fired_s + plan.clock_offset_s});
     }
   }
 }

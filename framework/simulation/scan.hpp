@@ -13,13 +13,13 @@ namespace croon::simulation {
 struct ScanPlan {
   double begin_s = 0.0;
   std::function<RigidTransform(double time_s)> T_world_sensor;
+  double clock_offset_s = 0.0;  ///< By so much the times that the sensor gives are too late.
 };
 
 /// One scan of `world` by `sensor`, in the sensor's frame at the time when the ray was fired, with
 /// the channels intensity (0 to 255), ring and time (s, see ScanPlan), in the order of firing. The
-/// intensity is the share of light sent
-/// back times 255; it does not depend on the range, as in real sensors. All random numbers come
-/// from `key`.
+/// intensity is the share of light sent back times 255; it does not depend on the range, as in real
+/// sensors. All random numbers come from `key`.
 PointCloud scan(const RayCaster& world, const SensorModel& sensor, const Noise& noise,
                 const ScanPlan& plan, const StreamKey& key);
 

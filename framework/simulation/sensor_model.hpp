@@ -35,6 +35,7 @@ struct Noise {
   double dropout_ratio = 0.0;      ///< Share of the rays that are lost on any surface.
   double detection_range_m = 0.0;  ///< See detection_probability; 0: all rays come back.
   bool moves_during_scan = false;  ///< Bodies move during a scan; else all is at time 0.
+  double clock_offset_s = 0.0;     ///< Added to the times of all sensors but the reference.
 };
 
 /// The noise of CARLA in the paper's samples: exact points, but 15.6 % of the rays are lost (of the

@@ -16,10 +16,23 @@ StreamKey scene_key(const Recipe& recipe, std::uint64_t index) {
   return StreamKey(static_cast<std::uint64_t>(recipe.seed)).with("simulated scene").with(index);
 }
 
+/// `motion` at another speed, on the same arc as far as its lateral acceleration is that of a car.
+/// A car that stood drives straight on.
+Motion at_speed(const Motion& motion, double speed_mps) {
+  constexpr double kMostLateral_mps2 = 4.0;
+  if (motion.speed_mps == 0.0 || speed_mps == 0.0) return {speed_mps, 0.0};
+  const double most_radps = kMostLateral_mps2 / speed_mps;
+  const double turn_radps = motion.yaw_rate_radps / motion.speed_mps * speed_mps;
+  return {speed_mps, std::clamp(turn_radps, -most_radps, most_radps)};
+}
+
 std::shared_ptr<const World> make_world(const Recipe& recipe, std::uint64_t index) {
   const CarBody& body = recipe.rig.body;
   World world = make_scene(scene_kind(recipe, index), body, scene_key(recipe, index).with("world"));
   world.car.mesh = make_own_car(body);
+  if (recipe.speed_mps >= 0.0) {
+    world.car.motion = at_speed(world.car.motion, recipe.speed_mps);
+  }
   return std::make_shared<const World>(std::move(world));
 }
 
@@ -92,7 +105,8 @@ PointCloud SimulatedScene::scan_of(const std::string& name) const {
   const RigidTransform T_car_sensor =
       recipe_->rig.T_car_reference() * mounting.T_reference_sensor();
   const ScanPlan plan = {mounting.time_offset_s,
-                         [&](double time_s) { return world_->car.pose_at(time_s) * T_car_sensor; }};
+                         [&](double time_s) { return world_->car.pose_at(time_s) * T_car_sensor; },
+                         name == recipe_->rig.reference ? 0.0 : recipe_->noise.clock_offset_s};
   // The name of the random stream decides the bits of all scans.
   return scan(caster_, mounting.model, recipe_->noise, plan, key_.with("sweep").with(name));
 }

@@ -23,6 +23,13 @@ Points deskewed(const Points& points, const std::vector<double>& times_s, const 
   return moved;
 }
 
+std::shared_ptr<const Cloud> deskewed(const Cloud& cloud, const std::vector<double>& times_s,
+                                      const Twist& velocity, double reference_s) {
+  PointCloud moved = cloud.with_channels();
+  moved.points = deskewed(moved.points, times_s, velocity, reference_s);
+  return cloud.derived(std::move(moved), "still");
+}
+
 TimeSpan span_of(const std::vector<double>& times_s) {
   const auto [first, last] = std::minmax_element(times_s.begin(), times_s.end());
   return {*first, *last};

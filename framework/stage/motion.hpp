@@ -6,7 +6,7 @@
 
 namespace croon {
 
-/// The velocity of the target's sensor while it scanned, as a step estimated it.
+/// The velocity of the target's sensor while it scanned, as a step estimated it or knew it.
 inline constexpr Extra<Twist> kMotion{
     "motion", "the velocity of the target's sensor, by which the clouds were corrected"};
 

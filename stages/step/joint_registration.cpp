@@ -245,8 +245,7 @@ class JointRegistrationStep final : public RigStep {
                              fixed_number(speed_std_mps, 3) + ", above " +
                              fixed_number(params_.max_speed_std_mps, 3);
       }
-      estimate.extras.put(kMotion, motion.velocity);
-      estimate.extras.put(kMotionCovariance, motion.covariance);
+      give_motion(estimate.extras, scene.is_moving, motion);
       const RigidTransform& T = result.state.T_target_sensor[source.sensor];
       estimate.T_target_source = T;
       if (!motion.is_moving) continue;
@@ -258,11 +257,19 @@ class JointRegistrationStep final : public RigStep {
     }
   }
 
+  /// Gives later steps the motion. A step before may have removed a velocity that it knew: then
+  /// this step estimates what remains of it, or, if it is not asked to, leaves it as it is.
+  static void give_motion(Extras& extras, bool is_estimated, const Motion& motion) {
+    const Twist* const removed = extras.find(kMotion);
+    if (removed != nullptr && !is_estimated) return;
+    extras.put(kMotion, removed == nullptr ? motion.velocity
+                                           : stepped(*removed, vector_of(motion.velocity)));
+    extras.put(kMotionCovariance, motion.covariance);
+  }
+
   static std::shared_ptr<const Cloud> still(const TimedScan& scan, const Twist& velocity,
                                             double reference_s) {
-    PointCloud moved = scan.cloud->with_channels();
-    moved.points = deskewed(moved.points, scan.times_s, velocity, reference_s);
-    return scan.cloud->derived(std::move(moved), "still");
+    return deskewed(*scan.cloud, scan.times_s, velocity, reference_s);
   }
 
   Params params_;

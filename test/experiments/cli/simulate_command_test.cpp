@@ -103,6 +103,23 @@ TEST_F(SimulateCommand, WritesTheVelocitiesAndTheTimesThatDeskewTakes) {
             read_whole_file(path("read") + "/trials.csv"));
 }
 
+TEST_F(SimulateCommand, WritesTheFileOfVelocitiesThatKnownVelocityTakes) {
+  folder_.write("x.json", R"({"name": "x", "dataset": {"type": "simulated", "scenes": 2,
+      "noise": "real", "speed_mps": 12}, "starts": {"rotation_deg": 1, "trials": 1},
+      "pipeline": [{"step": "known_velocity", "file": "velocities.csv"}]})");
+  run("simulate " + path("x.json") + " --out " + path("data") + " --quiet");
+  run("run " + path("data/experiment.json") + " --data " + path("data") + " --out " + path("read") +
+      " --quiet");
+  const std::string diagnostics = read_whole_file(path("read") + "/diagnostics.csv");
+  for (const char* const scene : {"000000", "000001"}) {
+    const std::size_t row = diagnostics.find("base," + std::string(scene) + ",left,0");
+    ASSERT_NE(row, std::string::npos) << diagnostics;
+    const std::size_t number = diagnostics.find("speed_mps,", row) + 10;
+    // The lever arm of the reference adds to the speed in a bend.
+    EXPECT_NEAR(std::stod(diagnostics.substr(number)), 12.0, 0.1);
+  }
+}
+
 TEST_F(SimulateCommand, WritesThroughNoLink) {
   folder_.write("x.json", experiment(1));
   const std::string command = "simulate " + path("x.json") + " --out " + path("data") + " --quiet";

@@ -137,6 +137,44 @@ std::string bytes_of(const SimulatedScene& scene, const Recipe& recipe) {
   return bytes;
 }
 
+/// The recipe with the noise of a driving car at `speed_mps`.
+Recipe driving_at(double speed_mps) {
+  Recipe recipe = *recipe_of(SceneKind::crossing, real_noise());
+  recipe.speed_mps = speed_mps;
+  return recipe;
+}
+
+TEST(SimulatedScene, HasTheSpeedThatIsAsked) {
+  for (std::uint64_t index = 0; index < 6; ++index) {
+    const SimulatedScene own(std::make_shared<const Recipe>(driving_at(-1.0)), index);
+    const Motion& motion = own.world().car.motion;
+    for (const double speed_mps : {0.0, 2.0, 30.0}) {
+      const SimulatedScene scene(std::make_shared<const Recipe>(driving_at(speed_mps)), index);
+      const Motion& asked = scene.world().car.motion;
+      EXPECT_EQ(asked.speed_mps, speed_mps);
+      EXPECT_LT(std::abs(asked.yaw_rate_radps * speed_mps), 4.0 + 1e-9);
+      // The arc is the same, or wider at a high speed.
+      EXPECT_LE(std::abs(asked.yaw_rate_radps * motion.speed_mps),
+                std::abs(motion.yaw_rate_radps * speed_mps) + 1e-9);
+      EXPECT_GE(asked.yaw_rate_radps * motion.yaw_rate_radps, 0.0);
+      EXPECT_EQ(test::triangles_of(scene.world().fixed), test::triangles_of(own.world().fixed));
+    }
+  }
+}
+
+TEST(SimulatedScene, ClocksGoWrongByTheOffsetThatIsAsked) {
+  Recipe recipe = driving_at(10.0);
+  const SimulatedScene right(std::make_shared<const Recipe>(recipe), 0);
+  recipe.noise.clock_offset_s = 0.02;
+  const SimulatedScene wrong(std::make_shared<const Recipe>(recipe), 0);
+  for (const char* const sensor : {"top", "left"}) {
+    const PointCloud by_right = right.scan_of(sensor), by_wrong = wrong.scan_of(sensor);
+    EXPECT_EQ(by_right.points, by_wrong.points);
+    const double offset_s = times_s(by_wrong).at(7) - times_s(by_right).at(7);
+    EXPECT_NEAR(offset_s, std::string(sensor) == "top" ? 0.0 : 0.02, 1e-12);
+  }
+}
+
 TEST(SimulatedScene, IsTheSameAloneInAnyOrderAndOnAnyNumberOfThreads) {
   auto recipe = std::make_shared<Recipe>();
   recipe->noise = real_noise();

@@ -7,6 +7,7 @@
 #include "framework/simulation/rig.hpp"
 #include "framework/simulation/sensor_model.hpp"
 #include "framework/simulation/simulated_scene.hpp"
+#include "framework/stage/given_motions.hpp"
 #include "framework/stage/motion.hpp"
 #include "framework/stage/preprocessor.hpp"
 #include "framework/stage/rig_step.hpp"
@@ -135,6 +136,44 @@ TEST(JointRegistration, MovesTheCloudsToOneTime) {
   EXPECT_EQ(after.target, rig.estimates.back().estimate.target);
   EXPECT_EQ(after.source->points().size(), before.source->points().size());
   EXPECT_EQ(times_s(after.source->with_channels()), times_s(before.source->with_channels()));
+}
+
+/// The rig after known_velocity with velocities that are too small by `error_mps` along x.
+void remove_known_velocity(DrivingRig& rig, double error_mps) {
+  GivenMotions motions;
+  for (const auto& [scene, velocity] : rig.velocities) {
+    motions[scene] = {velocity, 0.1 * Vector6d::Ones()};
+    motions[scene].velocity.linear_mps.x() -= error_mps;
+  }
+  const auto step = test::stage<Step>(R"({"step": "known_velocity", "file": "v.csv"})");
+  const auto known = dynamic_cast<const GivenMotionStep&>(*step).with(motions);
+  Rng rng = test::test_rng();
+  dynamic_cast<const RigStep&>(*known).adjust(rig.estimates, rng);
+}
+
+TEST(JointRegistration, LeavesAVelocityThatIsKnown) {
+  DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
+  remove_known_velocity(rig, 0.0);
+  const auto before = rig.estimates;
+  adjust(rig.estimates, R"(, "motion": false)");
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const Estimate& estimate = rig.estimates[i].estimate;
+    EXPECT_EQ(estimate.target, before[i].estimate.target);
+    EXPECT_EQ(vector_of(estimate.extras.get(kMotion)),
+              vector_of(before[i].estimate.extras.get(kMotion)));
+    EXPECT_EQ(estimate.extras.get(kMotionCovariance),
+              before[i].estimate.extras.get(kMotionCovariance));
+  }
+}
+
+TEST(JointRegistration, EstimatesWhatRemainsOfAVelocityThatIsKnown) {
+  DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
+  remove_known_velocity(rig, 3.0);
+  adjust(rig.estimates);
+  for (const RigEstimate& one : rig.estimates) {
+    const Twist& found = one.estimate.extras.get(kMotion);
+    EXPECT_LT((found.linear_mps - rig.velocities[one.scene].linear_mps).norm(), 0.8) << one.scene;
+  }
 }
 
 TEST(JointRegistration, LeavesTheCloudsOfAStandingRig) {

@@ -1,0 +1,160 @@
+#include "experiments/run/given_velocities.hpp"
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "experiments/run/given_csv.hpp"
+#include "experiments/run/scene_groups.hpp"
+#include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
+#include "framework/io/text_scan.hpp"
+
+namespace croon::experiments {
+namespace {
+
+/// No car is faster, nor does it turn faster: such numbers have another unit.
+constexpr double kFastest_mps = 1000.0;
+constexpr double kFastest_degps = 3600.0;
+
+/// A field along (0 to 2) or about (3 to 5) an axis, at most as large as those of a car.
+double velocity(const std::string& text, int index) {
+  const double number = finite_number(text);
+  const double most = index < 3 ? kFastest_mps : kFastest_degps;
+  if (std::abs(number) > most) {
+    refuse("a number of at most " + fixed_number(most, 0) + (index < 3 ? " m/s" : " deg/s"),
+           in_quotes(text));
+  }
+  return number;
+}
+
+/// The six numbers from the field `first` on: along the axes, then about them in degrees per
+/// second. The result begins with those about them, in radians per second.
+Vector6d six_numbers(const std::vector<std::string>& fields, std::size_t first) {
+  Vector6d numbers;
+  for (int i = 0; i < 6; ++i) {
+    const double number = velocity(fields[first + static_cast<std::size_t>(i)], i);
+    numbers((i + 3) % 6) = i < 3 ? number : rad_from_deg(number);
+  }
+  return numbers;
+}
+
+GivenMotion motion_of(const CsvLine& line) {
+  const bool has_stds = line.header != kVelocityHeader;
+  require_fields(line, has_stds ? 13 : 7);
+  const Vector6d numbers = six_numbers(line.fields, 1);
+  GivenMotion motion{{numbers.head<3>(), numbers.tail<3>()}, std::nullopt};
+  if (!has_stds) return motion;
+  motion.stds = six_numbers(line.fields, 7);
+  for (std::size_t i = 7; i < line.fields.size(); ++i) {
+    if (finite_number(line.fields[i]) > 0.0) continue;
+    refuse("a standard deviation above 0", in_quotes(line.fields[i]));
+  }
+  return motion;
+}
+
+/// The faults of a file that lacks scenes.
+std::vector<Fault> missing(const GivenMotions& motions, const std::vector<std::string>& scenes,
+                           const std::string& file) {
+  std::vector<Fault> faults;
+  for (const std::string& scene : scenes) {
+    if (motions.count(scene) > 0) continue;
+    faults.push_back(
+        {file, "", "expected a velocity of scene " + in_quotes(scene) + ", found none"});
+  }
+  return faults;
+}
+
+/// Hands `table` to the step `named` of `variant`, whose parameters then have its digest.
+void hand_over(Variant& variant, NamedStep& named, const GivenMotionStep& step,
+               const VelocityTable& table) {
+  const std::string before = named.step.resolved();
+  std::string after = before;
+  if (step.file().sha256.empty()) {
+    after = before.substr(0, before.size() - 1) + ",\"sha256\":\"" + table.sha256 + "\"}";
+  }
+  named.step =
+      params::Slot<Step>(params::BuiltStage{step.with(table.motions), named.step.name(), after,
+                                            named.step.versions(), named.step.flow()});
+  // In the list of steps the name of the step comes first: a step of these parameters may be there
+  // twice.
+  const std::string head = "{\"name\":\"" + named.name + "\",";
+  const std::size_t at = variant.resolved.find(head + before.substr(1));
+  if (at != std::string::npos) {
+    variant.resolved.replace(at, head.size() + before.size() - 1, head + after.substr(1));
+  }
+}
+
+/// The files that were read, by their paths.
+using Tables = std::map<std::filesystem::path, VelocityTable>;
+
+void resolve_step(Experiment& experiment, Variant& variant, NamedStep& named, Tables& tables,
+                  const std::vector<Scene>& scenes, const std::filesystem::path& data_root) {
+  // Keeps the step while its successor is made.
+  const params::Slot<Step> kept = named.step;
+  const auto* const step = dynamic_cast<const GivenMotionStep*>(&*kept);
+  if (step == nullptr) return;
+  const Fault at = {experiment.file, "the step \"" + named.name + "\"", ""};
+  if (experiment.loops) {
+    throw InputError(at.file, at.where,
+                     "expected no \"loops\": the velocity is that of the reference, and pairs "
+                     "have another");
+  }
+  const GivenMotionStep::File file = step->file();
+  if (file.name.empty()) return;
+  const std::filesystem::path path =
+      found_input(experiment, file.name, data_root, at, "a file of velocities");
+  if (tables.count(path) == 0) {
+    tables[path] = read_velocity_file(path, scenes);
+    experiment.files.push_back({file.name, tables[path].sha256});
+  }
+  const VelocityTable& table = tables[path];
+  if (!file.sha256.empty() && file.sha256 != table.sha256) {
+    throw InputError(
+        at.file, at.where,
+        "expected the sha256 " + file.sha256 + ", found " + table.sha256 + " of " + path.string());
+  }
+  hand_over(variant, named, *step, table);
+}
+
+}  // namespace
+
+VelocityTable read_velocity_file(const std::filesystem::path& path,
+                                 const std::vector<Scene>& scenes) {
+  std::vector<std::string> names;
+  for (const Scene* const scene : parts_of(scenes)) names.push_back(scene->name);
+  const std::set<std::string> known(names.begin(), names.end());
+  VelocityTable table;
+  table.sha256 =
+      read_given_csv(path, {kVelocityHeader, std::string(kVelocityHeader) + kVelocityStdHeader},
+                     [&](const CsvLine& line) {
+                       const GivenMotion motion = motion_of(line);
+                       const std::string& scene = line.fields.front();
+                       if (known.count(scene) == 0) {
+                         const std::string hint = line.is_shown ? name_hint(scene, names) : "";
+                         refuse("a scene of the dataset", in_quotes(scene) + hint);
+                       }
+                       if (!table.motions.emplace(scene, motion).second) {
+                         refuse("each scene once", in_quotes(scene) + " again");
+                       }
+                     });
+  std::vector<Fault> faults = missing(table.motions, names, path.string());
+  if (!faults.empty()) throw_first(std::move(faults), path.string());
+  return table;
+}
+
+void resolve_velocities(Experiment& experiment, const std::vector<Scene>& scenes,
+                        const std::filesystem::path& data_root) {
+  Tables tables;
+  std::vector<Fault> faults;
+  for (Variant& variant : experiment.variants) {
+    for (NamedStep& named : variant.pipeline) {
+      collect_faults(faults,
+                     [&] { resolve_step(experiment, variant, named, tables, scenes, data_root); });
+    }
+  }
+  if (!faults.empty()) throw InputError(without_repeats(faults));
+}
+
+}  // namespace croon::experiments

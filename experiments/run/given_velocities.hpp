@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/file/experiment.hpp"
+#include "framework/stage/given_motions.hpp"
+
+namespace croon::experiments {
+
+/// The first line of a file of velocities; each line after it is the velocity of the car in one
+/// scene. `croon simulate` writes this format.
+inline constexpr const char* kVelocityHeader =
+    "scene,vx_mps,vy_mps,vz_mps,roll_rate_degps,pitch_rate_degps,yaw_rate_degps";
+
+/// What the first line goes on with if the file has standard deviations.
+inline constexpr const char* kVelocityStdHeader =
+    ",vx_std_mps,vy_std_mps,vz_std_mps,roll_rate_std_degps,pitch_rate_std_degps,"
+    "yaw_rate_std_degps";
+
+/// The velocities of a file.
+struct VelocityTable {
+  GivenMotions motions;
+  std::string sha256;
+};
+
+/// Reads the file of velocities `path`, which must have each of `scenes` once, or each scene of
+/// groups. Throws one InputError with the first faults.
+VelocityTable read_velocity_file(const std::filesystem::path& path,
+                                 const std::vector<Scene>& scenes);
+
+/// Reads the files of velocities that steps of `experiment` name, and hands their content to the
+/// steps. The digest of the file becomes a parameter of the step; the files are added to
+/// Experiment::files. Throws InputError with the faults of all files.
+void resolve_velocities(Experiment& experiment, const std::vector<Scene>& scenes,
+                        const std::filesystem::path& data_root);
+
+}  // namespace croon::experiments

@@ -1,0 +1,186 @@
+#include <optional>
+#include <utility>
+
+#include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
+#include "framework/params/values.hpp"
+#include "framework/spatial/deskew.hpp"
+#include "framework/stage/given_motions.hpp"
+#include "framework/stage/motion.hpp"
+#include "framework/stage/stage_entry.hpp"
+
+namespace croon::stages::step {
+namespace {
+
+struct Params {
+  std::string file;
+  std::vector<double> linear_mps = {0.0, 0.0, 0.0};
+  std::vector<double> angular_degps = {0.0, 0.0, 0.0};
+  double linear_std_mps = 0.0;
+  double angular_std_degps = 0.0;
+  std::vector<double> rotation_rpy_deg = {0.0, 0.0, 0.0};
+  std::vector<double> translation_m = {0.0, 0.0, 0.0};
+  std::string sha256;
+};
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table = [] {
+    params::Table<Params> rows = {
+        params::optional(params::text("file", &Params::file,
+                                      "A CSV file with a velocity for each scene; without it "
+                                      "linear_mps and angular_degps hold for all.")),
+        params::numbers("linear_mps", &Params::linear_mps, {-1000.0, 1000.0},
+                        "The velocity along x, y, z of the frame of the velocities."),
+        params::numbers("angular_degps", &Params::angular_degps, {-3600.0, 3600.0},
+                        "The rate of turning about x, y, z of that frame."),
+        params::number("linear_std_mps", &Params::linear_std_mps, {0.0, 1000.0},
+                       "Standard deviation along each axis of a velocity that has none in the "
+                       "file; 0: it is certain."),
+        params::number("angular_std_degps", &Params::angular_std_degps, {0.0, 3600.0},
+                       "The same about each axis; both or none are 0."),
+        params::numbers("rotation_rpy_deg", &Params::rotation_rpy_deg, {-360.0, 360.0},
+                        "Roll, pitch and yaw of the frame of the velocities in the reference's "
+                        "frame, R = Rz(yaw) Ry(pitch) Rx(roll)."),
+        params::numbers("translation_m", &Params::translation_m, {-100.0, 100.0},
+                        "Where that frame is in the reference's: the lever arm of an INS."),
+        params::optional(params::text("sha256", &Params::sha256,
+                                      "The SHA-256 of the file; another file is refused.")),
+    };
+    rows.rule({"file", {}, false, {}, {"linear_mps", "angular_degps"}, "no key beside \"file\""});
+    rows.rule({"sha256", {}, false, {"file"}});
+    const auto has_three = [](const std::vector<double>& list) { return list.size() == 3; };
+    rows.require(
+        [=](const Params& p) {
+          return has_three(p.linear_mps) && has_three(p.angular_degps) &&
+                 has_three(p.rotation_rpy_deg) && has_three(p.translation_m);
+        },
+        "linear_mps, angular_degps, rotation_rpy_deg and translation_m must have three numbers");
+    rows.require(
+        [](const Params& p) { return (p.linear_std_mps > 0.0) == (p.angular_std_degps > 0.0); },
+        "linear_std_mps and angular_std_degps must both be 0 or both be above it");
+    return rows;
+  }();
+  return table;
+}
+
+Eigen::Vector3d vector_from(const std::vector<double>& list) {
+  return Eigen::Vector3d(list.data());
+}
+
+/// The matrix that takes velocities of the frame b to those of a: the adjoint of `T_a_b`.
+Matrix6d adjoint(const RigidTransform& T_a_b) {
+  Matrix6d columns;
+  for (int i = 0; i < 6; ++i) {
+    columns.col(i) = vector_of(velocity_in(T_a_b, stepped(Twist(), Vector6d(Vector6d::Unit(i)))));
+  }
+  return columns;
+}
+
+class KnownVelocityStep final : public GivenMotionStep {
+ public:
+  explicit KnownVelocityStep(Params params) : params_(std::move(params)) {
+    T_reference_body_ = {
+        rotation_from_rpy(vector_from(params_.rotation_rpy_deg) * rad_from_deg(1.0)),
+        vector_from(params_.translation_m)};
+  }
+
+  static params::DataFlow data_flow(const Params&) {
+    params::DataFlow flow = params::needs_channels({kTime});
+    flow.gives = {kMotion.doc(), kMotionCovariance.doc()};
+    return flow;
+  }
+
+  File file() const override { return {params_.file, params_.sha256}; }
+
+  std::shared_ptr<const Step> with(GivenMotions motions) const override {
+    auto copy = std::make_shared<KnownVelocityStep>(params_);
+    copy->motions_ = std::move(motions);
+    return copy;
+  }
+
+  void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
+    for (RigEstimate& one : rig) {
+      try {
+        correct(one.scene, one.estimate);
+      } catch (const StageError& error) {
+        one.failure = error.what();
+      }
+    }
+  }
+
+ private:
+  /// What is known of the velocity in `scene`, in the frame of the velocities.
+  GivenMotion motion_in(const std::string& scene) const {
+    if (params_.file.empty()) {
+      return {
+          {vector_from(params_.angular_degps) * rad_from_deg(1.0), vector_from(params_.linear_mps)},
+          std::nullopt};
+    }
+    if (!motions_) throw StageError("only an experiment reads a file of velocities");
+    const auto found = motions_->find(scene);
+    if (found == motions_->end()) throw StageError("the file has no velocity of this scene");
+    return found->second;
+  }
+
+  Matrix6d covariance_of(const GivenMotion& motion) const {
+    Vector6d stds = Vector6d::Zero();
+    stds.head<3>().setConstant(rad_from_deg(params_.angular_std_degps));
+    stds.tail<3>().setConstant(params_.linear_std_mps);
+    const Matrix6d of_body = motion.stds.value_or(stds).cwiseAbs2().asDiagonal();
+    const Matrix6d A = adjoint(T_reference_body_);
+    return A * of_body * A.transpose();
+  }
+
+  /// Moves the points of both clouds to where they were half-way through the target's scan. The
+  /// sensor's velocity follows from its pose, so that should be near the truth.
+  void correct(const std::string& scene, Estimate& estimate) const {
+    if (estimate.extras.find(kMotion) != nullptr) {
+      throw StageError("a step before has corrected the clouds by a velocity already");
+    }
+    if (estimate.target->empty() || estimate.source->empty()) {
+      throw StageError("a cloud to be corrected is empty");
+    }
+    const GivenMotion motion = motion_in(scene);
+    const Twist velocity = velocity_in(T_reference_body_, motion.velocity);
+    const double reference_s = span_of(times_s(estimate.target->with_channels())).middle_s();
+    // The target is the same for all sensors and trials of the scene.
+    const Vector6d numbers = vector_of(velocity);
+    estimate.target = estimate.target->once<Cloud>(
+        "known_velocity",
+        params::value_json(std::vector<double>(numbers.data(), numbers.data() + numbers.size())),
+        [&] { return still(*estimate.target, velocity, reference_s); });
+    const RigidTransform T_sensor_reference = estimate.T_target_source.inverse();
+    estimate.source =
+        still(*estimate.source, velocity_in(T_sensor_reference, velocity), reference_s);
+    // They have the points as they were.
+    estimate.target_ground = nullptr;
+    estimate.source_ground = nullptr;
+    estimate.extras.put(kMotion, velocity);
+    estimate.extras.put(kMotionCovariance, covariance_of(motion));
+    estimate.diagnostics = {{"speed_mps", velocity.linear_mps.norm()},
+                            {"turn_degps", deg_from_rad(velocity.angular_radps.norm())}};
+  }
+
+  static std::shared_ptr<const Cloud> still(const Cloud& cloud, const Twist& velocity,
+                                            double reference_s) {
+    const std::vector<double> times = times_s(cloud.with_channels());
+    require_near(times, reference_s);
+    return deskewed(cloud, times, velocity, reference_s);
+  }
+
+  Params params_;
+  RigidTransform T_reference_body_;
+  std::optional<GivenMotions> motions_;
+};
+
+}  // namespace
+
+StageEntry known_velocity() {
+  return stage_entry<KnownVelocityStep>(
+      "known_velocity",
+      "Removes the distortion of all scans of a scene by a velocity that is known, for each scene "
+      "from a file or one for all; the poses should be near the truth.",
+      "Zhang and Singh, LOAM, 2014, section V.B", table());
+}
+
+}  // namespace croon::stages::step
