@@ -47,8 +47,14 @@ struct JointTerm {
   double residual_m;
   int patch;
   double weight;          ///< Of the patch.
+  double later_s;         ///< So much later than the target the sensor measured it.
   Eigen::Vector3d point;  ///< Of the target.
 };
+
+JointCell cell_of(const JointTerm& term) {
+  const Eigen::Vector3i leaf = LeafGrid(kJointCell_m).leaf_of(term.point);
+  return {leaf.x(), leaf.y(), leaf.z()};
+}
 
 RobustKernel kernel_at(double max_distance_m, const JointOptions& options) {
   return {Kernel::geman_mcclure, std::max(options.kernel_width_m, max_distance_m / 4.0)};
@@ -105,7 +111,7 @@ std::vector<JointTerm> terms_of(const JointScene::Source& source, const StillTar
     const Vector3d q = motion * Vector3d(turned + T.translation);
     const Neighbour nearest = target.cloud().kd_tree().nearest(q.cast<float>(), max_distance_m);
     if (!nearest) continue;
-    const Vector3d n = target.normals().at(nearest.index).normal.cast<double>();
+    const Vector3d n = target.normal(nearest.index);
     const Vector3d source_normal =
         motion.rotation * (T.rotation * normals.at(i).normal.cast<double>());
     if (n.isZero() || n.dot(source_normal) < min_cosine) continue;
@@ -114,10 +120,11 @@ std::vector<JointTerm> terms_of(const JointScene::Source& source, const StillTar
     term.residual_m = n.dot(q - p);
     term.patch = sample->patches[k];
     term.weight = sample->weights[k];
+    term.later_s = source_s - target_s;
     term.point = p;
     // The derivatives of exp(xi t) at small xi t: a scan turns by a few degrees at most.
     term.J << (motion.rotation * turned).cross(n), n, source_s * q.cross(n) - target_s * p.cross(n),
-        (source_s - target_s) * n, n.dot(velocity.angular_radps.cross(q) + velocity.linear_mps);
+        term.later_s * n, n.dot(velocity.angular_radps.cross(q) + velocity.linear_mps);
     terms.push_back(term);
   }
   weigh_patches(terms, view);
@@ -147,8 +154,13 @@ Vector6d velocity_information(const JointOptions& options) {
 
 StillTarget::StillTarget(const JointScene& scene, const Twist& velocity, int normal_neighbours)
     : scene_(scene),
+      angular_radps_(velocity.angular_radps),
       cloud_(still_cloud(scene, velocity)),
-      normals_(cloud_->normals(normal_neighbours)) {}
+      normals_(scene.target.cloud->normals(normal_neighbours)) {}
+
+Eigen::Vector3d StillTarget::normal(int index) const {
+  return rotation_exp(angular_radps_ * time_s(index)) * normals_.at(index).normal.cast<double>();
+}
 
 PairEquations pair_equations(const JointScene::Source& source, const StillTarget& target,
                              const JointView& view) {
@@ -167,15 +179,28 @@ PairEquations pair_equations(const JointScene::Source& source, const StillTarget
   return sums;
 }
 
+PairAgreement pair_agreement(const JointScene::Source& source, const StillTarget& target,
+                             const JointView& view) {
+  JointOptions every_patch = view.options;
+  every_patch.patch_kernel_m = 0.0;
+  const std::vector<JointTerm> terms =
+      terms_of(source, target, {view.state, view.velocity, view.max_distance_m, every_patch});
+  PairAgreement agreement;
+  for (const JointTerm& term : terms) {
+    const double widths = term.residual_m / view.options.kernel_width_m;
+    agreement.by_cell[cell_of(term)] += term.weight / (1.0 + widths * widths);
+    agreement.later_s += term.later_s / static_cast<double>(terms.size());
+  }
+  return agreement;
+}
+
 std::map<JointCell, CellEquations> cell_equations(const JointScene::Source& source,
-                                                  const StillTarget& target, const JointView& view,
-                                                  double cell_m) {
+                                                  const StillTarget& target,
+                                                  const JointView& view) {
   const RobustKernel kernel = kernel_at(view.max_distance_m, view.options);
-  const LeafGrid grid(cell_m);
   std::map<JointCell, CellEquations> cells;
   for (const JointTerm& term : terms_of(source, target, view)) {
-    const Eigen::Vector3i leaf = grid.leaf_of(term.point);
-    CellEquations& sums = cells[{leaf.x(), leaf.y(), leaf.z()}];
+    CellEquations& sums = cells[cell_of(term)];
     const double square = term.residual_m * term.residual_m;
     const double w = term.weight * kernel.weight(square);
     sums.hessian += (w * curvature_share(kernel.weight(square))) * (term.J * term.J.transpose());

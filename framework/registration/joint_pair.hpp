@@ -13,15 +13,18 @@ class StillTarget {
   StillTarget(const JointScene& scene, const Twist& velocity, int normal_neighbours);
 
   const Cloud& cloud() const { return *cloud_; }
-  const Normals& normals() const { return normals_; }
+  /// The unit normal at point `index`, zero if it has none: that of the scan as it was measured,
+  /// turned with the point, because a point's neighbours were measured at about its time.
+  Eigen::Vector3d normal(int index) const;
   /// When point `index` was measured, from the reference time on.
   double time_s(int index) const { return scene_.target.times_s[index] - scene_.reference_s; }
   double reference_s() const { return scene_.reference_s; }
 
  private:
   const JointScene& scene_;
+  Eigen::Vector3d angular_radps_;
   std::shared_ptr<const Cloud> cloud_;
-  const Normals& normals_;
+  const Normals& normals_;  ///< Of the scan as it was measured.
 };
 
 /// The unknowns of one pair of clouds: its pose (Dof), the velocity (about the axes, along them),
@@ -60,6 +63,20 @@ PairEquations pair_equations(const JointScene::Source& source, const StillTarget
 /// A cube of space around the target: its indices along the axes.
 using JointCell = std::array<int, 3>;
 
+/// The edge of a cube. A car is in few of them.
+inline constexpr double kJointCell_m = 6.0;
+
+/// How well one pair of clouds fits.
+struct PairAgreement {
+  /// The weights of the points that lie on a surface of the target, each times
+  /// `1 / (1 + r^2 / width^2)` for its residual r, by cubes. No patch has lost weight.
+  std::map<JointCell, double> by_cell;
+  double later_s = 0.0;  ///< So much later than the target the sensor measures, in the mean.
+};
+
+PairAgreement pair_agreement(const JointScene::Source& source, const StillTarget& target,
+                             const JointView& view);
+
 /// What the correspondences in one cube add to the cost's gradient and Hessian, which has the
 /// curvature of the robust kernel.
 struct CellEquations {
@@ -67,9 +84,8 @@ struct CellEquations {
   PairVector gradient = PairVector::Zero();
 };
 
-/// The same correspondences, by cubes of edge `cell_m`. Throws StageError for points beyond them.
+/// The same correspondences, by cubes. Throws StageError for points beyond them.
 std::map<JointCell, CellEquations> cell_equations(const JointScene::Source& source,
-                                                  const StillTarget& target, const JointView& view,
-                                                  double cell_m);
+                                                  const StillTarget& target, const JointView& view);
 
 }  // namespace croon

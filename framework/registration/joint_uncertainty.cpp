@@ -1,12 +1,12 @@
 #include "framework/registration/joint_uncertainty.hpp"
 
+#include <cmath>
+
 #include "framework/geometry/guarded_inverse.hpp"
 #include "framework/registration/joint_pair.hpp"
 
 namespace croon {
 namespace {
-
-constexpr double kCell_m = 6.0;  // A car is in few of them.
 
 using Cells = std::map<JointCell, CellEquations>;
 
@@ -35,9 +35,8 @@ Matrix6d velocity_covariance(const JointScene& scene, const Twist& velocity,
   std::vector<CellEquations> all(scene.sources.size());
   std::map<JointCell, std::vector<CellEquations>> cells;
   for (std::size_t j = 0; j < scene.sources.size(); ++j) {
-    const Cells of_source =
-        cell_equations(scene.sources[j], target,
-                       {state, velocity, options.max_distances_m.back(), options}, kCell_m);
+    const Cells of_source = cell_equations(
+        scene.sources[j], target, {state, velocity, options.max_distances_m.back(), options});
     for (const auto& [place, sums] : of_source) {
       all[j].hessian += sums.hessian;
       std::vector<CellEquations>& cell = cells[place];
@@ -54,6 +53,25 @@ Matrix6d velocity_covariance(const JointScene& scene, const Twist& velocity,
     covariance += step * step.transpose();
   }
   return covariance;
+}
+
+std::vector<double> shift_std_m(const JointScene& scene, const Twist& velocity,
+                                const Matrix6d& covariance, const JointState& state,
+                                const JointOptions& options) {
+  const StillTarget target(scene, velocity, options.normal_neighbours);
+  std::vector<double> std_m;
+  for (const JointScene::Source& source : scene.sources) {
+    const PairMatrix information =
+        pair_equations(source, target, {state, velocity, options.max_distances_m.back(), options})
+            .information;
+    // A change of the velocity leaves the least residuals at another pose.
+    const Matrix6d pose_by_velocity =
+        -guarded_inverse<6>(information.block<6, 6>(kPairPose, kPairPose)) *
+        information.block<6, 6>(kPairPose, kPairVelocity);
+    const Eigen::Matrix<double, 3, 6> shift = pose_by_velocity.bottomRows<3>();
+    std_m.push_back(std::sqrt((shift * covariance * shift.transpose()).trace()));
+  }
+  return std_m;
 }
 
 }  // namespace croon

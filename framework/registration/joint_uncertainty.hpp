@@ -12,4 +12,11 @@ namespace croon {
 Matrix6d velocity_covariance(const JointScene& scene, const Twist& velocity,
                              const JointState& state, const JointOptions& options);
 
+/// What is not known of the velocity of a scene, with its `covariance`, moves each of its sources
+/// by so much: the standard deviation of its translation, m. A sensor that sees what the target
+/// sees at the same time hardly moves.
+std::vector<double> shift_std_m(const JointScene& scene, const Twist& velocity,
+                                const Matrix6d& covariance, const JointState& state,
+                                const JointOptions& options);
+
 }  // namespace croon

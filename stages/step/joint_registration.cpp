@@ -8,11 +8,11 @@
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
-#include "framework/geometry/guarded_inverse.hpp"
 #include "framework/geometry/pose_mean.hpp"
 #include "framework/params/choice.hpp"
 #include "framework/pipeline/shared_view.hpp"
-#include "framework/registration/joint_uncertainty.hpp"
+#include "framework/registration/joint_rivals.hpp"
+#include "framework/registration/scene_motion.hpp"
 #include "framework/spatial/deskew.hpp"
 #include "framework/stage/motion.hpp"
 #include "framework/stage/rig_step.hpp"
@@ -23,13 +23,11 @@ namespace {
 
 enum class Poses { per_scene, common };
 
-struct Params : JointOptions {
+struct Params : JointOptions, MotionOptions {
   Poses poses = Poses::per_scene;
   params::Slot<Preprocessor> thinning;
   std::vector<double> coarse_distances_m = {2.0, 1.0, 0.5};
   bool motion = true;
-  double min_motion = 100.0;
-  double max_speed_std_mps = 0.25;
 };
 
 const params::Table<Params>& table() {
@@ -46,16 +44,9 @@ const params::Table<Params>& table() {
           params::boolean("motion", &Params::motion,
                           "Whether the rig moves while it scans, with a constant velocity in each "
                           "scene; needs the channel time."),
-          params::number("min_motion", &Params::min_motion, {0.0, 1e9},
-                         "A scene stands still if its velocity's squared distance from zero, in "
-                         "standard deviations, is below; that of standing cars was 6 to 67 on "
-                         "tuning scenes."),
-          params::number("max_speed_std_mps", &Params::max_speed_std_mps, {0.0, 1e6},
-                         "With a pose per scene, a scene is rejected if its speed along x and y of "
-                         "the reference is less certain: what moves by itself cannot be told "
-                         "from what stands."),
       }
-          .inherit(joint_table());
+          .inherit(joint_table())
+          .inherit(motion_table());
   return table;
 }
 
@@ -112,8 +103,28 @@ class JointRegistrationStep final : public RigStep {
       every_patch = registered(group, coarse, options).state;
     }
     for (std::size_t s = 0; s < group.scenes.size(); ++s) {
-      give(group, s, result, motion_of(group.scenes[s], s, result.state, every_patch));
+      SceneMotion motion =
+          motion_of(group.scenes[s], s, result.state, every_patch, params_, params_);
+      if (params_.poses == Poses::per_scene && motion.is_in_doubt(params_)) {
+        motion.lead = lead_of(group.scenes[s], coarse[s], result.state, motion, every_patch);
+      }
+      give(group, s, result, motion);
     }
+  }
+
+  /// How far the `state` of a scene is ahead of where other speeds lead.
+  std::optional<double> lead_of(const JointScene& scene, const JointScene& coarse,
+                                const JointState& state, const SceneMotion& motion,
+                                const std::optional<JointState>& every_patch) const {
+    const Eigen::Vector3d axis = axis_of_motion(motion, state.velocities.front());
+    std::vector<JointState> starts =
+        other_speeds(scene, state, axis, params_.other_speeds_mps, params_);
+    if (every_patch) starts.push_back(*every_patch);
+    // The clouds have met already, so the widest pass is not needed.
+    JointOptions near = params_;
+    near.max_distances_m = params_.coarse_distances_m;
+    if (near.max_distances_m.size() > 1) near.max_distances_m.erase(near.max_distances_m.begin());
+    return lead_over_rivals(scene, coarse, state, std::move(starts), params_, near);
   }
 
   /// The passes over the thinned scenes `coarse`, then those over all points.
@@ -191,36 +202,9 @@ class JointRegistrationStep final : public RigStep {
     return index;
   }
 
-  /// What is known of the motion of a scene.
-  struct Motion {
-    Twist velocity;
-    Matrix6d covariance = Matrix6d::Zero();
-    bool is_moving = false;
-  };
-
-  /// The motion of scene `s` in `state`. What moves by itself may decide between two velocities:
-  /// that in the state `every_patch`, in which no patch loses weight, is then another, and by so
-  /// much the velocity is not known.
-  Motion motion_of(const JointScene& scene, std::size_t s, const JointState& state,
-                   const std::optional<JointState>& every_patch) const {
-    Motion motion;
-    if (!scene.is_moving) return motion;
-    const Vector6d velocity = vector_of(state.velocities[s]);
-    motion.covariance = velocity_covariance(scene, state.velocities[s], state, params_);
-    if (every_patch) {
-      const Vector6d apart = velocity - vector_of(every_patch->velocities[s]);
-      motion.covariance += apart * apart.transpose();
-    }
-    motion.is_moving =
-        velocity.dot(guarded_inverse<6>(motion.covariance) * velocity) >= params_.min_motion;
-    if (motion.is_moving) motion.velocity = state.velocities[s];
-    return motion;
-  }
-
   void give(const Group& group, std::size_t s, const JointRegistration& result,
-            const Motion& motion) const {
+            const SceneMotion& motion) const {
     const JointScene& scene = group.scenes[s];
-    const double speed_std_mps = std::sqrt(motion.covariance(3, 3) + motion.covariance(4, 4));
     std::shared_ptr<const Cloud> target;
     for (std::size_t j = 0; j < scene.sources.size(); ++j) {
       Estimate& estimate = group.estimates[s][j]->estimate;
@@ -231,7 +215,8 @@ class JointRegistrationStep final : public RigStep {
         continue;
       }
       estimate.diagnostics = {{"speed_mps", motion.velocity.linear_mps.norm()},
-                              {"speed_std_mps", speed_std_mps},
+                              {"speed_std_mps", motion.speed_std_mps()},
+                              {"speed_shift_std_m", motion.shift_std_m[j]},
                               {"turn_degps", deg_from_rad(motion.velocity.angular_radps.norm())},
                               {"rmse_m", result.rmse_m},
                               {"iterations", static_cast<double>(result.iterations)},
@@ -240,11 +225,11 @@ class JointRegistrationStep final : public RigStep {
         estimate.diagnostics.emplace_back("clock_offset_s",
                                           result.state.clock_offsets_s[source.sensor]);
       }
-      if (params_.poses == Poses::per_scene && speed_std_mps > params_.max_speed_std_mps) {
-        estimate.rejection = "the standard deviation of the speed, m/s, is " +
-                             fixed_number(speed_std_mps, 3) + ", above " +
-                             fixed_number(params_.max_speed_std_mps, 3);
-      }
+      if (motion.lead) estimate.diagnostics.emplace_back("speed_lead", *motion.lead);
+      // With common poses other scenes tell what a scene's velocity is.
+      const std::string rejection =
+          params_.poses == Poses::common ? "" : motion.rejection(j, params_);
+      if (!rejection.empty()) estimate.rejection = rejection;
       give_motion(estimate.extras, scene.is_moving, motion);
       const RigidTransform& T = result.state.T_target_sensor[source.sensor];
       estimate.T_target_source = T;
@@ -259,7 +244,7 @@ class JointRegistrationStep final : public RigStep {
 
   /// Gives later steps the motion. A step before may have removed a velocity that it knew: then
   /// this step estimates what remains of it, or, if it is not asked to, leaves it as it is.
-  static void give_motion(Extras& extras, bool is_estimated, const Motion& motion) {
+  static void give_motion(Extras& extras, bool is_estimated, const SceneMotion& motion) {
     const Twist* const removed = extras.find(kMotion);
     if (removed != nullptr && !is_estimated) return;
     extras.put(kMotion, removed == nullptr ? motion.velocity
@@ -282,7 +267,7 @@ StageEntry joint_registration() {
       "joint_registration",
       "Sees the whole rig: registers all sensors together with the velocity of each scene, and "
       "removes the distortion of the scans by it.",
-      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 2);
+      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 3);
 }
 
 }  // namespace croon::stages::step

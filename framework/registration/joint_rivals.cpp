@@ -1,0 +1,114 @@
+#include "framework/registration/joint_rivals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "framework/registration/joint_pair.hpp"
+
+namespace croon {
+namespace {
+
+using Agreement = std::map<JointCell, double>;
+
+/// Where the points of a scene agree in `state`, of all sensors.
+Agreement agreement_of(const JointScene& scene, const JointState& state,
+                       const JointOptions& options) {
+  const Twist& velocity = state.velocities.front();
+  const StillTarget target(scene, velocity, options.normal_neighbours);
+  Agreement agreement;
+  for (const JointScene::Source& source : scene.sources) {
+    const PairAgreement pair =
+        pair_agreement(source, target, {state, velocity, options.max_distances_m.back(), options});
+    for (const auto& [cell, agreeing] : pair.by_cell) agreement[cell] += agreeing;
+  }
+  return agreement;
+}
+
+double sum_of(const Agreement& agreement) {
+  double sum = 0.0;
+  for (const auto& [cell, agreeing] : agreement) sum += agreeing;
+  return sum;
+}
+
+/// By how many standard deviations `a` is ahead of `b`; 0 if they agree in every cube.
+double lead_of(const Agreement& a, const Agreement& b) {
+  Agreement differences = a;
+  for (const auto& [cell, agreeing] : b) differences[cell] -= agreeing;
+  double squares = 0.0;
+  for (const auto& [cell, difference] : differences) squares += difference * difference;
+  return squares > 0.0 ? sum_of(differences) / std::sqrt(squares) : 0.0;
+}
+
+bool is_rival(const JointState& a, const JointState& b) {
+  for (std::size_t k = 0; k < a.T_target_sensor.size(); ++k) {
+    const Eigen::Vector3d apart_m =
+        a.T_target_sensor[k].translation - b.T_target_sensor[k].translation;
+    if (apart_m.norm() > kRivalDistance_m) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<JointState> other_speeds(const JointScene& scene, const JointState& state,
+                                     const Eigen::Vector3d& axis,
+                                     const std::vector<double>& speeds_mps,
+                                     const JointOptions& options) {
+  const Twist& velocity = state.velocities.front();
+  const StillTarget target(scene, velocity, options.normal_neighbours);
+  std::vector<double> later_s(state.T_target_sensor.size(), 0.0);
+  for (const JointScene::Source& source : scene.sources) {
+    later_s[source.sensor] =
+        pair_agreement(source, target, {state, velocity, options.max_distances_m.back(), options})
+            .later_s;
+  }
+  std::vector<JointState> others;
+  for (const double speed_mps : speeds_mps) {
+    const Eigen::Vector3d change_mps = (speed_mps - velocity.linear_mps.dot(axis)) * axis;
+    JointState other = state;
+    other.velocities.front().linear_mps += change_mps;
+    for (std::size_t k = 0; k < later_s.size(); ++k) {
+      other.T_target_sensor[k].translation -= later_s[k] * change_mps;
+    }
+    others.push_back(std::move(other));
+  }
+  return others;
+}
+
+std::optional<double> lead_over_rivals(const JointScene& scene, const JointScene& coarse,
+                                       const JointState& state, std::vector<JointState> starts,
+                                       const JointOptions& options,
+                                       const JointOptions& coarse_options) {
+  constexpr std::size_t kRefined = 3;
+  struct Rival {
+    JointState state;
+    double agreement;
+  };
+  std::vector<Rival> rivals;
+  for (JointState& start : starts) {
+    JointState near = register_jointly({coarse}, std::move(start), coarse_options).state;
+    const double agreement = sum_of(agreement_of(scene, near, options));
+    rivals.push_back({std::move(near), agreement});
+  }
+  std::stable_sort(rivals.begin(), rivals.end(),
+                   [](const Rival& a, const Rival& b) { return a.agreement > b.agreement; });
+  const Agreement own = agreement_of(scene, state, options);
+  std::vector<JointState> seen = {state};
+  std::optional<double> least;
+  for (const Rival& rival : rivals) {
+    if (seen.size() > kRefined) break;
+    const bool is_new = std::all_of(seen.begin(), seen.end(), [&](const JointState& other) {
+      return is_rival(other, rival.state);
+    });
+    if (!is_new) continue;
+    seen.push_back(rival.state);
+    const JointState fine = register_jointly({scene}, rival.state, options).state;
+    if (!is_rival(fine, state)) continue;
+    const double lead = lead_of(own, agreement_of(scene, fine, options));
+    least = std::min(lead, least.value_or(lead));
+  }
+  return least;
+}
+
+}  // namespace croon

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "framework/registration/joint_registration.hpp"
+
+namespace croon {
+
+/// Other starts for the registration of one scene than `state`: its speed along `axis` (a unit
+/// vector in the target's frame) is each of `speeds_mps`. The sensors move by what the rig travels
+/// between the target's scan and theirs, so the clouds stay about where they met.
+std::vector<JointState> other_speeds(const JointScene& scene, const JointState& state,
+                                     const Eigen::Vector3d& axis,
+                                     const std::vector<double>& speeds_mps,
+                                     const JointOptions& options);
+
+/// A rival of a state has a sensor at least this far from its place there.
+inline constexpr double kRivalDistance_m = 0.1;
+
+/// By how many standard deviations more points agree in `state` of one scene than in its best
+/// rival: where the registration ends from `starts`, with `coarse_options` on the thinned scene
+/// `coarse` and then, for the three best of them, with `options` on `scene`. Nothing if there is no
+/// rival; negative if more points agree in it.
+///
+/// The difference is a sum over cubes of space, which count as independent: its variance is the sum
+/// of their squares. So a rival that a few moving cars agree with is behind by little, or ahead by
+/// little.
+std::optional<double> lead_over_rivals(const JointScene& scene, const JointScene& coarse,
+                                       const JointState& state, std::vector<JointState> starts,
+                                       const JointOptions& options,
+                                       const JointOptions& coarse_options);
+
+}  // namespace croon

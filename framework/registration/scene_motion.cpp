@@ -1,0 +1,86 @@
+#include "framework/registration/scene_motion.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "framework/base/text.hpp"
+#include "framework/geometry/guarded_inverse.hpp"
+#include "framework/registration/joint_uncertainty.hpp"
+
+namespace croon {
+
+const params::Table<MotionOptions>& motion_table() {
+  static const params::Table<MotionOptions> table = {
+      params::number("min_motion", &MotionOptions::min_motion, {0.0, 1e9},
+                     "A scene stands still if its velocity's squared distance from zero, in "
+                     "standard deviations, is below; that of standing cars was 6 to 67 on "
+                     "tuning scenes."),
+      params::number("max_speed_std_mps", &MotionOptions::max_speed_std_mps, {0.0, 1e6},
+                     "With a pose per scene, a scene is rejected if its speed along x and y of "
+                     "the reference is less certain: what moves by itself cannot be told "
+                     "from what stands."),
+      params::number("certain_speed_std_mps", &MotionOptions::certain_speed_std_mps, {0.0, 1e6},
+                     "A scene whose speed is less certain than this is compared with what other "
+                     "speeds lead to."),
+      params::numbers("other_speeds_mps", &MotionOptions::other_speeds_mps, {-1e3, 1e3},
+                      "These speeds, along the axis along which the scene moves the most."),
+      params::number("min_speed_lead", &MotionOptions::min_speed_lead, {-1e3, 1e3},
+                     "Such a scene is rejected unless more points agree than where any of them "
+                     "leads with a sensor 0.1 m away or farther: by so many standard deviations, "
+                     "with cubes of 6 m as independent."),
+      params::number("certain_shift_m", &MotionOptions::certain_shift_m, {0.0, 1e6},
+                     "A sensor that what is not known of the velocity moves by less is not "
+                     "rejected for it: one that sees things when the reference sees them."),
+  };
+  return table;
+}
+
+double SceneMotion::speed_std_mps() const { return std::sqrt(covariance(3, 3) + covariance(4, 4)); }
+
+bool SceneMotion::is_in_doubt(const MotionOptions& options) const {
+  return speed_std_mps() > options.certain_speed_std_mps &&
+         speed_std_mps() <= options.max_speed_std_mps;
+}
+
+std::string SceneMotion::rejection(std::size_t source, const MotionOptions& options) const {
+  if (shift_std_m.at(source) <= options.certain_shift_m) return "";
+  const std::string std_mps =
+      "the standard deviation of the speed, m/s, is " + fixed_number(speed_std_mps(), 3);
+  if (speed_std_mps() > options.max_speed_std_mps) {
+    return std_mps + ", above " + fixed_number(options.max_speed_std_mps, 3);
+  }
+  if (!lead || *lead >= options.min_speed_lead) return "";
+  return std_mps + ", and the lead over another speed, in standard deviations, is " +
+         fixed_number(*lead, 2) + ", below " + fixed_number(options.min_speed_lead, 2);
+}
+
+SceneMotion motion_of(const JointScene& scene, std::size_t s, const JointState& state,
+                      const std::optional<JointState>& every_patch, const JointOptions& options,
+                      const MotionOptions& motion_options) {
+  SceneMotion motion;
+  motion.shift_std_m.assign(scene.sources.size(), 0.0);
+  if (!scene.is_moving) return motion;
+  const Vector6d velocity = vector_of(state.velocities[s]);
+  motion.covariance = velocity_covariance(scene, state.velocities[s], state, options);
+  if (every_patch) {
+    const Vector6d apart = velocity - vector_of(every_patch->velocities[s]);
+    motion.covariance += apart * apart.transpose();
+  }
+  motion.shift_std_m = shift_std_m(scene, state.velocities[s], motion.covariance, state, options);
+  motion.is_moving =
+      velocity.dot(guarded_inverse<6>(motion.covariance) * velocity) >= motion_options.min_motion;
+  if (motion.is_moving) motion.velocity = state.velocities[s];
+  return motion;
+}
+
+Eigen::Vector3d axis_of_motion(const SceneMotion& motion, const Twist& velocity) {
+  const Eigen::Vector2d mean_mps = velocity.linear_mps.head<2>();
+  const Eigen::Matrix2d second_moment =
+      motion.covariance.block<2, 2>(3, 3) + mean_mps * mean_mps.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(second_moment);
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+  axis.head<2>() = axes.eigenvectors().col(1);
+  return axis;
+}
+
+}  // namespace croon

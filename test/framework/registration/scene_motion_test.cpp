@@ -1,0 +1,157 @@
+#include "framework/registration/scene_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "framework/registration/joint_rivals.hpp"
+#include "framework/registration/joint_uncertainty.hpp"
+#include "test/support/random_geometry.hpp"
+
+namespace croon {
+namespace {
+
+constexpr double kLater_s = 0.05;  // So much later than the target the sensor scans.
+
+/// A plate of points every 0.1 m, `wide_m` by `high_m`, that faces along x; its middle is at `at`.
+void add_plate(Points& points, const Eigen::Vector3f& at, float wide_m, float high_m) {
+  for (float y = -wide_m / 2; y <= wide_m / 2; y += 0.1F) {
+    for (float z = -high_m / 2; z <= high_m / 2; z += 0.1F) {
+      points.emplace_back(at + Eigen::Vector3f(0.0F, y, z));
+    }
+  }
+}
+
+TimedScan scan_of(Points points, double time_s) {
+  const std::vector<double> times_s(points.size(), time_s);
+  return {std::make_shared<const Cloud>(PointCloud(std::move(points)), StreamKey(1)), times_s};
+}
+
+/// A standing rig between walls, where signs stand and a lorry moves by `lorry_m` between the two
+/// scans: its back has more points than all signs.
+JointScene street(int signs, float lorry_m, double later_s = kLater_s) {
+  Rng rng = test::test_rng();
+  Points fixed;
+  for (float x = -20.0F; x <= 20.0F; x += 0.2F) {
+    for (float across = -6.0F; across <= 6.0F; across += 0.2F) {
+      fixed.emplace_back(x, across, -2.0F);
+      for (const float wall : {-7.0F, 7.0F}) fixed.emplace_back(x, wall, across / 3.0F);
+    }
+  }
+  for (int i = 0; i < signs; ++i) {
+    const float x = -18.0F + 36.0F * static_cast<float>(i) / static_cast<float>(signs);
+    add_plate(fixed, {x, i % 2 == 0 ? -5.0F : 5.0F, static_cast<float>(rng.uniform(0.0, 1.0))},
+              0.8F, 0.8F);
+  }
+  Points before = fixed, after = fixed;
+  add_plate(before, {11.0F, 0.0F, 0.0F}, 5.0F, 3.0F);
+  add_plate(after, {11.0F + lorry_m, 0.0F, 0.0F}, 5.0F, 3.0F);
+  JointScene scene;
+  scene.target = scan_of(std::move(before), 0.0);
+  scene.sources = {{0, scan_of(std::move(after), later_s)}};
+  return scene;
+}
+
+/// The sensor `x_m` along the road, and no motion.
+JointState sensor_at(double x_m) {
+  JointState state;
+  state.T_target_sensor.resize(1);
+  state.T_target_sensor[0].translation.x() = x_m;
+  state.clock_offsets_s = {0.0};
+  state.velocities = {Twist{}};
+  return state;
+}
+
+std::optional<double> lead(const JointScene& scene, double x_m, double rival_x_m) {
+  JointOptions options;
+  options.points = 100000;
+  return lead_over_rivals(scene, scene, sensor_at(x_m), {sensor_at(rival_x_m)}, options, options);
+}
+
+TEST(LeadOverRivals, ManySignsAreAheadOfOneLorry) {
+  const JointScene scene = street(10, 0.5F);
+  const std::optional<double> truth = lead(scene, 0.0, -0.5);
+  const std::optional<double> lorry = lead(scene, -0.5, 0.0);
+  ASSERT_TRUE(truth);
+  ASSERT_TRUE(lorry);
+  EXPECT_GT(*truth, 0.5);
+  EXPECT_NEAR(*truth, -*lorry, 0.05);
+}
+
+TEST(LeadOverRivals, FallsWithTheNumberOfSigns) {
+  const double many = *lead(street(10, 0.5F), 0.0, -0.5);
+  const double few = *lead(street(2, 0.5F), 0.0, -0.5);
+  EXPECT_LT(few, many);
+  EXPECT_LT(few, 0.5);
+}
+
+TEST(LeadOverRivals, IsNothingIfAllStartsEndAtTheState) {
+  EXPECT_FALSE(lead(street(10, 0.5F), 0.0, 0.05));
+  EXPECT_FALSE(lead(street(10, 0.0F), 0.0, -0.2));
+}
+
+TEST(OtherSpeeds, KeepTheCloudsWhereTheyMet) {
+  const JointScene scene = street(10, 0.0F);
+  const Eigen::Vector3d axis = Eigen::Vector3d(3.0, 4.0, 0.0).normalized();
+  const std::vector<double> speeds_mps = {-10.0, 0.0, 25.0};
+  const auto states = other_speeds(scene, sensor_at(0.0), axis, speeds_mps, JointOptions{});
+  ASSERT_EQ(states.size(), 3U);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const Eigen::Vector3d velocity_mps = states[i].velocities.front().linear_mps;
+    EXPECT_NEAR((velocity_mps - speeds_mps[i] * axis).norm(), 0.0, 1e-12);
+    const Eigen::Vector3d met = states[i].T_target_sensor[0].translation + kLater_s * velocity_mps;
+    EXPECT_NEAR(met.norm(), 0.0, 1e-9);
+  }
+}
+
+TEST(ShiftOfAnUnknownVelocity, IsTheWayBetweenTheTwoScans) {
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance(3, 3) = 2.0 * 2.0;
+  covariance(4, 4) = 1.0;
+  covariance(3, 4) = covariance(4, 3) = -1.0;
+  const auto shift = [&](double later_s) {
+    return shift_std_m(street(10, 0.0F, later_s), Twist{}, covariance, sensor_at(0.0),
+                       JointOptions{})
+        .front();
+  };
+  EXPECT_NEAR(shift(0.05), 0.05 * std::sqrt(5.0), 1e-3);
+  EXPECT_NEAR(shift(-0.02), 0.02 * std::sqrt(5.0), 1e-3);
+  EXPECT_EQ(shift(0.0), 0.0);
+}
+
+TEST(SceneMotion, RejectsWhatIsNotCertainAndHasNoLead) {
+  const MotionOptions options;
+  SceneMotion motion;
+  motion.shift_std_m = {0.1, 0.001};
+  motion.covariance(3, 3) = 0.03 * 0.03;
+  motion.covariance(4, 4) = 0.04 * 0.04;
+  EXPECT_DOUBLE_EQ(motion.speed_std_mps(), 0.05);
+  EXPECT_FALSE(motion.is_in_doubt(options));
+  motion.covariance(3, 3) = 0.04;
+  EXPECT_TRUE(motion.is_in_doubt(options));
+  EXPECT_EQ(motion.rejection(0, options), "");
+  motion.lead = 3.0;
+  EXPECT_EQ(motion.rejection(0, options), "");
+  motion.lead = 0.2;
+  EXPECT_EQ(motion.rejection(0, options),
+            "the standard deviation of the speed, m/s, is 0.204, and the lead over another speed, "
+            "in standard deviations, is 0.20, below 0.50");
+  motion.covariance(4, 4) = 4.0;
+  EXPECT_FALSE(motion.is_in_doubt(options));
+  EXPECT_EQ(motion.rejection(0, options),
+            "the standard deviation of the speed, m/s, is 2.010, above 0.300");
+  EXPECT_EQ(motion.rejection(1, options), "") << "It sees things when the target sees them.";
+}
+
+TEST(SceneMotion, TheAxisIsTheVelocitysOrTheLeastKnown) {
+  SceneMotion motion;
+  motion.covariance(3, 3) = 0.01;
+  motion.covariance(4, 4) = 4.0;
+  Twist velocity;
+  EXPECT_NEAR(std::abs(axis_of_motion(motion, velocity).y()), 1.0, 1e-12);
+  velocity.linear_mps = {20.0, 0.0, 3.0};
+  EXPECT_NEAR(std::abs(axis_of_motion(motion, velocity).x()), 1.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace croon
