@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "framework/base/error.hpp"
@@ -26,8 +25,8 @@ TEST(LeafOptions, AllScorersCountWhatTheySay) {
     const double extent_m = i % 2 == 0 ? 1.0 : 10.0;
     const Points target = test::random_cloud(rng, 800, extent_m);
     const Points source = test::random_cloud(rng, 600, extent_m);
-    test::expect_equal_counts(target, source, {RigidTransform{}, test::random_pose(rng, extent_m)},
-                              random_options(rng));
+    const RigidTransform pose = test::random_pose(rng, extent_m);
+    test::expect_equal_counts(target, source, {RigidTransform{}, pose}, random_options(rng));
   }
 }
 
@@ -37,8 +36,8 @@ TEST(LeafOptions, AllScorersCountWhatTheySayFarFromTheOrigin) {
   for (int i = 0; i < 5; ++i) {
     const Points target = transformed(test::random_cloud(rng, 400, 5.0), far);
     const Points source = test::random_cloud(rng, 400, 5.0);
-    test::expect_equal_counts(target, source, {RigidTransform{}, far * test::random_pose(rng, 1.0)},
-                              random_options(rng));
+    const RigidTransform pose = far * test::random_pose(rng, 1.0);
+    test::expect_equal_counts(target, source, {RigidTransform{}, pose}, random_options(rng));
   }
 }
 
@@ -48,8 +47,8 @@ TEST(LeafOptions, FewPointsAndNone) {
   for (const Points& target : {Points{}, same}) {
     for (const Points& source : {Points{}, same, test::random_cloud(rng, 50, 1.0)}) {
       for (int i = 0; i < 4; ++i) {
-        test::expect_equal_counts(target, source, {test::random_pose(rng, 1.0)},
-                                  random_options(rng));
+        const RigidTransform pose = test::random_pose(rng, 1.0);
+        test::expect_equal_counts(target, source, {pose}, random_options(rng));
       }
     }
   }
