@@ -7,8 +7,7 @@
 #include "benchmarks/support/run.hpp"
 #include "framework/params/values.hpp"
 #include "framework/spatial/leaf_window.hpp"
-#include "framework/stage/volume_scorer.hpp"
-#include "test/support/stages.hpp"
+#include "test/support/leaf_scorers.hpp"
 
 namespace croon::benchmarks {
 namespace {
@@ -133,7 +132,7 @@ void check_and_add() {
     pair.name += "_with_ground";
     pairs.push_back(std::move(pair));
   }
-  const std::vector<std::string> names = registry().names(VolumeScorer::kKind);
+  const std::vector<std::string> names = test::leaf_scorer_names();
   check_and_add_options(names, pairs.back());
   for (const CloudPair& pair : pairs) {
     for (const double leaf_size_m : kLeafSizes) {

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "framework/spatial/leaf_grid.hpp"
-#include "test/support/stages.hpp"
+#include "test/support/leaf_scorers.hpp"
 
 namespace croon::test {
 
@@ -21,9 +21,7 @@ LeafOptions leaves_of(double leaf_size_m) {
 std::vector<std::pair<std::string, params::Slot<VolumeScorer>>> all_scorers(
     const LeafOptions& options) {
   std::vector<std::pair<std::string, params::Slot<VolumeScorer>>> scorers;
-  for (const std::string& name : registry().names(VolumeScorer::kKind)) {
-    const auto scorer = stage<VolumeScorer>(R"({"type": ")" + name + R"("})");
-    if (dynamic_cast<const LeafScorer*>(&*scorer) == nullptr) continue;
+  for (const std::string& name : leaf_scorer_names()) {
     scorers.emplace_back(name, stage<VolumeScorer>(R"({"type": ")" + name + R"(", )" +
                                                    leaf_table().members_json(options) + "}"));
   }
