@@ -7,8 +7,7 @@
 #include "benchmarks/support/run.hpp"
 #include "framework/params/values.hpp"
 #include "framework/spatial/leaf_window.hpp"
-#include "framework/stage/volume_scorer.hpp"
-#include "test/support/stages.hpp"
+#include "test/support/leaf_scorers.hpp"
 
 namespace croon::benchmarks {
 namespace {
@@ -19,9 +18,17 @@ constexpr int kPoses = 32;
 constexpr int kBatch = 64;
 const std::vector<double> kLeafSizes = {0.02, 0.05, 0.1, 0.2};
 
-Scorer scorer(const std::string& name, double leaf_size_m) {
+/// Options of which each costs a pose more than once, beside the leaf size.
+const std::vector<std::pair<std::string, int>> kOptions = {
+    {"lattices", 8}, {"leaf_sizes", 3}, {"min_points", 2}};
+
+Scorer scorer(const std::string& name, double leaf_size_m, const std::string& option = "") {
   return test::stage<VolumeScorer>(R"({"type": ")" + name + R"(", "leaf_size_m": )" +
-                                   params::value_json(leaf_size_m) + "}");
+                                   params::value_json(leaf_size_m) + option + "}");
+}
+
+std::string option_json(const std::pair<std::string, int>& option) {
+  return R"(, ")" + option.first + R"(": )" + params::value_json(option.second);
 }
 
 std::vector<std::int64_t> counts(const Scorer& scorer, const CloudPair& pair) {
@@ -36,10 +43,10 @@ std::vector<std::int64_t> counts(const Scorer& scorer, const CloudPair& pair) {
 
 /// Times mean nothing where the answers differ.
 void check_equal_counts(const std::vector<std::string>& names, const CloudPair& pair,
-                        double leaf_size_m) {
-  const std::vector<std::int64_t> expected = counts(scorer(names.at(0), leaf_size_m), pair);
+                        double leaf_size_m, const std::string& option = "") {
+  const std::vector<std::int64_t> expected = counts(scorer(names.at(0), leaf_size_m, option), pair);
   for (const std::string& name : names) {
-    if (counts(scorer(name, leaf_size_m), pair) != expected) {
+    if (counts(scorer(name, leaf_size_m, option), pair) != expected) {
       throw std::runtime_error(name + " and " + names[0] + " count differently on " + pair.name +
                                " at " + params::value_json(leaf_size_m) + " m");
     }
@@ -97,6 +104,20 @@ void measure_floor(benchmark::State& state, const CloudPair& pair, double leaf_s
   state.counters["source_points"] = static_cast<double>(pair.source.size());
 }
 
+void check_and_add_options(const std::vector<std::string>& names, const CloudPair& pair) {
+  constexpr double kLeafSize = 0.05;
+  for (const auto& option : kOptions) {
+    check_equal_counts(names, pair, kLeafSize, option_json(option));
+    for (const std::string& name : names) {
+      const Scorer subject = scorer(name, kLeafSize, option_json(option));
+      add("options/" + pair.name + "/leaf_size_m:0.05/" + option.first + ":" +
+              params::value_json(option.second) + "/" + name,
+          benchmark::kMillisecond,
+          [=](benchmark::State& state) { measure_pose(state, subject, pair); });
+    }
+  }
+}
+
 void check_and_add() {
   std::vector<CloudPair> pairs;
   std::vector<int> sizes = {2000, 5000, 20000, 100000};
@@ -111,7 +132,8 @@ void check_and_add() {
     pair.name += "_with_ground";
     pairs.push_back(std::move(pair));
   }
-  const std::vector<std::string> names = registry().names(VolumeScorer::kKind);
+  const std::vector<std::string> names = test::leaf_scorer_names();
+  check_and_add_options(names, pairs.back());
   for (const CloudPair& pair : pairs) {
     for (const double leaf_size_m : kLeafSizes) {
       check_equal_counts(names, pair, leaf_size_m);

@@ -13,8 +13,7 @@
 #include "benchmarks/support/clouds.hpp"
 #include "benchmarks/support/run.hpp"
 #include "framework/params/values.hpp"
-#include "framework/stage/volume_scorer.hpp"
-#include "test/support/stages.hpp"
+#include "test/support/leaf_scorers.hpp"
 
 namespace croon::benchmarks {
 namespace {
@@ -117,7 +116,7 @@ void check_and_add() {
             [=, &pair](benchmark::State& state) { measure(state, counter, pair); });
       };
       const Counter ours = registered("pointer_octree", pair, leaf_size_m);
-      for (const std::string& name : registry().names(VolumeScorer::kKind)) {
+      for (const std::string& name : test::leaf_scorer_names()) {
         const Counter counter = registered(name, pair, leaf_size_m);
         check_counts(name, counter, ours, pair, 0.0);
         add_counter(name, counter);

@@ -215,8 +215,8 @@ class PythonVolumeScorer final : public VolumeScorer, Caller {
       }
       return [function, leaf_size_m](const RigidTransform& T_target_source) {
         return in_python([&] {
-          return OccupiedVolume{leaves_from(function.get()(array_from(T_target_source))),
-                                leaf_size_m};
+          return OccupiedVolume::of_leaves(leaves_from(function.get()(array_from(T_target_source))),
+                                           leaf_size_m);
         });
       };
     });

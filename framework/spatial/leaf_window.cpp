@@ -106,6 +106,12 @@ LeafWindow::Instructions LeafWindow::best_instructions() {
 LeafWindow::LeafWindow(const LeafGrid& grid, const Eigen::Vector3d& centre)
     : grid_(grid), corner_(grid.leaf_of(centre).array() - kWidth / 2) {}
 
+LeafWindow::LeafWindow(const LeafGrid& grid, const PointColumns& points,
+                       const RigidTransform& T_grid_points)
+    : LeafWindow(grid, points.size() == 0
+                           ? Eigen::Vector3d::Zero().eval()
+                           : (T_grid_points * points.point(points.size() / 2)).eval()) {}
+
 bool LeafWindow::holds(const PointColumns& points, const RigidTransform& T_target_source) const {
   if (!points.finite) return false;
   const Eigen::Matrix3d spread = T_target_source.rotation.cwiseAbs();

@@ -15,6 +15,7 @@ namespace croon {
 struct PointColumns {
   explicit PointColumns(const Points& points);
   std::size_t size() const { return x.size(); }
+  Eigen::Vector3d point(std::size_t i) const { return {x[i], y[i], z[i]}; }
 
   std::vector<float> x, y, z;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< Of the bounding box.
@@ -45,6 +46,8 @@ class LeafWindow {
 
   /// The window around the leaf of `centre` (metres). Throws StageError outside of the grid.
   LeafWindow(const LeafGrid& grid, const Eigen::Vector3d& centre);
+  /// The window around the leaf of the point in the middle of the list, at `T_grid_points`.
+  LeafWindow(const LeafGrid& grid, const PointColumns& points, const RigidTransform& T_grid_points);
 
   const LeafGrid& grid() const { return grid_; }
 
@@ -105,8 +108,7 @@ class LeafWindow {
                        const Use& use) const {
     FarLeaves far;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Eigen::Vector3d point(points.x[i], points.y[i], points.z[i]);
-      const Eigen::Vector3i leaf = grid_.leaf_of(T_target_source * point);
+      const Eigen::Vector3i leaf = grid_.leaf_of(T_target_source * points.point(i));
       if (const std::optional<std::uint64_t> near = key_of(leaf)) {
         use(&*near, std::size_t{1});
       } else {

@@ -12,12 +12,14 @@
 
 namespace croon {
 
-/// The volume that two clouds occupy together: the leaves that hold a point of either.
+/// The volume that two clouds occupy together.
 struct OccupiedVolume {
-  std::int64_t leaves = 0;
-  double leaf_size_m = 0.0;
-  double m3() const {
-    return static_cast<double>(leaves) * (leaf_size_m * leaf_size_m * leaf_size_m);
+  double m3 = 0.0;
+  std::int64_t leaves = 0;  ///< How many were counted for it, over all lattices.
+
+  /// That of leaves of one size.
+  static OccupiedVolume of_leaves(std::int64_t leaves, double leaf_size_m) {
+    return {static_cast<double>(leaves) * (leaf_size_m * leaf_size_m * leaf_size_m), leaves};
   }
 };
 
@@ -64,9 +66,8 @@ class VolumeScorer {
   virtual ~VolumeScorer() = default;
 
   /// The volume as a function of pose. What depends on the target alone is computed once
-  /// (`Cloud::once`). The leaves are those of LeafGrid in the target's frame, so all scorers count
-  /// the same. A cloud without points occupies no leaf. A point outside of the grid throws
-  /// StageError: a point of the target here, one of the source in the function.
+  /// (`Cloud::once`). A cloud without points occupies nothing. A scorer that counts leaves derives
+  /// from LeafScorer.
   virtual VolumeFunction bind(std::shared_ptr<const Cloud> target,
                               std::shared_ptr<const Cloud> source) const = 0;
 };

@@ -1,6 +1,12 @@
+#include <array>
+#include <set>
+#include <utility>
 #include <vector>
 
+#include "framework/base/error.hpp"
+#include "framework/params/values.hpp"
 #include "framework/pipeline/step_options.hpp"
+#include "framework/spatial/leaf_grid.hpp"
 #include "framework/stage/pose_search.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/step.hpp"
@@ -13,6 +19,7 @@ struct Params {
   params::Slot<VolumeScorer> scorer;
   params::Slot<PoseSearch> search;
   PointSelection points = PointSelection::non_ground;
+  double overlap_cube_m = 0.0;
 };
 
 const params::Table<Params>& table() {
@@ -22,8 +29,41 @@ const params::Table<Params>& table() {
       params::slot("search", &Params::search, R"({"type": "coordinate_scan"})",
                    "Finds the pose of least volume."),
       params::choice("points", &Params::points, kPointsWords, "Which points occupy volume."),
+      params::number(
+          "overlap_cube_m", &Params::overlap_cube_m, {0.0, 1000.0},
+          "If not 0, only those points of the sensor count that, at the pose before, lie "
+          "in cubes of this edge in which the reference has points."),
   };
   return table;
+}
+
+using Cube = std::array<int, 3>;
+
+Cube cube_of(const LeafGrid& cubes, const Eigen::Vector3d& point) {
+  const Eigen::Vector3i cube = cubes.leaf_of(point);
+  return {cube.x(), cube.y(), cube.z()};
+}
+
+/// The source's points in cubes that hold points of the target. They are chosen once for all poses
+/// of a search, since clouds that move apart would otherwise occupy less. The target keeps all of
+/// its points: those elsewhere add the same to every pose. Throws StageError if none is left.
+std::shared_ptr<const Cloud> overlapping(const SelectedClouds& clouds,
+                                         const RigidTransform& T_target_source, double cube_m) {
+  const LeafGrid cubes(cube_m);
+  const auto of_target =
+      clouds.target->once<std::set<Cube>>("overlap_cubes", params::value_json(cube_m), [&] {
+        const auto set = std::make_shared<std::set<Cube>>();
+        for (const Eigen::Vector3f& p : clouds.target->points()) {
+          set->insert(cube_of(cubes, p.cast<double>()));
+        }
+        return set;
+      });
+  Points kept;
+  for (const Eigen::Vector3f& p : clouds.source->points()) {
+    if (of_target->count(cube_of(cubes, T_target_source * p.cast<double>())) > 0) kept.push_back(p);
+  }
+  if (kept.empty()) throw StageError("the two clouds share no cube of overlap_cube_m");
+  return clouds.source->derived(std::move(kept), "overlap");
 }
 
 class VolumeRefinement final : public Step {
@@ -31,13 +71,16 @@ class VolumeRefinement final : public Step {
   explicit VolumeRefinement(Params params) : params_(std::move(params)) {}
 
   Estimate advance(Estimate estimate, Rng&) const override {
-    const SelectedClouds clouds = selected_clouds(estimate, params_.points);
+    SelectedClouds clouds = selected_clouds(estimate, params_.points);
+    if (params_.overlap_cube_m > 0.0) {
+      clouds.source = overlapping(clouds, estimate.T_target_source, params_.overlap_cube_m);
+    }
     const VolumeFunction volume = params_.scorer->bind(clouds.target, clouds.source);
-    const double before_m3 = volume(estimate.T_target_source).m3();
-    const PoseCost cost([&](const RigidTransform& pose) { return volume(pose).m3(); },
+    const double before_m3 = volume(estimate.T_target_source).m3;
+    const PoseCost cost([&](const RigidTransform& pose) { return volume(pose).m3; },
                         [&](const std::vector<RigidTransform>& poses) {
                           std::vector<double> costs;
-                          for (const OccupiedVolume& v : volume.at(poses)) costs.push_back(v.m3());
+                          for (const OccupiedVolume& v : volume.at(poses)) costs.push_back(v.m3);
                           return costs;
                         });
     const PoseMinimum minimum = params_.search->minimise(cost, estimate.T_target_source);

@@ -1,27 +1,12 @@
 #include <algorithm>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
-#include "framework/params/values.hpp"
 #include "framework/spatial/leaf_window.hpp"
-#include "framework/stage/stage_entry.hpp"
-#include "framework/stage/volume_scorer.hpp"
+#include "framework/stage/leaf_scorer.hpp"
 
 namespace croon::stages::volume_scorer {
 namespace {
-
-struct Params {
-  double leaf_size_m = 0.05;
-};
-
-const params::Table<Params>& table() {
-  static const params::Table<Params> table = {
-      params::number("leaf_size_m", &Params::leaf_size_m, {1e-3, 1e3},
-                     "Edge of the leaves that are counted."),
-  };
-  return table;
-}
 
 /// The number of bits that are set. Without an instruction for it, which not every x86-64 has, the
 /// compiler calls a function.
@@ -157,63 +142,46 @@ class BrickTable {
   int shift_ = 0;
 };
 
-/// The leaves of the target.
-struct Target {
-  LeafWindow window;
-  BrickTable bricks;
-  FarLeaves far;
-  std::int64_t leaves = 0;
-};
-
-std::shared_ptr<const Target> target_of(const Points& points, double leaf_size_m) {
-  const Eigen::Vector3d middle = points.empty() ? Eigen::Vector3d::Zero().eval()
-                                                : points[points.size() / 2].cast<double>().eval();
-  const auto target =
-      std::make_shared<Target>(Target{LeafWindow(LeafGrid(leaf_size_m), middle), {}, {}, 0});
-  target->far = target->window.for_each_block(
-      PointColumns(points), RigidTransform{},
-      [&](const std::uint64_t* keys, std::size_t count) { target->bricks.occupy(keys, count); });
-  target->leaves = target->bricks.leaves() + static_cast<std::int64_t>(target->far.size());
-  return target;
-}
-
-class BrickHash final : public VolumeScorer {
+class BrickHash final : public LeafSet {
  public:
-  explicit BrickHash(const Params& params) : leaf_size_m_(params.leaf_size_m) {}
+  static constexpr const char* kName = "brick_hash";
 
-  VolumeFunction bind(std::shared_ptr<const Cloud> target,
-                      std::shared_ptr<const Cloud> source) const override {
-    const auto bound =
-        target->once<Target>("volume_scorer/brick_hash", params::value_json(leaf_size_m_),
-                             [&] { return target_of(target->points(), leaf_size_m_); });
-    const auto points = source->once<PointColumns>(
-        "volume_scorer/columns", [&] { return std::make_shared<PointColumns>(source->points()); });
-    return {[bound, points, leaf_size_m = leaf_size_m_](const RigidTransform& T_target_source) {
-              // One per thread: no pose allocates memory after the first.
-              thread_local BrickTable added;
-              added.clear();
-              const FarLeaves far = bound->window.for_each_block(
-                  *points, T_target_source,
-                  [&](const std::uint64_t* keys, std::size_t count) { added.occupy(keys, count); });
-              return OccupiedVolume{bound->leaves + added.take_leaves_not_in(bound->bricks) +
-                                        count_new(far, bound->far),
-                                    leaf_size_m};
-            },
-            Poses::in_parallel};
+  BrickHash(const LeafGrid& grid, const PointColumns& target, const RigidTransform& T_grid_target)
+      : window_(grid, target, T_grid_target) {
+    far_ = occupy(target, T_grid_target, bricks_);
+    leaves_ = bricks_.leaves() + static_cast<std::int64_t>(far_.size());
+  }
+
+  std::int64_t leaves_with(const PointColumns& source,
+                           const RigidTransform& T_grid_source) const override {
+    // One per thread: no pose allocates memory after the first.
+    thread_local BrickTable added;
+    added.clear();
+    const FarLeaves far = occupy(source, T_grid_source, added);
+    return leaves_ + added.take_leaves_not_in(bricks_) + count_new(far, far_);
   }
 
  private:
-  double leaf_size_m_;
+  FarLeaves occupy(const PointColumns& points, const RigidTransform& T_grid_points,
+                   BrickTable& bricks) const {
+    return window_.for_each_block(
+        points, T_grid_points,
+        [&](const std::uint64_t* keys, std::size_t count) { bricks.occupy(keys, count); });
+  }
+
+  LeafWindow window_;
+  BrickTable bricks_;
+  FarLeaves far_;
+  std::int64_t leaves_ = 0;
 };
 
 }  // namespace
 
 StageEntry brick_hash() {
-  return stage_entry<BrickHash>(
-      "brick_hash", "Counts the bits of a hash table of bricks of 4 x 4 x 4 leaves.",
+  return leaf_scorer_entry<BrickHash>(
+      "Counts the bits of a hash table of bricks of 4 x 4 x 4 leaves.",
       "bricks of bits as in the leaf nodes of OpenVDB (Museth 2013), found by hashing as in "
-      "Niessner et al. 2013; for the volume of CROON (arXiv 2203.03182)",
-      table());
+      "Niessner et al. 2013; for the volume of CROON (arXiv 2203.03182)");
 }
 
 }  // namespace croon::stages::volume_scorer

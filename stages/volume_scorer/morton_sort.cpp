@@ -3,25 +3,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "framework/params/values.hpp"
 #include "framework/spatial/leaf_window.hpp"
-#include "framework/stage/stage_entry.hpp"
-#include "framework/stage/volume_scorer.hpp"
+#include "framework/stage/leaf_scorer.hpp"
 
 namespace croon::stages::volume_scorer {
 namespace {
-
-struct Params {
-  double leaf_size_m = 0.05;
-};
-
-const params::Table<Params>& table() {
-  static const params::Table<Params> table = {
-      params::number("leaf_size_m", &Params::leaf_size_m, {1e-3, 1e3},
-                     "Edge of the leaves that are counted."),
-  };
-  return table;
-}
 
 /// The lowest 21 bits with two zeros after each (Morton 1966).
 std::uint64_t spread(std::uint64_t bits) {
@@ -90,69 +76,51 @@ std::int64_t count_new_codes(const Codes& codes, const Codes& others) {
   return count;
 }
 
-struct Target {
-  LeafWindow window;
-  Codes codes;  ///< Each once, sorted.
-  FarLeaves far;
-};
-
-std::shared_ptr<const Target> target_of(const Points& points, double leaf_size_m) {
-  const Eigen::Vector3d middle = points.empty() ? Eigen::Vector3d::Zero().eval()
-                                                : points[points.size() / 2].cast<double>().eval();
-  const auto target =
-      std::make_shared<Target>(Target{LeafWindow(LeafGrid(leaf_size_m), middle), {}, {}});
-  Codes& codes = target->codes;
-  target->far = target->window.for_each_block(
-      PointColumns(points), RigidTransform{}, [&](const std::uint64_t* keys, std::size_t count) {
-        std::transform(keys, keys + count, std::back_inserter(codes), morton_code);
-      });
-  Codes buffer;
-  sort_codes(codes, buffer);
-  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
-  return target;
-}
-
-class MortonSort final : public VolumeScorer {
+class MortonSort final : public LeafSet {
  public:
-  explicit MortonSort(const Params& params) : leaf_size_m_(params.leaf_size_m) {}
+  static constexpr const char* kName = "morton_sort";
 
-  VolumeFunction bind(std::shared_ptr<const Cloud> target,
-                      std::shared_ptr<const Cloud> source) const override {
-    const auto bound =
-        target->once<Target>("volume_scorer/morton_sort", params::value_json(leaf_size_m_),
-                             [&] { return target_of(target->points(), leaf_size_m_); });
-    const auto points = source->once<PointColumns>(
-        "volume_scorer/columns", [&] { return std::make_shared<PointColumns>(source->points()); });
-    return {[bound, points, leaf_size_m = leaf_size_m_](const RigidTransform& T_target_source) {
-              // One per thread: no pose allocates memory after the first.
-              static thread_local Codes codes, buffer;
-              codes.clear();
-              const FarLeaves far = bound->window.for_each_block(
-                  *points, T_target_source, [&](const std::uint64_t* keys, std::size_t count) {
-                    std::transform(keys, keys + count, std::back_inserter(codes), morton_code);
-                  });
-              sort_codes(codes, buffer);
-              const auto target_leaves =
-                  static_cast<std::int64_t>(bound->codes.size() + bound->far.size());
-              return OccupiedVolume{
-                  target_leaves + count_new_codes(codes, bound->codes) + count_new(far, bound->far),
-                  leaf_size_m};
-            },
-            Poses::in_parallel};
+  MortonSort(const LeafGrid& grid, const PointColumns& target, const RigidTransform& T_grid_target)
+      : window_(grid, target, T_grid_target) {
+    far_ = sort_leaves(target, T_grid_target, codes_);
+    codes_.erase(std::unique(codes_.begin(), codes_.end()), codes_.end());
+  }
+
+  std::int64_t leaves_with(const PointColumns& source,
+                           const RigidTransform& T_grid_source) const override {
+    // One per thread: no pose allocates memory after the first.
+    static thread_local Codes codes;
+    const FarLeaves far = sort_leaves(source, T_grid_source, codes);
+    const auto target_leaves = static_cast<std::int64_t>(codes_.size() + far_.size());
+    return target_leaves + count_new_codes(codes, codes_) + count_new(far, far_);
   }
 
  private:
-  double leaf_size_m_;
+  /// The leaves' codes, sorted, each as often as it has points; those outside of the window.
+  FarLeaves sort_leaves(const PointColumns& points, const RigidTransform& T_grid_points,
+                        Codes& codes) const {
+    static thread_local Codes buffer;
+    codes.clear();
+    FarLeaves far = window_.for_each_block(
+        points, T_grid_points, [&](const std::uint64_t* keys, std::size_t count) {
+          std::transform(keys, keys + count, std::back_inserter(codes), morton_code);
+        });
+    sort_codes(codes, buffer);
+    return far;
+  }
+
+  LeafWindow window_;
+  Codes codes_;  ///< Each once, sorted.
+  FarLeaves far_;
 };
 
 }  // namespace
 
 StageEntry morton_sort() {
-  return stage_entry<MortonSort>(
-      "morton_sort", "Sorts the leaves in Z order and counts the different ones.",
+  return leaf_scorer_entry<MortonSort>(
+      "Sorts the leaves in Z order and counts the different ones.",
       "linear octree (Gargantini 1982) in the order of Morton 1966, for the volume of CROON (arXiv "
-      "2203.03182)",
-      table());
+      "2203.03182)");
 }
 
 }  // namespace croon::stages::volume_scorer

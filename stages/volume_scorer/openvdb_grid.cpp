@@ -3,25 +3,11 @@
 #include <openvdb/tree/Tree.h>
 #include <openvdb/tree/ValueAccessor.h>
 
-#include "framework/params/values.hpp"
 #include "framework/spatial/leaf_grid.hpp"
-#include "framework/stage/stage_entry.hpp"
-#include "framework/stage/volume_scorer.hpp"
+#include "framework/stage/leaf_scorer.hpp"
 
 namespace croon::stages::volume_scorer {
 namespace {
-
-struct Params {
-  double leaf_size_m = 0.05;
-};
-
-const params::Table<Params>& table() {
-  static const params::Table<Params> table = {
-      params::number("leaf_size_m", &Params::leaf_size_m, {1e-3, 1e3},
-                     "Edge of the voxels that are counted."),
-  };
-  return table;
-}
 
 /// A sparse grid of bits. Its nodes are 64 voxels wide (those of MaskTree: 4096), because a cloud
 /// fills little of the space around it and a node's memory is cleared for every pose.
@@ -39,47 +25,42 @@ std::int64_t leaves(const Tree& tree) {
   return static_cast<std::int64_t>(openvdb::tools::countActiveVoxels(tree, false));
 }
 
-class OpenvdbGrid final : public VolumeScorer {
+class OpenvdbGrid final : public LeafSet {
  public:
-  explicit OpenvdbGrid(const Params& params) : leaf_size_m_(params.leaf_size_m) {}
+  static constexpr const char* kName = "openvdb_grid";
 
-  VolumeFunction bind(std::shared_ptr<const Cloud> target,
-                      std::shared_ptr<const Cloud> source) const override {
-    const LeafGrid grid(leaf_size_m_);
-    const std::string leaf_size = params::value_json(leaf_size_m_);
-    const auto target_tree = target->once<Tree>("volume_scorer/openvdb_grid", leaf_size, [&] {
-      const auto tree = std::make_shared<Tree>();
-      Accessor<Tree> voxels(*tree);
-      for (const Eigen::Vector3f& point : target->points()) {
-        voxels.setValueOn(coord(grid.leaf_of(point.cast<double>())));
-      }
-      return tree;
-    });
-    const std::int64_t target_leaves = leaves(*target_tree);
-    return {[grid, target_tree, target_leaves, source](const RigidTransform& T_target_source) {
-              Tree added;
-              Accessor<Tree> added_voxels(added);
-              const Accessor<const Tree> target_voxels(*target_tree);
-              for (const Eigen::Vector3f& point : source->points()) {
-                const openvdb::Coord voxel =
-                    coord(grid.leaf_of(T_target_source * point.cast<double>()));
-                if (!target_voxels.isValueOn(voxel)) added_voxels.setValueOn(voxel);
-              }
-              return OccupiedVolume{target_leaves + leaves(added), grid.leaf_size_m()};
-            },
-            Poses::in_parallel};
+  OpenvdbGrid(const LeafGrid& grid, const PointColumns& target, const RigidTransform& T_grid_target)
+      : grid_(grid) {
+    Accessor<Tree> voxels(tree_);
+    for (std::size_t i = 0; i < target.size(); ++i) {
+      voxels.setValueOn(coord(grid_.leaf_of(T_grid_target * target.point(i))));
+    }
+    leaves_ = leaves(tree_);
+  }
+
+  std::int64_t leaves_with(const PointColumns& source,
+                           const RigidTransform& T_grid_source) const override {
+    Tree added;
+    Accessor<Tree> added_voxels(added);
+    const Accessor<const Tree> voxels(tree_);
+    for (std::size_t i = 0; i < source.size(); ++i) {
+      const openvdb::Coord voxel = coord(grid_.leaf_of(T_grid_source * source.point(i)));
+      if (!voxels.isValueOn(voxel)) added_voxels.setValueOn(voxel);
+    }
+    return leaves_ + leaves(added);
   }
 
  private:
-  double leaf_size_m_;
+  LeafGrid grid_;
+  Tree tree_;
+  std::int64_t leaves_ = 0;
 };
 
 }  // namespace
 
 StageEntry openvdb_grid() {
-  return stage_entry<OpenvdbGrid>("openvdb_grid",
-                                  "Counts the voxels of a sparse grid that hold points.",
-                                  "OpenVDB (Museth 2013)", table());
+  return leaf_scorer_entry<OpenvdbGrid>("Counts the voxels of a sparse grid that hold points.",
+                                        "OpenVDB (Museth 2013)");
 }
 
 }  // namespace croon::stages::volume_scorer

@@ -2,25 +2,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "framework/params/values.hpp"
 #include "framework/spatial/leaf_grid.hpp"
-#include "framework/stage/stage_entry.hpp"
-#include "framework/stage/volume_scorer.hpp"
+#include "framework/stage/leaf_scorer.hpp"
 
 namespace croon::stages::volume_scorer {
 namespace {
-
-struct Params {
-  double leaf_size_m = 0.05;
-};
-
-const params::Table<Params>& table() {
-  static const params::Table<Params> table = {
-      params::number("leaf_size_m", &Params::leaf_size_m, {1e-3, 1e3},
-                     "Edge of the smallest cubes, which are counted."),
-  };
-  return table;
-}
 
 /// The paper's octree (refinement): a cube that holds points is cut into eight until its side is
 /// that of a leaf. The root's side is 2^depth leaves; it doubles towards a leaf that it does not
@@ -110,46 +96,41 @@ class Octree {
   std::int64_t leaves_ = 0;
 };
 
-class PointerOctree final : public VolumeScorer {
+class PointerOctree final : public LeafSet {
  public:
-  explicit PointerOctree(const Params& params) : leaf_size_m_(params.leaf_size_m) {}
+  static constexpr const char* kName = "pointer_octree";
 
-  VolumeFunction bind(std::shared_ptr<const Cloud> target,
-                      std::shared_ptr<const Cloud> source) const override {
-    const LeafGrid grid(leaf_size_m_);
-    const std::string leaf_size = params::value_json(leaf_size_m_);
-    const auto target_tree = target->once<Octree>("volume_scorer/pointer_octree", leaf_size, [&] {
-      const auto tree = std::make_shared<Octree>();
-      for (const Eigen::Vector3f& point : target->points()) {
-        tree->insert(grid.leaf_of(point.cast<double>()));
-      }
-      return tree;
-    });
-    return {[grid, target_tree, source](const RigidTransform& T_target_source) {
-              // One per thread: allocating its memory again for each pose would take most of the
-              // time.
-              thread_local Octree added;
-              added.clear();
-              for (const Eigen::Vector3f& point : source->points()) {
-                const Eigen::Vector3i leaf = grid.leaf_of(T_target_source * point.cast<double>());
-                if (!target_tree->contains(leaf)) added.insert(leaf);
-              }
-              return OccupiedVolume{target_tree->leaves() + added.leaves(), grid.leaf_size_m()};
-            },
-            Poses::in_parallel};
+  PointerOctree(const LeafGrid& grid, const PointColumns& target,
+                const RigidTransform& T_grid_target)
+      : grid_(grid) {
+    for (std::size_t i = 0; i < target.size(); ++i) {
+      tree_.insert(grid_.leaf_of(T_grid_target * target.point(i)));
+    }
+  }
+
+  std::int64_t leaves_with(const PointColumns& source,
+                           const RigidTransform& T_grid_source) const override {
+    // One per thread: allocating its memory again for each pose would take most of the time.
+    thread_local Octree added;
+    added.clear();
+    for (std::size_t i = 0; i < source.size(); ++i) {
+      const Eigen::Vector3i leaf = grid_.leaf_of(T_grid_source * source.point(i));
+      if (!tree_.contains(leaf)) added.insert(leaf);
+    }
+    return tree_.leaves() + added.leaves();
   }
 
  private:
-  double leaf_size_m_;
+  LeafGrid grid_;
+  Octree tree_;
 };
 
 }  // namespace
 
 StageEntry pointer_octree() {
-  return stage_entry<PointerOctree>(
-      "pointer_octree",
+  return leaf_scorer_entry<PointerOctree>(
       "Cuts every cube that holds points into eight down to the leaf size and counts the leaves.",
-      "CROON (arXiv 2203.03182), refinement", table());
+      "CROON (arXiv 2203.03182), refinement");
 }
 
 }  // namespace croon::stages::volume_scorer

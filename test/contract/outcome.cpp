@@ -70,7 +70,7 @@ Numbers scored(const std::string& json, const CloudPair& clouds) {
   const VolumeFunction volume = stage<VolumeScorer>(json)->bind(clouds.target, clouds.source);
   Rng rng = test_rng(78);
   Numbers numbers;
-  for (int i = 0; i < 3; ++i) numbers.push_back(volume(pose_near(rng, {}, 45.0, 1.0)).m3());
+  for (int i = 0; i < 3; ++i) numbers.push_back(volume(pose_near(rng, {}, 45.0, 1.0)).m3);
   return numbers;
 }
 

@@ -120,10 +120,10 @@ TEST_P(ContractOfVolumeScorers, AlignedCloudsOccupyTheLeast) {
   const Points cloud = random_street(rng, 4, 3000, 0.0);
   const CloudPair clouds = cloud_pair(cloud, cloud);
   const VolumeFunction volume = scorer->bind(clouds.target, clouds.source);
-  const double aligned_m3 = volume({}).m3();
+  const double aligned_m3 = volume({}).m3;
   EXPECT_GT(aligned_m3, 0.0);
   for (int i = 0; i < 20; ++i) {
-    EXPECT_GT(volume(pose_near(rng, {}, 10.0, 0.5)).m3(), aligned_m3);
+    EXPECT_GT(volume(pose_near(rng, {}, 10.0, 0.5)).m3, aligned_m3);
   }
 }
 

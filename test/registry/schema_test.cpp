@@ -112,8 +112,13 @@ void expect_value(const json& found, const ParameterDoc& parameter) {
     case ParameterType::texts:
       EXPECT_EQ(found["items"]["type"], "string");
       break;
-    case ParameterType::interval:
     case ParameterType::per_axis:
+      expect_range(found["anyOf"][0], parameter.range);
+      expect_range(found["anyOf"][1]["items"], parameter.range);
+      EXPECT_EQ(found["anyOf"][1]["minItems"], 3);
+      EXPECT_EQ(found["anyOf"][1]["maxItems"], 3);
+      break;
+    case ParameterType::interval:
     case ParameterType::list:
     case ParameterType::json:
       FAIL() << "no stage has such a parameter; test/experiments/file/schema_test.cpp covers them";

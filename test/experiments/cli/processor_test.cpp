@@ -60,6 +60,8 @@ TEST(Processors, RegisterSimulatedScenesAlike) {
       {"name": "gicp", "replace": {"registration.icp": {"type": "gicp"}}},
       {"name": "nicp", "replace": {"registration.icp": {"type": "nicp"}}},
       {"name": "point_to_point", "replace": {"registration.icp": {"type": "point_to_point"}}},
+      {"name": "bobyqa", "replace": {"volume_refinement.search": {"type": "bobyqa"},
+                                     "volume_refinement.scorer": {"type": "brick_hash", "lattices": 4}}},
       {"name": "cauchy", "replace": {"registration.icp": {"type": "icpn", "kernel": "cauchy"}}},
       {"name": "growing", "replace": {"ground_alignment.extractor": {"type": "cgal_region_growing"}}},
       {"name": "efficient", "replace": {"ground_alignment.extractor": {"type": "cgal_efficient_ransac"}}}

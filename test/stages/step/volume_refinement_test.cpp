@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "framework/base/error.hpp"
 #include "framework/geometry/dof.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"
@@ -7,6 +8,15 @@
 
 namespace croon {
 namespace {
+
+/// Two clouds as they are, without preprocessing.
+Estimate estimate_of(Points target, Points source, const RigidTransform& T_target_source) {
+  Estimate estimate;
+  estimate.target = std::make_shared<const Cloud>(std::move(target), StreamKey(1));
+  estimate.source = std::make_shared<const Cloud>(std::move(source), StreamKey(2));
+  estimate.T_target_source = T_target_source;
+  return estimate;
+}
 
 TEST(VolumeRefinement, NeverOccupiesMoreThanItsStart) {
   const auto step = test::stage<Step>(R"({"step": "volume_refinement", "points": "all"})");
@@ -33,12 +43,41 @@ TEST(VolumeRefinement, ComesNearerAcrossTheSurfaces) {
   Rng rng = test::test_rng();
   Points dense = test::random_street(rng, 7, 150000, 0.0);
   Points sparse = test::random_street(rng, 7, 5000, 0.0);
-  Estimate estimate;
-  estimate.target = std::make_shared<const Cloud>(std::move(dense), StreamKey(1));
-  estimate.source = std::make_shared<const Cloud>(std::move(sparse), StreamKey(2));
-  estimate.T_target_source.translation = {0.08, -0.1, 0.0};
+  RigidTransform start;
+  start.translation = {0.08, -0.1, 0.0};
+  const Estimate estimate = estimate_of(std::move(dense), std::move(sparse), start);
   const Eigen::Vector3d error_m = step->advance(estimate, rng).T_target_source.translation;
   EXPECT_LT(error_m.norm(), 0.05);
+}
+
+TEST(VolumeRefinement, PointsOutsideOfTheOverlapDecideNothing) {
+  const auto step = test::stage<Step>(
+      R"({"step": "volume_refinement", "points": "all", "overlap_cube_m": 1,
+          "search": {"type": "coordinate_scan", "min_decrease_ratio": 0}})");
+  Rng rng = test::test_rng();
+  const Points target = test::random_street(rng, 8, 20000, 0.0);
+  const Points source = test::random_street(rng, 8, 5000, 0.0);
+  for (int trial = 0; trial < 5; ++trial) {
+    const RigidTransform start = test::pose_near(rng, {}, 0.5, 0.05);
+    // A street as large as the other, above it: its leaves differ from pose to pose.
+    Points more = source;
+    for (const Eigen::Vector3f& point : test::random_street(rng, 9, 20000, 0.0)) {
+      more.push_back(point + Eigen::Vector3f(0.0F, 0.0F, 500.0F));
+    }
+    const Estimate alone = step->advance(estimate_of(target, source, start), rng);
+    const Estimate with_more = step->advance(estimate_of(target, more, start), rng);
+    EXPECT_EQ(with_more.T_target_source.translation, alone.T_target_source.translation);
+    EXPECT_EQ(with_more.diagnostics, alone.diagnostics);
+  }
+}
+
+TEST(VolumeRefinement, FailsWithoutAnOverlap) {
+  const auto step =
+      test::stage<Step>(R"({"step": "volume_refinement", "points": "all", "overlap_cube_m": 1})");
+  Rng rng = test::test_rng();
+  const Points cloud = test::random_cloud(rng, 300, 1.0);
+  const RigidTransform far{Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 100, 0)};
+  EXPECT_THROW(step->advance(estimate_of(cloud, cloud, far), rng), StageError);
 }
 
 }  // namespace

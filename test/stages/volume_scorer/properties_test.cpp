@@ -39,8 +39,8 @@ Eigen::Vector3d random_translation(Rng& rng, double low_m, double high_m) {
 }
 
 TEST(OccupiedVolume, IsLeavesTimesTheVolumeOfOne) {
-  EXPECT_DOUBLE_EQ((OccupiedVolume{3, 0.5}.m3()), 0.375);
-  EXPECT_DOUBLE_EQ((OccupiedVolume{0, 0.5}.m3()), 0.0);
+  EXPECT_DOUBLE_EQ(OccupiedVolume::of_leaves(3, 0.5).m3, 0.375);
+  EXPECT_DOUBLE_EQ(OccupiedVolume::of_leaves(0, 0.5).m3, 0.0);
 }
 
 TEST(VolumeScorers, AlignedCloudsOccupyTheLeast) {
@@ -52,11 +52,11 @@ TEST(VolumeScorers, AlignedCloudsOccupyTheLeast) {
     for (const auto& [name, scorer] : test::all_scorers(0.05)) {
       SCOPED_TRACE(name);
       const VolumeFunction volume = scorer->bind(target, source);
-      const double at_truth_m3 = volume(split.T_target_source).m3();
+      const double at_truth_m3 = volume(split.T_target_source).m3;
       for (int i = 0; i < 30; ++i) {
         RigidTransform pose = split.T_target_source;
         pose.translation += random_translation(rng, 0.05, 0.2);
-        EXPECT_LT(at_truth_m3, volume(pose).m3());
+        EXPECT_LT(at_truth_m3, volume(pose).m3);
       }
     }
   }
@@ -142,7 +142,7 @@ TEST(VolumeScorers, ManyPosesOnManyThreadsGetWhatOneGetsAlone) {
         ASSERT_EQ(volumes.size(), poses.size());
         for (std::size_t i = 0; i < poses.size(); ++i) {
           EXPECT_EQ(volumes[i].leaves, volume(poses[i]).leaves);
-          EXPECT_EQ(volumes[i].leaf_size_m, 0.05);
+          EXPECT_EQ(volumes[i].m3, volume(poses[i]).m3);
         }
       });
     }

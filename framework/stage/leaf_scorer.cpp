@@ -1,0 +1,135 @@
+#include "framework/stage/leaf_scorer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace croon {
+namespace {
+
+/// A grid of leaves and where its origin is in the target's frame.
+struct Lattice {
+  LeafGrid grid;
+  Eigen::Vector3d origin_m;
+
+  /// A pose in the target's frame as one in the grid's.
+  RigidTransform from_target(RigidTransform T_target_points) const {
+    T_target_points.translation -= origin_m;
+    return T_target_points;
+  }
+};
+
+/// The shares of a leaf by which lattice `k` is moved: `k` times powers of 1 / 1.2207, the root of
+/// x^4 = x + 1, modulo 1. However many there are, they fill the leaf evenly, and along each axis
+/// too (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
+Eigen::Vector3d evenly_spread(int k) {
+  const Eigen::Array3d steps(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
+  const Eigen::Array3d shares = k * steps;
+  return shares - shares.floor();
+}
+
+std::vector<Lattice> lattices_of(const LeafOptions& options) {
+  const Eigen::Vector3d offset(options.lattice_offset_ratio.values.data());
+  std::vector<Lattice> lattices;
+  for (int size = 0; size < options.leaf_sizes; ++size) {
+    const double leaf_size_m = std::ldexp(options.leaf_size_m, size);
+    for (int k = 0; k < options.lattices; ++k) {
+      lattices.push_back({LeafGrid(leaf_size_m), leaf_size_m * (offset + evenly_spread(k))});
+    }
+  }
+  return lattices;
+}
+
+/// The points in leaves that hold at least `min_points` of them, in any order.
+PointColumns in_full_leaves(const PointColumns& points, const RigidTransform& T_grid_points,
+                            const LeafGrid& grid, int min_points) {
+  std::vector<std::pair<std::array<int, 3>, std::size_t>> by_leaf;
+  by_leaf.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3i leaf = grid.leaf_of(T_grid_points * points.point(i));
+    by_leaf.push_back({{leaf.x(), leaf.y(), leaf.z()}, i});
+  }
+  std::sort(by_leaf.begin(), by_leaf.end());
+  Points kept;
+  for (auto first = by_leaf.begin(); first != by_leaf.end();) {
+    const auto last = std::find_if(first, by_leaf.end(),
+                                   [&](const auto& other) { return other.first != first->first; });
+    if (last - first >= min_points) {
+      for (; first != last; ++first) kept.push_back(points.point(first->second).cast<float>());
+    }
+    first = last;
+  }
+  return PointColumns(kept);
+}
+
+/// The leaves of a target in one lattice.
+struct BoundLattice {
+  Lattice lattice;
+  std::shared_ptr<const LeafSet> target;
+
+  std::int64_t leaves(const PointColumns& source, const RigidTransform& T_target_source,
+                      int min_points) const {
+    const RigidTransform pose = lattice.from_target(T_target_source);
+    if (min_points == 1) return target->leaves_with(source, pose);
+    return target->leaves_with(in_full_leaves(source, pose, lattice.grid, min_points), pose);
+  }
+};
+
+}  // namespace
+
+const params::Table<LeafOptions>& leaf_table() {
+  using params::integer;
+  static const params::Table<LeafOptions> table = {
+      params::number("leaf_size_m", &LeafOptions::leaf_size_m, {1e-3, 1e3},
+                     "Edge of the leaves that are counted."),
+      integer("leaf_sizes", &LeafOptions::leaf_sizes, {1, 10},
+              "The volume is the mean over this many leaf sizes, each twice the one before."),
+      integer("lattices", &LeafOptions::lattices, {1, 64},
+              "The volume is the mean over this many lattices of leaves, which are spread evenly: "
+              "surfaces along the borders of leaves count less by chance. Each costs a pose."),
+      params::per_axis("lattice_offset_ratio", &LeafOptions::lattice_offset_ratio, {0.0, 1.0},
+                       "The lattices are moved by this share of a leaf along x, y and z."),
+      integer("min_points", &LeafOptions::min_points, {1, 10000},
+              "A cloud occupies the leaves that hold at least this many of its points. More than "
+              "one costs a pose several times as much."),
+  };
+  return table;
+}
+
+VolumeFunction LeafScorer::bind(std::shared_ptr<const Cloud> target,
+                                std::shared_ptr<const Cloud> source) const {
+  std::vector<BoundLattice> bound;
+  for (const Lattice& lattice : lattices_of(options_)) {
+    const auto make = [&] {
+      const RigidTransform T_grid_target = lattice.from_target({});
+      const PointColumns points(target->points());
+      if (options_.min_points == 1) return set_of(lattice.grid, points, T_grid_target);
+      return set_of(lattice.grid,
+                    in_full_leaves(points, T_grid_target, lattice.grid, options_.min_points),
+                    T_grid_target);
+    };
+    const Eigen::Vector3d& origin_m = lattice.origin_m;
+    const std::vector<double> parameters = {lattice.grid.leaf_size_m(), origin_m.x(), origin_m.y(),
+                                            origin_m.z(), static_cast<double>(options_.min_points)};
+    bound.push_back({lattice, target->once<LeafSet>(std::string("volume_scorer/") + name(),
+                                                    params::value_json(parameters), make)});
+  }
+  const auto points = source->once<PointColumns>(
+      "volume_scorer/columns", [&] { return std::make_shared<PointColumns>(source->points()); });
+  return {[bound = std::move(bound), points,
+           min_points = options_.min_points](const RigidTransform& T_target_source) {
+            OccupiedVolume sum;
+            for (const BoundLattice& lattice : bound) {
+              const std::int64_t leaves = lattice.leaves(*points, T_target_source, min_points);
+              const double leaf_size_m = lattice.lattice.grid.leaf_size_m();
+              sum.m3 += OccupiedVolume::of_leaves(leaves, leaf_size_m).m3;
+              sum.leaves += leaves;
+            }
+            return OccupiedVolume{sum.m3 / static_cast<double>(bound.size()), sum.leaves};
+          },
+          Poses::in_parallel};
+}
+
+}  // namespace croon
