@@ -60,7 +60,9 @@ ordered_json parameter_json(const ParameterDoc& parameter) {
   if (!parameter.stage_kind.empty()) value["kind"] = parameter.stage_kind;
   if (!parameter.name_words.empty()) value["names"] = parameter.name_words;
   value["required"] = parameter.is_required;
-  if (!parameter.is_required) value["default"] = ordered_json::parse(parameter.default_json);
+  if (!parameter.is_required && !parameter.is_optional) {
+    value["default"] = ordered_json::parse(parameter.default_json);
+  }
   value["sentence"] = parameter.sentence;
   if (!parameter.members.empty()) value["members"] = parameters_json(parameter.members);
   return value;

@@ -104,6 +104,7 @@ std::string type_words(const ParameterDoc& doc, const Mark& mark) {
 }
 
 std::string default_words(const ParameterDoc& doc) {
+  if (doc.is_optional) return "none";
   return doc.is_required ? "required" : doc.default_json;
 }
 

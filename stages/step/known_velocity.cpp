@@ -79,9 +79,8 @@ Matrix6d adjoint(const RigidTransform& T_a_b) {
 class KnownVelocityStep final : public GivenMotionStep {
  public:
   explicit KnownVelocityStep(Params params) : params_(std::move(params)) {
-    T_reference_body_ = {
-        rotation_from_rpy(vector_from(params_.rotation_rpy_deg) * rad_from_deg(1.0)),
-        vector_from(params_.translation_m)};
+    body_pose_ = {rotation_from_rpy(vector_from(params_.rotation_rpy_deg) * rad_from_deg(1.0)),
+                  vector_from(params_.translation_m)};
   }
 
   static params::DataFlow data_flow(const Params&) {
@@ -127,7 +126,7 @@ class KnownVelocityStep final : public GivenMotionStep {
     stds.head<3>().setConstant(rad_from_deg(params_.angular_std_degps));
     stds.tail<3>().setConstant(params_.linear_std_mps);
     const Matrix6d of_body = motion.stds.value_or(stds).cwiseAbs2().asDiagonal();
-    const Matrix6d A = adjoint(T_reference_body_);
+    const Matrix6d A = adjoint(body_pose_);
     return A * of_body * A.transpose();
   }
 
@@ -141,7 +140,7 @@ class KnownVelocityStep final : public GivenMotionStep {
       throw StageError("a cloud to be corrected is empty");
     }
     const GivenMotion motion = motion_in(scene);
-    const Twist velocity = velocity_in(T_reference_body_, motion.velocity);
+    const Twist velocity = velocity_in(body_pose_, motion.velocity);
     const double reference_s = span_of(times_s(estimate.target->with_channels())).middle_s();
     // The target is the same for all sensors and trials of the scene.
     const Vector6d numbers = vector_of(velocity);
@@ -169,7 +168,7 @@ class KnownVelocityStep final : public GivenMotionStep {
   }
 
   Params params_;
-  RigidTransform T_reference_body_;
+  RigidTransform body_pose_;  ///< T_reference_body: of the frame of the velocities.
   std::optional<GivenMotions> motions_;
 };
 

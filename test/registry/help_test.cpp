@@ -57,7 +57,8 @@ TEST(StagesHelp, JsonHoldsTheTable) {
       const nlohmann::json& shown = list[i]["parameters"][k];
       EXPECT_EQ(shown["key"], entry.parameters[k].key);
       EXPECT_EQ(shown["required"], entry.parameters[k].is_required);
-      EXPECT_EQ(shown.contains("default"), !entry.parameters[k].is_required);
+      EXPECT_EQ(shown.contains("default"),
+                !entry.parameters[k].is_required && !entry.parameters[k].is_optional);
     }
   }
 }

@@ -131,8 +131,9 @@ void expect_parameters(const json& properties, const std::vector<ParameterDoc>& 
     const json& found = properties.at(parameter.key);
     expect_value(found, parameter);
     EXPECT_EQ(found["description"], parameter.sentence);
-    EXPECT_EQ(found.contains("default"), !parameter.is_required);
-    if (!parameter.is_required) {
+    const bool has_default = !parameter.is_required && !parameter.is_optional;
+    EXPECT_EQ(found.contains("default"), has_default);
+    if (has_default) {
       EXPECT_EQ(found["default"], json::parse(parameter.default_json));
     }
   }
