@@ -1,10 +1,8 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
 #include "framework/params/values.hpp"
-#include "framework/spatial/leaf_grid.hpp"
+#include "framework/spatial/points_by_cube.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/volume_scorer.hpp"
 
@@ -30,58 +28,6 @@ const params::Table<Params>& table() {
 /// those of equal points.
 constexpr double kReach = 6.0;
 
-/// The target's points by cubes of the reach, for the pairs of a point at any pose.
-class PointsByCube {
- public:
-  PointsByCube(const Points& points, double width_m)
-      : cubes_(kReach * width_m), inverse_squared_(1.0 / (4.0 * width_m * width_m)) {
-    for (const Eigen::Vector3f& point : points) {
-      points_.push_back({cube_of(point.cast<double>()), point.cast<double>()});
-    }
-    std::stable_sort(points_.begin(), points_.end(),
-                     [](const Entry& a, const Entry& b) { return a.cube < b.cube; });
-  }
-
-  std::size_t size() const { return points_.size(); }
-
-  /// The sum of exp(-d^2 / (4 width^2)) over the distances d from `point` to the points in reach.
-  double sum_of_overlaps(const Eigen::Vector3d& point) const {
-    const double reach_m = cubes_.leaf_size_m();
-    const Cube middle = cube_of(point);
-    double sum = 0.0;
-    for (int i = middle[0] - 1; i <= middle[0] + 1; ++i) {
-      for (int j = middle[1] - 1; j <= middle[1] + 1; ++j) {
-        // The cubes of a column follow each other.
-        const Cube last = {i, j, middle[2] + 1};
-        auto entry =
-            std::lower_bound(points_.begin(), points_.end(), Cube{i, j, middle[2] - 1},
-                             [](const Entry& a, const Cube& cube) { return a.cube < cube; });
-        for (; entry != points_.end() && entry->cube <= last; ++entry) {
-          const double squared_m2 = (entry->point - point).squaredNorm();
-          if (squared_m2 <= reach_m * reach_m) sum += std::exp(-squared_m2 * inverse_squared_);
-        }
-      }
-    }
-    return sum;
-  }
-
- private:
-  using Cube = std::array<int, 3>;
-  struct Entry {
-    Cube cube;
-    Eigen::Vector3d point;
-  };
-
-  Cube cube_of(const Eigen::Vector3d& point) const {
-    const Eigen::Vector3i cube = cubes_.leaf_of(point);
-    return {cube.x(), cube.y(), cube.z()};
-  }
-
-  LeafGrid cubes_;
-  double inverse_squared_;
-  std::vector<Entry> points_;
-};
-
 /// The exponential of the quadratic Renyi entropy of the density p that all points blurred make,
 ///
 ///   exp(H2) = 1 / int p^2 = N^2 / sum_ij G(x_i - x_j),   G(d) = exp(-d^2 / 4 w^2) / (4 pi
@@ -97,18 +43,23 @@ class RenyiEntropy final : public VolumeScorer {
                       std::shared_ptr<const Cloud> source) const override {
     const auto bound = target->once<PointsByCube>(
         "volume_scorer/renyi_entropy", params::value_json(params_.width_m),
-        [&] { return std::make_shared<PointsByCube>(target->points(), params_.width_m); });
+        [&] { return std::make_shared<PointsByCube>(target->points(), kReach * params_.width_m); });
     const std::size_t size = source->points().size();
     const std::size_t count = std::min(size, static_cast<std::size_t>(params_.max_points));
     Points points;
     for (std::size_t i = 0; i < count; ++i) points.push_back(source->points()[i * size / count]);
     const double of_one_m3 = std::pow(4.0 * M_PI * params_.width_m * params_.width_m, 1.5);
-    return {[bound, points, of_one_m3](const RigidTransform& T_target_source) {
+    const double by_m2 = 1.0 / (4.0 * params_.width_m * params_.width_m);
+    return {[bound, points, of_one_m3, by_m2](const RigidTransform& T_target_source) {
               const auto n = static_cast<double>(bound->size() + points.size());
               if (n == 0.0) return OccupiedVolume{};
               double sum = n;
               for (const Eigen::Vector3f& point : points) {
-                sum += 2.0 * bound->sum_of_overlaps(T_target_source * point.cast<double>());
+                double overlaps = 0.0;
+                bound->for_each_near(
+                    T_target_source * point.cast<double>(),
+                    [&](const Eigen::Vector3d&, double m2) { overlaps += std::exp(-m2 * by_m2); });
+                sum += 2.0 * overlaps;
               }
               return OccupiedVolume{n * n / sum * of_one_m3, 0};
             },

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "framework/geometry/point_cloud.hpp"
+#include "framework/spatial/leaf_grid.hpp"
+
+namespace croon {
+
+/// Points sorted by cubes of space, for sums over all within a distance of a place, in an order
+/// that depends on the points alone.
+class PointsByCube {
+ public:
+  /// Throws StageError for a point beyond the cubes (see LeafGrid).
+  PointsByCube(const Points& points, double reach_m) : cubes_(reach_m) {
+    for (const Eigen::Vector3f& point : points) {
+      points_.push_back({cube_of(point.cast<double>()), point.cast<double>()});
+    }
+    std::stable_sort(points_.begin(), points_.end(),
+                     [](const Entry& a, const Entry& b) { return a.cube < b.cube; });
+  }
+
+  std::size_t size() const { return points_.size(); }
+  double reach_m() const { return cubes_.leaf_size_m(); }
+
+  /// Calls `use(point, squared_distance_m2)` for all points within the reach of `place`.
+  template <class Use>
+  void for_each_near(const Eigen::Vector3d& place, const Use& use) const {
+    const double reach_m2 = reach_m() * reach_m();
+    const Cube middle = cube_of(place);
+    for (int i = middle[0] - 1; i <= middle[0] + 1; ++i) {
+      for (int j = middle[1] - 1; j <= middle[1] + 1; ++j) {
+        // The cubes of a column follow each other.
+        const Cube last = {i, j, middle[2] + 1};
+        auto entry =
+            std::lower_bound(points_.begin(), points_.end(), Cube{i, j, middle[2] - 1},
+                             [](const Entry& a, const Cube& cube) { return a.cube < cube; });
+        for (; entry != points_.end() && entry->cube <= last; ++entry) {
+          const double squared_m2 = (entry->point - place).squaredNorm();
+          if (squared_m2 <= reach_m2) use(entry->point, squared_m2);
+        }
+      }
+    }
+  }
+
+ private:
+  using Cube = std::array<int, 3>;
+  struct Entry {
+    Cube cube;
+    Eigen::Vector3d point;
+  };
+
+  Cube cube_of(const Eigen::Vector3d& point) const {
+    const Eigen::Vector3i cube = cubes_.leaf_of(point);
+    return {cube.x(), cube.y(), cube.z()};
+  }
+
+  LeafGrid cubes_;
+  std::vector<Entry> points_;
+};
+
+}  // namespace croon
