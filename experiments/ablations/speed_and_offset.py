@@ -37,8 +37,10 @@ def run(croon, out, options, speed_mps, offset_ms):
         experiment = os.path.join(folder, "experiment.json")
         with open(experiment, "w", encoding="utf-8") as file:
             file.write(experiment_at(folder, speed_mps, offset_ms))
-        subprocess.run([croon, "run", experiment, "--out", results, "--quiet", *options],
-                       check=True, stdout=subprocess.DEVNULL)
+        ended = subprocess.run([croon, "run", experiment, "--out", results, "--quiet", *options],
+                               check=False, stdout=subprocess.DEVNULL)
+        if ended.returncode not in (0, 3):  # 3: a trial failed, which is a result.
+            sys.exit(f"croon run {experiment} ended with {ended.returncode}")
     return results
 
 

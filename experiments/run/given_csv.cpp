@@ -112,13 +112,15 @@ std::filesystem::path found_input(const Experiment& experiment, const std::strin
   for (const fs::path& folder : {data_root, beside.empty() ? fs::path(".") : beside}) {
     const fs::path path = folder / name;
     std::error_code error;
-    if (fs::is_regular_file(path, error)) {
-      if (is_within(fs::canonical(path, error), fs::canonical(folder, error))) return path;
-      found = path.string() + ", which is outside the folder " + folder.string();
-    }
+    const fs::path whole_folder = fs::canonical(folder, error);
+    if (error || !fs::is_regular_file(path, error)) continue;
+    const fs::path whole_path = fs::canonical(path, error);
+    if (!error && is_within(whole_path, whole_folder)) return path;
+    found = path.string() + ", which is outside the folder " + folder.string();
   }
   if (found.empty()) {
-    found = "neither " + (data_root / name).string() + " nor " + (beside / name).string();
+    const std::string first = (data_root / name).string(), second = (beside / name).string();
+    found = first == second ? "no " + first : "neither " + first + " nor " + second;
   }
   throw InputError(at.file, at.where, "expected " + what + ", found " + found);
 }

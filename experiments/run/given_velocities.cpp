@@ -6,6 +6,7 @@
 
 #include "experiments/run/given_csv.hpp"
 #include "experiments/run/scene_groups.hpp"
+#include "experiments/run/sensor_pairs.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
@@ -13,10 +14,6 @@
 
 namespace croon::experiments {
 namespace {
-
-/// No car is faster, nor does it turn faster: such numbers have another unit.
-constexpr double kFastest_mps = 1000.0;
-constexpr double kFastest_degps = 3600.0;
 
 /// A field along (0 to 2) or about (3 to 5) an axis, at most as large as those of a car.
 double velocity(const std::string& text, int index) {
@@ -86,6 +83,12 @@ void hand_over(Variant& variant, NamedStep& named, const GivenMotionStep& step,
   }
 }
 
+std::vector<std::string> names_of(const std::vector<Scene>& scenes) {
+  std::vector<std::string> names;
+  for (const Scene* const scene : parts_of(scenes)) names.push_back(scene->name);
+  return names;
+}
+
 /// The files that were read, by their paths.
 using Tables = std::map<std::filesystem::path, VelocityTable>;
 
@@ -95,7 +98,9 @@ void resolve_step(Experiment& experiment, Variant& variant, NamedStep& named, Ta
   const params::Slot<Step> kept = named.step;
   const auto* const step = dynamic_cast<const GivenMotionStep*>(&*kept);
   if (step == nullptr) return;
-  const Fault at = {experiment.file, "the step \"" + named.name + "\"", ""};
+  const std::string of_variant =
+      experiment.variants.size() > 1 ? " of the variant \"" + variant.name + "\"" : "";
+  const Fault at = {experiment.file, "the step \"" + named.name + "\"" + of_variant, ""};
   if (experiment.loops) {
     throw InputError(at.file, at.where,
                      "expected no \"loops\": the velocity is that of the reference, and pairs "
@@ -106,7 +111,8 @@ void resolve_step(Experiment& experiment, Variant& variant, NamedStep& named, Ta
   const std::filesystem::path path =
       found_input(experiment, file.name, data_root, at, "a file of velocities");
   if (tables.count(path) == 0) {
-    tables[path] = read_velocity_file(path, scenes);
+    tables[path] =
+        read_velocity_file(path, names_of(dataset_scenes(experiment, data_root)), names_of(scenes));
     experiment.files.push_back({file.name, tables[path].sha256});
   }
   const VelocityTable& table = tables[path];
@@ -121,9 +127,8 @@ void resolve_step(Experiment& experiment, Variant& variant, NamedStep& named, Ta
 }  // namespace
 
 VelocityTable read_velocity_file(const std::filesystem::path& path,
-                                 const std::vector<Scene>& scenes) {
-  std::vector<std::string> names;
-  for (const Scene* const scene : parts_of(scenes)) names.push_back(scene->name);
+                                 const std::vector<std::string>& names,
+                                 const std::vector<std::string>& needed) {
   const std::set<std::string> known(names.begin(), names.end());
   VelocityTable table;
   table.sha256 =
@@ -139,7 +144,7 @@ VelocityTable read_velocity_file(const std::filesystem::path& path,
                          refuse("each scene once", in_quotes(scene) + " again");
                        }
                      });
-  std::vector<Fault> faults = missing(table.motions, names, path.string());
+  std::vector<Fault> faults = missing(table.motions, needed, path.string());
   if (!faults.empty()) throw_first(std::move(faults), path.string());
   return table;
 }

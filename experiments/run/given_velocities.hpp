@@ -25,10 +25,11 @@ struct VelocityTable {
   std::string sha256;
 };
 
-/// Reads the file of velocities `path`, which must have each of `scenes` once, or each scene of
-/// groups. Throws one InputError with the first faults.
+/// Reads the file of velocities `path`, which may have the scenes `names`, each once, and must have
+/// those `needed`. Throws one InputError with the first faults.
 VelocityTable read_velocity_file(const std::filesystem::path& path,
-                                 const std::vector<Scene>& scenes);
+                                 const std::vector<std::string>& names,
+                                 const std::vector<std::string>& needed);
 
 /// Reads the files of velocities that steps of `experiment` name, and hands their content to the
 /// steps. The digest of the file becomes a parameter of the step; the files are added to

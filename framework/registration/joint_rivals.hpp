@@ -14,13 +14,13 @@ std::vector<JointState> other_speeds(const JointScene& scene, const JointState& 
                                      const std::vector<double>& speeds_mps,
                                      const JointOptions& options);
 
-/// A rival of a state has a sensor at least this far from its place there.
+/// A rival of a state has a sensor farther than this from its place there.
 inline constexpr double kRivalDistance_m = 0.1;
 
-/// By how many standard deviations more points agree in `state` of one scene than in its best
-/// rival: where the registration ends from `starts`, with `coarse_options` on the thinned scene
-/// `coarse` and then, for the three best of them, with `options` on `scene`. Nothing if there is no
-/// rival; negative if more points agree in it.
+/// By how many standard deviations more points agree in `state` of one scene than in its rivals:
+/// where the registration ends from `starts`, with `coarse_options` on the thinned scene `coarse`
+/// and then, for the three in which the most points agree, with `options` on `scene`. The least of
+/// these leads; nothing if there is no rival; negative if more points agree in one.
 ///
 /// The difference is a sum over cubes of space, which count as independent: its variance is the sum
 /// of their squares. So a rival that a few moving cars agree with is behind by little, or ahead by

@@ -1,5 +1,6 @@
 #include "framework/registration/joint_uncertainty.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "framework/geometry/guarded_inverse.hpp"
@@ -69,7 +70,7 @@ std::vector<double> shift_std_m(const JointScene& scene, const Twist& velocity,
         -guarded_inverse<6>(information.block<6, 6>(kPairPose, kPairPose)) *
         information.block<6, 6>(kPairPose, kPairVelocity);
     const Eigen::Matrix<double, 3, 6> shift = pose_by_velocity.bottomRows<3>();
-    std_m.push_back(std::sqrt((shift * covariance * shift.transpose()).trace()));
+    std_m.push_back(std::sqrt(std::max(0.0, (shift * covariance * shift.transpose()).trace())));
   }
   return std_m;
 }

@@ -5,6 +5,8 @@
 
 #include "framework/base/text.hpp"
 #include "framework/geometry/guarded_inverse.hpp"
+#include "framework/registration/joint_pair.hpp"
+#include "framework/registration/joint_rivals.hpp"
 #include "framework/registration/joint_uncertainty.hpp"
 
 namespace croon {
@@ -22,12 +24,15 @@ const params::Table<MotionOptions>& motion_table() {
       params::number("certain_speed_std_mps", &MotionOptions::certain_speed_std_mps, {0.0, 1e6},
                      "A scene whose speed is less certain than this is compared with what other "
                      "speeds lead to."),
-      params::numbers("other_speeds_mps", &MotionOptions::other_speeds_mps, {-1e3, 1e3},
-                      "These speeds, along the axis along which the scene moves the most."),
+      params::numbers(
+          "other_speeds_mps", &MotionOptions::other_speeds_mps, {-1e3, 1e3},
+          "These speeds, along the axis along which the scene moves the most, forwards."),
       params::number("min_speed_lead", &MotionOptions::min_speed_lead, {-1e3, 1e3},
-                     "Such a scene is rejected unless more points agree than where any of them "
-                     "leads with a sensor 0.1 m away or farther: by so many standard deviations, "
-                     "with cubes of 6 m as independent."),
+                     "Such a scene is rejected unless more points agree than where any of them, "
+                     "or the state in which no patch loses weight, leads with a sensor more than " +
+                         fixed_number(kRivalDistance_m, 1) +
+                         " m away: by so many standard deviations, with cubes of " +
+                         fixed_number(kJointCell_m, 0) + " m as independent."),
       params::number("certain_shift_m", &MotionOptions::certain_shift_m, {0.0, 1e6},
                      "A sensor that what is not known of the velocity moves by less is not "
                      "rejected for it: one that sees things when the reference sees them."),
@@ -46,7 +51,7 @@ std::string SceneMotion::rejection(std::size_t source, const MotionOptions& opti
   if (shift_std_m.at(source) <= options.certain_shift_m) return "";
   const std::string std_mps =
       "the standard deviation of the speed, m/s, is " + fixed_number(speed_std_mps(), 3);
-  if (speed_std_mps() > options.max_speed_std_mps) {
+  if (!(speed_std_mps() <= options.max_speed_std_mps)) {
     return std_mps + ", above " + fixed_number(options.max_speed_std_mps, 3);
   }
   if (!lead || *lead >= options.min_speed_lead) return "";
@@ -80,6 +85,8 @@ Eigen::Vector3d axis_of_motion(const SceneMotion& motion, const Twist& velocity)
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(second_moment);
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();
   axis.head<2>() = axes.eigenvectors().col(1);
+  const double forwards = axis.dot(velocity.linear_mps);
+  if (forwards < 0.0 || (forwards == 0.0 && axis.x() < 0.0)) axis = -axis;
   return axis;
 }
 

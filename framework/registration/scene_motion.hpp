@@ -49,7 +49,7 @@ SceneMotion motion_of(const JointScene& scene, std::size_t s, const JointState& 
 
 /// The axis in the plane of x and y along which a scene moves the most, for all that is known: the
 /// first of the second moment of its velocity, which has the mean `velocity` and the covariance of
-/// `motion`. A unit vector.
+/// `motion`. A unit vector that points where the velocity does, else where x does.
 Eigen::Vector3d axis_of_motion(const SceneMotion& motion, const Twist& velocity);
 
 }  // namespace croon

@@ -11,6 +11,10 @@
 
 namespace croon {
 
+/// No car is faster, nor does it turn faster: larger numbers have another unit.
+inline constexpr double kFastest_mps = 1000.0;
+inline constexpr double kFastest_degps = 3600.0;
+
 /// What another device measured of the velocity of the car in one scene.
 struct GivenMotion {
   Twist velocity;

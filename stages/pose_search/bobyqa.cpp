@@ -120,7 +120,7 @@ class Bobyqa final : public PoseSearch {
   explicit Bobyqa(Params params) : params_(std::move(params)) {}
 
   PoseMinimum minimise(const PoseCost& cost, const RigidTransform& start) const override {
-    Search search(params_, cost, start);
+    Search search(params_, cost, start);  // It has evaluated the start; the library does it again.
     const PoseMinimum before = search.best();
     const auto n = static_cast<unsigned>(params_.dofs.size());
     const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> optimiser(
@@ -131,7 +131,7 @@ class Bobyqa final : public PoseSearch {
                         nlopt_set_upper_bounds1(optimiser.get(), 1.0) > 0 &&
                         nlopt_set_initial_step1(optimiser.get(), params_.first_step_ratio) > 0 &&
                         nlopt_set_xtol_abs1(optimiser.get(), params_.tolerance_ratio) > 0 &&
-                        nlopt_set_maxeval(optimiser.get(), params_.max_evaluations) > 0;
+                        nlopt_set_maxeval(optimiser.get(), params_.max_evaluations - 1) > 0;
     std::vector<double> u(n, 0.0);
     double least = 0.0;
     const nlopt_result result = is_set ? nlopt_optimize(optimiser.get(), u.data(), &least)  //

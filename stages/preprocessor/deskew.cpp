@@ -1,6 +1,7 @@
 #include "framework/spatial/deskew.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/params/choice.hpp"
+#include "framework/stage/given_motions.hpp"
 #include "framework/stage/preprocessor.hpp"
 #include "framework/stage/stage_entry.hpp"
 
@@ -18,9 +19,9 @@ struct Params {
 const params::Table<Params>& table() {
   static const params::Table<Params> table = [] {
     params::Table<Params> rows = {
-        params::numbers("linear_mps", &Params::linear_mps, {-1000.0, 1000.0},
+        params::numbers("linear_mps", &Params::linear_mps, {-kFastest_mps, kFastest_mps},
                         "The sensor's velocity along x, y, z of its own frame."),
-        params::numbers("angular_degps", &Params::angular_degps, {-3600.0, 3600.0},
+        params::numbers("angular_degps", &Params::angular_degps, {-kFastest_degps, kFastest_degps},
                         "Its rate of turning about x, y, z of its own frame."),
         params::choice(
             "reference_time", &Params::reference_time,

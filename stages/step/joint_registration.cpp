@@ -2,12 +2,10 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
-#include "framework/base/text.hpp"
 #include "framework/geometry/pose_mean.hpp"
 #include "framework/params/choice.hpp"
 #include "framework/pipeline/shared_view.hpp"

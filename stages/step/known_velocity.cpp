@@ -29,14 +29,14 @@ const params::Table<Params>& table() {
         params::optional(params::text("file", &Params::file,
                                       "A CSV file with a velocity for each scene; without it "
                                       "linear_mps and angular_degps hold for all.")),
-        params::numbers("linear_mps", &Params::linear_mps, {-1000.0, 1000.0},
+        params::numbers("linear_mps", &Params::linear_mps, {-kFastest_mps, kFastest_mps},
                         "The velocity along x, y, z of the frame of the velocities."),
-        params::numbers("angular_degps", &Params::angular_degps, {-3600.0, 3600.0},
+        params::numbers("angular_degps", &Params::angular_degps, {-kFastest_degps, kFastest_degps},
                         "The rate of turning about x, y, z of that frame."),
-        params::number("linear_std_mps", &Params::linear_std_mps, {0.0, 1000.0},
+        params::number("linear_std_mps", &Params::linear_std_mps, {0.0, kFastest_mps},
                        "Standard deviation along each axis of a velocity that has none in the "
                        "file; 0: it is certain."),
-        params::number("angular_std_degps", &Params::angular_std_degps, {0.0, 3600.0},
+        params::number("angular_std_degps", &Params::angular_std_degps, {0.0, kFastest_degps},
                        "The same about each axis; both or none are 0."),
         params::numbers("rotation_rpy_deg", &Params::rotation_rpy_deg, {-360.0, 360.0},
                         "Roll, pitch and yaw of the frame of the velocities in the reference's "
@@ -55,6 +55,13 @@ const params::Table<Params>& table() {
                  has_three(p.rotation_rpy_deg) && has_three(p.translation_m);
         },
         "linear_mps, angular_degps, rotation_rpy_deg and translation_m must have three numbers");
+    rows.require(
+        [](const Params& p) {
+          return p.sha256.empty() ||
+                 (p.sha256.size() == 64 &&
+                  p.sha256.find_first_not_of("0123456789abcdef") == std::string::npos);
+        },
+        "sha256 must have 64 hexadecimal digits, in lower case");
     rows.require(
         [](const Params& p) { return (p.linear_std_mps > 0.0) == (p.angular_std_degps > 0.0); },
         "linear_std_mps and angular_std_degps must both be 0 or both be above it");
@@ -133,7 +140,8 @@ class KnownVelocityStep final : public GivenMotionStep {
   /// Moves the points of both clouds to where they were half-way through the target's scan. The
   /// sensor's velocity follows from its pose, so that should be near the truth.
   void correct(const std::string& scene, Estimate& estimate) const {
-    if (estimate.extras.find(kMotion) != nullptr) {
+    const Twist* const removed = estimate.extras.find(kMotion);
+    if (removed != nullptr && !vector_of(*removed).isZero(0.0)) {
       throw StageError("a step before has corrected the clouds by a velocity already");
     }
     if (estimate.target->empty() || estimate.source->empty()) {

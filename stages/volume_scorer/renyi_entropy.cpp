@@ -76,7 +76,7 @@ StageEntry renyi_entropy() {
   return stage_entry<RenyiEntropy>(
       "renyi_entropy",
       "The exponential of the quadratic Renyi entropy of both clouds, each point blurred by a "
-      "Gaussian: a volume that is smooth in the pose.",
+      "Gaussian, without the pairs inside of a cloud: a volume that is smooth in the pose.",
       "Sheehan, Harrison and Newman, Self-calibration for a 3D laser, 2012", table());
 }
 

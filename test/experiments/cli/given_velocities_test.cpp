@@ -52,6 +52,26 @@ TEST_F(GivenVelocities, OfAnotherDigestAreRefused) {
       << answer.text;
 }
 
+TEST_F(GivenVelocities, AreBelowTheDataOrTheExperiment) {
+  write_velocities(kRows);
+  const test::TempFolder elsewhere;
+  const std::string outside = elsewhere.write("v.csv", read_whole_file(path("v.csv"))).string();
+  const Answer answer = run("\"file\": \"" + outside + '"', "");
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_NE(answer.text.find("outside the folder"), std::string::npos) << answer.text;
+}
+
+TEST_F(GivenVelocities, OfAllScenesServeGroupsThatLeaveSomeOut) {
+  folder_.write("v.csv", std::string(kVelocityHeader) + "\n" + kRows + "000002,10,0,0,0,0,0\n");
+  folder_.write("x.json",
+                R"({"name": "x", "dataset": {"type": "simulated", "rig": "croon_three",
+                    "scenes": 3, "noise": "real", "speed_mps": 10}, "scenes_per_trial": 2,
+                    "starts": {"rotation_deg": 1, "translation_m": 0.01, "trials": 1},
+                    "pipeline": [{"step": "known_velocity", "file": "v.csv"}]})");
+  const Answer answer = croon("run " + path("x.json") + " --out " + path("out") + " --quiet");
+  EXPECT_EQ(answer.code, 0) << answer.text;
+}
+
 TEST_F(GivenVelocities, AreReadStrictly) {
   const auto expect_refusal = [&](const Answer& answer, const std::string& words) {
     EXPECT_EQ(answer.code, 2);

@@ -12,17 +12,11 @@ using Lines = std::vector<std::string>;
 
 const std::string kWithStds = std::string(kVelocityHeader) + kVelocityStdHeader;
 
-std::vector<Scene> scenes_of(const Lines& names) {
-  std::vector<Scene> scenes(names.size());
-  for (std::size_t i = 0; i < names.size(); ++i) scenes[i].name = names[i];
-  return scenes;
-}
-
 VelocityTable read(const std::string& header, const Lines& lines, const Lines& scenes) {
   const test::TempFolder folder;
   std::string bytes = header + "\n";
   for (const std::string& line : lines) bytes += line + "\n";
-  return read_velocity_file(folder.write("v.csv", bytes), scenes_of(scenes));
+  return read_velocity_file(folder.write("v.csv", bytes), scenes, scenes);
 }
 
 /// Faults as "where: message".
@@ -73,6 +67,13 @@ TEST(VelocityFile, NamesWhatIsWrongWithALine) {
             Lines{"line 2: expected a standard deviation above 0, found \"0\""});
   EXPECT_EQ(faults_of(kVelocityHeader, {"a,1,2,3,4,5,6", "a,1,2,3,4,5,6"}),
             Lines{"line 3: expected each scene once, found \"a\" again"});
+}
+
+TEST(VelocityFile, MayHaveScenesThatNoTrialNeeds) {
+  const test::TempFolder folder;
+  const auto path =
+      folder.write("v.csv", std::string(kVelocityHeader) + "\na,1,2,3,4,5,6\nb,1,2,3,4,5,6\n");
+  EXPECT_EQ(read_velocity_file(path, {"a", "b", "c"}, {"a"}).motions.size(), 2U);
 }
 
 TEST(VelocityFile, WantsItsHeaderAndEveryScene) {

@@ -150,7 +150,9 @@ TEST(SceneMotion, TheAxisIsTheVelocitysOrTheLeastKnown) {
   Twist velocity;
   EXPECT_NEAR(std::abs(axis_of_motion(motion, velocity).y()), 1.0, 1e-12);
   velocity.linear_mps = {20.0, 0.0, 3.0};
-  EXPECT_NEAR(std::abs(axis_of_motion(motion, velocity).x()), 1.0, 1e-12);
+  EXPECT_NEAR(axis_of_motion(motion, velocity).x(), 1.0, 1e-12);
+  velocity.linear_mps = {-20.0, 0.0, 3.0};
+  EXPECT_NEAR(axis_of_motion(motion, velocity).x(), -1.0, 1e-12);
 }
 
 }  // namespace

@@ -4,13 +4,8 @@
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace croon;
-  static const std::vector<Scene> scenes = [] {
-    std::vector<Scene> both(2);
-    both[0].name = "000000";
-    both[1].name = "000001";
-    return both;
-  }();
+  static const std::vector<std::string> scenes = {"000000", "000001"};
   const std::filesystem::path path = fuzz::write_input("velocities.csv", data, size);
-  fuzz::is_taken([&] { experiments::read_velocity_file(path, scenes); });
+  fuzz::is_taken([&] { experiments::read_velocity_file(path, scenes, scenes); });
   return 0;
 }

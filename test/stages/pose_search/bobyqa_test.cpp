@@ -99,7 +99,7 @@ TEST(Bobyqa, EvaluatesNoMoreThanItMay) {
     return valley(pose, {});
   };
   const PoseMinimum minimum = search->minimise(PoseCost(cost), {});
-  EXPECT_LE(evaluations, 21);
+  EXPECT_LE(evaluations, 20);
   EXPECT_EQ(minimum.evaluations, evaluations);
 }
 

@@ -139,6 +139,14 @@ TEST(KnownVelocity, OfAFileIsKnownInAnExperimentOnly) {
   EXPECT_EQ(scene.one.failure, "only an experiment reads a file of velocities");
 }
 
+TEST(KnownVelocity, IsRemovedAfterAStepThatFoundNone) {
+  DrivenScene scene = driven_scene(some_velocity());
+  scene.one.estimate.extras.put(kMotion, Twist());
+  scene.one.estimate.extras.put(kMotionCovariance, Matrix6d(Matrix6d::Zero()));
+  adjust(*known_velocity(members_of(some_velocity())), scene.one);
+  expect_at_rest(scene);
+}
+
 TEST(KnownVelocity, IsRemovedOnce) {
   const auto step = known_velocity(members_of(some_velocity()));
   DrivenScene scene = driven_scene(some_velocity());
