@@ -152,14 +152,19 @@ Vector6d velocity_information(const JointOptions& options) {
   return shares.cwiseAbs2();
 }
 
+JointView last_view(const JointState& state, const Twist& velocity, const JointOptions& options) {
+  return {state, velocity, options.max_distances_m.back(), options};
+}
+
 StillTarget::StillTarget(const JointScene& scene, const Twist& velocity, int normal_neighbours)
     : scene_(scene),
-      angular_radps_(velocity.angular_radps),
+      velocity_(velocity),
       cloud_(still_cloud(scene, velocity)),
       normals_(scene.target.cloud->normals(normal_neighbours)) {}
 
 Eigen::Vector3d StillTarget::normal(int index) const {
-  return rotation_exp(angular_radps_ * time_s(index)) * normals_.at(index).normal.cast<double>();
+  return rotation_exp(velocity_.angular_radps * time_s(index)) *
+         normals_.at(index).normal.cast<double>();
 }
 
 PairEquations pair_equations(const JointScene::Source& source, const StillTarget& target,

@@ -12,6 +12,8 @@ class StillTarget {
  public:
   StillTarget(const JointScene& scene, const Twist& velocity, int normal_neighbours);
 
+  const JointScene& scene() const { return scene_; }
+  const Twist& velocity() const { return velocity_; }
   const Cloud& cloud() const { return *cloud_; }
   /// The unit normal at point `index`, zero if it has none: that of the scan as it was measured,
   /// turned with the point, because a point's neighbours were measured at about its time.
@@ -22,7 +24,7 @@ class StillTarget {
 
  private:
   const JointScene& scene_;
-  Eigen::Vector3d angular_radps_;
+  Twist velocity_;
   std::shared_ptr<const Cloud> cloud_;
   const Normals& normals_;  ///< Of the scan as it was measured.
 };
@@ -47,6 +49,9 @@ struct JointView {
   double max_distance_m;
   const JointOptions& options;
 };
+
+/// The view of the last pass.
+JointView last_view(const JointState& state, const Twist& velocity, const JointOptions& options);
 
 /// The sums of Gauss-Newton over the correspondences of one pair of clouds, see NormalEquations.
 struct PairEquations {

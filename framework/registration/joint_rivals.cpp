@@ -18,8 +18,7 @@ Agreement agreement_of(const JointScene& scene, const JointState& state,
   const StillTarget target(scene, velocity, options.normal_neighbours);
   Agreement agreement;
   for (const JointScene::Source& source : scene.sources) {
-    const PairAgreement pair =
-        pair_agreement(source, target, {state, velocity, options.max_distances_m.back(), options});
+    const PairAgreement pair = pair_agreement(source, target, last_view(state, velocity, options));
     for (const auto& [cell, agreeing] : pair.by_cell) agreement[cell] += agreeing;
   }
   return agreement;
@@ -60,8 +59,7 @@ std::vector<JointState> other_speeds(const JointScene& scene, const JointState& 
   std::vector<double> later_s(state.T_target_sensor.size(), 0.0);
   for (const JointScene::Source& source : scene.sources) {
     later_s[source.sensor] =
-        pair_agreement(source, target, {state, velocity, options.max_distances_m.back(), options})
-            .later_s;
+        pair_agreement(source, target, last_view(state, velocity, options)).later_s;
   }
   std::vector<JointState> others;
   for (const double speed_mps : speeds_mps) {

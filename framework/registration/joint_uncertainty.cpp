@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "framework/geometry/guarded_inverse.hpp"
-#include "framework/registration/joint_pair.hpp"
 
 namespace croon {
 namespace {
@@ -30,14 +29,14 @@ Vector6d velocity_step(const std::vector<CellEquations>& sensors, const Matrix6d
 
 }  // namespace
 
-Matrix6d velocity_covariance(const JointScene& scene, const Twist& velocity,
-                             const JointState& state, const JointOptions& options) {
-  const StillTarget target(scene, velocity, options.normal_neighbours);
+Matrix6d velocity_covariance(const StillTarget& target, const JointState& state,
+                             const JointOptions& options) {
+  const JointScene& scene = target.scene();
+  const JointView view = last_view(state, target.velocity(), options);
   std::vector<CellEquations> all(scene.sources.size());
   std::map<JointCell, std::vector<CellEquations>> cells;
   for (std::size_t j = 0; j < scene.sources.size(); ++j) {
-    const Cells of_source = cell_equations(
-        scene.sources[j], target, {state, velocity, options.max_distances_m.back(), options});
+    const Cells of_source = cell_equations(scene.sources[j], target, view);
     for (const auto& [place, sums] : of_source) {
       all[j].hessian += sums.hessian;
       std::vector<CellEquations>& cell = cells[place];
@@ -56,15 +55,12 @@ Matrix6d velocity_covariance(const JointScene& scene, const Twist& velocity,
   return covariance;
 }
 
-std::vector<double> shift_std_m(const JointScene& scene, const Twist& velocity,
-                                const Matrix6d& covariance, const JointState& state,
-                                const JointOptions& options) {
-  const StillTarget target(scene, velocity, options.normal_neighbours);
+std::vector<double> shift_std_m(const StillTarget& target, const Matrix6d& covariance,
+                                const JointState& state, const JointOptions& options) {
+  const JointView view = last_view(state, target.velocity(), options);
   std::vector<double> std_m;
-  for (const JointScene::Source& source : scene.sources) {
-    const PairMatrix information =
-        pair_equations(source, target, {state, velocity, options.max_distances_m.back(), options})
-            .information;
+  for (const JointScene::Source& source : target.scene().sources) {
+    const PairMatrix information = pair_equations(source, target, view).information;
     // A change of the velocity leaves the least residuals at another pose.
     const Matrix6d pose_by_velocity =
         -guarded_inverse<6>(information.block<6, 6>(kPairPose, kPairPose)) *

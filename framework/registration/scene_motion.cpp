@@ -66,12 +66,13 @@ SceneMotion motion_of(const JointScene& scene, std::size_t s, const JointState& 
   motion.shift_std_m.assign(scene.sources.size(), 0.0);
   if (!scene.is_moving) return motion;
   const Vector6d velocity = vector_of(state.velocities[s]);
-  motion.covariance = velocity_covariance(scene, state.velocities[s], state, options);
+  const StillTarget target(scene, state.velocities[s], options.normal_neighbours);
+  motion.covariance = velocity_covariance(target, state, options);
   if (every_patch) {
     const Vector6d apart = velocity - vector_of(every_patch->velocities[s]);
     motion.covariance += apart * apart.transpose();
   }
-  motion.shift_std_m = shift_std_m(scene, state.velocities[s], motion.covariance, state, options);
+  motion.shift_std_m = shift_std_m(target, motion.covariance, state, options);
   motion.is_moving =
       velocity.dot(guarded_inverse<6>(motion.covariance) * velocity) >= motion_options.min_motion;
   if (motion.is_moving) motion.velocity = state.velocities[s];

@@ -1,6 +1,6 @@
 #include "framework/spatial/nearest_distance_cost.hpp"
 
-#include <algorithm>
+#include "framework/spatial/evenly_spaced.hpp"
 
 namespace croon {
 
@@ -8,12 +8,8 @@ NearestDistanceCost::NearestDistanceCost(std::shared_ptr<const Cloud> target, co
                                          int max_points, double max_distance_m)
     : target_(std::move(target)),
       tree_(target_->kd_tree()),
-      max_distance_m_(static_cast<float>(max_distance_m)) {
-  const std::size_t size = source.points().size();
-  const std::size_t count = std::min(size, static_cast<std::size_t>(max_points));
-  points_.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) points_.push_back(source.points()[i * size / count]);
-}
+      points_(evenly_spaced(source.points(), max_points)),
+      max_distance_m_(static_cast<float>(max_distance_m)) {}
 
 double NearestDistanceCost::operator()(const RigidTransform& T_target_source) const {
   const Eigen::Matrix3f R = T_target_source.rotation.cast<float>();

@@ -1,9 +1,11 @@
 #include "framework/stage/joint_neighbourhoods.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "framework/params/values.hpp"
+#include "framework/spatial/evenly_spaced.hpp"
+#include "framework/spatial/points_by_cube.hpp"
 
 namespace croon {
 namespace {
@@ -75,11 +77,9 @@ VolumeFunction volume_of_neighbourhoods(const std::shared_ptr<const Cloud>& targ
                                         NeighbourhoodMeasure measure, NeighbourhoodMean mean) {
   const auto of_target = bound(*target, options.radius_m);
   const auto of_source = bound(*source, options.radius_m);
-  const std::size_t size = source->points().size();
-  const std::size_t count = std::min(size, static_cast<std::size_t>(options.max_points));
   std::vector<Sample> samples;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3d place = source->points()[i * size / count].cast<double>();
+  for (const Eigen::Vector3f& point : evenly_spaced(source->points(), options.max_points)) {
+    const Eigen::Vector3d place = point.cast<double>();
     samples.push_back({place, moments_around(*of_source, place)});
   }
   return {[of_target, samples, options, measure, mean](const RigidTransform& T_target_source) {

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <memory>
-#include <vector>
+#include <string>
 
 #include "framework/geometry/rigid_transform.hpp"
 #include "framework/params/table.hpp"
-#include "framework/spatial/points_by_cube.hpp"
+#include "framework/stage/stage_entry.hpp"
 #include "framework/stage/volume_scorer.hpp"
 
 namespace croon {
@@ -36,5 +36,29 @@ VolumeFunction volume_of_neighbourhoods(const std::shared_ptr<const Cloud>& targ
                                         const std::shared_ptr<const Cloud>& source,
                                         const NeighbourhoodOptions& options,
                                         NeighbourhoodMeasure measure, NeighbourhoodMean mean);
+
+/// The scorer of neighbourhoods by `Measure`, which has the stage's name `kName`, its
+/// NeighbourhoodMean `kMean` and its NeighbourhoodMeasure `volume_m3`.
+template <class Measure>
+class NeighbourhoodScorer final : public VolumeScorer {
+ public:
+  explicit NeighbourhoodScorer(const NeighbourhoodOptions& options) : options_(options) {}
+
+  VolumeFunction bind(std::shared_ptr<const Cloud> target,
+                      std::shared_ptr<const Cloud> source) const override {
+    return volume_of_neighbourhoods(target, source, options_, Measure::volume_m3, Measure::kMean);
+  }
+
+ private:
+  NeighbourhoodOptions options_;
+};
+
+/// The entry of that scorer. The rest is as in stage_entry.
+template <class Measure>
+StageEntry neighbourhood_scorer_entry(const std::string& summary, const std::string& source,
+                                      int version = 1) {
+  return stage_entry<NeighbourhoodScorer<Measure>>(Measure::kName, summary, source,
+                                                   neighbourhood_table(), version);
+}
 
 }  // namespace croon

@@ -1,7 +1,7 @@
-#include <algorithm>
 #include <cmath>
 
 #include "framework/params/values.hpp"
+#include "framework/spatial/evenly_spaced.hpp"
 #include "framework/spatial/points_by_cube.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/volume_scorer.hpp"
@@ -44,10 +44,7 @@ class RenyiEntropy final : public VolumeScorer {
     const auto bound = target->once<PointsByCube>(
         "volume_scorer/renyi_entropy", params::value_json(params_.width_m),
         [&] { return std::make_shared<PointsByCube>(target->points(), kReach * params_.width_m); });
-    const std::size_t size = source->points().size();
-    const std::size_t count = std::min(size, static_cast<std::size_t>(params_.max_points));
-    Points points;
-    for (std::size_t i = 0; i < count; ++i) points.push_back(source->points()[i * size / count]);
+    const Points points = evenly_spaced(source->points(), params_.max_points);
     const double of_one_m3 = std::pow(4.0 * M_PI * params_.width_m * params_.width_m, 1.5);
     const double by_m2 = 1.0 / (4.0 * params_.width_m * params_.width_m);
     return {[bound, points, of_one_m3, by_m2](const RigidTransform& T_target_source) {

@@ -110,9 +110,10 @@ TEST(ShiftOfAnUnknownVelocity, IsTheWayBetweenTheTwoScans) {
   covariance(4, 4) = 1.0;
   covariance(3, 4) = covariance(4, 3) = -1.0;
   const auto shift = [&](double later_s) {
-    return shift_std_m(street(10, 0.0F, later_s), Twist{}, covariance, sensor_at(0.0),
-                       JointOptions{})
-        .front();
+    const JointScene scene = street(10, 0.0F, later_s);
+    const JointOptions options;
+    const StillTarget target(scene, Twist{}, options.normal_neighbours);
+    return shift_std_m(target, covariance, sensor_at(0.0), options).front();
   };
   EXPECT_NEAR(shift(0.05), 0.05 * std::sqrt(5.0), 1e-3);
   EXPECT_NEAR(shift(-0.02), 0.02 * std::sqrt(5.0), 1e-3);
