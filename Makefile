@@ -66,10 +66,8 @@ RUN_TESTS = for program in $(addprefix build/$(1)/bin/test_,$(or $(4),*)); do pr
   $(2) GTEST_TOTAL_SHARDS=8 xargs -P 2 -n 2 bash -c '\
     GTEST_SHARD_INDEX=$$1 "$$0" --gtest_brief=1 --gtest_filter="$(3)" || exit 255'
 
-# What adds nothing under a sanitizer and takes minutes there: the same code hundreds of times, for a rate, for every
-# ray or for every part of a scene, comparisons of what a program prints, and long tests of a stage that shorter ones run
-# too (those of test/contract run every stage).
-REPETITIVE = *NoGap*:*EveryPointLies*:*KeepsItsLevel*:*Covers*:*FindsAnEffect*:*HoldsTheTrueOne*:*OverTrialsWouldNot*:*NearTheExact*:*TurnedAnyhow*:*UpsideDown*:*DoesNotDependOnTheStart*:FeatureAlignment.FindsThe*:*UndoesTheDistortion*:*SaysHowWell*:*FindsThePosesAndTheVelocity*:*OnTheAuthorsSamples*:*OfAStreetUnderAnyPose*:*IsEquivariantUnder*:*AnEmptySceneDoesNotHold*:*FindsTheOffset*:*GivesASensorOnePose*:*RejectsASceneWhose*:*MovesTheCloudsTo*:*StartsACommonPose*:*ReturnsToTheTruth*:*ThreadsDoNotChange*:*WithAnEmptyCloudAlone*:*KeepsToTheStartIfAsked/feature*:*ApartFromEachOther*:*WhicheverComeWithIt*:*HasTheRotatedGround*:*LeavesTheCloudsOf*:*FarFromAllSurfacesAlone*:*FindsOnePoseForEach*:*ARejectedPoseTakesNoPart*:*ASensorThatWouldMoveFar*:*ASensorIsHeldByOthers*:*MovesBackOverTheGround*:*TurnsBackFromAnyYaw*:*IsAboutAsLargeAs*:*WhatIsNotKnownOfTheVelocity*:*FlatGroundHolds*:*SolvesRollPitchAndHeight*:*AStreetDetermines*:*ACorridorDoesNotHold*:*IsTheRoadIfAWall*:*AnUnknownVelocityAdds*:*SaysHowManyFeatures*:*TakesARigFromJson*:*TakesCloudsWithoutTimes*:*ASimulatedCorridor*:*GroundOnSamples*:SimulatedScene.IsTheSame*:AddBoundaryPieces.*:ExportedLatex.*:GeneratedPages.*:Kinds/*:*Kinds.*:Roads.*:Building.*:Crossing.*:AddPlots.*:House.*:Hall.*:Body.*
+# Long tests of a stage that shorter ones run too, a minute each under a sanitizer.
+REPETITIVE = JointRegistration.SaysHowWell*:JointRegistration.FindsThePosesAndTheVelocity*:JointRegistration.FailsTheSensor*:JointRegistration.RejectsASceneWhose*:JointRegistration.MovesTheCloudsTo*:JointRegistration.LeavesTheCloudsOf*:FeatureAlignment.FindsThe*:*TurnedAnyhow*:*UpsideDown*:*DoesNotDependOnTheStart*
 SANITIZED_TESTS ?=
 sanitize: sanitizer_packages
 	cmake --preset sanitized
