@@ -10,15 +10,17 @@
 namespace croon {
 namespace {
 
-bool is_step_small(const Eigen::VectorXd& step) {
-  constexpr double kRotation_rad = 1e-8, kTranslation_m = 1e-7;
-  for (Eigen::Index at = 0; at < step.size(); at += 6) {
+/// A step of the poses of so many sensors, then perhaps of the offsets of their clocks.
+bool is_step_small(const Eigen::VectorXd& step, std::size_t sensors) {
+  constexpr double kRotation_rad = 1e-8, kTranslation_m = 1e-7, kOffset_s = 1e-9;
+  const auto offsets_at = static_cast<Eigen::Index>(6 * sensors);
+  for (Eigen::Index at = 0; at < offsets_at; at += 6) {
     if (step.segment<3>(at).norm() > kRotation_rad ||
         step.segment<3>(at + 3).norm() > kTranslation_m) {
       return false;
     }
   }
-  return true;
+  return (step.tail(step.size() - offsets_at).array().abs() <= kOffset_s).all();
 }
 
 bool are_same(const std::vector<RigidTransform>& a, const std::vector<RigidTransform>& b) {
@@ -57,11 +59,16 @@ std::optional<NewtonStep> newton_step(const BundleSystem& system,
   const Eigen::LLT<Eigen::MatrixXd> factors(poses.hessian);
   if (factors.info() != Eigen::Success) return std::nullopt;
   const Eigen::VectorXd step = -factors.solve(poses.gradient);
-  result.is_small = is_step_small(step);
   const std::vector<std::size_t>& sensors = system.free_sensors();
+  result.is_small = is_step_small(step, sensors.size());
+  const bool has_offsets = step.size() > static_cast<Eigen::Index>(6 * sensors.size());
   for (std::size_t a = 0; a < sensors.size(); ++a) {
     RigidTransform& T = result.state.poses[sensors[a]];
     T = stepped(T, step.segment<6>(static_cast<Eigen::Index>(6 * a)));
+    if (has_offsets) {
+      result.state.clock_offsets_s[sensors[a]] +=
+          step(static_cast<Eigen::Index>(6 * sensors.size() + a));
+    }
   }
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     std::optional<Twist>& velocity = result.state.velocities[s];
@@ -140,6 +147,10 @@ const params::Table<BundleOptions>& bundle_table() {
             "if a step before has given it a covariance, and fails if not."),
         params::number("covariance_scale", &O::covariance_scale, {0.0, 1e6},
                        "Multiplies the standard deviations; found on scenes with truth."),
+        params::number("clock_offset_std_s", &O::clock_offset_std_s, {0.0, 1e6},
+                       "How far a sensor's clock is expected to be off from the target's, beyond "
+                       "what a step before has corrected; at 0 they agree. Above it the offset is "
+                       "found from scenes of different velocities."),
     };
     rows.inherit(voxel_table());
     rows.require([](const O& o) { return o.start_std.size() == 2; },
@@ -162,7 +173,10 @@ Bundle adjust_bundle(const std::vector<BundleScene>& scenes, const std::vector<I
   bundle.poses = system.state().poses;
   bundle.velocities = system.state().velocities;
   bundle.planes = system.planes_of_sensors();
-  bundle.covariances = bundle_covariances(system, options);
+  bundle.clock_offsets_s = system.state().clock_offsets_s;
+  BundleUncertainty uncertainty = bundle_uncertainty(system, options);
+  bundle.covariances = std::move(uncertainty.covariances);
+  bundle.clock_offset_stds_s = std::move(uncertainty.clock_offset_stds_s);
   const double planes = static_cast<double>(std::max<std::size_t>(system.number_of_planes(), 1));
   bundle.cost_per_plane = system.value_in(system.state()) / planes;
   return bundle;

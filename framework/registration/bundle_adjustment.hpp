@@ -23,6 +23,7 @@ struct BundleOptions : VoxelOptions {
   int max_iterations = 20;
   int min_planes = 6;
   double covariance_scale = 1.05;
+  double clock_offset_std_s = 0.0;
 };
 
 /// The rows of BundleOptions.
@@ -31,9 +32,10 @@ const params::Table<BundleOptions>& bundle_table();
 /// The clouds of one scene, each corrected to be of one moment.
 struct BundleScene {
   std::vector<SensorCloud> clouds;
-  /// Of what is not known of the common frame's velocity during the scans, by which they were
-  /// corrected: about its axes in rad/s, along them in m/s. If it is not zero, all clouds need
-  /// their times, with a common zero.
+  /// Of the common frame during the scans, by which the clouds were corrected.
+  Twist velocity;
+  /// Of what is not known of that velocity: about its axes in rad/s, along them in m/s. If it is
+  /// not zero, all clouds need their times, with a common zero.
   Matrix6d motion_covariance = Matrix6d::Zero();
 };
 
@@ -46,6 +48,10 @@ struct Bundle {
   std::vector<int> planes;  ///< By sensor: how many planes it shares with another one.
   /// By sensor, see adjust_bundle; zero for the first and for those that took no part.
   std::vector<PoseCovariance> covariances;
+  /// By sensor: what its times lack to those of the first, and the standard deviation of that; zero
+  /// unless they are unknowns.
+  std::vector<double> clock_offsets_s;
+  std::vector<double> clock_offset_stds_s;
   /// The cost over the planes, with that of what was known before, in units of the planes' noise.
   double cost_per_plane = 0.0;
   int passes = 0;
@@ -62,6 +68,10 @@ struct Bundle {
 /// scene that is not certain is an unknown as well, expected to differ by its covariance. Coarse
 /// passes take a part of the points. A sensor with less than `min_planes` keeps its pose and takes
 /// no part.
+///
+/// If BundleOptions::clock_offset_std_s is above zero, the offset of each sensor's clock to the
+/// first's is an unknown, the same in all scenes: in a scene with the velocity xi a sensor whose
+/// times lack d stands at `exp(xi d) T`. Only scenes of different velocities tell it from a shift.
 ///
 /// What is known of the starts is an observation like a plane, weighed with `start_weight`: a
 /// registration sees what is no plane, and its error is nearly independent of that of the planes.

@@ -52,6 +52,7 @@ BundleSystem::BundleSystem(const std::vector<BundleScene>& scenes,
   start_std_ << Eigen::Vector3d::Constant(rad_from_deg(options.start_std[0])),
       Eigen::Vector3d::Constant(options.start_std[1]);
   for (const InformedPose& one : start) state_.poses.push_back(one.pose);
+  state_.clock_offsets_s.assign(start.size(), 0.0);
   for (const BundleScene& scene : scenes) {
     const bool is_certain = scene.motion_covariance.isZero(0.0);
     state_.velocities.push_back(is_certain ? std::nullopt : std::optional<Twist>(Twist()));
@@ -68,8 +69,8 @@ void BundleSystem::find_planes(int stride) {
   planes_.resize(scenes_.size());
   planes_velocities_ = state_.velocities;
   for_each_in_parallel(scenes_.size(), [&](std::size_t s) {
-    planes_[s] =
-        plane_patches(scenes_[s].clouds, {state_.poses, state_.velocities[s]}, stride, options_);
+    planes_[s] = plane_patches(scenes_[s].clouds, {poses_in(state_, s), state_.velocities[s]},
+                               stride, options_);
   });
   free_sensors_.clear();
   const std::vector<int> planes = planes_of_sensors();
@@ -94,16 +95,56 @@ std::vector<int> BundleSystem::planes_of_sensors() const {
   return planes;
 }
 
+Twist BundleSystem::velocity_in_scene(const BundleState& state, std::size_t scene) const {
+  const std::optional<Twist>& rest = state.velocities[scene];
+  const Twist& known = scenes_[scene].velocity;
+  return rest ? stepped(known, vector_of(*rest)) : known;
+}
+
+std::vector<RigidTransform> BundleSystem::poses_in(const BundleState& state,
+                                                   std::size_t scene) const {
+  std::vector<RigidTransform> poses = state.poses;
+  if (!has_offsets()) return poses;
+  const Twist velocity = velocity_in_scene(state, scene);
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    poses[k] = motion_over(velocity, state.clock_offsets_s[k]) * poses[k];
+  }
+  return poses;
+}
+
 RigState BundleSystem::rig_state(const BundleState& state, std::size_t scene) const {
-  RigState result = {state.poses, state.velocities[scene]};
+  RigState result = {poses_in(state, scene), state.velocities[scene]};
   if (result.velocity) {
     result.velocity = stepped(*result.velocity, -vector_of(*planes_velocities_[scene]));
   }
   return result;
 }
 
+BundleCost BundleSystem::with_offsets(const BundleCost& cost, std::size_t scene) const {
+  const auto sensors = static_cast<Eigen::Index>(free_sensors_.size());
+  const bool has_velocity = state_.velocities[scene].has_value();
+  const Twist velocity = velocity_in_scene(state_, scene);
+  const std::vector<RigidTransform> poses = poses_in(state_, scene);
+  // How the poses in the scene, and its velocity, follow from the unknowns.
+  Eigen::MatrixXd follow =
+      Eigen::MatrixXd::Zero(cost.gradient.size(), cost.gradient.size() + sensors);
+  for (Eigen::Index a = 0; a < sensors; ++a) {
+    const std::size_t sensor = free_sensors_[static_cast<std::size_t>(a)];
+    const double offset_s = state_.clock_offsets_s[sensor];
+    const Eigen::Matrix3d turn = motion_over(velocity, offset_s).rotation;
+    const Matrix6d along = velocity_at(poses[sensor].translation);
+    follow.block<3, 3>(6 * a, 6 * a) = turn;
+    follow.block<3, 3>(6 * a + 3, 6 * a + 3) = turn;
+    follow.block<6, 1>(6 * a, 6 * sensors + a) = along * vector_of(velocity);
+    if (has_velocity) follow.block<6, 6>(6 * a, 7 * sensors) = offset_s * along;
+  }
+  if (has_velocity) follow.bottomRightCorner<6, 6>().setIdentity();
+  return {cost.value, follow.transpose() * cost.gradient,
+          follow.transpose() * cost.hessian * follow};
+}
+
 double BundleSystem::value_in(const BundleState& state) const {
-  double sum = start_value(state.poses);
+  double sum = start_value(state);
   for (std::size_t s = 0; s < scenes_.size(); ++s) {
     sum += bundle_value(planes_[s], rig_state(state, s), options_.kernel_width);
     if (!state.velocities[s]) continue;
@@ -120,6 +161,7 @@ BundleCost BundleSystem::scene_cost(std::size_t scene, const std::vector<PlanePa
   if (velocity) unknowns.push_back(state_.poses.size());
   BundleCost cost =
       part_of(bundle_cost(planes, rig_state(state_, scene), options_.kernel_width), unknowns);
+  if (has_offsets()) cost = with_offsets(cost, scene);
   if (velocity && with_prior) {
     const Matrix6d& information = velocity_information_[scene];
     const Vector6d off = vector_of(*velocity);
@@ -131,9 +173,9 @@ BundleCost BundleSystem::scene_cost(std::size_t scene, const std::vector<PlanePa
 }
 
 BundleCost BundleSystem::start_cost() const {
-  const auto size = static_cast<Eigen::Index>(6 * free_sensors_.size());
-  BundleCost cost = {start_value(state_.poses), Eigen::VectorXd(size),
-                     Eigen::MatrixXd::Zero(size, size)};
+  const auto sensors = static_cast<Eigen::Index>(free_sensors_.size());
+  const Eigen::Index size = (has_offsets() ? 7 : 6) * sensors;
+  BundleCost cost = {start_value(state_), Eigen::VectorXd(size), Eigen::MatrixXd::Zero(size, size)};
   for (std::size_t a = 0; a < free_sensors_.size(); ++a) {
     const std::size_t sensor = free_sensors_[a];
     const auto at = static_cast<Eigen::Index>(6 * a);
@@ -141,6 +183,11 @@ BundleCost BundleSystem::start_cost() const {
     const Vector6d off = moved_by(state_.poses[sensor], start_[sensor].pose);
     cost.gradient.segment<6>(at) = 2.0 * information * off;
     cost.hessian.block<6, 6>(at, at) = 2.0 * information;
+    if (!has_offsets()) continue;
+    const auto offset_at = 6 * sensors + static_cast<Eigen::Index>(a);
+    const double of_clock = 1.0 / (options_.clock_offset_std_s * options_.clock_offset_std_s);
+    cost.gradient(offset_at) = 2.0 * of_clock * state_.clock_offsets_s[sensor];
+    cost.hessian(offset_at, offset_at) = 2.0 * of_clock;
   }
   return cost;
 }
@@ -151,11 +198,14 @@ Matrix6d BundleSystem::start_information(std::size_t sensor) const {
   return information;
 }
 
-double BundleSystem::start_value(const std::vector<RigidTransform>& poses) const {
+double BundleSystem::start_value(const BundleState& state) const {
   double sum = 0.0;
-  for (std::size_t k = 1; k < poses.size(); ++k) {
-    const Vector6d off = moved_by(poses[k], start_[k].pose);
+  for (std::size_t k = 1; k < state.poses.size(); ++k) {
+    const Vector6d off = moved_by(state.poses[k], start_[k].pose);
     sum += off.dot(start_information(k) * off);
+    if (!has_offsets()) continue;
+    const double offset = state.clock_offsets_s[k] / options_.clock_offset_std_s;
+    sum += offset * offset;
   }
   return sum;
 }

@@ -14,15 +14,16 @@ struct BundleState {
   /// By scene: by how much its velocity differs from that by which its clouds were corrected; none
   /// where that is certain.
   std::vector<std::optional<Twist>> velocities;
+  std::vector<double> clock_offsets_s;  ///< By sensor: added to its times, they are the first's.
 };
 
-/// The second-order terms of a cost by the free poses of the sensors, 6 for each, after each
-/// scene's velocity was eliminated: for any step of the poses it makes its own best step (the Schur
-/// complement).
+/// The second-order terms of a cost by the free poses of the sensors, 6 for each, and the offsets
+/// of their clocks, if those are unknowns, after each scene's velocity was eliminated: for any step
+/// of the poses it makes its own best step (the Schur complement).
 struct ReducedCost {
   Eigen::VectorXd gradient;
   Eigen::MatrixXd hessian;
-  /// The step of the velocity: `rest + by_pose * step of the poses`; of size zero without one.
+  /// The step of the velocity: `rest + by_pose * step of the others`; of size zero without one.
   Eigen::MatrixXd by_pose;
   Eigen::VectorXd rest;
 };
@@ -49,7 +50,8 @@ class BundleSystem {
   /// The value in another state, by the present planes.
   double value_in(const BundleState& state) const;
   /// The cost of some planes of a scene and, if `with_prior`, of what is known of its velocity, by
-  /// the free poses and then by the velocity.
+  /// the free poses, then by the offsets of their clocks, one for each, if those are unknowns, and
+  /// then by the velocity.
   BundleCost scene_cost(std::size_t scene, const std::vector<PlanePatch>& planes,
                         bool with_prior) const;
   /// What is known of the velocity of a scene: the inverse of its covariance, weighed as that of a
@@ -57,7 +59,7 @@ class BundleSystem {
   const Matrix6d& velocity_information(std::size_t scene) const {
     return velocity_information_[scene];
   }
-  /// The cost of what is known of the starts, by the free poses.
+  /// The cost of what is known of the starts and of clocks, by the free poses and the offsets.
   BundleCost start_cost() const;
   /// What is known of the start of a sensor, the inverse of its covariance.
   Matrix6d start_information(std::size_t sensor) const;
@@ -69,7 +71,14 @@ class BundleSystem {
   RigState rig_state(const BundleState& state, std::size_t scene) const;
 
  private:
-  double start_value(const std::vector<RigidTransform>& poses) const;
+  bool has_offsets() const { return options_.clock_offset_std_s > 0.0; }
+  /// The velocity of the rig in a scene.
+  Twist velocity_in_scene(const BundleState& state, std::size_t scene) const;
+  /// Where the sensors stand in a scene: their clocks move them along its velocity.
+  std::vector<RigidTransform> poses_in(const BundleState& state, std::size_t scene) const;
+  /// The cost of a scene, which is by where its sensors stand in it, by the unknowns.
+  BundleCost with_offsets(const BundleCost& cost, std::size_t scene) const;
+  double start_value(const BundleState& state) const;
 
   const std::vector<BundleScene>& scenes_;
   const std::vector<InformedPose>& start_;

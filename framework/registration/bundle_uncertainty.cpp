@@ -72,9 +72,10 @@ Observability word_of(double std_ratio) {
 
 }  // namespace
 
-std::vector<PoseCovariance> bundle_covariances(const BundleSystem& system,
-                                               const BundleOptions& options) {
-  std::vector<PoseCovariance> result(system.state().poses.size());
+BundleUncertainty bundle_uncertainty(const BundleSystem& system, const BundleOptions& options) {
+  BundleUncertainty result;
+  result.covariances.resize(system.state().poses.size());
+  result.clock_offset_stds_s.assign(system.state().poses.size(), 0.0);
   const std::vector<std::size_t>& sensors = system.free_sensors();
   if (sensors.empty()) return result;
   const std::size_t scenes = system.planes().size();
@@ -103,11 +104,15 @@ std::vector<PoseCovariance> bundle_covariances(const BundleSystem& system,
       options.covariance_scale * options.covariance_scale * jackknife + inverse * scatter * inverse;
   for (std::size_t a = 0; a < sensors.size(); ++a) {
     const auto at = static_cast<Eigen::Index>(6 * a);
-    PoseCovariance& own = result[sensors[a]];
+    PoseCovariance& own = result.covariances[sensors[a]];
     own.matrix = symmetric<6>(covariance.block<6, 6>(at, at));
     for (std::size_t dof = 0; dof < own.dofs.size(); ++dof) {
       const auto i = static_cast<Eigen::Index>(dof);
       own.dofs[dof] = word_of(std::sqrt(own.matrix(i, i)) / system.start_std()(i));
+    }
+    const auto offset_at = static_cast<Eigen::Index>(6 * sensors.size() + a);
+    if (offset_at < covariance.rows()) {
+      result.clock_offset_stds_s[sensors[a]] = std::sqrt(covariance(offset_at, offset_at));
     }
   }
   return result;

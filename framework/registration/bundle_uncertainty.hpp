@@ -4,10 +4,13 @@
 
 namespace croon {
 
-/// The covariances of the poses in the present state of a bundle adjustment, by sensor, as
-/// adjust_bundle documents them: the jackknife over clusters of planes, and what the starts and the
-/// velocities are not known by. Zero for the first sensor and for those that are not free.
-std::vector<PoseCovariance> bundle_covariances(const BundleSystem& system,
-                                               const BundleOptions& options);
+/// What is not known of the present state of a bundle adjustment, by sensor, as adjust_bundle
+/// documents it: the jackknife over clusters of planes, and what starts, velocities and clocks are
+/// not known by. Zero for the first sensor and for those that are not free.
+struct BundleUncertainty {
+  std::vector<PoseCovariance> covariances;
+  std::vector<double> clock_offset_stds_s;  ///< Zero unless the offsets are unknowns.
+};
+BundleUncertainty bundle_uncertainty(const BundleSystem& system, const BundleOptions& options);
 
 }  // namespace croon

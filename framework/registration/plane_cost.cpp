@@ -108,14 +108,6 @@ PlaneCost::Part part_of(const PointSums& sums, const RigidTransform& T, const Fi
   return part;
 }
 
-/// The velocity of the origin of a sensor at `origin` follows from that of the common frame:
-/// `(w, u + w x origin)`.
-Matrix6d at_origin(const Eigen::Vector3d& origin) {
-  Matrix6d map = Matrix6d::Identity();
-  map.bottomLeftCorner<3, 3>() = -cross_matrix(origin);
-  return map;
-}
-
 }  // namespace
 
 void PointSums::add(const Eigen::Vector3d& point, double point_weight) {
@@ -149,6 +141,12 @@ double least_eigenvalue(const Eigen::Matrix3d& scatter) {
   return std::max(solver.eigenvalues()(0), 0.0);
 }
 
+Matrix6d velocity_at(const Eigen::Vector3d& origin) {
+  Matrix6d map = Matrix6d::Identity();
+  map.bottomLeftCorner<3, 3>() = -cross_matrix(origin);
+  return map;
+}
+
 double plane_cost_value(const PlanePatch& patch, const RigState& state) {
   const Joined points = joined(patch, state);
   return std::max(least_eigenvalue(points.all.scatter()) - patch.own_cost, 0.0);
@@ -177,7 +175,7 @@ void plane_cost(const PlanePatch& patch, const RigState& state, PlaneCost& cost)
     cost.views.push_back(part_of(view.sums, T, plane, Turn::rotation));
     if (!state.velocity) continue;
     // For its time t a point moves by the velocity as it does by a step of the pose t times that.
-    const Matrix6d from_common = at_origin(T.translation);
+    const Matrix6d from_common = velocity_at(T.translation);
     const PlaneCost::Part once = part_of(view.timed, T, plane, Turn::rotation);
     const PlaneCost::Part twice = part_of(view.timed_twice, T, plane, Turn::rate);
     cost.velocity.gradient += from_common.transpose() * once.gradient;

@@ -76,6 +76,11 @@ struct PlaneCost {
   std::vector<Matrix6d> view_velocity;  ///< By view: mixed_ab with the velocity.
 };
 
+/// The velocity of the origin of a sensor at `origin` follows linearly from that of the common
+/// frame:
+/// `(w, u + w x origin)`.
+Matrix6d velocity_at(const Eigen::Vector3d& origin);
+
 /// Only the value of the cost.
 double plane_cost_value(const PlanePatch& patch, const RigState& state);
 

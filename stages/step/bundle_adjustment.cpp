@@ -72,6 +72,8 @@ class BundleAdjustmentStep final : public RigStep {
       const auto [scene, is_new_scene] = scenes.emplace(one->scene, bundle.scenes.size());
       if (is_new_scene) {
         bundle.scenes.emplace_back();
+        const Twist* const velocity = estimate.extras.find(kMotion);
+        if (velocity != nullptr) bundle.scenes.back().velocity = *velocity;
         const Matrix6d* const motion = estimate.extras.find(kMotionCovariance);
         if (motion != nullptr) bundle.scenes.back().motion_covariance = *motion;
         const bool is_moving = motion != nullptr && !motion->isZero(0.0);
@@ -201,6 +203,10 @@ class BundleAdjustmentStep final : public RigStep {
                             {"passes", static_cast<double>(result.passes)},
                             {"iterations", static_cast<double>(result.iterations)},
                             {"converged", result.converged ? 1.0 : 0.0}};
+    if (params_.clock_offset_std_s > 0.0) {
+      estimate.diagnostics.emplace_back("clock_offset_s", result.clock_offsets_s[sensor]);
+      estimate.diagnostics.emplace_back("clock_offset_std_s", result.clock_offset_stds_s[sensor]);
+    }
   }
 
   Params params_;
