@@ -29,7 +29,7 @@ find_package(OpenVDB REQUIRED)
 find_library(LZF_LIBRARY NAMES lzf liblzf REQUIRED)
 find_library(SLEEF_LIBRARY NAMES sleef REQUIRED)
 pkg_check_modules(SLEEF sleef)  # Its version.
-find_library(MD_LIBRARY NAMES md REQUIRED)
+pkg_check_modules(NETTLE REQUIRED IMPORTED_TARGET nettle)
 
 # If CGAL is off, the target does not exist and the stages that need it are left out.
 if(CROON_WITH_CGAL)
