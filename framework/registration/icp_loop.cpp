@@ -6,6 +6,7 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
+#include "framework/spatial/tracked_neighbours.hpp"
 
 namespace croon {
 namespace {
@@ -17,15 +18,15 @@ class Matcher {
       : target_(target),
         source_(source),
         rule_(rule),
-        tree_(target.kd_tree()),
+        neighbours_(target, source.points().size()),
         target_normals_(rule.target_normals > 0 ? &target.normals(rule.target_normals) : nullptr),
         source_normals_(rule.source_normals > 0 ? &source.normals(rule.source_normals) : nullptr) {}
 
   /// The correspondence of source point `index`; false if it has none.
-  bool match(int index, const RigidTransform& T, float max_distance_m, Correspondence& pair) const {
+  bool match(int index, const RigidTransform& T, float max_distance_m, Correspondence& pair) {
     pair.arm = T.rotation * source_.points()[index].cast<double>();
     const Eigen::Vector3d point = pair.arm + T.translation;
-    const Neighbour nearest = tree_.nearest(point.cast<float>(), max_distance_m);
+    const Neighbour nearest = neighbours_.nearest(index, point.cast<float>(), max_distance_m);
     if (!nearest) return false;
     pair.offset = point - target_.points()[nearest.index].cast<double>();
     if (target_normals_ != nullptr) {
@@ -47,7 +48,7 @@ class Matcher {
   const Cloud& target_;
   const Cloud& source_;
   const CorrespondenceRule& rule_;
-  const KdTree& tree_;
+  TrackedNeighbours neighbours_;
   const Normals* target_normals_;
   const Normals* source_normals_;
 };
@@ -73,7 +74,7 @@ class Loop {
         source_size_(static_cast<int>(source.points().size())) {}
 
   /// Converges at one distance with at most `max_points` of the source.
-  void run(Registration& outcome, double max_distance_m, int max_points) const {
+  void run(Registration& outcome, double max_distance_m, int max_points) {
     outcome.converged = false;
     for (int i = 0; i < options_.max_iterations && !outcome.converged; ++i) {
       const Linearised sums = linearised(outcome.T_target_source, max_distance_m, max_points);
@@ -86,12 +87,12 @@ class Loop {
   }
 
   /// Evaluates the solution without moving it: residuals, inliers, information.
-  void judge(Registration& outcome, double max_distance_m) const {
+  void judge(Registration& outcome, double max_distance_m) {
     note(linearised(outcome.T_target_source, max_distance_m, source_size_), outcome);
   }
 
  private:
-  Linearised linearised(const RigidTransform& T, double max_distance_m, int max_points) const {
+  Linearised linearised(const RigidTransform& T, double max_distance_m, int max_points) {
     Linearised sums;
     sums.points = std::min(max_points, source_size_);
     // Blocks stay in the cache; a selection needs all correspondences at once.
@@ -154,7 +155,7 @@ Registration iterate_icp(const Cloud& target, const Cloud& source, const RigidTr
                          const IcpOptions& options, const CorrespondenceRule& rule,
                          const Linearise& linearise) {
   if (target.empty() || source.empty()) throw StageError("a cloud to be registered is empty");
-  const Loop loop(target, source, options, rule, linearise);
+  Loop loop(target, source, options, rule, linearise);
   Registration outcome;
   outcome.T_target_source = start;
   const int all = static_cast<int>(source.points().size());

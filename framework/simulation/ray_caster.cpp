@@ -140,12 +140,13 @@ class RayCaster::Embree {
   /// one plane, it depends on the last bits of Embree's ranges which one is found. The hit is on
   /// the first of all that are tied; of equally far ones on that with the lowest number.
   Hit decided(const TriangleId& found, const Ray& ray) const {
-    Hit hit = hit_on(found, ray).hit;
+    const PlaneHit on_found = hit_on(found, ray);
+    Hit hit = on_found.hit;
     const double found_m = hit.range_m;
     const Vector3d point = ray.origin + found_m * ray.direction;
     std::optional<std::pair<double, TriangleId>> first;
     for (const TriangleId& id : triangles_near(scene_, point, 2.0 * kTied_m, time_ratio(ray))) {
-      const PlaneHit other = hit_on(id, ray);
+      const PlaneHit other = id == found ? on_found : hit_on(id, ray);
       if (other.miss_m > kMiss_m || std::abs(other.hit.range_m - found_m) > kTied_m) continue;
       const std::pair<double, TriangleId> key{other.hit.range_m, id};
       if (first && *first <= key) continue;

@@ -17,9 +17,17 @@ struct Firing {
   double time_s = 0.0;  ///< By the sensor's clock.
 };
 
-Vector3d direction_of(double azimuth_rad, double elevation_rad) {
-  const double level = std::cos(elevation_rad);
-  return {level * std::cos(azimuth_rad), level * std::sin(azimuth_rad), std::sin(elevation_rad)};
+/// An angle with its cosine and sine.
+struct Angle {
+  explicit Angle(double angle_rad)
+      : rad(angle_rad), cosine(std::cos(angle_rad)), sine(std::sin(angle_rad)) {}
+  double rad;
+  double cosine;
+  double sine;
+};
+
+Vector3d direction_of(const Angle& azimuth, const Angle& elevation) {
+  return {elevation.cosine * azimuth.cosine, elevation.cosine * azimuth.sine, elevation.sine};
 }
 
 /// Fills `rays` and `firings` with one scan: all rings at one azimuth, then the next azimuth.
@@ -27,20 +35,26 @@ void fire(const SensorModel& sensor, const Noise& noise, const ScanPlan& plan, R
           std::vector<Ray>& rays, std::vector<Firing>& firings) {
   const std::vector<double> azimuths = azimuths_deg(sensor);
   const double jitter_rad = rad_from_deg(noise.angle_std_deg);
+  std::vector<Angle> elevations;
+  for (const double angle_deg : sensor.elevations_deg) {
+    elevations.emplace_back(rad_from_deg(angle_deg));
+  }
+  rays.reserve(azimuths.size() * elevations.size());
+  firings.reserve(rays.capacity());
   for (std::size_t i = 0; i < azimuths.size(); ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(azimuths.size());
     const double fired_s = plan.begin_s + share * sensor.period_s;
     const double time_s = noise.moves_during_scan ? fired_s : 0.0;
     const RigidTransform T_world_sensor = plan.T_world_sensor(time_s);
-    const double azimuth_rad = rad_from_deg(azimuths[i]);
-    for (std::size_t ring = 0; ring < sensor.elevations_deg.size(); ++ring) {
-      const double elevation_rad = rad_from_deg(sensor.elevations_deg[ring]);
-      const Vector3d nominal = direction_of(azimuth_rad, elevation_rad);
+    const Angle azimuth(rad_from_deg(azimuths[i]));
+    for (std::size_t ring = 0; ring < elevations.size(); ++ring) {
+      const Angle& elevation = elevations[ring];
+      const Vector3d nominal = direction_of(azimuth, elevation);
       Vector3d fired = nominal;
       if (jitter_rad > 0.0) {
         const double across = jitter_rad * rng.normal();
         const double up = jitter_rad * rng.normal();
-        fired = direction_of(azimuth_rad + across, elevation_rad + up);
+        fired = direction_of(Angle(azimuth.rad + across), Angle(elevation.rad + up));
       }
       rays.push_back({T_world_sensor.translation, T_world_sensor.rotation * fired, time_s});
       firings.push_back({nominal, static_cast<std::uint16_t>(ring), fired_s + plan.clock_offset_s});

@@ -41,6 +41,36 @@ class NearestResult {
   Neighbour best_;
 };
 
+/// The same for the nearest neighbour and the distance of the second.
+class NearestAndRestResult {
+ public:
+  explicit NearestAndRestResult(float bound) {
+    found_.nearest.squared_distance_m2 = bound;
+    found_.rest_beyond_m2 = bound;
+  }
+  std::size_t size() const { return found_.nearest ? 1 : 0; }
+  bool full() const { return true; }
+  bool addPoint(float squared_distance, std::uint32_t index) {
+    if (squared_distance < found_.nearest.squared_distance_m2) {
+      found_.rest_beyond_m2 = found_.nearest.squared_distance_m2;
+      found_.nearest = {static_cast<int>(index), squared_distance};
+    } else if (squared_distance < found_.rest_beyond_m2) {
+      found_.rest_beyond_m2 = squared_distance;
+    }
+    return true;
+  }
+  float worstDist() const { return found_.rest_beyond_m2; }
+  const NearestAndRest& found() const { return found_; }
+
+ private:
+  NearestAndRest found_;
+};
+
+/// The bound of a search to which a point at `max_distance_m` is within: the next float up.
+float bound_of(float max_distance_m) {
+  return std::nextafter(max_distance_m * max_distance_m, std::numeric_limits<float>::infinity());
+}
+
 constexpr std::size_t kPointsPerLeaf = 10;
 
 }  // namespace
@@ -58,10 +88,7 @@ KdTree::KdTree(const Points& points) : index_(std::make_unique<Index>(points)) {
 KdTree::~KdTree() = default;
 
 Neighbour KdTree::nearest(const Eigen::Vector3f& query, float max_distance_m) const {
-  // The next float up makes the bound itself count as within.
-  const float bound =
-      std::nextafter(max_distance_m * max_distance_m, std::numeric_limits<float>::infinity());
-  NearestResult result(bound);
+  NearestResult result(bound_of(max_distance_m));
   index_->tree.findNeighbors(result, query.data(), {});
   return result.best();
 }
@@ -70,6 +97,12 @@ Neighbour KdTree::nearest(const Eigen::Vector3f& query) const {
   NearestResult result(std::numeric_limits<float>::infinity());
   index_->tree.findNeighbors(result, query.data(), {});
   return result.best();
+}
+
+NearestAndRest KdTree::nearest_and_rest(const Eigen::Vector3f& query, float reach_m) const {
+  NearestAndRestResult result(bound_of(reach_m));
+  index_->tree.findNeighbors(result, query.data(), {});
+  return result.found();
 }
 
 void KdTree::nearest(const Eigen::Vector3f& query, int count,

@@ -14,6 +14,12 @@ struct Neighbour {
   explicit operator bool() const { return index >= 0; }
 };
 
+/// The nearest point, and how far away all others are.
+struct NearestAndRest {
+  Neighbour nearest;            ///< The nearest point within the reach of the search.
+  float rest_beyond_m2 = 0.0F;  ///< No other point has a smaller squared distance, m^2.
+};
+
 /// Nearest neighbours in a fixed cloud (nanoflann's kd-tree). The cloud must outlive the tree.
 /// Queries may run on many threads at once and give the same answer every time.
 class KdTree {
@@ -27,6 +33,9 @@ class KdTree {
   Neighbour nearest(const Eigen::Vector3f& query, float max_distance_m) const;
   /// The nearest point, however far.
   Neighbour nearest(const Eigen::Vector3f& query) const;
+  /// The nearest point within `reach_m` of `query`, and the squared distance of the second, or of
+  /// the reach if that is nearer.
+  NearestAndRest nearest_and_rest(const Eigen::Vector3f& query, float reach_m) const;
   /// The `count` nearest points (fewer in a smaller cloud), nearest first, written to `neighbours`.
   void nearest(const Eigen::Vector3f& query, int count, std::vector<Neighbour>& neighbours) const;
 

@@ -11,15 +11,17 @@ NearestDistanceCost::NearestDistanceCost(std::shared_ptr<const Cloud> target, co
       points_(evenly_spaced(source.points(), max_points)),
       max_distance_m_(static_cast<float>(max_distance_m)) {}
 
+double NearestDistanceCost::squared_distance_m2(const Eigen::Vector3f& point_in_target) const {
+  const Neighbour nearest = tree_.nearest(point_in_target, max_distance_m_);
+  return nearest ? static_cast<double>(nearest.squared_distance_m2)
+                 : static_cast<double>(max_distance_m_) * max_distance_m_;
+}
+
 double NearestDistanceCost::operator()(const RigidTransform& T_target_source) const {
   const Eigen::Matrix3f R = T_target_source.rotation.cast<float>();
   const Eigen::Vector3f t = T_target_source.translation.cast<float>();
-  const double farthest = static_cast<double>(max_distance_m_) * max_distance_m_;
   double sum = 0.0;
-  for (const Eigen::Vector3f& point : points_) {
-    const Neighbour nearest = tree_.nearest(R * point + t, max_distance_m_);
-    sum += nearest ? static_cast<double>(nearest.squared_distance_m2) : farthest;
-  }
+  for (const Eigen::Vector3f& point : points_) sum += squared_distance_m2(R * point + t);
   return points_.empty() ? 0.0 : sum / static_cast<double>(points_.size());
 }
 

@@ -21,10 +21,16 @@ class NearestDistanceCost {
   /// clouds can be compared.
   double operator()(const RigidTransform& T_target_source) const;
 
+  /// The points of the source that are used, in its frame, m.
+  const Points& points() const { return points_; }
+  /// The contribution of a point at `point_in_target`: its squared truncated distance, m^2.
+  double squared_distance_m2(const Eigen::Vector3f& point_in_target) const;
+  float max_distance_m() const { return max_distance_m_; }
+
  private:
   std::shared_ptr<const Cloud> target_;
   const KdTree& tree_;
-  std::vector<Eigen::Vector3f> points_;
+  Points points_;
   float max_distance_m_;
 };
 

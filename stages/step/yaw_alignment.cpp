@@ -1,4 +1,5 @@
 #include "framework/pipeline/step_options.hpp"
+#include "framework/spatial/turning_cost.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/step.hpp"
 #include "framework/stage/yaw_search.hpp"
@@ -25,15 +26,11 @@ class YawAlignment final : public Step {
   explicit YawAlignment(Params params) : params_(std::move(params)) {}
 
   Estimate advance(Estimate estimate, Rng&) const override {
-    const NearestDistanceCost cost = nearest_cost(estimate, params_);
-    const RigidTransform start = estimate.T_target_source;
-    const Eigen::Vector3d up = estimate.up();
-    const auto turned = [&](double yaw_rad) {
-      return RigidTransform{rotation_exp(yaw_rad * up) * start.rotation, start.translation};
-    };
-    const YawMinimum minimum =
-        params_.search->minimise([&](double yaw_rad) { return cost(turned(yaw_rad)); });
-    estimate.T_target_source = turned(minimum.yaw_rad);
+    TurningCost cost(nearest_cost(estimate, params_), estimate.T_target_source, estimate.up());
+    const YawMinimum minimum = params_.search->minimise(
+        {[&](double yaw_rad) { return cost(yaw_rad); },
+         [&](double yaw_rad, double enough) { return cost.below(yaw_rad, enough); }});
+    estimate.T_target_source = cost.turned(minimum.yaw_rad);
     estimate.diagnostics = {{"cost_m2", minimum.cost},
                             {"evaluations", static_cast<double>(minimum.evaluations)}};
     return estimate;

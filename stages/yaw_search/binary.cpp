@@ -1,6 +1,6 @@
 #include <cmath>
 #include <cstdint>
-#include <map>
+#include <set>
 
 #include "framework/base/angles.hpp"
 #include "framework/stage/stage_entry.hpp"
@@ -43,22 +43,19 @@ class Binary final : public YawSearch {
   YawMinimum minimise(const YawCost& cost) const override {
     const double finest_step_deg = std::ldexp(params_.step_deg, 1 - params_.levels);
     // Yaws are integer multiples of the last level's step, so every second yaw of a level was
-    // evaluated in the level before.
-    std::map<std::int64_t, double> costs;
-    const auto cost_of = [&](std::int64_t yaw) {
-      const auto [entry, is_new] = costs.try_emplace(yaw, 0.0);
-      if (is_new) entry->second = cost(rad_from_deg(static_cast<double>(yaw) * finest_step_deg));
-      return entry->second;
-    };
+    // evaluated in the level before. It was not less then and is not now.
+    std::set<std::int64_t> evaluated = {0};
     std::int64_t best = 0;
-    double least = cost_of(best);
+    double least = cost(0.0);
     for (int level = 0; level < params_.levels; ++level) {
       const std::int64_t centre = best;
       const std::int64_t step = std::int64_t{1} << (params_.levels - 1 - level);
       const double scale = std::ldexp(1.0, -level);
       for (const int i : yaw_grid(params_.range_deg * scale, params_.step_deg * scale)) {
         const std::int64_t yaw = centre + i * step;
-        const double yaw_cost = cost_of(yaw);
+        if (!evaluated.insert(yaw).second) continue;
+        const double yaw_cost =
+            cost.below(rad_from_deg(static_cast<double>(yaw) * finest_step_deg), least);
         if (yaw_cost < least) {
           least = yaw_cost;
           best = yaw;
@@ -66,7 +63,7 @@ class Binary final : public YawSearch {
       }
     }
     return {rad_from_deg(static_cast<double>(best) * finest_step_deg), least,
-            static_cast<int>(costs.size())};
+            static_cast<int>(evaluated.size())};
   }
 
  private:

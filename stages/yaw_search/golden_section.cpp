@@ -50,7 +50,7 @@ class GoldenSection final : public YawSearch {
       double& far_rad = goes_up ? high_rad : low_rad;
       double& near_rad = goes_up ? low_rad : high_rad;
       const double cut_rad = least.yaw_rad + kGoldenShare * (far_rad - least.yaw_rad);
-      const double cut_cost = cost(cut_rad);
+      const double cut_cost = cost.below(cut_rad, least.cost);
       ++least.evaluations;
       if (cut_cost < least.cost) {
         near_rad = least.yaw_rad;

@@ -145,6 +145,26 @@ TEST_P(ContractOfYawSearches, FindTheOnlyLeast) {
   }
 }
 
+TEST_P(ContractOfYawSearches, ACostThatStopsEarlyChangesNothing) {
+  const auto search = stage<YawSearch>(minimal_json(entry()));
+  Rng rng = test_rng(72);
+  for (int i = 0; i < 20; ++i) {
+    const double least_rad = rad_from_deg(rng.uniform(-40.0, 40.0));
+    const auto cost = [&](double yaw_rad) {
+      return 1.5 - std::cos(yaw_rad - least_rad) - 0.4 * std::cos(5.0 * yaw_rad);
+    };
+    const auto below = [&](double yaw_rad, double enough) {
+      const double whole = cost(yaw_rad);
+      return whole < enough ? whole : enough;
+    };
+    const YawMinimum expected = search->minimise(cost);
+    const YawMinimum found = search->minimise({cost, below});
+    EXPECT_EQ(found.yaw_rad, expected.yaw_rad);
+    EXPECT_EQ(found.cost, expected.cost);
+    EXPECT_EQ(found.evaluations, expected.evaluations);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Registry, ContractOfYawSearches,
                          testing::ValuesIn(every_stage_of("yaw_search")), stage_case_name);
 

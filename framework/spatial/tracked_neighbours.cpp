@@ -1,0 +1,48 @@
+#include "framework/spatial/tracked_neighbours.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace croon {
+namespace {
+
+/// More than the rounding of a distance in single precision, so that a margin is never too wide.
+constexpr float kRounding = 1e-5F;
+
+/// A search looks farther than it is asked to, so that a point without a neighbour has a margin
+/// too.
+constexpr float kReach = 1.1F;
+
+/// As nanoflann computes it: the answers must be the same to the last bit.
+float squared_distance(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+  const float x = a.x() - b.x();
+  const float y = a.y() - b.y();
+  const float z = a.z() - b.z();
+  return x * x + y * y + z * z;
+}
+
+}  // namespace
+
+Neighbour TrackedNeighbours::nearest(int index, const Eigen::Vector3f& query,
+                                     float max_distance_m) {
+  Track& track = tracks_[static_cast<std::size_t>(index)];
+  const float moved_m = std::sqrt(squared_distance(query, track.query));
+  const float rest_beyond_m =
+      track.rest_beyond_m * (1.0F - kRounding) - moved_m * (1.0F + kRounding);
+  if (rest_beyond_m > 0.0F) {
+    const float known_m2 = track.nearest >= 0 ? squared_distance(query, target_[track.nearest])
+                                              : std::numeric_limits<float>::infinity();
+    if (known_m2 < rest_beyond_m * rest_beyond_m) {
+      return known_m2 <= max_distance_m * max_distance_m ? Neighbour{track.nearest, known_m2}
+                                                         : Neighbour{};
+    }
+    if (max_distance_m < rest_beyond_m) return {};
+  }
+  const NearestAndRest found = tree_.nearest_and_rest(query, max_distance_m * kReach);
+  track = {query, found.nearest.index, std::sqrt(found.rest_beyond_m2)};
+  return found.nearest && found.nearest.squared_distance_m2 <= max_distance_m * max_distance_m
+             ? found.nearest
+             : Neighbour{};
+}
+
+}  // namespace croon

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "framework/spatial/cloud.hpp"
+
+namespace croon {
+
+/// The nearest neighbours of points that move a little between queries, as a registration's do. A
+/// search also tells how far away all points but the nearest are. A query that has moved less than
+/// this margin has the same neighbour and needs no search (Greenspan & Godin 2001, "A nearest
+/// neighbor method for efficient ICP"). The answers are those of KdTree::nearest.
+class TrackedNeighbours {
+ public:
+  /// For `count` points, numbered from 0, in `target`, which must outlive this.
+  TrackedNeighbours(const Cloud& target, std::size_t count)
+      : target_(target.points()), tree_(target.kd_tree()), tracks_(count) {}
+
+  /// The nearest point within `max_distance_m` of point `index`, which is at `query` now.
+  Neighbour nearest(int index, const Eigen::Vector3f& query, float max_distance_m);
+
+ private:
+  /// What the last search for a point found.
+  struct Track {
+    Eigen::Vector3f query = Eigen::Vector3f::Zero();
+    int nearest = -1;
+    float rest_beyond_m = -1.0F;  ///< Negative before the first search.
+  };
+
+  const Points& target_;
+  const KdTree& tree_;
+  std::vector<Track> tracks_;
+};
+
+}  // namespace croon

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "framework/spatial/nearest_distance_cost.hpp"
+
+namespace croon {
+
+/// The NearestDistanceCost of a sensor that turns about an axis through itself, for searches that
+/// ask only whether one angle costs less than another.
+///
+/// A point at the distance r from the axis moves by at most r |a - b| between the angles a and b,
+/// and its distance to the target changes by no more than that. So what is known at one angle
+/// bounds the cost at another from below, and most sums need few searches of neighbours to show
+/// that they are not the least. The bounds change no result. One thread at a time.
+class TurningCost {
+ public:
+  /// `axis` is a unit vector in the target's frame.
+  TurningCost(NearestDistanceCost cost, const RigidTransform& start, const Eigen::Vector3d& axis);
+
+  /// The pose of the source in the target's frame after a turn from the start.
+  RigidTransform turned(double angle_rad) const;
+
+  /// The cost of that pose, m^2, to the last bit.
+  double operator()(double angle_rad);
+
+  /// The same if it is below `enough_m2`, else a number that is not.
+  double below(double angle_rad, double enough_m2);
+
+ private:
+  /// One point of the source.
+  struct Turning {
+    Eigen::Vector3f point;
+    std::size_t index = 0;    ///< Its place among the points of the cost.
+    float radius_m = 0.0F;    ///< At least its distance from the axis.
+    float rounding_m = 0.0F;  ///< More than the error of its position and distances.
+  };
+  /// Lower bounds of the points' distances to the target, in the order of `points_`.
+  using Bounds = std::vector<float>;
+
+  /// What the angles around this one tell of it.
+  Bounds bounds_at(double angle_rad) const;
+  void keep(double angle_rad, Bounds bounds);
+
+  NearestDistanceCost cost_;
+  RigidTransform start_;
+  Eigen::Vector3d axis_;
+  std::vector<Turning> points_;  ///< Farthest from the axis first: they change the most.
+  std::map<double, Bounds> known_;
+};
+
+}  // namespace croon
