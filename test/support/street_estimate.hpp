@@ -1,10 +1,18 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "framework/stage/step.hpp"
 
 namespace croon::test {
+
+/// Two clouds as they are, at `T_target_source`. `seed` decides what their stages draw.
+Estimate estimate_of(Points target, Points source, const RigidTransform& T_target_source,
+                     std::uint64_t seed = 1);
+
+/// A diagnostic of the last step, by its name; NaN and a failure of the test if there is none.
+double diagnostic(const Estimate& estimate, const std::string& name);
 
 /// Two sensors in one street, as the pipeline sees them before its first step.
 struct StreetEstimate {

@@ -15,6 +15,7 @@
 #include "framework/stage/rig_step.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"
+#include "test/support/street_estimate.hpp"
 
 namespace croon {
 namespace {
@@ -261,13 +262,6 @@ Twist velocity_of(double x_mps, double y_mps, double yaw_radps) {
   return {Eigen::Vector3d(0.0, 0.0, yaw_radps), Eigen::Vector3d(x_mps, y_mps, 0.0)};
 }
 
-double diagnostic(const Estimate& estimate, const std::string& wanted) {
-  for (const auto& [name, value] : estimate.diagnostics) {
-    if (name == wanted) return value;
-  }
-  return NAN;
-}
-
 TEST(BundleAdjustment, FindsTheOffsetOfAClockFromScenesOfDifferentVelocities) {
   constexpr double kOffset_s = 0.02;
   StandingRig rig = standing_rig(3);
@@ -281,9 +275,10 @@ TEST(BundleAdjustment, FindsTheOffsetOfAClockFromScenesOfDifferentVelocities) {
   for (const RigEstimate& one : rig.estimates) {
     ASSERT_EQ(one.failure, "");
     const double off_s =
-        diagnostic(one.estimate, "clock_offset_s") - (one.source == "left" ? kOffset_s : 0.0);
+        test::diagnostic(one.estimate, "clock_offset_s") - (one.source == "left" ? kOffset_s : 0.0);
     EXPECT_NEAR(off_s, 0.0, 0.001) << one.source;
-    EXPECT_LT(std::abs(off_s), 5.0 * diagnostic(one.estimate, "clock_offset_std_s")) << one.source;
+    EXPECT_LT(std::abs(off_s), 5.0 * test::diagnostic(one.estimate, "clock_offset_std_s"))
+        << one.source;
     const PoseError error = pose_error(one.estimate.T_target_source, rig.truth[one.source]);
     EXPECT_LT(error.translation_m, 0.005) << one.source;
   }
@@ -304,9 +299,9 @@ TEST(BundleAdjustment, FindsTheOffsetOfAClockAndTheVelocities) {
   const Estimate& left = of_sensor(rig, "left").estimate;
   // All points of a sensor are of one time, so a velocity and a pose that change together are free
   // but for what is known of them: the offset is known as well as those are.
-  const double std_s = diagnostic(left, "clock_offset_std_s");
+  const double std_s = test::diagnostic(left, "clock_offset_std_s");
   EXPECT_LT(std_s, 0.01);
-  EXPECT_LT(std::abs(diagnostic(left, "clock_offset_s") - kOffset_s), 3.0 * std_s);
+  EXPECT_LT(std::abs(test::diagnostic(left, "clock_offset_s") - kOffset_s), 3.0 * std_s);
 }
 
 /// Two clouds of points that are on no plane.

@@ -12,20 +12,13 @@
 #include "framework/stage/step.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"
+#include "test/support/street_estimate.hpp"
 
 namespace croon {
 namespace {
 
 constexpr auto kDetermined = Observability::determined;
 constexpr auto kUnobservable = Observability::unobservable;
-
-Estimate estimate_of(const Points& target, const Points& source, const RigidTransform& T) {
-  Estimate estimate;
-  estimate.target = std::make_shared<const Cloud>(target, StreamKey(1).with("target"));
-  estimate.source = std::make_shared<const Cloud>(source, StreamKey(1).with("source"));
-  estimate.T_target_source = T;
-  return estimate;
-}
 
 Estimate judged(Estimate estimate, const std::string& parameters = "") {
   Rng rng = test::test_rng();
@@ -73,7 +66,7 @@ TEST(CovarianceStep, LeavesThePoseAsItIsAndReportsStandardDeviations) {
   Rng rng = test::test_rng();
   const test::StreetPair pair =
       test::street_pair(rng, 3, test::random_pose(rng, 0.5), 20000, 12000, 0.01);
-  const Estimate before = estimate_of(pair.target, pair.source, pair.T_target_source);
+  const Estimate before = test::estimate_of(pair.target, pair.source, pair.T_target_source);
   const Estimate after = judged(before);
   EXPECT_EQ(after.T_target_source.rotation, before.T_target_source.rotation);
   EXPECT_EQ(after.T_target_source.translation, before.T_target_source.translation);
@@ -91,7 +84,7 @@ TEST(CovarianceStep, AStreetDeterminesAllDegreesOfFreedom) {
     const test::StreetPair pair =
         test::street_pair(rng, i, test::random_pose(rng, 0.5), 20000, 12000, 0.01);
     const auto covariance =
-        *judged(estimate_of(pair.target, pair.source, pair.T_target_source)).covariance;
+        *judged(test::estimate_of(pair.target, pair.source, pair.T_target_source)).covariance;
     for (std::size_t k = 0; k < 6; ++k) {
       const double bound = k < 3 ? rad_from_deg(0.5) : 0.1;
       EXPECT_EQ(covariance.dofs.at(k), kDetermined) << i << " " << kDofNames.at(k);
@@ -104,7 +97,7 @@ TEST(CovarianceStep, APlainAloneDoesNotHoldXYAndYaw) {
   Rng rng = test::test_rng(3);
   for (const double noise_m : {0.0, 0.005, 0.02}) {
     const Points target = plain(rng, noise_m);
-    const auto covariance = *judged(estimate_of(target, plain(rng, noise_m), {})).covariance;
+    const auto covariance = *judged(test::estimate_of(target, plain(rng, noise_m), {})).covariance;
     for (const Dof dof : {Dof::x, Dof::y, Dof::yaw}) {
       EXPECT_EQ(word_of(covariance, dof), kUnobservable) << noise_m;
       EXPECT_GT(std_of(covariance, dof), 0.5) << noise_m;
@@ -120,7 +113,8 @@ TEST(CovarianceStep, ACorridorDoesNotHoldItsAxis) {
   Rng rng = test::test_rng(4);
   for (const double noise_m : {0.0, 0.005, 0.02}) {
     const Points target = corridor(rng, noise_m);
-    const auto covariance = *judged(estimate_of(target, corridor(rng, noise_m), {})).covariance;
+    const auto covariance =
+        *judged(test::estimate_of(target, corridor(rng, noise_m), {})).covariance;
     EXPECT_NE(word_of(covariance, Dof::x), kDetermined) << noise_m;
     for (const Dof dof : {Dof::y, Dof::z, Dof::roll, Dof::pitch, Dof::yaw}) {
       EXPECT_EQ(word_of(covariance, dof), kDetermined) << noise_m;
@@ -139,7 +133,7 @@ std::vector<Estimate> simulated_estimates(const std::string& kind) {
     const PointCloud target = thinning->apply(scene.reference.load());
     for (const SensorScan& scan : scene.sensors) {
       const PointCloud source = thinning->apply(scan.load());
-      estimates.push_back(estimate_of(target.points, source.points, *scan.truth));
+      estimates.push_back(test::estimate_of(target.points, source.points, *scan.truth));
     }
   }
   return estimates;
@@ -171,7 +165,7 @@ TEST(CovarianceStep, AnUnknownVelocityAddsToTheDirectionOfTravel) {
     cloud.channels.push_back(make_channel(kTime, std::vector<double>(points.size(), time_s)));
     return std::make_shared<const Cloud>(std::move(cloud), StreamKey(1));
   };
-  Estimate estimate = estimate_of(pair.target, pair.source, pair.T_target_source);
+  Estimate estimate = test::estimate_of(pair.target, pair.source, pair.T_target_source);
   const PoseCovariance known = *judged(estimate).covariance;
   const std::string unknown = R"(, "velocity_std_mps": [2, 0, 0])";
   EXPECT_THROW(judged(estimate, unknown), StageError);  // No channel.
@@ -194,7 +188,7 @@ TEST(CovarianceStep, OfCloudsThatDoNotTouchNothingIsKnown) {
   RigidTransform far;
   far.translation.z() = 100.0;
   const Points target = plain(rng, 0.0);
-  const auto covariance = *judged(estimate_of(target, plain(rng, 0.0), far)).covariance;
+  const auto covariance = *judged(test::estimate_of(target, plain(rng, 0.0), far)).covariance;
   for (std::size_t k = 0; k < 6; ++k) {
     EXPECT_EQ(covariance.dofs.at(k), kUnobservable);
     EXPECT_EQ(std_of(covariance, static_cast<Dof>(k)), k < 3 ? kUnknown_rad : kUnknown_m);
@@ -211,7 +205,7 @@ TEST(CovarianceStep, IsAboutAsLargeAsTheErrorsOfTheRegistration) {
   for (std::uint64_t i = 0; i < kStreets; ++i) {
     const test::StreetPair pair =
         test::street_pair(rng, 100 + i, test::random_pose(rng, 0.5), 20000, 12000, 0.01);
-    Estimate estimate = estimate_of(pair.target, pair.source, pair.T_target_source);
+    Estimate estimate = test::estimate_of(pair.target, pair.source, pair.T_target_source);
     estimate.T_target_source =
         icp->align(*estimate.target, *estimate.source, pair.T_target_source).T_target_source;
     const Vector6d error = pose_error(estimate.T_target_source, pair.T_target_source).dof;

@@ -13,6 +13,7 @@
 #include "framework/stage/rig_step.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"
+#include "test/support/street_estimate.hpp"
 
 namespace croon {
 namespace {
@@ -240,10 +241,7 @@ TEST(JointRegistration, FindsTheOffsetOfAClockFromScenesOfDifferentVelocities) {
   adjust(rig.estimates, R"(, "poses": "common", "clock_offset_std_s": 0.1)");
   for (const RigEstimate& one : rig.estimates) {
     ASSERT_EQ(one.failure, "");
-    double offset_s = NAN;
-    for (const auto& [name, value] : one.estimate.diagnostics) {
-      if (name == "clock_offset_s") offset_s = value;
-    }
+    const double offset_s = test::diagnostic(one.estimate, "clock_offset_s");
     EXPECT_NEAR(offset_s, one.source == "left" ? kShift_s : 0.0, 0.005) << one.scene << one.source;
     const PoseError error = pose_error(one.estimate.T_target_source, rig.truth[one.source]);
     EXPECT_LT(error.translation_m, 0.05) << one.source;

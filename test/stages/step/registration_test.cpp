@@ -9,15 +9,6 @@
 namespace croon {
 namespace {
 
-/// A diagnostic that the last step reports, by its name.
-double diagnostic(const Estimate& estimate, const std::string& name) {
-  for (const auto& [found, value] : estimate.diagnostics) {
-    if (found == name) return value;
-  }
-  ADD_FAILURE() << "no diagnostic " << name;
-  return 0.0;
-}
-
 TEST(Registration, RegistersAndReports) {
   Rng rng = test::test_rng();
   test::StreetEstimate street = test::street_estimate(5);
@@ -29,8 +20,8 @@ TEST(Registration, RegistersAndReports) {
   EXPECT_LT(error.translation_m, 0.02);
   ASSERT_TRUE(after.information);
   EXPECT_FALSE(after.rejection);
-  EXPECT_GT(diagnostic(after, "inlier_ratio"), 0.5);
-  EXPECT_EQ(diagnostic(after, "converged"), 1.0);
+  EXPECT_GT(test::diagnostic(after, "inlier_ratio"), 0.5);
+  EXPECT_EQ(test::diagnostic(after, "converged"), 1.0);
 }
 
 TEST(Registration, RejectsWhatItShouldNotTrust) {

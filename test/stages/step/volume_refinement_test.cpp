@@ -9,15 +9,6 @@
 namespace croon {
 namespace {
 
-/// Two clouds as they are, without preprocessing.
-Estimate estimate_of(Points target, Points source, const RigidTransform& T_target_source) {
-  Estimate estimate;
-  estimate.target = std::make_shared<const Cloud>(std::move(target), StreamKey(1));
-  estimate.source = std::make_shared<const Cloud>(std::move(source), StreamKey(2));
-  estimate.T_target_source = T_target_source;
-  return estimate;
-}
-
 TEST(VolumeRefinement, NeverOccupiesMoreThanItsStart) {
   const auto step = test::stage<Step>(R"({"step": "volume_refinement", "points": "all"})");
   Rng rng = test::test_rng();
@@ -45,7 +36,7 @@ TEST(VolumeRefinement, ComesNearerAcrossTheSurfaces) {
   Points sparse = test::random_street(rng, 7, 5000, 0.0);
   RigidTransform start;
   start.translation = {0.08, -0.1, 0.0};
-  const Estimate estimate = estimate_of(std::move(dense), std::move(sparse), start);
+  const Estimate estimate = test::estimate_of(std::move(dense), std::move(sparse), start);
   const Eigen::Vector3d error_m = step->advance(estimate, rng).T_target_source.translation;
   EXPECT_LT(error_m.norm(), 0.05);
 }
@@ -64,8 +55,8 @@ TEST(VolumeRefinement, PointsOutsideOfTheOverlapDecideNothing) {
     for (const Eigen::Vector3f& point : test::random_street(rng, 9, 20000, 0.0)) {
       more.push_back(point + Eigen::Vector3f(0.0F, 0.0F, 500.0F));
     }
-    const Estimate alone = step->advance(estimate_of(target, source, start), rng);
-    const Estimate with_more = step->advance(estimate_of(target, more, start), rng);
+    const Estimate alone = step->advance(test::estimate_of(target, source, start), rng);
+    const Estimate with_more = step->advance(test::estimate_of(target, more, start), rng);
     EXPECT_EQ(with_more.T_target_source.translation, alone.T_target_source.translation);
     EXPECT_EQ(with_more.diagnostics, alone.diagnostics);
   }
@@ -77,7 +68,7 @@ TEST(VolumeRefinement, FailsWithoutAnOverlap) {
   Rng rng = test::test_rng();
   const Points cloud = test::random_cloud(rng, 300, 1.0);
   const RigidTransform far{Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 100, 0)};
-  EXPECT_THROW(step->advance(estimate_of(cloud, cloud, far), rng), StageError);
+  EXPECT_THROW(step->advance(test::estimate_of(cloud, cloud, far), rng), StageError);
 }
 
 }  // namespace
