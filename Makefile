@@ -13,7 +13,7 @@ help:
 	@echo 'make benchmark  build and run the benchmarks'
 	@echo 'make docs       write docs/stages and docs/schema again'
 	@echo 'make format     clang-format all sources'
-	@echo 'make lint       clang-tidy over all sources'
+	@echo 'make lint       clang-tidy over all sources but the tests'
 	@echo 'make fuzz       libFuzzer over every reader of files, FUZZ_SECONDS each (20)'
 	@echo 'make sanitize   the tests with AddressSanitizer and UBSan, of the programs SANITIZED_TESTS or all'
 	@echo 'make threads    the tests with threads with ThreadSanitizer'

@@ -20,10 +20,6 @@ LoopGap gap_of(const Links& links, const PoseBounds& bounds) {
           measures_of(pose_error(around, *links.T_reference_source))};
 }
 
-const RigidTransform* pointer_to(const std::optional<RigidTransform>& pose) {
-  return pose ? &*pose : nullptr;
-}
-
 /// The row of a sensor; null if there is none.
 const SummaryRow* find_row(const Rows& rows, const std::string& sensor) {
   const auto is_it = [&](const SummaryRow* row) { return row->sensor == sensor; };
@@ -37,22 +33,22 @@ const SceneSummary* find_scene(const SummaryRow& row, const std::string& name) {
   return found == row.scenes.end() ? nullptr : &*found;
 }
 
-/// Closes the loop over the poses that all scenes agree on, and those over the consensus poses of
-/// each scene.
+/// Closes the loop over the poses that all scenes agree on, and those over the poses that the
+/// trials of each scene agree on.
 void close_over_agreed_poses(LoopClosure& closure, const Rows& rows, const PoseBounds& bounds) {
   const SummaryRow* const pair = find_row(rows, closure.pair.name);
   const SummaryRow* const source = find_row(rows, closure.pair.source);
   const SummaryRow* const target = find_row(rows, closure.pair.target);
   if (!pair || !source || !target) return;
-  const Links agreed = {pointer_to(pair->consensus), pointer_to(source->consensus),
-                        pointer_to(target->consensus)};
+  const Links agreed = {agreed_consensus(*pair), agreed_consensus(*source),
+                        agreed_consensus(*target)};
   if (agreed.are_known()) closure.agreed = gap_of(agreed, bounds);
   for (const SceneSummary& scene : pair->scenes) {
     const SceneSummary* const of_source = find_scene(*source, scene.scene);
     const SceneSummary* const of_target = find_scene(*target, scene.scene);
     if (!of_source || !of_target) continue;
-    const Links links = {pointer_to(scene.consensus), pointer_to(of_source->consensus),
-                         pointer_to(of_target->consensus)};
+    const Links links = {agreed_consensus(scene), agreed_consensus(*of_source),
+                         agreed_consensus(*of_target)};
     ++closure.scenes;
     closure.scenes_closed += links.are_known() && gap_of(links, bounds).is_closed;
   }

@@ -142,6 +142,13 @@ struct SummaryRow : TrialSummary {
   std::vector<SceneSummary> scenes;
 };
 
+/// The consensus of a scene or of all scenes, if trials agree on it: at least two, or one that has
+/// no other. Null if no two trials agree: then it is no result.
+template <class Summary>
+const RigidTransform* agreed_consensus(const Summary& summary) {
+  return summary.consensus && summary.agreeing.count > 0 ? &*summary.consensus : nullptr;
+}
+
 /// Rows of a summary.
 using Rows = std::vector<const SummaryRow*>;
 

@@ -96,7 +96,11 @@ class Program {
     add_jobs(run, run_.jobs);
     add_trials(run, run_.trials, "Starts per variant, scene and sensor.");
     run.add_option("--only", run_.only, "Run these variants alone.");
-    run.add_option("--shard", run_.shard, "Run part K of N of the trials, K/N.");
+    run.add_option("--shard", run_.shard, "Run part K of N of the trials, K/N.")
+        ->check([](const std::string& shard) {
+          // A variable of a script that is not set must not run everything.
+          return shard.empty() ? "expected K/N with 1 <= K <= N, found \"\"" : "";
+        });
     run.add_flag("--plan", run_.plan, "Show what there is to run, and how much variants share.");
     run.add_flag("--no-share", run_.no_share, "Run the variants one by one, to compare.");
     run.add_flag("--fresh", run_.fresh, "Delete what is in the folder and start over.");

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "experiments/file/experiment_keys.hpp"
+#include "framework/base/text.hpp"
 #include "framework/pipeline/patched_pipeline.hpp"
 
 namespace croon::experiments {
@@ -255,6 +256,11 @@ std::vector<Variant> make_variants(const ExperimentKeys& keys, const Node& root,
   if (keys.grid) pipelines = apply_grid(pipelines, *keys.grid, catalogue);
   std::vector<Variant> variants;
   for (const NamedPipeline& named : pipelines) {
+    if (named.name.size() > kMostNameBytes) {
+      root.fault("expected variants with names of at most " + std::to_string(kMostNameBytes) +
+                 " bytes, found one of " + std::to_string(named.name.size()));
+      break;
+    }
     Variant variant{named.name, {}, "", named.poses};
     const std::size_t faults_before = faults.size();
     variant.pipeline = build_pipeline(named.pipeline, catalogue, faults, variant.resolved);

@@ -51,6 +51,16 @@ Eigen::Matrix4d homogeneous(const RigidTransform& T) {
   return matrix;
 }
 
+template <class OfTrials>
+AgreedPose agreed_pose_of(const OfTrials& of) {
+  AgreedPose agreed{{}, of.outcomes.trials, of.agreeing, {}};
+  if (const RigidTransform* pose = agreed_consensus(of)) {
+    agreed.pose = *pose;
+    agreed.covariance = of.covariance;
+  }
+  return agreed;
+}
+
 /// Whether a scene has a covariance.
 bool has_covariance(const Summary& summary) {
   for (const SummaryRow& row : summary.rows) {
@@ -110,13 +120,9 @@ Columns<AgreedPose> agreed_pose_columns() {
       .add({"spread", "m", "/spread/translation_m", 4}, spread(&Agreeing::translation_m));
 }
 
-AgreedPose agreed_pose(const SummaryRow& row) {
-  return {row.consensus, row.outcomes.trials, row.agreeing, row.covariance};
-}
+AgreedPose agreed_pose(const SummaryRow& row) { return agreed_pose_of(row); }
 
-AgreedPose agreed_pose(const SceneSummary& scene) {
-  return {scene.consensus, scene.outcomes.trials, scene.agreeing, scene.covariance};
-}
+AgreedPose agreed_pose(const SceneSummary& scene) { return agreed_pose_of(scene); }
 
 std::string extrinsics_json(const Summary& summary,
                             const std::map<std::string, std::string>& references) {
@@ -130,7 +136,8 @@ std::string extrinsics_json(const Summary& summary,
   json["method"] =
       "per scene the medoid of the trials' poses, with distances cut off at the bounds, then the "
       "mean of the poses within the bounds of it; over scenes the same of the scenes' poses, each "
-      "with as many votes as trials of its scene agree with it (docs/statistics.md)";
+      "with as many votes as trials of its scene agree with it; null if no two trials agree "
+      "(docs/statistics.md)";
   json["bounds"] = {{"rotation_deg", summary.bounds.rotation_deg},
                     {"translation_m", summary.bounds.translation_m}};
   json["roll_pitch_yaw"] = "R = Rz(yaw) Ry(pitch) Rx(roll)";

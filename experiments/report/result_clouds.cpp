@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using Pose = std::optional<RigidTransform>;
 
 /// The pose that all scenes agree on, of each sensor of `scene`; std::nullopt for a sensor without
-/// a usable pose in this scene, whose cloud may not be readable.
+/// a usable pose in this scene, whose cloud may not be readable, or if no two trials agree.
 std::vector<Pose> agreed_poses(const Summary& summary, const Variant& variant, const Scene& scene) {
   std::vector<Pose> poses;
   for (const SensorScan& scan : scene.sensors) {
@@ -28,7 +28,10 @@ std::vector<Pose> agreed_poses(const Summary& summary, const Variant& variant, c
       const auto is_it = [&](const SceneSummary& of) {
         return of.scene == scene.name && of.consensus;
       };
-      if (std::any_of(row->scenes.begin(), row->scenes.end(), is_it)) pose = row->consensus;
+      const RigidTransform* const agreed = agreed_consensus(*row);
+      if (agreed != nullptr && std::any_of(row->scenes.begin(), row->scenes.end(), is_it)) {
+        pose = *agreed;
+      }
     }
   }
   return poses;

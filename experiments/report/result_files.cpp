@@ -145,10 +145,12 @@ void refuse_files_of_others(const fs::path& folder) {
   }
   if (has_results(folder)) return;
   const std::vector<fs::path> of_store = store_paths_in(folder);
-  for (auto path = paths.begin() + static_cast<std::ptrdiff_t>(of_store.size());
-       path != paths.end(); ++path) {
-    if (!fs::exists(*path, error)) continue;
-    throw InputError(path->string(), "",
+  for (const fs::path& path : paths) {
+    if (!fs::exists(path, error)) continue;
+    // A run that was killed before it had a store leaves no manifest.
+    const bool is_of_store = std::find(of_store.begin(), of_store.end(), path) != of_store.end();
+    if (is_of_store && is_left_by_sqlite(path)) continue;
+    throw InputError(path.string(), "",
                      "would be overwritten, but the folder has no results of croon; --out names "
                      "another folder");
   }
@@ -179,16 +181,17 @@ void delete_path(const fs::path& path) {
   if (error) throw InputError(path.string(), "", "cannot be deleted: " + error.message());
 }
 
-/// Deletes the clouds that `write_fused_clouds` left below `folder`, and folders that are then
-/// empty; not what somebody else put there.
-void delete_clouds(const fs::path& folder) {
+/// Deletes the clouds that `write_fused_clouds` left in the folders in `folder`, one for each
+/// variant, and folders that are then empty.
+void delete_clouds(const fs::path& folder, bool is_of_variant = false) {
   std::error_code error;
   if (!fs::is_directory(fs::symlink_status(folder, error))) return;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path& path = entry.path();
     const fs::file_status status = entry.symlink_status();
-    const bool is_cloud = path.extension() == ".ply" || path.extension() == ".vdb";
-    if (fs::is_directory(status)) delete_clouds(path);
+    const bool is_cloud =
+        is_of_variant && (path.extension() == ".ply" || path.extension() == ".vdb");
+    if (fs::is_directory(status)) delete_clouds(path, true);
     if (fs::is_regular_file(status) && is_cloud) delete_path(path);
   }
   if (fs::is_empty(folder, error)) delete_path(folder);

@@ -51,7 +51,7 @@ Columns<RigidTransform> pose_columns(const std::string& path = "",
 
 /// A pose that trials agree on, as extrinsics.json has it.
 struct AgreedPose {
-  std::optional<RigidTransform> pose;  ///< `T_reference_sensor`; std::nullopt if no trial has one.
+  std::optional<RigidTransform> pose;  ///< `T_reference_sensor`; std::nullopt if no two agree.
   int trials = 0;                      ///< All, those without a pose too.
   Agreeing agreeing;
   std::optional<PoseCovariance> covariance;  ///< If the poses that agree have one.

@@ -329,6 +329,9 @@ std::string summary_text(const Summary& summary, const TableStyle& style) {
     text += "\nresult: T_reference_sensor that all scenes agree on; agreeing: trials " + bounds +
             "it;\n  spread: their root mean square distance from it (extrinsics.json)\n" +
             agreed_text(summary, style);
+    if (any_row([](const SummaryRow& row) { return lacks_truth(row) && !agreed_consensus(row); })) {
+      text += "no pose: no two trials agree\n";
+    }
   }
   return text + reason_text(summary, style);
 }

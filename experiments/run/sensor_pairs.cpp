@@ -41,7 +41,7 @@ void add_pairs(Scene& scene) {
 
 void check_name(const std::string& what, const std::string& name, const std::string& file,
                 std::vector<Fault>& faults) {
-  const bool is_fine = !name.empty() && printable(name) == name &&
+  const bool is_fine = !name.empty() && name.size() <= kMostNameBytes && printable(name) == name &&
                        (std::string(kFormulaSigns) + ".").find(name.front()) == std::string::npos &&
                        name.find('/') == std::string::npos;
   if (is_fine) return;

@@ -234,6 +234,7 @@ void Store::add(const std::vector<const TrialRecord*>& records) {
 void Store::merge(const fs::path& shard, const StoreHeader& from) {
   refuse_differences(shard.string(), from, read_header(database_),
                      "stores of one experiment alone can be merged");
+  check_figures(open_to_read(shard));
   const Attachment attachment(database_, shard, "shard");
   Transaction transaction(database_);
   database_.run(id_maps("shard"));

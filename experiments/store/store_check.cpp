@@ -2,12 +2,14 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "experiments/file/start_rule.hpp"
+#include "experiments/store/bounded_json.hpp"
 #include "experiments/store/store_header.hpp"
 #include "experiments/store/trial_rows.hpp"
 #include "framework/base/error.hpp"
@@ -19,6 +21,9 @@ namespace {
 /// A table, view or index: its type and name, and the statement that made it.
 using SchemaEntry = std::pair<std::string, std::string>;
 
+/// Longer than a name or what reports show beside it, in bytes. Their tables take time that grows
+/// with its square.
+constexpr const char* kLongestName = "65536";
 /// More names than a store has.
 constexpr const char* kLargestId = "1000000000";
 /// A rotation or a distance beyond this is in no result, and its square is finite.
@@ -74,16 +79,19 @@ bool is_harmless(const std::string& text, const std::string& signs) {
   return printable(text) == text && signs.find(text[0]) == std::string::npos;
 }
 
-/// Checks the texts of `table` that reports show: the names and, unless it is a pipeline, `detail`,
-/// which may be empty.
+/// Checks the texts of `table` that reports show, the names and `detail`, which may be empty. A
+/// pipeline is not shown, but must be JSON.
 void check_shown_names(const Database& database, const std::string& table,
                        const std::string& detail) {
   const bool is_shown = detail != "pipeline";
   std::int64_t current = 0;
-  Statement select = database.prepare("SELECT name, place IS NOT NULL" +
-                                      (is_shown ? ", " + detail : "") + " FROM " + table);
+  Statement select =
+      database.prepare("SELECT name, place IS NOT NULL, " + detail + " FROM " + table);
   while (select.next()) {
     const std::string name = select.text(0), shown = is_shown ? select.text(2) : "";
+    if (!is_shown && parsed_or_discarded(select.text(2)).is_discarded()) {
+      refuse(database, table + ": a pipeline is no JSON");
+    }
     current += select.integer(1);
     const bool is_name = !name.empty() && is_harmless(name, kFormulaSigns);
     // The kind of a scene may begin with a minus sign.
@@ -102,9 +110,14 @@ void check_shown_names(const Database& database, const std::string& table,
 }
 
 void check_names(const Database& database, const std::string& table, const std::string& detail) {
+  const auto is_long = [](const std::string& column) {
+    return "length(CAST(" + column + " AS BLOB)) > " + kLongestName;
+  };
+  const std::string long_detail = detail == "pipeline" ? "" : " OR " + is_long(detail);
   refuse_rows(database, table,
               {{"id NOT BETWEEN 1 AND " + std::string(kLargestId), "an id is out of range"},
                {"typeof(name) <> 'text' OR typeof(" + detail + ") <> 'text'", "a name is no text"},
+               {is_long("name") + long_detail, "a name is too long"},
                {"typeof(place) NOT IN ('null', 'integer')", "a place is no number"}});
   check_shown_names(database, table, detail);
 }
@@ -242,6 +255,15 @@ void check_covariances(const Database& database) {
   if (!has_covariances(database)) return;
   Statement select = select_covariances(database);
   while (select.next()) check_covariance(database, stored_covariance_of(select).matrix);
+}
+
+void check_figures(const Database& database) {
+  Statement select = select_figures(database);
+  try {
+    while (select.next()) figures_of(select);
+  } catch (const std::exception& error) {
+    refuse(database, std::string("steps: ") + error.what());
+  }
 }
 
 void check_content(const Database& database) {

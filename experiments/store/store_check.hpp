@@ -18,6 +18,10 @@ void check_schema(const Database& database);
 /// size of the file. Call check_schema before.
 void check_content(const Database& database);
 
+/// Throws InputError unless the figures and names of all steps can be read, for who does not read
+/// them.
+void check_figures(const Database& database);
+
 /// Throws InputError unless `rotation`, of a pose of the store, is a rotation. SQL takes several
 /// times as long.
 void check_rotation(const Database& database, const Eigen::Matrix3d& rotation);

@@ -82,12 +82,21 @@ void remove_files(const std::vector<fs::path>& files) {
 }
 
 /// Throws InputError if the database `path`, whose own pages alone are looked at, is of another
-/// program. Returns whether it has the tables of a store.
+/// program. Returns whether it has the tables of a store, and so much of their columns that no
+/// other program has them by chance.
 bool has_store_tables(const fs::path& path, Access access) {
-  const std::set<std::string> tables = tables_in(Database(path, access));
-  const bool is_store = tables.count("meta") == 1 && tables.count("trials") == 1;
-  if (!tables.empty() && !is_store) refuse_other_file(path, "the database of another program");
-  return is_store;
+  const Database database(path, access);
+  if (tables_in(database).empty()) return false;
+  Statement columns = database.prepare(
+      "SELECT count(*) FROM sqlite_master AS of, pragma_table_info(of.name) AS has "
+      "WHERE of.type = 'table' AND (of.name || '.' || has.name) IN "
+      "('meta.name', 'meta.value', 'trials.variant', 'trials.scene', 'trials.sensor', "
+      "'trials.trial', 'trials.status')");
+  constexpr int kAllOfThem = 7;
+  if (!columns.next() || columns.integer(0) != kAllOfThem) {
+    refuse_other_file(path, "the database of another program");
+  }
+  return true;
 }
 
 /// Whether a process of an earlier version was killed while it changed the journal mode of `path`.
@@ -152,6 +161,22 @@ void provide_log(const fs::path& path) {
 }
 
 }  // namespace
+
+bool is_left_by_sqlite(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(path, error))) return false;
+  if (fs::file_size(path, error) == 0) return true;
+  const FileHeader bytes = header_bytes(path);
+  if (is_sqlite_file(bytes)) return application_id(bytes) == kApplicationId;
+  // A rollback journal, a write-ahead log and its index
+  // (https://www.sqlite.org/fileformat.html, 3 and 4; https://www.sqlite.org/walformat.html, 2.1).
+  // A journal that is not needed any more begins with zeros.
+  const std::string_view first(bytes.data(), 4);
+  using namespace std::string_view_literals;
+  return first == "\xD9\xD5\x05\xF9"sv || first == "\x37\x7F\x06\x82"sv ||
+         first == "\x37\x7F\x06\x83"sv || first == "\x18\xE2\x2D\x00"sv ||
+         first == "\x00\x00\x00\x00"sv;
+}
 
 fs::path store_path(const fs::path& folder) { return folder / "store.sqlite"; }
 

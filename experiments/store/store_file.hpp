@@ -22,6 +22,10 @@ std::filesystem::path store_path(const std::filesystem::path& folder);
 /// The files of a store: its own, and those that are beside it while it is open or built.
 std::vector<std::filesystem::path> store_files(const std::filesystem::path& path);
 
+/// Whether `path` is a file that a process leaves when it is killed while it writes a store: empty,
+/// a store, or a journal or log of SQLite.
+bool is_left_by_sqlite(const std::filesystem::path& path);
+
 /// Whether there is a store at `path`; an empty file is none. Rolls back what an earlier version
 /// left half-done. Throws InputError if there is anything else, and does not change it: a folder, a
 /// pipe, a file or a database of another program.

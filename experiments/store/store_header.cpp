@@ -327,9 +327,16 @@ void refuse_differences(const std::string& file, const StoreHeader& stored,
 void refuse_other_builds(const std::string& file, const StoreHeader& stored,
                          const StoreHeader& asked, const std::string& remedy) {
   if (stored.builds.empty() || is_same(stored.builds, asked.builds)) return;
+  // Of several builds that of `asked` may be one.
+  const auto other =
+      std::find_if(stored.builds.begin(), stored.builds.end(), [&](const Build& build) {
+        return std::none_of(asked.builds.begin(), asked.builds.end(),
+                            [&](const Build& same) { return is_same({build}, {same}); });
+      });
+  const Build& shown = other == stored.builds.end() ? stored.builds.front() : *other;
   throw InputError(file, "",
-                   "its trials were made by another build of croon, of commit " +
-                       stored.builds.front().commit + ", and --same-build was given; " + remedy);
+                   "its trials were made by another build of croon, of commit " + shown.commit +
+                       ", and --same-build was given; " + remedy);
 }
 
 }  // namespace croon::experiments

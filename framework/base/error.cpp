@@ -42,7 +42,7 @@ std::string Fault::line() const {
   constexpr std::size_t kMostWhere = 200;
   constexpr std::size_t kMostMessage = 2000;
   std::string text;
-  if (!file.empty()) text += printable(file) + ": ";
+  if (!file.empty()) text += cut_in_the_middle(printable(file), kMostMessage) + ": ";
   if (!where.empty()) text += cut_in_the_middle(printable(where), kMostWhere) + ": ";
   return text + cut_in_the_middle(printable(message), kMostMessage);
 }

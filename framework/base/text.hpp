@@ -8,6 +8,9 @@ namespace croon {
 /// A cell that begins with one of these is a formula to a spreadsheet.
 inline constexpr const char* kFormulaSigns = "=+-@";
 
+/// The longest name of a variant, a scene or a sensor, in bytes.
+inline constexpr std::size_t kMostNameBytes = 1000;
+
 /// The number of columns that UTF-8 text takes: its code points.
 std::size_t text_columns(const std::string& text);
 

@@ -62,6 +62,24 @@ std::vector<std::string> without_common_parts(const std::vector<std::string>& na
   return labels;
 }
 
+/// `label` in at most `columns`. Values tell names of a grid apart, `key=value/key=value`, so keys
+/// are cut first.
+std::string shortened(const std::string& label, std::size_t columns) {
+  if (text_columns(label) <= columns) return label;
+  for (std::size_t longest_key = columns; longest_key > 2; --longest_key) {
+    std::string text;
+    for (const std::string& part : parts_of(label)) {
+      const std::size_t equals = part.find('=');
+      text += (text.empty() ? "" : "/") +
+              (equals == std::string::npos
+                   ? part
+                   : cut_in_the_middle(part.substr(0, equals), longest_key) + part.substr(equals));
+    }
+    if (text_columns(text) <= columns) return text;
+  }
+  return cut_in_the_middle(label, columns);
+}
+
 }  // namespace
 
 Axis round_axis(double low, double high, int ticks) {
@@ -189,7 +207,7 @@ void draw_legend_entry(Drawing& drawing, double left, double y, std::size_t inde
 std::vector<std::string> distinct_labels(const std::vector<std::string>& names,
                                          std::size_t columns) {
   std::vector<std::string> labels = without_common_parts(names);
-  for (std::string& label : labels) label = cut_in_the_middle(label, columns);
+  for (std::string& label : labels) label = shortened(label, columns);
   std::map<std::string, int> uses;
   for (const std::string& label : labels) ++uses[label];
   const std::vector<std::string> whole = without_common_parts(names);
@@ -197,7 +215,7 @@ std::vector<std::string> distinct_labels(const std::vector<std::string>& names,
     if (uses[labels[i]] == 1) continue;
     const std::string number = std::to_string(i + 1) + ": ";
     const std::size_t left = columns > number.size() ? columns - number.size() : 0;
-    labels[i] = number + cut_in_the_middle(whole[i], left);
+    labels[i] = number + shortened(whole[i], left);
   }
   return labels;
 }

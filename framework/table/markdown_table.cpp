@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "framework/base/text.hpp"
 #include "framework/table/renderers.hpp"
 
 namespace croon {
@@ -17,9 +18,13 @@ std::string markdown_cell(const Cell& cell, const Column& column) {
 
 std::string markdown_escaped(const std::string& text) {
   std::string escaped;
-  for (const char c : text) {
+  // A line break is a space, which is no control character.
+  std::string line = text;
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  for (const char c : printable(line)) {
     if (std::string_view("\\`*_[]<>|~&#").find(c) != std::string_view::npos) escaped += '\\';
-    escaped += c == '\n' || c == '\r' ? ' ' : c;
+    escaped += c;
   }
   return escaped;
 }

@@ -13,7 +13,7 @@ std::string text_cell(const Cell& cell, const Column& column) {
   std::string text = shown_text(cell, column) + cell.mark;
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  return text;
+  return printable(text);
 }
 
 }  // namespace

@@ -48,8 +48,9 @@ class CraftedStore : public testing::Test {
   fs::path path(const std::string& name) const { return folder_.path() / name; }
   fs::path store() const { return path("bad") / "store.sqlite"; }
 
-  int run(const std::string& out) const {
+  int run(const std::string& out, bool is_fresh = false) const {
     RunOptions options;
+    options.fresh = is_fresh;
     options.experiment = path("x.json");
     options.out = path(out);
     options.quiet = true;
@@ -180,6 +181,9 @@ TEST_F(CraftedStore, IsRefusedInOneLine) {
       "UPDATE sensors SET reference = '+1'",
       "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 10001) "
       "INSERT INTO variants(name, pipeline, place) SELECT 'v' || i, '[]', i FROM n",
+      "UPDATE variants SET pipeline = '{'",
+      "UPDATE variants SET name = printf('%.*c', 100000, 'a')",
+      "UPDATE scenes SET kind = printf('%.*c', 100000, 'a') WHERE id = 1",
       "UPDATE covariances SET c00 = NULL",
       "UPDATE covariances SET c00 = 'much'",
       "UPDATE covariances SET c00 = -1.0",
@@ -379,12 +383,15 @@ TEST_F(CraftedStore, OfAnotherProgramKeepsItsBytes) {
   fs::create_directory(path("bad"));
   for (const char* sql : {"CREATE TABLE notes(a); INSERT INTO notes VALUES('mine')",
                           "CREATE TABLE trials(a); INSERT INTO trials VALUES('mine')",
+                          "CREATE TABLE meta(k, v); CREATE TABLE trials(a); "
+                          "INSERT INTO trials VALUES('mine')",
                           "PRAGMA application_id = 1; CREATE TABLE notes(a)",
                           "PRAGMA journal_mode = WAL; CREATE TABLE notes(a)"}) {
     fs::remove(store());
     run_sql(store(), sql);
     const std::string bytes = read_whole_file(store());
     EXPECT_EQ(refusals(sql), "ecmr") << sql;
+    EXPECT_NE(test::input_error([&] { run("bad", true); }), "") << sql;
     EXPECT_EQ(read_whole_file(store()), bytes) << sql;
   }
   fs::remove(store());

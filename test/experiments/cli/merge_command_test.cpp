@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "experiments/store/database.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
 #include "test/experiments/support/fake_stages.hpp"
@@ -102,7 +103,7 @@ TEST_F(MergeCommand, LeavesNothingOfAKilledOne) {
   run("1", "", two_variants());
   const auto leave = [&](const std::string& out) {
     for (const char* ending : {"", "-wal", "-shm", ".new"}) {
-      folder_.write(out + "/store.sqlite.merged" + ending, "x");
+      folder_.write(out + "/store.sqlite.merged" + ending, std::string(100, '\0'));
     }
   };
   const auto is_left = [&](const std::string& out) {
@@ -210,6 +211,21 @@ TEST_F(MergeCommand, KeepsWhatIsThereWhereItCannotBeDone) {
   EXPECT_NE(fault({"2"}, "merged"), "");
   EXPECT_EQ(read_whole_file(path("merged") / "store.sqlite"), before);
   EXPECT_FALSE(fs::exists(path("merged") / "store.sqlite.merged"));
+}
+
+TEST_F(MergeCommand, RefusesDamagedStepsBeforeItWrites) {
+  run("1", "1/2", two_variants());
+  run("2", "2/2", two_variants());
+  EXPECT_EQ(merge({"1"}, "merged"), 3);
+  const std::string before = read_whole_file(path("merged") / "store.sqlite");
+  for (const char* craft : {"figures = '{'", "figures = '{\"=1+1\": 1.0}'", "step = '=1+1'"}) {
+    const std::string store = (path("2") / "store.sqlite").string();
+    Database(store, Access::write).run(std::string("UPDATE steps SET ") + craft);
+    EXPECT_EQ(fault({"2"}, "merged").rfind(store + ": is damaged: ", 0), 0U) << craft;
+    EXPECT_EQ(read_whole_file(path("merged") / "store.sqlite"), before) << craft;
+    EXPECT_NE(fault({"2"}, "new"), "") << craft;
+    EXPECT_FALSE(fs::exists(path("new"))) << craft;
+  }
 }
 
 TEST_F(MergeCommand, TakesNoTrialTwice) {

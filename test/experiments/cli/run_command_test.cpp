@@ -25,6 +25,15 @@ json drifting() {
                          "variants": [{"name": "far", "replace": {"drift.size_m": 2}}]})");
 }
 
+/// The same, but the trials of a variant agree on their pose.
+json agreeing() {
+  json experiment = drifting();
+  experiment["starts"].update({{"rotation_deg", 0.1}, {"translation_m", 0.01}});
+  experiment["pipeline"][0]["size_m"] = 0.01;
+  experiment["variants"][0]["replace"]["drift.size_m"] = 0.02;
+  return experiment;
+}
+
 /// An experiment in a folder, and runs of it.
 class Bench {
  public:
@@ -90,7 +99,7 @@ std::vector<std::string> timed(const fs::path& file) {
 }
 
 TEST(RunCommand, SameBytesForAnyNumberOfJobs) {
-  const Bench bench;
+  const Bench bench(agreeing());
   for (const int jobs : {1, 2, 4}) {
     RunOptions options = bench.options(std::to_string(jobs));
     options.jobs = jobs;
@@ -331,7 +340,8 @@ TEST(RunCommand, WritesNothingWhereTheRequestIsWrong) {
 
 TEST(RunCommand, KeepsTheFilesOfOthers) {
   const Bench bench;
-  for (const char* name : {"trials.csv", "timings.csv", "manifest.json", "clouds/mine.ply"}) {
+  for (const char* name : {"trials.csv", "timings.csv", "manifest.json", "clouds/mine.ply",
+                           "store.sqlite.new", "store.sqlite-wal", "store.sqlite.merged"}) {
     const fs::path file = bench.folder().write("out/" + std::string(name), "mine");
     const fs::path named = bench.folder().path() / "out" / *fs::path(name).begin();
     for (const bool is_fresh : {false, true}) {
@@ -370,7 +380,7 @@ TEST(RunCommand, WritesThroughNoLink) {
 }
 
 TEST(RunCommand, WritesCloudsThroughNoLink) {
-  const Bench bench;
+  const Bench bench(agreeing());
   RunOptions options = bench.options("out");
   options.clouds = true;
   EXPECT_EQ(bench.run(options), 0);
@@ -389,15 +399,17 @@ TEST(RunCommand, WritesCloudsThroughNoLink) {
 }
 
 TEST(RunCommand, FreshDeletesItsOwnCloudsAlone) {
-  const Bench bench;
+  const Bench bench(agreeing());
   RunOptions options = bench.options("out");
   options.clouds = true;
   EXPECT_EQ(bench.run(options), 0);
   const fs::path note = bench.folder().write("out/clouds/base/note.txt", "mine");
+  const fs::path cloud = bench.folder().write("out/clouds/mine.ply", "mine");
   options.clouds = false;
   options.fresh = true;
   EXPECT_EQ(bench.run(options), 0);
   EXPECT_EQ(read_whole_file(note), "mine");
+  EXPECT_EQ(read_whole_file(cloud), "mine");
   EXPECT_FALSE(fs::exists(note.parent_path() / "scene1.ply"));
   EXPECT_FALSE(fs::exists(bench.folder().path() / "out/clouds/far"));
 }

@@ -58,6 +58,24 @@ TEST(Extrinsics, AreThePoseThatMostTrialsAgreeOn) {
   EXPECT_EQ(found["scenes"][2]["scene"], "c");
   EXPECT_EQ(found["scenes"][2]["trials"], 11);
   EXPECT_EQ(found["scenes"][2]["agreeing"], 0);  // No two of them agree.
+  EXPECT_TRUE(found["scenes"][2]["T_reference_sensor"].is_null());
+}
+
+TEST(Extrinsics, OnWhichNoTwoTrialsAgreeAreNothing) {
+  Rng rng = test_rng(5);
+  std::vector<TrialRecord> records;
+  for (const char* scene : {"a", "b"}) {
+    for (int trial = 0; trial < 2; ++trial) {
+      records.push_back(
+          test::finished_without_truth({"base", scene, "left", trial}, random_pose(rng, 9.0)));
+    }
+  }
+  const Summary summary = summarise(records, kBounds, {});
+  const auto found = nlohmann::json::parse(extrinsics_json(summary, {}))["extrinsics"][0];
+  EXPECT_TRUE(found["T_reference_sensor"].is_null());
+  EXPECT_EQ(found["agreeing"], 0);
+  const std::string text = summary_text(summary);
+  EXPECT_NE(text.find("no pose: no two trials agree\n"), std::string::npos) << text;
 }
 
 TEST(Extrinsics, HaveACovarianceIfAllThatAgreeHaveOne) {

@@ -13,6 +13,11 @@ TEST(NearestName, FindsTheMisspelt) {
   EXPECT_EQ(nearest_name("ransac", kKnown), "ransac");
 }
 
+TEST(Fault, IsALineOfBoundedLength) {
+  const std::string huge(1000000, 'k');
+  EXPECT_LT((Fault{huge, huge, huge}.line().size()), 5000U);
+}
+
 TEST(NearestName, KnowsWhenNothingIsNear) {
   EXPECT_EQ(nearest_name("octree", kKnown), "");
   EXPECT_EQ(nearest_name("x", {}), "");

@@ -224,6 +224,14 @@ TEST(DistinctLabels, ShowWhatDiffers) {
   EXPECT_EQ(distinct_labels({"base/x", "base/x/y"}, 30), (Names{"x", "x/y"}));
   EXPECT_EQ(distinct_labels({"base/icpn"}, 30), (Names{"base/icpn"}));
   EXPECT_EQ(distinct_labels({"base", "rough"}, 30), (Names{"base", "rough"}));
+  // The values of a grid are what tells its names apart.
+  EXPECT_EQ(
+      distinct_labels(
+          {"base/kernel_width_m=0.1/max_iterations=5", "base/kernel_width_m=0.2/max_iterations=5",
+           "base/kernel_width_m=0.1/max_iterations=6", "base/kernel_width_m=0.2/max_iterations=6"},
+          20),
+      (Names{"ke…h_m=0.1/ma…ons=5", "ke…h_m=0.2/ma…ons=5", "ke…h_m=0.1/ma…ons=6",
+             "ke…h_m=0.2/ma…ons=6"}));
   const Names cut = distinct_labels({"aaaaaaaaaa1bbbbbbbbbb", "aaaaaaaaaa2bbbbbbbbbb"}, 9);
   EXPECT_NE(cut[0], cut[1]);
   EXPECT_EQ(cut[0], "1: aa…bbb");

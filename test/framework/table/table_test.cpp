@@ -108,6 +108,13 @@ TEST(TextTable, AlignsNamesLeftAndNumbersRight) {
   EXPECT_THROW(text_table(table, view), std::logic_error);
 }
 
+TEST(TextTable, GivesNoCommandsToATerminal) {
+  const Table table{{{"claim"}}, {{to_cell("a\x1b[31mb\a\nc")}}};
+  const View view{{{"claim"}}};
+  EXPECT_EQ(text_table(table, view), "claim\n----------\na?[31mb? c\n");
+  EXPECT_EQ(markdown_table(table, view), "| claim |\n|---|\n| a?\\[31mb? c |\n");
+}
+
 TEST(View, ShowsSeveralColumnsAsOne) {
   const Table table = two_rows();
   Shown shown{"range", "[<low_ratio> to <high_m>]"};

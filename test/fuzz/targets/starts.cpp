@@ -1,5 +1,6 @@
-// Files of starts, for two scenes of two sensors.
+// Files of starts and of poses of other programs, for two scenes of two sensors.
 #include "experiments/run/starts.hpp"
+#include "experiments/run/pose_file.hpp"
 #include "test/fuzz/fuzz_input.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -16,5 +17,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   }();
   const std::filesystem::path path = fuzz::write_input("starts.csv", data, size);
   fuzz::is_taken([&] { experiments::read_start_file(path, scenes); });
+  static const experiments::DatasetNames names(scenes);
+  fuzz::is_taken([&] {
+    experiments::read_pose_file(path, {experiments::kStartHeader, experiments::kPoseHeader}, names,
+                                [](const experiments::PoseLine&) {});
+  });
   return 0;
 }
