@@ -10,7 +10,7 @@ namespace croon {
 namespace {
 
 /// More than the relative error of a few operations in single precision.
-constexpr float kRounding = 1e-6F;
+constexpr float kSingleRounding = 1e-6F;
 
 /// The most bounds that are kept: 64 MB.
 constexpr std::size_t kMostBounds = 16'000'000;
@@ -24,8 +24,8 @@ TurningCost::TurningCost(NearestDistanceCost cost, const RigidTransform& start,
   for (const Eigen::Vector3f& point : cost_.points()) {
     const Eigen::Vector3d arm = start.rotation * point.cast<double>();
     points_.push_back({point, points_.size(),
-                       static_cast<float>(axis.cross(arm).norm()) * (1.0F + kRounding),
-                       (point.norm() + away_m) * kRounding});
+                       static_cast<float>(axis.cross(arm).norm()) * (1.0F + kSingleRounding),
+                       (point.norm() + away_m) * kSingleRounding});
   }
   std::stable_sort(points_.begin(), points_.end(),
                    [](const Turning& a, const Turning& b) { return a.radius_m > b.radius_m; });
@@ -42,7 +42,7 @@ double TurningCost::operator()(double angle_rad) {
 TurningCost::Bounds TurningCost::bounds_at(double angle_rad) const {
   Bounds bounds(points_.size(), 0.0F);
   const auto raise = [&](const std::pair<const double, Bounds>& known) {
-    const float turn_rad = static_cast<float>(std::abs(angle_rad - known.first)) + kRounding;
+    const float turn_rad = static_cast<float>(std::abs(angle_rad - known.first)) + kSingleRounding;
     for (std::size_t i = 0; i < bounds.size(); ++i) {
       const Turning& point = points_[i];
       bounds[i] =
