@@ -7,9 +7,9 @@
 namespace croon {
 
 /// The nearest neighbours of points that move a little between queries, as a registration's do. A
-/// search also tells how far away all points but the nearest are. A query that has moved less than
-/// this margin has the same neighbour and needs no search (Greenspan & Godin 2001, "A nearest
-/// neighbor method for efficient ICP"). The answers are those of KdTree::nearest.
+/// search also tells how far away all points but the nearest are. While a point is nearer to its
+/// old neighbour than any other point can be, it needs no search (Greenspan & Godin 2001, "A
+/// nearest neighbor method for efficient ICP"). The answers are those of KdTree::nearest.
 class TrackedNeighbours {
  public:
   /// For `count` points, numbered from 0, in `target`, which must outlive this.
