@@ -32,11 +32,12 @@ for noise in none real_still real; do
   noises+=("$results/noise_$noise")
 done
 
-# The three noises side by side, for the kinds of scenes given or for all.
-noise_table() {
-  local kinds=()
-  if [[ $# != 0 ]]; then kinds=(--kinds "$@"); fi
-  "$croon" export "${noises[@]}" --units mm "${kinds[@]}" \
+# table FOLDER... [-- KIND...]: experiments side by side, for the kinds of scenes given or for all.
+table() {
+  local shown=() kinds=()
+  while [[ $# != 0 && $1 != -- ]]; do shown+=("$1"); shift; done
+  if [[ $# != 0 ]]; then kinds=(--kinds "${@:2}"); fi
+  "$croon" export "${shown[@]}" --units mm "${kinds[@]}" \
     --columns success success_interval rotation_median translation_median
 }
 
@@ -55,14 +56,18 @@ code=0
 if [[ $code != 0 && $code != 3 ]]; then exit "$code"; fi
 {
   echo
+  echo "## Ours and the authors' code, on the 1899 scenes"
+  echo
+  table "$results/table1_simulated" "$results/table1_opencalib_2022_03"
+  echo
   echo '## Without noise, with noise, and driving'
   echo
-  noise_table
-  for kind in urban suburban crossing car_park highway; do
+  table "${noises[@]}"
+  for kind in urban suburban crossing car_park highway narrow empty blocked corridor; do
     echo
     echo "### Scenes of the kind \`$kind\`"
     echo
-    noise_table "$kind"
+    table "${noises[@]}" -- "$kind"
   done
 } >>"$page.new"
 mv "$page.new" "$page"
