@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <set>
 #include <string_view>
 
 #include "experiments/store/store_check.hpp"
@@ -60,14 +59,6 @@ void refuse_unless_file(const fs::path& path) {
   if (!fs::is_regular_file(path, error)) refuse_other_file(path, "something that is not a file");
 }
 
-/// The tables of the database, as far as they can be read.
-std::set<std::string> tables_in(const Database& database) {
-  std::set<std::string> tables;
-  Statement select = database.prepare("SELECT name FROM sqlite_master WHERE type = 'table'");
-  while (select.next()) tables.insert(select.text(0));
-  return tables;
-}
-
 bool has_bytes(const fs::path& path) {
   std::error_code error;
   return fs::is_regular_file(path, error) && fs::file_size(path, error) > 0 && !error;
@@ -86,7 +77,8 @@ void remove_files(const std::vector<fs::path>& files) {
 /// other program has them by chance.
 bool has_store_tables(const fs::path& path, Access access) {
   const Database database(path, access);
-  if (tables_in(database).empty()) return false;
+  Statement tables = database.prepare("SELECT count(*) FROM sqlite_master WHERE type = 'table'");
+  if (!tables.next() || tables.integer(0) == 0) return false;
   Statement columns = database.prepare(
       "SELECT count(*) FROM sqlite_master AS of, pragma_table_info(of.name) AS has "
       "WHERE of.type = 'table' AND (of.name || '.' || has.name) IN "

@@ -33,13 +33,13 @@ struct PartFile {
   int descriptor;
 };
 
-/// Whether the open file is a plain one that is still called `path`: the process that had it locked
-/// may have renamed it.
+/// Whether the open file is a plain one that is still called `path`, and nothing else: the process
+/// that had it locked may have renamed it, and what has a second name is somebody's.
 bool is_still(int descriptor, const fs::path& path) {
   struct stat open_file {};
   struct stat named {};
   return ::fstat(descriptor, &open_file) == 0 && ::lstat(path.c_str(), &named) == 0 &&
-         S_ISREG(named.st_mode) && open_file.st_dev == named.st_dev &&
+         S_ISREG(named.st_mode) && named.st_nlink == 1 && open_file.st_dev == named.st_dev &&
          open_file.st_ino == named.st_ino;
 }
 

@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <string_view>
 
-#include "framework/base/text.hpp"
 #include "framework/table/renderers.hpp"
 
 namespace croon {
@@ -18,11 +16,7 @@ std::string markdown_cell(const Cell& cell, const Column& column) {
 
 std::string markdown_escaped(const std::string& text) {
   std::string escaped;
-  // A line break is a space, which is no control character.
-  std::string line = text;
-  std::replace_if(
-      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  for (const char c : printable(line)) {
+  for (const char c : one_line(text)) {
     if (std::string_view("\\`*_[]<>|~&#").find(c) != std::string_view::npos) escaped += '\\';
     escaped += c;
   }

@@ -15,6 +15,9 @@ namespace croon {
 /// terminal.
 std::string text_table(const Table& table, const View& view, bool bold_header = false);
 
+/// `text` in one line, as cells for readers have it: a space for each line break, else `printable`.
+std::string one_line(std::string text);
+
 /// A CSV file: a header and a line per row, as in RFC 4180, but lines end in "\n". Nothing is an
 /// empty field, or "all" in a column in which it stands for all. After the columns, there is one
 /// "_mark" column for each of those with marks.

@@ -10,13 +10,16 @@ namespace {
 constexpr const char* kGap = "  ";
 
 std::string text_cell(const Cell& cell, const Column& column) {
-  std::string text = shown_text(cell, column) + cell.mark;
+  return one_line(shown_text(cell, column) + cell.mark);
+}
+
+}  // namespace
+
+std::string one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
   return printable(text);
 }
-
-}  // namespace
 
 std::string text_table(const Table& table, const View& view, bool bold_header) {
   // The titles, the rule and a line per row, one column after the other.

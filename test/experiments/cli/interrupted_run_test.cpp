@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <map>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "experiments/store/store.hpp"
 #include "framework/base/rng.hpp"
@@ -20,9 +22,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Three small sensors: a run is short, and kills fall into all of its parts.
+constexpr const char* kRig = R"({
+  "reference": "top", "reference_height_m": 1.9, "sensors": {
+    "top": {"model": {"like": "spinner_16", "azimuth_step_deg": 0.6}},
+    "left": {"model": {"like": "spinner_16", "azimuth_step_deg": 0.6}, "translation_m": [0, 0.8, -0.3]},
+    "right": {"model": {"like": "spinner_16", "azimuth_step_deg": 0.6}, "translation_m": [0, -0.8, -0.3]}}
+})";
+
+// RIG is for kRig.
 constexpr const char* kExperiment = R"({
   "name": "small",
-  "dataset": {"type": "simulated", "rig": "croon_three", "scenes": 4},
+  "dataset": {"type": "simulated", "rig": RIG, "scenes": 4},
   "starts": {"rotation_deg": 10, "translation_m": 0.1, "trials": 3},
   "success": {"rotation_deg": 5, "translation_m": 0.5},
   "pipeline": [
@@ -40,7 +51,7 @@ constexpr const char* kExperiment = R"({
 // Groups of five scenes, and a step that sees all of their sensors and pairs of sensors at once.
 constexpr const char* kRigExperiment = R"({
   "name": "rigs",
-  "dataset": {"type": "simulated", "rig": "croon_three", "scenes": 11},
+  "dataset": {"type": "simulated", "rig": RIG, "scenes": 11},
   "scenes_per_trial": 5,
   "loops": true,
   "starts": {"rotation_deg": 5, "translation_m": 0.1, "trials": 2},
@@ -78,7 +89,11 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 class InterruptedRun : public testing::TestWithParam<Case> {
  protected:
-  InterruptedRun() { folder_.write("small.json", GetParam().experiment); }
+  InterruptedRun() {
+    std::string experiment = GetParam().experiment;
+    experiment.replace(experiment.find("RIG"), 3, kRig);
+    folder_.write("small.json", experiment);
+  }
 
   fs::path path(const std::string& name) const { return folder_.path() / name; }
 

@@ -58,6 +58,15 @@ TEST(WholeFile, WritesThroughNoLink) {
   EXPECT_EQ(read_whole_file(folder.path() / "a"), "new");
 }
 
+TEST(WholeFile, LeavesAPartWithASecondNameAlone) {
+  const test::TempFolder folder;
+  const auto other = folder.write("other/file", "kept");
+  std::filesystem::create_hard_link(other, folder.path() / "a.croon-part0");
+  write_whole_file(folder.path() / "a", "new");
+  EXPECT_EQ(read_whole_file(other), "kept");
+  EXPECT_EQ(read_whole_file(folder.path() / "a"), "new");
+}
+
 TEST(WholeFile, LeavesThePartOfAnotherWriterAlone) {
   const test::TempFolder folder;
   const auto part = folder.write("a.croon-part0", "at work");
