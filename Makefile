@@ -77,7 +77,7 @@ sanitize: sanitizer_packages
 # DescribeCommand compares all that the program prints, also what the symboliser of a suppressed report says.
 threads: sanitizer_packages
 	cmake --preset threads
-	cmake --build --preset threads --target croon test_framework test_stages test_contract test_experiments
+	cmake --build --preset threads --target croon test_framework test_stages test_contract test_experiments test_program
 	$(call RUN_TESTS,threads,TSAN_OPTIONS="suppressions=$(CURDIR)/test/thread_sanitizer.supp",*Thread*:*Runner*-DescribeCommand.*)
 
 clean:

@@ -1,4 +1,4 @@
-#include "test/experiments/support/killed_program.hpp"
+#include "test/program/killed_program.hpp"
 
 #include <fcntl.h>
 #include <signal.h>

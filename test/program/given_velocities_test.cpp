@@ -3,7 +3,7 @@
 
 #include "experiments/run/given_velocities.hpp"
 #include "framework/base/whole_file.hpp"
-#include "test/experiments/support/program.hpp"
+#include "test/program/program.hpp"
 #include "test/support/temp_folder.hpp"
 
 namespace croon::experiments {

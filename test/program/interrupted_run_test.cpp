@@ -13,8 +13,8 @@
 #include "experiments/store/store.hpp"
 #include "framework/base/rng.hpp"
 #include "framework/base/whole_file.hpp"
-#include "test/experiments/support/killed_program.hpp"
-#include "test/experiments/support/program.hpp"
+#include "test/program/killed_program.hpp"
+#include "test/program/program.hpp"
 #include "test/support/temp_folder.hpp"
 
 namespace croon::experiments {

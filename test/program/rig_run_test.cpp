@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/base/whole_file.hpp"
-#include "test/experiments/support/program.hpp"
+#include "test/program/program.hpp"
 #include "test/support/temp_folder.hpp"
 
 namespace croon::experiments {

@@ -10,7 +10,7 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/geometry/dof.hpp"
-#include "test/experiments/support/program.hpp"
+#include "test/program/program.hpp"
 #include "test/support/data_root.hpp"
 #include "test/support/temp_folder.hpp"
 

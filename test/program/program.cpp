@@ -1,4 +1,4 @@
-#include "test/experiments/support/program.hpp"
+#include "test/program/program.hpp"
 
 #include <sys/wait.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "test/experiments/support/program.hpp"
+#include "test/program/program.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/temp_folder.hpp"
 
