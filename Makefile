@@ -66,13 +66,13 @@ RUN_TESTS = for program in $(addprefix build/$(1)/bin/test_,$(or $(4),*)); do pr
   $(2) GTEST_TOTAL_SHARDS=8 xargs -P 2 -n 2 bash -c '\
     GTEST_SHARD_INDEX=$$1 "$$0" --gtest_brief=1 --gtest_filter="$(3)" || exit 255'
 
-# Long tests of a stage that shorter ones run too, a minute each under a sanitizer.
-REPETITIVE = JointRegistration.SaysHowWell*:JointRegistration.FindsThePosesAndTheVelocity*:JointRegistration.FailsTheSensor*:JointRegistration.RejectsASceneWhose*:JointRegistration.MovesTheCloudsTo*:JointRegistration.LeavesTheCloudsOf*:FeatureAlignment.FindsThe*:*TurnedAnyhow*:*UpsideDown*:*DoesNotDependOnTheStart*
+# Long under a sanitizer, a minute each: tests of a stage that shorter ones run too, simulated statistics, LaTeX, kills.
+LONG_WHEN_SANITIZED = *CoversTheTr*:*KeepsItsLevel*:*WhereTrialsOfASceneAreAlike*:*ExportedLatex*:*AtEachChange*:JointRegistration.SaysHowWell*:JointRegistration.FindsThePosesAndTheVelocity*:JointRegistration.FailsTheSensor*:JointRegistration.RejectsASceneWhose*:JointRegistration.MovesTheCloudsTo*:JointRegistration.LeavesTheCloudsOf*:FeatureAlignment.FindsThe*:*TurnedAnyhow*:*UpsideDown*:*DoesNotDependOnTheStart*
 SANITIZED_TESTS ?=
 sanitize: sanitizer_packages
 	cmake --preset sanitized
 	cmake --build --preset sanitized $(if $(SANITIZED_TESTS),--target $(addprefix test_,$(SANITIZED_TESTS)))
-	$(call RUN_TESTS,sanitized,LSAN_OPTIONS="suppressions=$(CURDIR)/test/leak_sanitizer.supp:print_suppressions=0",-$(REPETITIVE),$(SANITIZED_TESTS))
+	$(call RUN_TESTS,sanitized,LSAN_OPTIONS="suppressions=$(CURDIR)/test/leak_sanitizer.supp:print_suppressions=0",-$(LONG_WHEN_SANITIZED),$(SANITIZED_TESTS))
 
 # DescribeCommand compares all that the program prints, also what the symboliser of a suppressed report says.
 threads: sanitizer_packages

@@ -73,7 +73,13 @@ const std::vector<Figure>& figures() {
          if (results.summary.curve.rows.empty()) return std::nullopt;
          return success_curve_chart(results.summary.curve, options);
        },
-       "a dataset with truth"}};
+       "a dataset with truth"},
+      {"verdicts",
+       [](const Results& results, const FigureOptions& options) -> std::optional<Drawing> {
+         if (results.verdicts.rows.empty()) return std::nullopt;
+         return verdict_chart(results.verdicts, results.summary.bounds, options);
+       },
+       "a step that rejects trials, and a dataset with truth"}};
   return figures;
 }
 
@@ -118,6 +124,7 @@ Results restricted(Results results, const TrialChoice& choice) {
                              : order.variants.size() * order.sensors.size() * order.scenes.size() *
                                    static_cast<std::size_t>(results.trials);
   results.summary = summarise(results.records, results.summary.bounds, order);
+  results.verdicts = verdicts_of(results.records, results.summary);
   results.coverage = coverage_of(results.records, results.summary);
   if (results.basin) results.basin = basin_of(results.records, results.basin->sweep, order);
   return results;

@@ -6,6 +6,7 @@
 #include "experiments/analysis/basin.hpp"
 #include "experiments/analysis/coverage.hpp"
 #include "experiments/analysis/summary.hpp"
+#include "experiments/analysis/verdicts.hpp"
 #include "framework/picture/drawing.hpp"
 #include "framework/pipeline/cloud_description.hpp"
 
@@ -74,6 +75,13 @@ Drawing success_curve_chart(const SuccessCurve& curve, const FigureOptions& opti
 /// level, a panel per degree of freedom. A line per variant, all sensors together; of one variant
 /// alone a line per sensor.
 Drawing coverage_chart(const Coverage& coverage, const FigureOptions& options = {});
+
+/// The figure of verdicts.svg: right and wrong poses, accepted and rejected, in % of all trials,
+/// over the threshold from which on a pose is wrong, in multiples of `bounds`. A panel for each of
+/// the four, with an axis of its own. A line per variant, all sensors together; of one variant
+/// alone a line per sensor.
+Drawing verdict_chart(const Verdicts& verdicts, const SuccessBounds& bounds,
+                      const FigureOptions& options = {});
 
 /// The largest size that the axis of a measure has to show: three times the lower median of the
 /// boxes' longer whiskers, so that the boxes of bad variants do not flatten those of good ones, but

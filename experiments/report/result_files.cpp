@@ -72,6 +72,11 @@ const std::vector<ResultFile>& result_files() {
        }},
       {"verdicts.csv",
        [](const R& r) { return if_any(r.verdicts.rows, verdicts_csv, r.verdicts); }},
+      {"verdicts.svg",
+       [](const R& r) -> Bytes {
+         if (r.verdicts.rows.empty()) return std::nullopt;
+         return svg_bytes(verdict_chart(r.verdicts, r.summary.bounds));
+       }},
       {"covariance.csv",
        [](const R& r) -> Bytes {
          const auto has_one = [](const TrialRecord& record) { return !!record.covariance; };

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 
+#include "experiments/report/figures.hpp"
+#include "experiments/report/plots.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "experiments/report/run_text.hpp"
+#include "framework/picture/writers.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
@@ -69,6 +72,29 @@ TEST(Verdicts, OverTheThresholdTheNumberOfTrialsStays) {
     EXPECT_EQ(row.at_thresholds.back().accepted_wrong, 0);
     EXPECT_EQ(row.at_thresholds[12].accepted_right, row.at_bounds.accepted_right);
   }
+}
+
+TEST(Verdicts, HaveAFigureWithAPanelForEachOfTheFour) {
+  const Verdicts verdicts = verdicts_on(some_records());
+  const std::string picture = svg_bytes(verdict_chart(verdicts, kBounds));
+  for (const char* title :
+       {"accepted and right", "accepted and wrong", "rejected and right", "rejected and wrong"}) {
+    EXPECT_THAT(picture, HasSubstr(std::string(">") + title + "<"));
+  }
+  for (const char* sensor : {"left", "right", "all sensors"}) {
+    EXPECT_THAT(picture, HasSubstr(std::string(">") + sensor + "<"));
+  }
+}
+
+TEST(Verdicts, OfChosenTrialsCountTheseAlone) {
+  Results results;
+  results.records = some_records();
+  results.trials = 1;
+  results.summary = summarise(results.records, kBounds, {});
+  results.verdicts = verdicts_of(results.records, results.summary);
+  EXPECT_EQ(results.verdicts.rows.back().at_bounds.trials(), 9);
+  const Results left = restricted(results, {{}, {"left"}, {}});
+  EXPECT_EQ(left.verdicts.rows.back().at_bounds.trials(), 8);
 }
 
 TEST(Verdicts, AreThereOnlyWhereTheProgramGaveOne) {

@@ -1,0 +1,99 @@
+#include "experiments/report/panels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "framework/base/text.hpp"
+
+namespace croon::experiments {
+
+double figure_width(const Sheet& sheet) { return sheet.width > 0.0 ? sheet.width : 900.0; }
+
+bool is_wide(const Sheet& sheet) {
+  return sheet.width <= 0.0 || sheet.width > 1.5 * kOneColumn.width;
+}
+
+PanelGrid panel_grid(const Sheet& sheet, std::size_t panels, std::size_t columns, double aspect,
+                     const std::vector<std::string>& labels, double title_height) {
+  const double text = sheet.small();
+  PanelGrid grid{};
+  grid.columns = columns;
+  grid.width = figure_width(sheet);
+  grid.left = 4.0 * text;
+  grid.top = title_height + 1.8 * text;
+  grid.panel_width = grid.width / static_cast<double>(columns);
+  grid.plot_width = grid.panel_width - grid.left - 1.5 * text;
+  grid.plot_height = aspect * grid.plot_width;
+  grid.panel_height = grid.plot_height + 5.2 * text;
+  double widest = 0.0;
+  for (const std::string& label : labels) widest = std::max(widest, text_width(label, text));
+  grid.legend_width = legend_line(sheet) + widest + 2.0 * text;
+  grid.legend_line = 1.6 * text;
+  const auto entries = static_cast<double>(std::max<std::size_t>(labels.size(), 1));
+  const double fitting = std::floor((grid.width - grid.left) / grid.legend_width);
+  grid.legend_columns = static_cast<std::size_t>(std::clamp(fitting, 1.0, entries));
+  const double rows = std::ceil(static_cast<double>(panels) / static_cast<double>(columns));
+  grid.legend_top = grid.top + rows * grid.panel_height + 0.6 * text;
+  grid.height = grid.legend_top +
+                grid.legend_line * std::ceil(entries / static_cast<double>(grid.legend_columns));
+  return grid;
+}
+
+Plot plot_of(const PanelGrid& grid, std::size_t index, const Interval& x_range,
+             const Interval& y_range) {
+  const auto [row, column] = place_in_grid(index, grid.columns);
+  return {grid.left + column * grid.panel_width,
+          grid.top + row * grid.panel_height,
+          grid.plot_width,
+          grid.plot_height,
+          x_range,
+          y_range};
+}
+
+void draw_panel_texts(Drawing& drawing, const Plot& plot, const std::string& above,
+                      const std::string& below) {
+  const double text = drawing.sheet().small();
+  const double middle = plot.left + plot.width / 2.0;
+  drawing.text(middle, plot.top - 0.5 * text, above, Anchor::middle, "small");
+  drawing.text(middle, plot.top + plot.height + 2.9 * text, below, Anchor::middle, "small");
+}
+
+void draw_side_text(Drawing& drawing, const PanelGrid& grid, std::size_t index, const Plot& plot,
+                    const std::string& text) {
+  if (drawing.sheet().has_title || index % grid.columns != 0) return;
+  drawing.text(plot.left - 2.9 * drawing.sheet().small(), plot.top + plot.height / 2.0, text,
+               Anchor::middle, "small", -90.0);
+}
+
+void draw_decade_ticks(Drawing& drawing, const Plot& plot) {
+  for (double exponent = std::ceil(plot.x_range.low); exponent <= plot.x_range.high; ++exponent) {
+    plot.draw_x_tick(drawing, exponent, shortest_number(std::pow(10.0, exponent)),
+                     1.4 * drawing.sheet().small());
+  }
+}
+
+void draw_series(Drawing& drawing, const Plot& plot, const std::vector<double>& xs,
+                 const std::vector<double>& ys, std::size_t series, std::size_t marker_every) {
+  std::vector<Corner> curve;
+  for (std::size_t i = 0; i < ys.size(); ++i) curve.push_back({plot.x(xs[i]), plot.y(ys[i])});
+  drawing.polyline(curve, "curve " + series_style(series));
+  for (std::size_t i = series % marker_every; i < curve.size(); i += marker_every) {
+    draw_marker(drawing, curve[i][0], curve[i][1], 0.25 * drawing.sheet().small(), series);
+  }
+}
+
+void draw_panel_legend(Drawing& drawing, const PanelGrid& grid,
+                       const std::vector<std::string>& labels) {
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const auto [row, column] = place_in_grid(i, grid.legend_columns);
+    draw_legend_entry(drawing, grid.left + grid.legend_width * column,
+                      grid.legend_top + grid.legend_line * row, i, labels[i]);
+  }
+}
+
+std::vector<std::string> line_labels(const std::vector<std::string>& names) {
+  constexpr std::size_t kColumns = 30;
+  return distinct_labels(names, kColumns);
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "experiments/report/figure_title.hpp"
+#include "experiments/report/panels.hpp"
+#include "framework/base/text.hpp"
+
+namespace croon::experiments {
+namespace {
+
+/// A panel: what it counts.
+struct VerdictPanel {
+  const char* title;
+  int (*count)(const VerdictCounts& counts);
+};
+
+constexpr std::array kVerdictPanels = {
+    VerdictPanel{"accepted and right",
+                 [](const VerdictCounts& counts) { return counts.accepted_right; }},
+    VerdictPanel{"accepted and wrong",
+                 [](const VerdictCounts& counts) { return counts.accepted_wrong; }},
+    VerdictPanel{"rejected and right",
+                 [](const VerdictCounts& counts) { return counts.rejected_right; }},
+    VerdictPanel{"rejected and wrong", [](const VerdictCounts& counts) {
+                   return counts.rejected_wrong + counts.failed;
+                 }}};
+
+/// The rows with a line, each with its name.
+std::vector<std::pair<std::string, const VerdictRow*>> verdict_lines(const Verdicts& verdicts) {
+  const bool is_one_variant = has_one_variant(verdicts.rows);
+  std::vector<std::pair<std::string, const VerdictRow*>> lines;
+  for (const VerdictRow& row : verdicts.rows) {
+    const std::string name = line_name(row, is_one_variant);
+    if (!name.empty()) lines.emplace_back(name, &row);
+  }
+  return lines;
+}
+
+/// The share of the trials in the panel, over the thresholds, in %.
+std::vector<double> percents(const VerdictRow& row, const VerdictPanel& panel) {
+  std::vector<double> shares;
+  for (const VerdictCounts& counts : row.at_thresholds) {
+    shares.push_back(100.0 * panel.count(counts) / counts.trials());
+  }
+  return shares;
+}
+
+/// Draws the frame of a panel: to the right the decimal logarithm of the threshold in bounds,
+/// upwards the share of all trials.
+void draw_verdict_panel(Drawing& drawing, const Plot& plot, const Axis& axis, const char* title) {
+  const double text = drawing.sheet().small();
+  for (const double tick : axis.ticks) {
+    plot.draw_y_tick(drawing, tick, fixed_number(tick, axis.decimals), 0.7 * text,
+                     tick == 0.0 ? "zero" : "grid");
+  }
+  draw_decade_ticks(drawing, plot);
+  drawing.line(plot.x(0.0), plot.top, plot.x(0.0), plot.top + plot.height, "zero");
+  draw_panel_texts(drawing, plot, title, "threshold / bounds");
+}
+
+}  // namespace
+
+Drawing verdict_chart(const Verdicts& verdicts, const SuccessBounds& bounds,
+                      const FigureOptions& options) {
+  constexpr const char* kTitle = "Right and wrong poses, accepted and rejected, in % of all trials";
+  constexpr int kTicks = 4;
+  constexpr std::size_t kMarkerEvery = 4;
+  const auto lines = verdict_lines(verdicts);
+  std::vector<std::string> names;
+  for (const auto& line : lines) names.push_back(line.first);
+  const std::vector<std::string> labels = line_labels(names);
+  const std::string explanation =
+      "A pose is wrong beyond a threshold, in multiples of the bounds " +
+      shortest_number(bounds.rotation_deg) + " deg and " + shortest_number(bounds.translation_m) +
+      " m (vertical line); a trial without a pose is rejected and wrong";
+  const Sheet& sheet = options.sheet;
+  const FigureTitle title(kTitle, explanation, sheet, figure_width(sheet));
+  const PanelGrid grid = panel_grid(sheet, kVerdictPanels.size(), 2, is_wide(sheet) ? 0.62 : 1.0,
+                                    labels, title.height());
+  Drawing drawing(grid.width, grid.height, sheet);
+  drawing.describe(std::string(kTitle) + ". " + explanation + ".");
+  drawing.rectangle(0.0, 0.0, grid.width, grid.height, "page");
+  title.draw(drawing, 0.5 * sheet.small(), 0.3 * sheet.small());
+  std::vector<double> exponents;
+  for (const SuccessBounds& threshold : verdicts.thresholds) {
+    exponents.push_back(std::log10(threshold.rotation_deg / bounds.rotation_deg));
+  }
+  for (std::size_t p = 0; p < kVerdictPanels.size(); ++p) {
+    // What is rare has an axis of its own: a share of a thousandth is what matters most.
+    double largest = 1.0;
+    for (const auto& [name, row] : lines) {
+      const std::vector<double> shares = percents(*row, kVerdictPanels[p]);
+      largest = std::max(largest, *std::max_element(shares.begin(), shares.end()));
+    }
+    const Axis axis = round_axis(0.0, largest, kTicks);
+    const Plot plot =
+        plot_of(grid, p, {exponents.front(), exponents.back()}, {axis.low, axis.high});
+    draw_verdict_panel(drawing, plot, axis, kVerdictPanels[p].title);
+    draw_side_text(drawing, grid, p, plot, "share of all trials, %");
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      draw_series(drawing, plot, exponents, percents(*lines[i].second, kVerdictPanels[p]), i,
+                  kMarkerEvery);
+    }
+  }
+  draw_panel_legend(drawing, grid, labels);
+  return drawing;
+}
+
+}  // namespace croon::experiments
