@@ -10,8 +10,9 @@ import csv
 import json
 import os
 import statistics
-import subprocess
 import sys
+
+from runs import run_unless_there
 
 SPEEDS_MPS = (0, 5, 10, 15, 20, 30)
 OFFSETS_MS = (0, 10, 25, 50)
@@ -32,15 +33,11 @@ def run(croon, out, options, speed_mps, offset_ms):
     """The folder of the results at one speed and offset."""
     folder = os.path.join(out, f"{speed_mps}_mps_{offset_ms}_ms")
     results = os.path.join(folder, "results")
-    if not os.path.exists(os.path.join(results, "verdicts.csv")):
-        os.makedirs(folder, exist_ok=True)
-        experiment = os.path.join(folder, "experiment.json")
-        with open(experiment, "w", encoding="utf-8") as file:
-            file.write(experiment_at(folder, speed_mps, offset_ms))
-        ended = subprocess.run([croon, "run", experiment, "--out", results, "--quiet", *options],
-                               check=False, stdout=subprocess.DEVNULL)
-        if ended.returncode not in (0, 3):  # 3: a trial failed, which is a result.
-            sys.exit(f"croon run {experiment} ended with {ended.returncode}")
+    os.makedirs(folder, exist_ok=True)
+    experiment = os.path.join(folder, "experiment.json")
+    with open(experiment, "w", encoding="utf-8") as file:
+        file.write(experiment_at(folder, speed_mps, offset_ms))
+    run_unless_there(croon, experiment, results, "verdicts.csv", options)
     return results
 
 

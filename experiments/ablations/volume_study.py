@@ -11,8 +11,9 @@ over scenes after Holm's correction.
 import csv
 import os
 import statistics
-import subprocess
 import sys
+
+from runs import run_unless_there
 
 BEFORE = (("rough steps", "_rough"), ("one iteration", "_one_iteration"), ("full registration", ""))
 NOISES = (("none", ""), ("real_still", "_still"), ("twice real_still", "_twice"))
@@ -30,13 +31,8 @@ OPTIONS = "_options"
 def results_of(croon, out, options, suffix):
     """The folder of the results of volume_study<suffix>.json."""
     results = os.path.join(out, f"volume_study{suffix}")
-    if not os.path.exists(os.path.join(results, "comparison.csv")):
-        here = os.path.dirname(os.path.abspath(__file__))
-        experiment = os.path.join(here, f"volume_study{suffix}.json")
-        ended = subprocess.run([croon, "run", experiment, "--out", results, "--quiet", *options],
-                               check=False, stdout=subprocess.DEVNULL)
-        if ended.returncode not in (0, 3):  # 3: a trial failed, which is a result.
-            sys.exit(f"croon run {experiment} ended with {ended.returncode}")
+    experiment = os.path.join(os.path.dirname(os.path.abspath(__file__)), f"volume_study{suffix}.json")
+    run_unless_there(croon, experiment, results, "comparison.csv", options)
     return results
 
 
