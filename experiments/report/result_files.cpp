@@ -139,6 +139,21 @@ bool has_results(const fs::path& folder) {
   }
 }
 
+/// Throws InputError if a file that a run changes in its place, and does not replace, has another
+/// name: what that name is of, a backup made of hard links, would change too.
+void refuse_hard_links(const fs::path& folder) {
+  std::vector<fs::path> changed = store_paths_in(folder);
+  changed.push_back(folder / kTimings);
+  std::error_code error;
+  for (const fs::path& path : changed) {
+    const std::uintmax_t names = fs::hard_link_count(path, error);
+    if (error || names <= 1) continue;
+    throw InputError(path.string(), "",
+                     "expected a file with one name, found a hard link: another file would change "
+                     "too; copy the folder without links, or --out names another folder");
+  }
+}
+
 /// Throws InputError if a run would write through a link or over a file that is not its own.
 void refuse_files_of_others(const fs::path& folder) {
   std::vector<fs::path> paths = paths_in(folder);
@@ -148,6 +163,7 @@ void refuse_files_of_others(const fs::path& folder) {
     if (!fs::is_symlink(fs::symlink_status(path, error))) continue;
     throw InputError(path.string(), "", "expected a file or nothing, found a symbolic link");
   }
+  refuse_hard_links(folder);
   if (has_results(folder)) return;
   const std::vector<fs::path> of_store = store_paths_in(folder);
   for (const fs::path& path : paths) {
@@ -249,12 +265,18 @@ bool is_experiment(const fs::path& path) {
   return json.is_object() && (json.contains("dataset") || json.contains("extends"));
 }
 
-/// What is at `path` and must not be replaced; empty if nothing is there, or another file.
+/// What is at `path` and must not be replaced, or belongs there; empty if nothing, or another file.
 std::string what_must_stay(const fs::path& path, const std::vector<fs::path>& inputs) {
   static const std::set<std::string> of_datasets = {
       "truth.json",      "nominal.json",         "scene_kinds.json",
       "simulation.json", "lidar_cloud_path.txt", "initial_extrinsic.txt"};
   std::error_code error;
+  const fs::path folder = path.parent_path();
+  const std::vector<fs::path> results = paths_in(folder);
+  const bool is_result = std::find(results.begin(), results.end(), path) != results.end();
+  const bool has_run = fs::exists(store_path(folder), error) || is_manifest(folder / kManifest);
+  // Also if it is not there: SQLite would take it for a part of the store.
+  if (is_result && has_run) return "a file of the results of a run";
   const fs::file_status status = fs::symlink_status(path, error);
   if (!fs::exists(status)) return "";
   if (fs::is_symlink(status)) return "a link";
@@ -262,11 +284,6 @@ std::string what_must_stay(const fs::path& path, const std::vector<fs::path>& in
   for (const fs::path& input : inputs) {
     if (fs::equivalent(path, input, error)) return "which is read";
   }
-  const fs::path folder = path.parent_path();
-  const std::vector<fs::path> results = paths_in(folder);
-  const bool is_result = std::find(results.begin(), results.end(), path) != results.end();
-  const bool has_run = fs::exists(store_path(folder), error) || is_manifest(folder / kManifest);
-  if (is_result && has_run) return "a file of the results of a run";
   if (of_datasets.count(path.filename().string()) > 0) return "a file of a dataset";
   if (has_point_cloud_suffix(path)) return "a cloud";
   return is_experiment(path) ? "an experiment" : "";

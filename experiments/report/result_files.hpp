@@ -25,7 +25,8 @@ std::filesystem::path merged_store_path(const std::filesystem::path& folder);
 class OutputFolder {
  public:
   /// Throws InputError if the folder cannot be made or written to, or another croon works in it;
-  /// if one of the files is a symbolic link; and if the folder has neither a store nor a manifest
+  /// if one of the files is a symbolic link, or one that is changed in its place a hard link; and
+  /// if the folder has neither a store nor a manifest
   /// of croon, but a file of a name that a run writes.
   explicit OutputFolder(const std::filesystem::path& path);
 

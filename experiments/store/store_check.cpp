@@ -74,9 +74,9 @@ void check_pages(const Database& database) {
 }
 
 /// Whether `text` does no harm in a terminal or a table: it is UTF-8 without control characters and
-/// does not begin with one of `signs`, by which spreadsheets know a formula.
-bool is_harmless(const std::string& text, const std::string& signs) {
-  return printable(text) == text && signs.find(text[0]) == std::string::npos;
+/// does not begin with a sign by which spreadsheets know a formula.
+bool is_harmless(const std::string& text) {
+  return printable(text) == text && std::string(kFormulaSigns).find(text[0]) == std::string::npos;
 }
 
 /// Checks the texts of `table` that reports show, the names and `detail`, which may be empty. A
@@ -93,9 +93,8 @@ void check_shown_names(const Database& database, const std::string& table,
       refuse(database, table + ": a pipeline is no JSON");
     }
     current += select.integer(1);
-    const bool is_name = !name.empty() && is_harmless(name, kFormulaSigns);
-    // The kind of a scene may begin with a minus sign.
-    if (is_name && is_harmless(shown, "=+@")) continue;
+    const bool is_name = !name.empty() && is_harmless(name);
+    if (is_name && is_harmless(shown)) continue;
     const std::string& bad = is_name ? shown : name;
     refuse(database, table +
                          ": expected a name in UTF-8 without control characters that does not "

@@ -71,11 +71,13 @@ bool is_word(const std::string& text) {
 }
 
 void read_kind(const params::Node& node, std::string& kind) {
-  if (!node.value().is_string() || !is_word(node.value().get<std::string>())) {
-    node.expected("a word of letters, digits, \"_\" and \"-\"");
+  const std::string text = node.value().is_string() ? node.value().get<std::string>() : "";
+  // Spreadsheets take what begins with a minus sign for a formula.
+  if (!is_word(text) || text.front() == '-') {
+    node.expected("a word of letters, digits, \"_\" and \"-\" that does not begin with \"-\"");
     return;
   }
-  kind = node.value().get<std::string>();
+  kind = text;
 }
 
 }  // namespace

@@ -86,6 +86,17 @@ TEST_F(OutputFile, ReplacesNeitherInputsNorResultsNorData) {
   }
 }
 
+TEST_F(OutputFile, IsNoFileThatAStoreWouldTakeForItsOwn) {
+  const std::string log = path("results/store.sqlite-wal");
+  ASSERT_FALSE(fs::exists(log));
+  for (const auto& [name, command] : commands(log)) {
+    const Answer answer = croon(command);
+    EXPECT_EQ(answer.code, 2) << name;
+    EXPECT_NE(answer.text.find("a file of the results of a run"), std::string::npos) << answer.text;
+    EXPECT_FALSE(fs::exists(log)) << name;
+  }
+}
+
 TEST_F(OutputFile, IsNotWrittenThroughALinkOrOverAFolder) {
   fs::create_symlink("missing", path("link"));
   for (const char* file : {"link", "data"}) {

@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <sstream>
 
@@ -177,6 +176,7 @@ TEST_F(CraftedStore, IsRefusedInOneLine) {
       "UPDATE scenes SET name = 'a' || char(10) || 'b' WHERE id = 1",
       "UPDATE scenes SET name = '' WHERE id = 1",
       "UPDATE scenes SET kind = '@kind' WHERE id = 1",
+      "UPDATE scenes SET kind = '-2+3+cmd|'' /C calc''!A0' WHERE id = 1",
       "UPDATE sensors SET name = CAST(X'61FF' AS TEXT)",
       "UPDATE sensors SET reference = '+1'",
       "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 10001) "
@@ -271,13 +271,11 @@ TEST_F(CraftedStore, GivesNoCommandsToTheTerminal) {
 TEST_F(CraftedStore, OfManyScenesIsMergedInLinearTime) {
   copy_good();
   run_sql(store(),
-          "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 50000) "
+          "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 200000) "
           "INSERT INTO scenes(name, kind) SELECT 's' || i, '' FROM n");
   const StoreHeader header = stored_header(store());
-  const auto start = std::chrono::steady_clock::now();
+  // With the square it takes more than a quarter of an hour, and the test its time limit.
   EXPECT_EQ(united(header, header).scenes.size(), header.scenes.size());
-  // The square takes longer than a minute.
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
 TEST_F(CraftedStore, IsAFile) {

@@ -358,6 +358,15 @@ TEST(RunCommand, KeepsTheFilesOfOthers) {
   }
 }
 
+/// The folder "out" is refused, also with --fresh, with a fault that begins so.
+void expect_refused(const Bench& bench, const std::string& fault) {
+  for (const bool is_fresh : {false, true}) {
+    RunOptions options = bench.options("out");
+    options.fresh = is_fresh;
+    EXPECT_EQ(bench.fault(options).substr(0, fault.size()), fault);
+  }
+}
+
 TEST(RunCommand, WritesThroughNoLink) {
   const Bench bench;
   EXPECT_EQ(bench.run(bench.options("out")), 0);
@@ -367,16 +376,33 @@ TEST(RunCommand, WritesThroughNoLink) {
     const fs::path link = bench.folder().path() / "out" / name;
     fs::remove_all(link);
     fs::create_symlink(file, link);
-    for (const bool is_fresh : {false, true}) {
-      RunOptions options = bench.options("out");
-      options.fresh = is_fresh;
-      EXPECT_EQ(bench.fault(options),
-                link.string() + ": expected a file or nothing, found a symbolic link");
-    }
+    expect_refused(bench, link.string() + ": expected a file or nothing, found a symbolic link");
     EXPECT_EQ(read_whole_file(file), "mine");
     fs::remove(link);
     bench.run(bench.options("out"));
   }
+}
+
+TEST(RunCommand, ChangesNothingThroughAHardLink) {
+  const Bench bench;
+  EXPECT_EQ(bench.run(bench.options("out")), 0);
+  const fs::path file = bench.folder().write("file", "mine");
+  for (const char* name : {"store.sqlite", "store.sqlite-wal", "store.sqlite.new", "timings.csv"}) {
+    const fs::path link = bench.folder().path() / "out" / name;
+    fs::remove(link);
+    fs::create_hard_link(file, link);
+    expect_refused(bench, link.string() + ": expected a file with one name, found a hard link");
+    EXPECT_EQ(read_whole_file(file), "mine");
+    fs::remove(link);
+    bench.run(bench.options("out"));
+  }
+  // A table is replaced, so what else its file is called stays.
+  const fs::path table = bench.folder().path() / "out/trials.csv";
+  fs::remove(table);
+  fs::create_hard_link(file, table);
+  EXPECT_EQ(bench.run(bench.options("out")), 0);
+  EXPECT_EQ(read_whole_file(file), "mine");
+  EXPECT_NE(read_whole_file(table), "mine");
 }
 
 TEST(RunCommand, WritesCloudsThroughNoLink) {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-
 #include "framework/base/error.hpp"
 #include "test/support/temp_folder.hpp"
 
@@ -148,14 +146,13 @@ TEST(StartFile, TakesPositionsUpToTheirBound) {
 TEST(StartFile, CountsFaultsThatAreNotShownInLinearTime) {
   std::vector<std::string> names;
   for (int i = 0; i < 2000; ++i) names.push_back(std::string(100, 's') + std::to_string(i));
-  const auto begin = std::chrono::steady_clock::now();
-  // Names as long as those of the dataset, so that their distance must be counted.
+  // Names as long as those of the dataset, so that their distance must be counted: for each of the
+  // lines that takes many minutes, and the test its time limit.
   const Lines faults =
-      faults_of(file_of(Lines(5000, std::string(102, 't') + ",left,0,1,2,3,0,0,0,1")),
+      faults_of(file_of(Lines(20000, std::string(102, 't') + ",left,0,1,2,3,0,0,0,1")),
                 scenes_of(names, {"left"}));
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
   ASSERT_EQ(faults.size(), 11U);
-  EXPECT_EQ(faults.back(), "and 4990 more faults");
+  EXPECT_EQ(faults.back(), "and 19990 more faults");
 }
 
 TEST(StartFile, ShowsTheFirstFaultsAlone) {

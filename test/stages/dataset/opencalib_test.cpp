@@ -211,10 +211,12 @@ TEST_F(MadeUpRig, TakesKindsFromTheNearestFile) {
 }
 
 TEST_F(MadeUpRig, SaysWhatIsWrongWithKinds) {
-  const std::string expected = "expected a word of letters, digits, \"_\" and \"-\", found ";
+  const std::string expected =
+      "expected a word of letters, digits, \"_\" and \"-\" that does not begin with \"-\", found ";
   const std::pair<const char*, std::string> cases[] = {
       {R"({"a": ""})", "scene_kinds.json: /a: " + expected + "\"\""},
       {R"({"a": "car park"})", "scene_kinds.json: /a: " + expected + "\"car park\""},
+      {R"({"a": "-2"})", "scene_kinds.json: /a: " + expected + "\"-2\""},
       {R"({"b": "straße"})", "scene_kinds.json: /b: " + expected},
       {R"({"elsewhere": 7})", "scene_kinds.json: /elsewhere: " + expected + "7"},
       {R"({"a": "x", "a": "y"})", "scene_kinds.json: /a: "},
