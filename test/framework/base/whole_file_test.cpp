@@ -50,21 +50,16 @@ TEST(WholeFile, TakesAPartThatAKillLeft) {
 }
 
 TEST(WholeFile, WritesThroughNoLink) {
-  const test::TempFolder folder;
-  const auto other = folder.write("other/file", "kept");
-  std::filesystem::create_symlink(other, folder.path() / "a.croon-part0");
-  write_whole_file(folder.path() / "a", "new");
-  EXPECT_EQ(read_whole_file(other), "kept");
-  EXPECT_EQ(read_whole_file(folder.path() / "a"), "new");
-}
-
-TEST(WholeFile, LeavesAPartWithASecondNameAlone) {
-  const test::TempFolder folder;
-  const auto other = folder.write("other/file", "kept");
-  std::filesystem::create_hard_link(other, folder.path() / "a.croon-part0");
-  write_whole_file(folder.path() / "a", "new");
-  EXPECT_EQ(read_whole_file(other), "kept");
-  EXPECT_EQ(read_whole_file(folder.path() / "a"), "new");
+  for (const bool is_hard : {false, true}) {
+    const test::TempFolder folder;
+    const auto other = folder.write("other/file", "kept");
+    const auto part = folder.path() / "a.croon-part0";
+    is_hard ? std::filesystem::create_hard_link(other, part)
+            : std::filesystem::create_symlink(other, part);
+    write_whole_file(folder.path() / "a", "new");
+    EXPECT_EQ(read_whole_file(other), "kept");
+    EXPECT_EQ(read_whole_file(folder.path() / "a"), "new");
+  }
 }
 
 TEST(WholeFile, LeavesThePartOfAnotherWriterAlone) {
