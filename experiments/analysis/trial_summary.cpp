@@ -23,8 +23,9 @@ std::optional<bool> is_near(const TrialRecord& record, const RigidTransform& pos
   return agree(*usable, pose, bounds);
 }
 
+/// The trials of `records` that are near `pose`; `is_alone` is whether there is no other trial.
 Agreeing agreeing_with(const RigidTransform& pose, const SceneRecords& records,
-                       const PoseBounds& bounds) {
+                       const PoseBounds& bounds, bool is_alone) {
   std::vector<double> rotations, translations;
   for (const TrialRecord* record : records) {
     if (!is_near(*record, pose, bounds).value_or(false)) continue;
@@ -33,7 +34,7 @@ Agreeing agreeing_with(const RigidTransform& pose, const SceneRecords& records,
     translations.push_back(distances[kTranslation]);
   }
   // A pose that is near no other than itself agrees with none.
-  if (rotations.empty() || (rotations.size() == 1 && records.size() > 1)) return {};
+  if (rotations.empty() || (rotations.size() == 1 && !is_alone)) return {};
   return {static_cast<int>(rotations.size()), root_mean_square(rotations),
           root_mean_square(translations)};
 }
@@ -79,7 +80,7 @@ SceneSummary without_deviations(const SceneRecords& records, const PoseBounds& b
   if (poses.empty()) return scene;
   scene.deviations_from = std::min(scene.deviations_from, DeviationsFrom::consensus);
   scene.consensus = consensus_pose(poses, bounds);
-  scene.agreeing = agreeing_with(*scene.consensus, records, bounds);
+  scene.agreeing = agreeing_with(*scene.consensus, records, bounds, records.size() == 1);
   scene.covariance = covariance_near(*scene.consensus, records, bounds);
   return scene;
 }
@@ -314,17 +315,24 @@ SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds
   row.sensor = scenes.front().front()->id.sensor;
   std::vector<RigidTransform> consensus;
   std::vector<double> votes;
-  SceneRecords all;
+  SceneRecords all, of_agreeing_scenes;
   for (const SceneRecords& records : scenes) {
-    row.scenes.push_back(without_deviations(records, bounds));
+    const SceneSummary& scene = row.scenes.emplace_back(without_deviations(records, bounds));
     all.insert(all.end(), records.begin(), records.end());
-    if (!row.scenes.back().consensus) continue;
-    consensus.push_back(*row.scenes.back().consensus);
-    votes.push_back(std::max(1, row.scenes.back().agreeing.count));
+    if (!scene.consensus) continue;
+    consensus.push_back(*scene.consensus);
+    votes.push_back(std::max(1, scene.agreeing.count));
+    if (scene.agreeing.count == 0) continue;
+    of_agreeing_scenes.insert(of_agreeing_scenes.end(), records.begin(), records.end());
   }
   if (!consensus.empty()) {
     row.consensus = consensus_pose(consensus, bounds, votes);
-    row.agreeing = agreeing_with(*row.consensus, all, bounds);
+    const bool is_alone = all.size() == 1;
+    // Trials that agree with no other one of their scene may be near those of another by chance:
+    // they make no pose.
+    if (agreeing_with(*row.consensus, of_agreeing_scenes, bounds, is_alone).count > 0) {
+      row.agreeing = agreeing_with(*row.consensus, all, bounds, is_alone);
+    }
     row.covariance = covariance_near(*row.consensus, row.scenes, bounds);
   }
   // Truth if one trial of any scene has it.

@@ -130,7 +130,9 @@ struct SummaryRow : TrialSummary {
   /// Of `consensus`, a mean over the scenes near it, whose errors are taken as independent;
   /// std::nullopt if one of them has none.
   std::optional<PoseCovariance> covariance;
-  Agreeing agreeing;  ///< The trials of all scenes that are near `consensus`.
+  /// The trials of all scenes that are near `consensus`; none unless two of them, or the only trial
+  /// of all, are of scenes whose trials agree or that have one trial.
+  Agreeing agreeing;
   /// The sample std of the trials that count about their scene's consensus, pooled over scenes by
   /// degrees of freedom; std::nullopt if no scene has two such trials.
   std::optional<DofValues> within_scene_std;

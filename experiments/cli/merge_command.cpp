@@ -60,14 +60,23 @@ StoreHeader header_in(const fs::path& folder) {
   throw InputError(folder.string(), "", "expected a folder with the results of a run");
 }
 
-/// The header of all the folders. The differences of each from the first are faults. If the
-/// experiment grew between the folders, the header with the most planned trials is the latest one.
-StoreHeader header_of_all(const std::vector<fs::path>& folders, bool same_build) {
+/// A store whose trials are merged, and its header.
+struct Part {
+  fs::path store;
+  StoreHeader header;
+};
+
+/// The header of all the folders, whose stores are added to `parts`. The differences of each from
+/// the first are faults. If the experiment grew between the folders, the header with the most
+/// planned trials is the latest one.
+StoreHeader header_of_all(const std::vector<fs::path>& folders, bool same_build,
+                          std::vector<Part>& parts) {
   std::vector<Fault> faults;
   StoreHeader header;
   for (const fs::path& folder : folders) {
     collect_faults(faults, [&] {
-      const StoreHeader other = header_in(folder);
+      const StoreHeader& other =
+          parts.emplace_back(Part{store_path(folder), header_in(folder)}).header;
       if (header.provenance.empty()) header = other;
       if (same_build) refuse_other_builds(store_path(folder).string(), header, other, kMergeRemedy);
       refuse_differences(store_path(folder).string(), header, other, kMergeRemedy);
@@ -79,11 +88,11 @@ StoreHeader header_of_all(const std::vector<fs::path>& folders, bool same_build)
   return header;
 }
 
-/// `header` with the names of what `out` has from merges before. What the experiment has no more is
-/// kept and in no report.
-StoreHeader with_names_in(const fs::path& out, const StoreHeader& header) {
-  StoreHeader old = stored_header(store_path(out));
-  refuse_differences(store_path(out).string(), old, header, kMergeRemedy);
+/// `header` with the names of `old`, what the store has from merges before. What the experiment has
+/// no more is kept and in no report.
+StoreHeader with_names_of(Part old_part, const StoreHeader& header) {
+  StoreHeader& old = old_part.header;
+  refuse_differences(old_part.store.string(), old, header, kMergeRemedy);
   for (auto names : {&StoreHeader::variants, &StoreHeader::scenes, &StoreHeader::sensors}) {
     for (StoredName& name : old.*names) name.is_current = false;
   }
@@ -95,28 +104,27 @@ void remove_files(const std::vector<fs::path>& files) {
   for (const fs::path& file : files) fs::remove(file, ignored);
 }
 
-/// The header of a merge of `folders` into `out`. Throws InputError if they do not belong together.
+/// The header of a merge of `folders` into `out`, whose stores are added to `parts`. Throws
+/// InputError if they do not belong together.
 StoreHeader merged_header(const std::vector<fs::path>& folders, const fs::path& out,
-                          bool same_build) {
-  StoreHeader header = header_of_all(folders, same_build);
+                          bool same_build, std::vector<Part>& parts) {
+  StoreHeader header = header_of_all(folders, same_build, parts);
   header.manifest = manifest_with_variants(header.manifest, header.variants);
-  const bool adds_to_out = has_store(store_path(out)) && !is_among(folders, out);
-  return adds_to_out ? with_names_in(out, header) : header;
+  const fs::path path = store_path(out);
+  if (!has_store(path) || is_among(folders, out)) return header;
+  return with_names_of(parts.emplace_back(Part{path, stored_header(path)}), header);
 }
 
-/// Puts the trials of all `folders` into the store of `out`, whose own are kept. The old store is
-/// there until the new one is whole.
-void merge_stores(std::vector<fs::path> folders, const StoreHeader& header, const fs::path& out) {
-  const fs::path path = store_path(out);
-  if (has_store(path) && !is_among(folders, out)) folders.push_back(out);
+/// Puts the trials of `parts`, among which is an old store of `out`, into the store of `out`. The
+/// old store is there until the new one is whole.
+void merge_stores(const std::vector<Part>& parts, const StoreHeader& header, const fs::path& out) {
   const fs::path merged = merged_store_path(out);
   remove_files(store_files(merged));
   try {
     {
       Store store(merged, header);
-      for (const fs::path& folder : folders) {
-        const fs::path from = store_path(folder);
-        reading(from, [&] { store.merge(from, stored_header(from)); });
+      for (const Part& part : parts) {
+        reading(part.store, [&] { store.merge(part.store, part.header); });
       }
     }
     rewrite_in_order(merged);
@@ -124,7 +132,7 @@ void merge_stores(std::vector<fs::path> folders, const StoreHeader& header, cons
     remove_files(store_files(merged));
     throw;
   }
-  replace_store(path, merged);
+  replace_store(store_path(out), merged);
 }
 
 /// The folders that have to be made for `out`, the innermost first.
@@ -148,7 +156,8 @@ std::string missing_text(const Results& results) {
 int merge_command(const MergeOptions& options, std::ostream& out) {
   const std::vector<fs::path> folders = without_repeats(options.folders);
   const auto locks = locked(folders, options.out);
-  const StoreHeader header = merged_header(folders, options.out, options.same_build);
+  std::vector<Part> parts;
+  const StoreHeader header = merged_header(folders, options.out, options.same_build, parts);
   const std::vector<fs::path> made = missing_folders(options.out);
   const OutputFolder folder(options.out);
   std::vector<fs::path> all = folders;
@@ -158,7 +167,7 @@ int merge_command(const MergeOptions& options, std::ostream& out) {
     // Before the store is written: a merge is refused whole.
     hosts = hosts_json(all);
     timings = merged_timings(all);
-    merge_stores(folders, header, options.out);
+    merge_stores(parts, header, options.out);
   } catch (...) {
     remove_files(made);
     throw;

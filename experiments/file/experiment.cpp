@@ -78,7 +78,9 @@ MergedFile read_extended(const json& own, const fs::path& path, const std::vecto
                    " files that extend each other");
   }
   if (!fs::is_regular_file(extended)) {
-    return refused("expected an experiment file, found none at " + extended.string());
+    return refused(std::string("expected an experiment file, found ") +
+                   (fs::exists(extended) ? "something that is not a file" : "none") + " at " +
+                   extended.string());
   }
   MergedFile base = read_merged(read_whole_file(extended), extended, chain, faults);
   if (!base.keys.is_object()) {

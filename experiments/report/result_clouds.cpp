@@ -6,7 +6,9 @@
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 #include "framework/base/whole_file.hpp"
+#include "framework/io/digest.hpp"
 #include "framework/io/ply_file.hpp"
 #include "framework/io/vdb_writer.hpp"
 #include "framework/picture/top_view.hpp"
@@ -75,6 +77,19 @@ std::vector<Scene> shown_scenes(const std::vector<Scene>& scenes) {
   return shown;
 }
 
+/// The path `name`; a part that is too long for the name of a file is its beginning and a digest.
+fs::path short_path(const fs::path& name) {
+  constexpr std::size_t kMostBytes = 200, kShownColumns = 40, kDigits = 16;
+  fs::path path;
+  for (const std::string part : name) {
+    const bool is_short = part.size() <= kMostBytes;
+    path /= is_short
+                ? part
+                : cut_to_columns(part, kShownColumns) + sha256_of_text(part).substr(0, kDigits);
+  }
+  return path;
+}
+
 void write_clouds(const std::vector<ColouredCloud>& clouds, const fs::path& stem) {
   constexpr double kLeafSize_m = 0.05;
   write_fused_ply(stem.string() + ".ply", clouds);
@@ -121,7 +136,7 @@ std::vector<std::string> write_fused_clouds(const Experiment& experiment,
         if (poses[i]) clouds.push_back({scene.sensors[i].sensor, points[i], *poses[i]});
       }
       if (clouds.size() == 1) continue;
-      const fs::path name = fs::path(variant.name) / scene.name;
+      const fs::path name = short_path(variant.name) / short_path(scene.name);
       const fs::path stem = folder / name;
       make_folder_below(folder.parent_path(), folder.filename() / name.parent_path());
       try {

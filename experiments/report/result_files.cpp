@@ -164,7 +164,13 @@ void refuse_files_of_others(const fs::path& folder) {
     throw InputError(path.string(), "", "expected a file or nothing, found a symbolic link");
   }
   refuse_hard_links(folder);
-  if (has_results(folder)) return;
+  if (has_results(folder)) {
+    if (fs::exists(folder / kManifest, error) && !is_manifest(folder / kManifest)) {
+      throw InputError((folder / kManifest).string(), "",
+                       "is damaged or no manifest of croon; delete it, or restore it");
+    }
+    return;
+  }
   const std::vector<fs::path> of_store = store_paths_in(folder);
   for (const fs::path& path : paths) {
     if (!fs::exists(path, error)) continue;
@@ -188,8 +194,11 @@ fs::path writable(const fs::path& path) {
     throw InputError(path.string(), "", "expected a folder that may be written to");
   }
   for (const fs::path& to_write : paths_in(path)) {
-    if (!fs::is_directory(to_write, error)) continue;
-    throw InputError(to_write.string(), "", "expected a file or nothing, found a folder");
+    const fs::file_status status = fs::status(to_write, error);
+    if (!fs::exists(status) || fs::is_regular_file(status)) continue;
+    throw InputError(to_write.string(), "",
+                     std::string("expected a file or nothing, found ") +
+                         (fs::is_directory(status) ? "a folder" : "something that is not a file"));
   }
   refuse_files_of_others(path);
   return path;

@@ -11,8 +11,6 @@
 namespace croon::experiments {
 namespace {
 
-constexpr char kBetween = '>';
-
 std::optional<RigidTransform> between(const std::optional<RigidTransform>& T_reference_target,
                                       const std::optional<RigidTransform>& T_reference_source) {
   if (!T_reference_target || !T_reference_source) return std::nullopt;
@@ -76,10 +74,10 @@ void check_names_for_pairs(const std::vector<Scene>& scenes, const std::string& 
   std::set<std::string> checked;
   for (const Scene& scene : scenes) {
     for (const SensorScan& scan : scene.sensors) {
-      if (scan.sensor.find(kBetween) == std::string::npos) continue;
+      if (scan.sensor.find(kBetweenSensors) == std::string::npos) continue;
       if (!checked.insert(scan.sensor).second) continue;
       faults.push_back({file, "/loops",
-                        std::string("expected sensors without \"") + kBetween +
+                        std::string("expected sensors without \"") + kBetweenSensors +
                             "\" in their names, which is that of pairs of sensors, found " +
                             in_quotes(scan.sensor)});
     }
@@ -107,7 +105,7 @@ void check_names(const std::vector<Scene>& scenes, const std::string& file) {
 bool is_pair(const SensorScan& scan) { return !scan.target.empty(); }
 
 SensorPair sensor_pair(const std::string& source, const std::string& target) {
-  return {source + kBetween + target, source, target};
+  return {source + kBetweenSensors + target, source, target};
 }
 
 SensorPair named_pair(const std::string& name, const std::string& target) {

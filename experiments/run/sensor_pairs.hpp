@@ -8,6 +8,9 @@
 
 namespace croon::experiments {
 
+/// Stands between the two names in the name of a pair.
+inline constexpr char kBetweenSensors = '>';
+
 /// Two sensors of a rig, of which one is calibrated to the other instead of to the reference.
 struct SensorPair {
   std::string name;    ///< "left>front", the sensor of its trials.

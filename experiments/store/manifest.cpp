@@ -275,10 +275,15 @@ std::string hosts_json(const std::vector<std::filesystem::path>& folders) {
     const std::optional<std::string> file = read_file_if_there(folder / "manifest.json");
     if (!file) continue;
     const Json other = parsed_or_discarded<Json>(*file);
-    if (!other.is_object() || !other.contains("host")) continue;
+    const auto host = other.find("host");
     // Results of a merge already list several hosts.
-    const Json& host = other["host"];
-    const Json hosts = host.contains("merged") ? host["merged"] : Json::array({host});
+    const bool is_list = host != other.end() && host->is_object() && host->contains("merged");
+    if (host == other.end() || !host->is_object() || (is_list && !host->at("merged").is_array())) {
+      throw InputError((folder / "manifest.json").string(), "",
+                       "is damaged: expected the manifest of a run, with its \"host\"; a merge "
+                       "without this file loses on which machine the run was");
+    }
+    const Json hosts = is_list ? host->at("merged") : Json::array({*host});
     for (const Json& one : hosts) merged.push_back(one);
   }
   return text_of(merged);

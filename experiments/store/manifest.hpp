@@ -57,7 +57,7 @@ std::string manifest_with_host(const std::string& manifest, const std::filesyste
                                int jobs);
 
 /// JSON of the list of the `host`s of the manifest.json of `folders`; a folder without one has
-/// none. Throws InputError if one is no file.
+/// none. Throws InputError if one is no file, or damaged.
 std::string hosts_json(const std::vector<std::filesystem::path>& folders);
 
 /// The bytes of manifest.json of merged results: `manifest` with `hosts`, see hosts_json.

@@ -1,6 +1,7 @@
 #include "experiments/store/store.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "experiments/store/store_check.hpp"
 #include "experiments/store/store_header.hpp"
@@ -213,6 +214,22 @@ StoredRun run_in(const Database& database, Content content) {
 
 }  // namespace
 
+void refuse_store(const fs::path& path) {
+  try {
+    throw;
+  } catch (const InputError& error) {
+    if (error.faults().size() == 1) throw;
+    throw InputError({error.faults().front()});
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const nlohmann::json::exception&) {
+    // What the library says names neither the file nor what is in it.
+    throw InputError(path.string(), "", "is damaged: JSON in it is not that of a store");
+  } catch (const std::exception& error) {
+    throw InputError(path.string(), "", std::string("is damaged: ") + error.what());
+  }
+}
+
 Store::Store(const fs::path& path, const StoreHeader& header)
     : database_(open_store(path, header)),
       variants_(ids_of(database_, "variants")),
@@ -234,7 +251,6 @@ void Store::add(const std::vector<const TrialRecord*>& records) {
 void Store::merge(const fs::path& shard, const StoreHeader& from) {
   refuse_differences(shard.string(), from, read_header(database_),
                      "stores of one experiment alone can be merged");
-  check_figures(open_to_read(shard));
   const Attachment attachment(database_, shard, "shard");
   Transaction transaction(database_);
   database_.run(id_maps("shard"));
@@ -256,6 +272,7 @@ StoreHeader stored_header(const fs::path& path) {
     check_content(database);
     check_rotations(database);
     check_covariances(database);
+    check_figures(database);
     return read_header(database);
   });
 }

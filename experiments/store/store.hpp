@@ -27,8 +27,8 @@ class Store {
 
   /// Adds trials that the store does not have. All of them are on disk when this returns.
   void add(const std::vector<const TrialRecord*>& records);
-  /// Adds all trials of the store `shard`, whose header is `from`. Throws InputError if a trial
-  /// that both have ended differently.
+  /// Adds all trials of the store `shard`, whose `stored_header` is `from`. Throws InputError if a
+  /// trial that both have ended differently.
   void merge(const std::filesystem::path& shard, const StoreHeader& from);
 
  private:
@@ -44,19 +44,18 @@ class Store {
 std::vector<TrialIndex> stored_trials(const std::filesystem::path& path, const StoreHeader& stored,
                                       const StoreHeader& header);
 
+/// Throws the exception that is being handled again, as an InputError of one fault of the store
+/// `path`; std::bad_alloc stays as it is.
+[[noreturn]] void refuse_store(const std::filesystem::path& path);
+
 /// Calls `work`, which reads the store `path`. Exceptions become InputErrors of one fault: a
 /// damaged store is not a programming error, and the user cannot correct it part by part.
 template <class Work>
 auto reading(const std::filesystem::path& path, const Work& work) {
   try {
     return work();
-  } catch (const InputError& error) {
-    if (error.faults().size() == 1) throw;
-    throw InputError({error.faults().front()});
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw InputError(path.string(), "", std::string("is damaged: ") + error.what());
+  } catch (const std::exception&) {
+    refuse_store(path);
   }
 }
 

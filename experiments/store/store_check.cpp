@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/file/claims.hpp"
 #include "experiments/file/start_rule.hpp"
+#include "experiments/run/sensor_pairs.hpp"
 #include "experiments/store/bounded_json.hpp"
 #include "experiments/store/store_header.hpp"
 #include "experiments/store/trial_rows.hpp"
@@ -117,8 +119,27 @@ void check_names(const Database& database, const std::string& table, const std::
               {{"id NOT BETWEEN 1 AND " + std::string(kLargestId), "an id is out of range"},
                {"typeof(name) <> 'text' OR typeof(" + detail + ") <> 'text'", "a name is no text"},
                {is_long("name") + long_detail, "a name is too long"},
-               {"typeof(place) NOT IN ('null', 'integer')", "a place is no number"}});
+               {"typeof(place) NOT IN ('null', 'integer') OR place < 0", "a place is no index"}});
   check_shown_names(database, table, detail);
+}
+
+/// Throws InputError if a sensor has the name of all sensors together, or if one whose reference is
+/// another sensor has not the name of this pair.
+void check_sensors(const Database& database) {
+  Statement all = database.prepare("SELECT 1 FROM sensors WHERE name = ?");
+  all.bind(0, kAllSensors);
+  if (all.next()) {
+    refuse(database,
+           "sensors: \"" + std::string(kAllSensors) + "\" is the name of all sensors together");
+  }
+  Statement pairs = database.prepare(
+      "SELECT name FROM sensors AS pair WHERE reference IN (SELECT name FROM sensors) AND NOT "
+      "EXISTS (SELECT 1 FROM sensors AS source WHERE pair.name = source.name || ? || "
+      "pair.reference) LIMIT 1");
+  pairs.bind(0, std::string(1, kBetweenSensors));
+  if (pairs.next()) {
+    refuse(database, "sensors: \"" + pairs.text(0) + "\" is not the name of a pair of sensors");
+  }
 }
 
 /// SQL that is true unless each of `columns` holds a number in range, or each of them is null.
@@ -276,6 +297,7 @@ void check_content(const Database& database) {
   check_names(database, "variants", "pipeline");
   check_names(database, "scenes", "kind");
   check_names(database, "sensors", "reference");
+  check_sensors(database);
   check_trials(database);
   check_covariance_rows(database);
   check_steps(database);

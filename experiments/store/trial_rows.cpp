@@ -275,7 +275,8 @@ std::pair<std::string, std::vector<Diagnostic>> figures_of(const Statement& sele
     return name;
   };
   std::vector<Diagnostic> figures;
-  const auto object = parse_bounded<ordered_json>(select.text(kKeyColumns + 1));
+  const auto object = parsed_or_discarded<ordered_json>(select.text(kKeyColumns + 1));
+  if (!object.is_object()) throw std::runtime_error("what a step reports is no JSON object");
   for (const auto& item : object.items()) {
     figures.emplace_back(shown(item.key()), number_of(item.value()));
   }

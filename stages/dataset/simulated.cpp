@@ -104,9 +104,11 @@ class Simulated final : public Dataset {
               (model.azimuth_to_deg - model.azimuth_from_deg) / model.azimuth_step_deg;
     }
     require_memory(rays * kRayBytes, "a scene of " + fixed_number(rays, 0) + " rays",
-                   "give the sensors of the rig fewer rings or a larger azimuth_step_deg", {});
+                   "give the sensors of the rig fewer rings or a larger azimuth_step_deg",
+                   {"", "/rig", ""});
     require_memory(kScanBytes * params_.scenes * static_cast<double>(params_.rig.sensors.size()),
-                   "a list of " + std::to_string(params_.scenes) + " scenes", "ask for fewer", {});
+                   "a list of " + std::to_string(params_.scenes) + " scenes", "ask for fewer",
+                   {"", "/scenes", ""});
   }
 
   Scene scene(int number, const std::shared_ptr<SceneCache>& cache) const {

@@ -214,6 +214,8 @@ TEST_F(OddInput, ASensorsRaysAreEstimatedBeforeTheyAreCast) {
              R"({"type": "simulated", "scenes": 1, "rig": {"sensors": {)" + sensors + "}}}");
   const Answer answer = croon("run " + path("x.json") + " --plan --out " + path("out"));
   EXPECT_EQ(answer.code, 2) << answer.text;
+  EXPECT_NE(answer.text.find("x.json: /dataset/rig: a scene of "), std::string::npos)
+      << answer.text;
   EXPECT_NE(answer.text.find(" rays takes about "), std::string::npos) << answer.text;
 }
 

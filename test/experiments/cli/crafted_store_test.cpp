@@ -102,6 +102,7 @@ class CraftedStore : public testing::Test {
         const std::string line = text.str();
         EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << what << ": " << line;
         EXPECT_EQ(line.find("bug"), std::string::npos) << what << ": " << line;
+        EXPECT_EQ(line.find("json.exception"), std::string::npos) << what << ": " << line;
       }
       EXPECT_FALSE(!refused.empty() && fs::exists(path("merged"))) << what;
     }
@@ -140,6 +141,11 @@ TEST_F(CraftedStore, IsRefusedInOneLine) {
       "UPDATE steps SET scene = 77 WHERE scene = 1",
       "DELETE FROM variants",
       "UPDATE variants SET place = 'first'",
+      "UPDATE scenes SET place = -1 WHERE id = 1",
+      "UPDATE sensors SET name = 'all'",
+      "INSERT INTO sensors(name, reference) SELECT 'left', name FROM sensors",
+      "INSERT INTO sensors(name, reference) SELECT 'left>x', name FROM sensors",
+      "INSERT INTO sensors(name, reference) SELECT 'left>' || name, name FROM sensors",
       "UPDATE scenes SET name = X'00ff' WHERE id = 1",
       "UPDATE trials SET trial = -1 WHERE trial = 0",
       "UPDATE trials SET trial = 1099511627776 WHERE trial = 0",
@@ -247,10 +253,26 @@ TEST_F(CraftedStore, IsRefusedInOneLine) {
   for (const std::string& craft : crafts) {
     copy_good();
     run_sql(store(), craft);
+    const std::string before = read_whole_file(store());
     // What a run writes anew, it does not read.
     const bool is_of_manifest = craft.find("'manifest'") != std::string::npos;
     EXPECT_EQ(refusals(craft.substr(0, 200)), is_of_manifest ? "ecm" : "ecmr")
         << craft.substr(0, 200);
+    if (is_of_manifest) continue;
+    EXPECT_EQ(read_whole_file(store()), before) << craft.substr(0, 200);
+  }
+}
+
+TEST_F(CraftedStore, WithDamagedStepsIsNotAddedTo) {
+  for (const char* craft :
+       {"figures = '{'", "figures = '[]'", "figures = '{\"=1+1\": 1.0}'",
+        "figures = '{\"rmse_m\": 1e999}'", "figures = '{\"rmse_m\": {}}'", "step = '@step'"}) {
+    copy_good();
+    run_sql(store(), std::string("UPDATE steps SET ") + craft);
+    const std::string before = read_whole_file(store());
+    // The others do not read what steps report.
+    EXPECT_EQ(refusals(craft), "mr");
+    EXPECT_EQ(read_whole_file(store()), before) << craft;
   }
 }
 

@@ -89,6 +89,23 @@ TEST_F(MergeCommand, ReadsAllBeforeItWrites) {
   EXPECT_EQ(merge({"1", "2"}, "merged"), 0);
 }
 
+TEST_F(MergeCommand, RefusesADamagedManifest) {
+  run("1", "1/2", two_variants());
+  run("2", "2/2", two_variants());
+  const std::string file = (path("1") / "manifest.json").string();
+  const std::string good = read_whole_file(file);
+  for (const std::string& bad :
+       {std::string(), std::string("{}"), std::string(R"({"host": 7})"),
+        std::string(R"({"host": {"merged": {}}})"), good.substr(0, good.size() / 2)}) {
+    write_whole_file(file, bad);
+    EXPECT_EQ(fault({"2", "1"}, "merged").rfind(file + ": is damaged: ", 0), 0U) << bad;
+    EXPECT_FALSE(fs::exists(path("merged"))) << bad;
+  }
+  // One that a killed run has not written yet is not missed.
+  fs::remove(file);
+  EXPECT_EQ(merge({"1", "2"}, "merged"), 0);
+}
+
 TEST_F(MergeCommand, TakesWallTimesAlone) {
   run("1", "", two_variants());
   const std::string good = read_whole_file(path("1/timings.csv"));

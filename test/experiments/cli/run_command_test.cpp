@@ -1,6 +1,7 @@
 #include "experiments/cli/commands.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <map>
@@ -401,6 +402,49 @@ TEST(RunCommand, ChangesNothingThroughAHardLink) {
   fs::create_hard_link(file, bench.folder().path() / "out/trials.csv");
   EXPECT_EQ(bench.run(bench.options("out")), 0);
   EXPECT_EQ(read_whole_file(file), "mine");
+}
+
+TEST(RunCommand, ReplacesNoOtherManifest) {
+  const Bench bench;
+  EXPECT_EQ(bench.run(bench.options("out")), 0);
+  const std::string store = read_whole_file(bench.folder().path() / "out/store.sqlite");
+  for (const char* bytes : {"", "{\"croon\": ", "{\"name\": \"of a web page\"}"}) {
+    const fs::path file = bench.folder().write("out/manifest.json", bytes);
+    expect_refused(bench, file.string() + ": is damaged or no manifest of croon");
+    EXPECT_EQ(read_whole_file(file), bytes);
+  }
+  EXPECT_EQ(read_whole_file(bench.folder().path() / "out/store.sqlite"), store);
+}
+
+TEST(RunCommand, RefusesWhatIsNoFileBeforeItRuns) {
+  const Bench bench;
+  for (const char* name : {"manifest.json", "trials.csv", "timings.csv"}) {
+    const fs::path pipe = bench.folder().path() / "out" / name;
+    fs::create_directories(pipe.parent_path());
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    expect_refused(
+        bench, pipe.string() + ": expected a file or nothing, found something that is not a file");
+    EXPECT_FALSE(fs::exists(bench.folder().path() / "out/store.sqlite"));
+    fs::remove(pipe);
+  }
+}
+
+TEST(RunCommand, WritesCloudsOfVariantsWithLongNames) {
+  json experiment = agreeing();
+  const std::string common(300, 'v');
+  experiment["variants"][0]["name"] = common + "1";
+  experiment["variants"].push_back({{"name", common + "2"}});
+  const Bench bench(experiment);
+  RunOptions options = bench.options("out");
+  options.clouds = true;
+  EXPECT_EQ(bench.run(options), 0);
+  int folders = 0;
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(bench.folder().path() / "out/clouds")) {
+    EXPECT_TRUE(fs::exists(entry.path() / "scene1.ply"));
+    ++folders;
+  }
+  EXPECT_EQ(folders, 3);
 }
 
 TEST(RunCommand, WritesCloudsThroughNoLink) {

@@ -1,6 +1,7 @@
 #include "experiments/file/experiment.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <nlohmann/json.hpp>
 
@@ -226,6 +227,12 @@ TEST_F(Extends, RefusesCyclesAndMissingFiles) {
   EXPECT_EQ(faults_of("c.json").front(),
             "c.json: /extends: expected an experiment file, found none at " +
                 (folder_.path() / "none.json").string());
+  ASSERT_EQ(::mkfifo((folder_.path() / "pipe.json").c_str(), 0600), 0);
+  folder_.write("p.json", R"({"extends": "pipe.json"})");
+  EXPECT_EQ(
+      faults_of("p.json").front(),
+      "p.json: /extends: expected an experiment file, found something that is not a file at " +
+          (folder_.path() / "pipe.json").string());
   folder_.write("d.json", R"({"extends": 1})");
   EXPECT_EQ(faults_of("d.json").front(), "d.json: /extends: expected a string, found 1");
   folder_.write("list.json", "[]");

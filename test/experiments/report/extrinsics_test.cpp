@@ -78,6 +78,38 @@ TEST(Extrinsics, OnWhichNoTwoTrialsAgreeAreNothing) {
   EXPECT_NE(text.find("no pose: no two trials agree\n"), std::string::npos) << text;
 }
 
+TEST(Extrinsics, DoNotComeFromScenesThatAreAlikeByChance) {
+  Rng rng = test_rng(6);
+  const RigidTransform pose = random_pose(rng, 9.0);
+  std::vector<TrialRecord> records;
+  const auto add = [&](const char* scene, int trial, const RigidTransform& of) {
+    records.push_back(test::finished_without_truth({"base", scene, "left", trial}, of));
+  };
+  // No two trials of a scene agree, but one of `a` does with one of `b`.
+  for (const char* scene : {"a", "b"}) {
+    add(scene, 0, pose);
+    add(scene, 1, random_pose(rng, 9.0));
+  }
+  const auto found = [&] {
+    return nlohmann::json::parse(
+        extrinsics_json(summarise(records, kBounds, {}), {}))["extrinsics"][0];
+  };
+  EXPECT_EQ(found()["agreeing"], 0);
+  EXPECT_TRUE(found()["T_reference_sensor"].is_null());
+  // Two scenes of one trial each do agree.
+  records.clear();
+  add("a", 0, pose);
+  add("b", 0, pose);
+  add("c", 0, random_pose(rng, 9.0));
+  EXPECT_EQ(found()["agreeing"], 2);
+  // One alone does not.
+  records.clear();
+  add("a", 0, pose);
+  add("b", 0, random_pose(rng, 9.0));
+  add("b", 1, random_pose(rng, 9.0));
+  EXPECT_EQ(found()["agreeing"], 0);
+}
+
 TEST(Extrinsics, HaveACovarianceIfAllThatAgreeHaveOne) {
   Rng rng = test_rng(4);
   std::vector<TrialRecord> records = records_at(random_pose(rng, 3.0));
