@@ -1,13 +1,14 @@
 // Variants against the base, trial by trial.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "experiments/analysis/paired_tests.hpp"
 #include "experiments/analysis/summary.hpp"
-#include "framework/base/angles.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -18,11 +19,10 @@ constexpr double kLevel = 0.05;
 /// few trials were run for a significant difference.
 constexpr double kLargeDifference = 0.05;
 
-/// The numbers of a trial that are compared; errors are infinite if it has no usable result.
+/// The numbers of a trial that are compared.
 struct TrialResult {
-  double rotation_deg = std::numeric_limits<double>::infinity();
-  double translation_m = std::numeric_limits<double>::infinity();
-  double success = 0.0;  ///< 1 if it succeeded.
+  std::optional<Measures> errors;  ///< std::nullopt if it has no usable result.
+  double success = 0.0;            ///< 1 if it succeeded.
 };
 
 /// The trials that both of two variants have, pair by pair.
@@ -39,7 +39,7 @@ TrialResult result_of(const TrialRecord& record, const SceneSummary& scene,
   const PoseError error = record.error ? *record.error : pose_error(*pose, *scene.consensus);
   const bool is_success = record.error ? record.status == Status::success
                                        : agrees(record, scene, bounds).value_or(false);
-  return {deg_from_rad(error.rotation_rad), error.translation_m, is_success ? 1.0 : 0.0};
+  return {measures_of(error), is_success ? 1.0 : 0.0};
 }
 
 /// The trials of `rows`, which are of one variant, that the base has too. `base` are all rows of
@@ -71,15 +71,22 @@ PairedTrials paired(const Rows& base, const Rows& rows, const RecordGroups& grou
   return pairs;
 }
 
-/// One number of each pair of trials.
-Pairs pairs_of(const PairedTrials& trials, double TrialResult::*number) {
+/// The number `of` each trial of both sides.
+template <class Number>
+Pairs pairs_of(const PairedTrials& trials, const Number& of) {
   Pairs pairs;
-  for (const TrialResult& result : trials.base) pairs.base.push_back(result.*number);
-  for (const TrialResult& result : trials.variant) pairs.variant.push_back(result.*number);
+  for (const TrialResult& result : trials.base) pairs.base.push_back(of(result));
+  for (const TrialResult& result : trials.variant) pairs.variant.push_back(of(result));
   return pairs;
 }
 
-ErrorComparison compared(const Pairs& pairs, const Clusters& scenes) {
+/// The sizes of the errors in `measure`; infinite for a trial without a usable result.
+ErrorComparison compared_errors(const PairedTrials& trials, std::size_t measure) {
+  const Pairs pairs = pairs_of(trials, [measure](const TrialResult& result) {
+    return result.errors ? std::abs((*result.errors)[measure])
+                         : std::numeric_limits<double>::infinity();
+  });
+  const Clusters& scenes = trials.scenes;
   ErrorComparison comparison;
   comparison.base_median = median_with_failures(pairs.base);
   comparison.variant_median = median_with_failures(pairs.variant);
@@ -103,13 +110,11 @@ ErrorComparison compared(const Pairs& pairs, const Clusters& scenes) {
 Comparison compared_success(const PairedTrials& trials) {
   Comparison comparison;
   // 1 if the variant alone won, -1 if the base did, else 0.
-  const std::vector<double> wins = differences(pairs_of(trials, &TrialResult::success));
+  const auto success = [](const TrialResult& result) { return result.success; };
+  const std::vector<double> wins = differences(pairs_of(trials, success));
   const auto count = [&](double outcome) {
     return static_cast<int>(std::count(wins.begin(), wins.end(), outcome));
   };
-  comparison.pairs = static_cast<int>(trials.scenes.size());
-  comparison.scenes =
-      static_cast<int>(std::set<std::size_t>(trials.scenes.begin(), trials.scenes.end()).size());
   comparison.only_base = count(-1.0);
   comparison.only_variant = count(1.0);
   comparison.success.favours_variant = comparison.only_variant > comparison.only_base;
@@ -118,11 +123,10 @@ Comparison compared_success(const PairedTrials& trials) {
   return comparison;
 }
 
-Comparison compared(const PairedTrials& trials) {
-  Comparison comparison = compared_success(trials);
-  comparison.rotation_deg = compared(pairs_of(trials, &TrialResult::rotation_deg), trials.scenes);
-  comparison.translation_m = compared(pairs_of(trials, &TrialResult::translation_m), trials.scenes);
-  return comparison;
+/// How many trials and scenes are compared.
+ComparedTrials counts_of(const PairedTrials& trials) {
+  const std::set<std::size_t> scenes(trials.scenes.begin(), trials.scenes.end());
+  return {{}, {}, {}, static_cast<int>(trials.scenes.size()), static_cast<int>(scenes.size())};
 }
 
 void correct(const std::vector<PairedTest*>& family, double PairedTest::*p,
@@ -133,19 +137,21 @@ void correct(const std::vector<PairedTest*>& family, double PairedTest::*p,
   for (std::size_t i = 0; i < family.size(); ++i) family[i]->*p_holm = corrected[i];
 }
 
-void correct_by_sensor(std::vector<Comparison>& comparisons) {
-  std::map<std::string, std::vector<PairedTest*>> families;
-  for (Comparison& comparison : comparisons) {
-    for (PairedTest* test :
-         {&comparison.rotation_deg.test, &comparison.translation_m.test, &comparison.success}) {
-      families[comparison.sensor].push_back(test);
+/// The tests of each sensor are corrected together.
+class TestFamilies {
+ public:
+  void add(const std::string& sensor, PairedTest& test) { families_[sensor].push_back(&test); }
+
+  void correct_all() const {
+    for (const auto& [sensor, family] : families_) {
+      correct(family, &PairedTest::p, &PairedTest::p_holm);
+      correct(family, &PairedTest::p_by_scene, &PairedTest::p_by_scene_holm);
     }
   }
-  for (const auto& [sensor, family] : families) {
-    correct(family, &PairedTest::p, &PairedTest::p_holm);
-    correct(family, &PairedTest::p_by_scene, &PairedTest::p_by_scene_holm);
-  }
-}
+
+ private:
+  std::map<std::string, std::vector<PairedTest*>> families_;
+};
 
 /// The share that counts, of all `rows`.
 double success_ratio(const Rows& rows) { return main_share(pooled_counts(scenes_of(rows))).ratio; }
@@ -170,11 +176,10 @@ bool holds_by_scene(const PairedTest& test) {
   return is_significant(test) && test.p_by_scene_holm < kLevel;
 }
 
-std::vector<Comparison> compare_with_base(const std::string& base, const Summary& summary,
-                                          const RecordGroups& groups, const PoseBounds& bounds) {
-  std::vector<Comparison> comparisons;
+void compare_with_base(const std::string& base, Summary& summary, const RecordGroups& groups,
+                       const PoseBounds& bounds) {
   const Rows base_rows = rows_of(summary, base);
-  if (base_rows.empty()) return comparisons;
+  if (base_rows.empty()) return;
   for (const std::string& variant : variants_of(summary)) {
     if (variant == base) continue;
     std::vector<std::string> sensors;
@@ -183,14 +188,28 @@ std::vector<Comparison> compare_with_base(const std::string& base, const Summary
     for (const std::string& sensor : sensors) {
       const auto trials = paired(base_rows, rows_of(summary, variant, sensor), groups, bounds);
       if (trials.scenes.empty()) continue;
-      Comparison& comparison = comparisons.emplace_back(compared(trials));
-      comparison.variant = variant;
-      comparison.base = base;
-      comparison.sensor = sensor;
+      ComparedTrials of = counts_of(trials);
+      of.variant = variant;
+      of.base = base;
+      of.sensor = sensor;
+      Comparison& comparison = summary.comparisons.emplace_back(compared_success(trials));
+      static_cast<ComparedTrials&>(comparison) = of;
+      comparison.rotation_deg = compared_errors(trials, kRotation);
+      comparison.translation_m = compared_errors(trials, kTranslation);
+      for (std::size_t dof = 0; dof < kDofs; ++dof) {
+        summary.dof_comparisons.push_back({of, dof, compared_errors(trials, dof)});
+      }
     }
   }
-  correct_by_sensor(comparisons);
-  return comparisons;
+  TestFamilies all, by_dof;
+  for (Comparison& of : summary.comparisons) {
+    for (PairedTest* test : {&of.rotation_deg.test, &of.translation_m.test, &of.success}) {
+      all.add(of.sensor, *test);
+    }
+  }
+  for (DofComparison& of : summary.dof_comparisons) by_dof.add(of.sensor, of.error.test);
+  all.correct_all();
+  by_dof.correct_all();
 }
 
 std::set<VariantSensor> below_best(const Summary& summary, const RecordGroups& groups,

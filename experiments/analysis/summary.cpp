@@ -149,9 +149,7 @@ Summary summarise(const std::vector<TrialRecord>& records, const SuccessBounds& 
   }
   summary.scene_kinds = summarise_scene_kinds(summary);
   summary.frames = summarise_frames(summary);
-  if (!variants.empty()) {
-    summary.comparisons = compare_with_base(variants.front(), summary, groups, bounds);
-  }
+  if (!variants.empty()) compare_with_base(variants.front(), summary, groups, bounds);
   summary.curve = success_curve(summary, groups);
   summary.below_best = below_best(summary, groups, bounds);
   summary.reasons = count_reasons(records);

@@ -68,19 +68,29 @@ struct ErrorComparison {
   PairedTest test;                          ///< Wilcoxon's signed-rank test.
 };
 
-/// A variant against the base, over the trials that both have. Errors are from the truth; if
-/// there is none, from the pose that the side's own trials of the scene agree on.
-struct Comparison {
+/// The trials that both a variant and the base have.
+struct ComparedTrials {
   std::string variant;
   std::string base;
   std::string sensor;  ///< Empty for all sensors together.
   int pairs = 0;
   int scenes = 0;
+};
+
+/// A variant against the base. Errors are from the truth; if there is none, from the pose that the
+/// side's own trials of the scene agree on.
+struct Comparison : ComparedTrials {
   int only_base = 0;     ///< Pairs that the base alone won (no truth: in which it alone agreed).
   int only_variant = 0;  ///< Pairs that the variant alone won.
   ErrorComparison rotation_deg;
   ErrorComparison translation_m;
   PairedTest success;  ///< McNemar's test.
+};
+
+/// The size of the error in one degree of freedom of a variant against the base.
+struct DofComparison : ComparedTrials {
+  std::size_t dof = 0;  ///< Index in kMeasures.
+  ErrorComparison error;
 };
 
 /// How far one loop is from the identity.
@@ -145,8 +155,9 @@ struct Summary {
                                               ///< empty if no scene has a kind.
   std::vector<FrameSummary> frames;     ///< By variant; none for one sensor, or without truth.
   std::vector<Comparison> comparisons;  ///< With the first variant: by variant, then sensor, all.
-  std::set<VariantSensor> below_best;   ///< See `below_best`.
-  std::vector<LoopClosure> loops;       ///< By variant, then pair.
+  std::vector<DofComparison> dof_comparisons;  ///< The same, by degree of freedom.
+  std::set<VariantSensor> below_best;          ///< See `below_best`.
+  std::vector<LoopClosure> loops;              ///< By variant, then pair.
   SuccessCurve curve;
   std::vector<ReasonCount> reasons;  ///< The most frequent first.
 };
@@ -173,12 +184,12 @@ class RecordGroups {
   std::map<std::tuple<std::string, std::string, std::string>, SceneRecords> groups_;
 };
 
-/// Every variant against `base` over the trials that both have: by variant, then sensor as in the
-/// rows of `summary`, then all sensors together. `groups` are the records of the rows. Without
-/// common trials there is no comparison. p values are corrected over the three tests of all
-/// variants with the same sensor.
-std::vector<Comparison> compare_with_base(const std::string& base, const Summary& summary,
-                                          const RecordGroups& groups, const PoseBounds& bounds);
+/// Adds the comparisons of every variant with `base` over the trials that both have: by variant,
+/// then sensor as in the rows of `summary`, then all sensors together. `groups` are the records of
+/// the rows. Without common trials there is no comparison. p values are corrected over the three
+/// tests of all variants with the same sensor; those by degree of freedom among themselves.
+void compare_with_base(const std::string& base, Summary& summary, const RecordGroups& groups,
+                       const PoseBounds& bounds);
 
 /// The variants whose success with a sensor is below that of the best: significantly by McNemar's
 /// test over the trials that both have (p < 0.05), or by more than a quarter of the trials. Their

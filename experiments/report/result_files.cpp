@@ -62,6 +62,10 @@ const std::vector<ResultFile>& result_files() {
        [](const R& r) { return if_any(r.summary.scene_kinds, summary_by_kind_csv, r.summary); }},
       {"comparison.csv",
        [](const R& r) { return if_any(r.summary.comparisons, comparison_csv, r.summary); }},
+      {"comparison_by_dof.csv",
+       [](const R& r) {
+         return if_any(r.summary.dof_comparisons, comparison_by_dof_csv, r.summary);
+       }},
       {"loops.csv", [](const R& r) { return if_any(r.summary.loops, loops_csv, r.summary); }},
       {"success_curve.csv",
        [](const R& r) { return if_any(r.summary.curve.rows, success_curve_csv, r.summary.curve); }},

@@ -174,6 +174,29 @@ Columns<ErrorComparison> error_columns(const Measure& measure) {
   return columns.add(test_columns(measure.name, path + "wilcoxon"), &E::test);
 }
 
+/// The columns of comparison_by_dof.csv, in the unit of the row's degree of freedom.
+Columns<DofComparison> dof_comparison_columns() {
+  using C = DofComparison;
+  Columns<C> columns;
+  columns.add({"variant"}, &C::variant).add({"base"}, &C::base);
+  add_sensor(columns);
+  const auto add = [&](const char* name, auto value) {
+    columns.add({name}, [value](const C& of) { return std::invoke(value, of.error); });
+  };
+  columns.add({"dof"}, [](const C& of) { return kMeasures[of.dof].name; })
+      .add({"unit"}, [](const C& of) { return kMeasures[of.dof].unit; })
+      .add({"pairs"}, &C::pairs)
+      .add({"scenes"}, &C::scenes);
+  using E = ErrorComparison;
+  add("base_median", &E::base_median);
+  add("variant_median", &E::variant_median);
+  add("paired_difference", &E::paired_difference);
+  add("paired_low", [](const E& error) { return low_of(error.paired_interval); });
+  add("paired_high", [](const E& error) { return high_of(error.paired_interval); });
+  return columns.add(test_columns("wilcoxon", "/wilcoxon"),
+                     [](const C& of) { return of.error.test; });
+}
+
 /// The loop over the poses that all scenes agree on.
 Columns<LoopGap> gap_columns() {
   Columns<LoopGap> columns;
@@ -382,6 +405,10 @@ std::string summary_by_kind_csv(const Summary& summary) {
 
 std::string comparison_csv(const Summary& summary) {
   return csv_of(comparison_columns(), summary.comparisons);
+}
+
+std::string comparison_by_dof_csv(const Summary& summary) {
+  return csv_of(dof_comparison_columns(), summary.dof_comparisons);
 }
 
 std::string loops_csv(const Summary& summary) { return csv_of(loop_columns(), summary.loops); }

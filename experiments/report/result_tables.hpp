@@ -157,6 +157,9 @@ std::string extrinsics_json(const Summary& summary,
 /// "inf" is the error of a trial without a usable result.
 std::string comparison_csv(const Summary& summary);
 
+/// comparison_by_dof.csv: the same for the size of the error in each degree of freedom.
+std::string comparison_by_dof_csv(const Summary& summary);
+
 /// loops.csv: one row per variant and pair of sensors.
 std::string loops_csv(const Summary& summary);
 

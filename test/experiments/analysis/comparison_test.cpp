@@ -92,6 +92,43 @@ TEST(Comparison, OfOneVariantThereIsNone) {
   EXPECT_EQ(summary_text(summary).find("against"), std::string::npos);
 }
 
+TEST(Comparison, ByDegreeOfFreedomFindsTheOneThatDiffers) {
+  Rng rng = test_rng();
+  std::vector<TrialRecord> records;
+  for (const char* variant : {"base", "other"}) {
+    for (int scene = 0; scene < 20; ++scene) {
+      Vector6d offset = test::random_offset(rng, 0.1, 0.02);
+      // y alone is ten times as good, whatever its sign.
+      if (*variant == 'o') offset(static_cast<Eigen::Index>(Dof::y)) *= 0.1;
+      const TrialId id = {variant, "s" + std::to_string(scene), "left", 0};
+      records.push_back(scene == 19 ? test::unfinished(id, Status::failed, "no ground")
+                                    : test::finished(id, Status::success, {}, offset));
+    }
+  }
+  ReportOrder order;
+  order.variants = {"base", "other"};
+  const Summary summary = summarise(records, kBounds, order);
+  // Of the sensor and of all sensors together.
+  ASSERT_EQ(summary.dof_comparisons.size(), 2 * kDofs);
+  for (const DofComparison& of : summary.dof_comparisons) {
+    EXPECT_EQ(of.pairs, 20);
+    EXPECT_EQ(of.scenes, 20);
+    const bool is_y = of.dof == static_cast<std::size_t>(Dof::y);
+    EXPECT_EQ(holds_by_scene(of.error.test), is_y) << kMeasures[of.dof].name;
+    if (!is_y) continue;
+    EXPECT_TRUE(of.error.test.favours_variant);
+    EXPECT_LT(of.error.variant_median, of.error.base_median);
+  }
+  const std::string csv = comparison_by_dof_csv(summary);
+  EXPECT_NE(csv.find("\nother,base,left,y,m,20,20,"), std::string::npos) << csv;
+  // Of a size: the sign of an error makes no difference.
+  std::vector<TrialRecord> flipped = records;
+  for (TrialRecord& record : flipped) {
+    if (record.error) record.error->dof = -record.error->dof;
+  }
+  EXPECT_EQ(comparison_by_dof_csv(summarise(flipped, kBounds, order)), csv);
+}
+
 TEST(Comparison, WithoutCommonTrialsThereIsNone) {
   auto records = test::few_records();
   for (TrialRecord& record : records) record.id.trial += record.id.variant == "base" ? 100 : 0;
