@@ -1,0 +1,168 @@
+// What is in the folder that a run writes to: nobody's file is destroyed, and nothing is written
+// through a link.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "framework/base/whole_file.hpp"
+#include "test/experiments/support/run_bench.hpp"
+
+namespace croon::experiments {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+using test::agreeing;
+using test::Bench;
+
+TEST(ResultFolder, KeepsTheFilesOfOthers) {
+  const Bench bench;
+  for (const char* name : {"trials.csv", "timings.csv", "manifest.json", "clouds/mine.ply",
+                           "store.sqlite.new", "store.sqlite-wal", "store.sqlite.merged"}) {
+    const fs::path file = bench.folder().write("out/" + std::string(name), "mine");
+    const fs::path named = bench.folder().path() / "out" / *fs::path(name).begin();
+    for (const bool is_fresh : {false, true}) {
+      RunOptions options = bench.options("out");
+      options.fresh = is_fresh;
+      EXPECT_EQ(bench.fault(options),
+                named.string() +
+                    ": would be overwritten, but the folder has no results of croon; "
+                    "--out names another folder");
+    }
+    EXPECT_EQ(read_whole_file(file), "mine");
+    EXPECT_FALSE(fs::exists(bench.folder().path() / "out/store.sqlite"));
+    fs::remove_all(bench.folder().path() / "out");
+  }
+}
+
+/// The folder "out" is refused, also with --fresh, with a fault that begins so.
+void expect_refused(const Bench& bench, const std::string& fault) {
+  for (const bool is_fresh : {false, true}) {
+    RunOptions options = bench.options("out");
+    options.fresh = is_fresh;
+    EXPECT_EQ(bench.fault(options).substr(0, fault.size()), fault);
+  }
+}
+
+TEST(ResultFolder, WritesThroughNoLink) {
+  const Bench bench;
+  EXPECT_EQ(bench.run(bench.options("out")), 0);
+  const fs::path file = bench.folder().write("file", "mine");
+  for (const char* name : {"store.sqlite", "store.sqlite-wal", "trials.csv", "timings.csv",
+                           "manifest.json", "clouds"}) {
+    const fs::path link = bench.folder().path() / "out" / name;
+    fs::remove_all(link);
+    fs::create_symlink(file, link);
+    expect_refused(bench, link.string() + ": expected a file or nothing, found a symbolic link");
+    EXPECT_EQ(read_whole_file(file), "mine");
+    fs::remove(link);
+    bench.run(bench.options("out"));
+  }
+}
+
+TEST(ResultFolder, ChangesNothingThroughAHardLink) {
+  const Bench bench;
+  EXPECT_EQ(bench.run(bench.options("out")), 0);
+  const fs::path file = bench.folder().write("file", "mine");
+  for (const char* name : {"store.sqlite", "store.sqlite-wal", "store.sqlite.new", "timings.csv"}) {
+    const fs::path link = bench.folder().path() / "out" / name;
+    fs::remove(link);
+    fs::create_hard_link(file, link);
+    expect_refused(bench, link.string() + ": expected a file with one name, found a hard link");
+    EXPECT_EQ(read_whole_file(file), "mine");
+    fs::remove(link);
+    bench.run(bench.options("out"));
+  }
+  // A table is replaced.
+  fs::remove(bench.folder().path() / "out/trials.csv");
+  fs::create_hard_link(file, bench.folder().path() / "out/trials.csv");
+  EXPECT_EQ(bench.run(bench.options("out")), 0);
+  EXPECT_EQ(read_whole_file(file), "mine");
+}
+
+TEST(ResultFolder, ReplacesNoOtherManifest) {
+  const Bench bench;
+  EXPECT_EQ(bench.run(bench.options("out")), 0);
+  const std::string store = read_whole_file(bench.folder().path() / "out/store.sqlite");
+  for (const char* bytes : {"", "{\"croon\": ", "{\"name\": \"of a web page\"}"}) {
+    const fs::path file = bench.folder().write("out/manifest.json", bytes);
+    expect_refused(bench, file.string() + ": is damaged or no manifest of croon");
+    EXPECT_EQ(read_whole_file(file), bytes);
+  }
+  EXPECT_EQ(read_whole_file(bench.folder().path() / "out/store.sqlite"), store);
+}
+
+TEST(ResultFolder, RefusesWhatIsNoFileBeforeItRuns) {
+  const Bench bench;
+  for (const char* name : {"manifest.json", "trials.csv", "timings.csv"}) {
+    const fs::path pipe = bench.folder().path() / "out" / name;
+    fs::create_directories(pipe.parent_path());
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    expect_refused(
+        bench, pipe.string() + ": expected a file or nothing, found something that is not a file");
+    EXPECT_FALSE(fs::exists(bench.folder().path() / "out/store.sqlite"));
+    fs::remove(pipe);
+  }
+}
+
+TEST(ResultFolder, WritesCloudsOfVariantsWithLongNames) {
+  json experiment = agreeing();
+  const std::string common(300, 'v');
+  experiment["variants"][0]["name"] = common + "1";
+  experiment["variants"].push_back({{"name", common + "2"}});
+  const Bench bench(experiment);
+  RunOptions options = bench.options("out");
+  options.clouds = true;
+  EXPECT_EQ(bench.run(options), 0);
+  int folders = 0;
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(bench.folder().path() / "out/clouds")) {
+    EXPECT_TRUE(fs::exists(entry.path() / "scene1.ply"));
+    ++folders;
+  }
+  EXPECT_EQ(folders, 3);
+}
+
+TEST(ResultFolder, WritesCloudsThroughNoLink) {
+  const Bench bench(agreeing());
+  RunOptions options = bench.options("out");
+  options.clouds = true;
+  EXPECT_EQ(bench.run(options), 0);
+  const fs::path link = bench.folder().path() / "out/clouds/base";
+  const fs::path elsewhere = bench.folder().path() / "elsewhere";
+  fs::rename(link, elsewhere);
+  fs::remove(elsewhere / "scene1.ply");
+  fs::create_symlink(elsewhere, link);
+  EXPECT_EQ(bench.fault(options),
+            link.string() + ": expected a folder or nothing, found a symbolic link");
+  EXPECT_FALSE(fs::exists(elsewhere / "scene1.ply"));
+  // --fresh does not delete through it either, and writes nothing.
+  options.fresh = true;
+  EXPECT_NE(bench.fault(options), "");
+  EXPECT_TRUE(fs::exists(elsewhere / "scene2.ply"));
+}
+
+TEST(ResultFolder, FreshDeletesItsOwnCloudsAlone) {
+  const Bench bench(agreeing());
+  RunOptions options = bench.options("out");
+  options.clouds = true;
+  EXPECT_EQ(bench.run(options), 0);
+  const fs::path note = bench.folder().write("out/clouds/base/note.txt", "mine");
+  const fs::path cloud = bench.folder().write("out/clouds/mine.ply", "mine");
+  options.clouds = false;
+  options.fresh = true;
+  EXPECT_EQ(bench.run(options), 0);
+  EXPECT_EQ(read_whole_file(note), "mine");
+  EXPECT_EQ(read_whole_file(cloud), "mine");
+  EXPECT_FALSE(fs::exists(note.parent_path() / "scene1.ply"));
+  EXPECT_FALSE(fs::exists(bench.folder().path() / "out/clouds/far"));
+}
+
+TEST(ResultFolder, NeedsAFolderThatItMayWriteTo) {
+  const Bench bench;
+  bench.folder().write("file", "");
+  EXPECT_NE(bench.fault(bench.options("file")).find("expected a folder"), std::string::npos);
+  EXPECT_NE(bench.fault(bench.options("file/below")).find("expected a folder"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace croon::experiments
