@@ -90,22 +90,55 @@ void set_counts(ClaimResult& result, const Rows& rows, const TrialSummary& all) 
   result.scenes = static_cast<int>(scenes.size());
 }
 
-/// The least and the greatest number that trials can lead to; `n` values are summed up.
-Interval attainable(const Claim& claim, const SuccessBounds& bounds, bool has_truth, int n) {
+/// The largest std of values of sizes up to 1, pooled over groups of so many values: half of each
+/// group's values are at either end. 1 if no group has two values.
+double largest_std(const std::vector<int>& groups) {
+  double squares = 0.0, freedom = 0.0;
+  for (const int n : groups) {
+    if (n < 2) continue;
+    squares += n % 2 == 0 ? n : n - 1.0 / n;
+    freedom += n - 1;
+  }
+  return freedom > 0.0 ? std::sqrt(squares / freedom) : 1.0;
+}
+
+/// The numbers of values that the spread `statistic` is pooled over: for each scene its trials, or
+/// for each sensor its scenes.
+std::vector<int> spread_groups(const std::string& statistic, const Rows& rows) {
+  std::vector<int> groups;
+  for (const SummaryRow* row : rows) {
+    int scenes = 0;
+    for (const SceneSummary& scene : row->scenes) {
+      if (statistic == kWithinSceneStd) groups.push_back(scene.counted);
+      scenes += scene.counted > 0 ? 1 : 0;
+    }
+    if (statistic == kAcrossScenesStd) groups.push_back(scenes);
+  }
+  return groups;
+}
+
+/// The largest size of the measure of a trial that counts.
+double largest_size(const Claim& claim, const SuccessBounds& bounds, bool has_truth) {
+  const std::size_t measure = measure_index(claim.measure);
+  const bool is_angle = kMeasures[measure].unit == std::string("deg");
+  if (has_truth && (is_spread(claim) || claim.over == Over::successful)) {
+    return is_angle ? bounds.rotation_deg : bounds.translation_m;
+  }
+  constexpr auto kPitch = static_cast<std::size_t>(Dof::pitch);
+  if (is_angle) return measure == kPitch ? 90.0 : 180.0;
+  return std::numeric_limits<double>::infinity();
+}
+
+/// The least and the greatest number that the trials of a claim can lead to; `n` of them count.
+Interval attainable(const Claim& claim, const SuccessBounds& bounds, const Rows& rows, int n) {
   if (is_share(claim.statistic)) return {0.0, 100.0};
-  double most = std::numeric_limits<double>::infinity();
-  const bool is_angle = kMeasures[measure_index(claim.measure)].unit == std::string("deg");
-  if (is_angle) most = 180.0;
-  if (has_truth && claim.over == Over::successful) {
-    most = is_angle ? bounds.rotation_deg : bounds.translation_m;
-  }
-  const bool is_statistic = !is_spread(claim);
-  if (is_statistic && kStatistics[statistic_index(claim.statistic)].is_signed) {
-    return {-most, most};
-  }
-  // Half of the values at each end have the largest std.
-  const bool is_std = !is_statistic || claim.statistic == "std";
-  return {0.0, is_std && n > 1 ? most * std::sqrt(n / (n - 1.0)) : most};
+  const double most = largest_size(claim, bounds, have_truth(rows));
+  if (is_spread(claim)) return {0.0, most * largest_std(spread_groups(claim.statistic, rows))};
+  // The two distances are not negative: what they can differ by is half as large.
+  const bool is_distance = measure_index(claim.measure) >= kDofs;
+  if (claim.statistic == "std") return {0.0, (is_distance ? 0.5 : 1.0) * most * largest_std({n})};
+  const bool is_signed = !is_distance && kStatistics[statistic_index(claim.statistic)].is_signed;
+  return {is_signed ? -most : 0.0, most};
 }
 
 bool is_verdict_possible(const ClaimResult& result) {
@@ -129,7 +162,7 @@ ClaimResult check(const Claim& claim, const Summary& summary) {
   result.found = found(claim, rows, all);
   set_counts(result, rows, all);
   result.success_percent = percent_of(main_share(all));
-  const Interval possible = attainable(claim, summary.bounds, have_truth(rows), result.trials);
+  const Interval possible = attainable(claim, summary.bounds, rows, result.trials);
   result.can_fail = claim.band.front() > possible.low || claim.band.back() < possible.high;
   result.verdict = verdict_of(result);
   return result;

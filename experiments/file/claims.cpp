@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "experiments/file/measures.hpp"
@@ -287,6 +288,11 @@ const params::ParameterDoc& claims_doc() {
 std::vector<Claim> read_claims(const Node& node) {
   std::vector<Claim> claims;
   if (!node.is_array()) return claims;
+  if (node.value().size() > kMostClaims) {
+    node.fault("expected at most " + std::to_string(kMostClaims) + " claims, found " +
+               std::to_string(node.value().size()));
+    return claims;
+  }
   params::for_each_element(node, [&](const Node& element) {
     if (!element.is_object()) return;
     const std::size_t faults_before = element.fault_count();

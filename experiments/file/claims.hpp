@@ -18,6 +18,9 @@ enum class Over {
 /// What files and tables call all sensors together; no sensor has this name.
 inline constexpr const char* kAllSensors = "all";
 
+/// More elements than "claims" has; a table of claims is one of them.
+inline constexpr std::size_t kMostClaims = 10000;
+
 /// The name of `sensor` in files and tables; "" is all sensors together.
 inline std::string name_of_sensor(const std::string& sensor) {
   return sensor.empty() ? kAllSensors : sensor;

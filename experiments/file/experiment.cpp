@@ -172,6 +172,10 @@ Experiment read_experiment_json(const std::string& text, const std::string& file
   std::vector<Fault> faults;
   const json parsed = json::parse(text, nullptr, false);
   if (!parsed.is_object()) throw InputError(file, "/experiment", "expected an object");
+  if (parsed.contains("variants") && parsed["variants"].size() > kMostVariants) {
+    throw InputError(file, "/experiment/variants",
+                     "expected at most " + std::to_string(kMostVariants) + " variants");
+  }
   params::MemberOrigins origins;
   json keys = with_present_names(parsed, file, faults, origins);
   // Earlier versions wrote the number over all levels of a sweep. The store has the number too.

@@ -64,6 +64,12 @@ PosesFile poses_of(const VariantKeys& keys, const Node& node, const PatchedPipel
 std::vector<NamedPipeline> read_pipelines(const ExperimentKeys& keys, const Node& root,
                                           const Catalogue& catalogue) {
   std::vector<NamedPipeline> pipelines = {{"base", read_steps(*keys.pipeline)}};
+  if (keys.variant_keys.size() >= kMostVariants) {
+    root.member("variants")
+        .fault("expected at most " + std::to_string(kMostVariants - 1) +
+               " variants beside the base, found " + std::to_string(keys.variant_keys.size()));
+    return pipelines;
+  }
   std::set<std::string> names = {"base"};
   for (std::size_t i = 0; i < keys.variant_keys.size(); ++i) {
     const VariantKeys& variant = keys.variant_keys[i];

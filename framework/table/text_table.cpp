@@ -30,7 +30,7 @@ std::string text_table(const Table& table, const View& view, bool bold_header) {
     std::vector<std::string> cells = {view.columns[k].title, ""};
     for (const CellRow& row : table.rows) {
       const std::string text = columns[k].content(row, text_cell);
-      cells.push_back(is_name ? cut_to_columns(text, view.widest_name) : text);
+      cells.push_back(is_name ? cut_in_the_middle(text, view.widest_name) : text);
     }
     std::size_t width = 0;
     for (const std::string& cell : cells) width = std::max(width, text_columns(cell));

@@ -56,11 +56,24 @@ const params::Table<Params>& table() {
 /// The clouds of one sensor by their names without suffix.
 using Clouds = std::map<std::string, fs::path>;
 
+/// Throws InputError for a link that leads nowhere, as to a disk that is not mounted: what it
+/// stands for must not be missed in silence.
+void refuse_dangling(const fs::directory_entry& entry) {
+  if (!entry.is_symlink() || entry.exists()) return;
+  throw InputError(entry.path().string(), "",
+                   "expected a file or folder, found a link that leads nowhere");
+}
+
 /// The clouds in `folder`. Throws InputError if two have one name.
 Clouds clouds_in(const SceneLocation& folder) {
   Clouds clouds;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder.folder)) {
-    if (!entry.is_regular_file() || !has_point_cloud_suffix(entry.path())) continue;
+    if (!has_point_cloud_suffix(entry.path())) continue;
+    refuse_dangling(entry);
+    if (!entry.is_regular_file()) {
+      throw InputError(entry.path().string(), "",
+                       "expected a cloud, found something that is not a file");
+    }
     const fs::path file = path_in_data_root(folder.root, entry.path().string(), folder.links);
     const auto [found, is_new] = clouds.emplace(entry.path().stem().string(), file);
     if (is_new) continue;
@@ -75,6 +88,7 @@ Clouds clouds_in(const SceneLocation& folder) {
 std::vector<std::string> other_folders(const fs::path& rig, const std::string& reference) {
   std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(rig)) {
+    refuse_dangling(entry);
     if (!entry.is_directory() || entry.path().filename() == reference) continue;
     const fs::directory_iterator files(entry.path());
     if (std::any_of(fs::begin(files), fs::end(files), [](const fs::directory_entry& file) {

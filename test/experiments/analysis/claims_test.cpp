@@ -257,6 +257,51 @@ Summary mostly_good(int scenes, int trials) {
   return summary_of(records);
 }
 
+/// Two trials of each of eight scenes, each 0.0999 m off along x: the two of a scene to either
+/// side, or all of a scene to one side.
+Summary at_the_bounds(bool differs_by_scene) {
+  std::vector<TrialRecord> records;
+  for (int scene = 0; scene < 8; ++scene) {
+    for (int trial = 0; trial < 2; ++trial) {
+      const double side = (differs_by_scene ? scene : trial) % 2 == 0 ? 1.0 : -1.0;
+      records.push_back(test::finished({"base", std::to_string(scene), "left", trial},
+                                       Status::success, {},
+                                       test::offset_of(0, 0, 0, 0.0999 * side, 0, 0)));
+    }
+  }
+  return summary_of(records);
+}
+
+TEST(Claims, ASpreadCanBeAsLargeAsItsGroupsAllow) {
+  const auto verdict = [](const char* statistic, bool differs_by_scene, double high) {
+    Claim one = expectation(statistic, "x");
+    one.band = {0.0, high};
+    return check_claims({one}, at_the_bounds(differs_by_scene)).front();
+  };
+  // Two values per scene: 0.1 m times sqrt(2); eight scenes: times sqrt(8 / 7).
+  EXPECT_NEAR(*verdict("within_scene_std", false, 1.0).found, 0.0999 * std::sqrt(2.0), 1e-9);
+  EXPECT_TRUE(verdict("within_scene_std", false, 0.11).can_fail);
+  EXPECT_TRUE(verdict("within_scene_std", false, 0.1414).can_fail);
+  EXPECT_FALSE(verdict("within_scene_std", false, 0.1415).can_fail);
+  EXPECT_NEAR(*verdict("across_scenes_std", true, 1.0).found, 0.0999 * std::sqrt(8.0 / 7.0), 1e-9);
+  EXPECT_EQ(verdict("across_scenes_std", true, 0.1065).verdict, Verdict::out);
+  EXPECT_FALSE(verdict("across_scenes_std", true, 0.107).can_fail);
+}
+
+TEST(Claims, ADistanceIsNotNegative) {
+  const auto can_fail = [](const char* statistic, const char* measure, double low, double high) {
+    Claim one = expectation(statistic, measure);
+    one.band = {low, high};
+    return check_claims({one}, mostly_good(8, 10)).front().can_fail;
+  };
+  EXPECT_FALSE(can_fail("median", "translation", 0.0, 0.1));
+  EXPECT_FALSE(can_fail("mean", "rotation", 0.0, 0.5));
+  EXPECT_TRUE(can_fail("median", "x", 0.0, 0.1));
+  // Of 72 values from 0 to 0.1 m the std is at most 0.05 m times sqrt(72 / 71).
+  EXPECT_FALSE(can_fail("std", "translation", 0.0, 0.0504));
+  EXPECT_TRUE(can_fail("std", "translation", 0.0, 0.0503));
+}
+
 TEST(Claims, ABandThatNoResultCanMissIsNoVerdict) {
   const Summary summary = mostly_good(8, 10);
   Claim one = expectation("std", "x");

@@ -131,6 +131,9 @@ std::string id(const std::string& table, const std::string& column, const std::s
 
 TEST_F(CraftedStore, IsRefusedInOneLine) {
   const std::string deep(200000, '[');
+  std::string many_variants = "[{}";
+  for (int i = 0; i < 20000; ++i) many_variants += ",{}";
+  many_variants += "]";
   const std::vector<std::string> crafts = {
       id("variants", "variant", "-5"),
       id("variants", "variant", "1099511627776"),
@@ -205,6 +208,7 @@ TEST_F(CraftedStore, IsRefusedInOneLine) {
       "UPDATE steps SET information = X'00'",
       manifest("experiment.variants", "[]"),
       manifest("experiment.variants", "{}"),
+      manifest("experiment.variants", many_variants),
       manifest("experiment", "7"),
       manifest("experiment.seed", "-1"),
       manifest("experiment.starts.sweep", R"({"rotation_deg":[0,10],"levels":0})"),

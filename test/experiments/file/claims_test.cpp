@@ -134,6 +134,11 @@ TEST(Claims, ShowsFaultsAtTheirPlaces) {
   EXPECT_EQ(faults_of(json::object()), Lines{"/claims: expected a list, found {}"});
 }
 
+TEST(Claims, AreNotReadIfTheyAreTooMany) {
+  EXPECT_EQ(faults_of(json::array_t(10001, json::object())),
+            (Lines{"/claims: expected at most 10000 claims, found 10001"}));
+}
+
 TEST(Claims, NamesEveryKeyThatIsMissing) {
   Lines expected;
   for (const char* key : {"claim", "source", "statistic", "value", "band"}) {

@@ -185,6 +185,13 @@ TEST(Grid, RefusesToGrowBeyondReason) {
   EXPECT_EQ(all.faults, (Lines{"/grid: expected at most 10000 variants, found more"}));
 }
 
+TEST(Variants, AreAtMostTenThousandWithoutAGridToo) {
+  std::string list;
+  for (int i = 0; i < 10000; ++i) list += ",{\"name\": \"v" + std::to_string(i) + "\"}";
+  EXPECT_EQ(read(R"("variants": [)" + list.substr(1) + "]").faults,
+            (Lines{"/variants: expected at most 9999 variants beside the base, found 10000"}));
+}
+
 TEST(Variants, InsertStepsBesideOthers) {
   const ReadVariants all = read(R"("variants": [
       {"name": "a", "insert": [{"after": "first", "step": {"step": "drift", "name": "second"}},

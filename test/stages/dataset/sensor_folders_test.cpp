@@ -98,6 +98,21 @@ TEST_F(SensorFolders, NameWhatIsWrong) {
   EXPECT_THAT(error(), HasSubstr("car/back/000002.pcd"));
 }
 
+TEST_F(SensorFolders, MissNoLinkThatLeadsNowhere) {
+  for (const char* name : {"data/car/back/000001.pcd", "data/car/right"}) {
+    const fs::path link = folder.path() / name;
+    fs::create_symlink("/a-disk-that-is-not-there/data", link);
+    for (const char* more : {"", R"(, "follow_links": true)"}) {
+      EXPECT_EQ(error(more),
+                link.string() + ": expected a file or folder, found a link that leads nowhere");
+    }
+    fs::remove(link);
+  }
+  fs::create_directory(folder.path() / "data/car/back/000001.pcd");
+  EXPECT_THAT(error(),
+              HasSubstr("000001.pcd: expected a cloud, found something that is not a file"));
+}
+
 TEST_F(SensorFolders, FollowLinksIfAsked) {
   folder.write("disk/000002.pcd", cloud(7));
   fs::remove_all(root / "car/back");
