@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <nlohmann/json.hpp>
+
 #include "framework/base/whole_file.hpp"
 #include "test/experiments/support/run_bench.hpp"
 

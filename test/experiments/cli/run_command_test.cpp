@@ -9,6 +9,7 @@
 
 #include "experiments/store/store.hpp"
 #include "framework/base/whole_file.hpp"
+#include "test/experiments/support/fake_stages.hpp"
 #include "test/experiments/support/run_bench.hpp"
 
 namespace croon::experiments {
