@@ -88,11 +88,11 @@ StoreHeader header_of_all(const std::vector<fs::path>& folders, bool same_build,
   return header;
 }
 
-/// `header` with the names of `old`, what the store has from merges before. What the experiment has
-/// no more is kept and in no report.
-StoreHeader with_names_of(Part old_part, const StoreHeader& header) {
-  StoreHeader& old = old_part.header;
-  refuse_differences(old_part.store.string(), old, header, kMergeRemedy);
+/// `header` with the names of what the store has from merges before. What the experiment has no
+/// more is kept and in no report.
+StoreHeader with_names_of(const Part& merged_before, const StoreHeader& header) {
+  StoreHeader old = merged_before.header;
+  refuse_differences(merged_before.store.string(), old, header, kMergeRemedy);
   for (auto names : {&StoreHeader::variants, &StoreHeader::scenes, &StoreHeader::sensors}) {
     for (StoredName& name : old.*names) name.is_current = false;
   }
