@@ -25,6 +25,10 @@ add_compile_options(-ffp-contract=off)
 
 add_library(croon_warnings INTERFACE)
 target_compile_options(croon_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # GCC takes the sources that a unity build includes for headers, and warns of their local types.
+  target_compile_options(croon_warnings INTERFACE -Wno-subobject-linkage)
+endif()
 if(CROON_WARNINGS_AS_ERRORS)
   target_compile_options(croon_warnings INTERFACE -Werror)
 endif()

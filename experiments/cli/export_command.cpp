@@ -53,6 +53,18 @@ void refuse_options(const ExportOptions& options) {
   throw InputError("", "--units", "expected m or mm, found \"" + options.units + "\"");
 }
 
+/// Throws InputError if two of `folders` are one: its rows would be in the table twice.
+void refuse_repeats(const std::vector<std::filesystem::path>& folders) {
+  std::error_code error;
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!std::filesystem::equivalent(folders[i], folders[j], error)) continue;
+      throw InputError(folders[i].string(), "",
+                       "expected another folder, found one that is named before");
+    }
+  }
+}
+
 std::string figure_bytes(const ExportOptions& options) {
   if (options.figure == "ranges") {
     throw InputError("", "--figure", "the figure of ranges is of clouds: croon describe --out DIR");
@@ -95,6 +107,7 @@ std::string table_bytes(const ExportOptions& options) {
   std::vector<Summary> summaries;
   std::vector<ExportCaption> captions;
   std::vector<std::string> folders;
+  refuse_repeats(options.folders);
   for (const std::filesystem::path& folder : options.folders) {
     // Its trials are not kept: several folders may have millions.
     Results results = restricted(read_results(folder), {options.variants, {}, options.kinds});
@@ -102,18 +115,12 @@ std::string table_bytes(const ExportOptions& options) {
     summaries.push_back(std::move(results.summary));
     folders.push_back(folder.string());
   }
-  // All experiments have the same columns: agreement if one of them lacks truth.
-  if (options.compact && options.columns.empty()) {
-    for (const Summary& summary : summaries) {
-      const TableChoice own =
-          compact({choice.sensors, {}, choice.is_in_mm, choice.is_one_column}, summary);
-      if (own.columns.size() > choice.columns.size()) choice.columns = own.columns;
-    }
-  }
+  const std::vector<TableChoice> choices = options.compact
+                                               ? compact(choice, summaries)
+                                               : std::vector<TableChoice>(summaries.size(), choice);
   std::vector<ExportTable> tables;
   for (std::size_t i = 0; i < summaries.size(); ++i) {
-    const TableChoice chosen = options.compact ? compact(choice, summaries[i]) : choice;
-    tables.push_back(export_table(summaries[i], captions[i], chosen));
+    tables.push_back(export_table(summaries[i], captions[i], choices[i]));
   }
   return format.bytes(joined(std::move(tables), folders));
 }

@@ -67,13 +67,22 @@ class Program {
     return *command;
   }
 
+  /// Adds an option for a path. An empty one is refused: a variable of a script that is not set
+  /// must not stand for the default.
+  static CLI::Option* add_path(CLI::App& command, const std::string& name,
+                               std::filesystem::path& option, const std::string& sentence) {
+    return command.add_option(name, option, sentence)->check([](const std::string& path) {
+      return path.empty() ? "expected a path, found \"\"" : "";
+    });
+  }
+
   template <class T>
   static void add_experiment(CLI::App& command, T& option) {
     command.add_option("EXPERIMENT", option, "The experiment, a JSON file.")->required();
   }
 
   static void add_data(CLI::App& command, std::filesystem::path& option) {
-    command.add_option("--data", option, "The data root; default $CROON_DATA, else data.");
+    add_path(command, "--data", option, "The data root; default $CROON_DATA, else data.");
   }
 
   static void add_jobs(CLI::App& command, int& option) {
@@ -91,7 +100,7 @@ class Program {
       return run_command(run_, registry(), std::cout, std::cerr);
     });
     add_experiment(run, run_.experiment);
-    run.add_option("--out", run_.out, "Folder to write to; default results/<name>.");
+    add_path(run, "--out", run_.out, "Folder to write to; default results/<name>.");
     add_data(run, run_.data);
     add_jobs(run, run_.jobs);
     add_trials(run, run_.trials, "Starts per variant, scene and sensor.");
@@ -118,7 +127,7 @@ class Program {
       return merge_command(merge_, std::cout);
     });
     merge.add_option("DIR", merge_.folders, "Folders of results.")->required();
-    merge.add_option("--out", merge_.out, "Folder to write to.")->required();
+    add_path(merge, "--out", merge_.out, "Folder to write to.")->required();
     merge.add_flag("--same-build", merge_.same_build, "Refuse trials of different builds.");
   }
 
@@ -129,7 +138,7 @@ class Program {
     exporting.add_option("--format", export_.format,
                          names_of(export_formats()) + "; default md. With --figure: " +
                              names_of(drawing_formats()) + "; default pdf.");
-    exporting.add_option("--out", export_.out, "The file to write; default the output.");
+    add_path(exporting, "--out", export_.out, "The file to write; default the output.");
     exporting.add_option("--figure", export_.figure, "A figure: " + names_of(figures()) + ".");
     add_width(exporting, export_.width);
     exporting.add_option("--units", export_.units, "Of lengths: m, mm.");
@@ -160,7 +169,7 @@ class Program {
         add("simulate", "Write the simulated scenes of an experiment as a dataset.",
             [this] { return simulate_command(simulate_, registry(), std::cout, std::cerr); });
     add_experiment(simulate, simulate_.experiment);
-    simulate.add_option("--out", simulate_.out, "Folder to write the dataset to.")->required();
+    add_path(simulate, "--out", simulate_.out, "Folder to write the dataset to.")->required();
     add_jobs(simulate, simulate_.jobs);
     simulate.add_flag("--png", simulate_.png,
                       "Draw each scene, from behind the car and from above.");
@@ -173,7 +182,7 @@ class Program {
     describe.add_option("EXPERIMENT", describe_.experiments, "Experiments, JSON files.")
         ->required();
     add_data(describe, describe_.data);
-    describe.add_option("--out", describe_.out, "Folder for clouds.csv and ranges.svg.");
+    add_path(describe, "--out", describe_.out, "Folder for clouds.csv and ranges.svg.");
     describe.add_option(
         "--format", describe_.format,
         "Of the figure of ranges: " + names_of(drawing_formats()) + "; default svg.");
@@ -187,7 +196,7 @@ class Program {
     CLI::App& starts = add("starts", "Write the list of an experiment's starts.",
                            [this] { return starts_command(starts_, registry(), std::cout); });
     add_experiment(starts, starts_.experiment);
-    starts.add_option("--out", starts_.out, "File to write; default standard output.");
+    add_path(starts, "--out", starts_.out, "File to write; default standard output.");
     add_data(starts, starts_.data);
     add_trials(starts, starts_.trials, "Starts per scene and sensor.");
   }

@@ -314,9 +314,15 @@ std::vector<std::string> caption_sentences(const ExportTable& table) {
                         std::to_string(kLeastScenes) + " scenes.");
   }
   if (table.variants.size() > 1) {
-    sentences.emplace_back(
-        "Bold: the best of the sensor, for errors among those whose success is neither more than 5 "
-        "points nor significantly below the best; deviations without truth have none.");
+    // The whole rule of `mark_best`.
+    const bool has_marks = !table.base.empty();
+    sentences.push_back(
+        std::string("Bold: the best of the sensor") +
+        (has_marks ? " that is not marked -; for errors among those whose success is not marked -, "
+                     "is marked + if another's is, and is neither"
+                   : "; for errors among those whose success is neither") +
+        " more than 5 points nor significantly below the best; deviations without truth have "
+        "none.");
   }
   if (!table.base.empty()) {
     const bool has_paired = shows_column(table, "paired_low", "");

@@ -179,30 +179,65 @@ bool has_several(const Table& table, const char* column) {
 
 }  // namespace
 
-TableChoice compact(TableChoice choice, const Summary& summary) {
-  const bool has_sensors = sensors_of(summary).size() > 1;
-  if (choice.sensors.empty() && has_sensors) choice.sensors = {kAllSensors};
-  if (!choice.columns.empty()) return choice;
-  ExportTable table = export_table(summary, {});
+namespace {
+
+/// Whether a row of `table` has a value in `column`, and whether all have one.
+struct Filled {
+  bool any = false;
+  bool all = true;
+};
+
+Filled filled(const Table& table, const std::string& column) {
+  Filled filled;
+  for (const CellRow& row : table.rows) {
+    const bool has_value = !row[table.index_of(column)].is_nothing();
+    filled.any = filled.any || has_value;
+    filled.all = filled.all && has_value;
+  }
+  return filled;
+}
+
+/// The shares that tell how often the trials of `summaries` succeed: success, agreement for rows
+/// without truth, which have no success, or both.
+Names shares_of(const std::vector<Summary>& summaries) {
+  std::vector<Table> tables;
+  for (const Summary& summary : summaries) tables.push_back(export_table(summary, {}).table);
   Names shares;
-  for (const ChosenColumn& column : column_choices(table.table)) {
+  for (const ChosenColumn& column : column_choices(tables.front())) {
     if (!ends_with(column.columns.front(), kPercent) || column.joint != Joint::none) continue;
-    const std::size_t k = table.table.index_of(column.columns.front());
-    const auto has_value = [k](const CellRow& row) { return !row[k].is_nothing(); };
-    const auto& rows = table.table.rows;
-    if (std::any_of(rows.begin(), rows.end(), has_value)) shares.push_back(column.name);
-    // Agreement is shown for rows without truth, which have no success.
-    if (std::all_of(rows.begin(), rows.end(), has_value)) break;
+    Filled of_all;
+    for (const Table& table : tables) {
+      const Filled own = filled(table, column.columns.front());
+      of_all.any = of_all.any || own.any;
+      of_all.all = of_all.all && own.all;
+    }
+    if (of_all.any) shares.push_back(column.name);
+    if (of_all.all) break;
   }
-  for (const std::string& share : shares) {
-    choice.columns.push_back(share);
-    if (!choice.is_one_column) choice.columns.push_back(share + "_interval");
+  return shares;
+}
+
+}  // namespace
+
+std::vector<TableChoice> compact(const TableChoice& choice, const std::vector<Summary>& summaries) {
+  Names columns = choice.columns;
+  if (columns.empty()) {
+    for (const std::string& share : shares_of(summaries)) {
+      columns.push_back(share);
+      if (!choice.is_one_column) columns.push_back(share + "_interval");
+    }
+    for (const char* measure : {"rotation", "translation"}) {
+      columns.push_back(std::string(measure) + "_median");
+      if (!choice.is_one_column) columns.push_back(std::string(measure) + "_p95");
+    }
   }
-  for (const char* measure : {"rotation", "translation"}) {
-    choice.columns.push_back(std::string(measure) + "_median");
-    if (!choice.is_one_column) choice.columns.push_back(std::string(measure) + "_p95");
+  std::vector<TableChoice> choices;
+  for (const Summary& summary : summaries) {
+    TableChoice& own = choices.emplace_back(choice);
+    own.columns = columns;
+    if (own.sensors.empty() && sensors_of(summary).size() > 1) own.sensors = {kAllSensors};
   }
-  return choice;
+  return choices;
 }
 
 void add_all_statistics(Columns<SummaryRow>& columns) {

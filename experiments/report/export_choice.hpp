@@ -17,9 +17,10 @@ struct TableChoice {
   bool is_one_column = false;        ///< For one column of a page with two (LaTeX).
 };
 
-/// The choice of the compact table: a row per variant, all sensors together if there are several,
-/// and as many columns as a page has room for. What `choice` has already is kept.
-TableChoice compact(TableChoice choice, const Summary& summary);
+/// The choices of the compact tables of several experiments, at least one, for one table: the same
+/// columns, as many as a page has room for, and a row per variant, all sensors together if there
+/// are several. What `choice` has already is kept.
+std::vector<TableChoice> compact(const TableChoice& choice, const std::vector<Summary>& summaries);
 
 /// Adds the columns of every statistic that `columns` lacks.
 void add_all_statistics(Columns<SummaryRow>& columns);

@@ -90,6 +90,16 @@ fs::path short_path(const fs::path& name) {
   return path;
 }
 
+/// Throws InputError if a file that `write_clouds` would replace is not one of its own.
+void refuse_foreign_clouds(const fs::path& stem) {
+  std::error_code error;
+  const fs::path ply = stem.string() + ".ply";
+  for (const fs::path& path : {ply, fs::path(stem.string() + ".vdb")}) {
+    if (!fs::exists(fs::symlink_status(path, error)) || is_fused_ply(ply)) continue;
+    throw InputError(path.string(), "", "not written: croon did not write what is there");
+  }
+}
+
 void write_clouds(const std::vector<ColouredCloud>& clouds, const fs::path& stem) {
   constexpr double kLeafSize_m = 0.05;
   write_fused_ply(stem.string() + ".ply", clouds);
@@ -140,7 +150,10 @@ std::vector<std::string> write_fused_clouds(const Experiment& experiment,
       const fs::path stem = folder / name;
       make_folder_below(folder.parent_path(), folder.filename() / name.parent_path());
       try {
+        refuse_foreign_clouds(stem);
         write_clouds(clouds, stem);
+      } catch (const InputError& error) {
+        complaints.emplace_back(error.what());
       } catch (const StageError& error) {
         // A pose may be farther off than leaves can be.
         complaints.push_back(stem.string() + ".vdb: not written: " + error.what());

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <fstream>
+#include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <unordered_set>
 
 #include "experiments/report/plots.hpp"
@@ -16,6 +18,7 @@
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
 #include "framework/base/whole_file.hpp"
+#include "framework/io/ply_file.hpp"
 #include "framework/io/point_cloud_file.hpp"
 #include "framework/picture/writers.hpp"
 
@@ -215,18 +218,24 @@ void delete_path(const fs::path& path) {
   if (error) throw InputError(path.string(), "", "cannot be deleted: " + error.message());
 }
 
-/// Deletes the clouds that `write_fused_clouds` left in the folders in `folder`, one for each
-/// variant, and folders that are then empty.
-void delete_clouds(const fs::path& folder, bool is_of_variant = false) {
+/// Deletes the clouds that `write_fused_clouds` left in `folder` or in folders in it, and folders
+/// that are then empty.
+void delete_clouds(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(fs::symlink_status(folder, error))) return;
+  std::vector<fs::path> paths;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const fs::path& path = entry.path();
-    const fs::file_status status = entry.symlink_status();
-    const bool is_cloud =
-        is_of_variant && (path.extension() == ".ply" || path.extension() == ".vdb");
-    if (fs::is_directory(status)) delete_clouds(path, true);
-    if (fs::is_regular_file(status) && is_cloud) delete_path(path);
+    paths.push_back(entry.path());
+  }
+  for (const fs::path& path : paths) {
+    delete_clouds(path);
+    if (!is_fused_ply(path)) continue;
+    // The PLY says whose both are, so it goes last.
+    fs::path occupancy = path;
+    if (fs::is_regular_file(fs::symlink_status(occupancy.replace_extension(".vdb"), error))) {
+      delete_path(occupancy);
+    }
+    delete_path(path);
   }
   if (fs::is_empty(folder, error)) delete_path(folder);
 }
@@ -263,12 +272,51 @@ bool is_timing(const std::string& line) {
   return is_number(cells[kTrial], 0) && is_number(cells[kSeconds], 0.0);
 }
 
+/// Calls `use` with each whole line of the file `path`, if there is one. A line is at most as long
+/// as names of `kMostNameBytes` make it; a longer one, of a damaged file, is left out.
+void for_each_line(const fs::path& path, const std::function<void(const std::string&)>& use) {
+  constexpr std::streamsize kMostBytes = 10 * kMostNameBytes;
+  std::ifstream stream(path, std::ios::binary);
+  std::string line(kMostBytes, '\0');
+  while (stream.getline(line.data(), kMostBytes) || stream.gcount() > 0) {
+    if (stream.eof()) return;  // Its end was not written.
+    if (stream.good()) {
+      use(line.substr(0, static_cast<std::size_t>(stream.gcount()) - 1));
+      continue;
+    }
+    stream.clear();
+    stream.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  }
+}
+
+/// The number of bytes of the whole lines of the file `path`, which has `size` bytes. Reads its end
+/// alone: millions of trials have a file of gigabytes.
+std::uintmax_t bytes_of_whole_lines(const fs::path& path, std::uintmax_t size) {
+  std::ifstream stream(path, std::ios::binary);
+  std::string block(1U << 16U, '\0');
+  for (std::uintmax_t end = size; end > 0;) {
+    const std::uintmax_t bytes = std::min<std::uintmax_t>(end, block.size());
+    stream.seekg(static_cast<std::streamoff>(end - bytes));
+    if (!stream.read(block.data(), static_cast<std::streamsize>(bytes))) break;
+    const std::size_t newline = block.rfind('\n', bytes - 1);
+    if (newline != std::string::npos) return end - bytes + newline + 1;
+    end -= bytes;
+  }
+  return 0;
+}
+
 /// Makes timings.csv end after its last whole line, or hold the header alone.
 void repair(const fs::path& path) {
   const std::string header = timings_csv({});
-  const std::string bytes = read_file_if_there(path).value_or("");
-  if (bytes.compare(0, header.size(), header) != 0) return write_whole_file(path, header);
-  if (bytes.back() != '\n') write_whole_file(path, bytes.substr(0, bytes.rfind('\n') + 1));
+  std::string begin(header.size(), '\0');
+  std::ifstream(path, std::ios::binary)
+      .read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  if (begin != header) return write_whole_file(path, header);
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path, error);
+  const std::uintmax_t whole = bytes_of_whole_lines(path, size);
+  if (!error && whole != size) fs::resize_file(path, whole, error);
+  if (error) throw InputError(path.string(), "", "cannot be written: " + error.message());
 }
 
 /// Whether the file `path` is JSON with a key that every experiment has.
@@ -351,13 +399,9 @@ std::string merged_timings(const std::vector<fs::path>& folders) {
   std::string merged = timings_csv({});
   std::unordered_set<std::string> rows = {merged.substr(0, merged.size() - 1)};
   for (const fs::path& folder : folders) {
-    const std::optional<std::string> file = read_file_if_there(folder / kTimings);
-    if (!file) continue;
-    std::istringstream bytes(*file);
-    for (std::string row; std::getline(bytes, row);) {
-      if (bytes.eof() || !is_timing(row)) continue;
-      if (rows.insert(row).second) merged += row + "\n";
-    }
+    for_each_line(folder / kTimings, [&](const std::string& row) {
+      if (is_timing(row) && rows.insert(row).second) merged += row + "\n";
+    });
   }
   return merged;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <string_view>
 
@@ -29,6 +30,41 @@ std::size_t code_point_bytes(const std::string& text, std::size_t at) {
   const bool is_wrong = (first == 0xE0 && second < 0xA0) || (first == 0xED && second >= 0xA0) ||
                         (first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90);
   return is_wrong ? 0 : bytes;
+}
+
+/// The UTF-8 code point in `bytes` bytes at `at`.
+std::uint32_t code_point(const std::string& text, std::size_t at, std::size_t bytes) {
+  constexpr std::array<unsigned char, 5> kFirstBits = {0, 0x7F, 0x1F, 0x0F, 0x07};
+  std::uint32_t value = static_cast<unsigned char>(text[at]) & kFirstBits.at(bytes);
+  for (std::size_t i = at + 1; i < at + bytes; ++i) {
+    value = value << 6U | (static_cast<unsigned char>(text[i]) & 0x3FU);
+  }
+  return value;
+}
+
+/// Whether a code point is seen as nothing or changes the order of others: control characters,
+/// separators of lines, marks of direction, and what Unicode calls format characters. Two names
+/// that differ by one of them look the same.
+bool is_unseen(std::uint32_t code) {
+  struct Range {
+    std::uint32_t first, last;
+  };
+  static constexpr std::array<Range, 13> kUnseen = {{{0x00, 0x1F},
+                                                     {0x7F, 0x9F},
+                                                     {0xAD, 0xAD},
+                                                     {0x61C, 0x61C},
+                                                     {0x115F, 0x1160},
+                                                     {0x180B, 0x180F},
+                                                     {0x200B, 0x200F},
+                                                     {0x2028, 0x202E},
+                                                     {0x2060, 0x206F},
+                                                     {0x3164, 0x3164},
+                                                     {0xFEFF, 0xFEFF},
+                                                     {0xFFF9, 0xFFFB},
+                                                     {0xE0000, 0xE007F}}};
+  return std::any_of(kUnseen.begin(), kUnseen.end(), [code](const Range& range) {
+    return range.first <= code && code <= range.last;
+  });
 }
 
 std::string padding(const std::string& text, std::size_t columns) {
@@ -125,12 +161,8 @@ std::string printable(const std::string& text) {
   std::string shown;
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t bytes = code_point_bytes(text, i);
-    const auto first = static_cast<unsigned char>(text[i]);
-    // U+0080 to U+009F are control characters too.
-    const bool is_c1 =
-        bytes == 2 && first == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0;
-    const bool is_control = bytes == 1 && (first < 0x20 || first == 0x7F);
-    shown += bytes == 0 || is_c1 || is_control ? "?" : text.substr(i, bytes);
+    const bool is_shown = bytes > 0 && !is_unseen(code_point(text, i, bytes));
+    shown += is_shown ? text.substr(i, bytes) : "?";
     i += std::max<std::size_t>(bytes, 1);
   }
   return shown;

@@ -42,8 +42,9 @@ std::string valid_utf8(const std::string& text);
 /// `text` as LaTeX prints it, in a cell or a sentence.
 std::string latex_escaped(const std::string& text);
 
-/// `text` with `?` for each control character and each byte that is not part of UTF-8, so that it
-/// is one line and gives no commands to a terminal.
+/// `text` with `?` for each control character, each character that cannot be seen or changes the
+/// direction of others, and each byte that is not part of UTF-8, so that it is one line, gives no
+/// commands to a terminal and reads as it is.
 std::string printable(const std::string& text);
 
 /// "1 trial", "2 trials".

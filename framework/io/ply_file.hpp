@@ -29,4 +29,7 @@ void write_ply(const std::filesystem::path& path, const PointCloud& cloud,
 /// index in `clouds`; comments in the header name the sensors and their colours.
 void write_fused_ply(const std::filesystem::path& path, const std::vector<ColouredCloud>& clouds);
 
+/// Whether `path` is a file, and no link, that `write_fused_ply` wrote.
+bool is_fused_ply(const std::filesystem::path& path);
+
 }  // namespace croon

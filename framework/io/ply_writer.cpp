@@ -1,6 +1,7 @@
 #include "framework/io/ply_file.hpp"
 
 #include <cstring>
+#include <fstream>
 
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
@@ -44,11 +45,18 @@ void append_text(std::string& text, const PointCloud& cloud, std::size_t index) 
   text += '\n';
 }
 
+constexpr const char* kBinary = "binary_little_endian";
+
+/// By which `is_fused_ply` knows the files of `write_fused_ply`.
+const std::string kFusedComment = "comment croon: clouds of a rig, fused\n";
+
+/// The lines before the comments.
+std::string first_lines(const std::string& format) { return "ply\nformat " + format + " 1.0\n"; }
+
 std::string header(const std::string& format, const std::string& comments, std::size_t vertices,
                    const std::string& colours) {
-  return "ply\nformat " + format + " 1.0\n" + comments + "element vertex " +
-         std::to_string(vertices) + "\nproperty float x\nproperty float y\nproperty float z\n" +
-         colours + "end_header\n";
+  return first_lines(format) + comments + "element vertex " + std::to_string(vertices) +
+         "\nproperty float x\nproperty float y\nproperty float z\n" + colours + "end_header\n";
 }
 
 /// A sensor's name in one line, whatever its file was called.
@@ -75,8 +83,7 @@ void write_ply(const std::filesystem::path& path, const PointCloud& cloud, PlyFo
     }
     properties += "property " + type + " " + field_name(channel.name, cloud) + "\n";
   }
-  std::string bytes =
-      header(is_ascii ? "ascii" : "binary_little_endian", "", cloud.size(), properties);
+  std::string bytes = header(is_ascii ? "ascii" : kBinary, "", cloud.size(), properties);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     is_ascii ? append_text(bytes, cloud, i) : append_bytes(bytes, cloud, i);
   }
@@ -84,7 +91,8 @@ void write_ply(const std::filesystem::path& path, const PointCloud& cloud, PlyFo
 }
 
 void write_fused_ply(const std::filesystem::path& path, const std::vector<ColouredCloud>& clouds) {
-  std::string comments, body;
+  std::string comments = kFusedComment;
+  std::string body;
   std::size_t vertices = 0;
   for (std::size_t i = 0; i < clouds.size(); ++i) {
     const Colour colour = sensor_colour(i);
@@ -100,7 +108,17 @@ void write_fused_ply(const std::filesystem::path& path, const std::vector<Colour
     }
   }
   const char* const colours = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-  write_whole_file(path, header("binary_little_endian", comments, vertices, colours) + body);
+  write_whole_file(path, header(kBinary, comments, vertices, colours) + body);
+}
+
+bool is_fused_ply(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path, error))) return false;
+  const std::string expected = first_lines(kBinary) + kFusedComment;
+  std::string begin(expected.size(), '\0');
+  std::ifstream(path, std::ios::binary)
+      .read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return begin == expected;
 }
 
 }  // namespace croon

@@ -10,8 +10,8 @@
 namespace croon::params {
 
 /// The JSON value in `text`; `file` is its name in errors. Throws InputError with line and column
-/// if the text is not JSON. Notes in `faults` every duplicate key, of which JSON readers usually
-/// keep the last, so that the caller can report other faults too.
+/// if the text is not JSON, and for more than 10 MB. Notes in `faults` every duplicate key, of
+/// which JSON readers usually keep the last, so that the caller can report other faults too.
 nlohmann::json parse_json(const std::string& text, const std::string& file,
                           std::vector<Fault>& faults);
 

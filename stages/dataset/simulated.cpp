@@ -23,7 +23,9 @@ struct Params : Recipe {
 const params::Table<Params>& table() {
   static const params::Table<Params> table = [] {
     params::Table<Params> rows = {
-        params::integer("scenes", &Params::scenes, {1, 1000000}, "The number of scenes."),
+        params::integer("scenes", &Params::scenes, {1, 100000},
+                        "The number of scenes; more of them are several experiments with their own "
+                        "first_scene."),
         params::integer("first_scene", &Params::first_scene, {0, 1000000},
                         "Number of the first scene; a scene does not depend on the others."),
     };

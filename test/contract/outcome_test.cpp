@@ -8,14 +8,14 @@
 namespace croon::test {
 namespace {
 
-CloudPair streets() {
+CloudPair equal_streets() {
   Rng rng = test_rng(11);
   const Points cloud = random_street(rng, 4, 2000, 0.01);
   return cloud_pair(cloud, cloud);
 }
 
 TEST(OutcomeOfAnUnknownKind, IsThatOfTheStepsThatHoldIt) {
-  const CloudPair clouds = streets();
+  const CloudPair clouds = equal_streets();
   const Outcome lenient =
       outcome_of("verifier", R"({"type": "tilt", "max_tilt_deg": 180})", clouds);
   const Outcome strict = outcome_of("verifier", R"({"type": "tilt", "max_tilt_deg": 0})", clouds);
@@ -26,7 +26,7 @@ TEST(OutcomeOfAnUnknownKind, IsThatOfTheStepsThatHoldIt) {
 
 TEST(OutcomeOfAnUnknownKind, NeedsAStepThatHoldsIt) {
   try {
-    outcome_of("judge", R"({"type": "strict"})", streets());
+    outcome_of("judge", R"({"type": "strict"})", equal_streets());
     FAIL() << "ran a stage that no step holds";
   } catch (const std::logic_error& error) {
     EXPECT_STREQ(error.what(),

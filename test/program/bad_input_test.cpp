@@ -287,6 +287,13 @@ TEST_F(BadInput, Shards) {
   }
 }
 
+TEST_F(BadInput, EmptyPaths) {
+  for (const char* option : {"--out", "--data"}) {
+    expect_refused_with({std::string(option) + ": expected a path, found \"\""},
+                        std::string(option) + " \"\"");
+  }
+}
+
 TEST_F(BadInput, AHugeShardHoldsOneTrial) {
   const Answer answer = run("--shard 2/2147483647 --trials 3");
   EXPECT_EQ(answer.code, 0) << answer.text;

@@ -10,13 +10,13 @@
 namespace croon::experiments {
 namespace {
 
-constexpr const char* kExperiment = R"({"name": "two",
+constexpr const char* kTwoDatasets = R"({"name": "two",
     "dataset": {"type": "simulated", "scenes": 2, "mix": {"empty": 1}},
     "pipeline": [{"step": "identity"}]})";
 
 TEST(DescribeCommand, TellsOfEveryCloudTheSameForAnyNumberOfThreads) {
   const test::TempFolder folder;
-  const std::string file = folder.write("x.json", kExperiment).string();
+  const std::string file = folder.write("x.json", kTwoDatasets).string();
   const std::string one = (folder.path() / "one").string();
   const std::string two = (folder.path() / "two").string();
   const Answer answer = croon("describe " + file + " --jobs 1 --out " + one);
@@ -35,7 +35,7 @@ TEST(DescribeCommand, TellsOfEveryCloudTheSameForAnyNumberOfThreads) {
 
 TEST(DescribeCommand, ReplacesWhatItWroteAndNoLink) {
   const test::TempFolder folder;
-  const std::string file = folder.write("x.json", kExperiment).string();
+  const std::string file = folder.write("x.json", kTwoDatasets).string();
   const std::string command = "describe " + file + " --scenes 1 --out " + folder.path().string();
   EXPECT_EQ(croon(command).code, 0);
   const std::string clouds = read_whole_file(folder.path() / "clouds.csv");
@@ -50,7 +50,7 @@ TEST(DescribeCommand, ReplacesWhatItWroteAndNoLink) {
     EXPECT_EQ(answer.code, 2);
     EXPECT_EQ(answer.text.find("croon: --out: expected a file to write, found "), 0U)
         << answer.text;
-    EXPECT_EQ(read_whole_file(file), kExperiment);
+    EXPECT_EQ(read_whole_file(file), kTwoDatasets);
     // The other file is not written either.
     std::filesystem::remove(folder.path() / name);
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "clouds.csv"));
@@ -62,7 +62,7 @@ TEST(DescribeCommand, RefusesWhatIsNotThere) {
   const test::TempFolder folder;
   EXPECT_EQ(croon("describe " + (folder.path() / "none.json").string()).code, 2);
   EXPECT_EQ(croon("describe").code, 2);
-  const std::string file = folder.write("x.json", kExperiment).string();
+  const std::string file = folder.write("x.json", kTwoDatasets).string();
   EXPECT_EQ(croon("describe " + file + " --scenes 0").code, 2);
 }
 

@@ -31,7 +31,7 @@ constexpr const char* kRig = R"({
 })";
 
 // RIG is for kRig.
-constexpr const char* kExperiment = R"({
+constexpr const char* kInterrupted = R"({
   "name": "small",
   "dataset": {"type": "simulated", "rig": RIG, "scenes": 4},
   "starts": {"rotation_deg": 10, "translation_m": 0.1, "trials": 3},
@@ -74,7 +74,7 @@ struct Case {
 };
 
 constexpr Case kCases[] = {
-    {"Pairs", kExperiment, 3 * 4 * 2 * 3, 4},    // Variants, scenes, sensors, starts.
+    {"Pairs", kInterrupted, 3 * 4 * 2 * 3, 4},   // Variants, scenes, sensors, starts.
     {"Rigs", kRigExperiment, 3 * 2 * 3 * 2, 3},  // Variants, groups, sensors and pairs, starts.
 };
 constexpr int kKills = 20;

@@ -66,7 +66,8 @@ TEST_F(OddInput, AVariantIsNoFormula) {
 }
 
 TEST_F(OddInput, ASensorIsNoFormula) {
-  for (const char* name : {"=1+1", "+1", "-1", "@a", "a\tb"}) {
+  for (const char* name :
+       {"=1+1", "+1", "-1", "@a", "a\tb", "le\xe2\x80\xaeft", "\xef\xbb\xbfleft"}) {
     write_scene("s1", name);
     EXPECT_NE(refusal(kNominal).find("other.pcd: expected a sensor with a name in UTF-8"),
               std::string::npos)

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExperiment = R"({"name": "x",
+constexpr const char* kOneScene = R"({"name": "x",
     "dataset": {"type": "simulated", "scenes": 1, "mix": {"empty": 1}},
     "starts": {"rotation_deg": 1, "trials": 1},
     "pipeline": [{"step": "identity"}]})";
@@ -21,7 +21,7 @@ constexpr const char* kExperiment = R"({"name": "x",
 class OutputFile : public testing::Test {
  protected:
   void SetUp() override {
-    folder_.write("x.json", kExperiment);
+    folder_.write("x.json", kOneScene);
     ASSERT_EQ(croon("simulate " + path("x.json") + " --quiet --out " + path("data")).code, 0);
     ASSERT_EQ(croon("run " + path("data/experiment.json") + " --data " + path("data") +
                     " --quiet --out " + path("results"))
@@ -65,6 +65,14 @@ TEST_F(OutputFile, IsWrittenAndReplacesAnEarlierOne) {
     EXPECT_EQ(read_whole_file(path("new")), bytes) << name;
     fs::remove(path("new"));
   }
+}
+
+TEST_F(OutputFile, OfATableHasEachFolderOnce) {
+  const std::string results = path("results");
+  const Answer answer = croon("export " + results + " " + path("data/../results"));
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_EQ(answer.text, "croon: " + path("data/../results") +
+                             ": expected another folder, found one that is named before\n");
 }
 
 TEST_F(OutputFile, ReplacesNeitherInputsNorResultsNorData) {

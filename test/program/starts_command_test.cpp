@@ -8,7 +8,7 @@
 namespace croon::experiments {
 namespace {
 
-std::string experiment(const std::string& starts) {
+std::string experiment_with(const std::string& starts) {
   return R"({"name": "x", "dataset": {"type": "simulated", "scenes": 2}, "starts": )" + starts +
          R"(, "pipeline": [{"step": "ground_alignment"}]})";
 }
@@ -21,8 +21,8 @@ class StartsCommand : public testing::Test {
     EXPECT_EQ(answer.code, 0) << arguments << "\n" << answer.text;
   }
   void expect_same_trials(const std::string& starts) const {
-    folder_.write("drawn.json", experiment(starts));
-    folder_.write("read.json", experiment(R"({"file": "starts.csv"})"));
+    folder_.write("drawn.json", experiment_with(starts));
+    folder_.write("read.json", experiment_with(R"({"file": "starts.csv"})"));
     run("starts " + path("drawn.json") + " --out " + path("starts.csv"));
     run("run " + path("drawn.json") + " --out " + path("drawn") + " --quiet");
     run("run " + path("read.json") + " --out " + path("read") + " --quiet");
@@ -47,8 +47,8 @@ TEST_F(StartsCommand, WritesAnyRotation) {
 }
 
 TEST_F(StartsCommand, IsReadBelowTheDataRootFirst) {
-  folder_.write("x.json", experiment(R"({"trials": 1})"));
-  folder_.write("read.json", experiment(R"({"file": "starts.csv"})"));
+  folder_.write("x.json", experiment_with(R"({"trials": 1})"));
+  folder_.write("read.json", experiment_with(R"({"file": "starts.csv"})"));
   run("starts " + path("x.json") + " --out " + path("starts.csv"));
   folder_.write("data/starts.csv", "not starts\n");
   run("starts " + path("read.json"));
@@ -60,9 +60,9 @@ TEST_F(StartsCommand, IsReadBelowTheDataRootFirst) {
 }
 
 TEST_F(StartsCommand, RefusesMoreTrialsThanTheFileHas) {
-  folder_.write("x.json", experiment(R"({"trials": 2})"));
+  folder_.write("x.json", experiment_with(R"({"trials": 2})"));
   run("starts " + path("x.json") + " --out " + path("starts.csv"));
-  folder_.write("read.json", experiment(R"({"file": "starts.csv", "trials": 3})"));
+  folder_.write("read.json", experiment_with(R"({"file": "starts.csv", "trials": 3})"));
   const Answer answer = croon("starts " + path("read.json"));
   EXPECT_EQ(answer.code, 2);
   EXPECT_NE(answer.text.find("/starts/trials: expected at most 2 trials, as many as "),
@@ -72,7 +72,7 @@ TEST_F(StartsCommand, RefusesMoreTrialsThanTheFileHas) {
 }
 
 TEST_F(StartsCommand, NamesTheFileThatIsNotThere) {
-  folder_.write("x.json", experiment(R"({"file": "none.csv"})"));
+  folder_.write("x.json", experiment_with(R"({"file": "none.csv"})"));
   run("validate " + path("x.json"));
   const Answer answer = croon("run " + path("x.json") + " --out " + path("out"));
   EXPECT_EQ(answer.code, 2);
@@ -82,7 +82,7 @@ TEST_F(StartsCommand, NamesTheFileThatIsNotThere) {
 }
 
 TEST_F(StartsCommand, OverwritesNeitherWhatItReadsNorAStore) {
-  folder_.write("x.json", experiment(R"({"trials": 2})"));
+  folder_.write("x.json", experiment_with(R"({"trials": 2})"));
   folder_.write("run/store.sqlite", "trials");
   for (const char* out : {"x.json", "run/store.sqlite"}) {
     const std::string before = read_whole_file(path(out));
@@ -95,7 +95,7 @@ TEST_F(StartsCommand, OverwritesNeitherWhatItReadsNorAStore) {
 }
 
 TEST_F(StartsCommand, OverwritesNoFileThatItsExperimentConsistsOf) {
-  folder_.write("bases/base.json", experiment(R"({"trials": 2})"));
+  folder_.write("bases/base.json", experiment_with(R"({"trials": 2})"));
   folder_.write("x.json", R"({"extends": "bases/base.json"})");
   run("starts " + path("x.json") + " --out " + path("starts.csv"));
   folder_.write("read.json", R"({"extends": "bases/base.json", "starts": {"file": "starts.csv"},
@@ -123,9 +123,9 @@ TEST_F(StartsCommand, IsEstimatedBeforeItIsMade) {
 }
 
 TEST_F(StartsCommand, AreWrittenBesideSimulatedScenes) {
-  folder_.write("x.json", experiment(R"({"rotation_deg": 10, "trials": 2})"));
+  folder_.write("x.json", experiment_with(R"({"rotation_deg": 10, "trials": 2})"));
   run("starts " + path("x.json") + " --out " + path("mine.csv"));
-  folder_.write("read.json", experiment(R"({"file": "mine.csv"})"));
+  folder_.write("read.json", experiment_with(R"({"file": "mine.csv"})"));
   run("simulate " + path("read.json") + " --out " + path("data") + " --quiet");
   EXPECT_EQ(read_whole_file(path("mine.csv")), read_whole_file(path("data/starts.csv")));
   run("starts " + path("data/experiment.json") + " --data " + path("data"));

@@ -4,7 +4,7 @@
 
 #include "framework/base/angles.hpp"
 
-namespace croon::experiments::test {
+namespace croon::test {
 
 TrialRecord finished(const TrialId& id, Status status, const RigidTransform& truth,
                      const Vector6d& offset) {
@@ -85,4 +85,4 @@ std::vector<TrialRecord> shuffled(Rng& rng, std::vector<TrialRecord> records) {
   return records;
 }
 
-}  // namespace croon::experiments::test
+}  // namespace croon::test

@@ -7,7 +7,12 @@
 #include "experiments/run/trial_record.hpp"
 #include "test/support/random_geometry.hpp"
 
-namespace croon::experiments::test {
+namespace croon::test {
+
+using experiments::Status;
+using experiments::SuccessBounds;
+using experiments::TrialId;
+using experiments::TrialRecord;
 
 /// The success bounds of the paper's experiments.
 inline constexpr SuccessBounds kBounds = {0.5, 0.1};
@@ -38,4 +43,4 @@ std::vector<TrialRecord> one_of_four_astray();
 /// The records in another order.
 std::vector<TrialRecord> shuffled(Rng& rng, std::vector<TrialRecord> records);
 
-}  // namespace croon::experiments::test
+}  // namespace croon::test

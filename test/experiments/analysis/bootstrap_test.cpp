@@ -11,18 +11,19 @@
 namespace croon::experiments {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kBootstrapInf = std::numeric_limits<double>::infinity();
 
 TEST(Pairs, InfiniteDifferences) {
-  EXPECT_EQ(differences({{1.0, kInf, 2.0, kInf}, {3.0, 1.0, kInf, kInf}}),
-            (std::vector<double>{2.0, -kInf, kInf, 0.0}));
+  EXPECT_EQ(differences({{1.0, kBootstrapInf, 2.0, kBootstrapInf},
+                         {3.0, 1.0, kBootstrapInf, kBootstrapInf}}),
+            (std::vector<double>{2.0, -kBootstrapInf, kBootstrapInf, 0.0}));
 }
 
 TEST(Pairs, MedianWithFailures) {
-  EXPECT_EQ(median_with_failures({3.0, 1.0, kInf}), 3.0);
-  EXPECT_EQ(median_with_failures({4.0, 1.0, 2.0, kInf}), 3.0);
-  EXPECT_EQ(median_with_failures({1.0, kInf}), kInf);
-  EXPECT_EQ(median_with_failures({kInf, kInf}), kInf);
+  EXPECT_EQ(median_with_failures({3.0, 1.0, kBootstrapInf}), 3.0);
+  EXPECT_EQ(median_with_failures({4.0, 1.0, 2.0, kBootstrapInf}), 3.0);
+  EXPECT_EQ(median_with_failures({1.0, kBootstrapInf}), kBootstrapInf);
+  EXPECT_EQ(median_with_failures({kBootstrapInf, kBootstrapInf}), kBootstrapInf);
   EXPECT_THROW(median_with_failures({}), std::logic_error);
 }
 
@@ -33,7 +34,7 @@ int count_covered(const test::MadeUp& like) {
   Rng rng = croon::test::test_rng();
   int covered = 0;
   for (int i = 0; i < kExperiments; ++i) {
-    const test::Experiment drawn = draw_experiment(rng, like);
+    const test::DrawnExperiment drawn = draw_experiment(rng, like);
     const Interval interval = median_difference_interval(drawn.pairs, drawn.scenes);
     covered += interval.low <= like.effect && like.effect <= interval.high;
   }
@@ -70,7 +71,7 @@ TEST(Bootstrap, CoversItWhereTrialsOfASceneAreAlike) {
 
 TEST(Bootstrap, IsTheSameBitsAgain) {
   Rng rng = croon::test::test_rng();
-  const test::Experiment drawn = test::draw_experiment(rng, {40, 3, 0.2, 0.5, 0.1, 0.1, 0.0});
+  const test::DrawnExperiment drawn = test::draw_experiment(rng, {40, 3, 0.2, 0.5, 0.1, 0.1, 0.0});
   const Interval once = median_difference_interval(drawn.pairs, drawn.scenes);
   const Interval again = median_difference_interval(drawn.pairs, drawn.scenes);
   EXPECT_EQ(once.low, again.low);
@@ -79,7 +80,7 @@ TEST(Bootstrap, IsTheSameBitsAgain) {
 
 TEST(Bootstrap, NumbersOfClustersAreNames) {
   Rng rng = croon::test::test_rng();
-  test::Experiment drawn = test::draw_experiment(rng, {10, 3, 0.2, 0.5, 0.1, 0.1, 0.0});
+  test::DrawnExperiment drawn = test::draw_experiment(rng, {10, 3, 0.2, 0.5, 0.1, 0.1, 0.0});
   const Interval once = median_difference_interval(drawn.pairs, drawn.scenes);
   for (std::size_t& scene : drawn.scenes) scene = 3 * scene + 2;
   const Interval again = median_difference_interval(drawn.pairs, drawn.scenes);
@@ -90,7 +91,7 @@ TEST(Bootstrap, NumbersOfClustersAreNames) {
 TEST(Bootstrap, SwappedSidesFlipTheInterval) {
   Rng rng = croon::test::test_rng();
   for (const std::size_t scenes : {7U, 50U}) {
-    const test::Experiment drawn =
+    const test::DrawnExperiment drawn =
         test::draw_experiment(rng, {scenes, 1, 0.2, 0.5, 0.3, 0.1, 0.25});
     const Pairs& pairs = drawn.pairs;
     const Interval interval = median_difference_interval(pairs, drawn.scenes);
@@ -105,12 +106,13 @@ TEST(Bootstrap, EndsMayBeInfinite) {
   Pairs pairs;
   for (int i = 0; i < 41; ++i) {
     pairs.base.push_back(1.0 + 0.01 * i);
-    pairs.variant.push_back(i % 2 == 0 ? kInf : 1.0);
+    pairs.variant.push_back(i % 2 == 0 ? kBootstrapInf : 1.0);
   }
   const Interval interval = median_difference_interval(pairs, std::vector<std::size_t>(41, 0));
   EXPECT_LT(interval.low, 0.0);
-  EXPECT_EQ(interval.high, kInf);
-  const Interval none = median_difference_interval({{kInf, kInf}, {kInf, kInf}}, {0, 1});
+  EXPECT_EQ(interval.high, kBootstrapInf);
+  const Interval none = median_difference_interval(
+      {{kBootstrapInf, kBootstrapInf}, {kBootstrapInf, kBootstrapInf}}, {0, 1});
   EXPECT_EQ(none.low, 0.0);
   EXPECT_EQ(none.high, 0.0);
 }

@@ -16,9 +16,9 @@ namespace {
 using croon::test::test_rng;
 using test::kBounds;
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kComparisonInf = std::numeric_limits<double>::infinity();
 
-struct MadeUp {
+struct TwoVariants {
   int scenes = 12;
   int trials = 4;
   double variant_size = 1.0;   ///< Of its errors, the base's being 1.
@@ -27,7 +27,7 @@ struct MadeUp {
 };
 
 /// Trials of "base" and "other" on two sensors.
-std::vector<TrialRecord> random_records(Rng& rng, const MadeUp& like) {
+std::vector<TrialRecord> random_records(Rng& rng, const TwoVariants& like) {
   std::vector<TrialRecord> records;
   for (const char* variant : {"base", "other"}) {
     const double size = *variant == 'b' ? 1.0 : like.variant_size;
@@ -177,9 +177,9 @@ TEST(Comparison, FailuresAreInfiniteNotDropped) {
   EXPECT_EQ(all.pairs, 96);
   EXPECT_EQ(all.only_base, 64);
   EXPECT_EQ(all.only_variant, 0);
-  EXPECT_EQ(all.rotation_deg.variant_median, kInf);
-  EXPECT_EQ(all.rotation_deg.difference, kInf);
-  EXPECT_EQ(all.rotation_deg.interval->high, kInf);
+  EXPECT_EQ(all.rotation_deg.variant_median, kComparisonInf);
+  EXPECT_EQ(all.rotation_deg.difference, kComparisonInf);
+  EXPECT_EQ(all.rotation_deg.interval->high, kComparisonInf);
   EXPECT_TRUE(holds_by_scene(all.rotation_deg.test));
   EXPECT_TRUE(holds_by_scene(all.success));
 }

@@ -32,7 +32,7 @@ std::vector<TrialRecord> records() {
   return records;
 }
 
-StoreHeader header() {
+StoreHeader header_of_steps() {
   StoreHeader header;
   header.provenance = {{"starts", "{}"}};
   header.versions = {{"framework", 1}};
@@ -49,7 +49,7 @@ StoredRun stored(const std::vector<TrialRecord>& records) {
   const test::TempFolder folder;
   const std::filesystem::path path = folder.path() / "store.sqlite";
   {
-    Store store(path, header());
+    Store store(path, header_of_steps());
     for (const TrialRecord& record : records) store.add({&record});
   }
   EXPECT_TRUE(read_store(path).steps.numbers.empty());
@@ -96,7 +96,7 @@ TEST(Diagnostics, OfACraftedStoreAreRefused) {
     const test::TempFolder folder;
     const std::filesystem::path path = folder.path() / "store.sqlite";
     {
-      Store store(path, header());
+      Store store(path, header_of_steps());
       for (const TrialRecord& record : records()) store.add({&record});
     }
     Database(path, Access::write).run(craft);

@@ -9,11 +9,11 @@
 namespace croon::experiments {
 namespace {
 
-using test::Experiment;
+using test::DrawnExperiment;
 using test::MadeUp;
 using test::share_significant;
 
-double p_of(const Experiment& experiment) {
+double mcnemar_p_of(const DrawnExperiment& experiment) {
   return mcnemar_p(experiment.only_base, experiment.only_variant);
 }
 
@@ -45,16 +45,16 @@ TEST(McNemar, KeepsItsLevel) {
   many.scenes = 200;
   failing.failure_ratio = 0.3;
   for (const MadeUp& null : {few, many, failing}) {
-    EXPECT_LE(share_significant(null, p_of), test::kMostFalsePositives);
+    EXPECT_LE(share_significant(null, mcnemar_p_of), test::kMostFalsePositives);
   }
-  EXPECT_GE(share_significant(many, p_of), 0.02);
+  EXPECT_GE(share_significant(many, mcnemar_p_of), 0.02);
 }
 
 TEST(McNemar, FindsAnEffect) {
   MadeUp worse;
   worse.scenes = 100;
   worse.variant_failures = 0.5;
-  EXPECT_GE(share_significant(worse, p_of), 0.9);
+  EXPECT_GE(share_significant(worse, mcnemar_p_of), 0.9);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 
 /// A world of scenes: a share `hopeless` fails from every start, and in each other scene success
 /// has a chance of its own, `chance` +- `scatter`.
-struct World {
+struct ClusteredTrials {
   double hopeless = 0.0;
   double chance = 0.9;
   double scatter = 0.0;
@@ -18,7 +18,7 @@ struct World {
   double success() const { return (1.0 - hopeless) * chance; }
 };
 
-Share draw(Rng& rng, const World& world, int scenes, int trials) {
+Share draw(Rng& rng, const ClusteredTrials& world, int scenes, int trials) {
   SceneCounts counts;
   for (int scene = 0; scene < scenes; ++scene) {
     const bool is_hopeless = rng.uniform() < world.hopeless;
@@ -31,22 +31,24 @@ Share draw(Rng& rng, const World& world, int scenes, int trials) {
   return counts.share();
 }
 
-constexpr int kExperiments = 2000;
+constexpr int kDraws = 2000;
 
-double coverage(const World& world, int scenes, int trials) {
+double coverage(const ClusteredTrials& world, int scenes, int trials) {
   Rng rng = croon::test::test_rng();
   int covered = 0;
-  for (int i = 0; i < kExperiments; ++i) {
+  for (int i = 0; i < kDraws; ++i) {
     const Share share = draw(rng, world, scenes, trials);
     covered += share.interval && share.interval->low <= world.success() &&
                world.success() <= share.interval->high;
   }
-  return static_cast<double>(covered) / kExperiments;
+  return static_cast<double>(covered) / kDraws;
 }
 
 TEST(ShareInterval, CoversTheTruthThoughTrialsOfASceneAreAlike) {
-  for (const World& world : {World{0.0, 0.9, 0.0}, World{0.0, 0.5, 0.45}, World{0.1, 0.97, 0.02},
-                             World{0.4, 0.95, 0.05}, World{0.5, 1.0, 0.0}}) {
+  for (const ClusteredTrials& world :
+       {ClusteredTrials{0.0, 0.9, 0.0}, ClusteredTrials{0.0, 0.5, 0.45},
+        ClusteredTrials{0.1, 0.97, 0.02}, ClusteredTrials{0.4, 0.95, 0.05},
+        ClusteredTrials{0.5, 1.0, 0.0}}) {
     for (const int scenes : {kLeastScenes, 10, 20, 50}) {
       for (const int trials : {1, 10, 50}) {
         const double covered = coverage(world, scenes, trials);
@@ -64,15 +66,15 @@ TEST(ShareInterval, CoversTheTruthThoughTrialsOfASceneAreAlike) {
 
 TEST(ShareInterval, OverTrialsWouldNot) {
   // What this replaces: Wilson's interval for the number of trials.
-  const World world{0.4, 0.95, 0.05};
+  const ClusteredTrials world{0.4, 0.95, 0.05};
   Rng rng = croon::test::test_rng();
   int covered = 0;
-  for (int i = 0; i < kExperiments; ++i) {
+  for (int i = 0; i < kDraws; ++i) {
     const Share share = draw(rng, world, 10, 50);
     const Interval interval = wilson_interval(share.count, share.trials);
     covered += interval.low <= world.success() && world.success() <= interval.high;
   }
-  EXPECT_LT(covered, 0.4 * kExperiments);
+  EXPECT_LT(covered, 0.4 * kDraws);
 }
 
 TEST(ShareInterval, OfOneTrialPerSceneIsWilsons) {

@@ -10,15 +10,15 @@
 namespace croon::experiments {
 namespace {
 
-using test::Experiment;
+using test::DrawnExperiment;
 using test::MadeUp;
 using test::share_significant;
 
-double rank_p(const Experiment& experiment) {
+double rank_p(const DrawnExperiment& experiment) {
   return sign_flip_p(cluster_sums(signed_ranks(differences(experiment.pairs)), experiment.scenes));
 }
 
-double success_p(const Experiment& experiment) {
+double success_p(const DrawnExperiment& experiment) {
   return sign_flip_p(cluster_sums(experiment.success, experiment.scenes));
 }
 
@@ -74,7 +74,7 @@ TEST(SignFlip, KeepsItsLevelWhereTrialsOfASceneAreAlike) {
 }
 
 TEST(SignFlip, TheTestsOverTrialsWouldNotKeepIt) {
-  const auto over_trials = [](const Experiment& experiment) {
+  const auto over_trials = [](const DrawnExperiment& experiment) {
     return wilcoxon_p(signed_ranks(differences(experiment.pairs)));
   };
   EXPECT_GE(share_significant(clustered(10), over_trials), 0.3);

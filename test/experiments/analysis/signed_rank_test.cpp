@@ -11,20 +11,22 @@
 namespace croon::experiments {
 namespace {
 
-using test::Experiment;
+using test::DrawnExperiment;
 using test::MadeUp;
 using test::share_significant;
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kSignedRankInf = std::numeric_limits<double>::infinity();
 
 double p_of(const std::vector<double>& differences) {
   return wilcoxon_p(signed_ranks(differences));
 }
 
-double p_of_experiment(const Experiment& experiment) { return p_of(differences(experiment.pairs)); }
+double p_of_experiment(const DrawnExperiment& experiment) {
+  return p_of(differences(experiment.pairs));
+}
 
 TEST(SignedRanks, ZerosTakeTheLowestRanksAndTiesTheirMean) {
-  EXPECT_EQ(signed_ranks({0.0, -2.0, 2.0, 0.0, 5.0, -kInf, kInf}),
+  EXPECT_EQ(signed_ranks({0.0, -2.0, 2.0, 0.0, 5.0, -kSignedRankInf, kSignedRankInf}),
             (std::vector<double>{0.0, -3.5, 3.5, 0.0, 5.0, -6.5, 6.5}));
 }
 
@@ -42,7 +44,9 @@ TEST(Wilcoxon, ByHand) {
   EXPECT_EQ(p_of({0.0, 1.0, 2.0, 3.0}), 2.0 / 8.0);
   // Equal ranks: the sum is at least that far from 0 unless two are positive and two negative.
   EXPECT_EQ(p_of({1.0, 1.0, 1.0, -1.0}), 10.0 / 16.0);
-  EXPECT_EQ(p_of({kInf, kInf, kInf, kInf, kInf, kInf}), 2.0 / 64.0);
+  EXPECT_EQ(p_of({kSignedRankInf, kSignedRankInf, kSignedRankInf, kSignedRankInf, kSignedRankInf,
+                  kSignedRankInf}),
+            2.0 / 64.0);
 }
 
 TEST(Wilcoxon, ExactIsTheShareOfAllSigns) {
@@ -68,7 +72,7 @@ TEST(Wilcoxon, NormalIsNearTheExact) {
 TEST(Wilcoxon, SwappedSidesHaveTheSameP) {
   Rng rng = croon::test::test_rng();
   for (const std::size_t scenes : {8U, 60U}) {
-    const Experiment drawn = test::draw_experiment(rng, {scenes, 2, 0.3, 0.0, 0.2, 0.1, 0.25});
+    const DrawnExperiment drawn = test::draw_experiment(rng, {scenes, 2, 0.3, 0.0, 0.2, 0.1, 0.25});
     EXPECT_EQ(p_of(differences(drawn.pairs)),
               p_of(differences({drawn.pairs.variant, drawn.pairs.base})));
   }
@@ -77,7 +81,7 @@ TEST(Wilcoxon, SwappedSidesHaveTheSameP) {
 TEST(Wilcoxon, AFailureCountsForMoreThanAnyNumber) {
   const std::vector<double> large = {1.0, -2.0, 3.0, 4.0, -5.0, 6.0, 1e9};
   std::vector<double> failed = large;
-  failed.back() = kInf;
+  failed.back() = kSignedRankInf;
   EXPECT_EQ(p_of(large), p_of(failed));
 }
 

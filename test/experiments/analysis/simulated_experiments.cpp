@@ -5,11 +5,11 @@
 
 #include "test/support/random_geometry.hpp"
 
-namespace croon::experiments::test {
+namespace croon::test {
 
-Experiment draw_experiment(Rng& rng, const MadeUp& like) {
+DrawnExperiment draw_experiment(Rng& rng, const MadeUp& like) {
   constexpr double kFailed = std::numeric_limits<double>::infinity();
-  Experiment drawn;
+  DrawnExperiment drawn;
   const auto error = [&](double offset, double failure_ratio) {
     const double value = rng.normal() + offset;
     return rng.uniform() < failure_ratio ? kFailed : value;
@@ -35,11 +35,12 @@ Experiment draw_experiment(Rng& rng, const MadeUp& like) {
   return drawn;
 }
 
-double share_significant(const MadeUp& like, const std::function<double(const Experiment&)>& p) {
+double share_significant(const MadeUp& like,
+                         const std::function<double(const DrawnExperiment&)>& p) {
   Rng rng = croon::test::test_rng();
   int count = 0;
   for (int run = 0; run < kRuns; ++run) count += p(draw_experiment(rng, like)) < 0.05;
   return static_cast<double>(count) / kRuns;
 }
 
-}  // namespace croon::experiments::test
+}  // namespace croon::test

@@ -7,7 +7,7 @@
 #include "experiments/analysis/paired_tests.hpp"
 #include "framework/base/rng.hpp"
 
-namespace croon::experiments::test {
+namespace croon::test {
 
 /// An experiment with two variants that is made up.
 struct MadeUp {
@@ -20,23 +20,24 @@ struct MadeUp {
   double grain = 0.0;             ///< Errors are multiples of it: ties; 0 for none.
 };
 
-struct Experiment {
-  Pairs pairs;
+struct DrawnExperiment {
+  experiments::Pairs pairs;
   std::vector<std::size_t> scenes;
   std::vector<double> success;  ///< 1 if the variant alone won, -1 if the base did, else 0.
   int only_base = 0;
   int only_variant = 0;
 };
 
-Experiment draw_experiment(Rng& rng, const MadeUp& like);
+DrawnExperiment draw_experiment(Rng& rng, const MadeUp& like);
 
 inline constexpr int kRuns = 2000;
 
 /// The share of `kRuns` drawn experiments whose `p` is below 0.05.
-double share_significant(const MadeUp& like, const std::function<double(const Experiment&)>& p);
+double share_significant(const MadeUp& like,
+                         const std::function<double(const DrawnExperiment&)>& p);
 
 /// 5 % and three standard deviations of a binomial share of `kRuns`: a test that keeps its level
 /// is above in one of 740 checks, and always or never, for the draws are fixed.
 inline constexpr double kMostFalsePositives = 0.05 + 3.0 * 0.00487;
 
-}  // namespace croon::experiments::test
+}  // namespace croon::test

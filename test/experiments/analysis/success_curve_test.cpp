@@ -6,6 +6,7 @@
 #include "experiments/report/result_tables.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/picture/writers.hpp"
+#include "test/support/occurrences.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
@@ -81,12 +82,6 @@ TEST(SuccessCurve, WithoutTruthOrWithBoundsOfZeroThereIsNone) {
   EXPECT_EQ(svg_bytes(success_curve_chart(tiny.curve)).find("inf"), std::string::npos);
 }
 
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
-}
-
 /// The records of `variants` variants, alike but for their names, in `scenes` scenes.
 Summary variants_in(int variants, int scenes) {
   std::vector<TrialRecord> records;
@@ -137,7 +132,8 @@ TEST(SuccessCurve, HasABandOfTheIntervalOverScenes) {
 
 TEST(SuccessCurve, HasNoBandForTooFewScenesAndOneForManyLines) {
   const auto bands = [](const Summary& summary) {
-    return count(svg_bytes(success_curve_chart(summary.curve, {kOneColumn})), "class=\"band ");
+    return test::occurrences(svg_bytes(success_curve_chart(summary.curve, {kOneColumn})),
+                             "class=\"band ");
   };
   EXPECT_EQ(bands(variants_in(2, kLeastScenes - 1)), 0U);
   EXPECT_EQ(bands(variants_in(4, 8)), 2U * 4U);

@@ -114,6 +114,10 @@ TEST_F(MergeCommand, TakesWallTimesAlone) {
                                      "base,s,l,0,x,soon\nbase,s\x1b,l,0,x,1\n\n" + row);
   merge({"1"}, "merged");
   EXPECT_EQ(read_whole_file(path("merged/timings.csv")), good + row);
+  // What no name is long enough for is left out, as is a line whose end was not written.
+  folder_.write("1/timings.csv", good + std::string(200'000, 'x') + "\n" + row + row.substr(0, 9));
+  merge({"1"}, "again");
+  EXPECT_EQ(read_whole_file(path("again/timings.csv")), good + row);
 }
 
 TEST_F(MergeCommand, LeavesNothingOfAKilledOne) {

@@ -149,14 +149,39 @@ TEST(ResultFolder, FreshDeletesItsOwnCloudsAlone) {
   options.clouds = true;
   EXPECT_EQ(bench.run(options), 0);
   const fs::path note = bench.folder().write("out/clouds/base/note.txt", "mine");
-  const fs::path cloud = bench.folder().write("out/clouds/mine.ply", "mine");
+  const std::vector<fs::path> clouds = {bench.folder().write("out/clouds/mine.ply", "mine"),
+                                        bench.folder().write("out/clouds/base/mine.ply", "mine"),
+                                        bench.folder().write("out/clouds/base/mine.vdb", "mine")};
   options.clouds = false;
   options.fresh = true;
   EXPECT_EQ(bench.run(options), 0);
   EXPECT_EQ(read_whole_file(note), "mine");
-  EXPECT_EQ(read_whole_file(cloud), "mine");
+  for (const fs::path& cloud : clouds) EXPECT_EQ(read_whole_file(cloud), "mine");
+  EXPECT_FALSE(fs::exists(note.parent_path() / "scene1.vdb"));
   EXPECT_FALSE(fs::exists(note.parent_path() / "scene1.ply"));
   EXPECT_FALSE(fs::exists(bench.folder().path() / "out/clouds/far"));
+}
+
+TEST(ResultFolder, ReplacesNoForeignCloud) {
+  const Bench bench(agreeing());
+  const std::vector<fs::path> clouds = {bench.folder().write("out/clouds/base/scene1.ply", "mine"),
+                                        bench.folder().write("out/clouds/far/scene2.vdb", "mine")};
+  RunOptions options = bench.options("out");
+  options.clouds = true;
+  EXPECT_EQ(bench.run(options), 3);
+  for (const fs::path& cloud : clouds) EXPECT_EQ(read_whole_file(cloud), "mine");
+  EXPECT_TRUE(fs::exists(bench.folder().path() / "out/clouds/base/scene2.vdb"));
+}
+
+TEST(ResultFolder, RepairsAHugeListOfWallTimesByItsEnd) {
+  const Bench bench;
+  EXPECT_EQ(bench.run(bench.options("out")), 0);
+  const fs::path timings = bench.folder().path() / "out/timings.csv";
+  const std::string good = read_whole_file(timings);
+  // A line that is cut off after many blocks, of a file that takes no disk.
+  fs::resize_file(timings, good.size() + 300'000'000);
+  EXPECT_EQ(bench.run(bench.options("out")), 0);
+  EXPECT_EQ(read_whole_file(timings), good);
 }
 
 TEST(ResultFolder, NeedsAFolderThatItMayWriteTo) {

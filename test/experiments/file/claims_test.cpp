@@ -30,7 +30,7 @@ json quoted() {
                          "z_m": -6e-5})");
 }
 
-Experiment load(const json& claims, const json& others = json::array()) {
+Experiment load_claims(const json& claims, const json& others = json::array()) {
   json experiment = json::parse(R"({"name": "x", "dataset": {"type": "fake"},
                                     "pipeline": [{"step": "drift"}],
                                     "variants": [{"name": "fine"}]})");
@@ -40,10 +40,10 @@ Experiment load(const json& claims, const json& others = json::array()) {
   return load_experiment(folder.write("x.json", experiment.dump()), test::fake_catalogue());
 }
 
-Lines faults_of(const json& claims, const json& others = json::array()) {
+Lines claim_faults(const json& claims, const json& others = json::array()) {
   Lines lines;
   try {
-    load(claims, others);
+    load_claims(claims, others);
   } catch (const InputError& error) {
     for (const Fault& fault : error.faults()) {
       lines.push_back(Fault{"", fault.where, fault.message}.line());
@@ -60,11 +60,11 @@ Lines faults_with(const std::string& key, const json& value) {
   } else {
     claim[key] = value;
   }
-  return faults_of(json::array({claim}));
+  return claim_faults(json::array({claim}));
 }
 
 TEST(Claims, ReadsEveryKey) {
-  const Experiment experiment = load(json::array({whole()}), json::array({quoted()}));
+  const Experiment experiment = load_claims(json::array({whole()}), json::array({quoted()}));
   ASSERT_EQ(experiment.claims.size(), 1U);
   const Claim& claim = experiment.claims.front();
   EXPECT_EQ(claim.claim, "standard deviation of yaw, front");
@@ -90,7 +90,7 @@ TEST(Claims, ReadsEveryKey) {
 TEST(Claims, MeansTheFirstVariantAndAllSensorsUnlessItSays) {
   json claim = whole();
   for (const char* key : {"variant", "sensor", "why"}) claim.erase(key);
-  const std::vector<Claim> claims = load(json::array({claim})).claims;
+  const std::vector<Claim> claims = load_claims(json::array({claim})).claims;
   EXPECT_EQ(claims.front().variant, "base");
   EXPECT_EQ(claims.front().sensor, "");
 }
@@ -99,11 +99,11 @@ TEST(Claims, OfAShareHasNoMeasure) {
   for (const char* statistic : {"success", "agreement", "scenes"}) {
     json share = whole();
     share["statistic"] = statistic;
-    EXPECT_EQ(faults_of(json::array({share})),
+    EXPECT_EQ(claim_faults(json::array({share})),
               Lines{"/claims/0/measure: expected no measure of a share of the trials, found "
                     "\"measure\""});
     share.erase("measure");
-    EXPECT_EQ(faults_of(json::array({share})), Lines{});
+    EXPECT_EQ(claim_faults(json::array({share})), Lines{});
   }
 }
 
@@ -130,12 +130,12 @@ TEST(Claims, ShowsFaultsAtTheirPlaces) {
         faults_with("band", band),
         Lines{"/claims/0/band: expected [low, high] with low at most high, found " + band.dump()});
   }
-  EXPECT_EQ(faults_of(json::array({1})), Lines{"/claims/0: expected an object, found 1"});
-  EXPECT_EQ(faults_of(json::object()), Lines{"/claims: expected a list, found {}"});
+  EXPECT_EQ(claim_faults(json::array({1})), Lines{"/claims/0: expected an object, found 1"});
+  EXPECT_EQ(claim_faults(json::object()), Lines{"/claims: expected a list, found {}"});
 }
 
 TEST(Claims, AreNotReadIfTheyAreTooMany) {
-  EXPECT_EQ(faults_of(json::array_t(10001, json::object())),
+  EXPECT_EQ(claim_faults(json::array_t(10001, json::object())),
             (Lines{"/claims: expected at most 10000 claims, found 10001"}));
 }
 
@@ -144,12 +144,12 @@ TEST(Claims, NamesEveryKeyThatIsMissing) {
   for (const char* key : {"claim", "source", "statistic", "value", "band"}) {
     expected.push_back(std::string("/claims/0: the key \"") + key + "\" is missing");
   }
-  EXPECT_EQ(faults_of(json::array({json::object()})), expected);
+  EXPECT_EQ(claim_faults(json::array({json::object()})), expected);
   const json all = quoted();
   for (const auto& item : all.items()) {
     json row = quoted();
     row.erase(item.key());
-    EXPECT_EQ(faults_of(json::array(), json::array({row})),
+    EXPECT_EQ(claim_faults(json::array(), json::array({row})),
               Lines{"/quoted/0: the key \"" + item.key() + "\" is missing"});
   }
 }
@@ -164,7 +164,7 @@ TEST(Claims, SurviveCanonicalJsonToTheLastBit) {
     claim["claim"] = "a \"b\" \\ | µ " + std::to_string(i);
     if (rng.uniform() < 0.5) claim.erase("sensor");
     if (rng.uniform() < 0.5) claim.erase("why");
-    const Experiment read = load(json::array({claim, whole()}), json::array({quoted()}));
+    const Experiment read = load_claims(json::array({claim, whole()}), json::array({quoted()}));
     const std::string text = claims_json(read.claims);
     const Experiment again = read_experiment_json(experiment_json(read), "store");
     EXPECT_EQ(claims_json(again.claims), text);
@@ -194,7 +194,7 @@ json table_with(const char* pointer, const json& value) {
 }
 
 TEST(Claims, ATableIsAClaimForEachSensorMeasureAndStatistic) {
-  const std::vector<Claim> claims = load(json::array({whole(), table()})).claims;
+  const std::vector<Claim> claims = load_claims(json::array({whole(), table()})).claims;
   ASSERT_EQ(claims.size(), 7U);
   // Sensors in alphabetical order.
   EXPECT_EQ(claims[1].claim, "error, all sensors: std of pitch");
@@ -217,7 +217,7 @@ TEST(Claims, ATableIsAClaimForEachSensorMeasureAndStatistic) {
 TEST(Claims, BandsMayLieAroundZero) {
   json means = table();
   means["band_rule"] = {{"rule", "around_zero"}, {"half_width", {0.02, 0.5}}};
-  for (const Claim& claim : load(json::array({means})).claims) {
+  for (const Claim& claim : load_claims(json::array({means})).claims) {
     const double half_width = claim.measure == "pitch" ? 0.02 : 0.5;
     EXPECT_EQ(claim.band, (std::array<double, 2>{-half_width, half_width}));
   }
@@ -239,13 +239,13 @@ TEST(Claims, ATableShowsFaultsAtTheirPlaces) {
       {table_with("/variant", "fien"),
        "/claims/0/variant: there is no variant \"fien\"; did you mean \"fine\"?"}};
   for (const auto& [claims, message] : cases) {
-    const Lines faults = faults_of(json::array({claims}));
+    const Lines faults = claim_faults(json::array({claims}));
     ASSERT_FALSE(faults.empty()) << message;
     EXPECT_EQ(faults.front(), message);
   }
   json alone = table();
   alone["values"]["front"].erase("std");
-  const Lines faults = faults_of(json::array({alone}));
+  const Lines faults = claim_faults(json::array({alone}));
   ASSERT_FALSE(faults.empty());
   EXPECT_EQ(faults.front().substr(0, 55),
             "/claims/0/values/front/mean: expected a mean with \"std\"");

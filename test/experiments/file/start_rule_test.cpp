@@ -14,7 +14,7 @@ using nlohmann::json;
 using Lines = std::vector<std::string>;
 
 /// The rule that the text of "starts" describes, and its faults.
-std::pair<StartRule, Lines> read(const std::string& starts) {
+std::pair<StartRule, Lines> read_rule(const std::string& starts) {
   const json root = {{"starts", json::parse(starts)}};
   const Catalogue catalogue = test::fake_catalogue();
   std::vector<Fault> faults;
@@ -26,7 +26,7 @@ std::pair<StartRule, Lines> read(const std::string& starts) {
 }
 
 TEST(StartRule, IsReadWithASweep) {
-  const auto [rule, faults] = read(
+  const auto [rule, faults] = read_rule(
       R"({"around": "nominal", "sweep": {"rotation_deg": [0, 180], "levels": 19}, "trials": 20})");
   EXPECT_EQ(faults, Lines{});
   ASSERT_TRUE(rule.sweep);
@@ -39,11 +39,11 @@ TEST(StartRule, IsReadWithASweep) {
 }
 
 TEST(StartRule, NamesAFile) {
-  const auto [rule, faults] = read(R"({"file": "starts.csv"})");
+  const auto [rule, faults] = read_rule(R"({"file": "starts.csv"})");
   EXPECT_EQ(faults, Lines{});
   EXPECT_EQ(rule.file, "starts.csv");
   EXPECT_EQ(rule.trials, 0);
-  EXPECT_EQ(read(R"({"file": "starts.csv", "trials": 3})").first.trials, 3);
+  EXPECT_EQ(read_rule(R"({"file": "starts.csv", "trials": 3})").first.trials, 3);
 }
 
 TEST(StartRule, NamesWhatIsWrong) {
@@ -68,7 +68,7 @@ TEST(StartRule, NamesWhatIsWrong) {
       {R"({"sweep": {"rotation_deg": [0, 1], "levels": 100}, "trials": 10001})",
        "/starts/trials: expected a whole number from 1 to 10000 of each of the 100 levels"}};
   for (const auto& [starts, message] : cases) {
-    const Lines faults = read(starts).second;
+    const Lines faults = read_rule(starts).second;
     ASSERT_EQ(faults.size(), 1U) << starts;
     EXPECT_EQ(faults[0].substr(0, message.size()), message);
   }
@@ -79,40 +79,40 @@ TEST(StartRule, IsWrittenAsItIsRead) {
        {R"({"around":"truth","rotation_deg":45,"translation_m":0.1})",
         R"({"around":"nominal","translation_m":2,"sweep":{"rotation_deg":[0,90],"levels":4}})",
         R"({"around":"truth","rotation_deg":7,"sweep":{"translation_m":[0.5,2],"levels":9}})"}) {
-    EXPECT_EQ(deciding_starts_json(read(starts).first), starts);
+    EXPECT_EQ(deciding_starts_json(read_rule(starts).first), starts);
   }
   // What a file is called decides nothing, its content does.
-  StartRule rule = read(R"({"file": "a.csv"})").first;
+  StartRule rule = read_rule(R"({"file": "a.csv"})").first;
   rule.sha256 = "12ab";
   EXPECT_EQ(deciding_starts_json(rule), R"({"file":"*","sha256":"12ab"})");
 }
 
 TEST(StartRule, HasRangesPerAxis) {
   const auto [rule, faults] =
-      read(R"({"rotation_deg": [1, 2, 30], "translation_m": [0.5, 0, 0.1]})");
+      read_rule(R"({"rotation_deg": [1, 2, 30], "translation_m": [0.5, 0, 0.1]})");
   EXPECT_EQ(faults, Lines{});
   EXPECT_EQ(rule.rotation_deg[2], 30.0);
   EXPECT_EQ(rule.translation_m[0], 0.5);
   EXPECT_EQ(deciding_starts_json(rule),
             R"({"around":"truth","rotation_deg":[1,2,30],"translation_m":[0.5,0,0.1]})");
   // Three equal numbers are the same starts as one, and the same results.
-  EXPECT_EQ(deciding_starts_json(read(R"({"rotation_deg": [10, 10, 10]})").first),
-            deciding_starts_json(read(R"({"rotation_deg": 10})").first));
-  EXPECT_EQ(read(R"({"rotation_deg": [1, 2]})").second,
+  EXPECT_EQ(deciding_starts_json(read_rule(R"({"rotation_deg": [10, 10, 10]})").first),
+            deciding_starts_json(read_rule(R"({"rotation_deg": 10})").first));
+  EXPECT_EQ(read_rule(R"({"rotation_deg": [1, 2]})").second,
             Lines{"/starts/rotation_deg: expected a number or a list of three, one for each axis, "
                   "found [1,2]"});
-  EXPECT_EQ(read(R"({"rotation_deg": [1, 2, 181]})").second,
+  EXPECT_EQ(read_rule(R"({"rotation_deg": [1, 2, 181]})").second,
             Lines{"/starts/rotation_deg/2: expected a number from 0 to 180, found 181"});
 }
 
 TEST(StartRule, NamesTheRangeOfWhatNoIntegerHolds) {
-  const Lines faults = read(R"({"trials": 1000000000000})").second;
+  const Lines faults = read_rule(R"({"trials": 1000000000000})").second;
   EXPECT_EQ(faults, Lines{"/starts/trials: expected a whole number from 1 to 1000000, found "
                           "1000000000000"});
 }
 
 TEST(StartRule, TakesTrialsPerLevel) {
-  StartRule rule = read(R"({"sweep": {"translation_m": [0, 5]}, "trials": 3})").first;
+  StartRule rule = read_rule(R"({"sweep": {"translation_m": [0, 5]}, "trials": 3})").first;
   EXPECT_EQ(total_trials(rule), 33);
   set_trials(rule, 0);
   EXPECT_EQ(total_trials(rule), 33);

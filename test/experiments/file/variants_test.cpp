@@ -32,7 +32,7 @@ struct ReadVariants {
 };
 
 /// Reads a pipeline of steps `first` (drift) and `behave` with the members `text` beside it.
-ReadVariants read(const std::string& text) {
+ReadVariants read_variants(const std::string& text) {
   json root = json::parse("{" + text + "}");
   root["name"] = "x";
   root["dataset"] = {{"type", "fake"}};
@@ -50,7 +50,7 @@ ReadVariants read(const std::string& text) {
 }
 
 TEST(Variants, ReplacesASlotWithoutMerging) {
-  const ReadVariants all = read(R"("variants": [
+  const ReadVariants all = read_variants(R"("variants": [
       {"name": "a", "replace": {"first.search": {"type": "coarse"}}},
       {"name": "b", "replace": {"first.search.step_deg": 3, "first.size_m": 1}}])");
   EXPECT_EQ(all.faults, Lines{});
@@ -63,7 +63,7 @@ TEST(Variants, ReplacesASlotWithoutMerging) {
 }
 
 TEST(Variants, AStepThatTakesAPlaceTakesItsName) {
-  const ReadVariants all = read(R"("variants": [
+  const ReadVariants all = read_variants(R"("variants": [
       {"name": "a", "replace": {"first": {"step": "behave"}}},
       {"name": "b", "replace": {"first": {"step": "drift", "name": "other"}}},
       {"name": "c", "replace": {"first": {"step": "drift", "name": "behave"}}}])");
@@ -75,21 +75,21 @@ TEST(Variants, AStepThatTakesAPlaceTakesItsName) {
 }
 
 TEST(Variants, Removes) {
-  const ReadVariants all = read(R"("variants": [{"name": "a", "remove": ["first"]}])");
+  const ReadVariants all = read_variants(R"("variants": [{"name": "a", "remove": ["first"]}])");
   EXPECT_EQ(all.faults, Lines{});
   ASSERT_EQ(all.pipeline("a").size(), 1U);
   EXPECT_EQ(all.pipeline("a")[0]["name"], "behave");
 }
 
 TEST(Variants, ReplacesBelowADefault) {
-  const ReadVariants all = read(R"("variants": [
+  const ReadVariants all = read_variants(R"("variants": [
       {"name": "a", "replace": {"behave": {"step": "drift"}, "behave.search.step_deg": 7}}])");
   EXPECT_EQ(all.faults, Lines{});
   EXPECT_EQ(all.pipeline("a")[1]["search"]["step_deg"], 7);
 }
 
 TEST(Variants, FaultsStandWhereTheFileHasThem) {
-  const ReadVariants all = read(R"("variants": [
+  const ReadVariants all = read_variants(R"("variants": [
       {"name": "a", "replace": {"first.search": {"type": "coarse", "step_dg": 3}}},
       {"name": "b", "remove": ["frist", 4], "replace": {"first.serach": {}, "third.x": 1}},
       {"name": "c", "remove": ["first"], "replace": {"behave.how": "pas", "behave.how.much": 1}},
@@ -128,13 +128,14 @@ TEST(Variants, FaultsStandWhereTheFileHasThem) {
 }
 
 TEST(Variants, EscapesPointers) {
-  const ReadVariants all = read(R"("variants": [{"name": "a", "replace": {"first.a/b~c": 1}}])");
+  const ReadVariants all =
+      read_variants(R"("variants": [{"name": "a", "replace": {"first.a/b~c": 1}}])");
   ASSERT_EQ(all.faults.size(), 1U);
   EXPECT_EQ(all.faults[0].rfind("/variants/0/replace/first.a~1b~0c: ", 0), 0U) << all.faults[0];
 }
 
 TEST(Grid, IsTheProductOfItsListsForEachVariant) {
-  const ReadVariants all = read(R"("variants": [{"name": "without", "remove": ["behave"]}],
+  const ReadVariants all = read_variants(R"("variants": [{"name": "without", "remove": ["behave"]}],
       "grid": {"first.search": [{"type": "coarse"}, {"type": "fine"}], "behave.how": ["pass", "reject"]})");
   EXPECT_EQ(all.faults, Lines{});
   EXPECT_EQ(all.names(),
@@ -145,7 +146,8 @@ TEST(Grid, IsTheProductOfItsListsForEachVariant) {
 }
 
 TEST(Grid, LeavesOutAnAxisThatAPointOfAnotherLacks) {
-  const ReadVariants all = read(R"("grid": {"first.search": [{"type": "coarse"}, {"type": "fine"}],
+  const ReadVariants all =
+      read_variants(R"("grid": {"first.search": [{"type": "coarse"}, {"type": "fine"}],
                                             "first.search.step_deg": [1, 0.5]})");
   EXPECT_EQ(all.faults, Lines{});
   EXPECT_EQ(all.names(),
@@ -153,14 +155,14 @@ TEST(Grid, LeavesOutAnAxisThatAPointOfAnotherLacks) {
 }
 
 TEST(Grid, TellsStagesOfATypeApart) {
-  const ReadVariants all = read(R"("grid": {"first.search": [
+  const ReadVariants all = read_variants(R"("grid": {"first.search": [
       {"type": "coarse"}, {"type": "coarse", "step_deg": 1}, {"type": "fine", "levels": 2}]})");
   EXPECT_EQ(all.faults, Lines{});
   EXPECT_EQ(all.names(), (Lines{"base/coarse", "base/coarse(step_deg=1)", "base/fine"}));
 }
 
 TEST(Grid, FaultsStandWhereTheFileHasThem) {
-  const ReadVariants all = read(R"("variants": [{"name": "v"}], "grid": {
+  const ReadVariants all = read_variants(R"("variants": [{"name": "v"}], "grid": {
       "first.size": [1], "second": [{"step": "drift"}], "first.size_m": [1, -1, 1.0], "behave.how": [],
       "first.search": 3})");
   // The base and the variant share their faults.
@@ -180,20 +182,20 @@ TEST(Grid, RefusesToGrowBeyondReason) {
   for (int i = 0; i < 200; ++i) list.push_back(0.01 * i);
   json degrees = json::array();
   for (int i = 1; i <= 60; ++i) degrees.push_back(i);
-  const ReadVariants all = read(R"("grid": {"first.size_m": )" + list.dump() +
-                                R"(, "first.search.step_deg": )" + degrees.dump() + "}");
+  const ReadVariants all = read_variants(R"("grid": {"first.size_m": )" + list.dump() +
+                                         R"(, "first.search.step_deg": )" + degrees.dump() + "}");
   EXPECT_EQ(all.faults, (Lines{"/grid: expected at most 10000 variants, found more"}));
 }
 
 TEST(Variants, AreAtMostTenThousandWithoutAGridToo) {
   std::string list;
   for (int i = 0; i < 10000; ++i) list += ",{\"name\": \"v" + std::to_string(i) + "\"}";
-  EXPECT_EQ(read(R"("variants": [)" + list.substr(1) + "]").faults,
+  EXPECT_EQ(read_variants(R"("variants": [)" + list.substr(1) + "]").faults,
             (Lines{"/variants: expected at most 9999 variants beside the base, found 10000"}));
 }
 
 TEST(Variants, InsertStepsBesideOthers) {
-  const ReadVariants all = read(R"("variants": [
+  const ReadVariants all = read_variants(R"("variants": [
       {"name": "a", "insert": [{"after": "first", "step": {"step": "drift", "name": "second"}},
                                {"after": "second", "step": {"step": "drift", "name": "third"}},
                                {"before": "first", "step": {"step": "drift", "size_m": 3}}]},
@@ -227,20 +229,21 @@ TEST(Variants, ShowFaultsOfInsertionsAtTheirPlaces) {
       {R"({"after": "first", "step": 3})",
        "/variants/0/insert/0/step: expected an object, found 3"}};
   for (const auto& [insertion, message] : cases) {
-    const ReadVariants all = read(R"("variants": [{"name": "a", "insert": [)" + insertion + "]}]");
+    const ReadVariants all =
+        read_variants(R"("variants": [{"name": "a", "insert": [)" + insertion + "]}]");
     EXPECT_EQ(all.faults, Lines{message});
   }
 }
 
 TEST(Variants, MayHaveAWholePipeline) {
-  const ReadVariants all = read(R"("variants": [
+  const ReadVariants all = read_variants(R"("variants": [
       {"name": "other", "pipeline": [{"step": "drift", "size_m": 9}],
        "replace": {"drift.search": {"type": "coarse", "step_deg": 7}}}])");
   EXPECT_EQ(all.faults, Lines{});
   ASSERT_EQ(all.pipeline("other").size(), 1U);
   EXPECT_EQ(all.pipeline("other")[0]["size_m"], 9);
   EXPECT_EQ(all.pipeline("other")[0]["search"]["step_deg"], 7);
-  EXPECT_EQ(read(R"("variants": [{"name": "other", "pipeline": []}])").faults,
+  EXPECT_EQ(read_variants(R"("variants": [{"name": "other", "pipeline": []}])").faults,
             Lines{"/variants/0/pipeline: expected a list of at least one step, found []"});
 }
 

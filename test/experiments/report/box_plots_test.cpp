@@ -5,18 +5,13 @@
 
 #include "framework/base/error.hpp"
 #include "framework/picture/writers.hpp"
+#include "test/support/occurrences.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
 namespace {
 
 using test::kBounds;
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
-}
 
 std::string box_plots_svg(const Summary& summary) { return svg_bytes(box_plots(summary)); }
 
@@ -67,20 +62,22 @@ TEST(BoxGroups, OfManyScenesAreByKind) {
   EXPECT_EQ(box_of(summary, 60, 20), BoxOf::scene);
   EXPECT_EQ(box_of(summary, 12, 2), BoxOf::all_scenes);
   EXPECT_EQ(box_of(summarise(records, kBounds, {}), 12, 20), BoxOf::all_scenes);
-  EXPECT_EQ(count(box_plots_svg(summary), ">A box is one sensor in all scenes of one kind:"), 1U);
+  EXPECT_EQ(
+      test::occurrences(box_plots_svg(summary), ">A box is one sensor in all scenes of one kind:"),
+      1U);
 }
 
 TEST(BoxPlotsSvg, HasAPanelPerDofAndABoxPerVariantAndSensor) {
   const std::string svg = box_plots_svg(summarise(test::few_records(), kBounds, {}));
   for (const char* title : {"pitch, deg", "roll, deg", "yaw, deg", "x, mm", "y, mm", "z, mm"}) {
-    EXPECT_EQ(count(svg, std::string(">") + title + "<"), 1U) << title;
+    EXPECT_EQ(test::occurrences(svg, std::string(">") + title + "<"), 1U) << title;
   }
-  EXPECT_EQ(count(svg, "class=\"box c"), 6U * 2U * 2U);
-  EXPECT_EQ(count(svg, "class=\"median c"), 6U * 2U * 2U);
-  EXPECT_EQ(count(svg, ">no volume<"), 6U * 2U);
-  EXPECT_EQ(count(svg, ">A box is one variant and sensor, all scenes together:"), 1U);
-  EXPECT_EQ(count(svg, "class=\"dot c"), 0U);
-  EXPECT_EQ(count(svg, "nan") + count(svg, "inf"), 0U);
+  EXPECT_EQ(test::occurrences(svg, "class=\"box c"), 6U * 2U * 2U);
+  EXPECT_EQ(test::occurrences(svg, "class=\"median c"), 6U * 2U * 2U);
+  EXPECT_EQ(test::occurrences(svg, ">no volume<"), 6U * 2U);
+  EXPECT_EQ(test::occurrences(svg, ">A box is one variant and sensor, all scenes together:"), 1U);
+  EXPECT_EQ(test::occurrences(svg, "class=\"dot c"), 0U);
+  EXPECT_EQ(test::occurrences(svg, "nan") + test::occurrences(svg, "inf"), 0U);
 }
 
 TEST(BoxPlotsSvg, AValueBeyondTheWhiskersIsADot) {
@@ -90,7 +87,7 @@ TEST(BoxPlotsSvg, AValueBeyondTheWhiskersIsADot) {
     records.push_back(test::finished({"base", "0001", "front", trial}, Status::success, {},
                                      test::offset_of(0, 0, 0, x_m, 0, 0)));
   }
-  EXPECT_EQ(count(box_plots_svg(summarise(records, kBounds, {})), "class=\"dot c"), 1U);
+  EXPECT_EQ(test::occurrences(box_plots_svg(summarise(records, kBounds, {})), "class=\"dot c"), 1U);
 }
 
 /// Trials of variants of one sensor, each with errors of x around its number of metres.
@@ -121,13 +118,18 @@ TEST(BoxPlots, OneBadVariantDoesNotFlattenTheOthers) {
   constexpr std::size_t kX = 3;
   EXPECT_NEAR(robust_limit(groups, kX), 3.0 * 0.012, 1e-9);
   const std::string svg = svg_bytes(box_plots(summary));
-  EXPECT_EQ(count(svg, ">x, mm<"), 1U);
-  EXPECT_EQ(count(svg, ">40<") + count(svg, ">50<") + count(svg, ">100<"), 1U);  // The axis' end.
+  EXPECT_EQ(test::occurrences(svg, ">x, mm<"), 1U);
+  EXPECT_EQ(test::occurrences(svg, ">40<") + test::occurrences(svg, ">50<") +
+                test::occurrences(svg, ">100<"),
+            1U);  // The axis' end.
   // Of the nine values of "bad", eight lie beyond the axis, four at each end.
-  EXPECT_EQ(count(svg, ">4</text>"), 2U);
-  EXPECT_EQ(count(svg, "<polygon"), 2U);
-  EXPECT_EQ(count(svg, "arrowheads"), 2U);  // Said in the description and below the title.
-  EXPECT_EQ(count(svg_bytes(box_plots(around({{"a", 0.01}, {"b", 0.012}}))), "arrowheads"), 0U);
+  EXPECT_EQ(test::occurrences(svg, ">4</text>"), 2U);
+  EXPECT_EQ(test::occurrences(svg, "<polygon"), 2U);
+  EXPECT_EQ(test::occurrences(svg, "arrowheads"),
+            2U);  // Said in the description and below the title.
+  EXPECT_EQ(
+      test::occurrences(svg_bytes(box_plots(around({{"a", 0.01}, {"b", 0.012}}))), "arrowheads"),
+      0U);
   // Every box is drawn inside its plot.
   const Drawing drawing = box_plots(summary);
   for (const Drawing::Element& element : drawing.elements()) {
@@ -209,11 +211,11 @@ TEST(BoxPlots, TellHowManyOfItsTrialsABoxHolds) {
     }
   }
   const std::string screen = box_plots_svg(summary);
-  EXPECT_EQ(count(screen, ">6/8</text>"), 6U * 2U);
-  EXPECT_EQ(count(screen, ">6/7</text>"), 6U);
-  EXPECT_EQ(count(screen, ">6/6</text>"), 6U);
+  EXPECT_EQ(test::occurrences(screen, ">6/8</text>"), 6U * 2U);
+  EXPECT_EQ(test::occurrences(screen, ">6/7</text>"), 6U);
+  EXPECT_EQ(test::occurrences(screen, ">6/6</text>"), 6U);
   // On paper the panels of a column share the names below them, and with them the numbers.
-  EXPECT_GE(count(svg_bytes(box_plots(summary, {kOneColumn})), ">6/8</text>"), 2U);
+  EXPECT_GE(test::occurrences(svg_bytes(box_plots(summary, {kOneColumn})), ">6/8</text>"), 2U);
   EXPECT_NE(box_plots(summary).description().find("n/N: it holds n of its N trials"),
             std::string::npos);
   EXPECT_EQ(box_plots(summary).description().find("open"), std::string::npos);
@@ -239,9 +241,10 @@ TEST(BoxPlots, NeverZoomInOnLessThanTablesShow) {
 
 TEST(BoxPlots, LengthsAreInTheUnitThatIsAskedFor) {
   const Summary summary = around({{"a", 0.01}});
-  EXPECT_EQ(count(svg_bytes(box_plots(summary, {{}, "m"})), ">x, m<"), 1U);
-  EXPECT_EQ(count(svg_bytes(box_plots(around({{"a", 0.5}}), {})), ">x, m<"), 1U);
-  EXPECT_EQ(count(svg_bytes(box_plots(around({{"a", 0.5}}), {{}, "mm"})), ">x, mm<"), 1U);
+  EXPECT_EQ(test::occurrences(svg_bytes(box_plots(summary, {{}, "m"})), ">x, m<"), 1U);
+  EXPECT_EQ(test::occurrences(svg_bytes(box_plots(around({{"a", 0.5}}), {})), ">x, m<"), 1U);
+  EXPECT_EQ(test::occurrences(svg_bytes(box_plots(around({{"a", 0.5}}), {{}, "mm"})), ">x, mm<"),
+            1U);
 }
 
 TEST(BoxPlots, OnPaperHaveTheWidthOfTheColumnAndTextOfEightPoints) {
@@ -262,8 +265,9 @@ TEST(BoxPlots, OnPaperHaveTheWidthOfTheColumnAndTextOfEightPoints) {
     EXPECT_NE(drawing.description().find("Error of the successful trials"), std::string::npos);
     Sheet titled = sheet;
     titled.has_title = true;
-    EXPECT_EQ(count(svg_bytes(box_plots(summary, {titled})), "class=\"title\">Error of"), 1U);
-    EXPECT_EQ(count(svg_bytes(drawing), "class=\"title\">Error of"), 0U);
+    EXPECT_EQ(
+        test::occurrences(svg_bytes(box_plots(summary, {titled})), "class=\"title\">Error of"), 1U);
+    EXPECT_EQ(test::occurrences(svg_bytes(drawing), "class=\"title\">Error of"), 0U);
   }
 }
 
@@ -274,9 +278,10 @@ TEST(BoxPlots, ThatDoNotFitAreRefused) {
     box_plots(around(variants), {kOneColumn});
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_EQ(count(error.what(), "60 boxes with their names want "), 1U) << error.what();
+    EXPECT_EQ(test::occurrences(error.what(), "60 boxes with their names want "), 1U)
+        << error.what();
   }
-  EXPECT_EQ(count(svg_bytes(box_plots(around(variants))), "class=\"box c"), 6U * 60U);
+  EXPECT_EQ(test::occurrences(svg_bytes(box_plots(around(variants))), "class=\"box c"), 6U * 60U);
 }
 
 TEST(BoxPlotsSvg, AVariantWithoutSuccessKeepsItsPlace) {
@@ -285,17 +290,17 @@ TEST(BoxPlotsSvg, AVariantWithoutSuccessKeepsItsPlace) {
     records.push_back(test::unfinished({"lost", "0001", sensor, 0}, Status::failed, "no"));
   }
   const std::string svg = box_plots_svg(summarise(records, kBounds, {}));
-  EXPECT_EQ(count(svg, ">lost<"), kDofs * 2);
-  EXPECT_EQ(count(svg, ">none<"), kDofs * 2);
+  EXPECT_EQ(test::occurrences(svg, ">lost<"), kDofs * 2);
+  EXPECT_EQ(test::occurrences(svg, ">none<"), kDofs * 2);
 }
 
 TEST(BoxPlotsSvg, NothingToShowIsAPictureToo) {
   const std::string empty = box_plots_svg(Summary{});
-  EXPECT_EQ(count(empty, "</svg>"), 1U);
+  EXPECT_EQ(test::occurrences(empty, "</svg>"), 1U);
   const Summary failed =
       summarise({test::unfinished({"base", "a", "b", 0}, Status::failed, "no")}, kBounds, {});
-  EXPECT_EQ(count(box_plots_svg(failed), "class=\"box c"), 0U);
-  EXPECT_EQ(count(empty, "nan") + count(empty, "inf"), 0U);
+  EXPECT_EQ(test::occurrences(box_plots_svg(failed), "class=\"box c"), 0U);
+  EXPECT_EQ(test::occurrences(empty, "nan") + test::occurrences(empty, "inf"), 0U);
 }
 
 }  // namespace

@@ -129,7 +129,7 @@ TEST(Compact, IsARowPerVariant) {
   const Summary summary = summarise(test::few_records(), kBounds, {});
   TableChoice choice;
   choice.is_one_column = true;
-  const ExportTable table = export_table(summary, kCaption, compact(choice, summary));
+  const ExportTable table = export_table(summary, kCaption, compact(choice, {summary}).front());
   EXPECT_EQ(table.table.rows.size(), 2U);
   const std::string latex = export_latex(table);
   EXPECT_NE(latex.find("\\begin{table}[tbp]"), std::string::npos);
@@ -137,7 +137,7 @@ TEST(Compact, IsARowPerVariant) {
   EXPECT_EQ(latex.find("\\medskip"), std::string::npos);
   choice.columns = {"x", "y", "z", "roll", "pitch", "yaw", "success_interval"};
   EXPECT_NE(refusal([&] {
-              export_latex(export_table(summary, kCaption, compact(choice, summary)));
+              export_latex(export_table(summary, kCaption, compact(choice, {summary}).front()));
             }).find("--columns: these 7 columns want about "),
             std::string::npos);
 }
@@ -146,7 +146,7 @@ TEST(Compact, SaysOfHowManyScenesAndTrialsARowIs) {
   const Summary summary = summarise(test::few_records(), kBounds, {});
   TableChoice choice;
   choice.is_one_column = true;
-  const ExportTable table = export_table(summary, kCaption, compact(choice, summary));
+  const ExportTable table = export_table(summary, kCaption, compact(choice, {summary}).front());
   for (const ExportFormat& format : export_formats()) {
     const std::string text = format.bytes(table);
     if (format.name == std::string("csv")) {
@@ -167,12 +167,32 @@ TEST(Compact, SaysOfHowManyScenesAndTrialsARowIs) {
             std::string::npos);
 }
 
+TEST(Compact, OfExperimentsWithAndWithoutTruthHasSuccessAndAgreement) {
+  std::vector<TrialRecord> untrue;
+  for (int trial = 0; trial < 3; ++trial) {
+    untrue.push_back(test::finished_without_truth({"base", "0001", "left", trial}, {}));
+  }
+  const std::vector<Summary> summaries = {summarise(test::few_records(), kBounds, {}),
+                                          summarise(untrue, kBounds, {})};
+  TableChoice choice;
+  choice.is_one_column = true;
+  const std::vector<TableChoice> choices = compact(choice, summaries);
+  const Names expected = {"success", "agreement", "rotation_median", "translation_median"};
+  EXPECT_EQ(choices[0].columns, expected);
+  EXPECT_EQ(choices[1].columns, expected);
+  EXPECT_EQ(choices[0].sensors, Names{"all"});
+  EXPECT_EQ(choices[1].sensors, Names{});
+  // Each alone has what it has.
+  EXPECT_EQ(compact(choice, {summaries[0]}).front().columns[1], "rotation_median");
+  EXPECT_EQ(compact(choice, {summaries[1]}).front().columns[0], "agreement");
+}
+
 TEST(Compact, CaptionsExplainTheColumnsThatAreThere) {
   const Summary summary = summarise(test::few_records(), kBounds, {});
   TableChoice choice;
   choice.is_one_column = true;
   const std::string compact_table =
-      export_latex(export_table(summary, kCaption, compact(choice, summary)));
+      export_latex(export_table(summary, kCaption, compact(choice, {summary}).front()));
   const std::string full_table = export_latex(export_table(summary, kCaption, {}));
   for (const char* explanation : {"Interval: ", "Paired: "}) {
     EXPECT_EQ(compact_table.find(explanation), std::string::npos);

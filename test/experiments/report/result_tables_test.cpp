@@ -10,6 +10,7 @@
 #include "framework/base/angles.hpp"
 #include "framework/base/text.hpp"
 #include "framework/geometry/rigid_transform.hpp"
+#include "test/support/occurrences.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
@@ -77,21 +78,15 @@ TEST(TrialsCsv, LeavesEmptyWhatIsNotKnown) {
                       "no volume,\"a,b\",left,0,rejected,,,,,,,,,,,,,,,,\n");
 }
 
-std::size_t occurrences(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
-
 TEST(Agreement, IsTheSameCountInEveryFile) {
   std::vector<TrialRecord> records = test::one_of_four_astray();
   records.push_back(test::unfinished({"base", "0001", "left", 4}, Status::failed, "no ground"));
   const Summary summary = summarise(records, test::kBounds, {});
   const std::string trials = trials_csv(records, summary);
-  EXPECT_EQ(occurrences(trials, ",finished,"), 4U);
-  EXPECT_EQ(occurrences(trials, ",1\n"), 3U);
-  EXPECT_EQ(occurrences(trials, ",0\n"), 1U);
-  EXPECT_EQ(occurrences(trials, "success"), 0U);
+  EXPECT_EQ(test::occurrences(trials, ",finished,"), 4U);
+  EXPECT_EQ(test::occurrences(trials, ",1\n"), 3U);
+  EXPECT_EQ(test::occurrences(trials, ",0\n"), 1U);
+  EXPECT_EQ(test::occurrences(trials, "success"), 0U);
   const auto row = nlohmann::json::parse(summary_json(summary))["rows"][0];
   EXPECT_TRUE(row["success"].is_null());
   EXPECT_TRUE(row["inaccurate"].is_null());
@@ -114,8 +109,8 @@ TEST(Agreement, WithTruthIsNotSuccess) {
   EXPECT_EQ(summary.rows[0].success.count, 2);
   EXPECT_EQ(summary.rows[0].agreement.count, 3);
   EXPECT_EQ(summary.rows[0].counted, 2);
-  EXPECT_EQ(occurrences(trials_csv(records, summary), "inaccurate"), 3U);
-  EXPECT_EQ(occurrences(trials_csv(records, summary), ",1\n"), 3U);
+  EXPECT_EQ(test::occurrences(trials_csv(records, summary), "inaccurate"), 3U);
+  EXPECT_EQ(test::occurrences(trials_csv(records, summary), ",1\n"), 3U);
 }
 
 TEST(TimingsCsv, IsARowPerTiming) {

@@ -30,8 +30,8 @@ CheckedRun checked(const std::string& pipeline, const std::string& text = "",
 }
 
 /// The faults of the same, without the file.
-std::vector<std::string> faults_of(const std::string& pipeline, const std::string& text = "",
-                                   const std::string& dataset = "") {
+std::vector<std::string> need_faults(const std::string& pipeline, const std::string& text = "",
+                                     const std::string& dataset = "") {
   std::vector<std::string> lines;
   try {
     checked(pipeline, text, dataset);
@@ -62,19 +62,19 @@ TEST(Extras, AStepReadsWhatAnEarlierOnePut) {
 }
 
 TEST(Extras, AnUnmetNeedIsRefusedWhereTheStepIsWritten) {
-  EXPECT_THAT(faults_of(R"([{"step": "take"}])"),
+  EXPECT_THAT(need_faults(R"([{"step": "take"}])"),
               ElementsAre("/pipeline/0: the step \"take\" needs the extra \"token\" (a distance in "
                           "metres), which no step before it gives, in variant \"base\""));
-  EXPECT_THAT(faults_of(R"([{"step": "take"}, {"step": "give"}])"),
+  EXPECT_THAT(need_faults(R"([{"step": "take"}, {"step": "give"}])"),
               ElementsAre(HasSubstr("/pipeline/0: the step \"take\" needs")));
-  EXPECT_THAT(faults_of(R"([{"step": "give_other"}, {"step": "take"}])"),
+  EXPECT_THAT(need_faults(R"([{"step": "give_other"}, {"step": "take"}])"),
               ElementsAre(HasSubstr("which a step before it gives with another type")));
-  EXPECT_THAT(faults_of(R"([{"step": "give"}, {"step": "take"}])"), ElementsAre());
+  EXPECT_THAT(need_faults(R"([{"step": "give"}, {"step": "take"}])"), ElementsAre());
 }
 
 TEST(Extras, AVariantThatRemovesWhatGivesIsNamed) {
-  EXPECT_THAT(faults_of(R"([{"step": "give"}, {"step": "take"}])",
-                        R"(, "variants": [{"name": "without", "remove": ["give"]}])"),
+  EXPECT_THAT(need_faults(R"([{"step": "give"}, {"step": "take"}])",
+                          R"(, "variants": [{"name": "without", "remove": ["give"]}])"),
               ElementsAre(HasSubstr("in variant \"without\"")));
 }
 
@@ -101,13 +101,13 @@ TEST(Channels, ThatAStepNeedsAreKept) {
 }
 
 TEST(Channels, ThatAreMissingAreRefusedBeforeTheRun) {
-  EXPECT_THAT(faults_of(R"([{"step": "need"}])", "", R"(, "channels": ["ring", "time"])"),
+  EXPECT_THAT(need_faults(R"([{"step": "need"}])", "", R"(, "channels": ["ring", "time"])"),
               ElementsAre());
   EXPECT_THAT(
-      faults_of(R"([{"step": "need"}])", "", R"(, "channels": ["ring"], "sensors": 1)"),
+      need_faults(R"([{"step": "need"}])", "", R"(, "channels": ["ring"], "sensors": 1)"),
       ElementsAre("expected the channel \"time\" in the cloud of sensor \"s0\", which the step "
                   "\"need\" of variant \"base\" needs; found ring (and the same in 1 more scene)"));
-  EXPECT_THAT(faults_of(R"([{"step": "need"}])", "", R"(, "sensors": 2, "scenes": 1)"),
+  EXPECT_THAT(need_faults(R"([{"step": "need"}])", "", R"(, "sensors": 2, "scenes": 1)"),
               ElementsAre(HasSubstr("\"ring\" in the cloud of sensor \"s0\""),
                           HasSubstr("\"time\" in the cloud of sensor \"s0\""),
                           HasSubstr("\"ring\" in the cloud of sensor \"s1\""),

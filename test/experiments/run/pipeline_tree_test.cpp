@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::json;
 
-Experiment load(const json& experiment) {
+Experiment load_tree(const json& experiment) {
   const test::TempFolder folder;
   return load_experiment(folder.write("x.json", experiment.dump()), test::fake_catalogue());
 }
@@ -27,7 +27,7 @@ Experiment with_variants(const char* variants) {
   json experiment = json::parse(R"({"name": "x", "dataset": {"type": "fake"}, "pipeline": [
       {"step": "drift", "name": "first"}, {"step": "drift", "name": "second"}, {"step": "behave"}]})");
   experiment["variants"] = json::parse(variants);
-  return load(experiment);
+  return load_tree(experiment);
 }
 
 std::vector<std::size_t> all_variants(const Experiment& experiment) {
@@ -109,7 +109,7 @@ Experiment random_grid(Rng& rng) {
     for (int i = 0; i < count; ++i) sizes.push_back(i + 1);
     experiment["grid"][std::string(step) + ".size_m"] = sizes;
   }
-  return load(experiment);
+  return load_tree(experiment);
 }
 
 TEST(PipelineTree, OfAnyGridHasEachPrefixOnce) {

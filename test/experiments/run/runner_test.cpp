@@ -32,7 +32,7 @@ void sort_by_id(std::vector<TrialRecord>& records) {
             [](const TrialRecord& a, const TrialRecord& b) { return key_of(a.id) < key_of(b.id); });
 }
 
-json drifting(int trials = 3) {
+json drifting_apart(int trials = 3) {
   json experiment = json::parse(R"({"name": "x", "dataset": {"type": "fake"}, "starts": {},
                                     "pipeline": [{"step": "drift"}, {"step": "behave"}]})");
   experiment["starts"]["trials"] = trials;
@@ -90,7 +90,7 @@ void expect_same(const TrialRecord& a, const TrialRecord& b) {
 
 TEST(Runner, SameBitsOnAnyNumberOfThreads) {
   for (const int scenes : {2, 60}) {
-    json experiment = drifting(scenes == 2 ? 20 : 1);
+    json experiment = drifting_apart(scenes == 2 ? 20 : 1);
     experiment["dataset"]["scenes"] = scenes;
     const Ran one = run(experiment, 1);
     ASSERT_EQ(one.records.size(), scenes == 2 ? 2U * 2U * 20U : 60U * 2U);
@@ -120,7 +120,7 @@ class Counted {
 };
 
 TEST(Runner, HoldsFewScenesAndTellsOneThingAtATime) {
-  json description = drifting(1);
+  json description = drifting_apart(1);
   description["dataset"]["scenes"] = 80;
   const Experiment experiment = experiment_of(description);
   const std::vector<Scene> scenes = experiment.dataset->scenes("");
@@ -153,8 +153,8 @@ TEST(Runner, HoldsFewScenesAndTellsOneThingAtATime) {
 }
 
 TEST(Runner, AddingAVariantASceneOrASensorChangesNoNumber) {
-  const Ran few = run(drifting());
-  json more = drifting(5);
+  const Ran few = run(drifting_apart());
+  json more = drifting_apart(5);
   more["variants"] = json::parse(R"([{"name": "more", "replace": {"drift.size_m": 1}}])");
   more["dataset"]["sensors"] = 3;
   const Ran many = run(more);
@@ -171,7 +171,7 @@ TEST(Runner, AddingAVariantASceneOrASensorChangesNoNumber) {
 }
 
 TEST(Runner, TrialsOfVariantsArePaired) {
-  json two = drifting();
+  json two = drifting_apart();
   two["variants"] =
       json::parse(R"([{"name": "same", "replace": {"drift.search": {"type": "fine"}}}])");
   const Ran both = run(two);
@@ -183,7 +183,7 @@ TEST(Runner, TrialsOfVariantsArePaired) {
 
 /// A base and three variants that share the first step, all three steps but one, and nothing.
 json branching() {
-  json description = drifting(4);
+  json description = drifting_apart(4);
   description["pipeline"] = json::parse(R"([{"step": "drift"}, {"step": "drift", "name": "second"},
                                             {"step": "behave"}])");
   description["variants"] = json::parse(R"([
@@ -232,7 +232,7 @@ TEST(Runner, ASharedStepRunsOnceAndItsTimeIsBookedToEachVariant) {
 }
 
 TEST(Runner, EndsWhereMemoryDoesAndRecordsNothing) {
-  json experiment = drifting();
+  json experiment = drifting_apart();
   experiment["pipeline"][1]["how"] = "memory";
   EXPECT_THROW(run(experiment), std::bad_alloc);
 }
@@ -255,7 +255,7 @@ TEST(Runner, SaysHowATrialEnded) {
              false},
         Case{"skewed", Status::failed,
              "the pose has no rotation: the columns of its matrix are not orthonormal", false}}) {
-    json experiment = drifting();
+    json experiment = drifting_apart();
     experiment["pipeline"][1]["how"] = c.how;
     for (const TrialRecord& record : run(experiment).records) {
       EXPECT_EQ(record.status, c.status) << c.how;
@@ -269,7 +269,7 @@ TEST(Runner, SaysHowATrialEnded) {
 
 TEST(Runner, ABugEndsTheRun) {
   for (const int scenes : {2, 50}) {
-    json experiment = drifting();
+    json experiment = drifting_apart();
     experiment["dataset"]["scenes"] = scenes;
     experiment["pipeline"][1]["how"] = "bug";
     for (const int jobs : {1, 4}) EXPECT_THROW(run(experiment, jobs), std::logic_error);
@@ -277,7 +277,7 @@ TEST(Runner, ABugEndsTheRun) {
 }
 
 TEST(Runner, ABugInOneSceneLeavesNoScanHalfDone) {
-  json description = drifting(2);
+  json description = drifting_apart(2);
   description["dataset"]["scenes"] = 50;
   const Experiment experiment = experiment_of(description);
   std::vector<Scene> scenes = experiment.dataset->scenes("");
@@ -297,7 +297,7 @@ TEST(Runner, ABugInOneSceneLeavesNoScanHalfDone) {
 }
 
 TEST(Runner, SuccessIsWithinTheBounds) {
-  json experiment = drifting();
+  json experiment = drifting_apart();
   experiment["starts"] = {{"rotation_deg", 0}, {"translation_m", 0}, {"trials", 30}};
   experiment["success"] = {{"rotation_deg", 0.0001}, {"translation_m", 0.015}};
   int successes = 0;
@@ -311,7 +311,7 @@ TEST(Runner, SuccessIsWithinTheBounds) {
 }
 
 TEST(Runner, WithoutTruthATrialIsFinished) {
-  json experiment = drifting();
+  json experiment = drifting_apart();
   experiment["dataset"]["truth"] = false;
   experiment["starts"]["around"] = "nominal";
   for (const TrialRecord& record : run(experiment).records) {
@@ -322,7 +322,7 @@ TEST(Runner, WithoutTruthATrialIsFinished) {
 }
 
 TEST(Runner, AnUnreadableCloudFailsItsTrialsAlone) {
-  json experiment = drifting();
+  json experiment = drifting_apart();
   experiment["dataset"]["unreadable"] = 1;  // s0
   for (const TrialRecord& record : run(experiment).records) {
     const bool is_bad = record.id.sensor == "s0";
@@ -332,7 +332,7 @@ TEST(Runner, AnUnreadableCloudFailsItsTrialsAlone) {
 }
 
 TEST(Runner, AnUnreadableReferenceFailsTheScene) {
-  json experiment = drifting();
+  json experiment = drifting_apart();
   experiment["dataset"]["unreadable"] = -2;
   for (const TrialRecord& record : run(experiment).records) {
     EXPECT_EQ(record.status, Status::failed);
@@ -341,7 +341,7 @@ TEST(Runner, AnUnreadableReferenceFailsTheScene) {
 }
 
 TEST(Runner, AnEmptyCloudFails) {
-  json experiment = drifting();
+  json experiment = drifting_apart();
   experiment["dataset"]["points"] = 0;
   for (const TrialRecord& record : run(experiment).records) {
     EXPECT_EQ(record.reason, "the cloud of top: it has no points");
@@ -349,7 +349,7 @@ TEST(Runner, AnEmptyCloudFails) {
 }
 
 TEST(Runner, TimesStepsPerTrialAndSharedWorkPerScene) {
-  const Ran timed = run(drifting());
+  const Ran timed = run(drifting_apart());
   int steps = 0, readings = 0, shared = 0;
   for (const TimingRow& row : timed.timings) {
     EXPECT_EQ(row.id.variant.empty(), row.id.trial == -1);

@@ -34,8 +34,8 @@ StartTable read(const std::string& bytes, const std::vector<Scene>& scenes) {
 }
 
 /// Faults as "where: message".
-Lines faults_of(const std::string& bytes,
-                const std::vector<Scene>& scenes = scenes_of({"a"}, {"left"})) {
+Lines start_faults(const std::string& bytes,
+                   const std::vector<Scene>& scenes = scenes_of({"a"}, {"left"})) {
   Lines lines;
   try {
     read(bytes, scenes);
@@ -79,7 +79,7 @@ TEST(StartFile, MayBeginWithAByteOrderMark) {
 }
 
 TEST(StartFile, ShowsLittleOfALongLine) {
-  const Lines faults = faults_of(file_of({std::string(100000, 'x') + ",left,0,1,2,3,0,0,0,1"}));
+  const Lines faults = start_faults(file_of({std::string(100000, 'x') + ",left,0,1,2,3,0,0,0,1"}));
   EXPECT_LT(faults.at(0).size(), 200U);
 }
 
@@ -115,28 +115,30 @@ TEST(StartFile, NamesWhatIsWrongWithALine) {
        "expected a sensor of scene \"a\", found \"lift\"; did you mean \"left\"?"},
       {"\"a,left,0,1,2,3,0,0,0,1", "expected a second quote, found \"\"a,left,0,1,2,3,0,0,0,1\""}};
   for (const auto& [line, message] : cases) {
-    EXPECT_EQ(faults_of(file_of({line})), Lines{"line 2: " + message});
+    EXPECT_EQ(start_faults(file_of({line})), Lines{"line 2: " + message});
   }
 }
 
 TEST(StartFile, WantsItsHeader) {
-  EXPECT_EQ(faults_of("a,left,0,1,2,3,0,0,0,1\n"),
+  EXPECT_EQ(start_faults("a,left,0,1,2,3,0,0,0,1\n"),
             Lines{"line 1: expected \"" + std::string(kStartHeader) +
                   "\", found \"a,left,0,1,2,3,0,0,0,1\""});
-  EXPECT_EQ(faults_of("").size(), 1U);
+  EXPECT_EQ(start_faults("").size(), 1U);
 }
 
 TEST(StartFile, WantsEachTrialOnceAndNoneLeftOut) {
   const std::string tail = ",1,2,3,0,0,0,1";
   const std::vector<Scene> scenes = scenes_of({"a", "b"}, {"left"});
-  EXPECT_EQ(faults_of(file_of({"a,left,0" + tail, "b,left,0" + tail, "a,left,0" + tail}), scenes),
-            Lines{"line 4: expected each trial once, found trial 0 of sensor \"left\" in scene "
-                  "\"a\" again"});
-  EXPECT_EQ(faults_of(file_of({"a,left,0" + tail, "a,left,2" + tail, "b,left,1" + tail}), scenes),
-            (Lines{"expected trials 0 to 2 of sensor \"left\" in scene \"a\", found no trial 1",
-                   "expected trials 0 to 2 of sensor \"left\" in scene \"b\", found no trial "
-                   "0"}));
-  EXPECT_EQ(faults_of(file_of({}), scenes), Lines{"line 2: expected a start, found the end"});
+  EXPECT_EQ(
+      start_faults(file_of({"a,left,0" + tail, "b,left,0" + tail, "a,left,0" + tail}), scenes),
+      Lines{"line 4: expected each trial once, found trial 0 of sensor \"left\" in scene "
+            "\"a\" again"});
+  EXPECT_EQ(
+      start_faults(file_of({"a,left,0" + tail, "a,left,2" + tail, "b,left,1" + tail}), scenes),
+      (Lines{"expected trials 0 to 2 of sensor \"left\" in scene \"a\", found no trial 1",
+             "expected trials 0 to 2 of sensor \"left\" in scene \"b\", found no trial "
+             "0"}));
+  EXPECT_EQ(start_faults(file_of({}), scenes), Lines{"line 2: expected a start, found the end"});
 }
 
 TEST(StartFile, TakesPositionsUpToTheirBound) {
@@ -149,14 +151,14 @@ TEST(StartFile, CountsFaultsThatAreNotShownInLinearTime) {
   // Names as long as those of the dataset, so that their distance must be counted: for each of the
   // lines that takes many minutes, and the test its time limit.
   const Lines faults =
-      faults_of(file_of(Lines(20000, std::string(102, 't') + ",left,0,1,2,3,0,0,0,1")),
-                scenes_of(names, {"left"}));
+      start_faults(file_of(Lines(20000, std::string(102, 't') + ",left,0,1,2,3,0,0,0,1")),
+                   scenes_of(names, {"left"}));
   ASSERT_EQ(faults.size(), 11U);
   EXPECT_EQ(faults.back(), "and 19990 more faults");
 }
 
 TEST(StartFile, ShowsTheFirstFaultsAlone) {
-  const Lines faults = faults_of(file_of(Lines(25, "x")));
+  const Lines faults = start_faults(file_of(Lines(25, "x")));
   ASSERT_EQ(faults.size(), 11U);
   EXPECT_EQ(faults.front(), "line 2: expected 10 fields, found 1");
   EXPECT_EQ(faults.back(), "and 15 more faults");

@@ -12,7 +12,7 @@ using Lines = std::vector<std::string>;
 
 const std::string kWithStds = std::string(kVelocityHeader) + kVelocityStdHeader;
 
-VelocityTable read(const std::string& header, const Lines& lines, const Lines& scenes) {
+VelocityTable read_velocities(const std::string& header, const Lines& lines, const Lines& scenes) {
   const test::TempFolder folder;
   std::string bytes = header + "\n";
   for (const std::string& line : lines) bytes += line + "\n";
@@ -20,10 +20,10 @@ VelocityTable read(const std::string& header, const Lines& lines, const Lines& s
 }
 
 /// Faults as "where: message".
-Lines faults_of(const std::string& header, const Lines& lines, const Lines& scenes = {"a"}) {
+Lines velocity_faults(const std::string& header, const Lines& lines, const Lines& scenes = {"a"}) {
   Lines faults;
   try {
-    read(header, lines, scenes);
+    read_velocities(header, lines, scenes);
   } catch (const InputError& error) {
     for (const Fault& fault : error.faults()) {
       faults.push_back(Fault{"", fault.where, fault.message}.line());
@@ -34,7 +34,7 @@ Lines faults_of(const std::string& header, const Lines& lines, const Lines& scen
 
 TEST(VelocityFile, HasAVelocityForEachScene) {
   const VelocityTable table =
-      read(kVelocityHeader, {"b,1,2,3,4,5,6", "\"a,1\",-1,0,0,0,0,90"}, {"a,1", "b"});
+      read_velocities(kVelocityHeader, {"b,1,2,3,4,5,6", "\"a,1\",-1,0,0,0,0,90"}, {"a,1", "b"});
   EXPECT_EQ(table.sha256.size(), 64U);
   const GivenMotion& b = table.motions.at("b");
   EXPECT_EQ(b.velocity.linear_mps, Eigen::Vector3d(1, 2, 3));
@@ -45,7 +45,8 @@ TEST(VelocityFile, HasAVelocityForEachScene) {
 }
 
 TEST(VelocityFile, MayHaveStandardDeviations) {
-  const GivenMotion a = read(kWithStds, {"a,1,2,3,4,5,6,0.1,0.2,0.3,1,2,3"}, {"a"}).motions.at("a");
+  const GivenMotion a =
+      read_velocities(kWithStds, {"a,1,2,3,4,5,6,0.1,0.2,0.3,1,2,3"}, {"a"}).motions.at("a");
   Vector6d stds;
   stds << Eigen::Vector3d(1, 2, 3) * rad_from_deg(1.0), 0.1, 0.2, 0.3;
   ASSERT_TRUE(a.stds);
@@ -61,11 +62,11 @@ TEST(VelocityFile, NamesWhatIsWrongWithALine) {
       {"a,1,2,3,4,5,-3601", "expected a number of at most 3600 deg/s, found \"-3601\""},
       {"aa,1,2,3,4,5,6", "expected a scene of the dataset, found \"aa\"; did you mean \"a\"?"}};
   for (const auto& [line, message] : cases) {
-    EXPECT_EQ(faults_of(kVelocityHeader, {line}), Lines{"line 2: " + message});
+    EXPECT_EQ(velocity_faults(kVelocityHeader, {line}), Lines{"line 2: " + message});
   }
-  EXPECT_EQ(faults_of(kWithStds, {"a,1,2,3,4,5,6,0.1,0.1,0,1,1,1"}),
+  EXPECT_EQ(velocity_faults(kWithStds, {"a,1,2,3,4,5,6,0.1,0.1,0,1,1,1"}),
             Lines{"line 2: expected a standard deviation above 0, found \"0\""});
-  EXPECT_EQ(faults_of(kVelocityHeader, {"a,1,2,3,4,5,6", "a,1,2,3,4,5,6"}),
+  EXPECT_EQ(velocity_faults(kVelocityHeader, {"a,1,2,3,4,5,6", "a,1,2,3,4,5,6"}),
             Lines{"line 3: expected each scene once, found \"a\" again"});
 }
 
@@ -77,12 +78,13 @@ TEST(VelocityFile, MayHaveScenesThatNoTrialNeeds) {
 }
 
 TEST(VelocityFile, WantsItsHeaderAndEveryScene) {
-  EXPECT_EQ(faults_of("scene,vx", {}), Lines{"line 1: expected \"" + std::string(kVelocityHeader) +
-                                             "\" or \"" + kWithStds + "\", found \"scene,vx\""});
-  EXPECT_EQ(faults_of(kVelocityHeader, {"a,1,2,3,4,5,6"}, {"a", "b"}),
+  EXPECT_EQ(velocity_faults("scene,vx", {}),
+            Lines{"line 1: expected \"" + std::string(kVelocityHeader) + "\" or \"" + kWithStds +
+                  "\", found \"scene,vx\""});
+  EXPECT_EQ(velocity_faults(kVelocityHeader, {"a,1,2,3,4,5,6"}, {"a", "b"}),
             Lines{"expected a velocity of scene \"b\", found none"});
-  const Lines many = faults_of(kVelocityHeader, {},
-                               Lines{"a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l"});
+  const Lines many = velocity_faults(
+      kVelocityHeader, {}, Lines{"a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l"});
   ASSERT_EQ(many.size(), 11U);
   EXPECT_EQ(many.back(), "and 2 more faults");
 }

@@ -55,7 +55,7 @@ void replace_system_calls() {
   replace("unlink", reinterpret_cast<sqlite3_syscall_ptr>(struck_unlink));
 }
 
-StoreHeader header() {
+StoreHeader header_of_killed() {
   StoreHeader header;
   header.provenance = {{"seed", "1"}};
   header.manifest = "{}";
@@ -81,7 +81,7 @@ void work(const fs::path& path, const fs::path& progress) {
   int done = 0;
   for (const int count : {2, 1}) {
     {
-      Store store(path, header());
+      Store store(path, header_of_killed());
       for (int i = 0; i < count; ++i) {
         add_trials(store, done++, 1);
         fs::resize_file(progress, static_cast<std::uintmax_t>(done));
@@ -128,11 +128,11 @@ TEST_P(KilledStore, KeepsItsTrialsAndGoesOn) {
     const std::size_t done = fs::file_size(progress);
     SCOPED_TRACE(changes);
     EXPECT_FALSE(fs::exists(path.string() + "-journal"));
-    const std::size_t found = stored_trials(path, stored_header(path), header()).size();
+    const std::size_t found = stored_trials(path, stored_header(path), header_of_killed()).size();
     EXPECT_GE(found, done);
     EXPECT_LE(found, done + 1);
     {
-      Store store(path, header());
+      Store store(path, header_of_killed());
       add_trials(store, static_cast<int>(found), 3 - static_cast<int>(found));
     }
     rewrite_in_order(path);
@@ -169,7 +169,7 @@ TEST(KilledStore, OfAnEarlierVersionIsHealed) {
   const test::TempFolder folder;
   const fs::path path = folder.path() / "s";
   {
-    Store store(path, header());
+    Store store(path, header_of_killed());
     add_trials(store, 0, 5);
   }
   rewrite_in_order(path);
@@ -194,7 +194,7 @@ TEST(KilledStore, InAFolderToReadSaysWhatToDo) {
   const test::TempFolder folder;
   const fs::path path = folder.path() / "s";
   run_and_die([&] {
-    Store store(path, header());
+    Store store(path, header_of_killed());
     add_trials(store, 0, 5);
     ::_exit(0);
     return 1;
@@ -216,7 +216,7 @@ TEST(KilledStore, ThatAnEarlierVersionBeganIsNone) {
   const fs::path path = folder.path() / "s";
   leave_journal(path, "PRAGMA journal_mode = WAL");
   EXPECT_FALSE(has_store(path));
-  { const Store store(path, header()); }
+  { const Store store(path, header_of_killed()); }
   EXPECT_TRUE(read_store(path).records.empty());
 }
 

@@ -15,7 +15,7 @@
 namespace croon::experiments {
 namespace {
 
-StoreHeader header() {
+StoreHeader header_of_two() {
   StoreHeader header;
   header.provenance = {{"starts", R"({"rotation_deg": 45})"}};
   header.versions = {{"framework", 1}, {"step/drift", 3}};
@@ -61,7 +61,7 @@ void expect_same_bits(double a, double b) {
       << a << " " << b;
 }
 
-void expect_same(const TrialRecord& a, const TrialRecord& b) {
+void expect_same_record(const TrialRecord& a, const TrialRecord& b) {
   EXPECT_EQ(std::tie(a.id.variant, a.id.scene, a.id.sensor, a.id.trial),
             std::tie(b.id.variant, b.id.scene, b.id.sensor, b.id.trial));
   EXPECT_EQ(a.status, b.status);
@@ -95,16 +95,16 @@ TEST(Store, GivesBackEveryBitOfARecord) {
   const std::filesystem::path path = folder.path() / "s";
   std::vector<TrialRecord> records = random_records(60);
   {
-    Store store(path, header());
+    Store store(path, header_of_two());
     for (const TrialRecord& record : records) add(store, record);
   }
   for (int i = 0; i < 2; ++i) {
     const std::vector<TrialRecord> found = read_store(path).records;
     ASSERT_EQ(found.size(), records.size());
-    EXPECT_EQ(stored_trials(path, stored_header(path), header()).size(), records.size());
+    EXPECT_EQ(stored_trials(path, stored_header(path), header_of_two()).size(), records.size());
     // By variant, then trial: report order.
     for (std::size_t k = 0; k < found.size(); ++k) {
-      expect_same(found[k], records[k < 30 ? 2 * k : 2 * (k - 30) + 1]);
+      expect_same_record(found[k], records[k < 30 ? 2 * k : 2 * (k - 30) + 1]);
     }
     rewrite_in_order(path);
   }
@@ -119,7 +119,7 @@ TEST(Store, ASuccessWithoutAnErrorIsATrialThatFinished) {
   record.status = Status::success;
   record.T_reference_sensor = RigidTransform();
   {
-    Store store(old, header());
+    Store store(old, header_of_two());
     add(store, record);
   }
   EXPECT_EQ(read_store(old).records.at(0).status, Status::finished);
@@ -139,7 +139,7 @@ TEST(Store, KeepsWhatEachStepReported) {
                     {"inf", -std::numeric_limits<double>::infinity()}},
                    {}}};
   {
-    Store store(path, header());
+    Store store(path, header_of_two());
     add(store, record);
   }
   rewrite_in_order(path);
@@ -169,7 +169,7 @@ TEST(Store, HasTheSameBytesWhateverTheOrderAndTheNumberOfSessions) {
     const std::filesystem::path path = folder.path() / std::to_string(per_session);
     for (std::size_t i = 0; i < records.size(); i += per_session) {
       {
-        Store store(path, header());
+        Store store(path, header_of_two());
         for (std::size_t k = i; k < std::min(i + per_session, records.size()); ++k) {
           add(store, records[k]);
         }
@@ -189,7 +189,7 @@ TEST(Store, HasTheSameBytesWhateverTheOrderAndTheNumberOfSessions) {
 TEST(Store, WhatWasAddedOutlivesAKill) {
   const test::TempFolder folder;
   const std::vector<TrialRecord> records = random_records(10);
-  Store store(folder.path() / "s", header());
+  Store store(folder.path() / "s", header_of_two());
   for (const TrialRecord& record : records) add(store, record);
   // What a kill leaves: the files as they are while the store is open.
   const std::filesystem::path copy = folder.path() / "copy";
@@ -214,9 +214,9 @@ std::string refusal(const std::filesystem::path& path, const StoreHeader& asked)
 TEST(Store, SaysWhatDiffers) {
   const test::TempFolder folder;
   const std::filesystem::path path = folder.path() / "s";
-  { const Store store(path, header()); }
+  { const Store store(path, header_of_two()); }
   const std::string bytes = read_whole_file(path);
-  StoreHeader other = header();
+  StoreHeader other = header_of_two();
   other.provenance["starts"] = R"({"rotation_deg": 30})";
   EXPECT_EQ(refusal(path, other),
             "its trials were made from something else: /starts/rotation_deg was 45 and is 30; "
@@ -231,7 +231,7 @@ TEST(Store, SaysWhatDiffers) {
 
 TEST(Store, KeepsTheBuildsAndVersionsOfItsTrials) {
   const test::TempFolder folder;
-  StoreHeader a = header(), b = header();
+  StoreHeader a = header_of_two(), b = header_of_two();
   a.builds = {{"0.1.0", "abc", "1", {{"my stages", "def-dirty"}}, {{"compiler", "GNU 12"}}}};
   b.builds = {{"0.1.0", "abc", "2", {}, {}}};
   b.versions = {{"framework", 1}, {"icp/icpn", 2}};
@@ -266,15 +266,15 @@ TEST(Store, OfAnEarlierFormatIsReadAndNotExtended) {
   const std::filesystem::path path = folder.path() / "s";
   const std::vector<TrialRecord> records = random_records(4);
   {
-    Store store(path, header());
+    Store store(path, header_of_two());
     for (const TrialRecord& record : records) add(store, record);
   }
   make_earlier(path);
   const StoredRun run = read_store(path);
   EXPECT_EQ(run.records.size(), 4U);
   EXPECT_EQ(run.header.builds.at(0).commit, "abc");
-  EXPECT_EQ(run.header.provenance, header().provenance);
-  const std::string message = refusal(path, header());
+  EXPECT_EQ(run.header.provenance, header_of_two().provenance);
+  const std::string message = refusal(path, header_of_two());
   EXPECT_EQ(message,
             "is a store of an earlier croon, whose stages had no versions: it can be exported, but "
             "not extended or merged; croon run --fresh starts over");
@@ -293,20 +293,20 @@ TEST(Store, OfTheFormatWithoutCovariancesIsReadAndExtended) {
   TrialRecord bare = records.front();
   bare.covariance.reset();
   {
-    Store store(path, header());
+    Store store(path, header_of_two());
     add(store, bare);
   }
   make_without_covariances(path);
   EXPECT_EQ(read_store(path).records.size(), 1U);
-  EXPECT_EQ(stored_trials(path, stored_header(path), header()).size(), 1U);
+  EXPECT_EQ(stored_trials(path, stored_header(path), header_of_two()).size(), 1U);
   {
     // A merge reads it too.
-    Store store(folder.path() / "merged", header());
+    Store store(folder.path() / "merged", header_of_two());
     store.merge(path, stored_header(path));
   }
   EXPECT_EQ(read_store(folder.path() / "merged").records.size(), 1U);
   {
-    Store store(path, header()), all(whole, header());
+    Store store(path, header_of_two()), all(whole, header_of_two());
     add(all, bare);
     for (std::size_t i = 1; i < records.size(); ++i) {
       add(store, records[i]);
@@ -325,10 +325,10 @@ TEST(Store, TakesMoreVariantsTrialsAndAnotherOrder) {
   const std::filesystem::path path = folder.path() / "s";
   const std::vector<TrialRecord> records = random_records(20);
   {
-    Store store(path, header());
+    Store store(path, header_of_two());
     for (const TrialRecord& record : records) add(store, record);
   }
-  StoreHeader more = header();
+  StoreHeader more = header_of_two();
   more.variants = {{"new", "[]"}, {"other", "[]"}, {"base", more.variants[0].detail}};
   more.trials = 2000;
   EXPECT_EQ(stored_trials(path, stored_header(path), more).size(), 20U);
@@ -336,13 +336,13 @@ TEST(Store, TakesMoreVariantsTrialsAndAnotherOrder) {
   { const Store store(path, more); }
   EXPECT_EQ(read_store(path).records.front().id.variant, "other");
   // A variant that is taken out stays in the store, and must be what it was when it comes back.
-  StoreHeader fewer = header();
+  StoreHeader fewer = header_of_two();
   fewer.variants.pop_back();
   fewer.trials = 5;
   { const Store store(path, fewer); }
   EXPECT_EQ(read_store(path).records.size(), 5U);
-  EXPECT_EQ(stored_trials(path, stored_header(path), header()).size(), 20U);
-  StoreHeader changed = header();
+  EXPECT_EQ(stored_trials(path, stored_header(path), header_of_two()).size(), 20U);
+  StoreHeader changed = header_of_two();
   changed.variants[1].detail = "[1]";
   EXPECT_NE(refusal(path, changed).find("/variants/other/- was not there and is 1"),
             std::string::npos);
@@ -353,8 +353,8 @@ TEST(Store, MergesShardsToTheBytesOfTheWhole) {
   const std::vector<TrialRecord> records = random_records(40);
   const auto path = [&](const std::string& name) { return folder.path() / name; };
   {
-    Store whole(path("whole"), header()), a(path("a"), header());
-    StoreHeader turned = header();
+    Store whole(path("whole"), header_of_two()), a(path("a"), header_of_two());
+    StoreHeader turned = header_of_two();
     std::reverse(turned.variants.begin(), turned.variants.end());
     Store b(path("b"), turned);
     for (std::size_t i = 0; i < records.size(); ++i) {
@@ -368,7 +368,7 @@ TEST(Store, MergesShardsToTheBytesOfTheWhole) {
   rewrite_in_order(path("whole"));
   const std::string b_bytes = read_whole_file(path("b"));
   {
-    Store merged(path("merged"), header());
+    Store merged(path("merged"), header_of_two());
     merged.merge(path("b"), stored_header(path("b")));
     merged.merge(path("a"), stored_header(path("a")));
     merged.merge(path("a"), stored_header(path("a")));
@@ -383,15 +383,15 @@ TEST(Store, MergesNothingThatDiffers) {
   const std::vector<TrialRecord> records = random_records(4);
   TrialRecord other = records[1];
   other.reason += "!";
-  StoreHeader seed = header();
+  StoreHeader seed = header_of_two();
   seed.provenance["seed"] = "2";
   {
-    Store a(folder.path() / "a", header()), b(folder.path() / "b", header());
+    Store a(folder.path() / "a", header_of_two()), b(folder.path() / "b", header_of_two());
     const Store c(folder.path() / "c", seed);
     for (const TrialRecord& record : records) add(a, record);
     add(b, other);
   }
-  Store a(folder.path() / "a", header());
+  Store a(folder.path() / "a", header_of_two());
   try {
     a.merge(folder.path() / "b", stored_header(folder.path() / "b"));
     FAIL();
@@ -403,9 +403,9 @@ TEST(Store, MergesNothingThatDiffers) {
 
 TEST(Store, BelongsToOneProcess) {
   const test::TempFolder folder;
-  const Store store(folder.path() / "s", header());
+  const Store store(folder.path() / "s", header_of_two());
   try {
-    const Store other(folder.path() / "s", header());
+    const Store other(folder.path() / "s", header_of_two());
     FAIL();
   } catch (const InputError& error) {
     EXPECT_EQ(error.faults()[0].message, "another croon is working on this store");
@@ -419,7 +419,7 @@ TEST(Store, SaysThatItIsDamaged) {
     const test::TempFolder folder;
     const std::filesystem::path path = folder.path() / "s";
     {
-      Store store(path, header());
+      Store store(path, header_of_two());
       Rng rng = test::test_rng();
       add(store, random_record(rng, "base", 0));
     }
@@ -433,9 +433,9 @@ TEST(Store, SaysThatItIsDamaged) {
 TEST(Store, RefusesWhatIsNoStore) {
   const test::TempFolder folder;
   const std::filesystem::path path = folder.write("s", std::string(5000, 'x'));
-  EXPECT_THROW(Store(path, header()), InputError);
+  EXPECT_THROW(Store(path, header_of_two()), InputError);
   EXPECT_EQ(read_whole_file(path), std::string(5000, 'x'));
-  EXPECT_THROW(Store(folder.path() / "none" / "s", header()), InputError);
+  EXPECT_THROW(Store(folder.path() / "none" / "s", header_of_two()), InputError);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace croon::experiments {
 namespace {
 
-StoreHeader header() {
+StoreHeader header_of_many() {
   StoreHeader header;
   header.provenance = {{"seed", "1"}};
   header.manifest = "{}";
@@ -39,7 +39,7 @@ TEST_F(StoreWriterTest, WritesAllAndTellsAfterwards) {
   std::size_t told = 0;
   bool is_in_order = true;
   {
-    Store store(path(), header());
+    Store store(path(), header_of_many());
     StoreWriter writer(store, [&](const std::vector<Done>& batch) {
       for (const Done& done : batch) {
         if (done.record)
@@ -52,12 +52,12 @@ TEST_F(StoreWriterTest, WritesAllAndTellsAfterwards) {
   }
   EXPECT_EQ(told, static_cast<std::size_t>(kTrials));
   EXPECT_TRUE(is_in_order);
-  EXPECT_EQ(stored_trials(path(), stored_header(path()), header()).size(),
+  EXPECT_EQ(stored_trials(path(), stored_header(path()), header_of_many()).size(),
             static_cast<std::size_t>(kTrials));
 }
 
 TEST_F(StoreWriterTest, TellsOnlyWhatIsOnDisk) {
-  Store store(path(), header());
+  Store store(path(), header_of_many());
   int told = 0;
   StoreWriter writer(
       store, [&](const std::vector<Done>& batch) { told += static_cast<int>(batch.size()); });
@@ -70,7 +70,7 @@ TEST_F(StoreWriterTest, TellsOnlyWhatIsOnDisk) {
 }
 
 TEST_F(StoreWriterTest, TellsOfTimingsToo) {
-  Store store(path(), header());
+  Store store(path(), header_of_many());
   int told = 0;
   StoreWriter writer(
       store, [&](const std::vector<Done>& batch) { told += static_cast<int>(batch.size()); });
@@ -80,7 +80,7 @@ TEST_F(StoreWriterTest, TellsOfTimingsToo) {
 }
 
 TEST_F(StoreWriterTest, ThrowsWhatWritingThrew) {
-  Store store(path(), header());
+  Store store(path(), header_of_many());
   StoreWriter writer(store, [](const std::vector<Done>&) { throw std::runtime_error("full"); });
   const auto add_until_it_fails = [&] {
     for (int i = 0; i < 100000; ++i) writer.add(trial(i));
@@ -91,11 +91,11 @@ TEST_F(StoreWriterTest, ThrowsWhatWritingThrew) {
 
 TEST_F(StoreWriterTest, WritesWhatItHasWhenItGoes) {
   {
-    Store store(path(), header());
+    Store store(path(), header_of_many());
     StoreWriter writer(store, [](const std::vector<Done>&) {});
     for (int i = 0; i < 100; ++i) writer.add(trial(i));
   }
-  EXPECT_EQ(stored_trials(path(), stored_header(path()), header()).size(), 100U);
+  EXPECT_EQ(stored_trials(path(), stored_header(path()), header_of_many()).size(), 100U);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kArguments = 20000;
 
-struct Interval {
+struct Arguments {
   double from = 0.0;
   double to = 0.0;
 };
@@ -24,7 +24,7 @@ struct Unary {
   std::string name;
   double (*computed)(double);
   long double (*precise)(long double);
-  std::vector<Interval> arguments;
+  std::vector<Arguments> arguments;
 };
 
 /// `function` as pointers to both overloads.
@@ -78,7 +78,7 @@ TEST(Libm, FunctionsOfOneArgumentAreWithinTwoUlp) {
   };
   Rng rng = test::test_rng(1);
   for (const Unary& function : functions) {
-    for (const Interval& interval : function.arguments) {
+    for (const Arguments& interval : function.arguments) {
       for (int i = 0; i < kArguments; ++i) {
         const double x = rng.uniform(interval.from, interval.to);
         expect_close(function.computed(x), function.precise(x),

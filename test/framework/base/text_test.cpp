@@ -73,6 +73,19 @@ TEST(Text, IsPrintableWithoutControlCharactersAndBrokenCodes) {
   EXPECT_EQ(all, "??a");
 }
 
+TEST(Text, IsPrintableWithoutWhatIsNotSeen) {
+  // A mark from right to left, a separator of lines, a space without width, a byte order mark, a
+  // soft hyphen, a tag.
+  for (const char* unseen : {"\xe2\x80\xae", "\xe2\x80\xa8", "\xe2\x80\x8b", "\xef\xbb\xbf",
+                             "\xc2\xad", "\xf3\xa0\x80\xa1"}) {
+    EXPECT_EQ(printable(std::string("le") + unseen + "ft"), "le?ft");
+  }
+  // Their neighbours are seen: no-break space, dash, ideographic space.
+  for (const char* seen : {"\xc2\xa0", "\xe2\x80\x94", "\xe3\x80\x80"}) {
+    EXPECT_EQ(printable(seen), seen);
+  }
+}
+
 TEST(Text, OfAFaultIsShort) {
   const std::string key(1000000, 'k');
   EXPECT_LT(Fault({"f.json", "/" + key, "unknown key \"" + key + "\""}).line().size(), 2300U);

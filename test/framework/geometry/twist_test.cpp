@@ -16,7 +16,7 @@ Twist random_twist(Rng& rng, double turn_radps) {
   return twist;
 }
 
-void expect_near(const RigidTransform& a, const RigidTransform& b, double tolerance) {
+void expect_near_elements(const RigidTransform& a, const RigidTransform& b, double tolerance) {
   EXPECT_LT((a.rotation - b.rotation).norm(), tolerance);
   EXPECT_LT((a.translation - b.translation).norm(), tolerance);
 }
@@ -27,8 +27,9 @@ TEST(Twist, MotionsOverTimesAddUp) {
     for (int i = 0; i < 50; ++i) {
       const Twist twist = random_twist(rng, turn);
       const double a = rng.uniform(-1.0, 1.0), b = rng.uniform(-1.0, 1.0);
-      expect_near(motion_over(twist, a) * motion_over(twist, b), motion_over(twist, a + b), 1e-11);
-      expect_near(motion_over(twist, -a), motion_over(twist, a).inverse(), 1e-11);
+      expect_near_elements(motion_over(twist, a) * motion_over(twist, b), motion_over(twist, a + b),
+                           1e-11);
+      expect_near_elements(motion_over(twist, -a), motion_over(twist, a).inverse(), 1e-11);
     }
   }
 }
@@ -51,8 +52,8 @@ TEST(Twist, OfAFrameOnTheBodyMovesThatFrame) {
     const Twist body = random_twist(rng, 2.0);
     const RigidTransform T_body_sensor = test::random_pose(rng, 3.0);
     const Twist sensor = velocity_in(T_body_sensor.inverse(), body);
-    expect_near(motion_over(body, 0.1) * T_body_sensor, T_body_sensor * motion_over(sensor, 0.1),
-                1e-11);
+    expect_near_elements(motion_over(body, 0.1) * T_body_sensor,
+                         T_body_sensor * motion_over(sensor, 0.1), 1e-11);
   }
 }
 

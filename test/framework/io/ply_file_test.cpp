@@ -89,6 +89,10 @@ TEST(PlyFile, FusesTheRigInTheReferencesFrame) {
   const std::string bytes = read_whole_file(path);
   EXPECT_THAT(bytes, HasSubstr("comment left?element is 230 159 0\n"));
   EXPECT_EQ(bytes.substr(bytes.size() - 3), "\xE6\x9F" + std::string(1, '\0'));
+  EXPECT_TRUE(is_fused_ply(path));
+  write_ply(path, top);
+  EXPECT_FALSE(is_fused_ply(path));
+  EXPECT_FALSE(is_fused_ply(folder.path() / "none.ply"));
 }
 
 TEST(PlyFile, SaysWhatIsWrong) {

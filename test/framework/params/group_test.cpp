@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/params/json_file.hpp"
+#include "test/framework/params/no_stages.hpp"
 
 namespace croon::params {
 namespace {
@@ -27,7 +28,7 @@ struct Rig {
 
 Model with_rings(int rings) { return {rings, 1.0, 100.0}; }
 
-struct Sample {
+struct Nested {
   Model model = with_rings(64);
   Rig rig;
 };
@@ -57,22 +58,17 @@ const Table<Rig>& rig_table() {
   return table;
 }
 
-const Table<Sample>& table() {
+const Table<Nested>& table() {
   const Mount fine{2.0, with_rings(64)};
-  static const Table<Sample> table = {
-      group("model", &Sample::model, model_table(), kModels, "Model."),
-      group("rig", &Sample::rig, rig_table(), {{"pair", {"a", {{"a", fine}, {"b", {}}}}}}, "Rig."),
+  static const Table<Nested> table = {
+      group("model", &Nested::model, model_table(), kModels, "Model."),
+      group("rig", &Nested::rig, rig_table(), {{"pair", {"a", {{"a", fine}, {"b", {}}}}}}, "Rig."),
   };
   return table;
 }
 
-class NoStages final : public StageBuilder {
- public:
-  BuiltStage build(const std::string&, const Node&) const override { return {}; }
-};
-
 /// The lines of the faults in `text`; `sample` gets what was read.
-std::vector<std::string> faults_of(const std::string& text, Sample& sample) {
+std::vector<std::string> faults_of(const std::string& text, Nested& sample) {
   const nlohmann::json value = parse_json(text, "f");
   std::vector<Fault> faults;
   sample = table().read(Node(value, "f", faults), {}, NoStages());
@@ -82,13 +78,13 @@ std::vector<std::string> faults_of(const std::string& text, Sample& sample) {
 }
 
 std::vector<std::string> faults_of(const std::string& text) {
-  Sample sample;
+  Nested sample;
   return faults_of(text, sample);
 }
 
 /// What the parameter `key` of the object `text` is when it was read, as JSON text.
 std::string resolved(const std::string& text, const std::string& key) {
-  Sample sample;
+  Nested sample;
   EXPECT_EQ(faults_of(text, sample), std::vector<std::string>{}) << text;
   return nlohmann::json::parse(object_json(table(), sample))[key].dump();
 }
@@ -126,7 +122,7 @@ TEST(Group, HoldsGroupsAndMaps) {
 }
 
 TEST(Group, KeepsAMapInTheOrderOfItsNames) {
-  Sample sample;
+  Nested sample;
   faults_of(R"({"rig": {"like": "pair", "sensors": {"c": {}, "a": {}, "b": {}}}})", sample);
   ASSERT_EQ(sample.rig.sensors.size(), 3U);
   EXPECT_EQ(sample.rig.sensors[0].first, "a");
@@ -187,7 +183,7 @@ TEST(Group, TellsItsMembersAndDefaults) {
   EXPECT_EQ(sensors.members[1].default_json, R"("coarse")");
 }
 
-struct Heir : Sample {
+struct Heir : Nested {
   Heir() { model.far_m = 50; }
 };
 

@@ -9,7 +9,7 @@
 namespace croon::params {
 namespace {
 
-std::vector<Fault> faults_of(const std::string& text) {
+std::vector<Fault> json_faults(const std::string& text) {
   try {
     parse_json(text, "f.json");
   } catch (const InputError& error) {
@@ -20,7 +20,7 @@ std::vector<Fault> faults_of(const std::string& text) {
 
 TEST(ParseJson, FindsEveryDuplicateKeyAndItsPlace) {
   const auto faults =
-      faults_of(R"({"a": 1, "b": [{"x": 1}, {"c/d": 1, "y": [], "c/d": 2}], "a": {"a": 1}})");
+      json_faults(R"({"a": 1, "b": [{"x": 1}, {"c/d": 1, "y": [], "c/d": 2}], "a": {"a": 1}})");
   ASSERT_EQ(faults.size(), 2u);
   EXPECT_EQ(faults[0].where, "/b/1/c~1d");
   EXPECT_EQ(faults[1].where, "/a");
@@ -29,34 +29,41 @@ TEST(ParseJson, FindsEveryDuplicateKeyAndItsPlace) {
 
 TEST(ParseJson, LetsEqualKeysOfDifferentObjectsPass) {
   EXPECT_TRUE(
-      faults_of(R"({"a": {"a": 1}, "b": [{"a": 1}, {"a": 2}, [], [[1]], {"a": 3}]})").empty());
+      json_faults(R"({"a": {"a": 1}, "b": [{"a": 1}, {"a": 2}, [], [[1]], {"a": 3}]})").empty());
 }
 
 TEST(ParseJson, SaysWhereItIsNotJson) {
-  const auto faults = faults_of("{\"a\": 1,\n  oops}");
+  const auto faults = json_faults("{\"a\": 1,\n  oops}");
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_NE(faults[0].message.find("line 2, column 3"), std::string::npos) << faults[0].message;
-  EXPECT_EQ(faults_of("").size(), 1u);
-  EXPECT_EQ(faults_of("{} {}").size(), 1u);
+  EXPECT_EQ(json_faults("").size(), 1u);
+  EXPECT_EQ(json_faults("{} {}").size(), 1u);
 }
 
 TEST(ParseJson, RefusesWhatIsNestedTooDeeply) {
-  EXPECT_EQ(faults_of(std::string(200000, '[')).size(), 1u);
-  EXPECT_TRUE(faults_of(std::string(50, '[') + std::string(50, ']')).empty());
-  const auto faults = faults_of(R"({"a": )" + std::string(200, '['));
+  EXPECT_EQ(json_faults(std::string(200000, '[')).size(), 1u);
+  EXPECT_TRUE(json_faults(std::string(50, '[') + std::string(50, ']')).empty());
+  const auto faults = json_faults(R"({"a": )" + std::string(200, '['));
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].where.substr(0, 8), "/a/0/0/0");
   EXPECT_EQ(faults[0].message, "expected at most 100 levels of lists and objects, found more");
 }
 
+TEST(ParseJson, RefusesMoreThanTenMegabytes) {
+  EXPECT_TRUE(json_faults("[" + std::string(9'999'998, ' ') + "]").empty());
+  const auto faults = json_faults("[" + std::string(9'999'999, ' ') + "]");
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].message, "expected JSON of at most 10000000 bytes, found 10000001");
+}
+
 TEST(ParseJson, RefusesBytesBehindANullByte) {
-  const auto faults = faults_of(std::string("{}\n\0{\"a\": oops", 14));
+  const auto faults = json_faults(std::string("{}\n\0{\"a\": oops", 14));
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].where, "line 2, column 1");
 }
 
 TEST(ParseJson, SaysWhereANumberIsTooLarge) {
-  const auto faults = faults_of("{\"a\": 1,\n \"b\": 1e999}");
+  const auto faults = json_faults("{\"a\": 1,\n \"b\": 1e999}");
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].where, "line 2, column 7");
   EXPECT_NE(faults[0].message.find("expected a number of at most 1.8e308, found: "),

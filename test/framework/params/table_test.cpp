@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/params/json_file.hpp"
+#include "test/framework/params/no_stages.hpp"
 
 namespace croon::params {
 namespace {
@@ -25,7 +26,7 @@ struct Sample : Base {
   std::vector<Axis> words = {Axis::x};
 };
 
-const Table<Sample>& table() {
+const Table<Sample>& sample_table() {
   static const Table<Sample> table =
       Table<Sample>{
           number("size_m", &Sample::size_m, {0.0, 10.0}, "Size."),
@@ -41,16 +42,11 @@ const Table<Sample>& table() {
   return table;
 }
 
-class NoStages final : public StageBuilder {
- public:
-  BuiltStage build(const std::string&, const Node&) const override { return {}; }
-};
-
 /// Reads `text`, returns the parameters and puts the faults' lines into `lines`.
 Sample read(const std::string& text, std::vector<std::string>& lines) {
   const nlohmann::json value = parse_json(text, "f");
   std::vector<Fault> faults;
-  const Sample sample = table().read(Node(value, "f", faults), {"type"}, NoStages());
+  const Sample sample = sample_table().read(Node(value, "f", faults), {"type"}, NoStages());
   lines.clear();
   for (const Fault& fault : faults) lines.push_back(fault.line());
   return sample;
@@ -77,7 +73,7 @@ TEST(Table, GivesDefaultsWhereNothingIsSaid) {
   const Sample sample = read(R"({"type": "t"})", lines);
   EXPECT_TRUE(lines.empty());
   EXPECT_EQ(
-      table().members_json(sample),
+      sample_table().members_json(sample),
       R"("size_m":0.5,"flag":false,"word":"one","name":"a","steps":[1,0.5],"words":["x"],"count":3)");
 }
 
@@ -88,7 +84,7 @@ TEST(Table, ReadsEveryType) {
       lines);
   EXPECT_TRUE(lines.empty());
   EXPECT_EQ(
-      table().members_json(sample),
+      sample_table().members_json(sample),
       R"("size_m":2,"flag":true,"word":"two","name":"b","steps":[0.3],"words":["z","x"],"count":4)");
 }
 

@@ -5,6 +5,7 @@
 
 #include "framework/params/json_file.hpp"
 #include "framework/params/table.hpp"
+#include "test/framework/params/no_stages.hpp"
 
 namespace croon::params {
 namespace {
@@ -18,10 +19,6 @@ struct Params {
 
 const Table<Params> kTable = {text("path", &Params::path, "A path."),
                               text("name", &Params::name, "A name.")};
-
-struct NoStages final : StageBuilder {
-  BuiltStage build(const std::string&, const Node&) const override { return {}; }
-};
 
 Params read(const std::string& json, std::vector<Fault>& faults) {
   const nlohmann::json value = parse_json(json, "test");

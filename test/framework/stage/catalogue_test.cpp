@@ -121,16 +121,16 @@ TEST(Catalogue, RefusesTwoDescriptionsOfOneKind) {
 }
 
 /// A kind of stage that nothing but this file knows.
-class Judge {
+class Referee {
  public:
-  using Kind = Judge;
+  using Kind = Referee;
   static constexpr const char* kKind = "judge";
   static constexpr const char* kKindSummary = "Judges.";
   static constexpr int kKindOrder = 25;
-  virtual ~Judge() = default;
+  virtual ~Referee() = default;
 };
 
-class Strict final : public Judge {
+class Strict final : public Referee {
  public:
   explicit Strict(KeepParams) {}
 };

@@ -4,6 +4,7 @@
 #include "framework/base/angles.hpp"
 #include "framework/stage/dataset.hpp"
 #include "test/support/data_root.hpp"
+#include "test/support/one_point_pcd.hpp"
 #include "test/support/stages.hpp"
 #include "test/support/temp_folder.hpp"
 
@@ -21,20 +22,14 @@ std::string error_of(const fs::path& root, const std::string& path) {
   return test::input_error([&] { scenes(root, path); });
 }
 
-/// A cloud with one point, (x, 0, 0).
-std::string cloud(int x) {
-  return "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nDATA ascii\n" + std::to_string(x) +
-         " 0 0\n";
-}
-
 /// Scenes `rig/b` and `rig/a` of two sensors, made up.
 class MadeUpRig : public ::testing::Test {
  protected:
   MadeUpRig() {
     for (const char* scene : {"b", "a"}) {
       const std::string at = std::string("data/rig/") + scene + "/";
-      folder.write(at + "top-1.pcd", cloud(1));
-      folder.write(at + "left-1-2.pcd", cloud(2));
+      folder.write(at + "top-1.pcd", test::one_point_pcd(1));
+      folder.write(at + "left-1-2.pcd", test::one_point_pcd(2));
       folder.write(at + "lidar_cloud_path.txt",
                    "device_id: 1\npath: left-1-2.pcd\ndevice_id: 0\npath: top-1.pcd\n");
     }
@@ -78,8 +73,8 @@ TEST_F(MadeUpRig, StaysInTheDataRoot) {
 }
 
 TEST_F(MadeUpRig, MayFollowLinksOutOfTheDataRoot) {
-  folder.write("disk/top-1.pcd", cloud(5));
-  folder.write("disk/left-1-2.pcd", cloud(6));
+  folder.write("disk/top-1.pcd", test::one_point_pcd(5));
+  folder.write("disk/left-1-2.pcd", test::one_point_pcd(6));
   folder.write("disk/lidar_cloud_path.txt",
                "device_id: 0\npath: top-1.pcd\ndevice_id: 1\npath: left-1-2.pcd\n");
   fs::create_directory_symlink(folder.path() / "disk", root / "rig" / "c");
@@ -136,9 +131,9 @@ TEST_F(MadeUpRig, FindsCloudsWhereverTheListWasWritten) {
 }
 
 TEST_F(MadeUpRig, SaysWhatIsWrongWithAScene) {
-  folder.write("data/rig/a/top-9.pcd", cloud(9));
+  folder.write("data/rig/a/top-9.pcd", test::one_point_pcd(9));
   folder.write("data/rig/a/bad.pcd", "FIELDS x y\n");
-  folder.write("secret.pcd", cloud(3));
+  folder.write("secret.pcd", test::one_point_pcd(3));
   const std::pair<const char*, const char*> cases[] = {
       {"device_id: 1\npath: left-1-2.pcd\n", "the reference, device 0, is missing"},
       {"device_id: 0\npath: top-1.pcd\n", "no sensor but the reference"},

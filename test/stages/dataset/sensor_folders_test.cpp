@@ -3,6 +3,7 @@
 
 #include "framework/base/error.hpp"
 #include "framework/stage/dataset.hpp"
+#include "test/support/one_point_pcd.hpp"
 #include "test/support/stages.hpp"
 #include "test/support/temp_folder.hpp"
 
@@ -12,22 +13,16 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-/// A cloud with one point, (x, 0, 0).
-std::string cloud(int x) {
-  return "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nDATA ascii\n" + std::to_string(x) +
-         " 0 0\n";
-}
-
 /// A folder for each of three sensors.
 class SensorFolders : public ::testing::Test {
  protected:
   SensorFolders() {
-    folder.write("data/car/top/000002.pcd", cloud(1));
-    folder.write("data/car/top/000001.pcd", cloud(2));
-    folder.write("data/car/top/000003.pcd", cloud(9));
-    folder.write("data/car/front-left/000001.pcd", cloud(3));
-    folder.write("data/car/front-left/000002.pcd", cloud(4));
-    folder.write("data/car/back/000002.pcd", cloud(5));
+    folder.write("data/car/top/000002.pcd", test::one_point_pcd(1));
+    folder.write("data/car/top/000001.pcd", test::one_point_pcd(2));
+    folder.write("data/car/top/000003.pcd", test::one_point_pcd(9));
+    folder.write("data/car/front-left/000001.pcd", test::one_point_pcd(3));
+    folder.write("data/car/front-left/000002.pcd", test::one_point_pcd(4));
+    folder.write("data/car/back/000002.pcd", test::one_point_pcd(5));
     folder.write("data/car/back/notes.txt", "none");
     folder.write("data/car/pictures/000001.png", "");
     folder.write("data/car/truth.json",
@@ -114,7 +109,7 @@ TEST_F(SensorFolders, MissNoLinkThatLeadsNowhere) {
 }
 
 TEST_F(SensorFolders, FollowLinksIfAsked) {
-  folder.write("disk/000002.pcd", cloud(7));
+  folder.write("disk/000002.pcd", test::one_point_pcd(7));
   fs::remove_all(root / "car/back");
   fs::create_directory_symlink(folder.path() / "disk", root / "car/back");
   EXPECT_THAT(error(), HasSubstr("leads outside the data root"));

@@ -58,8 +58,8 @@ StandingRig standing_rig(std::uint64_t scenes) {
   return rig;
 }
 
-void adjust(std::vector<RigEstimate>& rig,
-            const std::string& step_json = R"({"step": "bundle_adjustment"})") {
+void adjust_bundle(std::vector<RigEstimate>& rig,
+                   const std::string& step_json = R"({"step": "bundle_adjustment"})") {
   Rng rng = test::test_rng();
   const auto step = test::stage<Step>(step_json);
   dynamic_cast<const RigStep&>(*step).adjust(rig, rng);
@@ -67,7 +67,7 @@ void adjust(std::vector<RigEstimate>& rig,
 
 TEST(BundleAdjustment, FindsOnePoseForEachSensorInAllScenes) {
   StandingRig rig = standing_rig(3);
-  adjust(rig.estimates);
+  adjust_bundle(rig.estimates);
   std::map<std::string, RigidTransform> found;
   for (const RigEstimate& one : rig.estimates) {
     ASSERT_EQ(one.failure, "");
@@ -83,7 +83,7 @@ TEST(BundleAdjustment, FindsOnePoseForEachSensorInAllScenes) {
 
 TEST(BundleAdjustment, SaysHowWellEachPoseIsHeld) {
   StandingRig rig = standing_rig(2);
-  adjust(rig.estimates);
+  adjust_bundle(rig.estimates);
   for (const RigEstimate& one : rig.estimates) {
     ASSERT_TRUE(one.estimate.covariance);
     const PoseCovariance& covariance = *one.estimate.covariance;
@@ -128,7 +128,7 @@ TEST(BundleAdjustment, ThreadsDoNotChangeABit) {
   std::vector<StandingRig> rigs;
   for (const int jobs : {1, 3}) {
     rigs.push_back(standing_rig(2));
-    on_threads(jobs, [&] { adjust(rigs.back().estimates); });
+    on_threads(jobs, [&] { adjust_bundle(rigs.back().estimates); });
   }
   for (std::size_t i = 0; i < rigs[0].estimates.size(); ++i) {
     const RigidTransform& one = rigs[0].estimates[i].estimate.T_target_source;
@@ -151,8 +151,8 @@ TEST(BundleAdjustment, ASensorIsHeldByOthersThanTheReference) {
   for (const RigEstimate& one : rig.estimates) {
     if (one.source == "back") alone.push_back(one);
   }
-  adjust(rig.estimates);
-  adjust(alone);
+  adjust_bundle(rig.estimates);
+  adjust_bundle(alone);
   const auto error_m = [&](const RigEstimate& one) {
     return pose_error(one.estimate.T_target_source, rig.truth["back"]).translation_m;
   };
@@ -178,8 +178,8 @@ TEST(BundleAdjustment, ARejectedPoseTakesNoPart) {
   const RigidTransform before = astray.T_target_source;
   without.estimates.erase(without.estimates.begin() +
                           (&of_sensor(without, "left") - without.estimates.data()));
-  adjust(rig.estimates);
-  adjust(without.estimates);
+  adjust_bundle(rig.estimates);
+  adjust_bundle(without.estimates);
   EXPECT_EQ(astray.T_target_source.translation, before.translation);
   EXPECT_EQ(astray.rejection, "astray");
   for (const RigEstimate& one : without.estimates) {
@@ -194,7 +194,7 @@ TEST(BundleAdjustment, ASensorThatWouldMoveFarIsRejectedAndTheOthersDoWithoutIt)
   Estimate& astray = of_sensor(rig, "left").estimate;
   astray.T_target_source.translation.z() += 0.2;
   const RigidTransform before = astray.T_target_source;
-  adjust(rig.estimates, R"({"step": "bundle_adjustment", "max_correction_m": 0.15})");
+  adjust_bundle(rig.estimates, R"({"step": "bundle_adjustment", "max_correction_m": 0.15})");
   ASSERT_TRUE(astray.rejection);
   EXPECT_THAT(*astray.rejection, HasSubstr("above 180.000 or 0.150"));
   EXPECT_EQ(astray.T_target_source.translation, before.translation);
@@ -228,8 +228,8 @@ TEST(BundleAdjustment, WhatIsNotKnownOfTheVelocityMovesASensorByTheTimeBetweenSc
   for (RigEstimate& one : rig.estimates) one.estimate.extras.put(kMotionCovariance, motion);
   const std::string step =
       R"({"step": "bundle_adjustment", "start_weight": 1, "start_std": [10, 10]})";
-  adjust(rig.estimates, step);
-  adjust(known.estimates, step);
+  adjust_bundle(rig.estimates, step);
+  adjust_bundle(known.estimates, step);
   // All points of a sensor are of one time, so that nothing but the covariance holds the velocity.
   double delay_s = 0.0;
   for (const RigEstimate& one : rig.estimates) {
@@ -270,8 +270,8 @@ TEST(BundleAdjustment, FindsTheOffsetOfAClockFromScenesOfDifferentVelocities) {
          {"1", velocity_of(9.0, 0.0, 0.1)},
          {"2", velocity_of(4.0, 0.1, 0.0)}});
   StandingRig without = rig;
-  adjust(rig.estimates, R"({"step": "bundle_adjustment", "clock_offset_std_s": 0.05})");
-  adjust(without.estimates);
+  adjust_bundle(rig.estimates, R"({"step": "bundle_adjustment", "clock_offset_std_s": 0.05})");
+  adjust_bundle(without.estimates);
   for (const RigEstimate& one : rig.estimates) {
     ASSERT_EQ(one.failure, "");
     const double off_s =
@@ -295,7 +295,7 @@ TEST(BundleAdjustment, FindsTheOffsetOfAClockAndTheVelocities) {
   Matrix6d motion = 1e-6 * Matrix6d::Identity();
   motion(3, 3) = 0.04;
   for (RigEstimate& one : rig.estimates) one.estimate.extras.put(kMotionCovariance, motion);
-  adjust(rig.estimates, R"({"step": "bundle_adjustment", "clock_offset_std_s": 0.05})");
+  adjust_bundle(rig.estimates, R"({"step": "bundle_adjustment", "clock_offset_std_s": 0.05})");
   const Estimate& left = of_sensor(rig, "left").estimate;
   // All points of a sensor are of one time, so a velocity and a pose that change together are free
   // but for what is known of them: the offset is known as well as those are.

@@ -77,7 +77,7 @@ std::vector<std::uint64_t> moving_scenes(std::size_t count) {
   return indices;
 }
 
-void adjust(std::vector<RigEstimate>& rig, const std::string& parameters = "") {
+void adjust_jointly(std::vector<RigEstimate>& rig, const std::string& parameters = "") {
   Rng rng = test::test_rng();
   const auto step = test::stage<Step>(R"({"step": "joint_registration")" + parameters + "}");
   dynamic_cast<const RigStep&>(*step).adjust(rig, rng);
@@ -85,7 +85,7 @@ void adjust(std::vector<RigEstimate>& rig, const std::string& parameters = "") {
 
 TEST(JointRegistration, FindsThePosesAndTheVelocityOfADrivingRig) {
   DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(2));
-  adjust(rig.estimates);
+  adjust_jointly(rig.estimates);
   for (const RigEstimate& one : rig.estimates) {
     ASSERT_EQ(one.failure, "");
     const PoseError error = pose_error(one.estimate.T_target_source, rig.truth[one.source]);
@@ -98,7 +98,7 @@ TEST(JointRegistration, FindsThePosesAndTheVelocityOfADrivingRig) {
 
 TEST(JointRegistration, SaysHowWellItKnowsTheVelocity) {
   DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(4));
-  adjust(rig.estimates);
+  adjust_jointly(rig.estimates);
   for (std::size_t i = 0; i < rig.estimates.size(); i += 2) {
     const Estimate& estimate = rig.estimates[i].estimate;
     const Twist& truth = rig.velocities[rig.estimates[i].scene];
@@ -118,8 +118,8 @@ TEST(JointRegistration, SaysHowWellItKnowsTheVelocity) {
 TEST(JointRegistration, RejectsASceneWhoseVelocityIsNotCertain) {
   DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
   DrivingRig strict = rig;
-  adjust(rig.estimates, R"(, "max_speed_std_mps": 10)");
-  adjust(strict.estimates, R"(, "max_speed_std_mps": 0.001)");
+  adjust_jointly(rig.estimates, R"(, "max_speed_std_mps": 10)");
+  adjust_jointly(strict.estimates, R"(, "max_speed_std_mps": 0.001)");
   for (std::size_t i = 0; i < rig.estimates.size(); ++i) {
     EXPECT_FALSE(rig.estimates[i].estimate.rejection);
     ASSERT_TRUE(strict.estimates[i].estimate.rejection);
@@ -131,7 +131,7 @@ TEST(JointRegistration, RejectsASceneWhoseVelocityIsNotCertain) {
 TEST(JointRegistration, MovesTheCloudsToOneTime) {
   DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
   const auto before = rig.estimates.front().estimate;
-  adjust(rig.estimates);
+  adjust_jointly(rig.estimates);
   const Estimate& after = rig.estimates.front().estimate;
   EXPECT_NE(after.target, before.target);
   EXPECT_EQ(after.target, rig.estimates.back().estimate.target);
@@ -156,7 +156,7 @@ TEST(JointRegistration, LeavesAVelocityThatIsKnown) {
   DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
   remove_known_velocity(rig, 0.0);
   const auto before = rig.estimates;
-  adjust(rig.estimates, R"(, "motion": false)");
+  adjust_jointly(rig.estimates, R"(, "motion": false)");
   for (std::size_t i = 0; i < before.size(); ++i) {
     const Estimate& estimate = rig.estimates[i].estimate;
     EXPECT_EQ(estimate.target, before[i].estimate.target);
@@ -170,7 +170,7 @@ TEST(JointRegistration, LeavesAVelocityThatIsKnown) {
 TEST(JointRegistration, EstimatesWhatRemainsOfAVelocityThatIsKnown) {
   DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
   remove_known_velocity(rig, 3.0);
-  adjust(rig.estimates);
+  adjust_jointly(rig.estimates);
   for (const RigEstimate& one : rig.estimates) {
     const Twist& found = one.estimate.extras.get(kMotion);
     EXPECT_LT((found.linear_mps - rig.velocities[one.scene].linear_mps).norm(), 0.8) << one.scene;
@@ -180,7 +180,7 @@ TEST(JointRegistration, EstimatesWhatRemainsOfAVelocityThatIsKnown) {
 TEST(JointRegistration, LeavesTheCloudsOfAStandingRig) {
   DrivingRig rig = rig_of(simulation::real_still_noise(), {0});
   const auto before = rig.estimates;
-  adjust(rig.estimates);
+  adjust_jointly(rig.estimates);
   for (std::size_t i = 0; i < before.size(); ++i) {
     EXPECT_EQ(rig.estimates[i].estimate.target, before[i].estimate.target);
     EXPECT_EQ(rig.estimates[i].estimate.source, before[i].estimate.source);
@@ -190,7 +190,7 @@ TEST(JointRegistration, LeavesTheCloudsOfAStandingRig) {
 
 TEST(JointRegistration, TakesCloudsWithoutTimesAsStanding) {
   DrivingRig rig = rig_of(simulation::real_still_noise(), {0}, false);
-  adjust(rig.estimates);
+  adjust_jointly(rig.estimates);
   for (const RigEstimate& one : rig.estimates) {
     ASSERT_EQ(one.failure, "");
     EXPECT_TRUE(one.estimate.extras.get(kMotion).linear_mps.isZero());
@@ -205,7 +205,7 @@ TEST(JointRegistration, GivesASensorOnePoseInAllScenes) {
     one.estimate.T_target_source =
         rig.estimates[one.source == "left" ? 0 : 1].estimate.T_target_source;
   }
-  adjust(rig.estimates, R"(, "poses": "common")");
+  adjust_jointly(rig.estimates, R"(, "poses": "common")");
   ASSERT_EQ(rig.estimates.size(), 4U);
   for (const std::size_t k : {0U, 1U}) {
     const RigidTransform& first = rig.estimates[k].estimate.T_target_source;
@@ -238,7 +238,7 @@ TEST(JointRegistration, FindsTheOffsetOfAClockFromScenesOfDifferentVelocities) {
     one.estimate.T_target_source = rig.estimates[i % 2].estimate.T_target_source;
     if (one.source == "left") one.estimate.source = later(*one.estimate.source, -kShift_s);
   }
-  adjust(rig.estimates, R"(, "poses": "common", "clock_offset_std_s": 0.1)");
+  adjust_jointly(rig.estimates, R"(, "poses": "common", "clock_offset_std_s": 0.1)");
   for (const RigEstimate& one : rig.estimates) {
     ASSERT_EQ(one.failure, "");
     const double offset_s = test::diagnostic(one.estimate, "clock_offset_s");
@@ -251,7 +251,7 @@ TEST(JointRegistration, FindsTheOffsetOfAClockFromScenesOfDifferentVelocities) {
 TEST(JointRegistration, FailsTheSensorWithAnEmptyCloudAlone) {
   DrivingRig rig = rig_of(simulation::real_still_noise(), {0, 1});
   rig.estimates[0].estimate.source = std::make_shared<const Cloud>(PointCloud(), StreamKey(1));
-  adjust(rig.estimates);
+  adjust_jointly(rig.estimates);
   EXPECT_NE(rig.estimates[0].failure.find("empty"), std::string::npos);
   for (const std::size_t i : {1U, 2U, 3U}) EXPECT_EQ(rig.estimates[i].failure, "");
 }
@@ -259,7 +259,7 @@ TEST(JointRegistration, FailsTheSensorWithAnEmptyCloudAlone) {
 TEST(JointRegistration, FailsTheSensorThatIsFarFromAllSurfacesAlone) {
   DrivingRig rig = rig_of(simulation::real_still_noise(), {0});
   rig.estimates[0].estimate.T_target_source.translation.z() += 500.0;
-  adjust(rig.estimates);
+  adjust_jointly(rig.estimates);
   EXPECT_NE(rig.estimates[0].failure.find("0 points correspond"), std::string::npos);
   ASSERT_EQ(rig.estimates[1].failure, "");
   const PoseError error =
@@ -270,7 +270,7 @@ TEST(JointRegistration, FailsTheSensorThatIsFarFromAllSurfacesAlone) {
 TEST(JointRegistration, StartsACommonPoseWhereMostScenesAgree) {
   DrivingRig rig = rig_of(simulation::real_still_noise(), {0, 1, 2});
   rig.estimates[0].estimate.T_target_source.translation.x() += 8.0;
-  adjust(rig.estimates, R"(, "poses": "common", "motion": false)");
+  adjust_jointly(rig.estimates, R"(, "poses": "common", "motion": false)");
   for (const RigEstimate& one : rig.estimates) {
     EXPECT_LT(pose_error(one.estimate.T_target_source, rig.truth[one.source]).translation_m, 0.05);
   }

@@ -6,15 +6,12 @@
 #include "framework/base/angles.hpp"
 #include "framework/stage/joint_neighbourhoods.hpp"
 #include "framework/stage/pose_search.hpp"
+#include "test/stages/volume_scorer/scorers.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"
 
 namespace croon {
 namespace {
-
-std::shared_ptr<const Cloud> cloud_of(Points points) {
-  return std::make_shared<const Cloud>(std::move(points), StreamKey(1));
-}
 
 /// The covariance of all points around `place` in the target's frame, word for word.
 Eigen::Matrix3d covariance_around(const Eigen::Vector3d& place, const Points& target,
@@ -52,7 +49,7 @@ TEST_P(Neighbourhoods, AreThoseOfBothClouds) {
   for (const float extent_m : {0.3F, 1.0F}) {
     const Points target = test::random_cloud(rng, 300, extent_m);
     const Points source = test::random_cloud(rng, 200, extent_m);
-    const VolumeFunction volume = scorer()->bind(cloud_of(target), cloud_of(source));
+    const VolumeFunction volume = scorer()->bind(test::cloud_of(target), test::cloud_of(source));
     const RigidTransform T = test::random_pose(rng, 0.2);
     const bool is_entropy = std::string(GetParam()) == "mean_map_entropy";
     double sum = 0.0;
@@ -77,17 +74,19 @@ TEST_P(Neighbourhoods, AreTheSameFromBothSidesOfAPose) {
   const Points source = test::random_street(rng, 4, 3000, 0.01);
   const RigidTransform T = test::random_pose(rng, 0.2);
   const RigidTransform moved = test::random_pose(rng, 5.0);
-  const double there = scorer()->bind(cloud_of(target), cloud_of(source))(T).m3;
+  const double there = scorer()->bind(test::cloud_of(target), test::cloud_of(source))(T).m3;
   const double moved_there =
-      scorer()->bind(cloud_of(transformed(target, moved)), cloud_of(source))(moved * T).m3;
+      scorer()
+          ->bind(test::cloud_of(transformed(target, moved)), test::cloud_of(source))(moved * T)
+          .m3;
   EXPECT_NEAR(there, moved_there, 1e-3 * there);
 }
 
 TEST_P(Neighbourhoods, WithoutPointsOccupyNothing) {
   const Points one = {{1.0F, 2.0F, 3.0F}};
-  EXPECT_EQ(scorer()->bind(cloud_of(one), cloud_of({}))({}).m3, 0.0);
-  EXPECT_EQ(scorer()->bind(cloud_of({}), cloud_of({}))({}).m3, 0.0);
-  EXPECT_GT(scorer()->bind(cloud_of({}), cloud_of(one))({}).m3, 0.0);
+  EXPECT_EQ(scorer()->bind(test::cloud_of(one), test::cloud_of({}))({}).m3, 0.0);
+  EXPECT_EQ(scorer()->bind(test::cloud_of({}), test::cloud_of({}))({}).m3, 0.0);
+  EXPECT_GT(scorer()->bind(test::cloud_of({}), test::cloud_of(one))({}).m3, 0.0);
 }
 
 TEST_P(Neighbourhoods, ASearchWithoutDerivativesFindsThePose) {
@@ -96,7 +95,7 @@ TEST_P(Neighbourhoods, ASearchWithoutDerivativesFindsThePose) {
   const RigidTransform truth = test::random_pose(rng, 2.0);
   const Points target = test::random_street(rng, 5, 40000, 0.01);
   const Points source = transformed(test::random_street(rng, 5, 20000, 0.01), truth.inverse());
-  const VolumeFunction volume = scorer()->bind(cloud_of(target), cloud_of(source));
+  const VolumeFunction volume = scorer()->bind(test::cloud_of(target), test::cloud_of(source));
   const PoseCost cost([&](const RigidTransform& pose) { return volume(pose).m3; });
   const RigidTransform start = test::pose_near(rng, truth, 0.3, 0.03);
   const PoseError error = pose_error(search->minimise(cost, start).pose, truth);

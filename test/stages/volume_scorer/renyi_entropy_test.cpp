@@ -6,15 +6,12 @@
 #include "framework/geometry/dof.hpp"
 #include "framework/stage/pose_search.hpp"
 #include "framework/stage/volume_scorer.hpp"
+#include "test/stages/volume_scorer/scorers.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"
 
 namespace croon {
 namespace {
-
-std::shared_ptr<const Cloud> cloud_of(Points points) {
-  return std::make_shared<const Cloud>(std::move(points), StreamKey(1));
-}
 
 /// The definition word for word: all pairs of points of different clouds, and each with itself.
 double volume_of_pairs(const Points& target, const Points& source, const RigidTransform& T,
@@ -36,7 +33,7 @@ TEST(RenyiEntropy, IsThatOfAllPairs) {
   for (const double extent_m : {0.3, 1.0, 3.0}) {
     const Points target = test::random_cloud(rng, 400, extent_m);
     const Points source = test::random_cloud(rng, 300, extent_m);
-    const VolumeFunction volume = scorer->bind(cloud_of(target), cloud_of(source));
+    const VolumeFunction volume = scorer->bind(test::cloud_of(target), test::cloud_of(source));
     for (int i = 0; i < 5; ++i) {
       const RigidTransform pose = test::random_pose(rng, extent_m);
       const double expected = volume_of_pairs(target, source, pose, 0.1);
@@ -50,10 +47,10 @@ TEST(RenyiEntropy, IsFiniteWithoutAnOverlapAndZeroWithoutPoints) {
   const Points one = {{1.0F, 2.0F, 3.0F}};
   const RigidTransform far{Eigen::Matrix3d::Identity(), Eigen::Vector3d(100, 0, 0)};
   const double of_one = std::pow(4 * M_PI * 0.01, 1.5);
-  EXPECT_DOUBLE_EQ(scorer->bind(cloud_of(one), cloud_of(one))(far).m3, 2 * of_one);
-  EXPECT_DOUBLE_EQ(scorer->bind(cloud_of(one), cloud_of(one))({}).m3, of_one);
-  EXPECT_DOUBLE_EQ(scorer->bind(cloud_of({}), cloud_of(one))({}).m3, of_one);
-  EXPECT_EQ(scorer->bind(cloud_of({}), cloud_of({}))({}).m3, 0.0);
+  EXPECT_DOUBLE_EQ(scorer->bind(test::cloud_of(one), test::cloud_of(one))(far).m3, 2 * of_one);
+  EXPECT_DOUBLE_EQ(scorer->bind(test::cloud_of(one), test::cloud_of(one))({}).m3, of_one);
+  EXPECT_DOUBLE_EQ(scorer->bind(test::cloud_of({}), test::cloud_of(one))({}).m3, of_one);
+  EXPECT_EQ(scorer->bind(test::cloud_of({}), test::cloud_of({}))({}).m3, 0.0);
 }
 
 TEST(RenyiEntropy, IsSmoothInThePose) {
@@ -62,7 +59,7 @@ TEST(RenyiEntropy, IsSmoothInThePose) {
   const auto scorer = test::stage<VolumeScorer>(R"({"type": "renyi_entropy"})");
   Rng rng = test::test_rng();
   const Points street = test::random_street(rng, 3, 20000, 0.005);
-  const VolumeFunction volume = scorer->bind(cloud_of(street), cloud_of(street));
+  const VolumeFunction volume = scorer->bind(test::cloud_of(street), test::cloud_of(street));
   const auto bend = [&](double step_m) {
     const auto at = [&](double x_m) {
       return volume({Eigen::Matrix3d::Identity(), Eigen::Vector3d(x_m, 0.0, 0.0)}).m3;
@@ -80,7 +77,7 @@ TEST(RenyiEntropy, ASearchWithoutDerivativesFindsThePose) {
     const RigidTransform truth = test::random_pose(rng, 2.0);
     const Points target = test::random_street(rng, 5, 40000, 0.01);
     const Points source = transformed(test::random_street(rng, 5, 20000, 0.01), truth.inverse());
-    const VolumeFunction volume = scorer->bind(cloud_of(target), cloud_of(source));
+    const VolumeFunction volume = scorer->bind(test::cloud_of(target), test::cloud_of(source));
     const PoseCost cost([&](const RigidTransform& pose) { return volume(pose).m3; });
     const RigidTransform start = test::pose_near(rng, truth, 0.3, 0.03);
     const PoseError error = pose_error(search->minimise(cost, start).pose, truth);

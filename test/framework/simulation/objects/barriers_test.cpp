@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 using test::caster_of;
 using test::test_rng;
 
-constexpr std::uint64_t kSeeds = 60;
+constexpr std::uint64_t kBarrierSeeds = 60;
 
 /// Up to eight pieces of 1 to 4 m that turn by up to 60 degrees and rise a little.
 Path draw_path(Rng& rng) {
@@ -36,7 +36,7 @@ Path draw_path(Rng& rng) {
 
 /// Calls `check` with a path for each seed.
 void for_each_path(const std::function<void(const Path& path, Rng& rng)>& check) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kBarrierSeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     const Path path = draw_path(rng);

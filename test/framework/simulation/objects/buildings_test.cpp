@@ -15,8 +15,8 @@ using test::bounds_of;
 using test::caster_of;
 using test::test_rng;
 
-constexpr std::uint64_t kSeeds = 100;
-constexpr double kEpsilon_m = 1e-4;
+constexpr std::uint64_t kBuildingSeeds = 100;
+constexpr double kBuildingEpsilon_m = 1e-4;
 constexpr double kLeastFloor_m = 2.5;
 
 /// Widths as in scenes and three times as large, and up to ten floors.
@@ -50,24 +50,24 @@ TEST(Buildings, AreDrawnFromTheirGeneratorAlone) {
 }
 
 TEST(Building, IsSoundAndKeepsToItsGround) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kBuildingSeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     const BuildingSize size = draw_size(rng, seed);
     const Mesh mesh = make_building(size, rng);
     test::expect_sound(mesh, 2500);
     const AlignedBox3d bounds = bounds_of(mesh);
-    EXPECT_NEAR(bounds.min().x(), 0.0, kEpsilon_m);
-    EXPECT_NEAR(bounds.max().x(), size.width_m, kEpsilon_m);
+    EXPECT_NEAR(bounds.min().x(), 0.0, kBuildingEpsilon_m);
+    EXPECT_NEAR(bounds.max().x(), size.width_m, kBuildingEpsilon_m);
     EXPECT_GE(bounds.min().y(), -1.6);
     EXPECT_LE(bounds.max().y(), size.depth_m + 0.6);
-    EXPECT_NEAR(bounds.min().z(), -1.0, kEpsilon_m);
+    EXPECT_NEAR(bounds.min().z(), -1.0, kBuildingEpsilon_m);
     EXPECT_GE(bounds.max().z(), size.floors * kLeastFloor_m);
   }
 }
 
 TEST(Building, IsClosed) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kBuildingSeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     const BuildingSize size = draw_size(rng, seed);
@@ -78,7 +78,7 @@ TEST(Building, IsClosed) {
 
 TEST(Building, HasPanesBehindItsFront) {
   constexpr double kBefore_m = 30.0;
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kBuildingSeeds; ++seed) {
     Rng rng = test_rng(seed);
     const BuildingSize size = draw_size(rng, seed);
     const auto caster = caster_of(make_building(size, rng));
@@ -101,7 +101,7 @@ TEST(Building, HasPanesBehindItsFront) {
 }
 
 TEST(House, IsSoundAndClosedAndKeepsToItsGround) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kBuildingSeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     const Mesh mesh = make_house(rng);
@@ -110,7 +110,7 @@ TEST(House, IsSoundAndClosedAndKeepsToItsGround) {
     EXPECT_GE(bounds.min().x(), -1.0);
     EXPECT_LE(bounds.max().x(), 14.0 + 3.5);
     EXPECT_GE(bounds.min().y(), -1.6);
-    EXPECT_NEAR(bounds.min().z(), -1.0, kEpsilon_m);
+    EXPECT_NEAR(bounds.min().z(), -1.0, kBuildingEpsilon_m);
     EXPECT_GE(bounds.max().z(), 5.0);
     EXPECT_LE(bounds.max().z(), 15.0);
     expect_closed(mesh, {4.0, 3.0, 1.5}, rng);
@@ -118,7 +118,7 @@ TEST(House, IsSoundAndClosedAndKeepsToItsGround) {
 }
 
 TEST(Hall, IsSoundAndClosedAndKeepsToItsGround) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kBuildingSeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     BuildingSize size;
@@ -128,10 +128,10 @@ TEST(Hall, IsSoundAndClosedAndKeepsToItsGround) {
     const Mesh mesh = make_hall(size, rng);
     test::expect_sound(mesh, 600);
     const AlignedBox3d bounds = bounds_of(mesh);
-    const AlignedBox3d allowed(Vector3d(-0.3, -0.3, -1.0 - kEpsilon_m),
+    const AlignedBox3d allowed(Vector3d(-0.3, -0.3, -1.0 - kBuildingEpsilon_m),
                                Vector3d(size.width_m + 0.3, size.depth_m + 0.3, 15.0));
     EXPECT_TRUE(allowed.contains(bounds));
-    EXPECT_NEAR(bounds.min().z(), -1.0, kEpsilon_m);
+    EXPECT_NEAR(bounds.min().z(), -1.0, kBuildingEpsilon_m);
     expect_closed(mesh, {0.5 * size.width_m, 0.5 * size.depth_m, 1.5}, rng);
   }
 }

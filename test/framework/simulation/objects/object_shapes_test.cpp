@@ -19,8 +19,8 @@ using Eigen::Vector3f;
 using test::bounds_of;
 using test::expect_closed_around;
 
-constexpr std::uint64_t kSeeds = 60;
-constexpr double kEpsilon_m = 1e-4;
+constexpr std::uint64_t kShapeSeeds = 60;
+constexpr double kShapeEpsilon_m = 1e-4;
 
 struct VehicleRange {
   VehicleType type;
@@ -36,16 +36,16 @@ const std::vector<VehicleRange> kVehicles = {{VehicleType::car, 3.6, 5.05, 2.2},
 
 TEST(Vehicle, IsInsideItsSizeAndTheSizeInItsRange) {
   for (const VehicleRange& range : kVehicles) {
-    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    for (std::uint64_t seed = 1; seed <= kShapeSeeds; ++seed) {
       Rng rng = test::test_rng(seed);
       const Vehicle vehicle = make_vehicle(range.type, rng);
       const Vector3d size_m = vehicle.size_m;
       const Eigen::AlignedBox3d bounds = bounds_of(vehicle.mesh);
-      EXPECT_LE(bounds.max().x(), 0.5 * size_m.x() + kEpsilon_m);
-      EXPECT_GE(bounds.min().x(), -0.5 * size_m.x() - kEpsilon_m);
-      EXPECT_LE(bounds.max().y(), 0.5 * size_m.y() + kEpsilon_m);
-      EXPECT_GE(bounds.min().y(), -0.5 * size_m.y() - kEpsilon_m);
-      EXPECT_LE(bounds.max().z(), size_m.z() + kEpsilon_m);
+      EXPECT_LE(bounds.max().x(), 0.5 * size_m.x() + kShapeEpsilon_m);
+      EXPECT_GE(bounds.min().x(), -0.5 * size_m.x() - kShapeEpsilon_m);
+      EXPECT_LE(bounds.max().y(), 0.5 * size_m.y() + kShapeEpsilon_m);
+      EXPECT_GE(bounds.min().y(), -0.5 * size_m.y() - kShapeEpsilon_m);
+      EXPECT_LE(bounds.max().z(), size_m.z() + kShapeEpsilon_m);
       EXPECT_GE(size_m.x(), range.least_length_m);
       EXPECT_LE(size_m.x(), range.most_length_m);
       EXPECT_LE(size_m.y(), range.most_width_m);
@@ -74,7 +74,7 @@ TEST(Vehicle, StopsRaysFromAllAround) {
 
 TEST(Vehicle, IsNarrowerAtTheRoofThanAtTheBelt) {
   for (const VehicleType type : {VehicleType::car, VehicleType::van}) {
-    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    for (std::uint64_t seed = 1; seed <= kShapeSeeds; ++seed) {
       Rng rng = test::test_rng(seed);
       const Vehicle vehicle = make_vehicle(type, rng);
       double roof_m = 0.0;
@@ -90,7 +90,7 @@ TEST(Vehicle, IsNarrowerAtTheRoofThanAtTheBelt) {
 }
 
 TEST(Person, StopsRaysAndStandsOverTheOrigin) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kShapeSeeds; ++seed) {
     Rng rng = test::test_rng(seed);
     const Mesh mesh = make_person(rng);
     const Eigen::AlignedBox3d bounds = bounds_of(mesh);
@@ -102,7 +102,7 @@ TEST(Person, StopsRaysAndStandsOverTheOrigin) {
 }
 
 TEST(Hedge, FillsItsLengthAndWidth) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kShapeSeeds; ++seed) {
     Rng rng = test::test_rng(seed);
     const double length_m = rng.uniform(2.0, 20.0);
     const double height_m = rng.uniform(0.8, 2.2);
@@ -120,7 +120,7 @@ TEST(Hedge, FillsItsLengthAndWidth) {
 }
 
 TEST(Tufts, StayAboutTheirStrip) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kShapeSeeds; ++seed) {
     Rng rng = test::test_rng(seed);
     const double length_m = rng.uniform(1.0, 20.0);
     const double width_m = rng.uniform(0.3, 2.0);
@@ -134,7 +134,7 @@ TEST(Tufts, StayAboutTheirStrip) {
 }
 
 TEST(Lamp, ReachesOutAlongX) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kShapeSeeds; ++seed) {
     Rng rng = test::test_rng(seed);
     const Eigen::AlignedBox3d bounds = bounds_of(make_lamp(rng));
     EXPECT_GT(bounds.max().x(), 1.0);
@@ -143,13 +143,13 @@ TEST(Lamp, ReachesOutAlongX) {
 }
 
 TEST(Gantry, LeavesTheRoadClear) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kShapeSeeds; ++seed) {
     Rng rng = test::test_rng(seed);
     const double width_m = rng.uniform(6.0, 16.0);
     const Mesh mesh = make_gantry(width_m, rng);
     for (const Vector3f& vertex : mesh.vertices) {
       if (std::abs(vertex.y()) < 0.5 * width_m) {
-        EXPECT_GE(vertex.z(), 5.2 - kEpsilon_m);
+        EXPECT_GE(vertex.z(), 5.2 - kShapeEpsilon_m);
       }
     }
     EXPECT_GT(bounds_of(mesh).max().y(), 0.5 * width_m);

@@ -15,7 +15,7 @@
 namespace croon::simulation {
 namespace {
 
-constexpr std::uint64_t kSeeds = 150;
+constexpr std::uint64_t kObjectSeeds = 150;
 
 /// An object and its documented size.
 struct Object {
@@ -69,7 +69,7 @@ TEST_P(ObjectTest, IsDrawnFromItsGeneratorAlone) {
 }
 
 TEST_P(ObjectTest, IsSoundAndHasAreasButAtPoles) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kObjectSeeds; ++seed) {
     SCOPED_TRACE(seed);
     // An ellipsoid of 8 meridians has as many triangles without an area at each of its poles.
     test::expect_sound(make(GetParam(), seed), GetParam().most_triangles,
@@ -78,7 +78,7 @@ TEST_P(ObjectTest, IsSoundAndHasAreasButAtPoles) {
 }
 
 TEST_P(ObjectTest, StandsOnTheGroundAndIsAsHighAsDocumented) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kObjectSeeds; ++seed) {
     const Eigen::AlignedBox3d bounds = test::bounds_of(make(GetParam(), seed));
     ASSERT_NEAR(bounds.min().z(), 0.0, 0.05) << "seed " << seed;
     ASSERT_GE(bounds.max().z(), GetParam().least_height_m) << "seed " << seed;

@@ -17,9 +17,9 @@ using Eigen::Vector3d;
 using test::caster_of;
 using test::test_rng;
 
-constexpr std::uint64_t kSeeds = 60;
+constexpr std::uint64_t kStructureSeeds = 60;
 constexpr double kClear_m = 4.7;
-constexpr double kEpsilon_m = 0.02;
+constexpr double kStructureEpsilon_m = 0.02;
 
 /// Expects nothing of `mesh` in the carriageway up to 4.7 m above its surface.
 void expect_free_carriageway(const Mesh& mesh, const Ground& ground, const Span& along_m,
@@ -40,7 +40,7 @@ void expect_free_carriageway(const Mesh& mesh, const Ground& ground, const Span&
   }
   for (const Hit& hit : caster_of(mesh)->cast(rays, 0.0, 50.0)) {
     ASSERT_TRUE(hit.is_there());
-    ASSERT_GE(hit.range_m, kClear_m - kEpsilon_m);
+    ASSERT_GE(hit.range_m, kClear_m - kStructureEpsilon_m);
     ASSERT_LE(hit.range_m, 9.0);
   }
 }
@@ -76,7 +76,7 @@ TEST_P(StructureTest, IsDrawnFromItsGeneratorAlone) {
 }
 
 TEST_P(StructureTest, IsSoundAndLeavesTheCarriagewayFreeBetweenItsWalls) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kStructureSeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     const Ground ground(test::random_road(rng), StreamKey(seed));

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 using test::caster_of;
 using test::test_rng;
 
-constexpr std::uint64_t kSeeds = 20;
+constexpr std::uint64_t kBoundarySeeds = 20;
 constexpr double kBeside_m = 1.0;  ///< Where rays across a boundary begin.
 
 /// The share of rays across the line at `d_m`, `above_m` over the ground at random s of `along_m`,
@@ -40,7 +40,7 @@ double stopped_share(const Mesh& mesh, const Ground& ground, const Span& along_m
 }
 
 TEST(AddBoundaryPieces, IsClosedOverItsWholeLength) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kBoundarySeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     const RoadShape shape = test::random_road(rng);
@@ -64,7 +64,7 @@ TEST(AddBoundaryPieces, IsClosedOverItsWholeLength) {
 }
 
 TEST(AddBoundaryPieces, LeavesOutThePiecesWithoutSpace) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kBoundarySeeds; ++seed) {
     Rng rng = test_rng(seed);
     const RoadShape shape = test::random_road(rng);
     const Ground ground(shape, StreamKey(seed).with("ground"));
@@ -93,7 +93,7 @@ TEST(AddBoundary, AddsAllOrNothingAndTakesItsSpace) {
 }
 
 TEST(SmoothWalls, AreAtTheirFaceUpToTheirHeight) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kBoundarySeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     RoadShape shape = test::random_road(rng);
@@ -136,7 +136,7 @@ TEST(SmoothWalls, AreAtTheirFaceUpToTheirHeight) {
 }
 
 TEST(Structures, TakeAllSpaceButTheCarriageway) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kBoundarySeeds; ++seed) {
     Rng rng = test_rng(seed);
     const RoadShape shape = test::random_road(rng);
     SceneBuilder builder(shape, StreamKey(seed));

@@ -16,8 +16,8 @@ namespace {
 using Eigen::Vector3d;
 using test::test_rng;
 
-constexpr std::uint64_t kSeeds = 20;
-constexpr CarBody kCar = {4.7, 1.9};
+constexpr std::uint64_t kBuilderSeeds = 20;
+constexpr CarBody kBuilderCar = {4.7, 1.9};
 
 std::size_t vertices_of_a_bollard() {
   Rng rng = test_rng();
@@ -29,7 +29,7 @@ RoadPose random_pose(Rng& rng) {
 }
 
 TEST(SceneBuilder, AcceptsAnObjectIfAndOnlyIfItsSpaceIsFree) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kBuilderSeeds; ++seed) {
     Rng rng = test_rng(seed);
     const RoadShape shape = test::random_road(rng);
     SceneBuilder builder(shape, StreamKey(seed));
@@ -64,12 +64,12 @@ TEST(SceneBuilder, LetsObjectsStandUnderCrownsAndArms) {
 }
 
 TEST(SceneBuilder, KeepsTheSpaceOfTheCarClear) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kBuilderSeeds; ++seed) {
     Rng rng = test_rng(seed);
     const RoadShape shape = test::random_road(rng);
     SceneBuilder builder(shape, StreamKey(seed));
     const RoadPose pose = {0.0, rng.uniform(-2.0, 2.0), rng.uniform(-kPi, kPi)};
-    builder.put_car(pose, kCar, rng.uniform(0.0, 20.0));
+    builder.put_car(pose, kBuilderCar, rng.uniform(0.0, 20.0));
     for (int i = 0; i < 200; ++i) {
       const double s_m = rng.uniform(-6.0, 6.0);
       const double d_m = pose.d_m + rng.uniform(-6.0, 6.0);
@@ -80,13 +80,13 @@ TEST(SceneBuilder, KeepsTheSpaceOfTheCarClear) {
     ASSERT_FALSE(objects.vertices.empty());
     for (const Eigen::Vector3f& vertex :
          transformed(objects.vertices, world.car.T_world_body.inverse())) {
-      ASSERT_FALSE(test::is_in_car(kCar, vertex)) << "seed " << seed;
+      ASSERT_FALSE(test::is_in_car(kBuilderCar, vertex)) << "seed " << seed;
     }
   }
 }
 
 TEST(SceneBuilder, StandsObjectsOnTheGroundWithoutGaps) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kBuilderSeeds; ++seed) {
     Rng rng = test_rng(seed);
     const RoadShape shape = test::random_road(rng);
     SceneBuilder builder(shape, StreamKey(seed));
@@ -105,7 +105,7 @@ TEST(SceneBuilder, StandsObjectsOnTheGroundWithoutGaps) {
 }
 
 TEST(SceneBuilder, LetsVehiclesFollowTheRoad) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kBuilderSeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     const RoadShape shape = test::random_road(rng);
@@ -126,7 +126,7 @@ TEST(SceneBuilder, LetsVehiclesFollowTheRoad) {
 }
 
 TEST(AddSeries, KeepsItsSpacingAndDistance) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kBuilderSeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     const RoadShape shape = test::random_road(rng);
@@ -161,7 +161,7 @@ TEST(AddSeries, FillsItsShareOfThePositions) {
 }
 
 TEST(CentredAlongX, MovesTheMiddleToZero) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kBuilderSeeds; ++seed) {
     Rng rng = test_rng(seed);
     const Mesh house = make_house(rng);
     const Eigen::AlignedBox3d before = test::bounds_of(house);

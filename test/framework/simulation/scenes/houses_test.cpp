@@ -18,7 +18,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using test::test_rng;
 
-constexpr std::uint64_t kSeeds = 12;
+constexpr std::uint64_t kHouseSeeds = 12;
 
 /// A straight or slightly bent road with a free side.
 RoadShape random_street(Rng& rng) {
@@ -38,7 +38,7 @@ std::vector<Vector2d> vertices_of(const Mesh& mesh, const RoadShape& shape, cons
 }
 
 TEST(AddFronts, StandBehindTheirLineAndInsideTheirRowNearTheCar) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kHouseSeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     const RoadShape shape = random_street(rng);
@@ -70,7 +70,7 @@ TEST(AddFronts, CloseTheViewByTheirShareOfHouses) {
     fronts.side_street = side_street;
     int closed = 0;
     int all = 0;
-    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    for (std::uint64_t seed = 1; seed <= kHouseSeeds; ++seed) {
       SceneBuilder builder(RoadShape{}, StreamKey(seed));
       add_fronts(builder, both_sides()[0], {-55.0, 55.0}, fronts, Rng(StreamKey(seed)));
       const Mesh houses = test::without_ground(builder.finish(), RoadShape{});
@@ -90,7 +90,7 @@ TEST(AddFronts, CloseTheViewByTheirShareOfHouses) {
 }
 
 TEST(AddFronts, HaveDetailsNearTheCarOnly) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kHouseSeeds; ++seed) {
     SceneBuilder builder(RoadShape{}, StreamKey(seed));
     add_fronts(builder, both_sides()[0], {kDetail_m + 30.0, 200.0}, {}, Rng(StreamKey(seed)));
     const Mesh blocks = test::without_ground(builder.finish(), RoadShape{});
@@ -102,7 +102,7 @@ TEST(AddFronts, HaveDetailsNearTheCarOnly) {
 }
 
 TEST(AddBackdrop, StandsBetweenItsDistances) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kHouseSeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     const RoadShape shape = random_street(rng);
@@ -134,7 +134,7 @@ Mesh without_leaves(const Mesh& mesh) {
 }
 
 TEST(AddPlots, LeaveThePavementFree) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kHouseSeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     const RoadShape shape = random_street(rng);
@@ -156,7 +156,7 @@ TEST(AddPlots, LeaveThePavementFree) {
 }
 
 TEST(AddPlots, AreSideBySideWithOneHouseEach) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kHouseSeeds; ++seed) {
     SCOPED_TRACE(seed);
     SceneBuilder builder(RoadShape{}, StreamKey(seed));
     add_plots(builder, both_sides()[0], {-50.0, 50.0}, 8.0, StreamKey(seed));

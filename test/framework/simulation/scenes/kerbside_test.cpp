@@ -17,7 +17,7 @@ using Eigen::Vector2d;
 using test::road_coordinates;
 using test::test_rng;
 
-constexpr std::uint64_t kSeeds = 20;
+constexpr std::uint64_t kKerbSeeds = 20;
 
 /// The distances (along, out) on `side` of the vertices lower than `below_m` above the ground.
 std::vector<Vector2d> low_vertices(const Mesh& mesh, const RoadShape& shape, const Roadside& side,
@@ -32,7 +32,7 @@ std::vector<Vector2d> low_vertices(const Mesh& mesh, const RoadShape& shape, con
 }
 
 TEST(AddParkedRow, StaysInItsStripAndRange) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kKerbSeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     const RoadShape shape = test::random_road(rng);
@@ -75,7 +75,7 @@ TEST(AddParkedRow, HasGapsBetweenItsCars) {
 }
 
 TEST(AddPeople, AreBetweenTheirDistances) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kKerbSeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     const RoadShape shape = test::random_road(rng);
@@ -103,7 +103,7 @@ TEST(AddPeople, AreBetweenTheirDistances) {
 }
 
 TEST(AddFurniture, KeepsOffTheCarriageway) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kKerbSeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     RoadShape shape = test::random_road(rng);

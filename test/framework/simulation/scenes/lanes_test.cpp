@@ -18,8 +18,8 @@ namespace {
 using Eigen::Vector2d;
 using test::test_rng;
 
-constexpr std::uint64_t kSeeds = 30;
-constexpr CarBody kCar = {4.7, 1.9};
+constexpr std::uint64_t kLaneSeeds = 30;
+constexpr CarBody kLanesCar = {4.7, 1.9};
 
 Lanes random_lanes(Rng& rng) {
   Lanes lanes;
@@ -37,7 +37,7 @@ std::vector<double> sorted_positions(const std::vector<LaneLine>& lines) {
 }
 
 TEST(LaneLines, BoundEachLaneOnBothSides) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kLaneSeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     const Lanes lanes = random_lanes(rng);
@@ -58,7 +58,7 @@ TEST(LaneLines, BoundEachLaneOnBothSides) {
 }
 
 TEST(LaneLines, AreDashedBetweenLanesOfOneDirectionAndSolidAtEdges) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kLaneSeeds; ++seed) {
     Rng rng = test_rng(seed);
     const Lanes lanes = random_lanes(rng);
     for (const LaneLine& line : lane_lines(lanes, true)) {
@@ -76,7 +76,7 @@ TEST(LaneLines, AreDashedBetweenLanesOfOneDirectionAndSolidAtEdges) {
 }
 
 TEST(DrawCarPose, IsInItsLaneOnTheRight) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kLaneSeeds; ++seed) {
     Rng rng = test_rng(seed);
     const Lanes lanes = random_lanes(rng);
     const int lane = draw_int(rng, 0, lanes.each_way - 1);
@@ -88,7 +88,7 @@ TEST(DrawCarPose, IsInItsLaneOnTheRight) {
 }
 
 TEST(AddTraffic, StaysInItsLaneInItsDirectionWithGaps) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kLaneSeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     RoadShape shape = test::random_road(rng);
@@ -117,25 +117,25 @@ TEST(AddTraffic, StaysInItsLaneInItsDirectionWithGaps) {
 }
 
 TEST(AddTraffic, LeavesTheCarItsLane) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kLaneSeeds; ++seed) {
     Rng rng = test_rng(seed);
     const Lanes lanes = random_lanes(rng);
     SceneBuilder builder(RoadShape{}, StreamKey(seed));
-    builder.put_car(draw_car_pose(lanes, 0, rng), kCar, 10.0);
+    builder.put_car(draw_car_pose(lanes, 0, rng), kLanesCar, 10.0);
     add_traffic(builder, lanes, {-60.0, 60.0}, {10.0, {1.0, 2.0}});
     const World world = builder.finish();
     const RigidTransform T_car_world = world.car.T_world_body.inverse();
     for (const Body& body : world.bodies) {
       for (const Eigen::Vector3f& vertex :
            transformed(body.mesh.vertices, T_car_world * body.T_world_body)) {
-        ASSERT_FALSE(test::is_in_car(kCar, vertex)) << "seed " << seed;
+        ASSERT_FALSE(test::is_in_car(kLanesCar, vertex)) << "seed " << seed;
       }
     }
   }
 }
 
 TEST(DrawStreet, HasItsLanesAndParkingBetweenItsKerbsAndHousesBehindItsPavements) {
-  for (std::uint64_t seed = 1; seed <= 10 * kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 10 * kLaneSeeds; ++seed) {
     Rng rng = test_rng(seed);
     const int least = 1 + static_cast<int>(seed % 2);
     const Street street = draw_street(least, rng);
@@ -152,7 +152,7 @@ TEST(DrawStreet, HasItsLanesAndParkingBetweenItsKerbsAndHousesBehindItsPavements
 }
 
 TEST(DrawMotorway, IsWideSeparatedAndWithoutKerbs) {
-  for (std::uint64_t seed = 1; seed <= 10 * kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 10 * kLaneSeeds; ++seed) {
     Rng rng = test_rng(seed);
     const Motorway motorway = draw_motorway(rng);
     EXPECT_GE(motorway.lanes.each_way, 2);

@@ -16,9 +16,9 @@ namespace {
 using Eigen::Vector3d;
 using test::test_rng;
 
-constexpr std::uint64_t kSeeds = 40;
+constexpr std::uint64_t kRoadSeeds = 40;
 
-RoadPose random_pose(Rng& rng) {
+RoadPose random_road_pose(Rng& rng) {
   return {rng.uniform(-80.0, 80.0), rng.uniform(-40.0, 40.0), rng.uniform(-kPi, kPi)};
 }
 
@@ -32,13 +32,13 @@ RoadBox random_box(Rng& rng) {
 
 TEST(BoxesOf, HoldTheObjectHoweverTheRoadBends) {
   constexpr double kEpsilon_m = 0.05;  // The bulge of a long side is an approximation.
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kRoadSeeds; ++seed) {
     SCOPED_TRACE(seed);
     Rng rng = test_rng(seed);
     RoadShape shape;
     shape.curvature_per_m = rng.uniform(-1.0, 1.0) / 120.0;
     const Ground ground(shape, StreamKey(seed));
-    const RoadPose pose = random_pose(rng);
+    const RoadPose pose = random_road_pose(rng);
     const Mesh mesh = seed % 2 == 0 ? make_vehicle(VehicleType::truck, rng).mesh : make_tree(rng);
     const std::array<RoadBox, 2> boxes = boxes_of(mesh, pose, shape.curvature_per_m);
     const RigidTransform T = ground.upright(pose.s_m, pose.d_m, pose.yaw_rad);
@@ -54,10 +54,10 @@ TEST(BoxesOf, HoldTheObjectHoweverTheRoadBends) {
 }
 
 TEST(BoxesOf, AreNotMuchLargerThanTheObjectOnAStraightRoad) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kRoadSeeds; ++seed) {
     Rng rng = test_rng(seed);
     const Vehicle vehicle = make_vehicle(VehicleType::car, rng);
-    RoadPose pose = random_pose(rng);
+    RoadPose pose = random_road_pose(rng);
     pose.yaw_rad = 0.0;
     const std::array<RoadBox, 2> boxes = boxes_of(vehicle.mesh, pose, 0.0);
     EXPECT_TRUE(boxes[1].isEmpty());
@@ -67,7 +67,7 @@ TEST(BoxesOf, AreNotMuchLargerThanTheObjectOnAStraightRoad) {
 }
 
 TEST(Occupancy, IsFreeWhereNoTakenBoxOverlaps) {
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kRoadSeeds; ++seed) {
     Rng rng = test_rng(seed);
     Occupancy occupancy;
     std::vector<RoadBox> taken;

@@ -15,11 +15,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr CarBody kCar = {4.7, 1.9};
-constexpr std::uint64_t kSeeds = 12;
+constexpr CarBody kSceneCar = {4.7, 1.9};
+constexpr std::uint64_t kSceneSeeds = 12;
 
 World scene(SceneKind kind, std::uint64_t seed) {
-  return make_scene(kind, kCar, StreamKey(seed).with("scene test"));
+  return make_scene(kind, kSceneCar, StreamKey(seed).with("scene test"));
 }
 
 /// The vertices of all but the car, in the car's frame.
@@ -58,7 +58,7 @@ class EveryKind : public testing::TestWithParam<std::size_t> {
 };
 
 TEST_P(EveryKind, IsWholeAndFollowsFromItsKeyAlone) {
-  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+  for (std::uint64_t seed = 0; seed < kSceneSeeds; ++seed) {
     const World world = scene(kind(), seed);
     const World again = scene(kind(), seed);
     EXPECT_TRUE(test::are_same(world.fixed, again.fixed));
@@ -77,17 +77,17 @@ TEST_P(EveryKind, IsWholeAndFollowsFromItsKeyAlone) {
 }
 
 TEST_P(EveryKind, LeavesTheCarItsSpace) {
-  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+  for (std::uint64_t seed = 0; seed < kSceneSeeds; ++seed) {
     for (const Eigen::Vector3f& point : seen_from_car(scene(kind(), seed))) {
       const bool is_beside_it = point.z() <= 0.3F || point.z() >= 2.5F;
-      EXPECT_TRUE(is_beside_it || !test::is_in_car(kCar, point))
+      EXPECT_TRUE(is_beside_it || !test::is_in_car(kSceneCar, point))
           << "seed " << seed << ": " << point.transpose();
     }
   }
 }
 
 TEST_P(EveryKind, HasGroundUnderTheCar) {
-  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+  for (std::uint64_t seed = 0; seed < kSceneSeeds; ++seed) {
     const auto world = std::make_shared<const World>(scene(kind(), seed));
     const RayCaster caster(world, {});
     for (const double x_m : {-1.3, 0.0, 1.3}) {
@@ -123,7 +123,7 @@ Masonry take_masonry_out(const World& world) {
 
 TEST(Roads, AreFreeOfHouses) {
   for (const SceneKind kind : {SceneKind::urban, SceneKind::suburban, SceneKind::crossing}) {
-    for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    for (std::uint64_t seed = 0; seed < kSceneSeeds; ++seed) {
       const Masonry masonry = take_masonry_out(scene(kind, seed));
       ASSERT_FALSE(masonry.middles.empty());
       // From below, the ground is what a ray meets first.
@@ -142,7 +142,7 @@ TEST(Roads, AreFreeOfHouses) {
 }
 
 TEST(HardKinds, HaveTheFeaturesOfTheirKind) {
-  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+  for (std::uint64_t seed = 0; seed < kSceneSeeds; ++seed) {
     for (const Eigen::Vector3f& point : seen_from_car(scene(SceneKind::empty, seed))) {
       if (point.head<2>().norm() > 20.0F) continue;
       EXPECT_LT(point.z(), 1.5F) << "empty, seed " << seed;
@@ -152,7 +152,7 @@ TEST(HardKinds, HaveTheFeaturesOfTheirKind) {
       const RayCaster caster(world, {});
       const double left_m = beside_m(caster, *world, Vector3d::UnitY());
       const double right_m = beside_m(caster, *world, -Vector3d::UnitY());
-      const double half_m = 0.5 * kCar.width_m;
+      const double half_m = 0.5 * kSceneCar.width_m;
       const char* const name = row_of(kind).name;
       if (kind == SceneKind::blocked) {
         // At most 0.9 m to the mirrors, which stand out by up to 0.3 m.
@@ -207,7 +207,7 @@ double asphalt_across_m(const World& road, const RayCaster& caster, double ahead
 }
 
 TEST(Crossing, HasArmsThatMeet) {
-  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+  for (std::uint64_t seed = 0; seed < kSceneSeeds; ++seed) {
     double longest_m = 0.0;
     const auto road = only_road(scene(SceneKind::crossing, seed));
     const RayCaster caster(road, {});
@@ -249,15 +249,15 @@ struct Views {
 
 Views mean_views(SceneKind kind) {
   Views views;
-  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+  for (std::uint64_t seed = 0; seed < kSceneSeeds; ++seed) {
     const auto world = std::make_shared<const World>(scene(kind, seed));
     const RayCaster caster(world, {});
     views.walls +=
         seen_share(*world, caster, 6.0, 30.0,
                    {Material::brick, Material::plaster, Material::concrete, Material::glass}) /
-        kSeeds;
+        kSceneSeeds;
     views.barriers +=
-        seen_share(*world, caster, 0.6, 25.0, {Material::metal, Material::concrete}) / kSeeds;
+        seen_share(*world, caster, 0.6, 25.0, {Material::metal, Material::concrete}) / kSceneSeeds;
   }
   return views;
 }
@@ -271,7 +271,7 @@ TEST(OrdinaryKinds, HaveTheFeaturesOfTheirKind) {
   EXPECT_LT(highway.walls, 0.25 * urban.walls);
   EXPECT_GT(highway.barriers, 0.4);
   EXPECT_LT(urban.barriers, 0.3);
-  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+  for (std::uint64_t seed = 0; seed < kSceneSeeds; ++seed) {
     const auto car_park = only_road(scene(SceneKind::car_park, seed));
     EXPECT_GT(asphalt_across_m(*car_park, RayCaster(car_park, {}), 0.0), 30.0) << "seed " << seed;
   }
@@ -279,7 +279,7 @@ TEST(OrdinaryKinds, HaveTheFeaturesOfTheirKind) {
 
 TEST(SceneKinds, DifferInTheirScenesForTheSameKey) {
   std::vector<World> worlds;
-  for (const SceneKindRow& kind : kSceneKinds) worlds.push_back(kind.make(kCar, StreamKey(7)));
+  for (const SceneKindRow& kind : kSceneKinds) worlds.push_back(kind.make(kSceneCar, StreamKey(7)));
   for (std::size_t i = 0; i < worlds.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       EXPECT_FALSE(test::are_same(worlds[i].fixed, worlds[j].fixed))
