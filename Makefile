@@ -1,8 +1,6 @@
 # The commands of the project. `demo` and `test` install missing packages, configure, build and run.
 SHELL := /bin/bash
-# For cmake, like -DCMAKE_UNITY_BUILD=ON: builds from nothing in less time, again after a change in more.
-CMAKE_OPTIONS ?=
-PRESET_BUILD = cmake --preset $(1) $(CMAKE_OPTIONS) && cmake --build --preset $(1)
+PRESET_BUILD = cmake --preset $(1) && cmake --build --preset $(1)
 CLANG_FORMAT ?= $(shell command -v clang-format-14 || echo clang-format)
 RUN_CLANG_TIDY ?= $(shell command -v run-clang-tidy-14 || echo run-clang-tidy)
 SOURCES = git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp'

@@ -276,7 +276,12 @@ bool is_timing(const std::string& line) {
 /// as names of `kMostNameBytes` make it; a longer one, of a damaged file, is left out.
 void for_each_line(const fs::path& path, const std::function<void(const std::string&)>& use) {
   constexpr std::streamsize kMostBytes = 10 * kMostNameBytes;
-  std::ifstream stream(path, std::ios::binary);
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) return;
+  std::ifstream stream;
+  if (fs::is_regular_file(status)) stream.open(path, std::ios::binary);
+  if (!stream.is_open()) throw UnavailableFile(path.string(), "", "expected a readable file");
   std::string line(kMostBytes, '\0');
   while (stream.getline(line.data(), kMostBytes) || stream.gcount() > 0) {
     if (stream.eof()) return;  // Its end was not written.

@@ -41,23 +41,25 @@ RigidTransform start() {
   return pose_near(rng, {}, 1.0, 0.05);
 }
 
-Numbers preprocessed(const std::string& json, const CloudPair& clouds) {
+Numbers preprocessed(const std::string& stage_json, const CloudPair& clouds) {
   Numbers numbers;
-  add_points(numbers, stage<Preprocessor>(json)->apply(clouds.source->with_channels()).points);
+  add_points(numbers,
+             stage<Preprocessor>(stage_json)->apply(clouds.source->with_channels()).points);
   return numbers;
 }
 
-Numbers extracted(const std::string& json, const CloudPair& clouds) {
+Numbers extracted(const std::string& stage_json, const CloudPair& clouds) {
   Rng rng = test_rng();
-  const Ground ground = stage<GroundExtractor>(json)->extract(clouds.source->points(), rng);
+  const Ground ground = stage<GroundExtractor>(stage_json)->extract(clouds.source->points(), rng);
   Numbers numbers = {ground.plane.normal.x(), ground.plane.normal.y(), ground.plane.normal.z(),
                      ground.plane.offset_m};
   numbers.insert(numbers.end(), ground.is_ground.begin(), ground.is_ground.end());
   return numbers;
 }
 
-Numbers registered(const std::string& json, const CloudPair& clouds) {
-  const Registration result = stage<Icp>(json)->align(*clouds.target, *clouds.source, start());
+Numbers registered(const std::string& stage_json, const CloudPair& clouds) {
+  const Registration result =
+      stage<Icp>(stage_json)->align(*clouds.target, *clouds.source, start());
   Numbers numbers = {result.rmse_m, result.inlier_ratio,
                      static_cast<double>(result.correspondences),
                      static_cast<double>(result.iterations), result.converged ? 1.0 : 0.0};
@@ -66,17 +68,17 @@ Numbers registered(const std::string& json, const CloudPair& clouds) {
   return numbers;
 }
 
-Numbers scored(const std::string& json, const CloudPair& clouds) {
-  const VolumeFunction volume = stage<VolumeScorer>(json)->bind(clouds.target, clouds.source);
+Numbers scored(const std::string& stage_json, const CloudPair& clouds) {
+  const VolumeFunction volume = stage<VolumeScorer>(stage_json)->bind(clouds.target, clouds.source);
   Rng rng = test_rng(78);
   Numbers numbers;
   for (int i = 0; i < 3; ++i) numbers.push_back(volume(pose_near(rng, {}, 45.0, 1.0)).m3);
   return numbers;
 }
 
-Numbers searched_yaw(const std::string& json, const CloudPair&) {
+Numbers searched_yaw(const std::string& stage_json, const CloudPair&) {
   Numbers numbers;
-  const auto search = stage<YawSearch>(json);
+  const auto search = stage<YawSearch>(stage_json);
   const std::vector<YawCost> costs = {[](double yaw_rad) { return -std::cos(yaw_rad - 0.2); },
                                       [](double) { return 1.0; }};
   for (const YawCost& cost : costs) {
@@ -87,9 +89,9 @@ Numbers searched_yaw(const std::string& json, const CloudPair&) {
   return numbers;
 }
 
-Numbers searched_pose(const std::string& json, const CloudPair&) {
+Numbers searched_pose(const std::string& stage_json, const CloudPair&) {
   Numbers numbers;
-  const auto search = stage<PoseSearch>(json);
+  const auto search = stage<PoseSearch>(stage_json);
   const std::vector<PoseCost> costs = {[](const RigidTransform& pose) {
                                          return pose.translation.squaredNorm() +
                                                 rotation_angle(pose.rotation);
@@ -119,9 +121,9 @@ Pipeline givers_of(const params::Slot<Step>& step) {
   return givers;
 }
 
-Numbers advanced(const std::string& json, const CloudPair& clouds) {
+Numbers advanced(const std::string& stage_json, const CloudPair& clouds) {
   const NamedStep ground{"ground", stage<Step>(R"({"step": "ground_alignment"})")};
-  const NamedStep tested{"tested", stage<Step>(json)};
+  const NamedStep tested{"tested", stage<Step>(stage_json)};
   const StreamKey key(5);
   const bool has_ground =
       run_pipeline({ground}, clouds.target, clouds.source, start(), key).failure.empty();
@@ -137,14 +139,14 @@ Numbers advanced(const std::string& json, const CloudPair& clouds) {
   return numbers;
 }
 
-/// The steps with the stage `json` in a slot of the kind `kind`, each as JSON.
-std::vector<std::string> steps_with(const std::string& kind, const std::string& json) {
+/// The steps with the stage `stage_json` in a slot of the kind `kind`, each as JSON.
+std::vector<std::string> steps_with(const std::string& kind, const std::string& stage_json) {
   std::vector<std::string> steps;
   for (const StageEntry& entry : every_stage_of(Step::kKind)) {
     for (const params::ParameterDoc& parameter : entry.parameters) {
       if (parameter.stage_kind != kind) continue;
       nlohmann::json step = nlohmann::json::parse(minimal_json(entry));
-      const nlohmann::json held = nlohmann::json::parse(json);
+      const nlohmann::json held = nlohmann::json::parse(stage_json);
       const bool is_list = parameter.type == params::ParameterType::stages;
       step[parameter.key] = is_list ? nlohmann::json::array({held}) : held;
       steps.push_back(step.dump());
@@ -154,9 +156,9 @@ std::vector<std::string> steps_with(const std::string& kind, const std::string& 
 }
 
 /// Runs a stage of a kind that has no run of its own, in each step that has a slot of the kind.
-Numbers advanced_by_steps(const std::string& kind, const std::string& json,
+Numbers advanced_by_steps(const std::string& kind, const std::string& stage_json,
                           const CloudPair& clouds) {
-  const std::vector<std::string> steps = steps_with(kind, json);
+  const std::vector<std::string> steps = steps_with(kind, stage_json);
   if (steps.empty()) {
     throw std::logic_error("no test runs stages of the kind \"" + kind +
                            "\": no step has a slot of it");
@@ -203,11 +205,12 @@ CloudPair cloud_pair(const Points& target, const Points& source) {
           std::make_shared<const Cloud>(measured(source), key.with("source"))};
 }
 
-Outcome outcome_of(const std::string& kind, const std::string& json, const CloudPair& clouds) {
+Outcome outcome_of(const std::string& kind, const std::string& stage_json,
+                   const CloudPair& clouds) {
   try {
     const auto run = runs().find(kind);
-    if (run == runs().end()) return {advanced_by_steps(kind, json, clouds), ""};
-    return {run->second(json, clouds), ""};
+    if (run == runs().end()) return {advanced_by_steps(kind, stage_json, clouds), ""};
+    return {run->second(stage_json, clouds), ""};
   } catch (const StageError& error) {
     return {{}, std::string("StageError: ") + error.what()};
   }

@@ -66,8 +66,11 @@ TEST_F(OddInput, AVariantIsNoFormula) {
 }
 
 TEST_F(OddInput, ASensorIsNoFormula) {
-  for (const char* name :
-       {"=1+1", "+1", "-1", "@a", "a\tb", "le\xe2\x80\xaeft", "\xef\xbb\xbfleft"}) {
+  for (const char* name : {"=1+1", "+1", "-1", "@a", "a\tb",
+                           "le\xe2\x80\xae"
+                           "ft",
+                           "\xef\xbb\xbf"
+                           "left"}) {
     write_scene("s1", name);
     EXPECT_NE(refusal(kNominal).find("other.pcd: expected a sensor with a name in UTF-8"),
               std::string::npos)

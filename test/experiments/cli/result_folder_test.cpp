@@ -164,9 +164,10 @@ TEST(ResultFolder, FreshDeletesItsOwnCloudsAlone) {
 
 TEST(ResultFolder, ReplacesNoForeignCloud) {
   const Bench bench(agreeing());
+  RunOptions options = bench.options("out");
+  EXPECT_EQ(bench.run(options), 0);
   const std::vector<fs::path> clouds = {bench.folder().write("out/clouds/base/scene1.ply", "mine"),
                                         bench.folder().write("out/clouds/far/scene2.vdb", "mine")};
-  RunOptions options = bench.options("out");
   options.clouds = true;
   EXPECT_EQ(bench.run(options), 3);
   for (const fs::path& cloud : clouds) EXPECT_EQ(read_whole_file(cloud), "mine");
@@ -175,13 +176,18 @@ TEST(ResultFolder, ReplacesNoForeignCloud) {
 
 TEST(ResultFolder, RepairsAHugeListOfWallTimesByItsEnd) {
   const Bench bench;
-  EXPECT_EQ(bench.run(bench.options("out")), 0);
+  RunOptions options = bench.options("out");
+  options.only = {"base"};
+  bench.run(options);
   const fs::path timings = bench.folder().path() / "out/timings.csv";
   const std::string good = read_whole_file(timings);
   // A line that is cut off after many blocks, of a file that takes no disk.
   fs::resize_file(timings, good.size() + 300'000'000);
-  EXPECT_EQ(bench.run(bench.options("out")), 0);
-  EXPECT_EQ(read_whole_file(timings), good);
+  bench.run(bench.options("out"));
+  const std::string continued = read_whole_file(timings);
+  EXPECT_EQ(continued.compare(0, good.size(), good), 0);
+  EXPECT_GT(continued.size(), good.size());
+  EXPECT_EQ(continued.find('\0'), std::string::npos);
 }
 
 TEST(ResultFolder, NeedsAFolderThatItMayWriteTo) {

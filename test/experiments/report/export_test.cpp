@@ -330,20 +330,20 @@ TEST(ExportCsv, HoldsFullPrecisionInAsManyFieldsPerLine) {
 
 TEST(ExportJson, HoldsTheSameNumbers) {
   const ExportTable table = table_of(test::few_records());
-  const auto json = nlohmann::json::parse(export_json(table));
-  EXPECT_EQ(json["commit"], kCommit);
-  EXPECT_EQ(json["seed"], 7);
-  ASSERT_EQ(json["rows"].size(), table.table.rows.size());
+  const auto parsed = nlohmann::json::parse(export_json(table));
+  EXPECT_EQ(parsed["commit"], kCommit);
+  EXPECT_EQ(parsed["seed"], 7);
+  ASSERT_EQ(parsed["rows"].size(), table.table.rows.size());
   for (std::size_t i = 0; i < table.table.rows.size(); ++i) {
     for (const std::string& name : result_names(table)) {
-      const auto& value = json["rows"][i][name];
+      const auto& value = parsed["rows"][i][name];
       ASSERT_EQ(value.is_null(), table.table.at(i, name).is_nothing()) << name;
       if (value.is_null()) continue;
       EXPECT_EQ(value, number(table, i, name));
     }
   }
-  EXPECT_TRUE(json["rows"].back()["sensor"].is_null());
-  EXPECT_EQ(json["rows"][0]["best"][0], "success_percent");
+  EXPECT_TRUE(parsed["rows"].back()["sensor"].is_null());
+  EXPECT_EQ(parsed["rows"][0]["best"][0], "success_percent");
 }
 
 TEST(Export, OfNoTrialsIsAnEmptyTable) {

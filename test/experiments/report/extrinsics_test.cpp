@@ -33,10 +33,10 @@ std::vector<TrialRecord> records_at(const RigidTransform& pose) {
 TEST(Extrinsics, AreThePoseThatMostTrialsAgreeOn) {
   Rng rng = test_rng();
   const RigidTransform pose = random_pose(rng, 3.0);
-  const auto json = nlohmann::json::parse(
+  const auto parsed = nlohmann::json::parse(
       extrinsics_json(summarise(records_at(pose), kBounds, {}), {{"left", "top"}}));
-  ASSERT_EQ(json["extrinsics"].size(), 1U);
-  const auto& found = json["extrinsics"][0];
+  ASSERT_EQ(parsed["extrinsics"].size(), 1U);
+  const auto& found = parsed["extrinsics"][0];
   EXPECT_EQ(found["reference_sensor"], "top");
   EXPECT_EQ(found["trials"], 31);
   EXPECT_EQ(found["agreeing"], 21);
@@ -113,15 +113,15 @@ TEST(Extrinsics, DoNotComeFromScenesThatAreAlikeByChance) {
 TEST(Extrinsics, HaveACovarianceIfAllThatAgreeHaveOne) {
   Rng rng = test_rng(4);
   std::vector<TrialRecord> records = records_at(random_pose(rng, 3.0));
-  const auto json = [&] {
+  const auto parsed = [&] {
     return nlohmann::json::parse(extrinsics_json(summarise(records, kBounds, {}), {}));
   };
-  EXPECT_FALSE(json()["extrinsics"][0].contains("covariance"));
+  EXPECT_FALSE(parsed()["extrinsics"][0].contains("covariance"));
   PoseCovariance covariance = croon::test::random_covariance(rng);
   covariance.dofs.fill(Observability::determined);
   covariance.dofs[2] = Observability::weak;
   for (TrialRecord& record : records) record.covariance = covariance;
-  const auto found = json()["extrinsics"][0];
+  const auto found = parsed()["extrinsics"][0];
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {
       const auto at = [&](const nlohmann::json& of) {
@@ -135,8 +135,8 @@ TEST(Extrinsics, HaveACovarianceIfAllThatAgreeHaveOne) {
   EXPECT_EQ(found["covariance"]["yaw"], "weak");
   EXPECT_EQ(found["covariance"]["x"], "determined");
   records.front().covariance.reset();
-  EXPECT_TRUE(json()["extrinsics"][0]["covariance"].is_null());
-  EXPECT_FALSE(json()["extrinsics"][0]["scenes"][1]["covariance"].is_null());
+  EXPECT_TRUE(parsed()["extrinsics"][0]["covariance"].is_null());
+  EXPECT_FALSE(parsed()["extrinsics"][0]["scenes"][1]["covariance"].is_null());
 }
 
 TEST(Extrinsics, AreTheSameBytesInAnyOrder) {
@@ -149,12 +149,12 @@ TEST(Extrinsics, AreTheSameBytesInAnyOrder) {
 }
 
 TEST(Extrinsics, WithoutAPoseAreNothing) {
-  const auto json = nlohmann::json::parse(extrinsics_json(
+  const auto parsed = nlohmann::json::parse(extrinsics_json(
       summarise({test::unfinished({"base", "a", "left", 0}, Status::failed, "no")}, kBounds, {}),
       {}));
-  EXPECT_TRUE(json["extrinsics"][0]["T_reference_sensor"].is_null());
-  EXPECT_TRUE(json["extrinsics"][0]["spread"].is_null());
-  EXPECT_EQ(json["extrinsics"][0]["agreeing"], 0);
+  EXPECT_TRUE(parsed["extrinsics"][0]["T_reference_sensor"].is_null());
+  EXPECT_TRUE(parsed["extrinsics"][0]["spread"].is_null());
+  EXPECT_EQ(parsed["extrinsics"][0]["agreeing"], 0);
 }
 
 TEST(Extrinsics, WithTruthDoNotUseIt) {
@@ -166,9 +166,9 @@ TEST(Extrinsics, WithTruthDoNotUseIt) {
                                      is_right ? Status::success : Status::inaccurate, {},
                                      test::offset_of(0, 0, 0, is_right ? 0.0 : 1.0, 0, 0)));
   }
-  const auto json = nlohmann::json::parse(extrinsics_json(summarise(records, kBounds, {}), {}));
-  EXPECT_EQ(json["extrinsics"][0]["T_reference_sensor"]["translation_m"][0], 1.0);
-  EXPECT_EQ(json["extrinsics"][0]["agreeing"], 3);
+  const auto parsed = nlohmann::json::parse(extrinsics_json(summarise(records, kBounds, {}), {}));
+  EXPECT_EQ(parsed["extrinsics"][0]["T_reference_sensor"]["translation_m"][0], 1.0);
+  EXPECT_EQ(parsed["extrinsics"][0]["agreeing"], 3);
 }
 
 TEST(Extrinsics, AreATableIfThereIsNoTruth) {

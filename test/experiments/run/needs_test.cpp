@@ -88,8 +88,8 @@ TEST(Extras, HelpSaysWhatStepsNeedAndProvide) {
   EXPECT_THAT(page("step/take", HelpFormat::markdown),
               HasSubstr("\nNeeds the extra `token`, a distance in metres.\n"));
   EXPECT_THAT(page("step/need", HelpFormat::text), HasSubstr("  Needs the channel time.\n"));
-  const auto json = nlohmann::json::parse(page("step/need", HelpFormat::json));
-  EXPECT_EQ(json[0]["needs"].dump(), R"([{"channel":"ring"},{"channel":"time"}])");
+  const auto parsed = nlohmann::json::parse(page("step/need", HelpFormat::json));
+  EXPECT_EQ(parsed[0]["needs"].dump(), R"([{"channel":"ring"},{"channel":"time"}])");
 }
 
 TEST(Channels, ThatAStepNeedsAreKept) {
