@@ -313,10 +313,7 @@ std::uintmax_t bytes_of_whole_lines(const fs::path& path, std::uintmax_t size) {
 /// Makes timings.csv end after its last whole line, or hold the header alone.
 void repair(const fs::path& path) {
   const std::string header = timings_csv({});
-  std::string begin(header.size(), '\0');
-  std::ifstream(path, std::ios::binary)
-      .read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  if (begin != header) return write_whole_file(path, header);
+  if (!file_begins_with(path, header)) return write_whole_file(path, header);
   std::error_code error;
   const std::uintmax_t size = fs::file_size(path, error);
   const std::uintmax_t whole = bytes_of_whole_lines(path, size);
@@ -358,8 +355,7 @@ std::string what_must_stay(const fs::path& path, const std::vector<fs::path>& in
 /// Whether `path` is a file, and no link, with these bytes.
 bool has_bytes(const fs::path& path, const std::string& bytes) {
   std::error_code error;
-  const bool is_file = fs::is_regular_file(fs::symlink_status(path, error));
-  return is_file && fs::file_size(path, error) == bytes.size() && read_whole_file(path) == bytes;
+  return file_begins_with(path, bytes) && fs::file_size(path, error) == bytes.size();
 }
 
 }  // namespace

@@ -118,6 +118,15 @@ std::optional<std::string> read_file_if_there(const fs::path& path) {
   return read_whole_file(path);
 }
 
+bool file_begins_with(const fs::path& path, std::string_view bytes) {
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(path, error))) return false;
+  std::string begin(bytes.size(), '\0');
+  std::ifstream(path, std::ios::binary)
+      .read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return begin == bytes;
+}
+
 void write_whole_file(const fs::path& path, std::string_view bytes) {
   std::error_code ignored;
   // Renaming onto a device or a pipe would replace it by a file.

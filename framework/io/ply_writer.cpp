@@ -1,7 +1,6 @@
 #include "framework/io/ply_file.hpp"
 
 #include <cstring>
-#include <fstream>
 
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
@@ -112,13 +111,7 @@ void write_fused_ply(const std::filesystem::path& path, const std::vector<Colour
 }
 
 bool is_fused_ply(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path, error))) return false;
-  const std::string expected = first_lines(kBinary) + kFusedComment;
-  std::string begin(expected.size(), '\0');
-  std::ifstream(path, std::ios::binary)
-      .read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  return begin == expected;
+  return file_begins_with(path, first_lines(kBinary) + kFusedComment);
 }
 
 }  // namespace croon

@@ -73,6 +73,21 @@ TEST(WholeFile, LeavesThePartOfAnotherWriterAlone) {
   ::close(descriptor);
 }
 
+TEST(WholeFile, BeginsWithItsFirstBytesAndIsNoLink) {
+  const test::TempFolder folder;
+  const std::filesystem::path path = folder.path() / "a";
+  write_whole_file(path, "begin, end");
+  EXPECT_TRUE(file_begins_with(path, ""));
+  EXPECT_TRUE(file_begins_with(path, "begin"));
+  EXPECT_TRUE(file_begins_with(path, "begin, end"));
+  EXPECT_FALSE(file_begins_with(path, "begin, end."));
+  EXPECT_FALSE(file_begins_with(path, "end"));
+  EXPECT_FALSE(file_begins_with(folder.path() / "none", ""));
+  EXPECT_FALSE(file_begins_with(folder.path(), ""));
+  std::filesystem::create_symlink(path, folder.path() / "link");
+  EXPECT_FALSE(file_begins_with(folder.path() / "link", "begin"));
+}
+
 TEST(WholeFile, RefusesWhatIsNoFile) {
   const test::TempFolder folder;
   const std::filesystem::path missing = folder.path() / "none" / "a";
