@@ -8,7 +8,9 @@
 #include "framework/registration/direction_balance.hpp"
 #include "framework/registration/icp_options.hpp"
 #include "framework/spatial/deskew.hpp"
+#include "framework/spatial/ground_candidates.hpp"
 #include "framework/spatial/leaf_grid.hpp"
+#include "framework/spatial/vehicle_sized.hpp"
 
 namespace croon {
 namespace {
@@ -119,7 +121,7 @@ std::vector<JointTerm> terms_of(const JointScene::Source& source, const StillTar
     const double target_s = target.time_s(nearest.index);
     term.residual_m = n.dot(q - p);
     term.patch = sample->patches[k];
-    term.weight = sample->weights[k];
+    term.weight = sample->weights[k] * target.weight(nearest.index);
     term.later_s = source_s - target_s;
     term.point = p;
     // The derivatives of exp(xi t) at small xi t: a scan turns by a few degrees at most.
@@ -143,6 +145,22 @@ std::shared_ptr<const Cloud> still_cloud(const JointScene& scene, const Twist& v
       StreamKey(0));
 }
 
+/// Which points of a scan belong to things of a vehicle's size; none if it has no ground.
+std::shared_ptr<const std::vector<bool>> vehicles_of(const Cloud& cloud) {
+  constexpr std::size_t kForTheGround = 5000;
+  return cloud.once<std::vector<bool>>("vehicles", [&] {
+    const Points& points = cloud.points();
+    Points some;
+    const std::size_t stride = points.size() / kForTheGround + 1;
+    for (std::size_t i = 0; i < points.size(); i += stride) some.push_back(points[i]);
+    Rng rng = cloud.rng("vehicles");
+    const auto grounds = ground_candidates(some, GroundCandidateOptions{}, rng);
+    return std::make_shared<std::vector<bool>>(
+        grounds.empty() ? std::vector<bool>(points.size(), false)
+                        : is_vehicle_sized(points, grounds.front().plane, VehicleSize{}));
+  });
+}
+
 }  // namespace
 
 Vector6d velocity_information(const JointOptions& options) {
@@ -156,11 +174,15 @@ JointView last_view(const JointState& state, const Twist& velocity, const JointO
   return {state, velocity, options.max_distances_m.back(), options};
 }
 
-StillTarget::StillTarget(const JointScene& scene, const Twist& velocity, int normal_neighbours)
+StillTarget::StillTarget(const JointScene& scene, const Twist& velocity,
+                         const JointOptions& options)
     : scene_(scene),
       velocity_(velocity),
       cloud_(still_cloud(scene, velocity)),
-      normals_(scene.target.cloud->normals(normal_neighbours)) {}
+      normals_(scene.target.cloud->normals(options.normal_neighbours)),
+      vehicle_weight_(options.vehicle_weight) {
+  if (vehicle_weight_ < 1.0) vehicles_ = vehicles_of(*scene.target.cloud);
+}
 
 Eigen::Vector3d StillTarget::normal(int index) const {
   return rotation_exp(velocity_.angular_radps * time_s(index)) *

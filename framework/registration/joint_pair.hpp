@@ -10,7 +10,7 @@ namespace croon {
 /// The target of a scene with its points where they were at the reference time.
 class StillTarget {
  public:
-  StillTarget(const JointScene& scene, const Twist& velocity, int normal_neighbours);
+  StillTarget(const JointScene& scene, const Twist& velocity, const JointOptions& options);
 
   const JointScene& scene() const { return scene_; }
   const Twist& velocity() const { return velocity_; }
@@ -21,12 +21,19 @@ class StillTarget {
   /// When point `index` was measured, from the reference time on.
   double time_s(int index) const { return scene_.target.times_s[index] - scene_.reference_s; }
   double reference_s() const { return scene_.reference_s; }
+  /// 1, or JointOptions::vehicle_weight if point `index` belongs to a thing of a vehicle's size.
+  double weight(int index) const {
+    return vehicles_ && (*vehicles_)[index] ? vehicle_weight_ : 1.0;
+  }
 
  private:
   const JointScene& scene_;
   Twist velocity_;
   std::shared_ptr<const Cloud> cloud_;
   const Normals& normals_;  ///< Of the scan as it was measured.
+  double vehicle_weight_;
+  /// Which points belong to things of a vehicle's size; null if they weigh as much as others.
+  std::shared_ptr<const std::vector<bool>> vehicles_;
 };
 
 /// The unknowns of one pair of clouds: its pose (Dof), the velocity (about the axes, along them),

@@ -47,7 +47,7 @@ class Problem {
     for_each_in_parallel(scenes_.size(), [&](std::size_t s) {
       const JointScene& scene = scenes_[s];
       const Twist& velocity = outcome.state.velocities[s];
-      const StillTarget target(scene, velocity, options_.normal_neighbours);
+      const StillTarget target(scene, velocity, options_);
       for (const JointScene::Source& source : scene.sources) {
         pairs[s].push_back(
             pair_equations(source, target, {outcome.state, velocity, max_distance_m, options_}));
@@ -177,6 +177,9 @@ const params::Table<JointOptions>& joint_table() {
                        "A patch whose residuals are above it in the mean begins to lose weight as "
                        "a whole: it moves by itself. In a coarse pass it is a tenth of its "
                        "distance; at 0 no patch loses weight."),
+        params::number("vehicle_weight", &JointOptions::vehicle_weight, {0.0, 1.0},
+                       "What a point of the reference weighs that belongs to a thing of a "
+                       "vehicle's size, as such things may move by themselves; others weigh 1."),
         params::number("kernel_width_m", &JointOptions::kernel_width_m, {1e-6, 1e6},
                        "Residuals above it begin to lose weight; in a coarse pass a quarter of its "
                        "distance."),

@@ -47,6 +47,7 @@ struct JointOptions {
   double patch_m = 3.0;
   double patch_balance = 0.8;
   double patch_kernel_m = 0.03;
+  double vehicle_weight = 1.0;
   double kernel_width_m = 0.05;
 };
 

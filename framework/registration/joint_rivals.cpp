@@ -15,7 +15,7 @@ using Agreement = std::map<JointCell, double>;
 Agreement agreement_of(const JointScene& scene, const JointState& state,
                        const JointOptions& options) {
   const Twist& velocity = state.velocities.front();
-  const StillTarget target(scene, velocity, options.normal_neighbours);
+  const StillTarget target(scene, velocity, options);
   Agreement agreement;
   for (const JointScene::Source& source : scene.sources) {
     const PairAgreement pair = pair_agreement(source, target, last_view(state, velocity, options));
@@ -55,7 +55,7 @@ std::vector<JointState> other_speeds(const JointScene& scene, const JointState& 
                                      const std::vector<double>& speeds_mps,
                                      const JointOptions& options) {
   const Twist& velocity = state.velocities.front();
-  const StillTarget target(scene, velocity, options.normal_neighbours);
+  const StillTarget target(scene, velocity, options);
   std::vector<double> later_s(state.T_target_sensor.size(), 0.0);
   for (const JointScene::Source& source : scene.sources) {
     later_s[source.sensor] =

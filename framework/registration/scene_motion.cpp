@@ -66,7 +66,7 @@ SceneMotion motion_of(const JointScene& scene, std::size_t s, const JointState& 
   motion.shift_std_m.assign(scene.sources.size(), 0.0);
   if (!scene.is_moving) return motion;
   const Vector6d velocity = vector_of(state.velocities[s]);
-  const StillTarget target(scene, state.velocities[s], options.normal_neighbours);
+  const StillTarget target(scene, state.velocities[s], options);
   motion.covariance = velocity_covariance(target, state, options);
   if (every_patch) {
     const Vector6d apart = velocity - vector_of(every_patch->velocities[s]);

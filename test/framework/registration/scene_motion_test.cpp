@@ -62,8 +62,10 @@ JointState sensor_at(double x_m) {
   return state;
 }
 
-std::optional<double> lead(const JointScene& scene, double x_m, double rival_x_m) {
+std::optional<double> lead(const JointScene& scene, double x_m, double rival_x_m,
+                           double vehicle_weight = 1.0) {
   JointOptions options;
+  options.vehicle_weight = vehicle_weight;
   options.points = 100000;
   return lead_over_rivals(scene, scene, sensor_at(x_m), {sensor_at(rival_x_m)}, options, options);
 }
@@ -83,6 +85,15 @@ TEST(LeadOverRivals, FallsWithTheNumberOfSigns) {
   const double few = *lead(street(2, 0.5F), 0.0, -0.5);
   EXPECT_LT(few, many);
   EXPECT_LT(few, 0.5);
+}
+
+TEST(LeadOverRivals, RisesIfTheLorryWeighsLess) {
+  const JointScene scene = street(2, 0.5F);
+  const double as_others = *lead(scene, 0.0, -0.5);
+  const double little = *lead(scene, 0.0, -0.5, 0.1);
+  EXPECT_LT(as_others, little);
+  EXPECT_GT(*lead(scene, 0.0, -0.5, 0.0), little);
+  EXPECT_GT(*lead(scene, 0.0, -0.5, 0.0), 0.5);
 }
 
 TEST(LeadOverRivals, IsNothingIfAllStartsEndAtTheState) {
@@ -112,7 +123,7 @@ TEST(ShiftOfAnUnknownVelocity, IsTheWayBetweenTheTwoScans) {
   const auto shift = [&](double later_s) {
     const JointScene scene = street(10, 0.0F, later_s);
     const JointOptions options;
-    const StillTarget target(scene, Twist{}, options.normal_neighbours);
+    const StillTarget target(scene, Twist{}, options);
     return shift_std_m(target, covariance, sensor_at(0.0), options).front();
   };
   EXPECT_NEAR(shift(0.05), 0.05 * std::sqrt(5.0), 1e-3);

@@ -1,0 +1,101 @@
+#include "framework/spatial/vehicle_sized.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace croon {
+namespace {
+
+using Cell = std::array<int, 2>;
+
+/// What is in a cell of the ground plane.
+struct Column {
+  std::vector<int> points;
+  double height_m = 0.0;  ///< Of its highest point.
+  bool is_seen = false;
+};
+
+/// The points of neighbouring columns, and the height of the highest.
+struct Thing {
+  std::vector<int> points;
+  double height_m = 0.0;
+};
+
+/// The thing that reaches from column `first` over all its neighbours.
+Thing thing_from(std::map<Cell, Column>& columns, const Cell& first) {
+  Thing thing;
+  std::vector<Cell> open = {first};
+  columns.at(first).is_seen = true;
+  while (!open.empty()) {
+    const Cell cell = open.back();
+    open.pop_back();
+    const Column& column = columns.at(cell);
+    thing.points.insert(thing.points.end(), column.points.begin(), column.points.end());
+    thing.height_m = std::max(thing.height_m, column.height_m);
+    for (int du = -1; du <= 1; ++du) {
+      for (int dv = -1; dv <= 1; ++dv) {
+        const auto next = columns.find({cell[0] + du, cell[1] + dv});
+        if (next == columns.end() || next->second.is_seen) continue;
+        next->second.is_seen = true;
+        open.push_back(next->first);
+      }
+    }
+  }
+  return thing;
+}
+
+/// How long and how wide the points are, along the axes of their spread.
+Eigen::Vector2d extent_m(const std::vector<int>& points, const std::vector<Eigen::Vector2d>& plan) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const int i : points) mean += plan[i] / static_cast<double>(points.size());
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (const int i : points) spread += (plan[i] - mean) * (plan[i] - mean).transpose();
+  const Eigen::Matrix2d axes =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvectors();
+  Eigen::Vector2d least = Eigen::Vector2d::Constant(1e9), most = -least;
+  for (const int i : points) {
+    const Eigen::Vector2d along = axes.transpose() * (plan[i] - mean);
+    least = least.cwiseMin(along);
+    most = most.cwiseMax(along);
+  }
+  return {(most - least)(1), (most - least)(0)};
+}
+
+}  // namespace
+
+std::vector<bool> is_vehicle_sized(const Points& points, const Plane& ground,
+                                   const VehicleSize& options) {
+  const Eigen::Vector3d up = ground.normal;
+  const Eigen::Vector3d u = up.unitOrthogonal(), v = up.cross(u);
+  std::vector<Eigen::Vector2d> plan(points.size());
+  std::map<Cell, Column> columns;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d p = points[i].cast<double>();
+    plan[i] = {u.dot(p), v.dot(p)};
+    const double height_m = ground.signed_distance(p);
+    if (!(height_m >= options.min_height_m && plan[i].norm() <= options.max_range_m)) continue;
+    const Cell cell = {static_cast<int>(std::floor(plan[i].x() / options.cell_m)),
+                       static_cast<int>(std::floor(plan[i].y() / options.cell_m))};
+    Column& column = columns[cell];
+    column.points.push_back(static_cast<int>(i));
+    column.height_m = std::max(column.height_m, height_m);
+  }
+  std::vector<bool> result(points.size(), false);
+  for (const auto& [cell, column] : columns) {
+    if (column.is_seen) continue;
+    const Thing thing = thing_from(columns, cell);
+    if (thing.height_m > options.max_height_m) continue;
+    const Eigen::Vector2d size_m = extent_m(thing.points, plan);
+    if (size_m(0) < options.min_length_m || size_m(0) > options.max_length_m ||
+        size_m(1) > options.max_width_m) {
+      continue;
+    }
+    for (const int i : thing.points) result[i] = true;
+  }
+  return result;
+}
+
+}  // namespace croon
