@@ -9,10 +9,10 @@
 namespace croon {
 namespace {
 
-using Cell = std::array<int, 2>;
+using GroundCell = std::array<int, 2>;
 
 /// What is in a cell of the ground plane.
-struct Column {
+struct GroundColumn {
   std::vector<int> points;
   double height_m = 0.0;  ///< Of its highest point.
   bool is_seen = false;
@@ -25,14 +25,14 @@ struct Thing {
 };
 
 /// The thing that reaches from column `first` over all its neighbours.
-Thing thing_from(std::map<Cell, Column>& columns, const Cell& first) {
+Thing thing_from(std::map<GroundCell, GroundColumn>& columns, const GroundCell& first) {
   Thing thing;
-  std::vector<Cell> open = {first};
+  std::vector<GroundCell> open = {first};
   columns.at(first).is_seen = true;
   while (!open.empty()) {
-    const Cell cell = open.back();
+    const GroundCell cell = open.back();
     open.pop_back();
-    const Column& column = columns.at(cell);
+    const GroundColumn& column = columns.at(cell);
     thing.points.insert(thing.points.end(), column.points.begin(), column.points.end());
     thing.height_m = std::max(thing.height_m, column.height_m);
     for (int du = -1; du <= 1; ++du) {
@@ -71,15 +71,15 @@ std::vector<bool> is_vehicle_sized(const Points& points, const Plane& ground,
   const Eigen::Vector3d up = ground.normal;
   const Eigen::Vector3d u = up.unitOrthogonal(), v = up.cross(u);
   std::vector<Eigen::Vector2d> plan(points.size());
-  std::map<Cell, Column> columns;
+  std::map<GroundCell, GroundColumn> columns;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3d p = points[i].cast<double>();
     plan[i] = {u.dot(p), v.dot(p)};
     const double height_m = ground.signed_distance(p);
     if (!(height_m >= options.min_height_m && plan[i].norm() <= options.max_range_m)) continue;
-    const Cell cell = {static_cast<int>(std::floor(plan[i].x() / options.cell_m)),
-                       static_cast<int>(std::floor(plan[i].y() / options.cell_m))};
-    Column& column = columns[cell];
+    const GroundCell cell = {static_cast<int>(std::floor(plan[i].x() / options.cell_m)),
+                             static_cast<int>(std::floor(plan[i].y() / options.cell_m))};
+    GroundColumn& column = columns[cell];
     column.points.push_back(static_cast<int>(i));
     column.height_m = std::max(column.height_m, height_m);
   }
