@@ -5,7 +5,6 @@
 
 #include "experiments/file/experiment_keys.hpp"
 #include "framework/base/error.hpp"
-#include "framework/base/whole_file.hpp"
 #include "framework/io/digest.hpp"
 #include "framework/params/json_file.hpp"
 
@@ -58,35 +57,37 @@ fs::path extended_file(const json& keys, const fs::path& path, std::vector<Fault
 MergedFile read_merged(const std::string& text, const fs::path& path, std::vector<fs::path> chain,
                        std::vector<Fault>& faults);
 
-/// Reads the file that `own`, the keys of the file `path`, extends; without keys if there is none
-/// or if it has faults. `chain` are the files that led here, `path` the last of them.
+/// Reads the file that `own`, the keys of the file `path`, extends; without keys if there is none.
+/// Throws InputError if it cannot be had: what its keys are is then not known, so nothing more can
+/// be said of `own`. `chain` are the files that led here, `path` the last of them.
 MergedFile read_extended(const json& own, const fs::path& path, const std::vector<fs::path>& chain,
                          std::vector<Fault>& faults) {
-  MergedFile none{json::object(), {}, {}};
+  const std::size_t faults_before = faults.size();
   const fs::path extended = extended_file(own, path, faults);
-  if (extended.empty()) return none;
-  const auto refused = [&](const std::string& message) {
-    faults.push_back({path.string(), std::string("/") + kExtends, message});
-    return none;
+  if (faults.size() > faults_before) throw InputError(std::move(faults));
+  if (extended.empty()) return {json::object(), {}, {}};
+  const auto refuse = [&](const std::string& file, const std::string& where,
+                          const std::string& message) {
+    faults.push_back({file, where, message});
+    throw InputError(std::move(faults));
   };
+  const std::string key = std::string("/") + kExtends;
   if (std::find(chain.begin(), chain.end(), fs::weakly_canonical(extended)) != chain.end()) {
-    return refused("expected another file, found " + extended.string() +
-                   ", which extends this one");
+    refuse(path.string(), key,
+           "expected another file, found " + extended.string() + ", which extends this one");
   }
   if (chain.size() >= kMostFiles) {
-    return refused("expected at most " + std::to_string(kMostFiles) +
-                   " files that extend each other");
+    refuse(path.string(), key,
+           "expected at most " + std::to_string(kMostFiles) + " files that extend each other");
   }
   if (!fs::is_regular_file(extended)) {
-    return refused(std::string("expected an experiment file, found ") +
-                   (fs::exists(extended) ? "something that is not a file" : "none") + " at " +
-                   extended.string());
+    refuse(path.string(), key,
+           std::string("expected an experiment file, found ") +
+               (fs::exists(extended) ? "something that is not a file" : "none") + " at " +
+               extended.string());
   }
-  MergedFile base = read_merged(read_whole_file(extended), extended, chain, faults);
-  if (!base.keys.is_object()) {
-    faults.push_back({extended.string(), "/", "expected an object"});
-    return none;
-  }
+  MergedFile base = read_merged(params::read_json_text(extended), extended, chain, faults);
+  if (!base.keys.is_object()) refuse(extended.string(), "/", "expected an object");
   base.files.front().path = own.at(kExtends);
   return base;
 }
@@ -134,10 +135,13 @@ class UnbuiltStages final : public params::StageBuilder {
   }
 };
 
+/// A folder's name has no more bytes: file systems do not allow it.
+constexpr std::size_t kMostFolderBytes = 255;
+
 }  // namespace
 
 Experiment load_experiment(const fs::path& path, const Catalogue& catalogue) {
-  return parse_experiment(read_whole_file(path), path, catalogue);
+  return parse_experiment(params::read_json_text(path), path, catalogue);
 }
 
 Experiment parse_experiment(const std::string& text, const fs::path& path,
@@ -151,6 +155,10 @@ Experiment parse_experiment(const std::string& text, const fs::path& path,
     if (keys.pipeline) keys.variants = make_variants(keys, root, catalogue, faults);
     experiment = std::move(keys);
     check_variants(root, experiment);
+    if (experiment.name.size() > kMostFolderBytes) {
+      root.member("name").fault("expected a name of at most " + std::to_string(kMostFolderBytes) +
+                                " bytes, found one of " + std::to_string(experiment.name.size()));
+    }
   }
   if (!faults.empty()) throw InputError(without_repeats(faults));
   experiment.file = path.string();

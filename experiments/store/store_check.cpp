@@ -119,7 +119,12 @@ void check_names(const Database& database, const std::string& table, const std::
               {{"id NOT BETWEEN 1 AND " + std::string(kLargestId), "an id is out of range"},
                {"typeof(name) <> 'text' OR typeof(" + detail + ") <> 'text'", "a name is no text"},
                {is_long("name") + long_detail, "a name is too long"},
-               {"typeof(place) NOT IN ('null', 'integer') OR place < 0", "a place is no index"}});
+               {"typeof(place) NOT IN ('null', 'integer') OR place < 0 OR place >= (SELECT "
+                "count(place) FROM " +
+                    table + ")",
+                "a place is no index"}});
+  const std::string twice = "SELECT 1 FROM " + table + " GROUP BY place HAVING count(place) > 1";
+  if (database.prepare(twice).next()) refuse(database, table + ": two names have one place");
   check_shown_names(database, table, detail);
 }
 
@@ -191,7 +196,9 @@ void check_trials(const Database& database) {
   const std::string words = quoted(kStatusNames);
   faults.emplace_back("status NOT IN (" + words + ") OR status IS NULL",
                       "a status is none of " + words);
-  faults.emplace_back("typeof(reason) <> 'text'", "a reason is no text");
+  faults.emplace_back(
+      "typeof(reason) <> 'text' OR length(CAST(reason AS BLOB)) > " + std::string(kLongestName),
+      "a reason is no text, or too long");
   const auto [errors, pose] = number_columns();
   faults.emplace_back(not_numbers(errors), "an error is no number");
   faults.emplace_back(not_numbers(pose), "a pose is no number");
@@ -226,6 +233,8 @@ void check_steps(const Database& database) {
   faults.emplace_back(
       "typeof(place) <> 'integer' OR typeof(step) <> 'text' OR typeof(figures) <> 'text'",
       "a value has another type");
+  faults.emplace_back("place NOT BETWEEN 0 AND " + std::string(kLargestId),
+                      "a place is out of range");
   faults.emplace_back(
       "information IS NOT NULL AND (typeof(information) <> 'blob' OR length(information) <> 288)",
       "an information matrix has another size");

@@ -115,17 +115,29 @@ std::string without_number(const std::string& message) {
   return end == std::string::npos ? message : message.substr(end + 2);
 }
 
-}  // namespace
-
-json parse_json(const std::string& text, const std::string& file, std::vector<Fault>& faults) {
+/// Throws InputError if `bytes` of text are more than the JSON of any file that croon reads.
+void refuse_large(std::uintmax_t bytes, const std::string& file) {
   // A value takes up to ninety times the bytes of its text. What people and programs write for
   // croon, 10,000 variants or claims, has a few megabytes.
-  constexpr std::size_t kMostBytes = 10'000'000;
-  if (text.size() > kMostBytes) {
-    throw InputError(file, "",
-                     "expected JSON of at most " + std::to_string(kMostBytes) + " bytes, found " +
-                         std::to_string(text.size()));
-  }
+  constexpr std::uintmax_t kMostBytes = 10'000'000;
+  if (bytes <= kMostBytes) return;
+  throw InputError(file, "",
+                   "expected JSON of at most " + std::to_string(kMostBytes) + " bytes, found " +
+                       std::to_string(bytes));
+}
+
+}  // namespace
+
+std::string read_json_text(const std::filesystem::path& path) {
+  std::error_code none;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, none);
+  // What has no size is refused with its reason when it is read.
+  if (!none) refuse_large(bytes, path.string());
+  return read_whole_file(path);
+}
+
+json parse_json(const std::string& text, const std::string& file, std::vector<Fault>& faults) {
+  refuse_large(text.size(), file);
   // The parser takes a null byte for the end of the text.
   const std::size_t null_byte = text.find('\0');
   if (null_byte != std::string::npos) {
@@ -152,11 +164,11 @@ json parse_json(const std::string& text, const std::string& file) {
 }
 
 json read_json_file(const std::filesystem::path& path, std::vector<Fault>& faults) {
-  return parse_json(read_whole_file(path), path.string(), faults);
+  return parse_json(read_json_text(path), path.string(), faults);
 }
 
 json read_json_file(const std::filesystem::path& path) {
-  return parse_json(read_whole_file(path), path.string());
+  return parse_json(read_json_text(path), path.string());
 }
 
 }  // namespace croon::params

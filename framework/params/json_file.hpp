@@ -18,6 +18,10 @@ nlohmann::json parse_json(const std::string& text, const std::string& file,
 /// The same, but throws InputError for duplicate keys.
 nlohmann::json parse_json(const std::string& text, const std::string& file);
 
+/// The text of the file `path`, for parse_json. Throws InputError if it cannot be read, or has more
+/// than 10 MB; such a file is not read.
+std::string read_json_text(const std::filesystem::path& path);
+
 /// The JSON value in the file `path`, in the same two ways. Throws InputError if the file cannot be
 /// read.
 nlohmann::json read_json_file(const std::filesystem::path& path, std::vector<Fault>& faults);

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/base/error.hpp"
-#include "framework/base/whole_file.hpp"
 #include "framework/params/json_file.hpp"
 #include "framework/pipeline/patched_pipeline.hpp"
 
@@ -26,7 +25,7 @@ Pipeline parse_pipeline(const std::string& text, const std::string& file,
 }
 
 Pipeline load_pipeline(const std::filesystem::path& path, const Catalogue& catalogue) {
-  return parse_pipeline(read_whole_file(path), path.string(), catalogue);
+  return parse_pipeline(params::read_json_text(path), path.string(), catalogue);
 }
 
 StreamKey cloud_stream(std::uint64_t seed, const std::string& scene, const std::string& sensor) {

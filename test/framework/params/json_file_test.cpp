@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "framework/base/error.hpp"
+#include "test/support/temp_folder.hpp"
 
 namespace croon::params {
 namespace {
@@ -54,6 +57,23 @@ TEST(ParseJson, RefusesMoreThanTenMegabytes) {
   const auto faults = json_faults("[" + std::string(9'999'999, ' ') + "]");
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].message, "expected JSON of at most 10000000 bytes, found 10000001");
+}
+
+TEST(ReadJsonText, RefusesALargeFileWithoutReadingIt) {
+  const test::TempFolder folder;
+  const std::filesystem::path path = folder.path() / "large.json";
+  std::ofstream(path) << "{}";
+  EXPECT_EQ(read_json_text(path), "{}");
+  // Without blocks on the disk; no machine has the memory for it.
+  std::filesystem::resize_file(path, 1'000'000'000'000);
+  try {
+    read_json_text(path);
+    ADD_FAILURE() << "it was read";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.faults().size(), 1U);
+    EXPECT_EQ(error.faults()[0].message,
+              "expected JSON of at most 10000000 bytes, found 1000000000000");
+  }
 }
 
 TEST(ParseJson, RefusesBytesBehindANullByte) {
