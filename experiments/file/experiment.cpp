@@ -135,9 +135,6 @@ class UnbuiltStages final : public params::StageBuilder {
   }
 };
 
-/// A folder's name has no more bytes: file systems do not allow it.
-constexpr std::size_t kMostFolderBytes = 255;
-
 }  // namespace
 
 Experiment load_experiment(const fs::path& path, const Catalogue& catalogue) {
@@ -155,8 +152,8 @@ Experiment parse_experiment(const std::string& text, const fs::path& path,
     if (keys.pipeline) keys.variants = make_variants(keys, root, catalogue, faults);
     experiment = std::move(keys);
     check_variants(root, experiment);
-    if (experiment.name.size() > kMostFolderBytes) {
-      root.member("name").fault("expected a name of at most " + std::to_string(kMostFolderBytes) +
+    if (experiment.name.size() > kMostFileNameBytes) {
+      root.member("name").fault("expected a name of at most " + std::to_string(kMostFileNameBytes) +
                                 " bytes, found one of " + std::to_string(experiment.name.size()));
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 
 #include "experiments/run/scene_groups.hpp"
 #include "framework/base/error.hpp"
@@ -37,9 +38,28 @@ void add_pairs(Scene& scene) {
   }
 }
 
+/// Throws InputError if the sensors of `scene` and their pairs are more than a store may have.
+void check_number_of_pairs(const Scene& scene, const std::string& file) {
+  const std::size_t sensors = scene.sensors.size();
+  const std::size_t with_pairs = sensors + sensors * (sensors - 1) / 2;
+  if (sensors == 0 || with_pairs <= kMostVariants) return;
+  throw InputError(file, "/loops",
+                   "expected at most " + std::to_string(kMostVariants) +
+                       " sensors and pairs of them, found " + std::to_string(with_pairs) +
+                       " in scene " + in_quotes(scene.name));
+}
+
 void check_name(const std::string& what, const std::string& name, const std::string& file,
                 std::vector<Fault>& faults) {
-  const bool is_fine = !name.empty() && name.size() <= kMostNameBytes && printable(name) == name &&
+  constexpr std::size_t kMostBytes = kMostFileNameBytes - std::string_view(".pcd").size();
+  if (name.size() > kMostBytes) {
+    faults.push_back({file, "",
+                      "expected a " + what + " with a name of at most " +
+                          std::to_string(kMostBytes) + " bytes, found one of " +
+                          std::to_string(name.size())});
+    return;
+  }
+  const bool is_fine = !name.empty() && printable(name) == name &&
                        (std::string(kFormulaSigns) + ".").find(name.front()) == std::string::npos &&
                        name.find('/') == std::string::npos;
   if (is_fine) return;
@@ -133,7 +153,10 @@ std::vector<Scene> scenes_of(const Experiment& experiment, const std::filesystem
   std::vector<Scene> scenes = dataset_scenes(experiment, data_root);
   if (experiment.loops) {
     check_names_for_pairs(scenes, experiment.file);
-    for (Scene& scene : scenes) add_pairs(scene);
+    for (Scene& scene : scenes) {
+      check_number_of_pairs(scene, experiment.file);
+      add_pairs(scene);
+    }
   }
   return grouped(experiment, std::move(scenes));
 }

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 #include "framework/params/group.hpp"
 
 namespace croon {
@@ -40,8 +41,13 @@ std::string read_step_name(const Node& step) {
     return has_type ? step.value().at("step").get<std::string>() : "";
   }
   std::string name;
-  if (step.member("name").read(name) && !params::kKeyName.allows(name)) {
-    step.member("name").expected(params::kKeyName.words);
+  const Node member = step.member("name");
+  if (!member.read(name)) return name;
+  if (name.size() > kMostNameBytes) {
+    member.fault("expected a name of at most " + std::to_string(kMostNameBytes) +
+                 " bytes, found one of " + std::to_string(name.size()));
+  } else if (!params::kKeyName.allows(name)) {
+    member.expected(params::kKeyName.words);
   }
   return name;
 }

@@ -132,6 +132,9 @@ TEST(Experiment, WantsAPipelineOfNamedSteps) {
   experiment["pipeline"][1]["name"] = "a.b";
   EXPECT_EQ(faults_of(experiment),
             Lines{"/pipeline/1/name: expected a name of letters, digits, _ and -, found \"a.b\""});
+  experiment["pipeline"][1]["name"] = std::string(1001, 'n');
+  EXPECT_EQ(faults_of(experiment),
+            Lines{"/pipeline/1/name: expected a name of at most 1000 bytes, found one of 1001"});
   experiment["pipeline"][1] = 5;
   EXPECT_EQ(faults_of(experiment), Lines{"/pipeline/1: expected an object, found 5"});
 }

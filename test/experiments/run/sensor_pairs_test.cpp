@@ -10,11 +10,12 @@
 namespace croon::experiments {
 namespace {
 
-Experiment with_loops(const std::string& loops) {
+Experiment with_loops(const std::string& loops, int sensors = 3) {
   const test::TempFolder folder;
   return load_experiment(
-      folder.write("x.json", R"({"name": "x", "dataset": {"type": "fake", "sensors": 3}, )" +
-                                 loops + R"( "pipeline": [{"step": "behave"}]})"),
+      folder.write("x.json", R"({"name": "x", "dataset": {"type": "fake", "sensors": )" +
+                                 std::to_string(sensors) + "}, " + loops +
+                                 R"( "pipeline": [{"step": "behave"}]})"),
       test::fake_catalogue());
 }
 
@@ -29,6 +30,18 @@ TEST(SensorPairs, AreThereWhereLoopsAreAskedFor) {
   EXPECT_EQ(names, (std::vector<std::string>{"s2", "s1", "s0", "s1>s2", "s0>s2", "s0>s1"}));
   EXPECT_FALSE(is_pair(sensors[2]));
   EXPECT_TRUE(is_pair(sensors[3]));
+}
+
+TEST(SensorPairs, AreNoMoreThanAStoreMayHave) {
+  const auto error = [](int sensors) {
+    const std::string line =
+        test::input_error([&] { scenes_of(with_loops(R"("loops": true,)", sensors), ""); });
+    return line.substr(line.find(": ") + 2);
+  };
+  EXPECT_NO_THROW(scenes_of(with_loops(R"("loops": true,)", 140), ""));
+  EXPECT_EQ(error(141).substr(0, 78),
+            "/loops: expected at most 10000 sensors and pairs of them, found 10011 in scene");
+  EXPECT_NO_THROW(scenes_of(with_loops("", 141), ""));
 }
 
 TEST(SensorPairs, HaveTheRelativePose) {
@@ -81,6 +94,10 @@ TEST(SensorPairs, HaveSensorsWithNamesOfTheirOwn) {
             "x.json: expected sensors with different names in scene \"s\", found \"left\" twice");
   EXPECT_EQ(error({"top"}),
             "x.json: expected sensors with different names in scene \"s\", found \"top\" twice");
+  EXPECT_NO_THROW(check_names(scenes_with({std::string(251, 's')}), "x.json"));
+  EXPECT_EQ(error({std::string(252, 's')}),
+            "x.json: expected a sensor with a name of at most 251 bytes, found one of 252")
+      << "Its cloud is a file NAME.pcd.";
   EXPECT_EQ(error({"all"}),
             "x.json: /dataset: expected a sensor with another name than \"all\", which is that of "
             "all sensors together");
