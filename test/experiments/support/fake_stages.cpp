@@ -224,7 +224,7 @@ Catalogue fake_catalogue() {
   catalogue.add(stage_entry<FakeDataset, FakeDatasetParams>(
       "fake", "Random clouds.", "croon",
       {integer("scenes", &FakeDatasetParams::scenes, {1, 100}, "How many scenes."),
-       integer("sensors", &FakeDatasetParams::sensors, {1, 10}, "How many sensors."),
+       integer("sensors", &FakeDatasetParams::sensors, {1, 200}, "How many sensors."),
        boolean("truth", &FakeDatasetParams::truth, "Whether there is truth."),
        integer("points", &FakeDatasetParams::points, {0, 1e6}, "Points per cloud."),
        integer("unreadable", &FakeDatasetParams::unreadable, {-2, 10}, "The unreadable cloud."),
