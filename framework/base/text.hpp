@@ -8,7 +8,7 @@ namespace croon {
 /// A cell that begins with one of these is a formula to a spreadsheet.
 inline constexpr const char* kFormulaSigns = "=+-@";
 
-/// The longest name of a variant, a scene or a sensor, in bytes.
+/// The longest name of a variant or a step, in bytes; those of scenes and sensors are shorter.
 inline constexpr std::size_t kMostNameBytes = 1000;
 
 /// The number of columns that UTF-8 text takes: its code points.
