@@ -1,10 +1,10 @@
 // What does a nearest neighbour cost, and what do our result set and bound save over nanoflann as
 // it comes?
 
-#include <nanoflann.hpp>
 #include <stdexcept>
 
 #include "benchmarks/support/clouds.hpp"
+#include "benchmarks/support/nanoflann_peer.hpp"
 #include "benchmarks/support/run.hpp"
 
 namespace croon::benchmarks {
@@ -13,51 +13,10 @@ namespace {
 constexpr int kNormalNeighbours = 40;
 constexpr float kUnbounded = 1e9F;
 
-struct PointList {
-  const Points& points;
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  float kdtree_get_pt(std::size_t index, std::size_t axis) const {
-    return points[index][static_cast<Eigen::Index>(axis)];
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
-/// nanoflann with its own result set, as its examples use it.
-class Peer {
- public:
-  explicit Peer(const Points& points) : points_{points}, tree_(3, points_) { tree_.buildIndex(); }
-  Neighbour nearest(const Eigen::Vector3f& query, float max_distance_m) const {
-    std::uint32_t index = 0;
-    float squared_distance = 0.0F;
-    const bool any = tree_.knnSearch(query.data(), 1, &index, &squared_distance) > 0;
-    if (!any || squared_distance > max_distance_m * max_distance_m) return {};
-    return {static_cast<int>(index), squared_distance};
-  }
-  void nearest(const Eigen::Vector3f& query, int count, std::vector<Neighbour>& neighbours) const {
-    std::vector<std::uint32_t> indices(static_cast<std::size_t>(count));
-    std::vector<float> squared_distances(indices.size());
-    indices.resize(
-        tree_.knnSearch(query.data(), indices.size(), indices.data(), squared_distances.data()));
-    neighbours.clear();
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-      neighbours.push_back({static_cast<int>(indices[i]), squared_distances[i]});
-    }
-  }
-
- private:
-  PointList points_;
-  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PointList>, PointList, 3,
-                                      std::uint32_t>
-      tree_;
-};
-
 /// Throws where a search gives another distance than the peer's.
 void check_equal_distances(const Points& points, const Points& queries) {
   const KdTree tree(points);
-  const Peer peer(points);
+  const NanoflannPeer peer(points);
   std::vector<Neighbour> ours, theirs;
   bool equal = true;
   for (const Eigen::Vector3f& query : queries) {
@@ -131,7 +90,7 @@ void check_and_add() {
   for (const CloudPair& pair : pairs) {
     check_equal_distances(pair.target, transformed(pair.source, pair.T_target_source));
     add_tree<KdTree>("croon", pair);
-    add_tree<Peer>("nanoflann", pair);
+    add_tree<NanoflannPeer>("peer_nanoflann", pair);
   }
 }
 

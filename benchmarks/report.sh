@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures the volume scorers and writes docs/benchmarks.md and its pictures. The machine should do nothing else.
+# Runs all benchmarks that are built and writes docs/benchmarks.md and its pictures. The machine should do nothing else.
 # Usage: CROON_DATA=data benchmarks/report.sh BUILD [DOCS]
 # With CROON_BENCHMARK_POINTS=10000000 up to so many points; with -DCROON_BENCHMARK_PEERS=ON other libraries too.
 set -euo pipefail
@@ -7,13 +7,9 @@ set -euo pipefail
 build=$1
 docs=${2:-$(dirname "$0")/../docs}
 files=()
-for program in bench_volume_scorers bench_volume_peers; do
-  if [[ ! -x $build/bin/$program ]]; then
-    echo "$program is not built; the page is without it" >&2
-    continue
-  fi
-  file=$build/$program.json
-  "$build/bin/$program" --benchmark_repetitions="${REPETITIONS:-5}" --benchmark_report_aggregates_only=true \
+for program in "$build"/bin/bench_*; do
+  file=$build/$(basename "$program").json
+  "$program" --benchmark_repetitions="${REPETITIONS:-5}" --benchmark_report_aggregates_only=true \
     --benchmark_min_time="${MIN_TIME:-0.05}" --benchmark_out_format=json --benchmark_out="$file" \
     --benchmark_context="commit=$(git -C "$(dirname "$0")" describe --always --dirty)" \
     --benchmark_context="cpu=$(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -1 | tr -d ,)"

@@ -18,10 +18,16 @@ double in_ms(double time, const std::string& unit) {
   return time * ms.at(unit);
 }
 
+/// Without what Google Benchmark adds.
+std::string own_name(const std::string& name) {
+  const std::string ending = "/real_time";
+  const std::size_t at = name.rfind(ending);
+  return at != std::string::npos && at + ending.size() == name.size() ? name.substr(0, at) : name;
+}
+
 /// The parts of a name; nothing if it asks something else.
 std::optional<Measurement> measurement_of(const std::string& name) {
-  static const std::regex pattern(
-      R"(^(pose|bind|batch|floor)/(.+)/leaf_size_m:([0-9.]+)/(\w+)(/real_time)?$)");
+  static const std::regex pattern(R"(^(pose|bind|batch|floor)/(.+)/leaf_size_m:([0-9.]+)/(\w+)$)");
   std::smatch match;
   if (!std::regex_match(name, match, pattern)) return std::nullopt;
   Measurement measurement;
@@ -30,6 +36,14 @@ std::optional<Measurement> measurement_of(const std::string& name) {
   measurement.leaf_size_m = std::stod(match[3]);
   measurement.scorer = match[4];
   return measurement;
+}
+
+PlainTime plain_time_of(const std::string& name) {
+  const std::size_t slash = name.rfind('/');
+  PlainTime time;
+  if (slash != std::string::npos) time.subject = name.substr(0, slash);
+  time.way = slash == std::string::npos ? name : name.substr(slash + 1);
+  return time;
 }
 
 Machine machine_of(const json& context) {
@@ -48,17 +62,36 @@ Machine machine_of(const json& context) {
   return machine;
 }
 
-/// Adds what one line says of a measurement that may have other lines: with repetitions there is
-/// one for the median, and one for the coefficient of variation.
-void add_line(const json& line, Measurement& measurement) {
+/// What one line says of its benchmark: with repetitions there is one for the median, and one for
+/// the coefficient of variation.
+bool is_spread(const json& line) { return line.value("aggregate_name", "") == "cv"; }
+bool is_time(const json& line) {
   const std::string aggregate = line.value("aggregate_name", "");
-  if (aggregate == "cv") {
-    measurement.spread = line.at("real_time").get<double>();
-  } else if (aggregate.empty() || aggregate == "median") {
-    measurement.time_ms = in_ms(line.at("real_time"), line.at("time_unit"));
-    if (line.contains("poses")) measurement.time_ms /= line.at("poses").get<double>();
-    if (line.contains("source_points")) measurement.source_points = line.at("source_points");
-  }
+  return aggregate.empty() || aggregate == "median";
+}
+
+void add_line(const json& line, Measurement& measurement) {
+  if (is_spread(line)) measurement.spread = line.at("real_time").get<double>();
+  if (!is_time(line)) return;
+  measurement.time_ms = in_ms(line.at("real_time"), line.at("time_unit"));
+  if (line.contains("poses")) measurement.time_ms /= line.at("poses").get<double>();
+  if (line.contains("source_points")) measurement.source_points = line.at("source_points");
+}
+
+void add_line(const json& line, PlainTime& time) {
+  if (is_spread(line)) time.spread = line.at("real_time").get<double>();
+  if (!is_time(line)) return;
+  time.time = line.at("real_time");
+  time.unit = line.at("time_unit");
+}
+
+/// Adds a line to the entry of its name in `list`; `entry` is that of a name not seen before.
+template <class Entry>
+void add_to(std::vector<Entry>& list, std::map<std::string, std::size_t>& places,
+            const std::string& name, const Entry& entry, const json& line) {
+  const auto [place, is_new] = places.emplace(name, list.size());
+  if (is_new) list.push_back(entry);
+  add_line(line, list[place->second]);
 }
 
 BenchmarkRun run_of(const json& content, const std::string& file) {
@@ -66,17 +99,17 @@ BenchmarkRun run_of(const json& content, const std::string& file) {
   const json& context = content.at("context");
   run.program = std::filesystem::path(context.at("executable").get<std::string>()).filename();
   run.machine = machine_of(context);
-  std::map<std::string, std::size_t> places;
+  std::map<std::string, std::size_t> places, plain_places;
   for (const json& line : content.at("benchmarks")) {
-    const std::string name = line.at("run_name");
+    const std::string name = own_name(line.at("run_name"));
     if (line.value("error_occurred", false)) {
       throw InputError(file, name, "the benchmark failed: " + line.value("error_message", ""));
     }
-    const std::optional<Measurement> measurement = measurement_of(name);
-    if (!measurement) continue;
-    const auto [place, is_new] = places.emplace(name, run.measurements.size());
-    if (is_new) run.measurements.push_back(*measurement);
-    add_line(line, run.measurements[place->second]);
+    if (const std::optional<Measurement> measurement = measurement_of(name)) {
+      add_to(run.measurements, places, name, *measurement, line);
+    } else {
+      add_to(run.times, plain_places, name, plain_time_of(name), line);
+    }
   }
   return run;
 }

@@ -19,6 +19,16 @@ struct Measurement {
   std::optional<double> source_points;
 };
 
+/// What any other benchmark measured, whose name is `<subject>/<way>`: of a subject, such as a
+/// cloud, the time by one way to do it, such as a stage.
+struct PlainTime {
+  std::string subject;
+  std::string way;
+  double time = 0.0;  ///< The median of the repetitions.
+  std::string unit;   ///< Google Benchmark's word: "ms".
+  std::optional<double> spread;
+};
+
 /// Where and when a run was made.
 struct Machine {
   std::string date, commit, cpu;
@@ -32,10 +42,11 @@ struct BenchmarkRun {
   std::string program;
   Machine machine;
   std::vector<Measurement> measurements;  ///< In the order of the file.
+  std::vector<PlainTime> times;           ///< In the order of the file.
 };
 
-/// Reads the file that `--benchmark_out` wrote. Lines that ask something else are left out. Throws
-/// InputError if it is no such file, or a benchmark in it failed.
+/// Reads the file that `--benchmark_out` wrote. Throws InputError if it is no such file, or a
+/// benchmark in it failed.
 BenchmarkRun read_run(const std::filesystem::path& file);
 
 }  // namespace croon::benchmarks

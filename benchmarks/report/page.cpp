@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 
 #include "benchmarks/report/times_chart.hpp"
 #include "framework/base/text.hpp"
@@ -167,6 +168,52 @@ std::string limits_table(const BenchmarkRun& run) {
   return text;
 }
 
+using Times = std::vector<const PlainTime*>;
+
+/// A row for each subject, a column for each way, with the peers last.
+std::string plain_table(const std::vector<Times>& rows) {
+  std::vector<std::string> titles = {"", "unit"};
+  for (const PlainTime* one : rows.front()) titles.push_back(code(one->way));
+  std::string text = header_of(titles);
+  for (const Times& row : rows) {
+    std::vector<std::string> cells = {row.front()->subject, row.front()->unit};
+    for (const PlainTime* one : row) cells.push_back(three_digits(one->time));
+    text += row_of(cells);
+  }
+  return text;
+}
+
+std::vector<std::string> ways_of(const Times& row) {
+  std::vector<std::string> ways;
+  for (const PlainTime* one : row) ways.push_back(one->way);
+  return ways;
+}
+
+/// The times that are not of volume scorers. Subjects with the same ways make one table.
+std::string plain_tables(const BenchmarkRun& run) {
+  std::vector<std::string> subjects;
+  std::map<std::string, Times> rows;
+  for (const PlainTime& one : run.times) {
+    Times& row = rows[one.subject];
+    if (row.empty()) subjects.push_back(one.subject);
+    row.push_back(&one);
+  }
+  std::vector<std::vector<Times>> tables;
+  for (const std::string& subject : subjects) {
+    const auto table = std::find_if(tables.begin(), tables.end(), [&](const auto& other) {
+      return ways_of(other.front()) == ways_of(rows[subject]);
+    });
+    if (table != tables.end()) {
+      table->push_back(rows[subject]);
+    } else {
+      tables.push_back({rows[subject]});
+    }
+  }
+  std::string text;
+  for (const std::vector<Times>& table : tables) text += plain_table(table) + "\n";
+  return text;
+}
+
 std::string machine_sentence(const BenchmarkRun& run) {
   const Machine& machine = run.machine;
   std::string text = code(run.program) + ", " + machine.date + ", commit " + machine.commit + ": " +
@@ -175,6 +222,7 @@ std::string machine_sentence(const BenchmarkRun& run) {
   text += "; load before the run " + fixed_number(machine.load, 2) + ".";
   double widest = 0.0;
   for (const Measurement& one : run.measurements) widest = std::max(widest, one.spread.value_or(0));
+  for (const PlainTime& one : run.times) widest = std::max(widest, one.spread.value_or(0));
   if (widest > 0.0) {
     text += " The coefficient of variation of the repetitions is at most " +
             fixed_number(100.0 * widest, 0) + " %.";
@@ -236,6 +284,7 @@ void add_run(Page& page, const BenchmarkRun& run) {
               "One pose of a batch of 64, which a scorer may spread over all cores, ms.",
               times_table(run, "batch"));
   add_section(page, "To bind", "To bind a scorer to two new clouds, ms.", times_table(run, "bind"));
+  page.markdown += plain_tables(run);
 }
 
 }  // namespace
@@ -243,10 +292,11 @@ void add_run(Page& page, const BenchmarkRun& run) {
 Page page_of(const std::vector<BenchmarkRun>& runs) {
   Page page;
   page.markdown =
-      "# What the occupied volume costs\n\n"
+      "# What it costs\n\n"
       "`benchmarks/report.sh` wrote this page from the files of Google Benchmark; "
-      "[benchmarks](../benchmarks/README.md) says what is measured. Before anything is timed, all "
-      "scorers must count the same leaves. Times are medians of wall time.\n\n";
+      "[benchmarks](../benchmarks/README.md) says what each program measures and what it checks "
+      "before "
+      "it times anything. Times are medians of wall time.\n\n";
   for (const BenchmarkRun& run : runs) add_run(page, run);
   while (page.markdown.size() > 1 && page.markdown[page.markdown.size() - 2] == '\n') {
     page.markdown.pop_back();

@@ -41,7 +41,7 @@ class NearestResult {
   Neighbour best_;
 };
 
-/// The same for the nearest neighbour and the distance of the second.
+/// The same for the nearest neighbour and the second.
 class NearestAndRestResult {
  public:
   explicit NearestAndRestResult(float bound) {
@@ -53,9 +53,11 @@ class NearestAndRestResult {
   bool addPoint(float squared_distance, std::uint32_t index) {
     if (squared_distance < found_.nearest.squared_distance_m2) {
       found_.rest_beyond_m2 = found_.nearest.squared_distance_m2;
+      found_.second = found_.nearest.index;
       found_.nearest = {static_cast<int>(index), squared_distance};
     } else if (squared_distance < found_.rest_beyond_m2) {
       found_.rest_beyond_m2 = squared_distance;
+      found_.second = static_cast<int>(index);
     }
     return true;
   }

@@ -14,10 +14,11 @@ struct Neighbour {
   explicit operator bool() const { return index >= 0; }
 };
 
-/// The nearest point, and how far away all others are.
+/// The nearest two points, and how far away all others than the nearest are.
 struct NearestAndRest {
   Neighbour nearest;            ///< The nearest point within the reach of the search.
-  float rest_beyond_m2 = 0.0F;  ///< No other point has a smaller squared distance, m^2.
+  int second = -1;              ///< The second nearest within the reach.
+  float rest_beyond_m2 = 0.0F;  ///< No point but the nearest has a smaller squared distance, m^2.
 };
 
 /// Nearest neighbours in a fixed cloud (nanoflann's kd-tree). The cloud must outlive the tree.

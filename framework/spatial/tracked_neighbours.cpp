@@ -1,5 +1,6 @@
 #include "framework/spatial/tracked_neighbours.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -23,6 +24,15 @@ float squared_distance(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
 
 }  // namespace
 
+float TrackedNeighbours::reach_m(const Track& track, const Eigen::Vector3f& query,
+                                 float max_distance_m) const {
+  const float reach_m = max_distance_m * kReach;
+  if (track.second < 0) return reach_m;
+  const float both_within_m2 = std::max(squared_distance(query, target_[track.nearest]),
+                                        squared_distance(query, target_[track.second]));
+  return std::min(reach_m, std::sqrt(both_within_m2) * (1.0F + kRounding));
+}
+
 Neighbour TrackedNeighbours::nearest(int index, const Eigen::Vector3f& query,
                                      float max_distance_m) {
   Track& track = tracks_[static_cast<std::size_t>(index)];
@@ -38,8 +48,8 @@ Neighbour TrackedNeighbours::nearest(int index, const Eigen::Vector3f& query,
     }
     if (max_distance_m < rest_beyond_m) return {};
   }
-  const NearestAndRest found = tree_.nearest_and_rest(query, max_distance_m * kReach);
-  track = {query, found.nearest.index, std::sqrt(found.rest_beyond_m2)};
+  const NearestAndRest found = tree_.nearest_and_rest(query, reach_m(track, query, max_distance_m));
+  track = {query, found.nearest.index, found.second, std::sqrt(found.rest_beyond_m2)};
   return found.nearest && found.nearest.squared_distance_m2 <= max_distance_m * max_distance_m
              ? found.nearest
              : Neighbour{};

@@ -9,7 +9,8 @@ namespace croon {
 /// The nearest neighbours of points that move a little between queries, as a registration's do. A
 /// search also tells how far away all points but the nearest are. While a point is nearer to its
 /// old neighbour than any other point can be, it needs no search (Greenspan & Godin 2001, "A
-/// nearest neighbor method for efficient ICP"). The answers are those of KdTree::nearest.
+/// nearest neighbor method for efficient ICP"); else its two old neighbours bound the search. The
+/// answers are those of KdTree::nearest.
 class TrackedNeighbours {
  public:
   /// For `count` points, numbered from 0, in `target`, which must outlive this.
@@ -24,8 +25,12 @@ class TrackedNeighbours {
   struct Track {
     Eigen::Vector3f query = Eigen::Vector3f::Zero();
     int nearest = -1;
+    int second = -1;
     float rest_beyond_m = -1.0F;  ///< Negative before the first search.
   };
+
+  /// How far the next search for a point must reach at most to find the two nearest.
+  float reach_m(const Track& track, const Eigen::Vector3f& query, float max_distance_m) const;
 
   const Points& target_;
   const KdTree& tree_;

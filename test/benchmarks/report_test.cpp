@@ -52,6 +52,11 @@ TEST(BenchmarkReport, ReadsWhatIsMeasuredOfWhat) {
   EXPECT_EQ(one.source_points, 1000.0);
   EXPECT_FALSE(one.spread);
   EXPECT_EQ(run.program, "bench_volume_scorers");
+  ASSERT_EQ(run.times.size(), 1U);
+  EXPECT_EQ(run.times[0].subject, "query/street_1000");
+  EXPECT_EQ(run.times[0].way, "near");
+  EXPECT_EQ(run.times[0].time, 1.0);
+  EXPECT_EQ(run.times[0].unit, "ms");
   EXPECT_EQ(run.machine.caches, std::vector<std::string>({"L1 32 KiB"}));
 }
 
@@ -80,6 +85,19 @@ TEST(BenchmarkReport, RefusesWhatIsNoRun) {
   } catch (const InputError& error) {
     EXPECT_NE(error.faults().at(0).line().find("no ground"), std::string::npos);
   }
+}
+
+TEST(BenchmarkReport, HasATableForSubjectsWithTheSameWays) {
+  const Page page = page_of({read(file_of(
+      {line("a/build/ours", 1.5), line("a/build/peer", 3.0), line("a/near/ours", 250.0, "ns"),
+       line("a/near/peer", 500.0, "ns"), line("scan/front", 7.0), line("alone", 9.0)}))});
+  EXPECT_NE(page.markdown.find("|  | unit | `ours` | `peer` |\n|---|---:|---:|---:|\n"
+                               "| a/build | ms | 1.50 | 3.00 |\n| a/near | ns | 250 | 500 |\n\n"),
+            std::string::npos)
+      << page.markdown;
+  EXPECT_NE(page.markdown.find("|  | unit | `front` |\n|---|---:|---:|\n| scan | ms | 7.00 |\n"),
+            std::string::npos);
+  EXPECT_NE(page.markdown.find("|  | ms | 9.00 |"), std::string::npos);
 }
 
 TEST(BenchmarkReport, HasTheFastestBoldAndAPictureOverPoints) {
