@@ -2,7 +2,6 @@
 // as their examples use them?
 
 #include <Eigen/Eigenvalues>
-#include <nanoflann.hpp>
 #include <stdexcept>
 
 #include "benchmarks/support/clouds.hpp"

@@ -170,7 +170,7 @@ std::string limits_table(const BenchmarkRun& run) {
 
 using Times = std::vector<const PlainTime*>;
 
-/// A row for each subject, a column for each way, with the peers last.
+/// A row for each subject, a column for each way, in the order of the file.
 std::string plain_table(const std::vector<Times>& rows) {
   std::vector<std::string> titles = {"", "unit"};
   for (const PlainTime* one : rows.front()) titles.push_back(code(one->way));
