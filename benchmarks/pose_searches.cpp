@@ -25,13 +25,7 @@ void measure(benchmark::State& state, const params::Slot<PoseSearch>& search,
   std::size_t evaluations = 0;
   for (auto _ : state) {
     const VolumeFunction volume = scorer->bind(target, source);
-    const PoseCost cost([&](const RigidTransform& pose) { return volume(pose).m3; },
-                        [&](const std::vector<RigidTransform>& poses) {
-                          std::vector<double> costs;
-                          for (const OccupiedVolume& v : volume.at(poses)) costs.push_back(v.m3);
-                          return costs;
-                        });
-    const PoseMinimum found = search->minimise(cost, starts[next++ % starts.size()]);
+    const PoseMinimum found = search->minimise(volume_cost(volume), starts[next++ % starts.size()]);
     evaluations += static_cast<std::size_t>(found.evaluations);
   }
   state.counters["evaluations"] =

@@ -1,10 +1,12 @@
 // What does the occupied volume cost: to bind a scorer to two clouds, and then per pose?
 
-#include <cstdlib>
+#include <algorithm>
 #include <stdexcept>
+#include <thread>
 
 #include "benchmarks/support/clouds.hpp"
 #include "benchmarks/support/run.hpp"
+#include "framework/base/threads.hpp"
 #include "framework/params/values.hpp"
 #include "framework/spatial/leaf_window.hpp"
 #include "test/support/leaf_scorers.hpp"
@@ -16,7 +18,8 @@ using Scorer = params::Slot<VolumeScorer>;
 
 constexpr int kPoses = 32;
 constexpr int kBatch = 64;
-const std::vector<double> kLeafSizes = {0.02, 0.05, 0.1, 0.2};
+const std::vector<double> kLeafSizes = {0.02, 0.05, 0.1, 0.2, 0.5};
+const std::vector<double> kLeafSizesOfLarge = {0.05, 0.1};
 
 /// Options of which each costs a pose more than once, beside the leaf size.
 const std::vector<std::pair<std::string, int>> kOptions = {
@@ -34,7 +37,7 @@ std::string option_json(const std::pair<std::string, int>& option) {
 std::vector<std::int64_t> counts(const Scorer& scorer, const CloudPair& pair) {
   const VolumeFunction volume = scorer->bind(fresh(pair.target), fresh(pair.source));
   std::vector<std::int64_t> counts;
-  const int poses = pair.source.size() > 500000 ? 2 : kPoses;
+  const int poses = is_large(pair) ? 2 : kPoses;
   for (const RigidTransform& pose : poses_near(pair, poses, 1.0, 0.1)) {
     counts.push_back(volume(pose).leaves);
   }
@@ -54,18 +57,21 @@ void check_equal_counts(const std::vector<std::string>& names, const CloudPair& 
 }
 
 /// Both clouds are new in every iteration: what a scorer makes of the target once is part of the
-/// price.
+/// price, in time and in memory.
 void measure_bind(benchmark::State& state, const Scorer& scorer, const CloudPair& pair) {
   std::shared_ptr<const Cloud> target, source;
   VolumeFunction volume;
+  std::size_t before = 0;
   for (auto _ : state) {
     state.PauseTiming();
     volume = {};
     target = fresh(pair.target);
     source = fresh(pair.source);
+    before = allocated_bytes();
     state.ResumeTiming();
     volume = scorer->bind(target, source);
   }
+  state.counters["memory_bytes"] = static_cast<double>(allocated_bytes() - before);
   state.counters["target_points"] = static_cast<double>(pair.target.size());
 }
 
@@ -87,6 +93,16 @@ void measure_batch(benchmark::State& state, const Scorer& scorer, const CloudPai
   state.counters["per_pose"] = benchmark::Counter(
       static_cast<double>(poses.size()),
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+/// All poses of a batch on so many threads.
+void measure_threads(benchmark::State& state, const Scorer& scorer, const CloudPair& pair,
+                     int threads) {
+  const VolumeFunction volume = scorer->bind(fresh(pair.target), fresh(pair.source));
+  const std::vector<RigidTransform> poses = poses_near(pair, kBatch, 1.0, 0.1);
+  on_threads(threads, [&] {
+    for (auto _ : state) benchmark::DoNotOptimize(volume.at(poses));
+  });
 }
 
 /// What no scorer can do without: the points at the pose, and the keys of their leaves.
@@ -118,24 +134,41 @@ void check_and_add_options(const std::vector<std::string>& names, const CloudPai
   }
 }
 
-void check_and_add() {
-  std::vector<CloudPair> pairs;
-  std::vector<int> sizes = {2000, 5000, 20000, 100000};
-  // Minutes, so only on request.
-  const char* most_points = std::getenv("CROON_BENCHMARK_POINTS");
-  if (most_points != nullptr) {
-    for (int count = 1000000; count <= std::atoi(most_points); count *= 10) sizes.push_back(count);
+/// Powers of two, and all cores.
+std::vector<int> numbers_of_threads() {
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  std::vector<int> numbers;
+  for (int threads = 1; threads < cores; threads *= 2) numbers.push_back(threads);
+  numbers.push_back(cores);
+  return numbers;
+}
+
+void add_threads(const std::vector<std::string>& names, const CloudPair& pair) {
+  for (const int threads : numbers_of_threads()) {
+    for (const std::string& name : names) {
+      const Scorer subject = scorer(name, 0.05);
+      add("batch_of_64/" + pair.name + "/leaf_size_m:0.05/threads:" + std::to_string(threads) +
+              "/" + name,
+          benchmark::kMillisecond,
+          [=](benchmark::State& state) { measure_threads(state, subject, pair, threads); });
+    }
   }
-  for (const int count : sizes) pairs.push_back(street(count, count));
+}
+
+void check_and_add() {
+  std::vector<CloudPair> pairs = streets();
   for (CloudPair& pair : samples()) {
     pairs.push_back(non_ground(pair));
     pair.name += "_with_ground";
     pairs.push_back(std::move(pair));
   }
   const std::vector<std::string> names = test::leaf_scorer_names();
-  check_and_add_options(names, pairs.back());
+  const CloudPair& last = *std::find_if_not(pairs.rbegin(), pairs.rend(),
+                                            [](const auto& one) { return is_large(one); });
+  check_and_add_options(names, last);
+  add_threads(names, last);
   for (const CloudPair& pair : pairs) {
-    for (const double leaf_size_m : kLeafSizes) {
+    for (const double leaf_size_m : is_large(pair) ? kLeafSizesOfLarge : kLeafSizes) {
       check_equal_counts(names, pair, leaf_size_m);
       add("floor/" + pair.name + "/leaf_size_m:" + params::value_json(leaf_size_m) + "/keys",
           benchmark::kMillisecond,
@@ -148,6 +181,7 @@ void check_and_add() {
             [=](benchmark::State& state) { measure_bind(state, subject, pair); });
         add("pose/" + place, benchmark::kMillisecond,
             [=](benchmark::State& state) { measure_pose(state, subject, pair); });
+        if (is_large(pair)) continue;
         add("batch/" + place, benchmark::kMillisecond,
             [=](benchmark::State& state) { measure_batch(state, subject, pair); });
       }

@@ -100,8 +100,7 @@ void measure(benchmark::State& state, const Counter& counter, const CloudPair& p
 }
 
 void check_and_add() {
-  static std::vector<CloudPair> pairs;
-  for (const int count : {1000, 10000, 100000}) pairs.push_back(street(count, count));
+  static std::vector<CloudPair> pairs = streets();
   for (CloudPair& pair : samples()) {
     pairs.push_back(non_ground(pair));
     pair.name += "_with_ground";

@@ -76,6 +76,7 @@ void add_line(const json& line, Measurement& measurement) {
   measurement.time_ms = in_ms(line.at("real_time"), line.at("time_unit"));
   if (line.contains("poses")) measurement.time_ms /= line.at("poses").get<double>();
   if (line.contains("source_points")) measurement.source_points = line.at("source_points");
+  if (line.contains("memory_bytes")) measurement.memory_bytes = line.at("memory_bytes");
 }
 
 void add_line(const json& line, PlainTime& time) {

@@ -17,6 +17,7 @@ struct Measurement {
   double time_ms = 0.0;          ///< Of one pose, or to bind; the median of the repetitions.
   std::optional<double> spread;  ///< The coefficient of variation of the repetitions.
   std::optional<double> source_points;
+  std::optional<double> memory_bytes;  ///< What a bound scorer keeps.
 };
 
 /// What any other benchmark measured, whose name is `<subject>/<way>`: of a subject, such as a

@@ -72,10 +72,12 @@ Measurements asking(const BenchmarkRun& run, const std::string& question) {
   return those(run, [&](const Measurement& one) { return one.question == question; });
 }
 
-/// A row for each clouds and leaf size, a column for each scorer. `cell` makes the text of a time
-/// from it and the least of its row.
-template <class CellText>
-std::string scorers_table(const Measurements& all, const CellText& cell) {
+double time_of(const Measurement& one) { return one.time_ms; }
+
+/// A row for each clouds and leaf size, a column for each scorer. `cell` makes the text of a
+/// `value` from it and the least of its row.
+template <class Value, class CellText>
+std::string scorers_table(const Measurements& all, const Value& value, const CellText& cell) {
   if (all.empty()) return "";
   const auto scorers = distinct<std::string>(all, &Measurement::scorer);
   std::vector<std::string> titles = {"clouds, leaf size"};
@@ -83,17 +85,17 @@ std::string scorers_table(const Measurements& all, const CellText& cell) {
   std::string text = header_of(titles);
   for (const std::string& clouds : distinct<std::string>(all, &Measurement::clouds)) {
     for (const double leaf_size_m : distinct<double>(all, &Measurement::leaf_size_m)) {
-      double best_ms = std::numeric_limits<double>::infinity();
+      double least = std::numeric_limits<double>::infinity();
       for (const Measurement* one : all) {
         if (one->clouds == clouds && one->leaf_size_m == leaf_size_m) {
-          best_ms = std::min(best_ms, one->time_ms);
+          least = std::min(least, value(*one));
         }
       }
-      if (std::isinf(best_ms)) continue;
+      if (std::isinf(least)) continue;
       std::vector<std::string> cells = {clouds + ", " + size_text(leaf_size_m)};
       for (const std::string& scorer : scorers) {
         const Measurement* one = find(all, clouds, leaf_size_m, scorer);
-        cells.push_back(one == nullptr ? "-" : cell(one->time_ms, best_ms));
+        cells.push_back(one == nullptr ? "-" : cell(value(*one), least));
       }
       text += row_of(cells);
     }
@@ -101,17 +103,26 @@ std::string scorers_table(const Measurements& all, const CellText& cell) {
   return text;
 }
 
-/// The times, the best of each row bold.
+/// Three digits, the least of a row bold.
+std::string bold_if_least(double value, double least) {
+  const std::string text = three_digits(value);
+  return value == least ? "**" + text + "**" : text;
+}
+
 std::string times_table(const BenchmarkRun& run, const std::string& question) {
-  return scorers_table(asking(run, question), [](double time_ms, double best_ms) {
-    const std::string text = three_digits(time_ms);
-    return time_ms == best_ms ? "**" + text + "**" : text;
-  });
+  return scorers_table(asking(run, question), time_of, bold_if_least);
+}
+
+std::string memory_table(const BenchmarkRun& run) {
+  const Measurements all = those(run, [](const Measurement& one) { return one.memory_bytes; });
+  return scorers_table(
+      all, [](const Measurement& one) { return *one.memory_bytes / (1024.0 * 1024.0); },
+      bold_if_least);
 }
 
 /// How many times as long as the fastest each takes for a pose.
 std::string ratios_table(const BenchmarkRun& run) {
-  return scorers_table(asking(run, "pose"), [](double time_ms, double best_ms) {
+  return scorers_table(asking(run, "pose"), time_of, [](double time_ms, double best_ms) {
     return three_digits(time_ms / best_ms);
   });
 }
@@ -284,6 +295,9 @@ void add_run(Page& page, const BenchmarkRun& run) {
               "One pose of a batch of 64, which a scorer may spread over all cores, ms.",
               times_table(run, "batch"));
   add_section(page, "To bind", "To bind a scorer to two new clouds, ms.", times_table(run, "bind"));
+  add_section(page, "Memory",
+              "What a scorer keeps of two clouds to which it is bound, MiB, beside their points.",
+              memory_table(run));
   page.markdown += plain_tables(run);
 }
 

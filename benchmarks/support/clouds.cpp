@@ -45,6 +45,16 @@ CloudPair street(int target_count, int source_count) {
   return {"street_" + std::to_string(source_count), pair.target, pair.source, T_target_source};
 }
 
+std::vector<CloudPair> streets() {
+  const char* const asked = std::getenv("CROON_BENCHMARK_POINTS");
+  const int most = asked == nullptr ? 100000 : std::atoi(asked);
+  std::vector<CloudPair> pairs;
+  for (int count = 1000; count <= most; count *= 10) pairs.push_back(street(count, count));
+  return pairs;
+}
+
+bool is_large(const CloudPair& pair) { return pair.source.size() > 500000; }
+
 std::vector<CloudPair> samples() {
   const char* data_root = std::getenv("CROON_DATA");
   if (data_root == nullptr) return {};

@@ -19,6 +19,13 @@ struct CloudPair {
 /// A street (test/support), `target_count` points for the target and `source_count` for the source.
 CloudPair street(int target_count, int source_count);
 
+/// Streets of 1e3, 1e4 and 1e5 points in each cloud; of up to CROON_BENCHMARK_POINTS, if that is
+/// set.
+std::vector<CloudPair> streets();
+
+/// Whether a pair has so many points that a pose takes a second with a slow scorer.
+bool is_large(const CloudPair& pair);
+
 /// The first sensor of one CARLA and one real sample below the folder CROON_DATA; none where it is
 /// not set.
 std::vector<CloudPair> samples();

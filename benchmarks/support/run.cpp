@@ -1,5 +1,7 @@
 #include "benchmarks/support/run.hpp"
 
+#include <malloc.h>
+
 #include <exception>
 #include <iostream>
 #include <vector>
@@ -13,6 +15,11 @@ int& failures() {
 }
 
 }  // namespace
+
+std::size_t allocated_bytes() {
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
 
 void add(const std::string& name, benchmark::TimeUnit unit,
          const std::function<void(benchmark::State&)>& measure) {

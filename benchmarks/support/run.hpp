@@ -2,6 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -11,6 +12,9 @@ namespace croon::benchmarks {
 /// measured is right (throws where it is not) and registers the benchmarks, and runs them. Returns
 /// the exit code: 1 where the check or a benchmark failed, 2 where an argument is unknown.
 int run(int argc, char** argv, const std::function<void()>& check_and_add);
+
+/// How many bytes the process has allocated and not freed, by malloc or new.
+std::size_t allocated_bytes();
 
 /// Registers `measure` under `name`. Wall time, because a stage may use more than one thread. What
 /// `measure` throws ends it as failed.

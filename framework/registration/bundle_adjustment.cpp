@@ -147,6 +147,9 @@ const params::Table<BundleOptions>& bundle_table() {
             "if a step before has given it a covariance, and fails if not."),
         params::number("covariance_scale", &O::covariance_scale, {0.0, 1e6},
                        "Multiplies the standard deviations; found on scenes with truth."),
+        params::number("velocity_error_mps", &O::velocity_error_mps, {0.0, 1e6},
+                       "In a scene that moves, the poses are less certain, as if the speed were "
+                       "off by this standard deviation; found on scenes with truth."),
         params::number("clock_offset_std_s", &O::clock_offset_std_s, {0.0, 1e6},
                        "How far a sensor's clock is expected to be off from the target's, beyond "
                        "what a step before has corrected; at 0 they agree. Above it the offset is "

@@ -66,6 +66,9 @@ class BundleSystem {
   /// The standard deviations of BundleOptions::start_std, in the order of Dof.
   const Vector6d& start_std() const { return start_std_; }
 
+  /// The velocity by which the clouds of a scene were corrected.
+  const Twist& known_velocity(std::size_t scene) const { return scenes_[scene].velocity; }
+
   /// The rig in `state` as planes() of a scene see it: its velocity is relative to that at which
   /// they were found.
   RigState rig_state(const BundleState& state, std::size_t scene) const;

@@ -64,6 +64,22 @@ std::vector<Eigen::VectorXd> steps_without(const BundleSystem& system, std::size
   return steps;
 }
 
+/// The step of all poses if the velocity of a scene were off by `error_mps` along itself and stayed
+/// so; zero in a scene that stands still or whose velocity is no unknown. `hessian` is that of the
+/// poses, with all velocities following; `cost` and `reduced_cost` are those of the scene.
+Eigen::VectorXd step_for_velocity_error(const Twist& velocity, const BundleCost& cost,
+                                        const ReducedCost& reduced_cost,
+                                        const Eigen::MatrixXd& hessian, double error_mps) {
+  const Eigen::Index size = hessian.rows();
+  const bool is_moving = velocity.linear_mps.norm() > 0.0 && reduced_cost.by_pose.size() > 0;
+  if (!is_moving) return Eigen::VectorXd::Zero(size);
+  const Eigen::MatrixXd held =
+      hessian - reduced_cost.hessian + cost.hessian.topLeftCorner(size, size);
+  return -guarded_inverse<Eigen::Dynamic>(held) *
+         cost.hessian.block(0, cost.hessian.cols() - 3, size, 3) *
+         (error_mps * velocity.linear_mps.normalized());
+}
+
 Observability word_of(double std_ratio) {
   constexpr double kWeak = 0.1, kUnobservable = 0.5;
   if (std_ratio > kUnobservable) return Observability::unobservable;
@@ -83,10 +99,12 @@ BundleUncertainty bundle_uncertainty(const BundleSystem& system, const BundleOpt
   // beforehand is twice its information, and the covariance of its gradient four times that.
   Eigen::MatrixXd hessian = system.start_cost().hessian;
   Eigen::MatrixXd scatter = 2.0 * hessian;
+  std::vector<BundleCost> scene_costs;
   std::vector<ReducedCost> costs;
   for (std::size_t s = 0; s < scenes; ++s) {
     const bool has_velocity = system.state().velocities[s].has_value();
-    costs.push_back(reduced(system.scene_cost(s, system.planes()[s], true), has_velocity));
+    scene_costs.push_back(system.scene_cost(s, system.planes()[s], true));
+    costs.push_back(reduced(scene_costs.back(), has_velocity));
     hessian += costs.back().hessian;
     if (!has_velocity) continue;
     const Eigen::MatrixXd& by_pose = costs.back().by_pose;
@@ -94,14 +112,19 @@ BundleUncertainty bundle_uncertainty(const BundleSystem& system, const BundleOpt
   }
   const Eigen::MatrixXd inverse = guarded_inverse<Eigen::Dynamic>(hessian);
   const Eigen::MatrixXd K = Eigen::LLT<Eigen::MatrixXd>(inverse).matrixL();
+  Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(hessian.rows(), hessian.cols());
   Eigen::MatrixXd jackknife = Eigen::MatrixXd::Zero(hessian.rows(), hessian.cols());
   for (std::size_t s = 0; s < scenes; ++s) {
     for (const Eigen::VectorXd& step : steps_without(system, s, costs[s], K)) {
       jackknife += step * step.transpose();
     }
+    const Eigen::VectorXd step = step_for_velocity_error(
+        system.known_velocity(s), scene_costs[s], costs[s], hessian, options.velocity_error_mps);
+    shared += step * step.transpose();
   }
   const Eigen::MatrixXd covariance =
-      options.covariance_scale * options.covariance_scale * jackknife + inverse * scatter * inverse;
+      options.covariance_scale * options.covariance_scale * jackknife + shared +
+      inverse * scatter * inverse;
   for (std::size_t a = 0; a < sensors.size(); ++a) {
     const auto at = static_cast<Eigen::Index>(6 * a);
     PoseCovariance& own = result.covariances[sensors[a]];

@@ -1,6 +1,7 @@
 #include "framework/registration/scene_motion.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "framework/base/text.hpp"
@@ -17,13 +18,10 @@ const params::Table<MotionOptions>& motion_table() {
                      "A scene stands still if its velocity's squared distance from zero, in "
                      "standard deviations, is below; that of standing cars was 6 to 67 on "
                      "tuning scenes."),
-      params::number("max_speed_std_mps", &MotionOptions::max_speed_std_mps, {0.0, 1e6},
-                     "With a pose per scene, a scene is rejected if its speed along x and y of "
-                     "the reference is less certain: what moves by itself cannot be told "
-                     "from what stands."),
       params::number("certain_speed_std_mps", &MotionOptions::certain_speed_std_mps, {0.0, 1e6},
-                     "A scene whose speed is less certain than this is compared with what other "
-                     "speeds lead to."),
+                     "With a pose per scene, a scene whose speed along x and y of the reference is "
+                     "less certain than this is compared with what other speeds lead to: what "
+                     "moves by itself may be taken for what stands."),
       params::numbers(
           "other_speeds_mps", &MotionOptions::other_speeds_mps, {-1e3, 1e3},
           "These speeds, along the axis along which the scene moves the most, forwards."),
@@ -34,8 +32,9 @@ const params::Table<MotionOptions>& motion_table() {
                          " m away: by so many standard deviations, with cubes of " +
                          fixed_number(kJointCell_m, 0) + " m as independent."),
       params::number("certain_shift_m", &MotionOptions::certain_shift_m, {0.0, 1e6},
-                     "A sensor that what is not known of the velocity moves by less is not "
-                     "rejected for it: one that sees things when the reference sees them."),
+                     "A sensor that what is not known of the velocity moves by less, one that sees "
+                     "things when the reference sees them, needs no lead: it is rejected if "
+                     "more points agree elsewhere."),
   };
   return table;
 }
@@ -43,20 +42,16 @@ const params::Table<MotionOptions>& motion_table() {
 double SceneMotion::speed_std_mps() const { return std::sqrt(covariance(3, 3) + covariance(4, 4)); }
 
 bool SceneMotion::is_in_doubt(const MotionOptions& options) const {
-  return speed_std_mps() > options.certain_speed_std_mps &&
-         speed_std_mps() <= options.max_speed_std_mps;
+  return speed_std_mps() > options.certain_speed_std_mps;
 }
 
 std::string SceneMotion::rejection(std::size_t source, const MotionOptions& options) const {
-  if (shift_std_m.at(source) <= options.certain_shift_m) return "";
-  const std::string std_mps =
-      "the standard deviation of the speed, m/s, is " + fixed_number(speed_std_mps(), 3);
-  if (!(speed_std_mps() <= options.max_speed_std_mps)) {
-    return std_mps + ", above " + fixed_number(options.max_speed_std_mps, 3);
-  }
-  if (!lead || *lead >= options.min_speed_lead) return "";
-  return std_mps + ", and the lead over another speed, in standard deviations, is " +
-         fixed_number(*lead, 2) + ", below " + fixed_number(options.min_speed_lead, 2);
+  const bool is_held = shift_std_m.at(source) <= options.certain_shift_m;
+  const double least = is_held ? std::min(options.min_speed_lead, 0.0) : options.min_speed_lead;
+  if (!lead || *lead >= least) return "";
+  return "the standard deviation of the speed, m/s, is " + fixed_number(speed_std_mps(), 3) +
+         ", and the lead over another speed, in standard deviations, is " + fixed_number(*lead, 2) +
+         ", below " + fixed_number(least, 2);
 }
 
 SceneMotion motion_of(const JointScene& scene, std::size_t s, const JointState& state,

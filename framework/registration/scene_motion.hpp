@@ -12,10 +12,9 @@ namespace croon {
 /// When a scene stands still, and when its velocity is certain.
 struct MotionOptions {
   double min_motion = 100.0;
-  double max_speed_std_mps = 0.3;
   double certain_speed_std_mps = 0.1;
   std::vector<double> other_speeds_mps = {-30.0, -20.0, -10.0, 0.0, 10.0, 20.0, 30.0};
-  double min_speed_lead = 0.5;
+  double min_speed_lead = 1.0;
   double certain_shift_m = 0.0025;
 };
 
@@ -34,7 +33,7 @@ struct SceneMotion {
 
   /// Of the velocity along x and y of the target.
   double speed_std_mps() const;
-  /// Whether the velocity is neither certain nor to be rejected as it is.
+  /// Whether the speed has to be compared with others.
   bool is_in_doubt(const MotionOptions& options) const;
   /// Why the pose of a source cannot be relied on, in words and numbers; empty if it can.
   std::string rejection(std::size_t source, const MotionOptions& options) const;

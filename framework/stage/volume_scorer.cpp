@@ -16,4 +16,13 @@ std::vector<OccupiedVolume> VolumeFunction::at(const std::vector<RigidTransform>
   return volumes;
 }
 
+PoseCost volume_cost(const VolumeFunction& volume) {
+  return {[volume](const RigidTransform& pose) { return volume(pose).m3; },
+          [volume](const std::vector<RigidTransform>& poses) {
+            std::vector<double> costs;
+            for (const OccupiedVolume& one : volume.at(poses)) costs.push_back(one.m3);
+            return costs;
+          }};
+}
+
 }  // namespace croon

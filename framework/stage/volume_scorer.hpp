@@ -9,6 +9,7 @@
 
 #include "framework/geometry/rigid_transform.hpp"
 #include "framework/spatial/cloud.hpp"
+#include "framework/stage/pose_search.hpp"
 
 namespace croon {
 
@@ -53,6 +54,9 @@ class VolumeFunction {
   OfPose of_pose_;
   Poses poses_ = Poses::one_by_one;
 };
+
+/// The volume in cubic metres as the cost of a search. Keeps a copy of `volume`.
+PoseCost volume_cost(const VolumeFunction& volume);
 
 /// Measures the alignment of two clouds by the volume that they occupy together (paper, refinement:
 /// aligned clouds occupy the least).

@@ -77,13 +77,8 @@ class VolumeRefinement final : public Step {
     }
     const VolumeFunction volume = params_.scorer->bind(clouds.target, clouds.source);
     const double before_m3 = volume(estimate.T_target_source).m3;
-    const PoseCost cost([&](const RigidTransform& pose) { return volume(pose).m3; },
-                        [&](const std::vector<RigidTransform>& poses) {
-                          std::vector<double> costs;
-                          for (const OccupiedVolume& v : volume.at(poses)) costs.push_back(v.m3);
-                          return costs;
-                        });
-    const PoseMinimum minimum = params_.search->minimise(cost, estimate.T_target_source);
+    const PoseMinimum minimum =
+        params_.search->minimise(volume_cost(volume), estimate.T_target_source);
     estimate.T_target_source = minimum.pose;
     estimate.diagnostics = {{"volume_before_m3", before_m3},
                             {"volume_m3", minimum.cost},

@@ -100,6 +100,18 @@ TEST(BenchmarkReport, HasATableForSubjectsWithTheSameWays) {
   EXPECT_NE(page.markdown.find("|  | ms | 9.00 |"), std::string::npos);
 }
 
+TEST(BenchmarkReport, HasWhatABoundScorerKeepsInMemory) {
+  json lines = json::array();
+  for (const auto& [scorer, mib] : {std::pair("brick_hash", 2.0), {"morton_sort", 0.5}}) {
+    lines.push_back(line(std::string("bind/street_1000/leaf_size_m:0.05/") + scorer, 1.0));
+    lines.back()["memory_bytes"] = mib * 1024 * 1024;
+  }
+  const Page page = page_of({read(file_of(lines))});
+  EXPECT_NE(page.markdown.find("### Memory"), std::string::npos);
+  EXPECT_NE(page.markdown.find("| street_1000, 0.05 m | 2.00 | **0.500** |"), std::string::npos)
+      << page.markdown;
+}
+
 TEST(BenchmarkReport, HasTheFastestBoldAndAPictureOverPoints) {
   json lines = json::array();
   for (const int count : {1000, 10000}) {

@@ -242,6 +242,28 @@ TEST(BundleAdjustment, WhatIsNotKnownOfTheVelocityMovesASensorByTheTimeBetweenSc
   }
 }
 
+TEST(BundleAdjustment, AnErrorOfTheSpeedThatAllSurfacesShareMovesASensorAlongTheVelocity) {
+  StandingRig rig = standing_rig(1);
+  add_times(rig);
+  const Twist velocity = {Eigen::Vector3d::Zero(), Eigen::Vector3d(0.0, 8.0, 0.0)};
+  for (RigEstimate& one : rig.estimates) {
+    one.estimate.extras.put(kMotion, velocity);
+    one.estimate.extras.put(kMotionCovariance, Matrix6d(1e-12 * Matrix6d::Identity()));
+  }
+  StandingRig without = rig;
+  adjust_bundle(rig.estimates, R"({"step": "bundle_adjustment", "velocity_error_mps": 0.5})");
+  adjust_bundle(without.estimates, R"({"step": "bundle_adjustment", "velocity_error_mps": 0})");
+  double delay_s = 0.0;
+  for (const RigEstimate& one : rig.estimates) {
+    delay_s += 0.02;
+    const Matrix6d more = one.estimate.covariance->matrix -
+                          of_sensor(without, one.source).estimate.covariance->matrix;
+    EXPECT_NEAR(std::sqrt(more(4, 4)), 0.5 * delay_s, 0.1 * delay_s) << one.source;
+    EXPECT_LT(more(3, 3), 0.02 * more(4, 4)) << one.source;
+    EXPECT_LT(more(5, 5), 0.02 * more(4, 4)) << one.source;
+  }
+}
+
 /// Puts the rig into scenes of these velocities, whose clouds were corrected by them and by the
 /// times of a sensor, which lack `offset_s`: it seems to stand back along the velocity.
 void drive(StandingRig& rig, const std::string& sensor, double offset_s,

@@ -115,17 +115,26 @@ TEST(JointRegistration, SaysHowWellItKnowsTheVelocity) {
   }
 }
 
-TEST(JointRegistration, RejectsASceneWhoseVelocityIsNotCertain) {
+TEST(JointRegistration, RejectsASceneInWhichAnotherSpeedIsAsGood) {
   DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
   DrivingRig strict = rig;
-  adjust_jointly(rig.estimates, R"(, "max_speed_std_mps": 10)");
-  adjust_jointly(strict.estimates, R"(, "max_speed_std_mps": 0.001)");
+  // Every speed is in doubt, and no lead over others is enough.
+  const std::string in_doubt = R"(, "certain_speed_std_mps": 0, "certain_shift_m": 0)";
+  adjust_jointly(rig.estimates, in_doubt);
+  adjust_jointly(strict.estimates, in_doubt + R"(, "min_speed_lead": 1000)");
   for (std::size_t i = 0; i < rig.estimates.size(); ++i) {
     EXPECT_FALSE(rig.estimates[i].estimate.rejection);
     ASSERT_TRUE(strict.estimates[i].estimate.rejection);
-    EXPECT_NE(strict.estimates[i].estimate.rejection->find("of the speed, m/s, is 0."),
-              std::string::npos);
+    EXPECT_NE(strict.estimates[i].estimate.rejection->find("below 1000.00"), std::string::npos);
   }
+}
+
+TEST(JointRegistration, ASensorThatTheVelocityHardlyMovesNeedsNoLead) {
+  DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
+  adjust_jointly(
+      rig.estimates,
+      R"(, "certain_speed_std_mps": 0, "certain_shift_m": 1000, "min_speed_lead": 1000)");
+  for (const RigEstimate& one : rig.estimates) EXPECT_FALSE(one.estimate.rejection);
 }
 
 TEST(JointRegistration, MovesTheCloudsToOneTime) {
