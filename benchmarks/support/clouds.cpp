@@ -1,5 +1,6 @@
 #include "benchmarks/support/clouds.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "framework/stage/dataset.hpp"
@@ -45,11 +46,12 @@ CloudPair street(int target_count, int source_count) {
   return {"street_" + std::to_string(source_count), pair.target, pair.source, T_target_source};
 }
 
-std::vector<CloudPair> streets() {
-  const char* const asked = std::getenv("CROON_BENCHMARK_POINTS");
-  const int most = asked == nullptr ? 100000 : std::atoi(asked);
+std::vector<CloudPair> streets(int most) {
+  const char* const text = std::getenv("CROON_BENCHMARK_POINTS");
+  const int asked = text == nullptr ? 100000 : std::atoi(text);
   std::vector<CloudPair> pairs;
-  for (int count = 1000; count <= most; count *= 10) pairs.push_back(street(count, count));
+  for (int count = 1000; count <= std::min(asked, most); count *= 10)
+    pairs.push_back(street(count, count));
   return pairs;
 }
 
