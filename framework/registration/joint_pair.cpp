@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "framework/base/angles.hpp"
+#include "framework/geometry/guarded_inverse.hpp"
 #include "framework/params/values.hpp"
 #include "framework/registration/direction_balance.hpp"
 #include "framework/registration/icp_options.hpp"
@@ -163,11 +164,17 @@ std::shared_ptr<const std::vector<bool>> vehicles_of(const Cloud& cloud) {
 
 }  // namespace
 
-Vector6d velocity_information(const JointOptions& options) {
+Matrix6d velocity_information(const JointScene& scene, const JointOptions& options) {
+  constexpr double kLeastStd = 1e-4;
+  const double width_m = options.kernel_width_m;
+  if (scene.velocity_covariance) {
+    const Matrix6d least = Vector6d::Constant(kLeastStd * kLeastStd).asDiagonal();
+    return width_m * width_m * guarded_inverse<6>(*scene.velocity_covariance + least);
+  }
   Vector6d shares;
-  shares << Eigen::Vector3d::Constant(options.kernel_width_m / options.velocity_std[1]),
-      Eigen::Vector3d::Constant(options.kernel_width_m / options.velocity_std[0]);
-  return shares.cwiseAbs2();
+  shares << Eigen::Vector3d::Constant(width_m / options.velocity_std[1]),
+      Eigen::Vector3d::Constant(width_m / options.velocity_std[0]);
+  return shares.cwiseAbs2().asDiagonal();
 }
 
 JointView last_view(const JointState& state, const Twist& velocity, const JointOptions& options) {

@@ -45,9 +45,10 @@ inline constexpr int kPairUnknowns = 13;
 using PairVector = Eigen::Matrix<double, kPairUnknowns, 1>;
 using PairMatrix = Eigen::Matrix<double, kPairUnknowns, kPairUnknowns>;
 
-/// What is expected of a velocity before any point is seen, as the information of residuals of the
-/// kernel's width: about the axes, along them.
-Vector6d velocity_information(const JointOptions& options);
+/// What is expected of the velocity of a scene before any point is seen, as the information of
+/// residuals of the kernel's width: about the axes, along them. No standard deviation is taken to
+/// be below 0.1 mm/s and 0.1 mrad/s.
+Matrix6d velocity_information(const JointScene& scene, const JointOptions& options);
 
 /// Where the points of a scene are compared, and which of them correspond.
 struct JointView {

@@ -98,12 +98,12 @@ class Problem {
     constexpr double kDamping = 1e-6;
     information.diagonal() *= 1.0 + kDamping;
     information.diagonal().array() += 1e-12;
-    const Vector6d of_velocity = velocity_information(options_);
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
-      if (velocity_at_[s] < 0) continue;
-      const Vector6d velocity = vector_of(state.velocities[s]);
-      information.diagonal().segment<6>(velocity_at_[s]) += of_velocity;
-      gradient.segment<6>(velocity_at_[s]) += of_velocity.cwiseProduct(velocity);
+      const int at = velocity_at_[s];
+      if (at < 0) continue;
+      const Matrix6d of_velocity = velocity_information(scenes_[s], options_);
+      information.block<6, 6>(at, at) += of_velocity;
+      gradient.segment<6>(at) += of_velocity * vector_of(state.velocities[s]);
     }
     if (offset_at_ < 0) return;
     const double share = options_.kernel_width_m / options_.clock_offset_std_s;

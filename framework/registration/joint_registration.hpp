@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "framework/geometry/dof.hpp"
@@ -26,6 +27,9 @@ struct JointScene {
   std::vector<Source> sources;
   double reference_s = 0.0;  ///< The points are compared where they were at this time.
   bool is_moving = false;    ///< Whether the velocity is unknown; else it keeps its start.
+  /// Of the velocity, which is expected to be zero, before any point is seen: about the axes in
+  /// rad/s, along them in m/s. Without it JointOptions::velocity_std.
+  std::optional<Matrix6d> velocity_covariance;
 };
 
 /// The unknowns of a joint registration.

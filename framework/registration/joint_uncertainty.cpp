@@ -10,21 +10,27 @@ namespace {
 
 using Cells = std::map<JointCell, CellEquations>;
 
-/// The step of the velocity that follows from the sums of each sensor, with its pose free: the
-/// Schur complement of the poses.
-Vector6d velocity_step(const std::vector<CellEquations>& sensors, const Matrix6d& prior) {
-  Matrix6d information = prior;
+/// A linear system whose solution is a step of the velocity.
+struct VelocityEquations {
+  Matrix6d information;
   Vector6d gradient = Vector6d::Zero();
+};
+
+/// The equations of the velocity that follow from the sums of each sensor, with its pose free: the
+/// Schur complement of the poses.
+VelocityEquations velocity_equations(const std::vector<CellEquations>& sensors,
+                                     const Matrix6d& prior) {
+  VelocityEquations equations{prior};
   for (const CellEquations& sums : sensors) {
     const Matrix6d pose = sums.hessian.block<6, 6>(kPairPose, kPairPose);
     const Matrix6d mixed = sums.hessian.block<6, 6>(kPairVelocity, kPairPose);
     const Matrix6d by_pose = mixed * guarded_inverse<6>(pose);
-    information += sums.hessian.block<6, 6>(kPairVelocity, kPairVelocity);
-    information -= by_pose * mixed.transpose();
-    gradient += sums.gradient.segment<6>(kPairVelocity);
-    gradient -= by_pose * sums.gradient.segment<6>(kPairPose);
+    equations.information += sums.hessian.block<6, 6>(kPairVelocity, kPairVelocity);
+    equations.information -= by_pose * mixed.transpose();
+    equations.gradient += sums.gradient.segment<6>(kPairVelocity);
+    equations.gradient -= by_pose * sums.gradient.segment<6>(kPairPose);
   }
-  return guarded_inverse<6>(information) * gradient;
+  return equations;
 }
 
 }  // namespace
@@ -44,12 +50,18 @@ Matrix6d velocity_covariance(const StillTarget& target, const JointState& state,
       cell[j] = sums;
     }
   }
-  const Matrix6d prior = velocity_information(options).asDiagonal();
+  const Matrix6d prior = velocity_information(scene, options);
   Matrix6d covariance = Matrix6d::Zero();
+  if (scene.velocity_covariance) {
+    // The velocity that was given is off as well: it moves the estimate by its share in it.
+    const Matrix6d share = guarded_inverse<6>(velocity_equations(all, prior).information) * prior;
+    covariance = share * *scene.velocity_covariance * share.transpose();
+  }
   for (auto& [place, cell] : cells) {
     for (std::size_t j = 0; j < cell.size(); ++j)
       cell[j].hessian = all[j].hessian - cell[j].hessian;
-    const Vector6d step = velocity_step(cell, prior);
+    const auto [information, gradient] = velocity_equations(cell, prior);
+    const Vector6d step = guarded_inverse<6>(information) * gradient;
     covariance += step * step.transpose();
   }
   return covariance;

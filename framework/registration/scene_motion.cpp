@@ -68,7 +68,9 @@ SceneMotion motion_of(const JointScene& scene, std::size_t s, const JointState& 
     motion.covariance += apart * apart.transpose();
   }
   motion.shift_std_m = shift_std_m(target, motion.covariance, state, options);
+  // The error of a velocity that was given has no reason to be zero.
   motion.is_moving =
+      scene.velocity_covariance.has_value() ||
       velocity.dot(guarded_inverse<6>(motion.covariance) * velocity) >= motion_options.min_motion;
   if (motion.is_moving) motion.velocity = state.velocities[s];
   return motion;

@@ -41,7 +41,8 @@ const params::Table<Params>& table() {
                           "The distances of the coarse passes, before max_distances_m."),
           params::boolean("motion", &Params::motion,
                           "Whether the rig moves while it scans, with a constant velocity in each "
-                          "scene; needs the channel time."),
+                          "scene; needs the channel time. Of a velocity that a step before gave, "
+                          "its error is estimated, with its covariance as what is expected."),
       }
           .inherit(joint_table())
           .inherit(motion_table());
@@ -144,7 +145,8 @@ class JointRegistrationStep final : public RigStep {
         JointScene scene = scene_of(*one);
         const std::size_t s = index_of(scene_names, one->scene);
         if (s == group.scenes.size()) {
-          group.scenes.push_back({scene.target, {}, scene.reference_s, scene.is_moving});
+          group.scenes.push_back(
+              {scene.target, {}, scene.reference_s, scene.is_moving, scene.velocity_covariance});
           group.estimates.emplace_back();
           group.state.velocities.emplace_back();
         }
@@ -177,6 +179,11 @@ class JointRegistrationStep final : public RigStep {
     scene.sources.push_back({0, timed(estimate.source, scene.reference_s)});
     require_near(scene.sources.front().scan.times_s, scene.reference_s);
     scene.is_moving = params_.motion && has_times(*estimate.target) && has_times(*estimate.source);
+    // A velocity that was given is removed already: what remains of it is its error.
+    if (const Matrix6d* const error = estimate.extras.find(kMotionCovariance)) {
+      scene.velocity_covariance = *error;
+      scene.is_moving = scene.is_moving && !error->isZero(0.0);
+    }
     return scene;
   }
 
@@ -241,7 +248,7 @@ class JointRegistrationStep final : public RigStep {
   }
 
   /// Gives later steps the motion. A step before may have removed a velocity that it knew: then
-  /// this step estimates what remains of it, or, if it is not asked to, leaves it as it is.
+  /// this step estimates its error, or, if it is not asked to or there is none, leaves it as it is.
   static void give_motion(Extras& extras, bool is_estimated, const SceneMotion& motion) {
     const Twist* const removed = extras.find(kMotion);
     if (removed != nullptr && !is_estimated) return;

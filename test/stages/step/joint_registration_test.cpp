@@ -148,11 +148,12 @@ TEST(JointRegistration, MovesTheCloudsToOneTime) {
   EXPECT_EQ(times_s(after.source->with_channels()), times_s(before.source->with_channels()));
 }
 
-/// The rig after known_velocity with velocities that are too small by `error_mps` along x.
-void remove_known_velocity(DrivingRig& rig, double error_mps) {
+/// The rig after known_velocity with velocities that are too small by `error_mps` along x, and
+/// say that they have the standard deviation `std` in m/s and rad/s.
+void remove_known_velocity(DrivingRig& rig, double error_mps, double std = 0.1) {
   GivenMotions motions;
   for (const auto& [scene, velocity] : rig.velocities) {
-    motions[scene] = {velocity, 0.1 * Vector6d::Ones()};
+    motions[scene] = {velocity, Vector6d::Constant(std)};
     motions[scene].velocity.linear_mps.x() -= error_mps;
   }
   const auto step = test::stage<Step>(R"({"step": "known_velocity", "file": "v.csv"})");
@@ -178,11 +179,50 @@ TEST(JointRegistration, LeavesAVelocityThatIsKnown) {
 
 TEST(JointRegistration, EstimatesWhatRemainsOfAVelocityThatIsKnown) {
   DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
-  remove_known_velocity(rig, 3.0);
+  remove_known_velocity(rig, 3.0, 3.0);
   adjust_jointly(rig.estimates);
   for (const RigEstimate& one : rig.estimates) {
     const Twist& found = one.estimate.extras.get(kMotion);
     EXPECT_LT((found.linear_mps - rig.velocities[one.scene].linear_mps).norm(), 0.8) << one.scene;
+  }
+}
+
+TEST(JointRegistration, StaysNearAVelocityThatIsKnownWell) {
+  DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
+  remove_known_velocity(rig, 3.0, 1e-3);
+  const Twist given = rig.estimates.front().estimate.extras.get(kMotion);
+  adjust_jointly(rig.estimates);
+  for (const RigEstimate& one : rig.estimates) {
+    const Twist& found = one.estimate.extras.get(kMotion);
+    EXPECT_LT((found.linear_mps - given.linear_mps).norm(), 0.01);
+    const Matrix6d& covariance = one.estimate.extras.get(kMotionCovariance);
+    for (int k = 0; k < 6; ++k) EXPECT_LT(std::sqrt(covariance(k, k)), 0.01) << k;
+  }
+}
+
+TEST(JointRegistration, KnowsTheVelocityBetterWithOneThatIsGiven) {
+  DrivingRig alone = rig_of(simulation::real_noise(), moving_scenes(1));
+  DrivingRig rig = alone;
+  remove_known_velocity(rig, 0.0, 0.1);
+  adjust_jointly(alone.estimates);
+  adjust_jointly(rig.estimates);
+  const auto std_mps = [](const DrivingRig& of) {
+    const Matrix6d& covariance = of.estimates.front().estimate.extras.get(kMotionCovariance);
+    return std::sqrt(covariance.block<3, 3>(3, 3).trace());
+  };
+  EXPECT_LT(std_mps(rig), std_mps(alone));
+  EXPECT_GT(std_mps(rig), 0.0);
+}
+
+TEST(JointRegistration, LeavesAVelocityThatIsCertain) {
+  DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
+  remove_known_velocity(rig, 0.0, 0.0);
+  const auto before = rig.estimates;
+  adjust_jointly(rig.estimates);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(rig.estimates[i].estimate.target, before[i].estimate.target);
+    EXPECT_EQ(vector_of(rig.estimates[i].estimate.extras.get(kMotion)),
+              vector_of(before[i].estimate.extras.get(kMotion)));
   }
 }
 
