@@ -18,7 +18,7 @@ void expect_same_on_older_processor(const std::string& experiment) {
   const test::TempFolder folder;
   folder.write("experiment.json", experiment);
   const test::Finished finished = test::run_script(
-      "options=(run experiment.json --quiet --data \"$CROON_DATA\")\n"
+      "options=(run experiment.json --quiet)\n"
       "croon \"${options[@]}\" --out newer\n"
       "export GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4\n"
       "croon \"${options[@]}\" --out older\n",

@@ -10,8 +10,10 @@ namespace croon::test {
 
 Finished run_script(const std::string& script, const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "script.sh";
+  const std::string data = data_root().string();
   std::ofstream(file) << "set -euo pipefail\nexport PATH='" << CROON_BINARY_DIR << "/bin':$PATH\n"
-                      << "export CROON_DATA='" << data_root().string() << "'\n"
+                      << (data.empty() ? "unset CROON_DATA" : "export CROON_DATA='" + data + "'")
+                      << "\n"
                       << script << "\n";
   const std::string command = "cd '" + folder.string() + "' && bash script.sh 2>&1";
   Finished finished;
