@@ -52,10 +52,20 @@ Vector3d vertex_at(const PlacedMesh& placed, std::uint32_t index, double time_ra
   return begin + time_ratio * (placed.end[index].cast<double>() - begin);
 }
 
+/// Surfaces that a ray meets within this length of each other are taken for equally far by Embree,
+/// which computes in single precision.
+constexpr double kTied_m = 3e-4;
+/// Single precision finds a triangle if the ray passes it by less than this.
+constexpr double kMiss_m = 3e-5;
+
 /// Where a ray meets the plane of a triangle.
 struct PlaneHit {
   Hit hit;
-  double miss_m;  ///< How far the hit is off the triangle: 0 on it, infinity if it has no area.
+  std::array<Vector3d, 3> corners;  ///< Of the triangle, from the origin of the ray.
+  Vector3d normal;                  ///< Zero if the triangle has no area.
+
+  /// Whether the hit is on the triangle, or off it by no more than kMiss_m.
+  bool is_on_triangle(const Ray& ray) const;
 };
 
 /// With a vertex a, the normal n, the origin o and the direction d, the range to the triangle's
@@ -75,22 +85,19 @@ PlaneHit hit_on_plane(const PlacedMesh& placed, std::uint32_t triangle, const Ra
   // A ray along the plane meets it anywhere, but is on the triangle.
   const double range_m =
       cosine == 0.0 ? nearest : std::clamp(normal.dot(a) / cosine, nearest, farthest);
-  const Vector3d point = range_m * ray.direction;
-  double miss_m = std::abs(normal.dot(point - a));
+  return {{range_m, std::abs(cosine), placed.mesh->materials[triangle]}, corners, normal};
+}
+
+bool PlaneHit::is_on_triangle(const Ray& ray) const {
+  const Vector3d point = hit.range_m * ray.direction;
+  if (normal.isZero() || std::abs(normal.dot(point - corners[0])) > kMiss_m) return false;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector3d edge = (corners[(k + 1) % 3] - corners[k]).normalized();
     const Vector3d outwards = edge.cross(normal);
-    miss_m = std::max(miss_m, outwards.dot(point - corners[k]));
+    if (outwards.dot(point - corners[k]) > kMiss_m) return false;
   }
-  if (normal.isZero()) miss_m = std::numeric_limits<double>::infinity();
-  return {{range_m, std::abs(cosine), placed.mesh->materials[triangle]}, miss_m};
+  return true;
 }
-
-/// Surfaces that a ray meets within this length of each other are taken for equally far by Embree,
-/// which computes in single precision.
-constexpr double kTied_m = 3e-4;
-/// Single precision finds a triangle if the ray passes it by less than this.
-constexpr double kMiss_m = 3e-5;
 
 }  // namespace
 
@@ -141,19 +148,23 @@ class RayCaster::Embree {
   /// the first of all that are tied; of equally far ones on that with the lowest number.
   Hit decided(const TriangleId& found, const Ray& ray) const {
     const PlaneHit on_found = hit_on(found, ray);
-    Hit hit = on_found.hit;
-    const double found_m = hit.range_m;
+    const double found_m = on_found.hit.range_m;
     const Vector3d point = ray.origin + found_m * ray.direction;
     std::optional<std::pair<double, TriangleId>> first;
+    Hit hit = on_found.hit;
     for (const TriangleId& id : triangles_near(scene_, point, 2.0 * kTied_m, time_ratio(ray))) {
-      const PlaneHit other = id == found ? on_found : hit_on(id, ray);
-      if (other.miss_m > kMiss_m || std::abs(other.hit.range_m - found_m) > kTied_m) continue;
-      const std::pair<double, TriangleId> key{other.hit.range_m, id};
+      if (id == found) continue;
+      const PlaneHit other = hit_on(id, ray);
+      const double other_m = other.hit.range_m;
+      if (std::abs(other_m - found_m) > kTied_m || !other.is_on_triangle(ray)) continue;
+      const std::pair<double, TriangleId> key{other_m, id};
       if (first && *first <= key) continue;
       first = key;
       hit = other.hit;
     }
-    return hit;
+    const bool is_first =
+        !first || (std::pair{found_m, found} < *first && on_found.is_on_triangle(ray));
+    return is_first ? on_found.hit : hit;
   }
 
   double time_ratio(const Ray& ray) const {
