@@ -1,7 +1,11 @@
-"""What the scripts of this folder share: runs of experiments."""
+"""What the scripts of this folder share: runs of experiments, and their trials."""
+import csv
+import json
 import os
 import subprocess
 import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
 
 
 def run_unless_there(croon, experiment, results, table, options):
@@ -12,3 +16,39 @@ def run_unless_there(croon, experiment, results, table, options):
                            stdout=subprocess.DEVNULL)
     if ended.returncode not in (0, 3):  # 3: a trial failed, which is a result.
         sys.exit(f"croon run {experiment} ended with {ended.returncode}")
+
+
+def run_changed(croon, out, options, name, keys, dataset):
+    """Runs the experiment `name`.json beside this file with other `keys` and with a dataset of which the keys `dataset`
+    are others. The folder of the results, a folder of `out` that is named after the changes."""
+    base = os.path.join(HERE, f"{name}.json")
+    with open(base, encoding="utf-8") as file:
+        experiment = {**json.load(file), **keys}
+    what = "_".join(short(value) for value in {**keys, **dataset}.values())
+    folder = os.path.join(out, f"{name}_{what}")
+    os.makedirs(folder, exist_ok=True)
+    changed = os.path.join(folder, "experiment.json")
+    with open(changed, "w", encoding="utf-8") as file:
+        json.dump({"extends": os.path.relpath(base, folder), "name": f"{name}_{what}", **keys,
+                   "dataset": {**experiment["dataset"], **dataset}}, file)
+    results = os.path.join(folder, "results")
+    run_unless_there(croon, changed, results, "verdicts.csv", options)
+    return results
+
+
+def short(value):
+    """A value as part of a name: the numbers and words in it."""
+    if isinstance(value, dict):
+        return "_".join(short(part) for item in value.items() for part in item)
+    return str(value)
+
+
+def trials_of(results):
+    """The rows of trials.csv."""
+    with open(os.path.join(results, "trials.csv"), encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def accepted(trials):
+    """Those whose pose is right or wrong, but not rejected."""
+    return [row for row in trials if row["status"] in ("success", "inaccurate")]
