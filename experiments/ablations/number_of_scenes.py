@@ -13,13 +13,12 @@ the median and the 95th percentile of the accepted poses of all sensors. The tab
      the paired differences is above zero, so the other way is worse, and in how many below; and the least p of the
      latter, over groups of scenes and without correction.
 """
-import csv
 import math
 import os
 import statistics
 import sys
 
-from runs import accepted, run_changed, trials_of
+from runs import accepted, head, percentile_95, row, rows_of, run_changed
 
 NUMBERS = (1, 2, 5, 10, 20, 50)
 TOTALS = {1: 20, 2: 40, 5: 40, 10: 40, 20: 80, 50: 100}  # Scenes of all groups of one number.
@@ -30,13 +29,8 @@ BASE = "base"
 
 def errors(trials):
     """(degrees, mm) of trials."""
-    return ([float(row["rotation_error_deg"]) for row in trials],
-            [1000 * float(row["translation_error_m"]) for row in trials])
-
-
-def percentile_95(values):
-    """By linear interpolation."""
-    return statistics.quantiles(values, n=20, method="inclusive")[-1]
+    return ([float(one["rotation_error_deg"]) for one in trials],
+            [1000 * float(one["translation_error_m"]) for one in trials])
 
 
 def cells(trials):
@@ -46,17 +40,6 @@ def cells(trials):
     rotation, translation = errors(trials)
     return [f"{statistics.median(rotation):.4f}, {percentile_95(rotation):.4f}",
             f"{statistics.median(translation):.1f}, {percentile_95(translation):.1f}"]
-
-
-def row(*values):
-    """A line of a Markdown table."""
-    print("| " + " | ".join(str(value) for value in values) + " |", flush=True)
-
-
-def head(*names):
-    """The first two lines of one."""
-    row(*names)
-    print("|---" * len(names) + "|")
 
 
 def exponent(numbers, values):
@@ -101,8 +84,8 @@ def paired(results, noises):
     head("noise", "scenes", "pairs by", "times the error", "worse", "better", "least p of the better")
     for noise in noises:
         for number in NUMBERS:
-            with open(os.path.join(results[noise, number], "comparison_by_dof.csv"), encoding="utf-8") as file:
-                rows = [one for one in csv.DictReader(file) if one["sensor"] != "all" and one["paired_difference"]]
+            rows = [one for one in rows_of(results[noise, number], "comparison_by_dof.csv")
+                    if one["sensor"] != "all" and one["paired_difference"]]
             for way in dict.fromkeys(one["variant"] for one in rows):
                 of = [one for one in rows if one["variant"] == way]
                 ratios = [float(one["variant_median"]) / float(one["base_median"]) for one in of]
@@ -161,7 +144,7 @@ def main(croon, out, *options):
         for noise, (name, _) in NOISES.items():
             results[noise, number] = run_changed(croon, out, options, name, {"scenes_per_trial": number},
                                                  {"scenes": TOTALS[number], "noise": noise})
-    found = {key: trials_of(folder) for key, folder in results.items()}
+    found = {key: rows_of(folder, "trials.csv") for key, folder in results.items()}
     over_noises(found)
     print()
     over_ways(found)

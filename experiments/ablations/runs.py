@@ -1,7 +1,8 @@
-"""What the scripts of this folder share: runs of experiments, and their trials."""
+"""What the scripts of this folder share: runs of experiments, their tables, and tables in Markdown."""
 import csv
 import json
 import os
+import statistics
 import subprocess
 import sys
 
@@ -43,12 +44,28 @@ def short(value):
     return str(value)
 
 
-def trials_of(results):
-    """The rows of trials.csv."""
-    with open(os.path.join(results, "trials.csv"), encoding="utf-8") as file:
+def rows_of(results, table):
+    """The rows of a table."""
+    with open(os.path.join(results, table), encoding="utf-8") as file:
         return list(csv.DictReader(file))
 
 
 def accepted(trials):
     """Those whose pose is right or wrong, but not rejected."""
     return [row for row in trials if row["status"] in ("success", "inaccurate")]
+
+
+def percentile_95(values):
+    """By linear interpolation."""
+    return statistics.quantiles(values, n=20, method="inclusive")[-1]
+
+
+def head(*names):
+    """Prints the first two lines of a Markdown table."""
+    row(*names)
+    print("|---" * len(names) + "|")
+
+
+def row(*values):
+    """Prints a line of one."""
+    print("| " + " | ".join(str(value) for value in values) + " |", flush=True)

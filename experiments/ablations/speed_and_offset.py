@@ -9,7 +9,7 @@ is not run again.
 import statistics
 import sys
 
-from runs import accepted, run_changed, trials_of
+from runs import accepted, head, row, rows_of, run_changed
 
 SPEEDS_MPS = (0, 5, 10, 15, 20, 30)
 OFFSETS_MS = (0, 10, 25, 50)
@@ -18,22 +18,22 @@ OFFSETS_MS = (0, 10, 25, 50)
 def cell(trials):
     """What the table has of one run."""
     poses = accepted(trials)
-    right = sum(row["status"] == "success" for row in poses)
-    errors_mm = [1000 * float(row["translation_error_m"]) for row in poses]
+    right = sum(one["status"] == "success" for one in poses)
+    errors_mm = [1000 * float(one["translation_error_m"]) for one in poses]
     median = f"{statistics.median(errors_mm):.1f}" if errors_mm else "-"
     return f"{median}; {right}, {len(poses) - right} of {len(trials)}"
 
 
 def main(croon, out, *options):
     """Runs what is missing and prints the table."""
-    print("| m/s | " + " | ".join(f"{offset} ms" for offset in OFFSETS_MS) + " |")
-    print("|---" * (1 + len(OFFSETS_MS)) + "|")
+    head("m/s", *(f"{offset} ms" for offset in OFFSETS_MS))
     for speed in SPEEDS_MPS:
         cells = []
         for offset in OFFSETS_MS:
             at = {"speed_mps": speed, "noise": {"like": "real", "clock_offset_s": offset / 1000}}
-            cells.append(cell(trials_of(run_changed(croon, out, options, "speed_and_offset", {}, at))))
-        print(f"| {speed} | " + " | ".join(cells) + " |", flush=True)
+            results = run_changed(croon, out, options, "speed_and_offset", {}, at)
+            cells.append(cell(rows_of(results, "trials.csv")))
+        row(speed, *cells)
 
 
 if __name__ == "__main__":

@@ -8,12 +8,11 @@ median of the differences of the translation errors in mm, below zero if the sea
 the search, and only the trials without it, bring within 0.5 degrees and 0.1 m. ** marks a difference that is significant
 over scenes after Holm's correction.
 """
-import csv
 import os
 import statistics
 import sys
 
-from runs import run_unless_there
+from runs import HERE, rows_of, run_unless_there
 
 BEFORE = (("rough steps", "_rough"), ("one iteration", "_one_iteration"), ("full registration", ""))
 NOISES = (("none", ""), ("real_still", "_still"), ("twice real_still", "_twice"))
@@ -31,15 +30,9 @@ OPTIONS = "_options"
 def results_of(croon, out, options, suffix):
     """The folder of the results of volume_study<suffix>.json."""
     results = os.path.join(out, f"volume_study{suffix}")
-    experiment = os.path.join(os.path.dirname(os.path.abspath(__file__)), f"volume_study{suffix}.json")
+    experiment = os.path.join(HERE, f"volume_study{suffix}.json")
     run_unless_there(croon, experiment, results, "comparison.csv", options)
     return results
-
-
-def rows_of(results, table):
-    """The rows of a table."""
-    with open(os.path.join(results, table), encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def compared(results):

@@ -6,13 +6,11 @@ of all ordinary kinds alike, in a folder of OUT for each, and prints a Markdown 
 percentile of the absolute error of the accepted poses of all sensors by degree of freedom, in degrees and mm, and in
 brackets the median of the standard deviation that the covariance says. What is in OUT already is not run again.
 """
-import csv
 import math
-import os
 import statistics
 import sys
 
-from runs import accepted, run_changed, trials_of
+from runs import accepted, head, percentile_95, row, rows_of, run_changed
 
 ORDINARY = ("urban", "suburban", "crossing", "car_park", "highway")
 KINDS = {**{kind: {kind: 1} for kind in (*ORDINARY, "blocked", "narrow", "corridor", "empty")},
@@ -21,18 +19,17 @@ NUMBERS = {1: 16, 5: 40}  # Scenes per trial; in all.
 DOFS = ("roll", "pitch", "yaw", "x", "y", "z")
 
 
-def error(row, dof):
+def error(trial, dof):
     """The absolute error of a trial, in degrees or mm."""
     if dof in DOFS[:3]:
-        return abs(float(row[f"{dof}_error_deg"]))
-    return abs(1000 * float(row[f"{dof}_error_m"]))
+        return abs(float(trial[f"{dof}_error_deg"]))
+    return abs(1000 * float(trial[f"{dof}_error_m"]))
 
 
 def standard_deviations(results):
     """Those of all poses, in degrees and mm, by degree of freedom."""
-    with open(os.path.join(results, "covariance.csv"), encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    return {dof: [math.sqrt(float(row[f"c{i}{i}"])) * (math.degrees(1) if i < 3 else 1000) for row in rows]
+    rows = rows_of(results, "covariance.csv")
+    return {dof: [math.sqrt(float(one[f"c{i}{i}"])) * (math.degrees(1) if i < 3 else 1000) for one in rows]
             for i, dof in enumerate(DOFS)}
 
 
@@ -40,24 +37,22 @@ def cell(values, deviations, digits):
     """The 95th percentile of the errors, and in brackets the median of the standard deviations."""
     if len(values) < 2:
         return "-"
-    largest = statistics.quantiles(values, n=20, method="inclusive")[-1]
-    return f"{largest:.{digits}f} ({statistics.median(deviations):.{digits}f})"
+    return f"{percentile_95(values):.{digits}f} ({statistics.median(deviations):.{digits}f})"
 
 
 def main(croon, out, *options):
     """Runs what is missing and prints the tables."""
     for number, scenes in NUMBERS.items():
         print(f"Scenes: {number}\n")
-        print("| kind | accepted | " + " | ".join(f"{dof} {'°' if dof in DOFS[:3] else 'mm'}" for dof in DOFS) + " |")
-        print("|---" * (2 + len(DOFS)) + "|")
+        head("kind", "accepted", *(f"{dof} {'°' if dof in DOFS[:3] else 'mm'}" for dof in DOFS))
         for kind, mix in KINDS.items():
             results = run_changed(croon, out, options, "which_scenes", {"scenes_per_trial": number},
                                   {"scenes": scenes, "mix": mix})
-            trials = trials_of(results)
+            trials = rows_of(results, "trials.csv")
             poses = accepted(trials)
             deviations = standard_deviations(results)
-            cells = [cell([error(row, dof) for row in poses], deviations[dof], 4 if dof in DOFS[:3] else 1) for dof in DOFS]
-            print(f"| `{kind}` | {len(poses)}/{len(trials)} | " + " | ".join(cells) + " |", flush=True)
+            cells = [cell([error(one, dof) for one in poses], deviations[dof], 4 if dof in DOFS[:3] else 1) for dof in DOFS]
+            row(f"`{kind}`", f"{len(poses)}/{len(trials)}", *cells)
         print()
 
 
