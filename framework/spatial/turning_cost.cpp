@@ -1,7 +1,9 @@
 #include "framework/spatial/turning_cost.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -12,8 +14,8 @@ namespace {
 /// More than the relative error of a few operations in single precision.
 constexpr float kSingleRounding = 1e-6F;
 
-/// The most bounds that are kept: 64 MB.
-constexpr std::size_t kMostBounds = 16'000'000;
+/// Of the most points at all angles together it is kept what is known: 64 MB.
+constexpr std::size_t kMostKnown = 8'000'000;
 
 }  // namespace
 
@@ -39,24 +41,52 @@ double TurningCost::operator()(double angle_rad) {
   return below(angle_rad, std::numeric_limits<double>::infinity());
 }
 
-TurningCost::Bounds TurningCost::bounds_at(double angle_rad) const {
-  Bounds bounds(points_.size(), 0.0F);
-  const auto raise = [&](const std::pair<const double, Bounds>& known) {
-    const float turn_rad = static_cast<float>(std::abs(angle_rad - known.first)) + kSingleRounding;
-    for (std::size_t i = 0; i < bounds.size(); ++i) {
-      const Turning& point = points_[i];
-      bounds[i] =
-          std::max(bounds[i], known.second[i] - point.radius_m * turn_rad - point.rounding_m);
+TurningCost::Known TurningCost::known_at(double angle_rad) const {
+  Known here{std::vector<float>(points_.size(), 0.0F),
+             std::vector<float>(points_.size(), cost_.max_distance_m())};
+  const auto raise = [&](const std::pair<const double, Known>& there) {
+    const float turn_rad = static_cast<float>(std::abs(angle_rad - there.first)) + kSingleRounding;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const float moved_m = points_[i].radius_m * turn_rad + points_[i].rounding_m;
+      here.at_least_m[i] = std::max(here.at_least_m[i], there.second.at_least_m[i] - moved_m);
     }
+    return turn_rad;
   };
   const auto next = known_.lower_bound(angle_rad);
-  if (next != known_.end()) raise(*next);
-  if (next != known_.begin()) raise(*std::prev(next));
-  return bounds;
+  float to_next_rad = std::numeric_limits<float>::infinity();
+  if (next != known_.end()) {
+    to_next_rad = raise(*next);
+    here.expected_m = next->second.expected_m;
+  }
+  if (next != known_.begin()) {
+    const auto previous = std::prev(next);
+    if (raise(*previous) < to_next_rad) here.expected_m = previous->second.expected_m;
+  }
+  return here;
 }
 
-void TurningCost::keep(double angle_rad, Bounds bounds) {
-  if (known_.size() * points_.size() < kMostBounds) known_[angle_rad] = std::move(bounds);
+void TurningCost::keep(double angle_rad, Known known) {
+  if (known_.size() * points_.size() < kMostKnown) known_[angle_rad] = std::move(known);
+}
+
+std::vector<std::size_t> TurningCost::promising_first(const Known& known) const {
+  // A few classes do: the order within a class decides little, and a full sort costs as much as a
+  // hundred searches.
+  constexpr std::size_t kClasses = 16;
+  const float most_m2 = cost_.max_distance_m() * cost_.max_distance_m();
+  std::vector<std::uint8_t> classes(points_.size());
+  std::array<std::size_t, kClasses + 1> begins = {};
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const float raise_m2 =
+        known.expected_m[i] * known.expected_m[i] - known.at_least_m[i] * known.at_least_m[i];
+    const float share = std::clamp(1.0F - raise_m2 / most_m2, 0.0F, 0.999F);
+    classes[i] = static_cast<std::uint8_t>(share * kClasses);
+    ++begins[classes[i] + 1];
+  }
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  std::vector<std::size_t> places(points_.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) places[begins[classes[i]]++] = i;
+  return places;
 }
 
 double TurningCost::below(double angle_rad, double enough_m2) {
@@ -65,25 +95,25 @@ double TurningCost::below(double angle_rad, double enough_m2) {
   const Eigen::Matrix3f R = T.rotation.cast<float>();
   const Eigen::Vector3f t = T.translation.cast<float>();
   const double count = static_cast<double>(points_.size());
-  Bounds bounds = bounds_at(angle_rad);
+  Known here = known_at(angle_rad);
 
   // The sum is at least this much: what has been searched, and the bounds of all other points. It
   // is compared with a little more than enough, because it is summed in another order than a mean.
-  double at_least = 0.0;
-  for (const float bound : bounds) at_least += static_cast<double>(bound) * bound;
+  double at_least_m2 = 0.0;
+  for (const float bound_m : here.at_least_m) at_least_m2 += static_cast<double>(bound_m) * bound_m;
   const double enough = enough_m2 * count * (1.0 + 1e-9);
   std::vector<double> squared_distances_m2(points_.size());
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (at_least >= enough) {
-      keep(angle_rad, std::move(bounds));
-      return at_least / count;
+  for (const std::size_t i : promising_first(here)) {
+    if (at_least_m2 >= enough) {
+      keep(angle_rad, std::move(here));
+      return at_least_m2 / count;
     }
     const double squared_m2 = cost_.squared_distance_m2(R * points_[i].point + t);
     squared_distances_m2[points_[i].index] = squared_m2;
-    at_least += squared_m2 - static_cast<double>(bounds[i]) * bounds[i];
-    bounds[i] = static_cast<float>(std::sqrt(squared_m2));
+    at_least_m2 += squared_m2 - static_cast<double>(here.at_least_m[i]) * here.at_least_m[i];
+    here.at_least_m[i] = here.expected_m[i] = static_cast<float>(std::sqrt(squared_m2));
   }
-  keep(angle_rad, std::move(bounds));
+  keep(angle_rad, std::move(here));
   return std::accumulate(squared_distances_m2.begin(), squared_distances_m2.end(), 0.0) / count;
 }
 

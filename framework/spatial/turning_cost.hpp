@@ -13,7 +13,8 @@ namespace croon {
 /// A point at the distance r from the axis moves by at most r |a - b| between the angles a and b,
 /// and its distance to the target changes by no more than that. So what is known at one angle
 /// bounds the cost at another from below, and most sums need few searches of neighbours to show
-/// that they are not the least. The bounds change no result. One thread at a time.
+/// that they are not the least. The points that were far from the target at the nearest angle are
+/// searched first, because they raise the sum most. Neither changes a result. One thread at a time.
 class TurningCost {
  public:
   /// `axis` is a unit vector in the target's frame.
@@ -36,18 +37,23 @@ class TurningCost {
     float radius_m = 0.0F;    ///< At least its distance from the axis.
     float rounding_m = 0.0F;  ///< More than the error of its position and distances.
   };
-  /// Lower bounds of the points' distances to the target, in the order of `points_`.
-  using Bounds = std::vector<float>;
+  /// What is known of the distances to the target at one angle, in the order of `points_`.
+  struct Known {
+    std::vector<float> at_least_m;
+    std::vector<float> expected_m;  ///< As at the nearest angle at which the point was searched.
+  };
 
   /// What the angles around this one tell of it.
-  Bounds bounds_at(double angle_rad) const;
-  void keep(double angle_rad, Bounds bounds);
+  Known known_at(double angle_rad) const;
+  void keep(double angle_rad, Known known);
+  /// The places in `points_`, those first whose search is expected to raise the sum most.
+  std::vector<std::size_t> promising_first(const Known& known) const;
 
   NearestDistanceCost cost_;
   RigidTransform start_;
   Eigen::Vector3d axis_;
   std::vector<Turning> points_;  ///< Farthest from the axis first: they change the most.
-  std::map<double, Bounds> known_;
+  std::map<double, Known> known_;
 };
 
 }  // namespace croon
