@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "experiments/run/runner.hpp"
+#include "experiments/store/build.hpp"
 #include "experiments/store/manifest.hpp"
 #include "experiments/store/store_writer.hpp"
 
@@ -71,6 +72,7 @@ std::vector<std::string> fill_store(const CheckedRun& run, const OutputFolder& f
 }  // namespace
 
 StoreHeader header_of(CheckedRun& run) {
+  begin_this_build();
   const std::vector<InputFile> inputs = record_inputs(run.scenes, run.data_root, run.jobs);
   const Provenance provenance = provenance_of(run.experiment, run.scenes, inputs);
   return header_of(run.experiment, run.scenes, provenance,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -99,11 +100,19 @@ std::string loaded_file() {
   return program;
 }
 
+const std::shared_future<std::string>& program_digest() {
+  static const std::shared_future<std::string> digest =
+      std::async(std::launch::async, [] { return sha256_of_file(loaded_file()); });
+  return digest;
+}
+
 }  // namespace
 
+void begin_this_build() { program_digest(); }
+
 Build this_build() {
-  static const std::string digest = sha256_of_file(loaded_file());
-  return {croon_version(), croon_commit(), digest, stage_folders(), library_versions()};
+  return {croon_version(), croon_commit(), program_digest().get(), stage_folders(),
+          library_versions()};
 }
 
 params::StageVersions versions_of(const Experiment& experiment) {

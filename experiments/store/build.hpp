@@ -19,6 +19,8 @@ struct Build {
   std::vector<std::pair<std::string, std::string>> libraries;
 };
 
+/// Begins to digest the program on a thread of its own; this takes as long as reading a scan.
+void begin_this_build();
 /// The build that is running.
 Build this_build();
 

@@ -17,10 +17,8 @@
 #include "experiments/run/trial_plan.hpp"
 #include "experiments/store/bounded_json.hpp"
 #include "framework/base/error.hpp"
-#include "framework/base/threads.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/io/digest.hpp"
-#include "framework/io/point_cloud_file.hpp"
 #include "framework/params/values.hpp"
 
 namespace croon::experiments {
@@ -110,72 +108,6 @@ Json host_json(const std::filesystem::path& data_root, int jobs) {
 
 namespace fs = std::filesystem;
 using params::value_json;
-
-/// `file` relative to the data root if it is below it; else unchanged.
-std::string relative_path(const std::string& file, const fs::path& data_root) {
-  std::error_code error;
-  const fs::path root = fs::canonical(data_root, error);
-  // By the names alone: a link in the data root may lead out of it.
-  const fs::path relative = fs::path(file).lexically_relative(root);
-  const bool is_below = !error && !relative.empty() && *relative.begin() != "..";
-  return is_below ? relative.generic_string() : file;
-}
-
-/// The scans that are read from files, each file once.
-std::vector<const SensorScan*> scans_with_files(const std::vector<Scene>& scenes) {
-  std::vector<const SensorScan*> scans;
-  std::set<std::string> files = {""};
-  const auto add = [&](const SensorScan& scan) {
-    if (files.insert(scan.file).second) scans.push_back(&scan);
-  };
-  for (const Scene* const scene : parts_of(scenes)) {
-    add(scene->reference);
-    for (const SensorScan& scan : scene->sensors) add(scan);
-  }
-  return scans;
-}
-
-/// The file of `scan`: what is counted and what is digested are the same bytes.
-InputFile input_file(const SensorScan& scan, const fs::path& data_root) {
-  InputFile input{relative_path(scan.file, data_root), "", {}, {}};
-  try {
-    const LoadedCloud cloud = scan.load();
-    input.points = cloud.points.size();
-    input.dropped_non_finite = cloud.dropped_non_finite;
-    input.sha256 = cloud.sha256;
-  } catch (const UnavailableFile&) {
-    throw;
-  } catch (const DamagedCloud& damaged) {
-    // The trials fail and give the reason.
-    input.sha256 = damaged.sha256();
-  } catch (const InputError&) {
-  }
-  if (input.sha256.empty()) input.sha256 = sha256_of_file(scan.file);
-  return input;
-}
-
-/// `load` for the scan of the file `input`: throws UnavailableFile if the bytes that it reads are
-/// others than those of `input`. Faults end with the path in the manifest, for the reason of a
-/// failed trial has no path that depends on the data root.
-std::function<LoadedCloud()> held_to(const InputFile& input,
-                                     const std::function<LoadedCloud()>& load) {
-  return [path = input.path, sha256 = input.sha256, load] {
-    const auto check = [&](const std::string& found) {
-      if (found.empty() || found == sha256) return;
-      throw UnavailableFile(path, "", "is another file than at the start of the run");
-    };
-    try {
-      LoadedCloud cloud = load();
-      check(cloud.sha256);
-      return cloud;
-    } catch (const DamagedCloud& damaged) {
-      check(damaged.sha256());
-      std::vector<Fault> faults = damaged.faults();
-      for (Fault& fault : faults) fault.message += ", in " + path;
-      throw InputError(std::move(faults));
-    }
-  };
-}
 
 /// The numbers of a pose, exact; "none" if there is no pose.
 std::string pose_text(const std::optional<RigidTransform>& T) {
@@ -293,30 +225,6 @@ std::string merged_manifest(const std::string& manifest, const std::string& host
   Json json = parse_bounded<Json>(manifest);
   json["host"] = {{"merged", Json::parse(hosts)}};
   return text_of(json);
-}
-
-std::vector<InputFile> record_inputs(std::vector<Scene>& scenes, const fs::path& data_root,
-                                     int jobs) {
-  const std::vector<const SensorScan*> scans = scans_with_files(scenes);
-  std::vector<InputFile> inputs(scans.size());
-  on_threads(jobs, [&] {
-    for_each_in_parallel(scans.size(),
-                         [&](std::size_t i) { inputs[i] = input_file(*scans[i], data_root); });
-  });
-  std::map<std::string, const InputFile*> by_file;
-  for (std::size_t i = 0; i < scans.size(); ++i) by_file[scans[i]->file] = &inputs[i];
-  const auto hold = [&](SensorScan& scan) {
-    if (!scan.file.empty()) scan.load = held_to(*by_file.at(scan.file), scan.load);
-  };
-  const auto hold_all = [&](Scene& scene) {
-    hold(scene.reference);
-    for (SensorScan& scan : scene.sensors) hold(scan);
-  };
-  for (Scene& scene : scenes) {
-    hold_all(scene);
-    for (Scene& part : scene.parts) hold_all(part);
-  }
-  return inputs;
 }
 
 Provenance provenance_of(const Experiment& experiment, const std::vector<Scene>& scenes,

@@ -1,29 +1,14 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/file/experiment.hpp"
+#include "experiments/store/input_files.hpp"
 #include "experiments/store/store_header.hpp"
 
 namespace croon::experiments {
-
-/// A file that results depend on.
-struct InputFile {
-  std::string path;  ///< Relative to the data root if it is below it.
-  std::string sha256;
-  /// The numbers of finite points and of points that were dropped as not finite; std::nullopt if
-  /// the file could not be loaded.
-  std::optional<std::size_t> points, dropped_non_finite;
-};
-
-/// The files of the clouds of `scenes`, in order, each once; read on `jobs` threads. After that the
-/// scans are held to these bytes: SensorScan::load throws UnavailableFile if it reads others.
-/// Throws UnavailableFile if a file cannot be read.
-std::vector<InputFile> record_inputs(std::vector<Scene>& scenes,
-                                     const std::filesystem::path& data_root, int jobs);
 
 /// Everything that decides the result of a trial except its pipeline: dataset, inputs (files and
 /// the rig's poses), starts (but not their number), seed and success bounds. Versions of stages are

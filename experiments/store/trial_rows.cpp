@@ -43,12 +43,12 @@ ordered_json json_of(double value) {
 }
 
 /// The number that `json_of` wrote. Throws std::exception if it is another value.
-double number_of(const ordered_json& json) {
-  if (json == "nan") return std::numeric_limits<double>::quiet_NaN();
-  if (json == "inf") return std::numeric_limits<double>::infinity();
-  if (json == "-inf") return -std::numeric_limits<double>::infinity();
-  if (!json.is_number()) throw std::runtime_error("what a step reports is no number");
-  return json.get<double>();
+double number_of(const ordered_json& stored) {
+  if (stored == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (stored == "inf") return std::numeric_limits<double>::infinity();
+  if (stored == "-inf") return -std::numeric_limits<double>::infinity();
+  if (!stored.is_number()) throw std::runtime_error("what a step reports is no number");
+  return stored.get<double>();
 }
 
 /// `{"rmse_m": 0.02, ...}`
