@@ -8,7 +8,7 @@ the median and the 95th percentile of the accepted poses of all sensors. The tab
   1. bundle_adjustment over the number, for each noise, with how many poses are accepted and right, and accepted and
      wrong; below, the exponent of n in the median, by least squares.
   2. with real_still, each way to join the scenes.
-  3. joint against pairs (comparison_by_dof.csv): by how many times the median error of each other way is that of
+  3. joint against pairs (comparison_by_dof.csv), for each noise: by how many times the median error of each other way is that of
      bundle_adjustment, the least and the most of the 24 degrees of freedom of all sensors; in how many of the 24 the median of
      the paired differences is above zero, so the other way is worse, and in how many below; and the least p of the
      latter, over groups of scenes and without correction.
@@ -149,7 +149,7 @@ def main(croon, out, *options):
     print()
     over_ways(found)
     print()
-    paired(results, [noise for noise, (name, _) in NOISES.items() if name == "number_of_scenes"])
+    paired(results, NOISES)
     with open(os.path.join(out, "number_of_scenes.svg"), "w", encoding="utf-8") as file:
         file.write(figure(found))
 

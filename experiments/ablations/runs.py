@@ -9,10 +9,9 @@ import sys
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
-def run_unless_there(croon, experiment, results, table, options):
-    """Runs `experiment` into the folder `results`, unless that has `table`, which comes last."""
-    if os.path.exists(os.path.join(results, table)):
-        return
+def run_experiment(croon, experiment, results, options):
+    """Runs `experiment`, or what of it is missing, into the folder `results`. Ends the script if that has trials of
+    something else, which croon refuses."""
     ended = subprocess.run([croon, "run", experiment, "--out", results, "--quiet", *options], check=False,
                            stdout=subprocess.DEVNULL)
     if ended.returncode not in (0, 3):  # 3: a trial failed, which is a result.
@@ -33,7 +32,7 @@ def run_changed(croon, out, options, name, keys, dataset):
         json.dump({"extends": os.path.relpath(base, folder), "name": f"{name}_{what}", **keys,
                    "dataset": {**experiment["dataset"], **dataset}}, file)
     results = os.path.join(folder, "results")
-    run_unless_there(croon, changed, results, "verdicts.csv", options)
+    run_experiment(croon, changed, results, options)
     return results
 
 

@@ -5,14 +5,14 @@ volume_study.py CROON OUT [OPTIONS OF CROON RUN]: runs each volume_study*.json b
 prints two Markdown tables, and writes OUT/volume_study.svg. What is in OUT already is not run again. Each number
 compares trials with a search for the least volume with the same trials without it (comparison.csv, all sensors): the
 median of the differences of the translation errors in mm, below zero if the search helps, and how many trials only
-the search, and only the trials without it, bring within 0.5 degrees and 0.1 m. ** marks a difference that is significant
-over scenes after Holm's correction.
+the search, and only the trials without it, bring within 0.5 degrees and 0.1 m. ** marks a difference that is
+significant over scenes after Holm's correction.
 """
 import os
 import statistics
 import sys
 
-from runs import HERE, rows_of, run_unless_there
+from runs import HERE, head, row, rows_of, run_experiment
 
 BEFORE = (("rough steps", "_rough"), ("one iteration", "_one_iteration"), ("full registration", ""))
 NOISES = (("none", ""), ("real_still", "_still"), ("twice real_still", "_twice"))
@@ -31,69 +31,68 @@ def results_of(croon, out, options, suffix):
     """The folder of the results of volume_study<suffix>.json."""
     results = os.path.join(out, f"volume_study{suffix}")
     experiment = os.path.join(HERE, f"volume_study{suffix}.json")
-    run_unless_there(croon, experiment, results, "comparison.csv", options)
+    run_experiment(croon, experiment, results, options)
     return results
 
 
 def compared(results):
     """The comparisons over all sensors, by the name of the variant."""
-    return {row["variant"]: row for row in rows_of(results, "comparison.csv") if row["sensor"] == "all"}
+    return {one["variant"]: one for one in rows_of(results, "comparison.csv") if one["sensor"] == "all"}
 
 
 def by_choice(rows):
     """The rows of a grid by (lattices, leaf size, label of the search)."""
     chosen = {}
-    for name, row in rows.items():
+    for name, one in rows.items():
         _, lattices, leaf, search = name.split("/", 3)
         label = next(label for start, (label, _) in SEARCHES.items() if search.startswith(start))
-        chosen[int(lattices.split("=")[1]), float(leaf.split("=")[1]), label] = row
+        chosen[int(lattices.split("=")[1]), float(leaf.split("=")[1]), label] = one
     return chosen
 
 
-def millimetres(row, what):
+def millimetres(one, what):
     """A difference of translation errors of comparison.csv in mm, not a number where it has none."""
-    return 1000 * float(row[f"translation_{what}"] or "nan")
+    return 1000 * float(one[f"translation_{what}"] or "nan")
 
 
-def in_words(row):
+def in_words(one):
     """A cell: the median difference and its mark, and the trials that are won and lost."""
-    mark = "**" if row["translation_significant"] == "1" == row["translation_by_scene"] else ""
-    won = f"{row['only_variant']}, {row['only_base']}"
-    success = "**" if row["success_significant"] == "1" == row["success_by_scene"] else ""
-    return f"{millimetres(row, 'paired_difference_m'):+.1f}{mark}; {won}{success}".replace("*", r"\*")
+    mark = "**" if one["translation_significant"] == "1" == one["translation_by_scene"] else ""
+    won = f"{one['only_variant']}, {one['only_base']}"
+    success = "**" if one["success_significant"] == "1" == one["success_by_scene"] else ""
+    return f"{millimetres(one, 'paired_difference_m'):+.1f}{mark}; {won}{success}".replace("*", r"\*")
 
 
 def without(results):
     """A cell: the success and the median error of the trials without a search for the least volume."""
-    trials = [row for row in rows_of(results, "trials.csv") if row["variant"] == "base"]
-    errors = [float(row["translation_error_m"]) for row in trials if row["status"] == "success"]
+    trials = [one for one in rows_of(results, "trials.csv") if one["variant"] == "base"]
+    errors = [float(one["translation_error_m"]) for one in trials if one["status"] == "success"]
     return f"{100 * len(errors) / len(trials):.1f} %, {1000 * statistics.median(errors):.1f} mm"
 
 
 def print_study(studies, results):
     """The table of the study, of one leaf size in 8 lattices."""
     labels = [label for label, _ in SEARCHES.values()]
-    print("| noise | after | without | " + " | ".join(labels) + " |")
-    print("|---" * (3 + len(labels)) + "|")
+    head("noise", "after", "without", *labels)
     for noise, noise_suffix in NOISES:
         for before, before_suffix in BEFORE:
             key = before_suffix + noise_suffix
             cells = [in_words(studies[key][8, 0.1, label]) for label in labels]
-            print(f"| `{noise}` | {before} | {without(results[key])} | " + " | ".join(cells) + " |")
+            row(f"`{noise}`", before, without(results[key]), *cells)
 
 
 def print_options(rows):
     """The table of the options of leaves and of smooth measures."""
-    print("\n| option | difference; won, lost |")
-    print("|---|---|")
-    for name, row in rows.items():
-        print(f"| {name} | {in_words(row)} |")
+    print()
+    head("option", "difference; won, lost")
+    for name, one in rows.items():
+        row(name, in_words(one))
 
 
 def panel(left, top, title, chosen):
     """One panel: the median difference over leaf sizes, with its interval; filled: 8 lattices, open: 1."""
     width, height = 250, 190
-    values = [millimetres(row, f"paired_{end}_m") for row in chosen.values() for end in ("low", "high")]
+    values = [millimetres(one, f"paired_{end}_m") for one in chosen.values() for end in ("low", "high")]
     values = [value for value in values if value == value] + [-1.0, 1.0]
     low, high = min(values), max(values)
     low, high = low - 0.06 * (high - low), high + 0.06 * (high - low)
@@ -116,13 +115,13 @@ def panel(left, top, title, chosen):
         parts.append(f'<text x="{middle:.1f}" y="{top + height + 15}" text-anchor="middle">{leaf:g}</text>')
         for j, (label, colour) in enumerate(SEARCHES.values()):
             for k, lattices in enumerate(LATTICES):
-                row = chosen[lattices, leaf, label]
+                one = chosen[lattices, leaf, label]
                 x = middle + 9 * (2 * j + k - len(SEARCHES) + 0.5)
-                low_y, high_y = (y(millimetres(row, f"paired_{end}_m")) for end in ("low", "high"))
+                low_y, high_y = (y(millimetres(one, f"paired_{end}_m")) for end in ("low", "high"))
                 fill = colour if lattices > 1 else "#fff"
                 parts.append(f'<line x1="{x:.1f}" x2="{x:.1f}" y1="{low_y:.1f}" y2="{high_y:.1f}" '
                              f'stroke="{colour}" stroke-width="1.5"/><circle cx="{x:.1f}" '
-                             f'cy="{y(millimetres(row, "paired_difference_m")):.1f}" r="3.2" '
+                             f'cy="{y(millimetres(one, "paired_difference_m")):.1f}" r="3.2" '
                              f'fill="{fill}" stroke="{colour}" stroke-width="1.5"/>')
     return "\n".join(parts)
 
@@ -130,9 +129,9 @@ def panel(left, top, title, chosen):
 def figure(studies):
     """The figure: a row of panels per noise, a column per what comes before."""
     parts = []
-    for row, (noise, noise_suffix) in enumerate(NOISES):
+    for line, (noise, noise_suffix) in enumerate(NOISES):
         for column, (before, before_suffix) in enumerate(BEFORE):
-            parts.append(panel(70 + 320 * column, 40 + 255 * row, f"{noise}, after {before}",
+            parts.append(panel(70 + 320 * column, 40 + 255 * line, f"{noise}, after {before}",
                                studies[before_suffix + noise_suffix]))
     bottom = 40 + 255 * len(NOISES)
     parts.append(f'<text x="515" y="{bottom - 8}" text-anchor="middle">leaf size in m</text>')

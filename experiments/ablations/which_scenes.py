@@ -4,7 +4,7 @@
 which_scenes.py CROON OUT [OPTIONS OF CROON RUN]: runs which_scenes.json beside this file with scenes of each kind and
 of all ordinary kinds alike, in a folder of OUT for each, and prints a Markdown table per number of scenes: the 95th
 percentile of the absolute error of the accepted poses of all sensors by degree of freedom, in degrees and mm, and in
-brackets the median of the standard deviation that the covariance says. What is in OUT already is not run again.
+brackets the median of the standard deviation that their covariances say. What is in OUT already is not run again.
 """
 import math
 import statistics
@@ -26,9 +26,15 @@ def error(trial, dof):
     return abs(1000 * float(trial[f"{dof}_error_m"]))
 
 
-def standard_deviations(results):
-    """Those of all poses, in degrees and mm, by degree of freedom."""
-    rows = rows_of(results, "covariance.csv")
+def key_of(one):
+    """What names a trial."""
+    return one["variant"], one["scene"], one["sensor"], one["trial"]
+
+
+def standard_deviations(results, poses):
+    """Those of `poses`, in degrees and mm, by degree of freedom."""
+    keys = {key_of(one) for one in poses}
+    rows = [one for one in rows_of(results, "covariance.csv") if key_of(one) in keys]
     return {dof: [math.sqrt(float(one[f"c{i}{i}"])) * (math.degrees(1) if i < 3 else 1000) for one in rows]
             for i, dof in enumerate(DOFS)}
 
@@ -50,8 +56,9 @@ def main(croon, out, *options):
                                   {"scenes": scenes, "mix": mix})
             trials = rows_of(results, "trials.csv")
             poses = accepted(trials)
-            deviations = standard_deviations(results)
-            cells = [cell([error(one, dof) for one in poses], deviations[dof], 4 if dof in DOFS[:3] else 1) for dof in DOFS]
+            deviations = standard_deviations(results, poses)
+            cells = [cell([error(one, dof) for one in poses], deviations[dof], 4 if dof in DOFS[:3] else 1)
+                     for dof in DOFS]
             row(f"`{kind}`", f"{len(poses)}/{len(trials)}", *cells)
         print()
 

@@ -58,6 +58,13 @@ struct Resample {
   std::size_t size = 0;
 };
 
+/// Halfway between the two middle values of a median. Between a failure of one side and a failure
+/// of the other, -inf and inf, that is no difference.
+double halfway(double lower, double upper) {
+  if (lower == upper) return lower;
+  return std::isinf(lower) && std::isinf(upper) ? 0.0 : 0.5 * (lower + upper);
+}
+
 /// The median of one side of the pairs of a resample; `order` is that of `values`, ascending.
 double median_of(const std::vector<double>& values, const std::vector<std::size_t>& order,
                  const Resample& drawn) {
@@ -67,7 +74,7 @@ double median_of(const std::vector<double>& values, const std::vector<std::size_
   const double lower = values[order[index]];
   while (passed <= drawn.size / 2) passed += drawn.counts[order[++index]];
   const double upper = values[order[index]];
-  return lower == upper ? lower : 0.5 * (lower + upper);
+  return halfway(lower, upper);
 }
 
 /// Below `n` even after rounding, and 53 bits leave no bias; `Rng::below` would take twice as long.
@@ -129,7 +136,7 @@ double median_with_failures(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*std::max_element(values.begin(), middle) + *middle);
+  return halfway(*std::max_element(values.begin(), middle), *middle);
 }
 
 Interval median_difference_interval(const Pairs& pairs, const Clusters& clusters) {

@@ -3,9 +3,10 @@
 
 separation.py RESULTS...: folders of runs with truth whose pipeline ends with `verdict`. Prints Markdown: the
 counts of right and wrong against accepted and rejected, and quantiles of each measure. Right means within
-0.5 degrees and 0.1 m.
+the bounds of success of the run.
 """
 import csv
+import json
 import os
 import sys
 
@@ -24,9 +25,16 @@ def key_of(row):
     return row["variant"], row["scene"], row["sensor"], row["trial"]
 
 
-def is_right(row):
-    """Whether the pose of a trial is within the bounds."""
-    return float(row["rotation_error_deg"]) <= 0.5 and float(row["translation_error_m"]) <= 0.1
+def bounds_of(folder):
+    """The largest errors of a right pose."""
+    with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
+        return json.load(file)["experiment"]["success"]
+
+
+def is_right(row, bounds):
+    """Whether the pose of a trial is within the bounds. The status does not say it of a rejected pose."""
+    return (float(row["rotation_error_deg"]) <= bounds["rotation_deg"]
+            and float(row["translation_error_m"]) <= bounds["translation_m"])
 
 
 def quantiles(values, shares):
@@ -41,6 +49,7 @@ def main(*folders):
     counts = {}
     measured = {True: {name: [] for name in MEASURES}, False: {name: [] for name in MEASURES}}
     for folder in folders:
+        bounds = bounds_of(folder)
         values = {}
         for row in read(folder, "diagnostics.csv"):
             if row["name"] in MEASURES:
@@ -49,7 +58,7 @@ def main(*folders):
             measures = values.get(key_of(row))
             if row["variant"] != "base" or measures is None or not row["rotation_error_deg"]:
                 continue
-            right = is_right(row)
+            right = is_right(row, bounds)
             state = "rejected" if row["status"] == "rejected" else "accepted"
             counts[right, state] = counts.get((right, state), 0) + 1
             for name in MEASURES:

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "framework/geometry/guarded_inverse.hpp"
+
 namespace croon {
 namespace {
 
@@ -47,6 +49,27 @@ bool is_covariance(const Matrix6d& matrix) {
   constexpr double kRounding = 1e-9;
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(correlations, Eigen::EigenvaluesOnly);
   return solver.eigenvalues()(0) >= -kRounding;
+}
+
+Vector6d unknown_variances() {
+  Vector6d variances;
+  variances << Eigen::Vector3d::Constant(kUnknown_rad * kUnknown_rad),
+      Eigen::Vector3d::Constant(kUnknown_m * kUnknown_m);
+  return variances;
+}
+
+Matrix6d bounded_covariance(const Matrix6d& covariance) {
+  constexpr double kRounding = 1e-13;  // Of the largest eigenvalue.
+  const Vector6d root = unknown_variances().cwiseSqrt();
+  const Vector6d inverse_root = root.cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(
+      symmetric<6>(inverse_root.asDiagonal() * covariance * inverse_root.asDiagonal()));
+  Vector6d values =
+      solver.eigenvalues().cwiseMax(kRounding * solver.eigenvalues()(5)).cwiseMax(0.0);
+  for (int i = 0; i < 6; ++i) values(i) /= 1.0 + values(i);
+  const Matrix6d inside =
+      solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
+  return symmetric<6>(root.asDiagonal() * inside * root.asDiagonal());
 }
 
 PoseCovariance covariance_of_mean(const std::vector<PoseCovariance>& covariances) {

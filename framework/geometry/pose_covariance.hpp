@@ -45,6 +45,17 @@ inline constexpr double kLargestVariance = 1e12;
 /// semi-definite up to rounding, no variance above `kLargestVariance`.
 bool is_covariance(const Matrix6d& matrix);
 
+/// The standard deviations of a degree of freedom that nothing holds: any angle, and 10 m.
+inline constexpr double kUnknown_rad = 1.8;
+inline constexpr double kUnknown_m = 10.0;
+/// Their squares, in the order of Dof.
+Vector6d unknown_variances();
+
+/// What is left of the uncertainty `covariance` if no pose can be farther off than an unknown one:
+/// `(C^-1 + P^-1)^-1`, P the diagonal of unknown_variances. Directions that rounding hides beside
+/// the largest variance count as unknown.
+Matrix6d bounded_covariance(const Matrix6d& covariance);
+
 /// The covariance of the mean of n poses with independent errors: the sum over n^2; of each degree
 /// of freedom the word of the scene that holds it the least. Throws std::logic_error if there are
 /// none.

@@ -168,6 +168,8 @@ RigidTransform consensus_pose(const std::vector<RigidTransform>& poses, const Po
                               const std::vector<double>& weights) {
   require_poses(poses);
   const std::vector<Vote> ordered = in_fixed_order(poses, weights);
+  // The mean of one pose would differ from it in the last digits.
+  if (ordered.size() == 1) return ordered.front().pose;
   const std::vector<Vote> sample = sample_of(ordered);
   const RigidTransform centre = sample[medoid(sample, bounds)].pose;
   std::vector<RigidTransform> near;
@@ -179,7 +181,7 @@ RigidTransform consensus_pose(const std::vector<RigidTransform>& poses, const Po
 }
 
 RigidTransform common_start(const std::vector<RigidTransform>& poses) {
-  return poses.size() == 1 ? poses.front() : consensus_pose(poses, kNearStart);
+  return consensus_pose(poses, kNearStart);
 }
 
 }  // namespace croon

@@ -46,7 +46,8 @@ void advance(PipelineResult& result, const NamedStep& named, const StreamKey& ke
   result.records.push_back({name, time.seconds(), after.diagnostics, after.information});
   if (!after.information) after.information = information;
   drop_stale_covariance(after, T_before, covariance_before);
-  after.rejection = after.rejection ? std::optional(name + ": " + *after.rejection) : rejection;
+  if (after.rejection) after.rejection = name + ": " + *after.rejection;
+  if (rejection) after.rejection = *rejection + (after.rejection ? "; " + *after.rejection : "");
 }
 
 PipelineResult run_pipeline(const Pipeline& pipeline, std::shared_ptr<const Cloud> target,

@@ -180,6 +180,8 @@ const params::Table<VoxelOptions>& voxel_table() {
     };
     rows.require([](const O& o) { return o.voxels_m.size() == 2; },
                  "voxels_m must have two numbers");
+    rows.require([](const O& o) { return o.voxels_m.front() >= o.voxels_m.back(); },
+                 "the first of voxels_m must not be below the second");
     return rows;
   }();
   return table;

@@ -22,7 +22,7 @@ struct BundleOptions : VoxelOptions {
   int max_passes = 8;
   int max_iterations = 20;
   int min_planes = 6;
-  double covariance_scale = 1.05;
+  double covariance_scale = 1.12;
   double velocity_error_mps = 0.08;
   double clock_offset_std_s = 0.0;
 };
@@ -81,11 +81,11 @@ struct Bundle {
 /// `d_c = (H - H_c)^-1 g_c` that the poses make if the planes c of one scene, one direction and one
 /// cube of 8 m are left out, whose errors are not independent (see pose_uncertainty). Poses
 /// and velocities are eliminated from each other, and what is known of starts and velocities adds
-/// its own. In a scene that moves, what the poses would move if the velocity were off by
-/// `velocity_error_mps` along itself is added: what drives by itself is elsewhere when the next
-/// sensor sees it, which leaving out one surface at a time does not show. A degree of freedom is
-/// weak if its standard deviation is more than a tenth of `start_std`, and unobservable if it is
-/// more than a half.
+/// its own, with the covariance that it has and the weight that it got. In a scene that moves, what
+/// the poses would move if the velocity were off by `velocity_error_mps` along itself is added:
+/// what drives by itself is elsewhere when the next sensor sees it, which leaving out one surface
+/// at a time does not show. A degree of freedom is weak if its standard deviation is more than a
+/// tenth of `start_std`, and unobservable if it is more than a half.
 ///
 /// `start` is by sensor, T_common_sensor and what is known of it beside BundleOptions::start_std;
 /// the first of them is the identity.

@@ -192,6 +192,18 @@ BundleCost BundleSystem::start_cost() const {
   return cost;
 }
 
+Eigen::MatrixXd BundleSystem::start_scatter() const {
+  // The cost is twice the negative logarithm of a likelihood: the covariance of the gradient of a
+  // term with the Hessian 2 w I is 4 w^2 I, if the covariance of what it knows is the inverse of I.
+  Eigen::MatrixXd scatter = 2.0 * start_cost().hessian;
+  for (std::size_t a = 0; a < free_sensors_.size(); ++a) {
+    const auto at = static_cast<Eigen::Index>(6 * a);
+    const double w = options_.start_weight;
+    scatter.block<6, 6>(at, at) -= 4.0 * w * (1.0 - w) * start_[free_sensors_[a]].information;
+  }
+  return scatter;
+}
+
 Matrix6d BundleSystem::start_information(std::size_t sensor) const {
   Matrix6d information = options_.start_weight * start_[sensor].information;
   information.diagonal() += start_std_.cwiseAbs2().cwiseInverse();

@@ -54,13 +54,16 @@ class BundleSystem {
   /// then by the velocity.
   BundleCost scene_cost(std::size_t scene, const std::vector<PlanePatch>& planes,
                         bool with_prior) const;
-  /// What is known of the velocity of a scene: the inverse of its covariance, weighed as that of a
-  /// start.
-  const Matrix6d& velocity_information(std::size_t scene) const {
-    return velocity_information_[scene];
+  /// The covariance of the gradient of the cost of what is known of the velocity of a scene, as
+  /// start_scatter.
+  Matrix6d velocity_scatter(std::size_t scene) const {
+    return 4.0 * options_.start_weight * velocity_information_[scene];
   }
   /// The cost of what is known of the starts and of clocks, by the free poses and the offsets.
   BundleCost start_cost() const;
+  /// The covariance of the gradient of start_cost. In the cost what is known of the starts counts
+  /// as if it was less certain (BundleOptions::start_weight); its errors are what they are.
+  Eigen::MatrixXd start_scatter() const;
   /// What is known of the start of a sensor, the inverse of its covariance.
   Matrix6d start_information(std::size_t sensor) const;
   /// The standard deviations of BundleOptions::start_std, in the order of Dof.

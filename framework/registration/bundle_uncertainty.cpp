@@ -86,6 +86,51 @@ Observability word_of(double std_ratio) {
   return std_ratio > kWeak ? Observability::weak : Observability::determined;
 }
 
+/// What all scenes say of the poses, the velocities following them.
+struct AllScenes {
+  std::vector<BundleCost> costs;     ///< By scene.
+  std::vector<ReducedCost> reduced;  ///< The same without the velocity.
+  Eigen::MatrixXd hessian;
+  /// The covariance of the gradient that comes from what is known of starts and velocities.
+  Eigen::MatrixXd scatter;
+};
+
+AllScenes all_scenes(const BundleSystem& system) {
+  AllScenes all;
+  all.hessian = system.start_cost().hessian;
+  all.scatter = system.start_scatter();
+  for (std::size_t s = 0; s < system.planes().size(); ++s) {
+    const bool has_velocity = system.state().velocities[s].has_value();
+    all.costs.push_back(system.scene_cost(s, system.planes()[s], true));
+    all.reduced.push_back(reduced(all.costs.back(), has_velocity));
+    all.hessian += all.reduced.back().hessian;
+    if (!has_velocity) continue;
+    const Eigen::MatrixXd& by_pose = all.reduced.back().by_pose;
+    all.scatter += by_pose.transpose() * system.velocity_scatter(s) * by_pose;
+  }
+  return all;
+}
+
+/// Of all poses, then perhaps of the offsets of the clocks.
+Eigen::MatrixXd joint_covariance(const BundleSystem& system, const BundleOptions& options) {
+  const AllScenes all = all_scenes(system);
+  const Eigen::MatrixXd inverse = guarded_inverse<Eigen::Dynamic>(all.hessian);
+  const Eigen::MatrixXd K = Eigen::LLT<Eigen::MatrixXd>(inverse).matrixL();
+  Eigen::MatrixXd by_velocity = Eigen::MatrixXd::Zero(inverse.rows(), inverse.cols());
+  Eigen::MatrixXd jackknife = by_velocity;
+  for (std::size_t s = 0; s < all.costs.size(); ++s) {
+    for (const Eigen::VectorXd& step : steps_without(system, s, all.reduced[s], K)) {
+      jackknife += step * step.transpose();
+    }
+    const Eigen::VectorXd step =
+        step_for_velocity_error(system.known_velocity(s), all.costs[s], all.reduced[s], all.hessian,
+                                options.velocity_error_mps);
+    by_velocity += step * step.transpose();
+  }
+  return options.covariance_scale * options.covariance_scale * jackknife + by_velocity +
+         inverse * all.scatter * inverse;
+}
+
 }  // namespace
 
 BundleUncertainty bundle_uncertainty(const BundleSystem& system, const BundleOptions& options) {
@@ -94,41 +139,11 @@ BundleUncertainty bundle_uncertainty(const BundleSystem& system, const BundleOpt
   result.clock_offset_stds_s.assign(system.state().poses.size(), 0.0);
   const std::vector<std::size_t>& sensors = system.free_sensors();
   if (sensors.empty()) return result;
-  const std::size_t scenes = system.planes().size();
-  // The cost is twice the negative logarithm of a likelihood, so the Hessian of what is known
-  // beforehand is twice its information, and the covariance of its gradient four times that.
-  Eigen::MatrixXd hessian = system.start_cost().hessian;
-  Eigen::MatrixXd scatter = 2.0 * hessian;
-  std::vector<BundleCost> scene_costs;
-  std::vector<ReducedCost> costs;
-  for (std::size_t s = 0; s < scenes; ++s) {
-    const bool has_velocity = system.state().velocities[s].has_value();
-    scene_costs.push_back(system.scene_cost(s, system.planes()[s], true));
-    costs.push_back(reduced(scene_costs.back(), has_velocity));
-    hessian += costs.back().hessian;
-    if (!has_velocity) continue;
-    const Eigen::MatrixXd& by_pose = costs.back().by_pose;
-    scatter += 4.0 * by_pose.transpose() * system.velocity_information(s) * by_pose;
-  }
-  const Eigen::MatrixXd inverse = guarded_inverse<Eigen::Dynamic>(hessian);
-  const Eigen::MatrixXd K = Eigen::LLT<Eigen::MatrixXd>(inverse).matrixL();
-  Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(hessian.rows(), hessian.cols());
-  Eigen::MatrixXd jackknife = Eigen::MatrixXd::Zero(hessian.rows(), hessian.cols());
-  for (std::size_t s = 0; s < scenes; ++s) {
-    for (const Eigen::VectorXd& step : steps_without(system, s, costs[s], K)) {
-      jackknife += step * step.transpose();
-    }
-    const Eigen::VectorXd step = step_for_velocity_error(
-        system.known_velocity(s), scene_costs[s], costs[s], hessian, options.velocity_error_mps);
-    shared += step * step.transpose();
-  }
-  const Eigen::MatrixXd covariance =
-      options.covariance_scale * options.covariance_scale * jackknife + shared +
-      inverse * scatter * inverse;
+  const Eigen::MatrixXd covariance = joint_covariance(system, options);
   for (std::size_t a = 0; a < sensors.size(); ++a) {
     const auto at = static_cast<Eigen::Index>(6 * a);
     PoseCovariance& own = result.covariances[sensors[a]];
-    own.matrix = symmetric<6>(covariance.block<6, 6>(at, at));
+    own.matrix = bounded_covariance(covariance.block<6, 6>(at, at));
     for (std::size_t dof = 0; dof < own.dofs.size(); ++dof) {
       const auto i = static_cast<Eigen::Index>(dof);
       own.dofs[dof] = word_of(std::sqrt(own.matrix(i, i)) / system.start_std()(i));

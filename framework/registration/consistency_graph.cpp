@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "framework/base/bits.hpp"
+#include "framework/base/error.hpp"
 
 namespace croon {
 namespace {
-
-/// The bits that are set.
-int ones(std::uint64_t bits) {
-  bits -= (bits >> 1U) & 0x5555555555555555ULL;
-  bits = (bits & 0x3333333333333333ULL) + ((bits >> 2U) & 0x3333333333333333ULL);
-  bits = (bits + (bits >> 4U)) & 0x0f0f0f0f0f0f0f0fULL;
-  return static_cast<int>((bits * 0x0101010101010101ULL) >> 56U);
-}
 
 bool consistent(const OrientedPairs& pairs, std::size_t i, std::size_t j,
                 const ConsistencyOptions& options) {
@@ -38,9 +34,12 @@ bool consistent(const OrientedPairs& pairs, std::size_t i, std::size_t j,
 }  // namespace
 
 ConsistencyGraph::ConsistencyGraph(const OrientedPairs& pairs, const ConsistencyOptions& options)
-    : size_(static_cast<int>(pairs.size())),
-      words_((pairs.size() + 63) / 64),
-      rows_(pairs.size() * words_) {
+    : size_(static_cast<int>(pairs.size())), words_((pairs.size() + 63) / 64) {
+  if (pairs.size() > kMostVertices) {
+    throw StageError(std::to_string(pairs.size()) + " correspondences are more than the " +
+                     std::to_string(kMostVertices) + " that a graph has room for");
+  }
+  rows_.resize(pairs.size() * words_);
   for (int i = 0; i < size_; ++i) {
     for (int j = i + 1; j < size_; ++j) {
       if (!consistent(pairs, static_cast<std::size_t>(i), static_cast<std::size_t>(j), options)) {
@@ -55,7 +54,7 @@ ConsistencyGraph::ConsistencyGraph(const OrientedPairs& pairs, const Consistency
 int ConsistencyGraph::common(int vertex, const Bits& set) const {
   const std::uint64_t* const row = &rows_[word(vertex, 0)];
   int count = 0;
-  for (std::size_t k = 0; k < words_; ++k) count += ones(row[k] & set[k]);
+  for (std::size_t k = 0; k < words_; ++k) count += count_bits(row[k] & set[k]);
   return count;
 }
 
@@ -119,7 +118,7 @@ std::vector<int> ConsistencyGraph::clique(int seed) const {
       int remaining = 0;
       for (std::size_t k = 0; k < words_; ++k) {
         candidates[k] &= rows_[row + k];
-        remaining += ones(candidates[k]);
+        remaining += count_bits(candidates[k]);
       }
       if (2 * remaining < static_cast<int>(order.size())) break;
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -30,6 +31,10 @@ struct ConsistencyOptions {
 /// and Lusk, Fathian and How, CLIPPER, ICRA 2021 (normals).
 class ConsistencyGraph {
  public:
+  /// Has room for so many correspondences: a bit for each two of them, 300 MB.
+  static constexpr std::size_t kMostVertices = 50000;
+
+  /// Throws StageError if there are more.
   ConsistencyGraph(const OrientedPairs& pairs, const ConsistencyOptions& options);
 
   /// The core number of each vertex: the largest k such that it is in a subgraph each of whose

@@ -12,6 +12,22 @@ Eigen::Matrix<double, 3, 6> point_jacobian(const Eigen::Vector3d& arm) {
   return J;
 }
 
+Vector6d plane_jacobian(const Eigen::Vector3d& arm, const Eigen::Vector3d& normal) {
+  Vector6d J;
+  J << arm.cross(normal), normal;
+  return J;
+}
+
+Eigen::Matrix3d plane_to_plane_information(const Eigen::Vector3d& target_normal,
+                                           const Eigen::Vector3d& source_normal, double epsilon) {
+  // diag(e, 1, 1) in the axes of a surface with the normal n is 1 - (1 - e) n n^T.
+  const auto covariance = [epsilon](const Eigen::Vector3d& n) -> Eigen::Matrix3d {
+    return Eigen::Matrix3d::Identity() - (1.0 - epsilon) * (n * n.transpose());
+  };
+  const Eigen::Matrix3d sum = covariance(target_normal) + covariance(source_normal);
+  return 2.0 * epsilon * sum.inverse();
+}
+
 void NormalEquations::add(const Eigen::Matrix<double, 3, 6>& J, const Eigen::Vector3d& r,
                           const Eigen::Matrix3d& Omega, double w) {
   w *= factor;

@@ -8,17 +8,30 @@ namespace croon {
 
 /// A pair of corresponding points at the current pose.
 struct Correspondence {
-  Eigen::Vector3d arm;  ///< `R s`: the source point turned into the target's axes.
-  Eigen::Vector3d
-      offset;  ///< `R s + t - p`: from the target point to the source point, target frame.
-  Eigen::Vector3d target_normal;  ///< Unit; zero if it is undefined or not needed.
-  Eigen::Vector3d source_normal;  ///< `R n`, in the target's axes; zero in the same cases.
+  Eigen::Vector3d arm =
+      Eigen::Vector3d::Zero();  ///< `R s`: the source point turned into the target's axes.
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< `R s + t - p`: from the target point to
+                                                     ///< the source point, target frame.
+  Eigen::Vector3d target_normal =
+      Eigen::Vector3d::Zero();  ///< Unit; zero if it is undefined or not needed.
+  Eigen::Vector3d source_normal =
+      Eigen::Vector3d::Zero();    ///< `R n`, in the target's axes; zero in the same cases.
   float target_variation = 0.0F;  ///< LocalShape::surface_variation.
   double weight = 1.0;            ///< Of its residuals, beside that of the robust kernel.
 };
 
 /// The Jacobian of `R s + t` by the six degrees of freedom of `moved`: `[-[R s]x, I]`.
 Eigen::Matrix<double, 3, 6> point_jacobian(const Eigen::Vector3d& arm);
+
+/// The Jacobian of `n . (R s + t - p)` by the six degrees of freedom of `moved`:
+/// `[(arm x n)^T, n^T]`.
+Vector6d plane_jacobian(const Eigen::Vector3d& arm, const Eigen::Vector3d& normal);
+
+/// The information of `R s + t - p` between two surfaces with these normals, `2 e (C_t + R C_s
+/// R^T)^-1` with C = diag(e, 1, 1), the normal first (Segal et al. 2009, equation 2; e is
+/// `epsilon`). It weighs a distance across two planes that agree by one.
+Eigen::Matrix3d plane_to_plane_information(const Eigen::Vector3d& target_normal,
+                                           const Eigen::Vector3d& source_normal, double epsilon);
 
 /// The sums of one Gauss-Newton step: `information = sum w J^T Omega J`, `gradient = sum w J^T
 /// Omega r`.

@@ -6,6 +6,7 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
+#include "framework/spatial/evenly_spaced.hpp"
 #include "framework/spatial/tracked_neighbours.hpp"
 
 namespace croon {
@@ -105,8 +106,8 @@ class Loop {
       pairs.clear();
     };
     Correspondence pair;
-    for (std::int64_t i = 0; i < sums.points; ++i) {
-      const int index = static_cast<int>(i * source_size_ / sums.points);
+    for (int i = 0; i < sums.points; ++i) {
+      const auto index = static_cast<int>(evenly_spaced_index(i, source_size_, sums.points));
       if (!matcher_.match(index, T, static_cast<float>(max_distance_m), pair)) continue;
       pairs.push_back(pair);
       if (pairs.size() == block) add();
@@ -145,9 +146,8 @@ Linearise point_to_plane_linearisation() {
   return for_each_correspondence(
       [](const Correspondence& pair, const RobustKernel& kernel, NormalEquations& equations) {
         const double residual = pair.target_normal.dot(pair.offset);
-        Vector6d J;
-        J << pair.arm.cross(pair.target_normal), pair.target_normal;
-        equations.add(J, residual, kernel.weight(residual * residual));
+        equations.add(plane_jacobian(pair.arm, pair.target_normal), residual,
+                      kernel.weight(residual * residual));
       });
 }
 

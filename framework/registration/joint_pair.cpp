@@ -9,6 +9,7 @@
 #include "framework/registration/direction_balance.hpp"
 #include "framework/registration/icp_options.hpp"
 #include "framework/spatial/deskew.hpp"
+#include "framework/spatial/evenly_spaced.hpp"
 #include "framework/spatial/ground_candidates.hpp"
 #include "framework/spatial/leaf_grid.hpp"
 #include "framework/spatial/vehicle_sized.hpp"
@@ -31,10 +32,10 @@ std::shared_ptr<const Sample> sample_of(const Cloud& cloud, const JointOptions& 
   return cloud.once<Sample>("joint_sample", parameters, [&] {
     auto sample = std::make_shared<Sample>();
     const Normals& normals = cloud.normals(options.normal_neighbours);
-    const auto size = static_cast<std::int64_t>(cloud.points().size());
-    const std::int64_t count = std::min<std::int64_t>(size, options.points);
-    for (std::int64_t n = 0; n < count; ++n) {
-      const auto i = static_cast<int>(n * size / count);
+    const std::size_t size = cloud.points().size();
+    const std::size_t count = std::min(size, static_cast<std::size_t>(options.points));
+    for (std::size_t n = 0; n < count; ++n) {
+      const auto i = static_cast<int>(evenly_spaced_index(n, size, count));
       if (!normals.at(i).normal.isZero()) sample->indices.push_back(i);
     }
     sample->patches =
@@ -112,13 +113,13 @@ std::vector<JointTerm> terms_of(const JointScene::Source& source, const StillTar
     const RigidTransform motion = motion_over(velocity, source_s);
     const Vector3d turned = T.rotation * cloud.points()[i].cast<double>();
     const Vector3d q = motion * Vector3d(turned + T.translation);
-    const Neighbour nearest = target.cloud().kd_tree().nearest(q.cast<float>(), max_distance_m);
+    const Neighbour nearest = target.tree().nearest(q.cast<float>(), max_distance_m);
     if (!nearest) continue;
     const Vector3d n = target.normal(nearest.index);
     const Vector3d source_normal =
         motion.rotation * (T.rotation * normals.at(i).normal.cast<double>());
     if (n.isZero() || n.dot(source_normal) < min_cosine) continue;
-    const Vector3d p = target.cloud().points()[nearest.index].cast<double>();
+    const Vector3d p = target.points()[nearest.index].cast<double>();
     const double target_s = target.time_s(nearest.index);
     term.residual_m = n.dot(q - p);
     term.patch = sample->patches[k];
@@ -132,18 +133,6 @@ std::vector<JointTerm> terms_of(const JointScene::Source& source, const StillTar
   }
   weigh_patches(terms, view);
   return terms;
-}
-
-/// The points of the target where they were at the reference time. Those of one that does not move
-/// are its own, whose tree and normals there may be already.
-std::shared_ptr<const Cloud> still_cloud(const JointScene& scene, const Twist& velocity) {
-  if (velocity.linear_mps.isZero(0.0) && velocity.angular_radps.isZero(0.0)) {
-    return scene.target.cloud;
-  }
-  return std::make_shared<const Cloud>(
-      PointCloud(deskewed(scene.target.cloud->points(), scene.target.times_s, velocity,
-                          scene.reference_s)),
-      StreamKey(0));
 }
 
 /// Which points of a scan belong to things of a vehicle's size; none if it has no ground.
@@ -185,9 +174,18 @@ StillTarget::StillTarget(const JointScene& scene, const Twist& velocity,
                          const JointOptions& options)
     : scene_(scene),
       velocity_(velocity),
-      cloud_(still_cloud(scene, velocity)),
       normals_(scene.target.cloud->normals(options.normal_neighbours)),
       vehicle_weight_(options.vehicle_weight) {
+  const Cloud& cloud = *scene.target.cloud;
+  if (velocity.linear_mps.isZero(0.0) && velocity.angular_radps.isZero(0.0)) {
+    points_ = &cloud.points();
+    tree_ = &cloud.kd_tree();
+  } else {
+    moved_points_ = deskewed(cloud.points(), scene.target.times_s, velocity, scene.reference_s);
+    moved_tree_ = std::make_unique<const KdTree>(moved_points_);
+    points_ = &moved_points_;
+    tree_ = moved_tree_.get();
+  }
   if (vehicle_weight_ < 1.0) vehicles_ = vehicles_of(*scene.target.cloud);
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 
 #include "framework/registration/joint_registration.hpp"
 
@@ -14,7 +15,9 @@ class StillTarget {
 
   const JointScene& scene() const { return scene_; }
   const Twist& velocity() const { return velocity_; }
-  const Cloud& cloud() const { return *cloud_; }
+  /// The points where they were at the reference time, and their tree.
+  const Points& points() const { return *points_; }
+  const KdTree& tree() const { return *tree_; }
   /// The unit normal at point `index`, zero if it has none: that of the scan as it was measured,
   /// turned with the point, because a point's neighbours were measured at about its time.
   Eigen::Vector3d normal(int index) const;
@@ -29,7 +32,11 @@ class StillTarget {
  private:
   const JointScene& scene_;
   Twist velocity_;
-  std::shared_ptr<const Cloud> cloud_;
+  /// Not a Cloud: what is computed for one velocity alone is work of the trial, not shared work.
+  Points moved_points_;
+  std::unique_ptr<const KdTree> moved_tree_;
+  const Points* points_;    ///< Those that moved, or those of the scan if it stands still,
+  const KdTree* tree_;      ///< whose tree there may be already.
   const Normals& normals_;  ///< Of the scan as it was measured.
   double vehicle_weight_;
   /// Which points belong to things of a vehicle's size; null if they weigh as much as others.

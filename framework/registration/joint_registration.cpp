@@ -125,15 +125,16 @@ class Problem {
     }
   }
 
-  /// Whether no pose moves, and no point of a scan by its velocity.
+  /// Whether no pose and no clock moves, and no point of a scan by its velocity.
   bool is_small(const Eigen::VectorXd& step) const {
-    constexpr double kRotation_rad = 1e-4, kTranslation_m = 1e-3, kScan_s = 0.1;
+    constexpr double kRotation_rad = 1e-4, kTranslation_m = 1e-3, kScan_s = 0.1, kOffset_s = 3e-5;
     const auto is_still = [&](int at, double scale) {
       return step.segment<3>(at).norm() * scale <= kRotation_rad &&
              step.segment<3>(at + 3).norm() * scale <= kTranslation_m;
     };
     for (int k = 0; k < sensors_; ++k) {
       if (!is_still(6 * k, 1.0)) return false;
+      if (offset_at_ >= 0 && std::abs(step(offset_at_ + k)) > kOffset_s) return false;
     }
     return std::all_of(velocity_at_.begin(), velocity_at_.end(),
                        [&](int at) { return at < 0 || is_still(at, kScan_s); });

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "framework/base/angles.hpp"
+#include "framework/spatial/evenly_spaced.hpp"
 
 namespace croon {
 namespace {
@@ -37,7 +38,7 @@ std::vector<Eigen::Vector3d> cell_centres(const Points& levelled,
   const std::size_t count = std::min(all.size(), static_cast<std::size_t>(options.max_cells));
   std::vector<Eigen::Vector3d> centres;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto& [layer, x, y] = all[i * all.size() / count];
+    const auto& [layer, x, y] = all[evenly_spaced_index(i, all.size(), count)];
     centres.emplace_back((x + 0.5) * options.cell_m, (y + 0.5) * options.cell_m, layer);
   }
   return centres;

@@ -12,6 +12,7 @@
 #include "framework/geometry/guarded_inverse.hpp"
 #include "framework/registration/direction_balance.hpp"
 #include "framework/registration/gauss_newton.hpp"
+#include "framework/spatial/evenly_spaced.hpp"
 
 namespace croon {
 namespace {
@@ -49,13 +50,14 @@ class ContactFinder {
   }
 
   /// Of at most `most` points, evenly through the source.
-  std::vector<Contact> contacts(const RigidTransform& T, std::int64_t most) const {
+  std::vector<Contact> contacts(const RigidTransform& T, std::size_t most) const {
     std::vector<Contact> found;
-    const auto size = static_cast<std::int64_t>(source_.points().size());
-    const std::int64_t count = std::min(size, most);
+    const std::size_t size = source_.points().size();
+    const std::size_t count = std::min(size, most);
     Contact contact;
-    for (std::int64_t i = 0; i < count; ++i) {
-      if (find(static_cast<int>(i * size / count), T, contact)) found.push_back(contact);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto index = static_cast<int>(evenly_spaced_index(i, size, count));
+      if (find(index, T, contact)) found.push_back(contact);
     }
     return found;
   }
@@ -130,20 +132,12 @@ struct Quadratic {
   }
 };
 
-Vector6d jacobian_along(const Eigen::Vector3d& arm, const Eigen::Vector3d& normal) {
-  Vector6d J;
-  J << arm.cross(normal), normal;
-  return J;
-}
-
 /// Half of `weight * rho(r^T Omega r)` with Omega of Generalized-ICP, which weighs a distance
 /// across two planes that agree by one, and rho of Geman and McClure.
 Quadratic quadratic_of(const Contact& contact, double weight, double kernel_width_m) {
   constexpr double kEpsilon = 0.001;  // The variance across a surface over that along it.
   const Eigen::Vector3d &a = contact.of_target, &b = contact.of_source;
-  const Eigen::Matrix3d covariance = 2.0 * Eigen::Matrix3d::Identity() -
-                                     (1.0 - kEpsilon) * (a * a.transpose() + b * b.transpose());
-  const Eigen::Matrix3d Omega = 2.0 * kEpsilon * covariance.inverse();
+  const Eigen::Matrix3d Omega = plane_to_plane_information(a, b, kEpsilon);
   const Eigen::Matrix<double, 3, 6> J = point_jacobian(contact.arm);
   const Eigen::Matrix<double, 3, 6> OJ = Omega * J;
   const Vector6d slope = OJ.transpose() * contact.offset;
@@ -159,8 +153,8 @@ Quadratic quadratic_of(const Contact& contact, double weight, double kernel_widt
   sums.hessian = by_offset * J;
   const Eigen::Vector3d normal = (a + b).normalized();
   const double along = w * normal.dot(Omega * normal);
-  const Vector6d mean = jacobian_along(contact.arm, normal);
-  const Vector6d half = 0.5 * jacobian_along(contact.arm, a - b);
+  const Vector6d mean = plane_jacobian(contact.arm, normal);
+  const Vector6d half = 0.5 * plane_jacobian(contact.arm, a - b);
   sums.information = along * (mean * mean.transpose());
   if (contact.delay_s != 0.0) {
     sums.moved = contact.delay_s * (by_offset * point_jacobian(contact.point));
@@ -170,35 +164,13 @@ Quadratic quadratic_of(const Contact& contact, double weight, double kernel_widt
   return sums;
 }
 
-/// The variances of a pose of which nothing is known.
-Vector6d unknown_variances() {
-  Vector6d variances;
-  variances << Eigen::Vector3d::Constant(kUnknown_rad * kUnknown_rad),
-      Eigen::Vector3d::Constant(kUnknown_m * kUnknown_m);
-  return variances;
-}
-
-/// What is left of the uncertainty `covariance` if no pose can be farther off than an unknown one:
-/// `(C^-1 + P^-1)^-1` with its variances P.
-Matrix6d bounded(const Matrix6d& covariance) {
-  const Vector6d root = unknown_variances().cwiseSqrt();
-  const Vector6d inverse_root = root.cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(
-      symmetric<6>(inverse_root.asDiagonal() * covariance * inverse_root.asDiagonal()));
-  Vector6d values = solver.eigenvalues().cwiseMax(0.0);
-  for (int i = 0; i < kDofCount; ++i) values(i) /= 1.0 + values(i);
-  const Matrix6d inside =
-      solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
-  return symmetric<6>(root.asDiagonal() * inside * root.asDiagonal());
-}
-
 /// What the contacts say of a pose.
 class ContactModel {
  public:
   ContactModel(const ContactFinder& finder, const RigidTransform& T,
                const UncertaintyOptions& options)
       : finder_(finder), pose_(T), options_(options) {
-    constexpr std::int64_t kMost = 20000;
+    constexpr std::size_t kMost = 20000;
     const std::vector<Contact> contacts = finder.contacts(T, kMost);
     count_ = contacts.size();
     weights_ = direction_weights(contacts, options.direction_balance);
@@ -214,6 +186,8 @@ class ContactModel {
   }
 
   std::size_t count() const { return count_; }
+  /// The standard deviation of the distances across surfaces.
+  double noise_m() const { return noise_m_; }
   const Quadratic& all() const { return all_; }
 
   /// The jackknife over surfaces: the sum of the squares of the steps that the pose makes if one
@@ -241,7 +215,7 @@ class ContactModel {
   /// How much farther a pose moves than contacts that stay the same let it: `H_m^-1 H` of the
   /// Hessian with the same contacts and the one of differences of gradients with new contacts.
   Matrix6d stretch() const {
-    constexpr std::int64_t kMost = 4000;
+    constexpr std::size_t kMost = 4000;
     constexpr double kStep_rad = 0.0005, kStep_m = 0.01;
     Matrix6d fixed = Matrix6d::Zero();
     for (const Contact& contact : finder_.contacts(pose_, kMost))
@@ -260,7 +234,7 @@ class ContactModel {
                         options_.kernel_width_m);
   }
 
-  Vector6d gradient_at(int dof, double step, std::int64_t most) const {
+  Vector6d gradient_at(int dof, double step, std::size_t most) const {
     Vector6d sum = Vector6d::Zero();
     for (const Contact& contact :
          finder_.contacts(moved(pose_, step * Vector6d::Unit(dof)), most)) {
@@ -281,10 +255,13 @@ class ContactModel {
 
 /// Gives each degree of freedom its word, and those that noise alone holds the variance of an
 /// unknown pose. A motion by one unit of a degree of freedom, with all others following such that
-/// the least information resists, is a column of the inverse.
-void judge_dofs(const Quadratic& all, const UncertaintyOptions& options,
+/// the least information resists, is a column of the inverse; none follows farther than an unknown
+/// pose is off, or a plain would not hold roll either: a slide by kilometres makes up for it.
+void judge_dofs(const Quadratic& all, double noise_m, const UncertaintyOptions& options,
                 PoseCovariance& covariance) {
-  const Matrix6d inverse = guarded_inverse<6>(all.information);
+  Matrix6d bounded = all.information;
+  bounded.diagonal() += noise_m * noise_m * unknown_variances().cwiseInverse();
+  const Matrix6d inverse = guarded_inverse<6>(bounded);
   for (int i = 0; i < kDofCount; ++i) {
     const Vector6d motion = inverse.col(i) / inverse(i, i);
     const double information = motion.dot(all.information * motion);
@@ -320,8 +297,8 @@ PoseCovariance pose_uncertainty(const Cloud& target, const Cloud& source,
   // All contacts move with the car, and the pose follows them: nothing resists less.
   matrix += model.covariance_of_motion();
   covariance.matrix = symmetric<6>(matrix);
-  judge_dofs(model.all(), options, covariance);
-  covariance.matrix = bounded(covariance.matrix);
+  judge_dofs(model.all(), model.noise_m(), options, covariance);
+  covariance.matrix = bounded_covariance(covariance.matrix);
   return covariance;
 }
 

@@ -26,10 +26,6 @@ struct UncertaintyOptions {
   double unobservable_ratio = 2.0;  ///< below so many times unobservable.
 };
 
-/// The standard deviations of a degree of freedom that nothing holds: any angle, and 10 m.
-inline constexpr double kUnknown_rad = 1.8;
-inline constexpr double kUnknown_m = 10.0;
-
 /// The uncertainty of the pose `T_target_source` that Generalized-ICP has found, or that it would
 /// not move, by the surfaces on which the two clouds touch.
 ///

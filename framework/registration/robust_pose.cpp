@@ -18,17 +18,11 @@ Eigen::Matrix3d weighted_rotation(const Vectors& target, const Vectors& source,
   for (std::size_t i = 0; i < target.size(); ++i) {
     products.noalias() += weights[i] * target[i] * source[i].transpose();
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  if (!(svd.singularValues()(1) > 1e-6 * svd.singularValues()(0))) {
+  const Eigen::Vector3d values = Eigen::JacobiSVD<Eigen::Matrix3d>(products).singularValues();
+  if (!(values(1) > 1e-6 * values(0))) {
     throw StageError("the correspondences that agree lie on one line");
   }
-  Eigen::Matrix3d R = svd.matrixU() * svd.matrixV().transpose();
-  if (R.determinant() < 0.0) {
-    Eigen::Matrix3d U = svd.matrixU();
-    U.col(2) = -U.col(2);
-    R = U * svd.matrixV().transpose();
-  }
-  return R;
+  return nearest_rotation(products);
 }
 
 std::vector<double> squared_residuals(const Vectors& target, const Vectors& source,

@@ -7,13 +7,20 @@
 
 namespace croon {
 
+/// The index of element `i` of `count` that are spaced evenly through `size`.
+inline std::size_t evenly_spaced_index(std::size_t i, std::size_t size, std::size_t count) {
+  return i * size / count;
+}
+
 /// At most `most` of `points`, evenly through the list and in its order: all if there are no more.
 inline Points evenly_spaced(const Points& points, int most) {
   const std::size_t size = points.size();
   const std::size_t count = std::min(size, static_cast<std::size_t>(most));
   Points sample;
   sample.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) sample.push_back(points[i * size / count]);
+  for (std::size_t i = 0; i < count; ++i) {
+    sample.push_back(points[evenly_spaced_index(i, size, count)]);
+  }
   return sample;
 }
 

@@ -49,6 +49,15 @@ struct Estimate {
   /// not depend on it.
   std::shared_ptr<const TrialName> trial = nullptr;
 
+  /// Goes on with other clouds. The grounds that were found are those of the clouds before.
+  void take_clouds(std::shared_ptr<const Cloud> new_target,
+                   std::shared_ptr<const Cloud> new_source) {
+    target = std::move(new_target);
+    source = std::move(new_source);
+    target_ground = nullptr;
+    source_ground = nullptr;
+  }
+
   /// The axis of yaw: the normal of the target's ground, or z if the ground is not known.
   Eigen::Vector3d up() const {
     return target_ground ? target_ground->plane.normal : Eigen::Vector3d::UnitZ();

@@ -31,11 +31,6 @@ const params::Table<Params>& table() {
   return table;
 }
 
-/// The covariance of a point on a plane: `R diag(epsilon, 1, 1) R^T`, first axis along the normal.
-Eigen::Matrix3d plane_covariance(const Eigen::Vector3d& normal, double epsilon) {
-  return Eigen::Matrix3d::Identity() - (1.0 - epsilon) * (normal * normal.transpose());
-}
-
 class Gicp final : public Icp {
  public:
   explicit Gicp(Params params) : params_(std::move(params)) {}
@@ -48,15 +43,13 @@ class Gicp final : public Icp {
     if (params_.direction_balance > 0.0)
       rule.select = balanced_directions(params_.direction_balance);
     const double epsilon = params_.plane_variance_ratio;
-    // Residual `R s + t - p` with information `(C_t + R C_s R^T)^-1` (Segal, eq. 2). Times 2
-    // epsilon it weighs a distance across two planes that agree by one, so the kernel's width is in
-    // metres.
+    // The information weighs a distance across two planes that agree by one, so the kernel's width
+    // is in metres.
     const Linearise linearise =
         for_each_correspondence([epsilon](const Correspondence& pair, const RobustKernel& kernel,
                                           NormalEquations& equations) {
-          const Eigen::Matrix3d covariance = plane_covariance(pair.target_normal, epsilon) +
-                                             plane_covariance(pair.source_normal, epsilon);
-          const Eigen::Matrix3d Omega = 2.0 * epsilon * covariance.inverse();
+          const Eigen::Matrix3d Omega =
+              plane_to_plane_information(pair.target_normal, pair.source_normal, epsilon);
           const double squared = pair.offset.dot(Omega * pair.offset);
           equations.add(point_jacobian(pair.arm), pair.offset, Omega, kernel.weight(squared));
         });

@@ -69,8 +69,7 @@ class ConsensusStep final : public RigStep {
     const OfSensor votes = voters(estimates);
     std::vector<RigidTransform> poses;
     for (const RigEstimate* const vote : votes) poses.push_back(vote->estimate.T_target_source);
-    // The mean of one pose would differ from it in the last digits.
-    RigidTransform pose = poses.size() == 1 ? poses.front() : consensus_pose(poses, bounds_);
+    RigidTransform pose = consensus_pose(poses, bounds_);
     OfSensor agreeing;
     for (RigEstimate* const vote : votes) {
       if (agree(vote->estimate.T_target_source, pose, bounds_)) agreeing.push_back(vote);

@@ -240,10 +240,9 @@ class JointRegistrationStep final : public RigStep {
       estimate.T_target_source = T;
       if (!motion.is_moving) continue;
       if (!target) target = still(scene.target, motion.velocity, scene.reference_s);
-      estimate.target = target;
       const double offset_s = result.state.clock_offsets_s[source.sensor];
-      estimate.source = still(source.scan, velocity_in(T.inverse(), motion.velocity),
-                              scene.reference_s - offset_s);
+      estimate.take_clouds(target, still(source.scan, velocity_in(T.inverse(), motion.velocity),
+                                         scene.reference_s - offset_s));
     }
   }
 
@@ -272,7 +271,7 @@ StageEntry joint_registration() {
       "joint_registration",
       "Sees the whole rig: registers all sensors together with the velocity of each scene, and "
       "removes the distortion of the scans by it.",
-      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 4);
+      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 5);
 }
 
 }  // namespace croon::stages::step

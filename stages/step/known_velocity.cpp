@@ -152,16 +152,14 @@ class KnownVelocityStep final : public GivenMotionStep {
     const double reference_s = span_of(times_s(estimate.target->with_channels())).middle_s();
     // The target is the same for all sensors and trials of the scene.
     const Vector6d numbers = vector_of(velocity);
-    estimate.target = estimate.target->once<Cloud>(
+    std::shared_ptr<const Cloud> target = estimate.target->once<Cloud>(
         "known_velocity",
         params::value_json(std::vector<double>(numbers.data(), numbers.data() + numbers.size())),
         [&] { return still(*estimate.target, velocity, reference_s); });
     const RigidTransform T_sensor_reference = estimate.T_target_source.inverse();
-    estimate.source =
-        still(*estimate.source, velocity_in(T_sensor_reference, velocity), reference_s);
-    // They have the points as they were.
-    estimate.target_ground = nullptr;
-    estimate.source_ground = nullptr;
+    estimate.take_clouds(
+        std::move(target),
+        still(*estimate.source, velocity_in(T_sensor_reference, velocity), reference_s));
     estimate.extras.put(kMotion, velocity);
     estimate.extras.put(kMotionCovariance, covariance_of(motion));
     estimate.diagnostics = {{"speed_mps", velocity.linear_mps.norm()},

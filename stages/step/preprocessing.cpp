@@ -51,11 +51,8 @@ class Preprocessing final : public Step {
   }
 
   Estimate advance(Estimate estimate, Rng&) const override {
-    estimate.target = preprocessed(estimate.target, params_.reference);
-    estimate.source = preprocessed(estimate.source, params_.sensor);
-    // The ground that was found belongs to the clouds before.
-    estimate.target_ground = nullptr;
-    estimate.source_ground = nullptr;
+    estimate.take_clouds(preprocessed(estimate.target, params_.reference),
+                         preprocessed(estimate.source, params_.sensor));
     estimate.diagnostics = {
         {"target_points", static_cast<double>(estimate.target->points().size())},
         {"source_points", static_cast<double>(estimate.source->points().size())}};

@@ -1,4 +1,4 @@
-#include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 #include "framework/pipeline/step_options.hpp"
 #include "framework/stage/icp.hpp"
 #include "framework/stage/stage_entry.hpp"
@@ -34,8 +34,8 @@ class RegistrationStep final : public Step {
     estimate.T_target_source = result.T_target_source;
     estimate.information = result.information;
     if (result.inlier_ratio < params_.min_inlier_ratio) {
-      estimate.rejection = "inlier ratio " + std::to_string(result.inlier_ratio) + " is below " +
-                           std::to_string(params_.min_inlier_ratio);
+      estimate.rejection = "inlier ratio " + fixed_number(result.inlier_ratio, 6) + " is below " +
+                           fixed_number(params_.min_inlier_ratio, 6);
     }
     estimate.diagnostics = {{"rmse_m", result.rmse_m},
                             {"inlier_ratio", result.inlier_ratio},

@@ -92,7 +92,6 @@ class Verdict final : public Step {
                          deg_from_rad(halves.rotation_rad), params_.max_halves_rotation_deg);
     reasons.need_at_most("the distance between two halves of the points, m,", halves.translation_m,
                          params_.max_halves_translation_m);
-    if (estimate.rejection) reasons.words = *estimate.rejection + "; " + reasons.words;
     if (!reasons.words.empty()) estimate.rejection = reasons.words;
     estimate.diagnostics = {{"overlap_ratio", evidence.overlap_ratio()},
                             {"violation_ratio", evidence.violation_ratio()},

@@ -2,20 +2,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "framework/base/bits.hpp"
 #include "framework/spatial/leaf_window.hpp"
 #include "framework/stage/leaf_scorer.hpp"
 
 namespace croon::stages::volume_scorer {
 namespace {
-
-/// The number of bits that are set. Without an instruction for it, which not every x86-64 has, the
-/// compiler calls a function.
-std::int64_t bit_count(std::uint64_t bits) {
-  bits -= bits >> 1 & 0x5555555555555555;
-  bits = (bits & 0x3333333333333333) + (bits >> 2 & 0x3333333333333333);
-  bits = (bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0f;
-  return static_cast<std::int64_t>(bits * 0x0101010101010101 >> 56);
-}
 
 /// Bricks of 4 x 4 x 4 leaves, one bit for each leaf, found by hashing with open addressing.
 class BrickTable {
@@ -44,7 +36,7 @@ class BrickTable {
 
   std::int64_t leaves() const {
     std::int64_t count = 0;
-    for (std::size_t i = 0; i < used_count_; ++i) count += bit_count(slots_[used_[i]].leaves);
+    for (std::size_t i = 0; i < used_count_; ++i) count += count_bits(slots_[used_[i]].leaves);
     return count;
   }
 
@@ -58,7 +50,7 @@ class BrickTable {
       __builtin_prefetch(&other.slots_[first_slot(slots_[used_[ahead]].key, other.shift_)]);
       Brick& brick = slots_[used_[i]];
       const std::size_t slot = slot_of(brick.key, other.slots_.data(), other.shift_);
-      count += bit_count(brick.leaves & ~other.slots_[slot].leaves);
+      count += count_bits(brick.leaves & ~other.slots_[slot].leaves);
       brick = Brick{};
     }
     begin_again();

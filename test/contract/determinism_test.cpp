@@ -1,8 +1,9 @@
-// Same input, same seed: the same bits, on one thread and on four at once.
+// Same input, same seed: the same bits, on one thread, on four, and of four at once.
 #include <array>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "framework/base/threads.hpp"
 #include "test/contract/every_stage.hpp"
 #include "test/contract/outcome.hpp"
 #include "test/support/random_geometry.hpp"
@@ -21,13 +22,21 @@ class ContractOfBits : public EveryStage {
   Outcome outcome_on(const CloudPair& clouds) const {
     return outcome_of(entry().kind, minimal_json(entry()), clouds);
   }
+
+  /// With TBB on `jobs` threads, on clouds of which nothing has been computed yet.
+  Outcome outcome_with(int jobs) const {
+    Outcome outcome;
+    on_threads(jobs, [&] { outcome = outcome_on(streets()); });
+    return outcome;
+  }
 };
 
 TEST_P(ContractOfBits, SameOnOneThreadAndOnFour) {
-  const Outcome alone = outcome_on(streets());
+  const Outcome alone = outcome_with(1);
   EXPECT_EQ(alone.stage_error, "");
   EXPECT_FALSE(alone.numbers.empty());
-  EXPECT_EQ(outcome_on(streets()).bits(), alone.bits()) << "twice on one thread";
+  EXPECT_EQ(outcome_with(1).bits(), alone.bits()) << "twice on one thread";
+  EXPECT_EQ(outcome_with(4).bits(), alone.bits()) << "on four threads";
   const CloudPair shared = streets();
   std::array<Outcome, 4> together;
   std::vector<std::thread> threads;

@@ -10,7 +10,9 @@
 #include "framework/base/error.hpp"
 #include "framework/pipeline/pipeline.hpp"
 #include "framework/stage/ground_extractor.hpp"
+#include "framework/stage/hypotheses.hpp"
 #include "framework/stage/icp.hpp"
+#include "framework/stage/motion.hpp"
 #include "framework/stage/pose_search.hpp"
 #include "framework/stage/preprocessor.hpp"
 #include "framework/stage/volume_scorer.hpp"
@@ -31,9 +33,73 @@ void add_points(Numbers& numbers, const Points& cloud) {
   }
 }
 
+/// The points and the channels.
+void add_cloud(Numbers& numbers, const PointCloud& cloud) {
+  numbers.push_back(static_cast<double>(cloud.size()));
+  add_points(numbers, cloud.points);
+  for (const Channel& channel : cloud.channels) {
+    for (std::size_t i = 0; i < cloud.size(); ++i) numbers.push_back(channel.value(i));
+  }
+}
+
 void add_pose(Numbers& numbers, const RigidTransform& pose) {
   for (int i = 0; i < 9; ++i) numbers.push_back(pose.rotation(i / 3, i % 3));
   for (int i = 0; i < 3; ++i) numbers.push_back(pose.translation(i));
+}
+
+void add_matrix(Numbers& numbers, const Matrix6d& matrix) {
+  for (int i = 0; i < 36; ++i) numbers.push_back(matrix(i / 6, i % 6));
+}
+
+void add_plane(Numbers& numbers, const Plane& plane) {
+  for (int i = 0; i < 3; ++i) numbers.push_back(plane.normal(i));
+  numbers.push_back(plane.offset_m);
+}
+
+void add_ground(Numbers& numbers, const GroundSplit& ground) {
+  add_plane(numbers, ground.plane);
+  add_cloud(numbers, ground.non_ground->with_channels());
+}
+
+void add_covariance(Numbers& numbers, const PoseCovariance& covariance) {
+  add_matrix(numbers, covariance.matrix);
+  for (const Observability word : covariance.dofs) numbers.push_back(static_cast<double>(word));
+}
+
+/// Those that framework declares; an extra that is declared elsewhere is not compared.
+void add_extras(Numbers& numbers, const Extras& extras) {
+  if (const auto* const hypotheses = extras.find(kHypotheses)) {
+    numbers.push_back(static_cast<double>(hypotheses->size()));
+    for (const Hypothesis& hypothesis : *hypotheses) {
+      add_pose(numbers, hypothesis.T_target_source);
+      numbers.push_back(hypothesis.score);
+    }
+  }
+  if (const Twist* const motion = extras.find(kMotion)) {
+    const Vector6d velocity = vector_of(*motion);
+    numbers.insert(numbers.end(), velocity.data(), velocity.data() + velocity.size());
+  }
+  if (const Matrix6d* const covariance = extras.find(kMotionCovariance)) {
+    add_matrix(numbers, *covariance);
+  }
+}
+
+void add_estimate(Numbers& numbers, const Estimate& estimate) {
+  add_pose(numbers, estimate.T_target_source);
+  for (const auto& [name, value] : estimate.diagnostics) numbers.push_back(value);
+  // Which parts it has, so that none is taken for another.
+  for (const bool has_part : {estimate.rejection.has_value(), estimate.information.has_value(),
+                              estimate.covariance.has_value(), estimate.target_ground != nullptr,
+                              estimate.source_ground != nullptr}) {
+    numbers.push_back(has_part ? 1.0 : 0.0);
+  }
+  if (estimate.information) add_matrix(numbers, *estimate.information);
+  if (estimate.covariance) add_covariance(numbers, *estimate.covariance);
+  if (estimate.target_ground) add_ground(numbers, *estimate.target_ground);
+  if (estimate.source_ground) add_ground(numbers, *estimate.source_ground);
+  add_extras(numbers, estimate.extras);
+  add_cloud(numbers, estimate.target->with_channels());
+  add_cloud(numbers, estimate.source->with_channels());
 }
 
 RigidTransform start() {
@@ -43,16 +109,15 @@ RigidTransform start() {
 
 Numbers preprocessed(const std::string& stage_json, const CloudPair& clouds) {
   Numbers numbers;
-  add_points(numbers,
-             stage<Preprocessor>(stage_json)->apply(clouds.source->with_channels()).points);
+  add_cloud(numbers, stage<Preprocessor>(stage_json)->apply(clouds.source->with_channels()));
   return numbers;
 }
 
 Numbers extracted(const std::string& stage_json, const CloudPair& clouds) {
   Rng rng = test_rng();
   const Ground ground = stage<GroundExtractor>(stage_json)->extract(clouds.source->points(), rng);
-  Numbers numbers = {ground.plane.normal.x(), ground.plane.normal.y(), ground.plane.normal.z(),
-                     ground.plane.offset_m};
+  Numbers numbers;
+  add_plane(numbers, ground.plane);
   numbers.insert(numbers.end(), ground.is_ground.begin(), ground.is_ground.end());
   return numbers;
 }
@@ -64,7 +129,7 @@ Numbers registered(const std::string& stage_json, const CloudPair& clouds) {
                      static_cast<double>(result.correspondences),
                      static_cast<double>(result.iterations), result.converged ? 1.0 : 0.0};
   add_pose(numbers, result.T_target_source);
-  for (int i = 0; i < 36; ++i) numbers.push_back(result.information(i / 6, i % 6));
+  add_matrix(numbers, result.information);
   return numbers;
 }
 
@@ -133,9 +198,7 @@ Numbers advanced(const std::string& stage_json, const CloudPair& clouds) {
   const PipelineResult result = run_pipeline(pipeline, clouds.target, clouds.source, start(), key);
   if (!result.failure.empty()) throw StageError(result.failure);
   Numbers numbers;
-  add_pose(numbers, result.estimate.T_target_source);
-  for (const auto& [name, value] : result.estimate.diagnostics) numbers.push_back(value);
-  numbers.push_back(result.estimate.rejection ? 1.0 : 0.0);
+  add_estimate(numbers, result.estimate);
   return numbers;
 }
 

@@ -24,6 +24,8 @@ TEST(Pairs, MedianWithFailures) {
   EXPECT_EQ(median_with_failures({4.0, 1.0, 2.0, kBootstrapInf}), 3.0);
   EXPECT_EQ(median_with_failures({1.0, kBootstrapInf}), kBootstrapInf);
   EXPECT_EQ(median_with_failures({kBootstrapInf, kBootstrapInf}), kBootstrapInf);
+  EXPECT_EQ(median_with_failures({-kBootstrapInf, -kBootstrapInf}), -kBootstrapInf);
+  EXPECT_EQ(median_with_failures({kBootstrapInf, -kBootstrapInf}), 0.0);
   EXPECT_THROW(median_with_failures({}), std::logic_error);
 }
 
@@ -115,6 +117,31 @@ TEST(Bootstrap, EndsMayBeInfinite) {
       {{kBootstrapInf, kBootstrapInf}, {kBootstrapInf, kBootstrapInf}}, {0, 1});
   EXPECT_EQ(none.low, 0.0);
   EXPECT_EQ(none.high, 0.0);
+}
+
+TEST(Bootstrap, FailuresOfEitherSideInHalfOfThePairsAreNoDifference) {
+  // Only the base failed in the even pairs, only the variant in the odd ones.
+  constexpr std::size_t kCount = 40;
+  Pairs pairs;
+  Clusters scenes;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    pairs.base.push_back(i % 2 == 0 ? kBootstrapInf : 1.0);
+    pairs.variant.push_back(i % 2 == 0 ? 1.0 : kBootstrapInf);
+    scenes.push_back(i);
+  }
+  const std::vector<double> paired = differences(pairs);
+  EXPECT_EQ(median_with_failures(paired), 0.0);
+  const Pairs against_zero = {std::vector<double>(kCount, 0.0), paired};
+  for (const Clusters& clusters : {scenes, Clusters(kCount, 0)}) {
+    for (const Pairs& drawn : {pairs, against_zero}) {
+      const Interval interval = median_difference_interval(drawn, clusters);
+      EXPECT_EQ(interval.low, -kBootstrapInf);
+      EXPECT_EQ(interval.high, kBootstrapInf);
+    }
+  }
+  const std::vector<double> ranks = signed_ranks(paired);
+  EXPECT_EQ(wilcoxon_p(ranks), 1.0);
+  EXPECT_EQ(sign_flip_p(cluster_sums(ranks, scenes)), 1.0);
 }
 
 TEST(Bootstrap, OfOnePairIsItsDifference) {

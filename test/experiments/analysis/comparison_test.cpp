@@ -184,6 +184,30 @@ TEST(Comparison, FailuresAreInfiniteNotDropped) {
   EXPECT_TRUE(holds_by_scene(all.success));
 }
 
+TEST(Comparison, FailuresOfEitherSideInHalfOfThePairsAreNoDifference) {
+  Rng rng = test_rng();
+  auto records = random_records(rng, {12, 4, 1.0, 0.0, true});
+  for (TrialRecord& record : records) {
+    // Only the base fails in even trials, only the other in odd ones.
+    const bool is_even = record.id.trial % 2 == 0;
+    if (is_even != (record.id.variant == "base")) continue;
+    record = test::unfinished(record.id, Status::failed, "no ground");
+  }
+  const Comparison all = compared(records).back();
+  EXPECT_EQ(all.only_base, all.only_variant);
+  EXPECT_EQ(all.success.p, 1.0);
+  for (const ErrorComparison& error : {all.rotation_deg, all.translation_m}) {
+    EXPECT_EQ(error.difference, 0.0);
+    EXPECT_EQ(error.paired_difference, 0.0);
+    for (const Interval& interval : {*error.interval, *error.paired_interval}) {
+      EXPECT_LE(interval.low, 0.0);
+      EXPECT_GE(interval.high, 0.0);
+    }
+    EXPECT_EQ(error.test.p, 1.0);
+    EXPECT_EQ(error.test.p_by_scene, 1.0);
+  }
+}
+
 TEST(Comparison, WithoutTruthErrorsAreFromTheOwnConsensus) {
   Rng rng = test_rng();
   const auto records = random_records(rng, {20, 6, 3.0, 0.0, false});

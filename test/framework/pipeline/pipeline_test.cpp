@@ -77,6 +77,36 @@ TEST(RunPipeline, ACovarianceIsOfThePoseThatItWasEstimatedFor) {
   EXPECT_TRUE(run({judge("a", 4.0), move("b"), judge("c", 4.0)}).estimate.covariance);
 }
 
+/// Rejects the pose for `reason`, if it has one.
+class Rejecting final : public Step {
+ public:
+  explicit Rejecting(std::string reason) : reason_(std::move(reason)) {}
+  Estimate advance(Estimate estimate, Rng&) const override {
+    EXPECT_FALSE(estimate.rejection) << "A step alone does not see those before.";
+    if (!reason_.empty()) estimate.rejection = reason_;
+    return estimate;
+  }
+
+ private:
+  std::string reason_;
+};
+
+NamedStep reject(const std::string& name, const std::string& reason) {
+  const std::shared_ptr<const Step> step = std::make_shared<const Rejecting>(reason);
+  return {name, params::Slot<Step>(params::BuiltStage{step, "reject", "{}"})};
+}
+
+TEST(RunPipeline, KeepsTheReasonsOfAllStepsThatReject) {
+  EXPECT_EQ(run({reject("a", "")}).estimate.rejection, std::nullopt);
+  EXPECT_EQ(run({reject("a", ""), reject("b", "steep")}).estimate.rejection, "b: steep");
+  EXPECT_EQ(run({reject("a", "far"), reject("b", "")}).estimate.rejection, "a: far");
+  EXPECT_EQ(run({reject("a", "far"), reject("b", "steep")}).estimate.rejection, "a: far; b: steep");
+  EXPECT_EQ(run({reject("a", "far"), reject("b", ""), reject("c", "steep"), reject("d", "loose")})
+                .estimate.rejection,
+            "a: far; c: steep; d: loose");
+  EXPECT_EQ(run({reject("a", "far"), move("b", true)}).estimate.rejection, "a: far");
+}
+
 TEST(RunPipeline, StepsDrawFromStreamsOfTheirOwn) {
   const double a = run({move("a"), move("b")}).records[0].diagnostics[0].second;
   const double b = run({move("a"), move("b")}).records[1].diagnostics[0].second;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "framework/base/angles.hpp"
@@ -38,9 +39,21 @@ TEST(LayeredMap, FindsYawAndShiftOverTheWholeCircle) {
 
 TEST(LayeredMap, PeaksAreApartAndBestFirst) {
   Rng rng = test::test_rng(2);
-  const LayeredMap view(levelled_street(rng, 3, 20000), {});
+  const LayeredMapOptions options;
+  const LayeredMap view(levelled_street(rng, 3, 20000), options);
   const std::vector<MapPeak> peaks = view.match(levelled_street(rng, 3, 12000), 10);
   ASSERT_EQ(peaks.size(), 10U);
+  for (std::size_t i = 0; i < peaks.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const MapPeak &a = peaks[i], &b = peaks[k];
+      const double turn_rad = std::abs(std::remainder(a.yaw_rad - b.yaw_rad, 2.0 * kPi));
+      const double shift_m = std::max(std::abs(a.x_m - b.x_m), std::abs(a.y_m - b.y_m));
+      // Yaws are whole steps and shifts whole cells: apart is at least one more.
+      EXPECT_TRUE(turn_rad > rad_from_deg(3.5 * options.yaw_step_deg) ||
+                  shift_m > 2.5 * options.cell_m)
+          << k << " and " << i;
+    }
+  }
   for (std::size_t i = 1; i < peaks.size(); ++i) {
     EXPECT_LE(peaks[i].score, peaks[i - 1].score);
     EXPECT_GE(peaks[i].score, 0.0);

@@ -95,7 +95,9 @@ TEST(MutualMatches, ReachNoFartherThanTheSensorsAreApart) {
   const PointFeatures source = features_of(test::random_street(rng, 4, 3000, 0.01));
   MatchOptions options;
   options.reach_m = 1.0;
-  for (const FeatureMatch& match : mutual_matches(target, source, options)) {
+  const auto matches = mutual_matches(target, source, options);
+  ASSERT_FALSE(matches.empty());
+  for (const FeatureMatch& match : matches) {
     EXPECT_NEAR(target.points[match.target].norm(), source.points[match.source].norm(), 1.0001);
   }
 }

@@ -137,7 +137,8 @@ TEST(JointRegistration, ASensorThatTheVelocityHardlyMovesNeedsNoLead) {
   for (const RigEstimate& one : rig.estimates) EXPECT_FALSE(one.estimate.rejection);
 }
 
-TEST(JointRegistration, MovesTheCloudsToOneTime) {
+// joint_deskew_test.cpp says where the points are then.
+TEST(JointRegistration, MovesOneTargetForAllSensorsAndKeepsTheTimes) {
   DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
   const auto before = rig.estimates.front().estimate;
   adjust_jointly(rig.estimates);

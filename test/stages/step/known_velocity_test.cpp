@@ -7,6 +7,7 @@
 #include "framework/params/values.hpp"
 #include "framework/stage/given_motions.hpp"
 #include "framework/stage/motion.hpp"
+#include "test/support/driven_scan.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"
 
@@ -28,16 +29,12 @@ Twist some_velocity() { return {{0.02, -0.05, 0.4}, {17.0, -0.6, 0.2}}; }
 /// the sensor's frame at the time 0.05 s.
 std::shared_ptr<const Cloud> driven_by(const Points& world, const Twist& velocity,
                                        const RigidTransform& T_body_sensor) {
-  PointCloud cloud;
   std::vector<double> times;
   for (std::size_t i = 0; i < world.size(); ++i) {
     times.push_back(0.1 * static_cast<double>(i) / static_cast<double>(world.size() - 1));
-    const RigidTransform T_start_now =
-        T_body_sensor.inverse() * motion_over(velocity, times.back() - 0.05) * T_body_sensor;
-    cloud.points.push_back((T_start_now.inverse() * world[i].cast<double>()).cast<float>());
   }
-  cloud.channels = {make_channel(kTime, times)};
-  return std::make_shared<const Cloud>(std::move(cloud), StreamKey(1));
+  return std::make_shared<const Cloud>(
+      test::driven_scan(world, times, 0.05, velocity, T_body_sensor), StreamKey(1));
 }
 
 /// A rig on a body with `velocity`, which has its reference at `T_body_reference`.

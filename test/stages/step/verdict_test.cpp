@@ -2,6 +2,7 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
+#include "framework/pipeline/pipeline.hpp"
 #include "framework/stage/hypotheses.hpp"
 #include "framework/stage/step.hpp"
 #include "test/support/random_geometry.hpp"
@@ -106,13 +107,27 @@ TEST(Verdict, RejectsAPoseWithARivalThatScoresAsWell) {
   EXPECT_NE(rejection->find("margin"), std::string::npos) << *rejection;
 }
 
-TEST(Verdict, KeepsTheReasonsOfStepsBefore) {
+TEST(Verdict, AddsItsReasonsToThoseOfStepsBefore) {
   Rng rng = test::test_rng(7);
-  Estimate estimate = street_estimate(rng, 6);
-  estimate.rejection = "something before";
-  const Estimate judged = verdict()->advance(estimate, rng);
-  ASSERT_TRUE(judged.rejection);
-  EXPECT_EQ(judged.rejection->rfind("something before", 0), 0U);
+  const Estimate right = street_estimate(rng, 6);
+  // No overlap is enough for the first step.
+  const Pipeline pipeline = {
+      {"strict", test::stage<Step>(R"({"step": "verdict", "min_overlap_ratio": 1})")},
+      {"default", verdict()}};
+  const auto rejection_at = [&](const RigidTransform& T) {
+    const PipelineResult result =
+        run_pipeline(pipeline, right.target, right.source, T, StreamKey(5));
+    return result.estimate.rejection.value_or("");
+  };
+  const std::string strict = "strict: the overlap with agreeing surfaces is ";
+  const std::string accepted = rejection_at(right.T_target_source);
+  EXPECT_EQ(accepted.rfind(strict, 0), 0U) << accepted;
+  EXPECT_EQ(accepted.find("default"), std::string::npos) << accepted;
+  Vector6d offset = Vector6d::Zero();
+  offset(static_cast<Eigen::Index>(Dof::x)) = 1.0;
+  const std::string rejected = rejection_at(moved(right.T_target_source, offset));
+  EXPECT_EQ(rejected.rfind(strict, 0), 0U) << rejected;
+  EXPECT_NE(rejected.find("; default: the "), std::string::npos) << rejected;
 }
 
 }  // namespace
