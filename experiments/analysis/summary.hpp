@@ -192,7 +192,7 @@ void compare_with_base(const std::string& base, Summary& summary, const RecordGr
                        const PoseBounds& bounds);
 
 /// The variants whose success with a sensor is below that of the best: significantly by McNemar's
-/// test over the trials that both have (p < 0.05), or by more than a quarter of the trials. Their
+/// test over the trials that both have (p < 0.05), or by more than 5 percentage points. Their
 /// errors are those of easier trials, so tables do not show them as the best. `groups` are the
 /// records of the rows.
 std::set<VariantSensor> below_best(const Summary& summary, const RecordGroups& groups,

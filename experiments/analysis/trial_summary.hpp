@@ -23,7 +23,7 @@ struct Share {
   int count = 0;
   int trials = 0;
   double ratio = 0.0;                     ///< 0 if there are no trials.
-  std::optional<Interval> interval = {};  ///< Over scenes, see `share_of`.
+  std::optional<Interval> interval = {};  ///< Over scenes, see wilson_interval.
 };
 
 /// Trials by scene: all, and those that are counted.

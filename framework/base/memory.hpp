@@ -10,8 +10,8 @@ namespace croon {
 /// The limit of the address space of this process (RLIMIT_AS), infinity if there is none.
 double address_space_bytes();
 
-/// The bytes of memory that this process may use: those of the machine, or fewer if the process has
-/// a limit.
+/// The bytes of memory that this process may use: those of the machine, or fewer if its address
+/// space has a limit (ulimit -v). The limit of a container or of a batch job is not known here.
 double memory_limit_bytes();
 
 /// Throws InputError at `at` (a file and a position in it) if `bytes`, an estimate, are more than

@@ -4,8 +4,9 @@
 
 namespace croon {
 
-// All of them throw std::logic_error on an empty sample. Sums are compensated (Neumaier 1974), so
-// neither the number of values nor one common large offset costs digits.
+// They throw std::logic_error on an empty sample unless they say what its value is. Sums are
+// compensated (Neumaier 1974), so neither the number of values nor one common large offset costs
+// digits.
 
 /// The sum, compensated (Neumaier 1974); 0 for no values.
 double compensated_sum(const std::vector<double>& values);

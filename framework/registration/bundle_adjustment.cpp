@@ -143,7 +143,8 @@ const params::Table<BundleOptions>& bundle_table() {
                         "The most iterations of each pass."),
         params::integer(
             "min_planes", &O::min_planes, {1, 1000000},
-            "A sensor that shares fewer planes with others is not adjusted: it keeps its start "
+            "A sensor that shares fewer planes (counted in each of the two grids) with others is "
+            "not adjusted: it keeps its start "
             "if a step before has given it a covariance, and fails if not."),
         params::number("covariance_scale", &O::covariance_scale, {0.0, 1e6},
                        "Multiplies the standard deviations; found on scenes with truth."),

@@ -76,7 +76,8 @@ std::string words_of(const std::vector<HeldDirection>& directions) {
     const double turn = direction.motion.head<3>().norm();
     const double shift = direction.motion.tail<3>().norm();
     for (int i = 0; i < 6; ++i) {
-      // A turn counts if it moves the sensor's view by a tenth of what the direction moves.
+      // Turns are compared with turns and shifts with shifts. Below 0.02 rad and 0.1 m for a unit
+      // of the direction all are small.
       const double whole = i < 3 ? std::max(turn, 0.02) : std::max(shift, 0.1);
       auto& share = shares[static_cast<std::size_t>(i)];
       share = std::max(share, std::abs(direction.motion(i)) / whole);

@@ -10,12 +10,11 @@ struct EvidenceOptions {
   double max_distance_m = 0.5;        ///< To the nearest point of the other cloud.
   double max_plane_distance_m = 0.1;  ///< To the plane through it.
   double max_normal_angle_deg = 30.0;
-  double range_margin_m =
-      0.4;  ///< Ranges that differ by less, and by less than `range_ratio`, agree.
-  double range_ratio = 0.02;
+  double range_margin_m = 0.4;  ///< Ranges agree that differ by less than this,
+  double range_ratio = 0.02;    ///< or by less than this share of them.
 };
 
-/// Shares of the points of one cloud's sample, as the other sensor sees them at a pose.
+/// Numbers of points of one cloud's sample, as the other sensor sees them at a pose.
 struct OneWayEvidence {
   int points = 0;    ///< Of the sample.
   int agree = 0;     ///< On a surface of the other cloud, with its normal.
@@ -34,7 +33,8 @@ struct PoseEvidence {
   double overlap_ratio() const;
   /// Points in free space over visible points, both ways; 0 if none is visible.
   double violation_ratio() const;
-  /// What hypotheses are compared by.
+  /// What hypotheses are compared by, from -4 to 2: the sum over both ways of
+  /// `(2 agree - disagree - 4 violate) / (2 points)`.
   double score() const;
 };
 

@@ -23,7 +23,7 @@ struct GroundCandidateOptions {
 /// A plane that may be the ground, its normal towards the sensor, and how plausible it is.
 struct GroundCandidate {
   Plane plane;
-  double score = 0.0;  ///< Share of the points on it, less what lies behind it.
+  double score = 0.0;  ///< Share of the points on it, less twice that behind it.
 };
 
 /// The planes of `thinned` (the sensor's frame; thinned evenly, so that a number of points is an

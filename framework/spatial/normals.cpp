@@ -10,7 +10,7 @@
 namespace croon {
 namespace {
 
-/// Mean and covariance of the neighbours, relative to `centre` so that no digits are lost far from
+/// The covariance of the neighbours, summed from `centre` on so that no digits are lost far from
 /// the sensor.
 Eigen::Matrix3d covariance(const Points& points, const Eigen::Vector3f& centre,
                            const std::vector<Neighbour>& neighbours) {

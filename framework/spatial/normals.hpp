@@ -27,8 +27,8 @@ class Normals {
   /// `points` and `tree` (over the same points) must outlive this.
   Normals(const Points& points, const KdTree& tree, int neighbours);
 
-  /// The shape around point `index`. The normal is zero if fewer than three of the neighbours are
-  /// distinct.
+  /// The shape around point `index`. The normal is zero if the neighbours are fewer than three, or
+  /// lie on one line.
   LocalShape at(int index) const;
 
  private:

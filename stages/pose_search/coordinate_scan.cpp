@@ -130,8 +130,8 @@ class Scan {
   PoseMinimum best_;
 };
 
-/// Scans one degree of freedom after the other. With its defaults this is the volume search of the
-/// authors' code: x, then y, each to the plus side while the cost falls, then to the minus side.
+/// Scans one degree of freedom after the other, as the volume search of the authors' code does: x,
+/// then y, each to the plus side while the cost falls, then to the minus side.
 class CoordinateScan final : public PoseSearch {
  public:
   explicit CoordinateScan(Params params) : params_(std::move(params)) {}
@@ -155,8 +155,8 @@ class CoordinateScan final : public PoseSearch {
 StageEntry coordinate_scan() {
   return stage_entry<CoordinateScan>(
       "coordinate_scan", "Steps along one degree of freedom after the other while the cost falls.",
-      "CROON (arXiv 2203.03182), refinement; steps and limits are those of its public code "
-      "(lidar2lidar, commit c0e1e2b)",
+      "CROON (arXiv 2203.03182), refinement; the scheme is that of its public code (lidar2lidar, "
+      "commit c0e1e2b), the default steps and limits are ours",
       table());
 }
 

@@ -75,9 +75,8 @@ class Binary final : public YawSearch {
 StageEntry binary() {
   return stage_entry<Binary>(
       "binary", "Evaluates a grid of yaws, then ever finer and narrower grids around the best yaw.",
-      "CROON (arXiv 2203.03182), rough calibration; the grids are those of its public code "
-      "(lidar2lidar, "
-      "commit c0e1e2b)",
+      "CROON (arXiv 2203.03182), rough calibration; the scheme is that of its public code "
+      "(lidar2lidar, commit c0e1e2b), the default range and levels are ours",
       table());
 }
 
