@@ -5,6 +5,7 @@
 #include "experiments/report/run_text.hpp"
 #include "experiments/run/pipeline_tree.hpp"
 #include "framework/base/text.hpp"
+#include "framework/base/whole_file.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -47,11 +48,17 @@ int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostr
       complaints.push_back(complaint);
     }
   }
+  std::string picture;
+  try {
+    if (options.png) picture = draw_picture(run, results.summary, folder.file(kPicture));
+  } catch (const UnavailableFile& error) {
+    complaints.push_back(error.faults().front().line() + "; the picture is not drawn");
+  }
   for (const std::string& complaint : complaints)
     progress_out << "croon: " << printable(complaint) << "\n";
   out << result_text(results, options.colours) << "Results are in " << printable(run.out.string())
-      << "\n";
-  if (options.png) out << draw_picture(run, results.summary, folder.file(kPicture));
+      << "\n"
+      << picture;
   return complaints.empty() && !has_failed_trials(results) ? 0 : 3;
 }
 

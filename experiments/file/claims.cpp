@@ -9,6 +9,7 @@
 #include "experiments/file/statistics.hpp"
 #include "framework/params/choice.hpp"
 #include "framework/params/group.hpp"
+#include "framework/params/values.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -237,7 +238,13 @@ class ClaimExpander {
     if (band.rule == BandRule::around_zero) {
       return {-band.half_width[column], band.half_width[column]};
     }
-    if (!kStatistics[statistic_index(claim.statistic)].is_signed) return {0.0, claim.value};
+    if (!kStatistics[statistic_index(claim.statistic)].is_signed) {
+      if (claim.value < 0.0) {
+        at.member(claim.statistic)
+            .fault("expected numbers of at least 0, found " + params::value_json(claim.value));
+      }
+      return {0.0, claim.value};
+    }
     const std::vector<double>& stds = values.by_statistic[statistic_index("std")];
     if (claim.statistic != "mean" || stds.empty() || band.samples == 0) {
       at.member(claim.statistic)
@@ -247,6 +254,9 @@ class ClaimExpander {
       return claim.band;
     }
     const double half_width = half_width_of_mean(claim.value, stds[column], band);
+    if (!std::isfinite(half_width)) {
+      at.member(claim.statistic).fault("expected numbers whose band is finite");
+    }
     return {-half_width, half_width};
   }
 
@@ -309,6 +319,10 @@ std::vector<Claim> read_claims(const Node& node) {
     const std::vector<Claim> expanded = ClaimExpander(keys, element).expand();
     claims.insert(claims.end(), expanded.begin(), expanded.end());
   });
+  if (claims.size() > kMostClaims) {
+    node.fault("expected at most " + std::to_string(kMostClaims) + " claims, found " +
+               std::to_string(claims.size()) + " with all values of tables");
+  }
   return claims;
 }
 

@@ -56,10 +56,13 @@ Image drawn(const Experiment& experiment, const Scene& scene, const std::vector<
                      {"before: the starts", "after: the results"}, sensors, kView.pixel_m);
 }
 
-/// The points of `scan`; none if it cannot be read, which is the reason of its failed trials.
+/// The points of `scan`; none if they are damaged, which is the reason of its failed trials. Throws
+/// UnavailableFile.
 Points points_of(const SensorScan& scan) {
   try {
     return scan.load().points;
+  } catch (const UnavailableFile&) {
+    throw;
   } catch (const InputError&) {
     return {};
   }
@@ -121,6 +124,8 @@ std::string draw_before_after(const Experiment& experiment, const std::vector<Sc
     std::optional<Image> image;
     try {
       image = drawn(experiment, scene, poses);
+    } catch (const UnavailableFile&) {
+      throw;
     } catch (const InputError&) {
       continue;  // Of a group, the poses may be those of other scenes, and this one's clouds
                  // damaged.
@@ -136,9 +141,16 @@ std::vector<std::string> write_fused_clouds(const Experiment& experiment,
                                             const Summary& summary, const fs::path& folder) {
   std::vector<std::string> complaints;
   for (const Scene& scene : shown_scenes(scenes)) {
-    const Points reference = points_of(scene.reference);
+    Points reference;
     std::vector<Points> points;
-    for (const SensorScan& scan : scene.sensors) points.push_back(points_of(scan));
+    try {
+      reference = points_of(scene.reference);
+      for (const SensorScan& scan : scene.sensors) points.push_back(points_of(scan));
+    } catch (const UnavailableFile& error) {
+      complaints.push_back(error.faults().front().line() + "; the clouds of scene " + scene.name +
+                           " are not written");
+      continue;
+    }
     for (const Variant& variant : experiment.variants) {
       const std::vector<Pose> poses = agreed_poses(summary, variant, scene);
       std::vector<ColouredCloud> clouds = {{scene.reference.sensor, reference, {}}};

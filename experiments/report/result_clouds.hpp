@@ -16,7 +16,8 @@ namespace croon::experiments {
 /// Draws one scene from above as PNG: on the left each sensor's cloud at the start of its first
 /// trial, on the right at the agreed pose of the first variant. The scene is the first in which all
 /// sensors have a result. Returns its name, or "" if there is none; then no picture is
-/// written. Throws InputError if the file cannot be written or a cloud cannot be read.
+/// written. Throws InputError if the file cannot be written, and UnavailableFile if a cloud is not
+/// that of the run any more.
 std::string draw_before_after(const Experiment& experiment, const std::vector<Scene>& scenes,
                               const Summary& summary, const std::filesystem::path& path);
 

@@ -179,8 +179,9 @@ class BundleAdjustmentStep final : public RigStep {
             RigEstimate& one) const {
     const bool is_adjusted = result.planes[sensor] >= params_.min_planes;
     if (!is_adjusted && start.information.isZero(0.0)) {
-      one.failure = "only " + counted(static_cast<std::size_t>(result.planes[sensor]), "plane") +
-                    " are shared with another sensor";
+      one.failure = "it shares only " +
+                    counted(static_cast<std::size_t>(result.planes[sensor]), "plane") +
+                    " with other sensors";
       return;
     }
     Estimate& estimate = one.estimate;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "framework/stage/joint_neighbourhoods.hpp"
@@ -11,8 +12,11 @@ struct MeanMapEntropy {
   static constexpr NeighbourhoodMean kMean = NeighbourhoodMean::geometric;
 
   /// exp(h) of the entropy `h = 1/2 ln det(2 pi e C)` of a normal density with the covariance C.
-  static double volume_m3(const Eigen::Matrix3d& covariance, const NeighbourhoodOptions&) {
-    return std::sqrt((2.0 * M_PI * M_E * covariance).determinant());
+  static double volume_m3(const Eigen::Matrix3d& covariance, const NeighbourhoodOptions& options) {
+    constexpr double kOfVariance = 2.0 * M_PI * M_E;
+    // No variance is below that of the noise, but rounding may take the determinant below zero.
+    const double least = std::pow(kOfVariance * options.noise_m * options.noise_m, 3);
+    return std::sqrt(std::max((kOfVariance * covariance).determinant(), least));
   }
 };
 

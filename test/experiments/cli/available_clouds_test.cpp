@@ -102,8 +102,7 @@ class AvailableClouds : public testing::Test {
     std::string complaints;
   };
 
-  Answer run(const std::string& out) const {
-    RunOptions options;
+  Answer run(const std::string& out, RunOptions options = {}) const {
     options.experiment = folder_.path() / "x.json";
     options.out = folder_.path() / out;
     options.data = folder_.path();
@@ -160,6 +159,19 @@ TEST_F(AvailableClouds, ThatChangeDuringARunAreNotStored) {
   EXPECT_EQ(count_of(trials("out"), "\nagain,b,"), 0U);
   // The next run sees that the data are others.
   EXPECT_THROW(run("out"), InputError);
+}
+
+TEST_F(AvailableClouds, ThatChangeDuringARunAreNotFused) {
+  on_second_load() = [&] { write("b_left", 2.0F); };
+  RunOptions options;
+  options.clouds = true;
+  const Answer answer = run("out", options);
+  EXPECT_EQ(answer.code, 3);
+  EXPECT_NE(answer.complaints.find("croon: b_left.bin: is another file than at the start of the "
+                                   "run; the clouds of scene b are not written\n"),
+            std::string::npos)
+      << answer.complaints;
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/clouds/base/b.ply"));
 }
 
 TEST_F(AvailableClouds, ThatAreDamagedDuringARunAreNotStored) {

@@ -227,6 +227,8 @@ TEST(Claims, ATableShowsFaultsAtTheirPlaces) {
   const std::vector<std::pair<json, std::string>> cases = {
       {table_with("/values/front/std", json::array({1})),
        "/claims/0/values/front/std: expected one number for each of the 2 measures, found [1]"},
+      {table_with("/values/all/std", {0.03, -0.04}),
+       "/claims/0/values/all/std: expected numbers of at least 0, found -0.04"},
       {table_with("/values/front/stdd", {1, 2}),
        "/claims/0/values/front/stdd: unknown key \"stdd\"; did you mean \"std\"?"},
       {table_with("/measures", {"pitch", "yawn"}),

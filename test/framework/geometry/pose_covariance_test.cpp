@@ -58,6 +58,23 @@ TEST(PoseCovariance, OfAMeanOfManyFallsWithTheirNumber) {
   EXPECT_THROW(covariance_of_mean({}), std::logic_error);
 }
 
+TEST(PoseCovariance, IsBoundedByAnUnknownPose) {
+  Rng rng = test::test_rng(4);
+  for (int i = 0; i < 200; ++i) {
+    // A direction that nothing holds hides the others: none may come out as perfectly known.
+    const Vector6d direction = test::pose_vector(rng);
+    const Matrix6d known = random_covariance(rng).matrix;
+    const Matrix6d bounded = bounded_covariance(known + 1e18 * direction * direction.transpose());
+    EXPECT_TRUE(is_covariance(bounded));
+    for (int dof = 0; dof < 6; ++dof) {
+      EXPECT_LE(bounded(dof, dof), unknown_variances()(dof) * (1.0 + 1e-9));
+      EXPECT_GE(bounded(dof, dof), 1e-6 * unknown_variances()(dof));
+    }
+  }
+  const Matrix6d small = 1e-6 * Matrix6d::Identity();
+  EXPECT_LT((bounded_covariance(small) - small).norm(), 1e-5 * small.norm());
+}
+
 TEST(PoseCovariance, WordsHaveNames) {
   for (const Observability word : kObservabilities) {
     EXPECT_EQ(observability_of(name_of(word)), word);
