@@ -144,14 +144,15 @@ void draw_scene(const Scene& scene, const fs::path& dataset) {
 }
 
 std::vector<Scene> scenes_to_write(Experiment& experiment) {
-  std::vector<Scene> scenes = scenes_of(experiment, fs::path());
+  const fs::path data = data_root({});
+  std::vector<Scene> scenes = scenes_of(experiment, data);
   for (const Scene& scene : scenes) {
     if (scene.reference.file.empty()) continue;
     throw InputError(experiment.file, "/dataset/type",
                      "expected a dataset that is simulated, found \"" + experiment.dataset.name() +
                          "\", whose clouds are files already");
   }
-  resolve_starts(experiment, scenes, data_root({}));
+  resolve_starts(experiment, scenes, data);
   return scenes;
 }
 
