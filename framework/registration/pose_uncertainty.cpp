@@ -275,16 +275,6 @@ void judge_dofs(const Quadratic& all, double noise_m, const UncertaintyOptions& 
   }
 }
 
-/// Whatever the normals say, a degree of freedom is not held if its standard deviation is more than
-/// half of an unknown one's.
-void name_unknown_dofs(PoseCovariance& covariance) {
-  for (int i = 0; i < kDofCount; ++i) {
-    if (covariance.matrix(i, i) > 0.25 * unknown_variances()(i)) {
-      covariance.dofs.at(static_cast<std::size_t>(i)) = Observability::unobservable;
-    }
-  }
-}
-
 }  // namespace
 
 PoseCovariance pose_uncertainty(const Cloud& target, const Cloud& source,
@@ -309,7 +299,6 @@ PoseCovariance pose_uncertainty(const Cloud& target, const Cloud& source,
   covariance.matrix = symmetric<6>(matrix);
   judge_dofs(model.all(), model.noise_m(), options, covariance);
   covariance.matrix = bounded_covariance(covariance.matrix);
-  name_unknown_dofs(covariance);
   return covariance;
 }
 

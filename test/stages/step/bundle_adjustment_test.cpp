@@ -344,7 +344,7 @@ TEST(BundleAdjustment, TooFewPlanesAreAnErrorWithItsReason) {
     step->advance(estimate, rng);
     FAIL() << "no error";
   } catch (const StageError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("shared with another sensor"));
+    EXPECT_THAT(error.what(), HasSubstr("shares only 0 planes with other sensors"));
   }
 }
 
