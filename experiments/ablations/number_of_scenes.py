@@ -8,10 +8,10 @@ the median and the 95th percentile of the accepted poses of all sensors. The tab
   1. bundle_adjustment over the number, for each noise, with how many poses are accepted and right, and accepted and
      wrong; below, the exponent of n in the median, by least squares.
   2. with real_still, each way to join the scenes.
-  3. joint against pairs (comparison_by_dof.csv), for each noise: by how many times the median error of each other way is that of
-     bundle_adjustment, the least and the most of the 24 degrees of freedom of all sensors; in how many of the 24 the median of
-     the paired differences is above zero, so the other way is worse, and in how many below; and the least p of the
-     latter, over groups of scenes and without correction.
+  3. joint against pairs (comparison_by_dof.csv), for each noise: by how many times the median error of each other way
+     is that of bundle_adjustment, the least and the most of the 24 degrees of freedom of all sensors; in how many of
+     the 24 the median of the paired differences is above zero, so the other way is worse, and in how many below; and
+     the least p of the latter, over groups of scenes and without correction.
 """
 import math
 import os
