@@ -1,7 +1,10 @@
 #include "framework/recording/recording.hpp"
 
+#include <algorithm>
+
 #include "framework/base/error.hpp"
 #include "framework/io/point_cloud_file.hpp"
+#include "framework/io/text_scan.hpp"
 
 namespace croon {
 namespace {
@@ -67,6 +70,34 @@ SensorScan scan_in_file(const std::string& sensor, const fs::path& file) {
   scan.channels = check_point_cloud_file(file);
   scan.load = [file] { return read_point_cloud(file); };
   return scan;
+}
+
+void refuse_repeats(const std::vector<std::string>& names, const params::Node& node,
+                    const std::string& key) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto at = names.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::find(names.begin(), at, *at) == at) continue;
+    node.member(key).element(i).fault("expected each name once, found " + in_quotes(*at) +
+                                      " again");
+  }
+}
+
+std::vector<std::string> chosen_scenes(std::vector<std::string> names,
+                                       const std::vector<std::string>& chosen) {
+  if (chosen.empty()) return names;
+  std::vector<Fault> faults;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    if (std::find(names.begin(), names.end(), chosen[i]) != names.end()) continue;
+    faults.push_back({"", "/scenes/" + std::to_string(i),
+                      "expected the name of a scene of the recording, found " +
+                          in_quotes(chosen[i]) + name_hint(chosen[i], names)});
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+  const auto is_left_out = [&](const std::string& name) {
+    return std::find(chosen.begin(), chosen.end(), name) == chosen.end();
+  };
+  names.erase(std::remove_if(names.begin(), names.end(), is_left_out), names.end());
+  return names;
 }
 
 std::vector<Scene> with_file_errors(const std::function<std::vector<Scene>()>& read) {
