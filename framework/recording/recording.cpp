@@ -72,16 +72,6 @@ SensorScan scan_in_file(const std::string& sensor, const fs::path& file) {
   return scan;
 }
 
-void refuse_repeats(const std::vector<std::string>& names, const params::Node& node,
-                    const std::string& key) {
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto at = names.begin() + static_cast<std::ptrdiff_t>(i);
-    if (std::find(names.begin(), at, *at) == at) continue;
-    node.member(key).element(i).fault("expected each name once, found " + in_quotes(*at) +
-                                      " again");
-  }
-}
-
 std::vector<std::string> chosen_scenes(std::vector<std::string> names,
                                        const std::vector<std::string>& chosen) {
   if (chosen.empty()) return names;

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "framework/io/data_path.hpp"
-#include "framework/params/node.hpp"
 #include "framework/stage/dataset.hpp"
 #include "framework/stage/rig_files.hpp"
 
@@ -45,10 +44,6 @@ SensorScan scan_in_file(const std::string& sensor, const std::filesystem::path& 
 /// What the parameter `scenes` of a recording does.
 inline constexpr const char* kScenesDoc =
     "The names of the scenes that take part; an empty list is all of them.";
-
-/// Notes a fault for each of `names`, the list at `key` of `node`, that stands in it before.
-void refuse_repeats(const std::vector<std::string>& names, const params::Node& node,
-                    const std::string& key);
 
 /// Those of the scenes `names` that are in `chosen`, in the order of `names`; all if `chosen` is
 /// empty. Throws InputError, at the pointers of the parameter `scenes`, for names that are none.

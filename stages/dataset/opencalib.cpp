@@ -5,6 +5,7 @@
 #include "framework/io/data_path.hpp"
 #include "framework/io/opencalib_files.hpp"
 #include "framework/io/point_cloud_file.hpp"
+#include "framework/params/repeats.hpp"
 #include "framework/recording/recording.hpp"
 #include "framework/stage/dataset.hpp"
 #include "framework/stage/stage_entry.hpp"
@@ -31,7 +32,7 @@ params::Table<Params> make_table() {
                       "Symbolic links may lead out of the data root."),
   };
   return table.finish([](const Params& params, const params::Node& node) {
-    refuse_repeats(params.scenes, node, "scenes");
+    params::refuse_repeats(params.scenes, node, "scenes");
   });
 }
 

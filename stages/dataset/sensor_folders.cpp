@@ -4,6 +4,7 @@
 #include "framework/base/error.hpp"
 #include "framework/io/point_cloud_file.hpp"
 #include "framework/io/text_scan.hpp"
+#include "framework/params/repeats.hpp"
 #include "framework/recording/recording.hpp"
 #include "framework/stage/stage_entry.hpp"
 
@@ -22,8 +23,8 @@ struct Params {
 
 /// Notes a fault for each name that stands twice, and for a sensor that is the reference.
 void check_names(const Params& params, const params::Node& node) {
-  refuse_repeats(params.scenes, node, "scenes");
-  refuse_repeats(params.sensors, node, "sensors");
+  params::refuse_repeats(params.scenes, node, "scenes");
+  params::refuse_repeats(params.sensors, node, "sensors");
   for (std::size_t i = 0; i < params.sensors.size(); ++i) {
     if (params.sensors[i] != params.reference) continue;
     node.member("sensors").element(i).fault("expected another sensor than the reference, found " +

