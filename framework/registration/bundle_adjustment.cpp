@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "framework/registration/bundle_observability.hpp"
 #include "framework/registration/bundle_system.hpp"
 #include "framework/registration/bundle_uncertainty.hpp"
 
@@ -180,6 +181,7 @@ Bundle adjust_bundle(const std::vector<BundleScene>& scenes, const std::vector<I
   bundle.clock_offsets_s = system.state().clock_offsets_s;
   BundleUncertainty uncertainty = bundle_uncertainty(system, options);
   bundle.covariances = std::move(uncertainty.covariances);
+  bundle.plane_words = plane_words(system);
   bundle.clock_offset_stds_s = std::move(uncertainty.clock_offset_stds_s);
   const double planes = static_cast<double>(std::max<std::size_t>(system.number_of_planes(), 1));
   bundle.cost_per_plane = system.value_in(system.state()) / planes;

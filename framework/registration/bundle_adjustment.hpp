@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -49,6 +50,8 @@ struct Bundle {
   std::vector<int> planes;  ///< By sensor: how many planes it shares with another one.
   /// By sensor, see adjust_bundle; zero for the first and for those that took no part.
   std::vector<PoseCovariance> covariances;
+  /// By sensor: how well its planes alone hold each degree of freedom, see plane_words.
+  std::vector<std::array<Observability, 6>> plane_words;
   /// By sensor: what its times lack to those of the first, and the standard deviation of that; zero
   /// unless they are unknowns.
   std::vector<double> clock_offsets_s;
@@ -84,8 +87,9 @@ struct Bundle {
 /// its own, with the covariance that it has and the weight that it got. In a scene that moves, what
 /// the poses would move if the velocity were off by `velocity_error_mps` along itself is added:
 /// what drives by itself is elsewhere when the next sensor sees it, which leaving out one surface
-/// at a time does not show. A degree of freedom is weak if its standard deviation is more than a
-/// tenth of `start_std`, and unobservable if it is more than a half.
+/// at a time does not show. By its covariance a degree of freedom is weak if its standard deviation
+/// is more than a tenth of `start_std`, and unobservable if it is more than a half; by its planes
+/// as plane_words says.
 ///
 /// `start` is by sensor, T_common_sensor and what is known of it beside BundleOptions::start_std;
 /// the first of them is the identity.

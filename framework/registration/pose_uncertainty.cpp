@@ -12,6 +12,7 @@
 #include "framework/geometry/guarded_inverse.hpp"
 #include "framework/registration/direction_balance.hpp"
 #include "framework/registration/gauss_newton.hpp"
+#include "framework/registration/observability.hpp"
 #include "framework/spatial/deskew.hpp"
 #include "framework/spatial/evenly_spaced.hpp"
 
@@ -275,22 +276,17 @@ class ContactModel {
 };
 
 /// Gives each degree of freedom its word, and those that noise alone holds the variance of an
-/// unknown pose. A motion by one unit of a degree of freedom, with all others following such that
-/// the least information resists, is a column of the inverse; none follows farther than an unknown
-/// pose is off, or a plain would not hold roll either: a slide by kilometres makes up for it.
+/// unknown pose.
 void judge_dofs(const Quadratic& all, double noise_m, const UncertaintyOptions& options,
                 PoseCovariance& covariance) {
-  const Matrix6d inverse = guarded_inverse<6>(all.information + prior_information(noise_m));
-  for (int i = 0; i < kDofCount; ++i) {
-    const Vector6d motion = inverse.col(i) / inverse(i, i);
-    const double information = motion.dot(all.information * motion);
-    const double noise = motion.dot(all.noise * motion);
-    Observability& word = covariance.dofs.at(static_cast<std::size_t>(i));
-    word =
-        information > options.weak_ratio * noise ? Observability::determined : Observability::weak;
-    if (information > options.unobservable_ratio * noise) continue;
-    word = Observability::unobservable;
-    covariance.matrix += unknown_variances()(i) * (motion * motion.transpose());
+  const auto held = held_dofs(all.information, all.noise, prior_information(noise_m),
+                              options.weak_ratio, options.unobservable_ratio);
+  for (std::size_t dof = 0; dof < held.size(); ++dof) {
+    const auto& [word, motion] = held[dof];
+    covariance.dofs[dof] = word;
+    if (word != Observability::unobservable) continue;
+    covariance.matrix +=
+        unknown_variances()(static_cast<Eigen::Index>(dof)) * (motion * motion.transpose());
   }
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "framework/geometry/pose_covariance.hpp"
+#include "framework/registration/observability.hpp"
 #include "framework/spatial/cloud.hpp"
 
 namespace croon {
@@ -22,8 +23,8 @@ struct UncertaintyOptions {
   /// in rad/s, along them in m/s. If it is not zero, both clouds need the channel time, with a
   /// common zero.
   Matrix6d motion_covariance = Matrix6d::Zero();
-  double weak_ratio = 10.0;         ///< Information below so many times the noise is weak,
-  double unobservable_ratio = 2.0;  ///< below so many times unobservable.
+  double weak_ratio = kWeakRatio;
+  double unobservable_ratio = kUnobservableRatio;
 };
 
 /// The uncertainty of the pose `T_target_source` that Generalized-ICP has found, or that it would

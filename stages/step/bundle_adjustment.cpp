@@ -1,6 +1,7 @@
 #include "framework/registration/bundle_adjustment.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <utility>
@@ -36,12 +37,35 @@ const params::Table<Params>& table() {
   return table;
 }
 
+/// How well each degree of freedom is held.
+using Words = std::array<Observability, 6>;
+
+Words all_of(Observability word) {
+  Words words;
+  words.fill(word);
+  return words;
+}
+
+Observability better(Observability a, Observability b) { return std::min(a, b); }
+Observability worse(Observability a, Observability b) { return std::max(a, b); }
+
+/// Of each degree of freedom the one of the two words that `choose` takes.
+Words combined(Words words, const Words& others,
+               Observability (*choose)(Observability, Observability)) {
+  for (std::size_t dof = 0; dof < words.size(); ++dof) {
+    words[dof] = choose(words[dof], others[dof]);
+  }
+  return words;
+}
+
 /// The estimates of one reference that are adjusted together.
 struct RigBundle {
   std::vector<std::size_t> sensors;   ///< Of each estimate, as an index into `start`.
   std::vector<std::size_t> scene_of;  ///< Of each estimate, as an index into `scenes`.
   std::vector<BundleScene> scenes;
   std::vector<InformedPose> start;  ///< By sensor, first the reference.
+  /// By sensor: how well the scene that holds it best does, by the covariances of steps before.
+  std::vector<Words> start_words;
 };
 
 class BundleAdjustmentStep final : public RigStep {
@@ -95,10 +119,21 @@ class BundleAdjustmentStep final : public RigStep {
                 [](const SensorCloud& a, const SensorCloud& b) { return a.sensor < b.sensor; });
     }
     bundle.start.emplace_back();
+    bundle.start_words.push_back(all_of(Observability::determined));
     for (const std::vector<const Estimate*>& of_sensor : starts) {
       bundle.start.push_back(start_of(of_sensor));
+      bundle.start_words.push_back(start_words_of(of_sensor));
     }
     return bundle;
+  }
+
+  /// The best of each degree of freedom of a sensor's estimates, one per scene.
+  static Words start_words_of(const std::vector<const Estimate*>& estimates) {
+    Words words = all_of(Observability::unobservable);
+    for (const Estimate* const one : estimates) {
+      if (one->covariance) words = combined(words, one->covariance->dofs, better);
+    }
+    return words;
   }
 
   /// Adds a cloud with its times after `zero_s`, if the scene's velocity is not certain.
@@ -141,7 +176,7 @@ class BundleAdjustmentStep final : public RigStep {
       return adjust_rig(others);
     }
     for (std::size_t i = 0; i < estimates.size(); ++i) {
-      give(result, rig.start[rig.sensors[i]], rig.sensors[i], rig.scene_of[i], *estimates[i]);
+      give(result, rig, rig.sensors[i], rig.scene_of[i], *estimates[i]);
     }
   }
 
@@ -176,8 +211,9 @@ class BundleAdjustmentStep final : public RigStep {
     estimate.diagnostics = {{"moved_deg", rotation_deg}, {"moved_m", moved.translation_m}};
   }
 
-  void give(const Bundle& result, const InformedPose& start, std::size_t sensor, std::size_t scene,
+  void give(const Bundle& result, const RigBundle& rig, std::size_t sensor, std::size_t scene,
             RigEstimate& one) const {
+    const InformedPose& start = rig.start[sensor];
     const bool is_adjusted = result.planes[sensor] >= params_.min_planes;
     if (!is_adjusted && start.information.isZero(0.0)) {
       one.failure = "it shares only " +
@@ -191,6 +227,9 @@ class BundleAdjustmentStep final : public RigStep {
     estimate.information.reset();
     if (is_adjusted) {
       estimate.covariance = result.covariances[sensor];
+      // Planes or registrations must hold it, and well enough.
+      const Words held = combined(result.plane_words[sensor], rig.start_words[sensor], better);
+      estimate.covariance->dofs = combined(estimate.covariance->dofs, held, worse);
     } else {
       estimate.covariance->matrix = guarded_inverse<6>(start.information);
     }
@@ -221,7 +260,7 @@ StageEntry bundle_adjustment() {
       "bundle_adjustment",
       "Sees the whole rig: gives each sensor, in all scenes of a trial, the pose at which what all "
       "sensors see lies best on common planes. Rejected poses take no part.",
-      "Liu and Zhang, BALM, RA-L 2021; Liu, Yuan and Zhang, MLCC, T-IM 2022", table(), 4);
+      "Liu and Zhang, BALM, RA-L 2021; Liu, Yuan and Zhang, MLCC, T-IM 2022", table(), 5);
 }
 
 }  // namespace croon::stages::step

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
@@ -28,13 +29,15 @@ struct StandingRig {
   std::map<std::string, RigidTransform> truth;  ///< By sensor.
 };
 
-StandingRig standing_rig(std::uint64_t scenes) {
+/// With scenes of the kind `kind` alone, if it is given.
+StandingRig standing_rig(std::uint64_t scenes, std::optional<simulation::SceneKind> kind = {}) {
   StandingRig rig;
   Rng rng = test::test_rng();
   auto recipe = std::make_shared<simulation::Recipe>();
   recipe->rig = simulation::rigs().front().second;
   recipe->noise = simulation::real_still_noise();
   recipe->seed = 8201;
+  if (kind) recipe->mix = simulation::mix_of(*kind);
   for (std::uint64_t index = 0; index < scenes; ++index) {
     const simulation::SimulatedScene scene(recipe, index);
     const auto scan = [&](const std::string& sensor) {
@@ -121,6 +124,41 @@ TEST(BundleAdjustment, FlatGroundHoldsNeitherXNorYNorYaw) {
   }
   for (const Dof dof : {Dof::roll, Dof::pitch, Dof::z}) {
     EXPECT_EQ(found.covariance->dofs[static_cast<std::size_t>(dof)], Observability::determined);
+  }
+}
+
+TEST(BundleAdjustment, ManyScenesOfWhichNoneHoldsADirectionDoNotHoldIt) {
+  using simulation::SceneKind;
+  const std::map<SceneKind, std::vector<Dof>> not_held = {{SceneKind::empty, {Dof::x, Dof::yaw}},
+                                                          {SceneKind::corridor, {Dof::x}}};
+  for (const auto& [kind, dofs] : not_held) {
+    StandingRig rig = standing_rig(4, kind);
+    adjust_bundle(rig.estimates);
+    for (const RigEstimate& one : rig.estimates) {
+      ASSERT_TRUE(one.estimate.covariance) << one.failure;
+      for (const Dof dof : dofs) {
+        EXPECT_NE(one.estimate.covariance->dofs[static_cast<std::size_t>(dof)],
+                  Observability::determined)
+            << static_cast<int>(kind) << one.source;
+      }
+      EXPECT_EQ(one.estimate.covariance->dofs[static_cast<std::size_t>(Dof::z)],
+                Observability::determined);
+    }
+  }
+}
+
+TEST(BundleAdjustment, WhatARegistrationHoldsPlanesNeedNotHold) {
+  StandingRig rig = standing_rig(1, simulation::SceneKind::corridor);
+  for (RigEstimate& one : rig.estimates) {
+    one.estimate.T_target_source = rig.truth[one.source];
+    one.estimate.covariance = PoseCovariance();
+    one.estimate.covariance->matrix = 1e-8 * Matrix6d::Identity();
+  }
+  adjust_bundle(rig.estimates);
+  for (const RigEstimate& one : rig.estimates) {
+    for (const Observability word : one.estimate.covariance->dofs) {
+      EXPECT_EQ(word, Observability::determined);
+    }
   }
 }
 
