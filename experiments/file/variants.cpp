@@ -262,9 +262,9 @@ std::vector<Variant> make_variants(const ExperimentKeys& keys, const Node& root,
   if (keys.grid) pipelines = apply_grid(pipelines, *keys.grid, catalogue);
   std::vector<Variant> variants;
   for (const NamedPipeline& named : pipelines) {
-    if (named.name.size() > kMostNameBytes) {
-      root.fault("expected variants with names of at most " + std::to_string(kMostNameBytes) +
-                 " bytes, found one of " + std::to_string(named.name.size()));
+    const std::string too_long = why_too_long(named.name, kMostNameBytes, "variants with names");
+    if (!too_long.empty()) {
+      root.fault(too_long);
       break;
     }
     Variant variant{named.name, {}, "", named.poses};

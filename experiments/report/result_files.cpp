@@ -204,8 +204,7 @@ fs::path writable(const fs::path& path) {
     const fs::file_status status = fs::status(to_write, error);
     if (!fs::exists(status) || fs::is_regular_file(status)) continue;
     throw InputError(to_write.string(), "",
-                     std::string("expected a file or nothing, found ") +
-                         (fs::is_directory(status) ? "a folder" : "something that is not a file"));
+                     "expected a file or nothing, found " + found_instead_of_file(to_write));
   }
   refuse_files_of_others(path);
   return path;

@@ -9,6 +9,7 @@
 #include "experiments/store/store_header.hpp"
 #include "experiments/store/trial_rows.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -56,7 +57,7 @@ bool is_sqlite_file(const FileHeader& bytes) {
 void refuse_unless_file(const fs::path& path) {
   std::error_code error;
   // Before it is opened: opening a pipe would wait for a writer.
-  if (!fs::is_regular_file(path, error)) refuse_other_file(path, "something that is not a file");
+  if (!fs::is_regular_file(path, error)) refuse_other_file(path, found_instead_of_file(path));
 }
 
 bool has_bytes(const fs::path& path) {

@@ -16,6 +16,10 @@ class UnavailableFile : public InputError {
   using InputError::InputError;
 };
 
+/// What a message says that was found at `path`, if it is no file: none, a folder, a link that
+/// leads nowhere, or something else. Other links are followed.
+std::string found_instead_of_file(const std::filesystem::path& path);
+
 /// The bytes of the file `path`. Throws UnavailableFile if it cannot be read or is too large.
 std::string read_whole_file(const std::filesystem::path& path);
 

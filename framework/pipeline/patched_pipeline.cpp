@@ -43,9 +43,9 @@ std::string read_step_name(const Node& step) {
   std::string name;
   const Node member = step.member("name");
   if (!member.read(name)) return name;
-  if (name.size() > kMostNameBytes) {
-    member.fault("expected a name of at most " + std::to_string(kMostNameBytes) +
-                 " bytes, found one of " + std::to_string(name.size()));
+  const std::string too_long = why_too_long(name, kMostNameBytes);
+  if (!too_long.empty()) {
+    member.fault(too_long);
   } else if (!params::kKeyName.allows(name)) {
     member.expected(params::kKeyName.words);
   }

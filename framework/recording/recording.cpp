@@ -1,7 +1,11 @@
 #include "framework/recording/recording.hpp"
 
+#include <string_view>
+
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 #include "framework/io/point_cloud_file.hpp"
+#include "framework/io/text_scan.hpp"
 
 namespace croon {
 namespace {
@@ -75,6 +79,20 @@ std::vector<Scene> with_file_errors(const std::function<std::vector<Scene>()>& r
   } catch (const fs::filesystem_error& error) {
     throw InputError(error.path1().string(), "", error.code().message());
   }
+}
+
+std::string why_no_scan_name(const std::string& name, const std::string& what) {
+  constexpr std::size_t kMostBytes = kMostFileNameBytes - std::string_view(".pcd").size();
+  const std::string too_long = why_too_long(name, kMostBytes, what + " with a name");
+  if (!too_long.empty()) return too_long;
+  const bool is_fine = !name.empty() && printable(name) == name &&
+                       (std::string(kFormulaSigns) + ".").find(name.front()) == std::string::npos &&
+                       name.find('/') == std::string::npos;
+  if (is_fine) return "";
+  return "expected " + what +
+         " with a name in UTF-8 without slashes and control characters that does not begin with "
+         "= + - @ or a dot, found " +
+         in_quotes(name);
 }
 
 }  // namespace croon

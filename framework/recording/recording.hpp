@@ -44,4 +44,8 @@ SensorScan scan_in_file(const std::string& sensor, const std::filesystem::path& 
 /// Returns what `read` returns; a std::filesystem::filesystem_error becomes an InputError.
 std::vector<Scene> with_file_errors(const std::function<std::vector<Scene>()>& read);
 
+/// Why a scene or a sensor cannot be called `name`, for a message, as names stand in tables and are
+/// those of files; empty if it can. `what` is "a sensor".
+std::string why_no_scan_name(const std::string& name, const std::string& what);
+
 }  // namespace croon

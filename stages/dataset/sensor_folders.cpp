@@ -2,6 +2,7 @@
 #include <set>
 
 #include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
 #include "framework/io/point_cloud_file.hpp"
 #include "framework/io/text_scan.hpp"
 #include "framework/recording/recording.hpp"
@@ -72,7 +73,7 @@ Clouds clouds_in(const SceneLocation& folder) {
     refuse_dangling(entry);
     if (!entry.is_regular_file()) {
       throw InputError(entry.path().string(), "",
-                       "expected a cloud, found something that is not a file");
+                       "expected a cloud, found " + found_instead_of_file(entry.path()));
     }
     const fs::path file = path_in_data_root(folder.root, entry.path().string(), folder.links);
     const auto [found, is_new] = clouds.emplace(entry.path().stem().string(), file);

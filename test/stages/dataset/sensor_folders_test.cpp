@@ -105,7 +105,7 @@ TEST_F(SensorFolders, MissNoLinkThatLeadsNowhere) {
   }
   fs::create_directory(folder.path() / "data/car/back/000001.pcd");
   EXPECT_THAT(error(),
-              HasSubstr("000001.pcd: expected a cloud, found something that is not a file"));
+              HasSubstr("000001.pcd: expected a cloud, found a folder"));
 }
 
 TEST_F(SensorFolders, FollowLinksIfAsked) {
