@@ -69,18 +69,33 @@ void set_origin(std::vector<Origin>& origins, const Origin& origin) {
   origins.push_back(origin);
 }
 
-/// `fault`, which names a pointer in the step, with the file and the pointer where it was written.
-Fault located(Fault fault, const std::vector<Origin>& origins) {
-  const std::string pointer = fault.where == "/" ? "" : fault.where;
-  const Origin* nearest = nullptr;
-  for (const Origin& origin : origins) {
-    if (contains(origin.part, pointer) &&
-        (nearest == nullptr || origin.part.size() > nearest->part.size())) {
-      nearest = &origin;
+/// The origin of the value at `pointer`. Later ones in the list were set later.
+std::vector<Origin>::const_iterator origin_of(const std::vector<Origin>& origins,
+                                              const std::string& pointer) {
+  auto nearest = origins.end();
+  for (auto origin = origins.begin(); origin != origins.end(); ++origin) {
+    if (contains(origin->part, pointer) &&
+        (nearest == origins.end() || origin->part.size() > nearest->part.size())) {
+      nearest = origin;
     }
   }
-  fault.file = nearest->file;
-  fault.where = nearest->pointer + pointer.substr(nearest->part.size());
+  return nearest;
+}
+
+/// `fault`, which names a pointer in the step, with the file and the pointer where it was written.
+/// Of values that break a rule together, the last that was set broke it.
+Fault located(Fault fault, const std::vector<Origin>& origins) {
+  std::string pointer = fault.where == "/" ? "" : fault.where;
+  auto origin = origin_of(origins, pointer);
+  for (const std::string& part : fault.parts) {
+    const auto of_part = origin_of(origins, part);
+    if (of_part <= origin) continue;
+    origin = of_part;
+    pointer = part;
+  }
+  fault.file = origin->file;
+  fault.where = origin->pointer + pointer.substr(origin->part.size());
+  fault.parts.clear();
   return fault;
 }
 
