@@ -81,6 +81,14 @@ TEST_F(GivenVelocities, AreReadStrictly) {
   expect_refusal(run(R"("file": "v.csv")"),
                  "x.json: the step \"known_velocity\": expected a file of velocities, found "
                  "neither ");
+  std::filesystem::create_directory(path("v.csv"));
+  expect_refusal(run(R"("file": "v.csv")"),
+                 "expected a file of velocities, found a folder at " + path("v.csv"));
+  std::filesystem::remove(path("v.csv"));
+  expect_refusal(run(R"("file": "v.csv")", R"("variants": [{"name": "p", "poses": "p.csv"}], )"),
+                 "x.json: /variants/0/poses: expected a file of poses, found neither ");
+  expect_refusal(run(R"("file": "v.csv")", R"("variants": [{"name": "p", "poses": "p.csv"}], )"),
+                 "expected a file of velocities, found neither ");
   write_velocities("000000,10,0,0,0,0,0\n000002,10,0,0,0,0,1\n");
   expect_refusal(run(R"("file": "v.csv")"),
                  "v.csv: line 3: expected a scene of the dataset, found \"000002\"; did you mean");
