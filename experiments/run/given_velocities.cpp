@@ -95,11 +95,6 @@ void resolve_step(Experiment& experiment, Variant& variant, NamedStep& named, Ta
   const std::string of_variant =
       experiment.variants.size() > 1 ? " of the variant \"" + variant.name + "\"" : "";
   const Fault at = {experiment.file, "the step \"" + named.name + "\"" + of_variant, ""};
-  if (experiment.loops) {
-    throw InputError(at.file, at.where,
-                     "expected no \"loops\": the velocity is that of the reference, and pairs "
-                     "have another");
-  }
   const GivenMotionStep::File file = step->file();
   if (file.name.empty()) return;
   const std::filesystem::path path =

@@ -237,6 +237,10 @@ Pipeline build_pipeline(const PatchedPipeline& pipeline, const Catalogue& catalo
   return built;
 }
 
+Fault fault_of_step(const PatchedStep& step, const std::string& message) {
+  return located({"", "/", "the step \"" + step.name + "\" " + message}, step.origins);
+}
+
 std::vector<Fault> unmet_needs(const PatchedPipeline& pipeline, const Pipeline& built) {
   std::vector<Fault> faults;
   std::map<std::string, params::ExtraDoc> given;
@@ -250,10 +254,8 @@ std::vector<Fault> unmet_needs(const PatchedPipeline& pipeline, const Pipeline& 
       const std::string why = found == given.end()
                                   ? "which no step before it gives" + name_hint(extra.name, names)
                                   : "which a step before it gives with another type";
-      faults.push_back(located({"", "/",
-                                "the step \"" + built[i].name + "\" needs the extra \"" +
-                                    extra.name + "\" (" + extra.meaning + "), " + why},
-                               pipeline[i].origins));
+      faults.push_back(fault_of_step(
+          pipeline[i], "needs the extra \"" + extra.name + "\" (" + extra.meaning + "), " + why));
     }
     for (const params::ExtraDoc& extra : flow.gives) given[extra.name] = extra;
   }

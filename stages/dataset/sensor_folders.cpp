@@ -20,10 +20,17 @@ struct Params {
   bool follow_links = false;
 };
 
-/// Notes a fault for each of the sensors that is the reference or stands there twice.
+/// Notes a fault for each name that a sensor cannot have, and for each of the sensors that is the
+/// reference or stands there twice.
 void check_sensors(const Params& params, const params::Node& node) {
+  const auto check_name = [](const std::string& name, const params::Node& at) {
+    const std::string why_not = why_no_scan_name(name, "a sensor");
+    if (!why_not.empty()) at.fault(why_not);
+  };
+  check_name(params.reference, node.member("reference"));
   for (std::size_t i = 0; i < params.sensors.size(); ++i) {
     const std::string& name = params.sensors[i];
+    check_name(name, node.member("sensors").element(i));
     const auto at = params.sensors.begin() + static_cast<std::ptrdiff_t>(i);
     const bool is_repeated = std::find(params.sensors.begin(), at, name) != at;
     if (!is_repeated && name != params.reference) continue;

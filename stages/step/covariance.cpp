@@ -69,8 +69,11 @@ class CovarianceStep final : public Step {
   explicit CovarianceStep(const Params& chosen) : options_(options_of(chosen)) {}
 
   static params::DataFlow data_flow(const Params& chosen) {
-    if (options_of(chosen).motion_covariance.isZero(0.0)) return {};
-    return params::needs_channels({kTime});
+    params::DataFlow flow;
+    flow.gives = {kCovariance.doc()};
+    if (!options_of(chosen).motion_covariance.isZero(0.0))
+      flow.add(params::needs_channels({kTime}));
+    return flow;
   }
 
   Estimate advance(Estimate estimate, Rng&) const override {

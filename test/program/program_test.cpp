@@ -48,6 +48,35 @@ TEST(Program, ValidatesFilesAndFolders) {
             std::string::npos);
 }
 
+TEST(Program, RefusesWhatCanOnlyFailWhenItValidates) {
+  const test::TempFolder folder;
+  const auto validate = [&](const std::string& members) {
+    const std::string file =
+        folder
+            .write("x.json", R"({"name": "x", "dataset": {"type": "simulated"}, )" + members + "}")
+            .string();
+    const Answer answer = croon("validate " + file);
+    return answer.code == 2 ? answer.text.substr(std::string("croon: " + file + ": ").size())
+                            : answer.text;
+  };
+  EXPECT_EQ(validate(R"("pipeline": [{"step": "consensus", "weights": "covariance"}])"),
+            "/pipeline/0: the step \"consensus\" needs the extra \"covariance\" (the covariance of "
+            "the pose), which no step before it gives, in variant \"base\"\n");
+  for (const char* before : {"covariance", "bundle_adjustment"}) {
+    const std::string steps = std::string(R"({"step": ")") + before +
+                              R"("}, {"step": "consensus", "weights": "covariance"})";
+    EXPECT_EQ(validate(R"("pipeline": [)" + steps + "]"), folder.path().string() + "/x.json: ok\n");
+  }
+  EXPECT_EQ(
+      validate(R"("loops": true, "pipeline": [{"step": "identity"}], "variants": [{"name": "v",
+                        "replace": {"identity": {"step": "known_velocity"}}}])"),
+      "/variants/0/replace/identity: the step \"identity\" expects no \"loops\": the velocity "
+      "is that of the reference, and pairs have another\n");
+  EXPECT_EQ(validate(R"("pipeline": [{"step": "identity", "name": "-x"}])"),
+            "/pipeline/0/name: expected a name of letters, digits, _ and -, not starting with -, "
+            "found \"-x\"\n");
+}
+
 TEST(Program, TellsItsVersionStagesAndSchema) {
   EXPECT_EQ(croon("--version").text.rfind("croon ", 0), 0U);
   EXPECT_EQ(croon("--version").code, 0);

@@ -68,7 +68,7 @@ TEST_F(SensorFolders, AreThoseThatAreNamed) {
   EXPECT_EQ(some[0].sensors.size(), 1U);
   EXPECT_THAT(error(R"(, "sensors": ["none"])"), HasSubstr("car/none"));
   EXPECT_THAT(error(R"(, "sensors": ["pictures"])"), HasSubstr("expected clouds of one name"));
-  EXPECT_THAT(error(R"(, "sensors": ["../.."])"), HasSubstr("leads outside the data root"));
+  EXPECT_THAT(error(R"(, "sensors": ["../.."])"), HasSubstr("a name in UTF-8 without slashes"));
 }
 
 TEST_F(SensorFolders, AreEachAnotherSensor) {
@@ -104,8 +104,17 @@ TEST_F(SensorFolders, MissNoLinkThatLeadsNowhere) {
     fs::remove(link);
   }
   fs::create_directory(folder.path() / "data/car/back/000001.pcd");
-  EXPECT_THAT(error(),
-              HasSubstr("000001.pcd: expected a cloud, found a folder"));
+  EXPECT_THAT(error(), HasSubstr("000001.pcd: expected a cloud, found a folder"));
+}
+
+TEST_F(SensorFolders, HaveNamesThatTablesCanShow) {
+  EXPECT_THAT(error(R"(, "sensors": ["-left"])"),
+              HasSubstr("/sensors/0: expected a sensor with a name in UTF-8"));
+  EXPECT_THAT(test::input_error([] {
+                test::build_stage(
+                    "dataset", R"({"type": "sensor_folders", "path": "x", "reference": "=top"})");
+              }),
+              HasSubstr("/reference: expected a sensor with a name in UTF-8"));
 }
 
 TEST_F(SensorFolders, FollowLinksIfAsked) {
