@@ -57,6 +57,8 @@ const params::Table<Params>& table() {
                            "What is not known of its rate of turning about z."),
         }
             .inherit(option_table());
+    rows.require([](const Params& p) { return p.unobservable_ratio <= p.weak_ratio; },
+                 "unobservable_ratio must not be above weak_ratio");
     rows.require([](const Params& p) { return p.velocity_std_mps.size() == 3; },
                  "velocity_std_mps must have three numbers");
     return rows;

@@ -29,6 +29,15 @@ TEST(Program, AnswersAWrongCommandLineWithOneLine) {
   }
 }
 
+TEST(Program, TakesNoEmptyTextForADefault) {
+  for (const char* option : {"--figure", "--format", "--units", "--width", "--out"}) {
+    const Answer answer = croon(std::string("export results ") + option + " ''");
+    EXPECT_EQ(answer.code, 2) << option;
+    EXPECT_EQ(answer.text.rfind(std::string("croon: ") + option + ": expected ", 0), 0U)
+        << answer.text;
+  }
+}
+
 TEST(Program, ValidatesFilesAndFolders) {
   const test::TempFolder folder;
   const std::string path = folder.path().string();
