@@ -16,6 +16,7 @@
 #include "experiments/store/version.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
+#include "framework/base/threads.hpp"
 #include "framework/picture/writers.hpp"
 #include "registry/help.hpp"
 #include "registry/registry.hpp"
@@ -92,7 +93,8 @@ class Program {
   }
 
   static void add_jobs(CLI::App& command, int& option) {
-    command.add_option("--jobs", option, "Threads; default all cores.")->check(CLI::Range(1, 4096));
+    command.add_option("--jobs", option, "Threads; default all cores.")
+        ->check(CLI::Range(1, kMostJobs));
   }
 
   static void add_trials(CLI::App& command, int& option, const std::string& sentence) {

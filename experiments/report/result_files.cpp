@@ -274,10 +274,9 @@ bool is_timing(const std::string& line) {
 void for_each_line(const fs::path& path, const std::function<void(const std::string&)>& use) {
   constexpr std::streamsize kMostBytes = 10 * kMostNameBytes;
   std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) return;
+  if (!fs::exists(fs::symlink_status(path, error))) return;
   std::ifstream stream;
-  if (fs::is_regular_file(status)) stream.open(path, std::ios::binary);
+  if (fs::is_regular_file(path, error)) stream.open(path, std::ios::binary);
   if (!stream.is_open()) throw UnavailableFile(path.string(), "", "expected a readable file");
   std::string line(kMostBytes, '\0');
   while (stream.getline(line.data(), kMostBytes) || stream.gcount() > 0) {

@@ -119,7 +119,7 @@ std::string read_whole_file(const fs::path& path) {
 
 std::optional<std::string> read_file_if_there(const fs::path& path) {
   std::error_code error;
-  if (fs::status(path, error).type() == fs::file_type::not_found) return std::nullopt;
+  if (fs::symlink_status(path, error).type() == fs::file_type::not_found) return std::nullopt;
   return read_whole_file(path);
 }
 

@@ -23,7 +23,7 @@ std::string found_instead_of_file(const std::filesystem::path& path);
 /// The bytes of the file `path`. Throws UnavailableFile if it cannot be read or is too large.
 std::string read_whole_file(const std::filesystem::path& path);
 
-/// The same; std::nullopt if nothing is there.
+/// The same; std::nullopt if nothing is there, no link either.
 std::optional<std::string> read_file_if_there(const std::filesystem::path& path);
 
 /// Whether `path` is a file, and no link, that begins with `bytes`. False if it cannot be read.

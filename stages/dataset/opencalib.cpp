@@ -2,6 +2,7 @@
 #include <set>
 
 #include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
 #include "framework/io/data_path.hpp"
 #include "framework/io/opencalib_files.hpp"
 #include "framework/io/point_cloud_file.hpp"
@@ -47,7 +48,11 @@ fs::path find_cloud(const ListedCloud& cloud, const SceneLocation& location) {
     std::error_code error;
     const fs::path path = location.links == Links::inside ? fs::canonical(candidate, error)
                                                           : candidate.lexically_normal();
-    if (!error && fs::is_regular_file(path, error) && is_within(path, location.root)) return path;
+    if (error || !is_within(path, location.root) || !fs::exists(path, error)) continue;
+    if (fs::is_regular_file(path, error)) return path;
+    throw InputError(
+        (location.folder / kCloudList).string(), cloud.place,
+        "expected a cloud, found " + found_instead_of_file(path) + " at " + path.string());
   }
   throw InputError((location.folder / kCloudList).string(), cloud.place,
                    "the cloud \"" + cloud.path +

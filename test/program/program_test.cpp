@@ -20,8 +20,8 @@ TEST(Program, AnswersAWrongCommandLineWithOneLine) {
   expect_line("validate none.json", "croon: none.json: expected a readable file, found none");
   for (const char* arguments :
        {"run", "run x.json --jobs two", "run x.json --jobs 0", "run x.json --trials -1",
-        "run x.json --shard", "stages --json --markdown", "schema more", "stages no_such_kind",
-        "run x.json y.json"}) {
+        "run x.json --jobs 1025", "run x.json --shard", "stages --json --markdown", "schema more",
+        "stages no_such_kind", "run x.json y.json"}) {
     const Answer answer = croon(arguments);
     EXPECT_EQ(answer.code, 2) << arguments;
     EXPECT_EQ(answer.text.rfind("croon: ", 0), 0U) << answer.text;
