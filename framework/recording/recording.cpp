@@ -1,6 +1,8 @@
 #include "framework/recording/recording.hpp"
 
+#include <algorithm>
 #include <string_view>
+#include <tuple>
 
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
@@ -79,6 +81,16 @@ std::vector<Scene> with_file_errors(const std::function<std::vector<Scene>()>& r
   } catch (const fs::filesystem_error& error) {
     throw InputError(error.path1().string(), "", error.code().message());
   }
+}
+
+bool SceneOrder::operator()(const std::string& a, const std::string& b) const {
+  // Numbers of any length: without zeros in front the longer one is larger.
+  const auto key = [](const std::string& name) {
+    const bool is_number = name.find_first_not_of("0123456789") == std::string::npos;
+    const std::size_t first = is_number ? std::min(name.find_first_not_of('0'), name.size()) : 0;
+    return std::tuple(!is_number, is_number ? name.size() - first : 0, name.substr(first), name);
+  };
+  return key(a) < key(b);
 }
 
 std::string why_no_scan_name(const std::string& name, const std::string& what) {

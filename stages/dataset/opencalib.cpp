@@ -136,8 +136,9 @@ std::vector<SceneLocation> scene_locations(const fs::path& folder, const fs::pat
     throw InputError(folder.string(), "",
                      std::string("expected folders with ") + kCloudList + ", found none");
   }
-  std::sort(locations.begin(), locations.end(),
-            [](const SceneLocation& a, const SceneLocation& b) { return a.name < b.name; });
+  std::sort(locations.begin(), locations.end(), [](const SceneLocation& a, const SceneLocation& b) {
+    return SceneOrder()(a.name, b.name);
+  });
   return locations;
 }
 

@@ -62,7 +62,7 @@ const params::Table<Params>& table() {
 }
 
 /// The clouds of one sensor by their names without suffix.
-using Clouds = std::map<std::string, fs::path>;
+using Clouds = std::map<std::string, fs::path, SceneOrder>;
 
 /// Throws InputError for a link that leads nowhere, as to a disk that is not mounted: what it
 /// stands for must not be missed in silence.

@@ -107,6 +107,17 @@ TEST_F(SensorFolders, MissNoLinkThatLeadsNowhere) {
   EXPECT_THAT(error(), HasSubstr("000001.pcd: expected a cloud, found a folder"));
 }
 
+TEST_F(SensorFolders, ScenesAreInTheOrderOfTheirNumbers) {
+  for (const char* name : {"1000000", "999999", "000003a"}) {
+    for (const char* sensor : {"top", "back"}) {
+      folder.write(std::string("data/car/") + sensor + "/" + name + ".pcd", test::one_point_pcd(1));
+    }
+  }
+  std::vector<std::string> names;
+  for (const Scene& scene : scenes()) names.push_back(scene.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"000001", "000002", "999999", "1000000", "000003a"}));
+}
+
 TEST_F(SensorFolders, HaveNamesThatTablesCanShow) {
   EXPECT_THAT(error(R"(, "sensors": ["-left"])"),
               HasSubstr("/sensors/0: expected a sensor with a name in UTF-8"));
