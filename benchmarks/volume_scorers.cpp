@@ -120,6 +120,21 @@ void measure_floor(benchmark::State& state, const CloudPair& pair, double leaf_s
   state.counters["source_points"] = static_cast<double>(pair.source.size());
 }
 
+/// What memory allows: the coordinates of all points, read and summed up.
+void measure_reading(benchmark::State& state, const CloudPair& pair) {
+  const PointColumns points(pair.source);
+  for (auto _ : state) {
+    std::uint32_t sum = 0;
+    for (const std::vector<float>* const column : {&points.x, &points.y, &points.z}) {
+      // As whole numbers: the compiler may not reorder a sum of floats, so it would be slower.
+      const auto* const bits = reinterpret_cast<const std::uint32_t*>(column->data());
+      for (std::size_t i = 0; i < column->size(); ++i) sum += bits[i];
+    }
+    benchmark::DoNotOptimize(sum);
+  }
+  state.counters["source_points"] = static_cast<double>(pair.source.size());
+}
+
 void check_and_add_options(const std::vector<std::string>& names, const CloudPair& pair) {
   constexpr double kLeafSize = 0.05;
   for (const auto& option : kOptions) {
@@ -170,8 +185,11 @@ void check_and_add() {
   for (const CloudPair& pair : pairs) {
     for (const double leaf_size_m : is_large(pair) ? kLeafSizesOfLarge : kLeafSizes) {
       check_equal_counts(names, pair, leaf_size_m);
-      add("floor/" + pair.name + "/leaf_size_m:" + params::value_json(leaf_size_m) + "/keys",
-          benchmark::kMillisecond,
+      const std::string floor =
+          "floor/" + pair.name + "/leaf_size_m:" + params::value_json(leaf_size_m);
+      add(floor + "/reading", benchmark::kMillisecond,
+          [=](benchmark::State& state) { measure_reading(state, pair); });
+      add(floor + "/keys", benchmark::kMillisecond,
           [=](benchmark::State& state) { measure_floor(state, pair, leaf_size_m); });
       for (const std::string& name : names) {
         const Scorer subject = scorer(name, leaf_size_m);

@@ -18,14 +18,33 @@
 namespace croon::benchmarks {
 namespace {
 
-/// A way to count the leaves of both clouds at a pose; bound to clouds and a leaf size.
-using Counter = std::function<std::int64_t(const RigidTransform&)>;
+/// The leaves of both clouds at a pose, and the memory of what they were counted with, beside the
+/// points.
+struct Count {
+  std::int64_t leaves = 0;
+  std::size_t bytes = 0;  ///< Only if asked for: it takes time to find out.
+};
+
+/// A way to count; bound to clouds and a leaf size.
+using Counter = std::function<Count(const RigidTransform&, bool with_bytes)>;
+
+/// What has been allocated since the construction, if it is asked for.
+class Allocated {
+ public:
+  explicit Allocated(bool is_asked_for)
+      : is_asked_for_(is_asked_for), before_(is_asked_for ? allocated_bytes() : 0) {}
+  std::size_t bytes() const { return is_asked_for_ ? allocated_bytes() - before_ : 0; }
+
+ private:
+  bool is_asked_for_;
+  std::size_t before_;
+};
 
 /// As the code of the paper's authors does (lidar2lidar, commit c0e1e2b): each pose puts the points
 /// of both clouds into an octree for searches. Its lattice begins at the first point, and its
 /// points are float, so the counts differ a little.
 Counter pcl_octree(const CloudPair& pair, double leaf_size_m) {
-  return [&pair, leaf_size_m](const RigidTransform& T) {
+  return [&pair, leaf_size_m](const RigidTransform& T, bool with_bytes) -> Count {
     const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZI>>();
     const auto add = [&](const Eigen::Vector3f& p) {
       pcl::PointXYZI point;
@@ -34,29 +53,32 @@ Counter pcl_octree(const CloudPair& pair, double leaf_size_m) {
     };
     for (const Eigen::Vector3f& point : pair.target) add(point);
     for (const Eigen::Vector3f& point : transformed(pair.source, T)) add(point);
+    const Allocated allocated(with_bytes);
     pcl::octree::OctreePointCloudSearch<pcl::PointXYZI> octree(leaf_size_m);
     octree.setInputCloud(cloud);
     octree.addPointsFromInputCloud();
-    return static_cast<std::int64_t>(octree.getLeafCount());
+    return {static_cast<std::int64_t>(octree.getLeafCount()), allocated.bytes()};
   };
 }
 
 /// An occupancy map of both clouds for each pose. Its nodes are not merged and hold no rays.
 Counter octomap_tree(const CloudPair& pair, double leaf_size_m) {
-  return [&pair, leaf_size_m](const RigidTransform& T) {
+  return [&pair, leaf_size_m](const RigidTransform& T, bool with_bytes) -> Count {
+    const Allocated allocated(with_bytes);
     octomap::OcTree tree(leaf_size_m);
     const auto add = [&](const Eigen::Vector3d& p) {
       tree.updateNode(tree.coordToKey(p.x(), p.y(), p.z()), true, true);
     };
     for (const Eigen::Vector3f& point : pair.target) add(point.cast<double>());
     for (const Eigen::Vector3f& point : pair.source) add(T * point.cast<double>());
-    return static_cast<std::int64_t>(tree.getNumLeafNodes());
+    return {static_cast<std::int64_t>(tree.getNumLeafNodes()), allocated.bytes()};
   };
 }
 
 /// A mask grid of both clouds for each pose, by the library's own transform.
 Counter openvdb_plain(const CloudPair& pair, double leaf_size_m) {
-  return [&pair, leaf_size_m](const RigidTransform& T) {
+  return [&pair, leaf_size_m](const RigidTransform& T, bool with_bytes) -> Count {
+    const Allocated allocated(with_bytes);
     const auto grid = openvdb::MaskGrid::create();
     const auto transform = openvdb::math::Transform::createLinearTransform(leaf_size_m);
     auto accessor = grid->getAccessor();
@@ -65,15 +87,20 @@ Counter openvdb_plain(const CloudPair& pair, double leaf_size_m) {
     };
     for (const Eigen::Vector3f& point : pair.target) add(point.cast<double>());
     for (const Eigen::Vector3f& point : pair.source) add(T * point.cast<double>());
-    return static_cast<std::int64_t>(grid->activeVoxelCount());
+    return {static_cast<std::int64_t>(grid->activeVoxelCount()), allocated.bytes()};
   };
 }
 
 Counter registered(const std::string& name, const CloudPair& pair, double leaf_size_m) {
   const auto scorer = test::stage<VolumeScorer>(R"({"type": ")" + name + R"(", "leaf_size_m": )" +
                                                 params::value_json(leaf_size_m) + "}");
-  const VolumeFunction volume = scorer->bind(fresh(pair.target), fresh(pair.source));
-  return [volume](const RigidTransform& T) { return volume(T).leaves; };
+  const auto target = fresh(pair.target), source = fresh(pair.source);
+  const Allocated allocated(true);
+  const VolumeFunction volume = scorer->bind(target, source);
+  const std::size_t bytes = allocated.bytes();
+  return [volume, bytes](const RigidTransform& T, bool) -> Count {
+    return {volume(T).leaves, bytes};
+  };
 }
 
 /// How far a count may be from ours: the lattice of PCL's tree is another one, and rounding
@@ -81,8 +108,8 @@ Counter registered(const std::string& name, const CloudPair& pair, double leaf_s
 void check_counts(const std::string& name, const Counter& counter, const Counter& ours,
                   const CloudPair& pair, double bound_ratio) {
   for (const RigidTransform& pose : poses_near(pair, is_large(pair) ? 1 : 4, 1.0, 0.1)) {
-    const auto count = static_cast<double>(counter(pose));
-    const auto expected = static_cast<double>(ours(pose));
+    const auto count = static_cast<double>(counter(pose, false).leaves);
+    const auto expected = static_cast<double>(ours(pose, false).leaves);
     if (std::abs(count - expected) > bound_ratio * expected) {
       throw std::runtime_error(name + " counts " + std::to_string(count) + " leaves of " +
                                std::to_string(expected) + " on " + pair.name);
@@ -93,23 +120,26 @@ void check_counts(const std::string& name, const Counter& counter, const Counter
 void measure(benchmark::State& state, const Counter& counter, const CloudPair& pair) {
   const std::vector<RigidTransform> poses = poses_near(pair, 32, 1.0, 0.1);
   std::size_t next = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(counter(poses[next++ % poses.size()]));
-  state.counters["leaves"] = static_cast<double>(counter(pair.T_target_source));
+  for (auto _ : state) benchmark::DoNotOptimize(counter(poses[next++ % poses.size()], false));
+  const Count count = counter(pair.T_target_source, true);
+  state.counters["leaves"] = static_cast<double>(count.leaves);
+  state.counters["memory_bytes"] = static_cast<double>(count.bytes);
   state.counters["source_points"] = static_cast<double>(pair.source.size());
   state.counters["target_points"] = static_cast<double>(pair.target.size());
 }
 
 void check_and_add() {
-  // Of 2e7 points, PCL and OctoMap build trees for half a minute, for every pose.
-  constexpr int kMostPoints = 1000000;
-  static std::vector<CloudPair> pairs = streets(kMostPoints);
+  static std::vector<CloudPair> pairs = streets();
   for (CloudPair& pair : samples()) {
     pairs.push_back(non_ground(pair));
     pair.name += "_with_ground";
     pairs.push_back(std::move(pair));
   }
   for (const CloudPair& pair : pairs) {
-    for (const double leaf_size_m : {0.05, 0.1}) {
+    // Of 2e7 points, PCL and OctoMap build trees for half a minute, for every pose.
+    constexpr std::size_t kManyPoints = 5000000;
+    const bool is_slow = pair.source.size() > kManyPoints;
+    for (const double leaf_size_m : is_slow ? std::vector{0.1} : std::vector{0.05, 0.1}) {
       const std::string place =
           "pose/" + pair.name + "/leaf_size_m:" + params::value_json(leaf_size_m) + "/";
       const auto add_counter = [&](const std::string& name, const Counter& counter) {

@@ -151,26 +151,33 @@ std::vector<TimesLine> lines_over(const BenchmarkRun& run, const Holds& holds, c
 
 bool is_street(const Measurement& one) { return one.clouds.rfind("street", 0) == 0; }
 
-/// What a pose of each scorer costs per point of the source, and how far the transformation of the
-/// points with the keys of their leaves alone (`floor`) is below it.
+/// What a pose of each scorer costs per point of the source, and how far what no scorer can do
+/// without (`floor`) is below it: reading the points, and their transformation with the keys of
+/// their leaves.
 std::string limits_table(const BenchmarkRun& run) {
-  const Measurements floors = asking(run, "floor");
+  const Measurements all = asking(run, "floor");
+  const Measurements floors = those(
+      run, [](const Measurement& one) { return one.question == "floor" && one.scorer == "keys"; });
   if (floors.empty()) return "";
   const Measurements poses = asking(run, "pose");
   const auto scorers = distinct<std::string>(poses, &Measurement::scorer);
-  std::vector<std::string> titles = {"clouds, leaf size", "points", "keys alone, ns"};
+  std::vector<std::string> titles = {"clouds, leaf size", "points", "reading alone, ns",
+                                     "keys alone, ns"};
   for (const std::string& scorer : scorers) titles.push_back(code(scorer) + ", ns");
   titles.emplace_back("fastest over keys alone");
   std::string text = header_of(titles);
   for (const Measurement* floor : floors) {
     const double points = floor->source_points.value_or(NAN);
-    std::vector<std::string> cells = {floor->clouds + ", " + size_text(floor->leaf_size_m),
-                                      fixed_number(points, 0),
-                                      three_digits(1e6 * floor->time_ms / points)};
+    const auto per_point_ns = [points](const Measurement* one) {
+      return one == nullptr ? "-" : three_digits(1e6 * one->time_ms / points);
+    };
+    std::vector<std::string> cells = {
+        floor->clouds + ", " + size_text(floor->leaf_size_m), fixed_number(points, 0),
+        per_point_ns(find(all, floor->clouds, floor->leaf_size_m, "reading")), per_point_ns(floor)};
     double best_ms = std::numeric_limits<double>::infinity();
     for (const std::string& scorer : scorers) {
       const Measurement* one = find(poses, floor->clouds, floor->leaf_size_m, scorer);
-      cells.push_back(one == nullptr ? "-" : three_digits(1e6 * one->time_ms / points));
+      cells.push_back(per_point_ns(one));
       if (one != nullptr) best_ms = std::min(best_ms, one->time_ms);
     }
     cells.push_back(three_digits(best_ms / floor->time_ms));
@@ -288,16 +295,19 @@ void add_run(Page& page, const BenchmarkRun& run) {
   }
   add_section(page, "Per point, and what limits it",
               "A pose must transform every point of the source and find the key of its leaf: 12 "
-              "bytes read, 18 multiplications and additions and three keys for a point. That "
-              "alone, with the same code, is the limit; all else is the table of leaves.",
+              "bytes read, 18 multiplications and additions and three keys for a point. Reading "
+              "alone is what memory allows: 12 bytes over its time is the bandwidth. Keys alone, "
+              "with the same code, are the limit; all else is the table of leaves.",
               limits_table(run));
   add_section(page, "Many poses",
               "One pose of a batch of 64, which a scorer may spread over all cores, ms.",
               times_table(run, "batch"));
   add_section(page, "To bind", "To bind a scorer to two new clouds, ms.", times_table(run, "bind"));
-  add_section(page, "Memory",
-              "What a scorer keeps of two clouds to which it is bound, MiB, beside their points.",
-              memory_table(run));
+  add_section(
+      page, "Memory",
+      "What a scorer keeps of two clouds to which it is bound, or the tree that a peer makes "
+      "of both at a pose, MiB, beside their points.",
+      memory_table(run));
   page.markdown += plain_tables(run);
 }
 

@@ -20,8 +20,8 @@ struct CloudPair {
 CloudPair street(int target_count, int source_count);
 
 /// Streets of 1e3, 1e4 and 1e5 points in each cloud; of up to CROON_BENCHMARK_POINTS, if that is
-/// set, and of no more than `most`.
-std::vector<CloudPair> streets(int most = 10000000);
+/// set, and of no more than 1e7.
+std::vector<CloudPair> streets();
 
 /// Whether a pair has so many points that a pose takes a second with a slow scorer.
 bool is_large(const CloudPair& pair);

@@ -40,6 +40,8 @@ def short(value):
     """A value as part of a name: the numbers and words in it."""
     if isinstance(value, dict):
         return "_".join(short(part) for item in value.items() for part in item)
+    if isinstance(value, list):
+        return "_".join(short(part) for part in value)
     return str(value)
 
 

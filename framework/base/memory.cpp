@@ -4,12 +4,33 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 #include <limits>
 
 #include "framework/base/text.hpp"
 
 namespace croon {
 namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+/// The number in `file`; infinity if it has none, as "max".
+double limit_in(const fs::path& file) {
+  double bytes = 0.0;
+  return std::ifstream(file) >> bytes ? bytes : kNoLimit;
+}
+
+/// The least limit of the group `path` and those above it, in files `name` below `mount`.
+double least_limit(const fs::path& mount, fs::path path, const char* name) {
+  double least = limit_in(mount / name);
+  // A container sees its own group as the root, whatever /proc says of those outside.
+  for (path = path.relative_path(); !path.empty(); path = path.parent_path()) {
+    least = std::min(least, limit_in(mount / path / name));
+  }
+  return least;
+}
 
 std::string gigabytes(double bytes) { return fixed_number(bytes / 1e9, 1) + " GB"; }
 
@@ -18,12 +39,33 @@ std::string gigabytes(double bytes) { return fixed_number(bytes / 1e9, 1) + " GB
 double address_space_bytes() {
   rlimit limit{};
   const bool is_limited = ::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
-  return is_limited ? static_cast<double>(limit.rlim_cur) : std::numeric_limits<double>::infinity();
+  return is_limited ? static_cast<double>(limit.rlim_cur) : kNoLimit;
+}
+
+double control_group_bytes(const fs::path& root) {
+  double least = kNoLimit;
+  std::ifstream groups(root / "proc/self/cgroup");
+  // A line is NUMBER:CONTROLLERS:PATH; version 2 has no controllers.
+  for (std::string line; std::getline(groups, line);) {
+    const std::size_t first = line.find(':');
+    const std::size_t second = line.find(':', first + 1);
+    if (first == std::string::npos || second == std::string::npos) continue;
+    const std::string controllers = line.substr(first + 1, second - first - 1);
+    const fs::path path = line.substr(second + 1);
+    if (controllers.empty()) {
+      least = std::min(least, least_limit(root / "sys/fs/cgroup", path, "memory.max"));
+    } else if (controllers == "memory") {
+      least = std::min(least,
+                       least_limit(root / "sys/fs/cgroup/memory", path, "memory.limit_in_bytes"));
+    }
+  }
+  return least;
 }
 
 double memory_limit_bytes() {
-  return std::min(address_space_bytes(), static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
-                                             static_cast<double>(::sysconf(_SC_PAGE_SIZE)));
+  const double machine = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
+                         static_cast<double>(::sysconf(_SC_PAGE_SIZE));
+  return std::min({address_space_bytes(), control_group_bytes(), machine});
 }
 
 void require_memory(double bytes, const std::string& what, const std::string& remedy,
@@ -32,7 +74,7 @@ void require_memory(double bytes, const std::string& what, const std::string& re
   if (bytes <= limit) return;
   throw InputError(at.file, at.where,
                    what + " takes about " + gigabytes(bytes) + " of memory, more than the " +
-                       gigabytes(limit) + " of this machine or process: " + remedy);
+                       gigabytes(limit) + " of this machine, job or process: " + remedy);
 }
 
 }  // namespace croon

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include "framework/base/error.hpp"
@@ -10,8 +10,14 @@ namespace croon {
 /// The limit of the address space of this process (RLIMIT_AS), infinity if there is none.
 double address_space_bytes();
 
+/// The memory that the control group of this process may use, that of a container or of a batch job
+/// (memory.max of cgroup v2, memory.limit_in_bytes of v1; the least of the group and those above
+/// it); infinity if there is no limit or it cannot be read. `root` is another root of the file
+/// system, for tests.
+double control_group_bytes(const std::filesystem::path& root = "/");
+
 /// The bytes of memory that this process may use: those of the machine, or fewer if its address
-/// space has a limit (ulimit -v). The limit of a container or of a batch job is not known here.
+/// space (ulimit -v) or its control group has a limit.
 double memory_limit_bytes();
 
 /// Throws InputError at `at` (a file and a position in it) if `bytes`, an estimate, are more than

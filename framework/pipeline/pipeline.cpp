@@ -5,6 +5,7 @@
 
 #include "framework/base/error.hpp"
 #include "framework/pipeline/own_time.hpp"
+#include "framework/stage/reasons.hpp"
 
 namespace croon {
 
@@ -46,8 +47,11 @@ void advance(PipelineResult& result, const NamedStep& named, const StreamKey& ke
   result.records.push_back({name, time.seconds(), after.diagnostics, after.information});
   if (!after.information) after.information = information;
   drop_stale_covariance(after, T_before, covariance_before);
-  if (after.rejection) after.rejection = name + ": " + *after.rejection;
-  if (rejection) after.rejection = *rejection + (after.rejection ? "; " + *after.rejection : "");
+  if (after.rejection) {
+    after.rejection = with_reason(rejection, name + ": " + *after.rejection);
+  } else {
+    after.rejection = rejection;
+  }
 }
 
 PipelineResult run_pipeline(const Pipeline& pipeline, std::shared_ptr<const Cloud> target,

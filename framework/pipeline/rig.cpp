@@ -8,6 +8,7 @@
 #include "framework/base/error.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/pipeline/own_time.hpp"
+#include "framework/stage/reasons.hpp"
 #include "framework/stage/rig_step.hpp"
 
 namespace croon {
@@ -59,9 +60,7 @@ void take(RigMember& member, const std::string& name, RigEstimate&& adjusted, do
   const bool is_computed = after.information && after.information != before.information;
   member.result.records.push_back(
       {name, seconds, after.diagnostics, is_computed ? after.information : std::nullopt});
-  if (after.rejection && after.rejection != before.rejection) {
-    after.rejection = name + ": " + *after.rejection;
-  }
+  if (after.rejection) after.rejection = with_name(before.rejection, *after.rejection, name);
   if (adjusted.failure.empty()) return;
   after = std::move(before);
   member.result.failure = name + ": " + adjusted.failure;

@@ -75,6 +75,24 @@ SensorScan scan_in_file(const std::string& sensor, const fs::path& file) {
   return scan;
 }
 
+std::vector<std::string> chosen_scenes(std::vector<std::string> names,
+                                       const std::vector<std::string>& chosen) {
+  if (chosen.empty()) return names;
+  std::vector<Fault> faults;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    if (std::find(names.begin(), names.end(), chosen[i]) != names.end()) continue;
+    faults.push_back({"", "/scenes/" + std::to_string(i),
+                      "expected the name of a scene of the recording, found " +
+                          in_quotes(chosen[i]) + name_hint(chosen[i], names)});
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+  const auto is_left_out = [&](const std::string& name) {
+    return std::find(chosen.begin(), chosen.end(), name) == chosen.end();
+  };
+  names.erase(std::remove_if(names.begin(), names.end(), is_left_out), names.end());
+  return names;
+}
+
 std::vector<Scene> with_file_errors(const std::function<std::vector<Scene>()>& read) {
   try {
     return read();

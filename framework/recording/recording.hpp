@@ -41,6 +41,15 @@ class RigFilesAbove {
 /// Throws InputError if its header shows that it cannot be read.
 SensorScan scan_in_file(const std::string& sensor, const std::filesystem::path& file);
 
+/// What the parameter `scenes` of a recording does.
+inline constexpr const char* kScenesDoc =
+    "The names of the scenes that take part; an empty list is all of them.";
+
+/// Those of the scenes `names` that are in `chosen`, in the order of `names`; all if `chosen` is
+/// empty. Throws InputError, at the pointers of the parameter `scenes`, for names that are none.
+std::vector<std::string> chosen_scenes(std::vector<std::string> names,
+                                       const std::vector<std::string>& chosen);
+
 /// Returns what `read` returns; a std::filesystem::filesystem_error becomes an InputError.
 std::vector<Scene> with_file_errors(const std::function<std::vector<Scene>()>& read);
 

@@ -12,6 +12,7 @@
 #include "framework/geometry/guarded_inverse.hpp"
 #include "framework/registration/direction_balance.hpp"
 #include "framework/registration/gauss_newton.hpp"
+#include "framework/spatial/deskew.hpp"
 #include "framework/spatial/evenly_spaced.hpp"
 
 namespace croon {
@@ -47,6 +48,9 @@ class ContactFinder {
     if (options.motion_covariance.isZero(0.0)) return;
     target_times_ = times_s(target.with_channels());
     source_times_ = times_s(source.with_channels());
+    const double reference_s = span_of(target_times_).middle_s();
+    require_near(target_times_, reference_s);
+    require_near(source_times_, reference_s);
   }
 
   /// Of at most `most` points, evenly through the source.
@@ -164,6 +168,22 @@ Quadratic quadratic_of(const Contact& contact, double weight, double kernel_widt
   return sums;
 }
 
+/// What is known of any pose, in the units of the contacts' Hessian, whose weights are those of
+/// residuals with the variance 1 m^2 if they have the standard deviation `noise_m`.
+Matrix6d prior_information(double noise_m) {
+  return (noise_m * noise_m * unknown_variances().cwiseInverse()).asDiagonal();
+}
+
+/// `F^-1 H` by the eigenvectors of `F v = lambda H v`, with each lambda at least 1/4: a direction
+/// that contacts hardly hold has an F of noise, which may be negative, and would hide all others.
+Matrix6d bounded_ratio(const Matrix6d& F, const Matrix6d& H) {
+  constexpr double kLeast = 0.25;  // In ordinary scenes 0.4 to 1.2.
+  const Matrix6d L = guarded_inverse<6>(H).llt().matrixL();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(symmetric<6>(L.transpose() * F * L));
+  const Matrix6d V = L * solver.eigenvectors();  // V^T H V is the identity.
+  return V * solver.eigenvalues().cwiseMax(kLeast).cwiseInverse().asDiagonal() * V.inverse();
+}
+
 /// What the contacts say of a pose.
 class ContactModel {
  public:
@@ -212,20 +232,21 @@ class ContactModel {
     return steps * options_.motion_covariance * steps.transpose();
   }
 
-  /// How much farther a pose moves than contacts that stay the same let it: `H_m^-1 H` of the
-  /// Hessian with the same contacts and the one of differences of gradients with new contacts.
+  /// How much farther a pose moves than contacts that stay the same let it: `F^-1 H` of the
+  /// Hessian H with the same contacts and F of differences of gradients with new contacts.
   Matrix6d stretch() const {
     constexpr std::size_t kMost = 4000;
     constexpr double kStep_rad = 0.0005, kStep_m = 0.01;
-    Matrix6d fixed = Matrix6d::Zero();
-    for (const Contact& contact : finder_.contacts(pose_, kMost))
-      fixed += quadratic(contact).hessian;
+    Matrix6d same = prior_information(noise_m_);
+    for (const Contact& contact : finder_.contacts(pose_, kMost)) {
+      same += quadratic(contact).hessian;
+    }
     Matrix6d found;
     for (int i = 0; i < kDofCount; ++i) {
       const double step = i < 3 ? kStep_rad : kStep_m;
       found.col(i) = (gradient_at(i, step, kMost) - gradient_at(i, -step, kMost)) / (2.0 * step);
     }
-    return guarded_inverse<6>(symmetric<6>(found)) * fixed;
+    return bounded_ratio(found, same);
   }
 
  private:
@@ -259,9 +280,7 @@ class ContactModel {
 /// pose is off, or a plain would not hold roll either: a slide by kilometres makes up for it.
 void judge_dofs(const Quadratic& all, double noise_m, const UncertaintyOptions& options,
                 PoseCovariance& covariance) {
-  Matrix6d bounded = all.information;
-  bounded.diagonal() += noise_m * noise_m * unknown_variances().cwiseInverse();
-  const Matrix6d inverse = guarded_inverse<6>(bounded);
+  const Matrix6d inverse = guarded_inverse<6>(all.information + prior_information(noise_m));
   for (int i = 0; i < kDofCount; ++i) {
     const Vector6d motion = inverse.col(i) / inverse(i, i);
     const double information = motion.dot(all.information * motion);

@@ -84,10 +84,11 @@ inline RTCDevice embree_device() {
 /// The number of a geometry, and that of one of its triangles.
 using TriangleId = std::pair<unsigned int, unsigned int>;
 
-/// The triangles whose bounding boxes are within `radius_m` of `point`, and others near it, in any
-/// order.
-inline std::vector<TriangleId> triangles_near(RTCScene scene, const Eigen::Vector3d& point,
-                                              double radius_m, double time_ratio) {
+/// Calls `use(id)` for the triangles whose bounding boxes are within `radius_m` of `point`, and
+/// others near it, in any order.
+template <class Use>
+void for_each_triangle_near(RTCScene scene, const Eigen::Vector3d& point, double radius_m,
+                            double time_ratio, const Use& use) {
   RTCPointQuery query;
   query.x = static_cast<float>(point.x());
   query.y = static_cast<float>(point.y());
@@ -96,14 +97,11 @@ inline std::vector<TriangleId> triangles_near(RTCScene scene, const Eigen::Vecto
   query.radius = static_cast<float>(radius_m);
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  std::vector<TriangleId> triangles;
-  const auto collect = [](RTCPointQueryFunctionArguments* found) {
-    static_cast<std::vector<TriangleId>*>(found->userPtr)
-        ->emplace_back(found->geomID, found->primID);
+  const auto call = [](RTCPointQueryFunctionArguments* found) {
+    (*static_cast<const Use*>(found->userPtr))(TriangleId(found->geomID, found->primID));
     return false;  // The radius stays.
   };
-  rtcPointQuery(scene, &query, &context, collect, &triangles);
-  return triangles;
+  rtcPointQuery(scene, &query, &context, call, const_cast<Use*>(&use));
 }
 
 /// Copies `elements` into a new buffer of `geometry`; `slot` is the time step of vertices.

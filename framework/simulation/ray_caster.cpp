@@ -15,16 +15,37 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// The plane `normal . p = offset_m`; zeros for a triangle without area.
+struct TrianglePlane {
+  Vector3d normal;
+  double offset_m = 0.0;
+};
+
 /// A mesh with its vertices in the world at the two ends of the time window; `end` is empty if the
-/// mesh does not move.
+/// mesh does not move, else `planes` is.
 struct PlacedMesh {
   const Mesh* mesh = nullptr;
   Points begin;
   Points end;
+  std::vector<TrianglePlane> planes;  ///< Of the triangles, in the world.
 };
 
+std::vector<TrianglePlane> planes_of(const Mesh& mesh, const Points& vertices) {
+  std::vector<TrianglePlane> planes;
+  planes.reserve(mesh.triangles.size());
+  for (const auto& corners : mesh.triangles) {
+    const Vector3d a = vertices[corners[0]].cast<double>();
+    const Vector3d ab = vertices[corners[1]].cast<double>() - a;
+    const Vector3d ac = vertices[corners[2]].cast<double>() - a;
+    const Vector3d normal = ab.cross(ac).normalized();
+    planes.push_back({normal, normal.dot(a)});
+  }
+  return planes;
+}
+
 PlacedMesh placed(const Body& body, const Span& window_s) {
-  PlacedMesh result{&body.mesh, transformed(body.mesh.vertices, body.pose_at(window_s.from)), {}};
+  PlacedMesh result{
+      &body.mesh, transformed(body.mesh.vertices, body.pose_at(window_s.from)), {}, {}};
   const bool moves = body.motion.speed_mps != 0.0 || body.motion.yaw_rate_radps != 0.0;
   if (moves && window_s.to > window_s.from) {
     result.end = transformed(body.mesh.vertices, body.pose_at(window_s.to));
@@ -104,7 +125,7 @@ bool PlaneHit::is_on_triangle(const Ray& ray) const {
 class RayCaster::Embree {
  public:
   Embree(const World& world, const Span& window_s) : window_s_(window_s) {
-    add({&world.fixed, world.fixed.vertices, {}});
+    add({&world.fixed, world.fixed.vertices, {}, {}});
     for (const Body& body : world.bodies) add(placed(body, window_s));
     add(placed(world.car, window_s));
     scene_ = rtcNewScene(embree_device());
@@ -136,7 +157,20 @@ class RayCaster::Embree {
  private:
   /// Embree takes no empty buffers, so meshes without triangles are left out.
   void add(PlacedMesh mesh) {
-    if (!mesh.mesh->triangles.empty()) meshes_.push_back(std::move(mesh));
+    if (mesh.mesh->triangles.empty()) return;
+    if (mesh.end.empty()) mesh.planes = planes_of(*mesh.mesh, mesh.begin);
+    meshes_.push_back(std::move(mesh));
+  }
+
+  /// Whether a hit on the triangle may be tied with one at `point`: then they are within kTied_m of
+  /// each other, and the one on the triangle within kMiss_m of its plane. Most triangles that are
+  /// near by their bounding boxes are not.
+  bool may_be_tied(const TriangleId& id, const Vector3d& point) const {
+    constexpr double kRounding_m = 1e-6;
+    const std::vector<TrianglePlane>& planes = meshes_[id.first].planes;
+    if (planes.empty()) return true;
+    const TrianglePlane& plane = planes[id.second];
+    return std::abs(plane.normal.dot(point) - plane.offset_m) <= kTied_m + kMiss_m + kRounding_m;
   }
 
   PlaneHit hit_on(const TriangleId& id, const Ray& ray) const {
@@ -152,16 +186,17 @@ class RayCaster::Embree {
     const Vector3d point = ray.origin + found_m * ray.direction;
     std::optional<std::pair<double, TriangleId>> first;
     Hit hit = on_found.hit;
-    for (const TriangleId& id : triangles_near(scene_, point, 2.0 * kTied_m, time_ratio(ray))) {
-      if (id == found) continue;
+    const auto compare = [&](const TriangleId& id) {
+      if (id == found || !may_be_tied(id, point)) return;
       const PlaneHit other = hit_on(id, ray);
       const double other_m = other.hit.range_m;
-      if (std::abs(other_m - found_m) > kTied_m || !other.is_on_triangle(ray)) continue;
+      if (std::abs(other_m - found_m) > kTied_m || !other.is_on_triangle(ray)) return;
       const std::pair<double, TriangleId> key{other_m, id};
-      if (first && *first <= key) continue;
+      if (first && *first <= key) return;
       first = key;
       hit = other.hit;
-    }
+    };
+    for_each_triangle_near(scene_, point, 2.0 * kTied_m, time_ratio(ray), compare);
     const bool is_first =
         !first || (std::pair{found_m, found} < *first && on_found.is_on_triangle(ray));
     return is_first ? on_found.hit : hit;

@@ -34,4 +34,9 @@ class RigStep : public Step {
   Estimate advance(Estimate estimate, Rng& rng) const final;
 };
 
+/// Throws StageError if a cloud of `estimate` is empty, or has a point that no rig sees: farther
+/// off than kLargestCoordinate_m. Steps that put all clouds into one problem call it for each
+/// estimate, so that a cloud that would defeat them fails alone.
+void require_usable_clouds(const Estimate& estimate);
+
 }  // namespace croon

@@ -6,6 +6,7 @@
 #include "framework/io/data_path.hpp"
 #include "framework/io/opencalib_files.hpp"
 #include "framework/io/point_cloud_file.hpp"
+#include "framework/params/repeats.hpp"
 #include "framework/recording/recording.hpp"
 #include "framework/stage/dataset.hpp"
 #include "framework/stage/stage_entry.hpp"
@@ -17,18 +18,27 @@ namespace fs = std::filesystem;
 
 struct Params {
   std::string path;
+  std::vector<std::string> scenes;
   bool follow_links = false;
 };
 
-const params::Table<Params>& table() {
-  static const params::Table<Params> table = {
+params::Table<Params> make_table() {
+  params::Table<Params> table = {
       params::text(
           "path", &Params::path,
           "A folder of scenes, or one scene's folder (it has lidar_cloud_path.txt); relative to "
           "the data root."),
+      params::texts("scenes", &Params::scenes, kScenesDoc),
       params::boolean("follow_links", &Params::follow_links,
                       "Symbolic links may lead out of the data root."),
   };
+  return table.finish([](const Params& params, const params::Node& node) {
+    params::refuse_repeats(params.scenes, node, "scenes");
+  });
+}
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table = make_table();
   return table;
 }
 
@@ -120,25 +130,36 @@ Scene read_scene(const SceneLocation& location, RigFilesAbove& rig_files) {
   return scene;
 }
 
-/// The scenes' folders in `folder`, by name; or `folder` itself if it is a scene.
-std::vector<SceneLocation> scene_locations(const fs::path& folder, const fs::path& root,
-                                           Links links) {
+/// The folders of scenes by the scenes' names.
+using SceneFolders = std::map<std::string, fs::path, SceneOrder>;
+
+SceneFolders scene_folders(const fs::path& folder) {
   if (!fs::is_directory(folder))
     throw InputError(folder.string(), "", "expected a folder of scenes");
-  if (fs::exists(folder / kCloudList)) return {{folder.filename().string(), folder, root, links}};
-  std::vector<SceneLocation> locations;
+  if (fs::exists(folder / kCloudList)) return {{folder.filename().string(), folder}};
+  SceneFolders folders;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (!fs::exists(entry.path() / kCloudList)) continue;
-    locations.push_back({entry.path().filename().string(),
-                         path_in_data_root(root, entry.path().string(), links), root, links});
+    folders.emplace(entry.path().filename().string(), entry.path());
   }
-  if (locations.empty()) {
+  if (folders.empty()) {
     throw InputError(folder.string(), "",
                      std::string("expected folders with ") + kCloudList + ", found none");
   }
-  std::sort(locations.begin(), locations.end(), [](const SceneLocation& a, const SceneLocation& b) {
-    return SceneOrder()(a.name, b.name);
-  });
+  return folders;
+}
+
+/// Of the scenes in `folder`, or of `folder` itself if it is a scene, those in `chosen`.
+std::vector<SceneLocation> scene_locations(const fs::path& folder, const fs::path& root,
+                                           Links links, const std::vector<std::string>& chosen) {
+  const SceneFolders folders = scene_folders(folder);
+  std::vector<std::string> names;
+  for (const auto& [name, path] : folders) names.push_back(name);
+  std::vector<SceneLocation> locations;
+  for (const std::string& name : chosen_scenes(std::move(names), chosen)) {
+    locations.push_back(
+        {name, path_in_data_root(root, folders.at(name).string(), links), root, links});
+  }
   return locations;
 }
 
@@ -157,7 +178,8 @@ class OpenCalib final : public Dataset {
     std::vector<Scene> scenes;
     std::vector<Fault> faults;
     RigFilesAbove rig_files;
-    for (const SceneLocation& location : scene_locations(folder, fs::canonical(data_root), links)) {
+    for (const SceneLocation& location :
+         scene_locations(folder, fs::canonical(data_root), links, params_.scenes)) {
       collect_faults(faults, [&] { scenes.push_back(read_scene(location, rig_files)); });
     }
     if (!faults.empty()) throw InputError(without_repeats(faults));

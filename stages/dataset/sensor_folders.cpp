@@ -5,6 +5,7 @@
 #include "framework/base/whole_file.hpp"
 #include "framework/io/point_cloud_file.hpp"
 #include "framework/io/text_scan.hpp"
+#include "framework/params/repeats.hpp"
 #include "framework/recording/recording.hpp"
 #include "framework/stage/stage_entry.hpp"
 
@@ -17,27 +18,25 @@ struct Params {
   std::string path;
   std::string reference;
   std::vector<std::string> sensors;
+  std::vector<std::string> scenes;
   bool follow_links = false;
 };
 
-/// Notes a fault for each name that a sensor cannot have, and for each of the sensors that is the
-/// reference or stands there twice.
-void check_sensors(const Params& params, const params::Node& node) {
+/// Notes a fault for each name that a sensor cannot have or that stands twice, and for a sensor
+/// that is the reference.
+void check_names(const Params& params, const params::Node& node) {
   const auto check_name = [](const std::string& name, const params::Node& at) {
     const std::string why_not = why_no_scan_name(name, "a sensor");
     if (!why_not.empty()) at.fault(why_not);
   };
+  params::refuse_repeats(params.scenes, node, "scenes");
+  params::refuse_repeats(params.sensors, node, "sensors");
   check_name(params.reference, node.member("reference"));
   for (std::size_t i = 0; i < params.sensors.size(); ++i) {
-    const std::string& name = params.sensors[i];
-    check_name(name, node.member("sensors").element(i));
-    const auto at = params.sensors.begin() + static_cast<std::ptrdiff_t>(i);
-    const bool is_repeated = std::find(params.sensors.begin(), at, name) != at;
-    if (!is_repeated && name != params.reference) continue;
-    node.member("sensors").element(i).fault(
-        std::string("expected ") +
-        (is_repeated ? "each sensor once" : "another sensor than the reference") + ", found " +
-        in_quotes(name) + (is_repeated ? " again" : ""));
+    check_name(params.sensors[i], node.member("sensors").element(i));
+    if (params.sensors[i] != params.reference) continue;
+    node.member("sensors").element(i).fault("expected another sensor than the reference, found " +
+                                            in_quotes(params.sensors[i]));
   }
 }
 
@@ -50,10 +49,11 @@ params::Table<Params> make_table() {
       params::texts("sensors", &Params::sensors,
                     "The folders of the other sensors, in this order; an empty list is every "
                     "folder with clouds."),
+      params::texts("scenes", &Params::scenes, kScenesDoc),
       params::boolean("follow_links", &Params::follow_links,
                       "Symbolic links may lead out of the data root."),
   };
-  return table.finish(check_sensors);
+  return table.finish(check_names);
 }
 
 const params::Table<Params>& table() {
@@ -89,6 +89,12 @@ Clouds clouds_in(const SceneLocation& folder) {
                      "expected one cloud of this name, found " + found->second.string() + " too");
   }
   return clouds;
+}
+
+std::vector<std::string> names_of(const Clouds& clouds) {
+  std::vector<std::string> names;
+  for (const auto& [name, file] : clouds) names.push_back(name);
+  return names;
 }
 
 /// The names of the folders in `rig` that have clouds, sorted, without the reference; all if it is
@@ -133,8 +139,8 @@ class SensorFolders final : public Dataset {
     std::vector<Scene> scenes;
     std::vector<Fault> faults;
     RigFilesAbove rig_files;
-    for (const auto& [frame, path] : references) {
-      const fs::path& file = path;
+    for (const std::string& frame : chosen_scenes(names_of(references), params_.scenes)) {
+      const fs::path& file = references.at(frame);
       Scene scene;
       scene.name = rig.name = frame;
       bool has_sensors = false;

@@ -54,10 +54,11 @@ class BundleAdjustmentStep final : public RigStep {
     std::map<std::string, std::vector<RigEstimate*>> references;
     for (RigEstimate& one : rig) {
       if (one.estimate.rejection) continue;
-      if (one.estimate.target->empty() || one.estimate.source->empty()) {
-        one.failure = "a cloud to be adjusted is empty";
-      } else {
+      try {
+        require_usable_clouds(one.estimate);
         references[one.target].push_back(&one);
+      } catch (const StageError& error) {
+        one.failure = error.what();
       }
     }
     for (const auto& [name, estimates] : references) adjust_rig(estimates);

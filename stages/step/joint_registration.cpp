@@ -13,6 +13,7 @@
 #include "framework/registration/scene_motion.hpp"
 #include "framework/spatial/deskew.hpp"
 #include "framework/stage/motion.hpp"
+#include "framework/stage/reasons.hpp"
 #include "framework/stage/rig_step.hpp"
 #include "framework/stage/stage_entry.hpp"
 
@@ -171,9 +172,7 @@ class JointRegistrationStep final : public RigStep {
   /// The scene of one estimate alone. Throws StageError if a cloud cannot be registered.
   JointScene scene_of(const RigEstimate& one) const {
     const Estimate& estimate = one.estimate;
-    if (estimate.target->empty() || estimate.source->empty()) {
-      throw StageError("a cloud to be registered is empty");
-    }
+    require_usable_clouds(estimate);
     JointScene scene;
     scene.target = timed(estimate.target, 0.0);
     scene.reference_s = span_of(scene.target.times_s).middle_s();
@@ -236,7 +235,7 @@ class JointRegistrationStep final : public RigStep {
       // With common poses other scenes tell what a scene's velocity is.
       const std::string rejection =
           params_.poses == Poses::common ? "" : motion.rejection(j, params_);
-      if (!rejection.empty()) estimate.rejection = rejection;
+      if (!rejection.empty()) estimate.rejection = with_reason(estimate.rejection, rejection);
       give_motion(estimate.extras, scene.is_moving, motion);
       const RigidTransform& T = result.state.T_target_sensor[source.sensor];
       estimate.T_target_source = T;

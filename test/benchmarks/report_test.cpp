@@ -112,6 +112,21 @@ TEST(BenchmarkReport, HasWhatABoundScorerKeepsInMemory) {
       << page.markdown;
 }
 
+TEST(BenchmarkReport, HasWhatLimitsAPosePerPoint) {
+  json lines = json::array();
+  const std::string clouds = "/street_1000/leaf_size_m:0.05/";
+  for (const auto& [name, time_ms] : {std::pair("floor" + clouds + "reading", 0.001),
+                                      {"floor" + clouds + "keys", 0.002},
+                                      {"pose" + clouds + "brick_hash", 0.01}}) {
+    lines.push_back(line(name, time_ms));
+    lines.back()["source_points"] = 1000;
+  }
+  const Page page = page_of({read(file_of(lines))});
+  EXPECT_NE(page.markdown.find("| street_1000, 0.05 m | 1000 | 1.00 | 2.00 | 10.0 | 5.00 |"),
+            std::string::npos)
+      << page.markdown;
+}
+
 TEST(BenchmarkReport, HasTheFastestBoldAndAPictureOverPoints) {
   json lines = json::array();
   for (const int count : {1000, 10000}) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "framework/base/error.hpp"
+#include "framework/stage/reasons.hpp"
 #include "framework/stage/rig_step.hpp"
 
 namespace croon {
@@ -172,15 +173,19 @@ TEST(Rig, ARigStepMayRejectAndTakeARejectionBack) {
   Rig rig = four();
   rig[0].result.estimate.rejection = "first: no";
   rig[1].result.estimate.rejection = "first: no";
+  rig[3].result.estimate.rejection = "first: no";
   run_pipeline({named<Adjusting>("all",
                                  [](std::vector<RigEstimate>& all, Rng&) {
                                    all[0].estimate.rejection.reset();
                                    all[2].estimate.rejection = "far";
+                                   all[3].estimate.rejection =
+                                       with_reason(all[3].estimate.rejection, "far");
                                  })},
                rig, StreamKey(9));
   EXPECT_EQ(rig[0].result.estimate.rejection, std::nullopt);
   EXPECT_EQ(rig[1].result.estimate.rejection, "first: no");
   EXPECT_EQ(rig[2].result.estimate.rejection, "all: far");
+  EXPECT_EQ(rig[3].result.estimate.rejection, "first: no; all: far");
 }
 
 TEST(Rig, InformationIsOfTheStepThatComputedIt) {

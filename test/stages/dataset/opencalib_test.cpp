@@ -15,12 +15,14 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-std::vector<Scene> scenes(const fs::path& root, const std::string& path) {
-  return test::stage<Dataset>(R"({"type": "opencalib", "path": ")" + path + "\"}")->scenes(root);
+std::vector<Scene> scenes(const fs::path& root, const std::string& path,
+                          const std::string& more = "") {
+  return test::stage<Dataset>(R"({"type": "opencalib", "path": ")" + path + "\"" + more + "}")
+      ->scenes(root);
 }
 
-std::string error_of(const fs::path& root, const std::string& path) {
-  return test::input_error([&] { scenes(root, path); });
+std::string error_of(const fs::path& root, const std::string& path, const std::string& more = "") {
+  return test::input_error([&] { scenes(root, path, more); });
 }
 
 /// Scenes `rig/b` and `rig/a` of two sensors, made up.
@@ -58,6 +60,20 @@ TEST_F(MadeUpRig, IsAFolderOfScenesOrOneScene) {
     EXPECT_FALSE(one[0].sensors[0].truth || one[0].sensors[0].nominal || one[0].sensors[0].initial);
   }
   EXPECT_EQ(scenes(root / "rig" / "a", ".")[0].name, "a");
+}
+
+TEST_F(MadeUpRig, HoldsTheScenesThatAreNamed) {
+  // What is left out is not read.
+  folder.write("data/rig/b/lidar_cloud_path.txt", "no list");
+  EXPECT_THAT(error_of(root, "rig"), HasSubstr("rig/b/lidar_cloud_path.txt"));
+  const std::vector<Scene> one = scenes(root, "rig", R"(, "scenes": ["a"])");
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0].name, "a");
+  EXPECT_THAT(error_of(root, "rig", R"(, "scenes": ["a", "c"])"),
+              HasSubstr("/scenes/1: expected the name of a scene of the recording, found \"c\"; "
+                        "known: a, b"));
+  EXPECT_THAT(error_of(root, "rig", R"(, "scenes": ["a", "a"])"),
+              HasSubstr("/scenes/1: expected each name once, found \"a\" again"));
 }
 
 TEST_F(MadeUpRig, StaysInTheDataRoot) {

@@ -73,9 +73,22 @@ TEST_F(SensorFolders, AreThoseThatAreNamed) {
 
 TEST_F(SensorFolders, AreEachAnotherSensor) {
   EXPECT_THAT(error(R"(, "sensors": ["back", "front-left", "back"])"),
-              HasSubstr("/sensors/2: expected each sensor once, found \"back\" again"));
+              HasSubstr("/sensors/2: expected each name once, found \"back\" again"));
   EXPECT_THAT(error(R"(, "sensors": ["back", "top"])"),
               HasSubstr("/sensors/1: expected another sensor than the reference, found \"top\""));
+}
+
+TEST_F(SensorFolders, HoldTheScenesThatAreNamed) {
+  const std::vector<Scene> one = scenes(R"(, "scenes": ["000002"])");
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_EQ(one[0].name, "000002");
+  EXPECT_EQ(scenes(R"(, "scenes": ["000002", "000001"])").at(0).name, "000001");
+  EXPECT_THAT(
+      error(R"(, "scenes": ["000002", "00002"])"),
+      HasSubstr("/scenes/1: expected the name of a scene of the recording, found \"00002\"; "
+                "did you mean \"000002\"?"));
+  EXPECT_THAT(error(R"(, "scenes": ["000002", "000002"])"),
+              HasSubstr("/scenes/1: expected each name once, found \"000002\" again"));
 }
 
 TEST_F(SensorFolders, AreFoundByTheNearestName) {

@@ -188,6 +188,19 @@ TEST(BundleAdjustment, ARejectedPoseTakesNoPart) {
   }
 }
 
+TEST(BundleAdjustment, ACloudThatDefeatsItFailsAlone) {
+  StandingRig rig = standing_rig(1);
+  RigEstimate& stray = of_sensor(rig, "left");
+  PointCloud cloud = stray.estimate.source->with_channels();
+  cloud.points.front().x() = 1e30F;
+  stray.estimate.source = std::make_shared<const Cloud>(std::move(cloud), StreamKey(1));
+  adjust_bundle(rig.estimates);
+  EXPECT_THAT(stray.failure, HasSubstr("m is farther off than 1e+06 m"));
+  for (const RigEstimate& one : rig.estimates) {
+    EXPECT_EQ(one.failure.empty(), &one != &stray) << one.source;
+  }
+}
+
 TEST(BundleAdjustment, ASensorThatWouldMoveFarIsRejectedAndTheOthersDoWithoutIt) {
   StandingRig rig = standing_rig(1);
   for (RigEstimate& one : rig.estimates) one.estimate.T_target_source = rig.truth[one.source];

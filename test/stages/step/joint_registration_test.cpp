@@ -119,6 +119,7 @@ TEST(JointRegistration, SaysHowWellItKnowsTheVelocity) {
 TEST(JointRegistration, RejectsASceneInWhichAnotherSpeedIsAsGood) {
   DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
   DrivingRig strict = rig;
+  for (RigEstimate& one : strict.estimates) one.estimate.rejection = "before: no";
   // Every speed is in doubt, and no lead over others is enough.
   const std::string in_doubt = R"(, "certain_speed_std_mps": 0, "certain_shift_m": 0)";
   adjust_jointly(rig.estimates, in_doubt);
@@ -126,7 +127,23 @@ TEST(JointRegistration, RejectsASceneInWhichAnotherSpeedIsAsGood) {
   for (std::size_t i = 0; i < rig.estimates.size(); ++i) {
     EXPECT_FALSE(rig.estimates[i].estimate.rejection);
     ASSERT_TRUE(strict.estimates[i].estimate.rejection);
+    // The reason of a step before stays.
+    EXPECT_EQ(strict.estimates[i].estimate.rejection->rfind("before: no; ", 0), 0U);
     EXPECT_NE(strict.estimates[i].estimate.rejection->find("below 1000.00"), std::string::npos);
+  }
+}
+
+TEST(JointRegistration, ACloudThatDefeatsItFailsAlone) {
+  DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
+  Estimate& stray = rig.estimates.back().estimate;
+  PointCloud cloud = stray.source->with_channels();
+  cloud.points.front().x() = 1e30F;
+  stray.source = std::make_shared<const Cloud>(std::move(cloud), StreamKey(1));
+  adjust_jointly(rig.estimates);
+  for (const RigEstimate& one : rig.estimates) {
+    const bool is_stray = &one.estimate == &stray;
+    EXPECT_EQ(one.failure.rfind("a point at (1e+30, ", 0) == 0, is_stray) << one.failure;
+    EXPECT_EQ(one.failure.empty(), !is_stray) << one.failure;
   }
 }
 

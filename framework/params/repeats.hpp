@@ -1,0 +1,21 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "framework/params/node.hpp"
+
+namespace croon::params {
+
+/// Notes a fault for each of `names`, the list at `key` of `node`, that stands in it before.
+inline void refuse_repeats(const std::vector<std::string>& names, const Node& node,
+                           const std::string& key) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto at = names.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::find(names.begin(), at, *at) == at) continue;
+    node.member(key).element(i).fault("expected each name once, found \"" + *at + "\" again");
+  }
+}
+
+}  // namespace croon::params
