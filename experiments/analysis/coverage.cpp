@@ -46,6 +46,8 @@ class Held {
       }
       counts_[kAllSix][k].add(record.id.scene, level_of(squared) <= kCoverageLevels[k] ? 1 : 0, 1);
     }
+    // A covariance that denies the error is a miss above; no mean has a value with it.
+    if (!std::isfinite(squared)) return;
     squared_.push_back(squared);
     const std::size_t next = scenes_.size();
     clusters_.push_back(scenes_.emplace(record.id.scene, next).first->second);
@@ -58,6 +60,7 @@ class Held {
       for (const SceneCounts& counts : counts_[i]) row.held.push_back(counts.share());
       coverage.rows.push_back(std::move(row));
     }
+    if (squared_.empty()) return;
     NormalisedErrors errors{variant, sensor, static_cast<int>(squared_.size()), 0.0, 0.0, {}};
     errors.mean = mean(squared_);
     errors.median = median_with_failures(squared_);

@@ -26,7 +26,7 @@ struct CoverageRow {
 
 /// The normalised squared error `e^T C^-1 e` of the trials of one variant and sensor. If errors are
 /// normal and covariances right it has the chi-squared distribution of six degrees of freedom:
-/// mean 6, median 5.35.
+/// mean 6, median 5.35. Trials in which it is infinite are left out: `trials` counts the others.
 struct NormalisedErrors {
   std::string variant;
   std::string sensor;  ///< Empty for all together.
@@ -41,7 +41,7 @@ struct NormalisedErrors {
 /// covariance and a truth.
 struct Coverage {
   std::vector<CoverageRow> rows;         ///< By variant, then sensor, all together last, then Dof.
-  std::vector<NormalisedErrors> errors;  ///< By variant, then sensor, all together last.
+  std::vector<NormalisedErrors> errors;  ///< Likewise; none without a trial.
 };
 
 /// "roll" … "z", or "all" for the ellipsoid of all six.

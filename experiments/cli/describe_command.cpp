@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/file/experiment.hpp"
+#include "experiments/report/output_files.hpp"
 #include "experiments/report/plots.hpp"
-#include "experiments/report/result_files.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "experiments/report/run_text.hpp"
 #include "experiments/run/sensor_pairs.hpp"

@@ -6,7 +6,7 @@
 #include "experiments/report/build_text.hpp"
 #include "experiments/report/export_choice.hpp"
 #include "experiments/report/figures.hpp"
-#include "experiments/report/result_files.hpp"
+#include "experiments/report/output_files.hpp"
 #include "framework/base/error.hpp"
 #include "framework/picture/writers.hpp"
 

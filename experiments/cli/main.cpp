@@ -16,6 +16,7 @@
 #include "experiments/store/version.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
+#include "framework/base/threads.hpp"
 #include "framework/picture/writers.hpp"
 #include "registry/help.hpp"
 #include "registry/registry.hpp"
@@ -67,13 +68,19 @@ class Program {
     return *command;
   }
 
-  /// Adds an option for a path. An empty one is refused: a variable of a script that is not set
-  /// must not stand for the default.
+  /// Adds an option for text. An empty one is refused: a variable of a script that is not set must
+  /// not stand for the default.
+  template <class T>
+  static CLI::Option* add_text(CLI::App& command, const std::string& name, T& option,
+                               const std::string& sentence, const std::string& what) {
+    return command.add_option(name, option, sentence)->check([what](const std::string& text) {
+      return text.empty() ? "expected " + what + ", found \"\"" : "";
+    });
+  }
+
   static CLI::Option* add_path(CLI::App& command, const std::string& name,
                                std::filesystem::path& option, const std::string& sentence) {
-    return command.add_option(name, option, sentence)->check([](const std::string& path) {
-      return path.empty() ? "expected a path, found \"\"" : "";
-    });
+    return add_text(command, name, option, sentence, "a path");
   }
 
   template <class T>
@@ -86,7 +93,8 @@ class Program {
   }
 
   static void add_jobs(CLI::App& command, int& option) {
-    command.add_option("--jobs", option, "Threads; default all cores.")->check(CLI::Range(1, 4096));
+    command.add_option("--jobs", option, "Threads; default all cores.")
+        ->check(CLI::Range(1, kMostJobs));
   }
 
   static void add_trials(CLI::App& command, int& option, const std::string& sentence) {
@@ -105,11 +113,8 @@ class Program {
     add_jobs(run, run_.jobs);
     add_trials(run, run_.trials, "Starts per variant, scene and sensor.");
     run.add_option("--only", run_.only, "Run these variants alone.");
-    run.add_option("--shard", run_.shard, "Run part K of N of the trials, K/N.")
-        ->check([](const std::string& shard) {
-          // A variable of a script that is not set must not run everything.
-          return shard.empty() ? "expected K/N with 1 <= K <= N, found \"\"" : "";
-        });
+    add_text(run, "--shard", run_.shard, "Run part K of N of the trials, K/N.",
+             "K/N with 1 <= K <= N");
     run.add_flag("--plan", run_.plan, "Show what there is to run, and how much variants share.");
     run.add_flag("--no-share", run_.no_share, "Run the variants one by one, to compare.");
     run.add_flag("--fresh", run_.fresh, "Delete what is in the folder and start over.");
@@ -135,13 +140,15 @@ class Program {
     CLI::App& exporting = add("export", "Write results as a table or a figure for a paper.",
                               [this] { return export_command(export_, std::cout); });
     exporting.add_option("DIR", export_.folders, "Folders of results, for one table.")->required();
-    exporting.add_option("--format", export_.format,
-                         names_of(export_formats()) + "; default md. With --figure: " +
-                             names_of(drawing_formats()) + "; default pdf.");
+    add_text(exporting, "--format", export_.format,
+             names_of(export_formats()) +
+                 "; default md. With --figure: " + names_of(drawing_formats()) + "; default pdf.",
+             "a format");
     add_path(exporting, "--out", export_.out, "The file to write; default the output.");
-    exporting.add_option("--figure", export_.figure, "A figure: " + names_of(figures()) + ".");
+    add_text(exporting, "--figure", export_.figure, "A figure: " + names_of(figures()) + ".",
+             "a figure");
     add_width(exporting, export_.width);
-    exporting.add_option("--units", export_.units, "Of lengths: m, mm.");
+    add_text(exporting, "--units", export_.units, "Of lengths: m, mm.", "m or mm");
     exporting.add_option("--variants", export_.variants, "Only these variants.");
     exporting.add_option("--sensors", export_.sensors,
                          "Only these sensors; all: all together, a row of a table.");
@@ -161,7 +168,7 @@ class Program {
   }
 
   static void add_width(CLI::App& command, std::string& option) {
-    command.add_option("--width", option, names_of(named_sheets()) + ".");
+    add_text(command, "--width", option, names_of(named_sheets()) + ".", "a width");
   }
 
   void add_simulate() {
@@ -183,9 +190,9 @@ class Program {
         ->required();
     add_data(describe, describe_.data);
     add_path(describe, "--out", describe_.out, "Folder for clouds.csv and ranges.svg.");
-    describe.add_option(
-        "--format", describe_.format,
-        "Of the figure of ranges: " + names_of(drawing_formats()) + "; default svg.");
+    add_text(describe, "--format", describe_.format,
+             "Of the figure of ranges: " + names_of(drawing_formats()) + "; default svg.",
+             "a format");
     add_width(describe, describe_.width);
     describe.add_option("--scenes", describe_.scenes, "Look at so many scenes of each dataset.")
         ->check(CLI::Range(1, 1000000));

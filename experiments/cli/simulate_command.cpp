@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/file/experiment.hpp"
-#include "experiments/report/result_files.hpp"
+#include "experiments/report/output_files.hpp"
 #include "experiments/run/scene_groups.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"

@@ -1,7 +1,7 @@
 #include "experiments/cli/commands.hpp"
 
 #include "experiments/file/experiment.hpp"
-#include "experiments/report/result_files.hpp"
+#include "experiments/report/output_files.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
 #include "framework/base/memory.hpp"

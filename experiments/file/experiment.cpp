@@ -5,6 +5,8 @@
 
 #include "experiments/file/experiment_keys.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
+#include "framework/base/whole_file.hpp"
 #include "framework/io/digest.hpp"
 #include "framework/params/json_file.hpp"
 
@@ -82,8 +84,7 @@ MergedFile read_extended(const json& own, const fs::path& path, const std::vecto
   }
   if (!fs::is_regular_file(extended)) {
     refuse(path.string(), key,
-           std::string("expected an experiment file, found ") +
-               (fs::exists(extended) ? "something that is not a file" : "none") + " at " +
+           "expected an experiment file, found " + found_instead_of_file(extended) + " at " +
                extended.string());
   }
   MergedFile base = read_merged(params::read_json_text(extended), extended, chain, faults);
@@ -152,10 +153,8 @@ Experiment parse_experiment(const std::string& text, const fs::path& path,
     if (keys.pipeline) keys.variants = make_variants(keys, root, catalogue, faults);
     experiment = std::move(keys);
     check_variants(root, experiment);
-    if (experiment.name.size() > kMostFileNameBytes) {
-      root.member("name").fault("expected a name of at most " + std::to_string(kMostFileNameBytes) +
-                                " bytes, found one of " + std::to_string(experiment.name.size()));
-    }
+    const std::string too_long = why_too_long(experiment.name, kMostFileNameBytes);
+    if (!too_long.empty()) root.member("name").fault(too_long);
   }
   if (!faults.empty()) throw InputError(without_repeats(faults));
   experiment.file = path.string();

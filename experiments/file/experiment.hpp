@@ -20,9 +20,6 @@ inline constexpr const char* kPosesStep = "poses";
 /// More variants than an experiment has.
 inline constexpr std::size_t kMostVariants = 10000;
 
-/// The bytes of the name of a file or folder, on the usual file systems.
-inline constexpr std::size_t kMostFileNameBytes = 255;
-
 /// A file of poses `T_reference_sensor`, as a variant names it.
 struct PosesFile {
   std::string name;     ///< Empty if there is none.

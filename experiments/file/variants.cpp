@@ -5,6 +5,7 @@
 #include "experiments/file/experiment_keys.hpp"
 #include "framework/base/text.hpp"
 #include "framework/pipeline/patched_pipeline.hpp"
+#include "framework/stage/given_motions.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -244,13 +245,20 @@ std::vector<NamedPipeline> apply_grid(const std::vector<NamedPipeline>& pipeline
   return points;
 }
 
-/// Adds a fault for each extra that a step of `built` takes and no step gives.
-void add_unmet_needs(const NamedPipeline& named, const Pipeline& built,
-                     std::vector<Fault>& faults) {
+/// Adds a fault for each extra that a step of `built` takes and no step gives, and, with `loops`,
+/// for each step that knows the velocity of the reference alone.
+void check_steps(const NamedPipeline& named, const Pipeline& built, bool loops,
+                 std::vector<Fault>& faults) {
   for (Fault fault : unmet_needs(named.pipeline, built)) {
     // The step may be written in the base, and what gives the extra be removed by the variant.
     fault.message += ", in variant \"" + named.name + "\"";
     faults.push_back(std::move(fault));
+  }
+  for (std::size_t i = 0; loops && i < built.size(); ++i) {
+    if (dynamic_cast<const GivenMotionStep*>(&*built[i].step) == nullptr) continue;
+    faults.push_back(fault_of_step(named.pipeline[i],
+                                   "expects no \"loops\": the velocity is that of the reference, "
+                                   "and pairs have another"));
   }
 }
 
@@ -262,15 +270,15 @@ std::vector<Variant> make_variants(const ExperimentKeys& keys, const Node& root,
   if (keys.grid) pipelines = apply_grid(pipelines, *keys.grid, catalogue);
   std::vector<Variant> variants;
   for (const NamedPipeline& named : pipelines) {
-    if (named.name.size() > kMostNameBytes) {
-      root.fault("expected variants with names of at most " + std::to_string(kMostNameBytes) +
-                 " bytes, found one of " + std::to_string(named.name.size()));
+    const std::string too_long = why_too_long(named.name, kMostNameBytes, "variants with names");
+    if (!too_long.empty()) {
+      root.fault(too_long);
       break;
     }
     Variant variant{named.name, {}, "", named.poses};
     const std::size_t faults_before = faults.size();
     variant.pipeline = build_pipeline(named.pipeline, catalogue, faults, variant.resolved);
-    if (faults.size() == faults_before) add_unmet_needs(named, variant.pipeline, faults);
+    if (faults.size() == faults_before) check_steps(named, variant.pipeline, keys.loops, faults);
     variants.push_back(std::move(variant));
   }
   return variants;

@@ -12,6 +12,7 @@
 #include "experiments/report/run_in_folder.hpp"
 #include "experiments/report/run_text.hpp"
 #include "experiments/run/starts.hpp"
+#include "framework/base/threads.hpp"
 
 namespace croon::python {
 namespace {
@@ -186,6 +187,7 @@ void bind_runs(py::module_& module) {
       .def("poses", poses)
       .def("extrinsics", [](const R& r) { return extrinsics_json(r.summary, r.references); })
       .def("text", [](const R& r) { return result_text(r, false); });
+  module.attr("MOST_JOBS") = kMostJobs;
   module.def("run", run_from);
   module.def("load", load);
   module.def("starts", starts);

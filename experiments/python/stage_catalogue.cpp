@@ -133,6 +133,10 @@ namespace {
 std::vector<params::ExtraDoc> extras_from(const py::list& extras) {
   std::vector<params::ExtraDoc> docs;
   for (const py::handle extra : extras) {
+    if (std::string(py::str(extra.attr("name"))) == kCovariance.name) {
+      docs.push_back(kCovariance.doc());
+      continue;
+    }
     const bool is_number = extra.attr("type").ptr() == reinterpret_cast<PyObject*>(&PyFloat_Type);
     docs.push_back(
         {py::str(extra.attr("name")), extra_type(is_number), py::str(extra.attr("meaning"))});

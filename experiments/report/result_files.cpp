@@ -9,7 +9,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <unordered_set>
 
 #include "experiments/report/plots.hpp"
@@ -19,7 +18,6 @@
 #include "framework/base/text.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/io/ply_file.hpp"
-#include "framework/io/point_cloud_file.hpp"
 #include "framework/picture/writers.hpp"
 
 namespace croon::experiments {
@@ -204,8 +202,7 @@ fs::path writable(const fs::path& path) {
     const fs::file_status status = fs::status(to_write, error);
     if (!fs::exists(status) || fs::is_regular_file(status)) continue;
     throw InputError(to_write.string(), "",
-                     std::string("expected a file or nothing, found ") +
-                         (fs::is_directory(status) ? "a folder" : "something that is not a file"));
+                     "expected a file or nothing, found " + found_instead_of_file(to_write));
   }
   refuse_files_of_others(path);
   return path;
@@ -277,10 +274,9 @@ bool is_timing(const std::string& line) {
 void for_each_line(const fs::path& path, const std::function<void(const std::string&)>& use) {
   constexpr std::streamsize kMostBytes = 10 * kMostNameBytes;
   std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) return;
+  if (!fs::exists(fs::symlink_status(path, error))) return;
   std::ifstream stream;
-  if (fs::is_regular_file(status)) stream.open(path, std::ios::binary);
+  if (fs::is_regular_file(path, error)) stream.open(path, std::ios::binary);
   if (!stream.is_open()) throw UnavailableFile(path.string(), "", "expected a readable file");
   std::string line(kMostBytes, '\0');
   while (stream.getline(line.data(), kMostBytes) || stream.gcount() > 0) {
@@ -321,47 +317,18 @@ void repair(const fs::path& path) {
   if (error) throw InputError(path.string(), "", "cannot be written: " + error.message());
 }
 
-/// Whether the file `path` is JSON with a key that every experiment has.
-bool is_experiment(const fs::path& path) {
-  if (path.extension() != ".json") return false;
-  const nlohmann::json json = parsed_or_discarded(read_whole_file(path));
-  return json.is_object() && (json.contains("dataset") || json.contains("extends"));
-}
-
-/// What is at `path` and must not be replaced, or belongs there; empty if nothing, or another file.
-std::string what_must_stay(const fs::path& path, const std::vector<fs::path>& inputs) {
-  static const std::set<std::string> of_datasets = {
-      "truth.json",      "nominal.json",         "scene_kinds.json",
-      "simulation.json", "lidar_cloud_path.txt", "initial_extrinsic.txt"};
-  std::error_code error;
-  const fs::path folder = path.parent_path();
-  const std::vector<fs::path> results = paths_in(folder);
-  const bool is_result = std::find(results.begin(), results.end(), path) != results.end();
-  const bool has_run = fs::exists(store_path(folder), error) || is_manifest(folder / kManifest);
-  // Also if it is not there: SQLite would take it for a part of the store.
-  if (is_result && has_run) return "a file of the results of a run";
-  const fs::file_status status = fs::symlink_status(path, error);
-  if (!fs::exists(status)) return "";
-  if (fs::is_symlink(status)) return "a link";
-  if (!fs::is_regular_file(status)) return "something that is not a file";
-  for (const fs::path& input : inputs) {
-    if (fs::equivalent(path, input, error)) return "which is read";
-  }
-  if (of_datasets.count(path.filename().string()) > 0) return "a file of a dataset";
-  if (has_point_cloud_suffix(path)) return "a cloud";
-  return is_experiment(path) ? "an experiment" : "";
-}
-
-/// Whether `path` is a file, and no link, with these bytes.
-bool has_bytes(const fs::path& path, const std::string& bytes) {
-  std::error_code error;
-  return file_begins_with(path, bytes) && fs::file_size(path, error) == bytes.size();
-}
-
 }  // namespace
 
 fs::path merged_store_path(const fs::path& folder) {
   return store_path(folder).string() + ".merged";
+}
+
+bool is_result_of_run(const fs::path& path) {
+  std::error_code error;
+  const fs::path folder = path.parent_path();
+  const std::vector<fs::path> results = paths_in(folder);
+  if (std::find(results.begin(), results.end(), path) == results.end()) return false;
+  return fs::exists(store_path(folder), error) || is_manifest(folder / kManifest);
 }
 
 OutputFolder::OutputFolder(const fs::path& path) : path_(writable(path)), lock_(path_) {}
@@ -405,32 +372,6 @@ std::string merged_timings(const std::vector<fs::path>& folders) {
     });
   }
   return merged;
-}
-
-void replace_output_files(const std::vector<OutputFile>& files,
-                          const std::vector<fs::path>& inputs) {
-  for (const OutputFile& file : files) {
-    const std::string what = what_must_stay(file.path, inputs);
-    if (what.empty()) continue;
-    throw InputError("", "--out",
-                     "expected a file to write, found " + file.path.string() + ", " + what);
-  }
-  for (const OutputFile& file : files) write_whole_file(file.path, file.bytes);
-}
-
-void write_output_files(const std::vector<OutputFile>& files) {
-  std::vector<const OutputFile*> missing;
-  for (const OutputFile& file : files) {
-    std::error_code error;
-    if (!fs::exists(fs::symlink_status(file.path, error))) {
-      missing.push_back(&file);
-    } else if (!has_bytes(file.path, file.bytes)) {
-      throw InputError("", "--out",
-                       "expected a new file, found " + file.path.string() +
-                           ", which is there; delete it first, or write to another");
-    }
-  }
-  for (const OutputFile* file : missing) write_whole_file(file->path, file->bytes);
 }
 
 }  // namespace croon::experiments

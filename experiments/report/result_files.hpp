@@ -18,6 +18,9 @@ inline constexpr const char* kTimings = "timings.csv";
 inline constexpr const char* kPicture = "before_after.png";
 inline constexpr const char* kClouds = "clouds";
 
+/// Whether `path`, which may be missing, is that of a file of the results of a run.
+bool is_result_of_run(const std::filesystem::path& path);
+
 /// The store that a merge makes before it replaces that of `folder`.
 std::filesystem::path merged_store_path(const std::filesystem::path& folder);
 
@@ -65,21 +68,5 @@ class TimingsFile {
 /// The bytes of timings.csv of merged results: the rows of all `folders` that have the file, each
 /// row once, without lines of another form. Throws InputError if one of them is no file.
 std::string merged_timings(const std::vector<std::filesystem::path>& folders);
-
-/// A file that a command writes for its user, beside no results.
-struct OutputFile {
-  std::filesystem::path path;
-  std::string bytes;
-};
-
-/// Writes the files, each whole or not at all. Throws InputError, before one is written, if one of
-/// them is there with other bytes. Throws InputError if one cannot be written.
-void write_output_files(const std::vector<OutputFile>& files);
-
-/// The same, but a file that is there is replaced, as a user expects who makes a table again.
-/// Throws InputError, before one is written, if it is one of `inputs`, a file of a folder of
-/// results, a cloud, an experiment, a file that a dataset reads beside clouds, a link or no file.
-void replace_output_files(const std::vector<OutputFile>& files,
-                          const std::vector<std::filesystem::path>& inputs = {});
 
 }  // namespace croon::experiments

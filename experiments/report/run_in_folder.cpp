@@ -1,12 +1,16 @@
 #include "experiments/report/run_in_folder.hpp"
 
+#include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
+#include "experiments/run/loaded_scene.hpp"
 #include "experiments/run/runner.hpp"
 #include "experiments/store/build.hpp"
 #include "experiments/store/manifest.hpp"
 #include "experiments/store/store_writer.hpp"
+#include "framework/base/threads.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -27,10 +31,41 @@ std::vector<Plan> one_by_one(const Plan& plan) {
   return list;
 }
 
-/// Runs what is missing into the store. Returns a line for each cloud that was not available or, in
-/// a group, damaged.
+/// Whether `scene` has a cloud that is damaged, or empty, in its file.
+bool has_damage(const CheckedRun& run, const Scene& scene) {
+  const auto is_damaged = [&](const SensorScan& scan) {
+    return run.damaged_files.count(scan.file) > 0;
+  };
+  return is_damaged(scene.reference) ||
+         std::any_of(scene.sensors.begin(), scene.sensors.end(), is_damaged);
+}
+
+/// What is wrong with the clouds of the groups that are asked for. Their trials go on with the
+/// other scenes, so that no stored trial says it: each run has to.
+std::set<std::string> damage_in_groups(const CheckedRun& run) {
+  std::set<std::size_t> asked;
+  for (const PlannedStart& start : plan_trials(run.experiment, run.scenes, run.selection).starts) {
+    if (!run.scenes[start.scene].parts.empty()) asked.insert(start.scene);
+  }
+  std::set<std::string> damage;
+  for (const std::size_t group : asked) {
+    for (const Scene& scene : run.scenes[group].parts) {
+      if (!has_damage(run, scene)) continue;
+      std::set<std::string> sensors;
+      for (const SensorScan& scan : scene.sensors) sensors.insert(scan.sensor);
+      const std::vector<std::string> reasons =
+          damaged_clouds(load_scene(scene, sensors, run.experiment.seed, {}));
+      damage.insert(reasons.begin(), reasons.end());
+    }
+  }
+  return damage;
+}
+
+/// Runs what is missing into the store. Returns a line for each cloud that was not available, and
+/// adds to `damage` what is wrong with those of groups.
 std::vector<std::string> fill_store(const CheckedRun& run, const OutputFolder& folder,
-                                    const Work& work, const FolderRun& how, Progress& progress) {
+                                    const Work& work, const FolderRun& how, Progress& progress,
+                                    std::set<std::string>& damage) {
   progress.skip(work.done);
   Store store(folder.store(), work.header);
   TimingsFile timings(folder.file(kTimings));
@@ -46,9 +81,7 @@ std::vector<std::string> fill_store(const CheckedRun& run, const OutputFolder& f
   listener.on_unavailable = [&](const Fault& fault) {
     complaints.push_back(fault.line() + "; its trials are not stored, the next run runs them");
   };
-  listener.on_damaged = [&](const std::string& reason) {
-    complaints.push_back(reason + "; its trials use the other scenes of the group");
-  };
+  listener.on_damaged = [&](const std::string& reason) { damage.insert(reason); };
   listener.on_scene = [&](const std::string& scene) {
     progress.set_scene(scene);
     how.check();
@@ -74,6 +107,9 @@ std::vector<std::string> fill_store(const CheckedRun& run, const OutputFolder& f
 StoreHeader header_of(CheckedRun& run) {
   begin_this_build();
   const std::vector<InputFile> inputs = record_inputs(run.scenes, run.data_root, run.jobs);
+  for (const InputFile& input : inputs) {
+    if (input.points.value_or(0) == 0) run.damaged_files.insert(input.file);
+  }
   const Provenance provenance = provenance_of(run.experiment, run.scenes, inputs);
   return header_of(run.experiment, run.scenes, provenance,
                    manifest_json(run.experiment, run.scenes, inputs, provenance));
@@ -101,9 +137,15 @@ FolderResults run_in_folder(const CheckedRun& run, StoreHeader header, const Out
   if (how.fresh) folder.clear();
   const Work work = work_of(run, std::move(header), how);
   FolderResults end;
+  std::set<std::string> damage;
   if (work.plan.trials > 0 || !is_same(work.stored, work.header)) {
     Progress progress(progress_out, how.progress, work.plan.trials + work.done);
-    end.complaints = fill_store(run, folder, work, how, progress);
+    end.complaints = fill_store(run, folder, work, how, progress, damage);
+  }
+  // Those that have just run have told of their clouds, also of such as are in no file.
+  on_threads(run.jobs, [&] { damage.merge(damage_in_groups(run)); });
+  for (const std::string& reason : damage) {
+    end.complaints.push_back(reason + "; its trials use the other scenes of the group");
   }
   rewrite_in_order(folder.store());
   end.results = read_results(run.out, Content::trials_and_steps);

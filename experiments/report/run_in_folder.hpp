@@ -41,7 +41,7 @@ StoreHeader header_of(CheckedRun& run);
 /// trials that were made from something else.
 Work work_of(const CheckedRun& run, StoreHeader header, const FolderRun& how);
 
-/// The results of a run, and a line for each cloud that was not available.
+/// The results of a run, and a line for each cloud that was not available or, in a group, damaged.
 struct FolderResults {
   Results results;
   std::vector<std::string> complaints;

@@ -15,29 +15,42 @@
 namespace croon::experiments {
 namespace {
 
-/// The fields of a line of RFC 4180, without the quotes.
-std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields = {""};
-  bool is_quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const bool is_doubled = is_quoted && line.compare(i, 2, "\"\"") == 0;
-    if (line[i] == '"' && !is_doubled) {
-      is_quoted = !is_quoted;
-    } else if (line[i] == ',' && !is_quoted) {
-      fields.emplace_back();
-    } else {
-      fields.back() += line[i];
-      if (is_doubled) ++i;
-    }
+/// The field of a line of RFC 4180 that begins at `at`, without its quotes; `at` is then behind it,
+/// at a comma or the end. A quote is the first and the last character of a field or none.
+std::string next_field(const std::string& line, std::size_t& at) {
+  if (at >= line.size() || line[at] != '"') {
+    const std::size_t end = std::min(line.find(',', at), line.size());
+    std::string field = line.substr(at, end - at);
+    if (field.find('"') != std::string::npos) refuse("no quote inside a field", in_quotes(field));
+    at = end;
+    return field;
   }
-  if (is_quoted) refuse("a second quote", in_quotes(line));
+  std::string field;
+  for (++at; at < line.size(); ++at) {
+    if (line[at] == '"' && line.compare(at, 2, "\"\"") != 0) break;
+    if (line[at] == '"') ++at;
+    field += line[at];
+  }
+  if (at >= line.size()) refuse("a second quote", in_quotes(line));
+  if (++at < line.size() && line[at] != ',') {
+    refuse("a comma behind the quotes around a field", in_quotes(line.substr(at)));
+  }
+  return field;
+}
+
+std::vector<std::string> fields_of(const std::string& line) {
+  std::size_t at = 0;
+  std::vector<std::string> fields = {next_field(line, at)};
+  while (at < line.size()) fields.push_back(next_field(line, ++at));
   return fields;
 }
 
-/// Spreadsheets write a byte order mark before the first line.
+/// Spreadsheets write it before the first line.
+const std::string kByteOrderMark = "\xef\xbb\xbf";
+
 std::string_view without_byte_order_mark(std::string_view bytes) {
-  constexpr std::string_view kMark = "\xef\xbb\xbf";
-  return bytes.substr(0, kMark.size()) == kMark ? bytes.substr(kMark.size()) : bytes;
+  const std::size_t length = kByteOrderMark.size();
+  return bytes.substr(0, length) == kByteOrderMark ? bytes.substr(length) : bytes;
 }
 
 /// `"a"`, or `"a" or "b"`.
@@ -57,6 +70,17 @@ void refuse(const std::string& expected, const std::string& found) {
 void require_fields(const CsvLine& line, std::size_t count) {
   if (line.fields.size() == count) return;
   refuse(std::to_string(count) + " fields", std::to_string(line.fields.size()));
+}
+
+bool begins_with_header(const std::filesystem::path& path, const std::string& header) {
+  return file_begins_with(path, header) || file_begins_with(path, kByteOrderMark + header);
+}
+
+double bounded_number(const std::string& text, double most, const std::string& unit) {
+  const double number = finite_number(text);
+  if (std::abs(number) <= most) return number;
+  const std::string bound = fixed_number(most, 0);
+  refuse("a number from -" + bound + " to " + bound + " " + unit, in_quotes(text));
 }
 
 double finite_number(const std::string& text) {
@@ -113,7 +137,11 @@ std::filesystem::path found_input(const Experiment& experiment, const std::strin
     const fs::path path = folder / name;
     std::error_code error;
     const fs::path whole_folder = fs::canonical(folder, error);
-    if (error || !fs::is_regular_file(path, error)) continue;
+    if (error) continue;
+    if (!fs::is_regular_file(path, error)) {
+      if (fs::exists(path, error)) found = found_instead_of_file(path) + " at " + path.string();
+      continue;
+    }
     const fs::path whole_path = fs::canonical(path, error);
     if (!error && is_within(whole_path, whole_folder)) return path;
     found = path.string() + ", which is outside the folder " + folder.string();

@@ -37,6 +37,12 @@ void require_fields(const CsvLine& line, std::size_t count);
 /// The number of a field; refuses what is none or is not finite.
 double finite_number(const std::string& text);
 
+/// The same, and refuses what is larger than `most` or below its negative.
+double bounded_number(const std::string& text, double most, const std::string& unit);
+
+/// Whether the file `path` begins as one that `read_given_csv` reads with the header `header`.
+bool begins_with_header(const std::filesystem::path& path, const std::string& header);
+
 /// Throws the first of `faults` of `file`, and how many more there are; `more` are not in the list.
 [[noreturn]] void throw_first(std::vector<Fault> faults, const std::string& file,
                               std::size_t more = 0);

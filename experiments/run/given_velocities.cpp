@@ -1,6 +1,5 @@
 #include "experiments/run/given_velocities.hpp"
 
-#include <cmath>
 #include <map>
 #include <set>
 
@@ -17,13 +16,8 @@ namespace {
 
 /// A field along (0 to 2) or about (3 to 5) an axis, at most as large as those of a car.
 double velocity(const std::string& text, int index) {
-  const double number = finite_number(text);
-  const double most = index < 3 ? kFastest_mps : kFastest_degps;
-  if (std::abs(number) > most) {
-    refuse("a number of at most " + fixed_number(most, 0) + (index < 3 ? " m/s" : " deg/s"),
-           in_quotes(text));
-  }
-  return number;
+  return index < 3 ? bounded_number(text, kFastest_mps, "m/s")
+                   : bounded_number(text, kFastest_degps, "deg/s");
 }
 
 /// The six numbers from the field `first` on: along the axes, then about them in degrees per
@@ -101,11 +95,6 @@ void resolve_step(Experiment& experiment, Variant& variant, NamedStep& named, Ta
   const std::string of_variant =
       experiment.variants.size() > 1 ? " of the variant \"" + variant.name + "\"" : "";
   const Fault at = {experiment.file, "the step \"" + named.name + "\"" + of_variant, ""};
-  if (experiment.loops) {
-    throw InputError(at.file, at.where,
-                     "expected no \"loops\": the velocity is that of the reference, and pairs "
-                     "have another");
-  }
   const GivenMotionStep::File file = step->file();
   if (file.name.empty()) return;
   const std::filesystem::path path =

@@ -15,14 +15,6 @@ namespace {
 
 constexpr double kUnitTolerance = 1e-6;
 
-double coordinate(const std::string& text) {
-  const double number_m = finite_number(text);
-  if (std::abs(number_m) > kLargestCoordinate_m) {
-    refuse("a number of at most " + fixed_number(kLargestCoordinate_m, 0) + " m", in_quotes(text));
-  }
-  return number_m;
-}
-
 int trial_number(const std::string& text) {
   const std::optional<std::uint64_t> number = count_from(text);
   if (!number || *number >= kMaxTrials) {
@@ -50,7 +42,8 @@ PoseLine read_line(const CsvLine& csv) {
   require_fields(csv, names + 7);
   PoseLine line{fields[0], fields[1], has_trial ? trial_number(fields[2]) : -1, {}};
   for (std::size_t i = 0; i < 3; ++i) {
-    line.pose.translation(static_cast<int>(i)) = coordinate(fields[names + i]);
+    line.pose.translation(static_cast<int>(i)) =
+        bounded_number(fields[names + i], kLargestCoordinate_m, "m");
   }
   Eigen::Quaterniond q;
   for (std::size_t i = 0; i < 4; ++i) {

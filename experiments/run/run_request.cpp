@@ -53,12 +53,16 @@ CheckedRun check_run(const RunRequest& request, const Catalogue& catalogue) {
   });
   collect_faults(faults, [&] {
     run.scenes = scenes_of(run.experiment, run.data_root);
-    resolve_starts(run.experiment, run.scenes, run.data_root);
-    check_plan_size(run.experiment, run.scenes, run.selection);
-    check_channels(run.experiment, run.scenes, run.selection);
-    resolve_poses(run.experiment, run.scenes, run.data_root);
-    resolve_velocities(run.experiment, run.scenes, run.data_root);
-    check_claimed_sensors(run.experiment, sensor_names(run.scenes));
+    // Each says what is wrong whatever the others find.
+    collect_faults(faults, [&] {
+      resolve_starts(run.experiment, run.scenes, run.data_root);
+      check_plan_size(run.experiment, run.scenes, run.selection);
+    });
+    collect_faults(faults, [&] { check_channels(run.experiment, run.scenes, run.selection); });
+    collect_faults(faults, [&] { resolve_poses(run.experiment, run.scenes, run.data_root); });
+    collect_faults(faults, [&] { resolve_velocities(run.experiment, run.scenes, run.data_root); });
+    collect_faults(faults,
+                   [&] { check_claimed_sensors(run.experiment, sensor_names(run.scenes)); });
   });
   if (!faults.empty()) throw InputError(std::move(faults));
   run.out = request.out;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct CheckedRun {
   std::vector<Scene> scenes;
   std::filesystem::path out;
   int jobs = 1;
+  std::set<std::string> damaged_files = {};  ///< Of clouds; known when all have been read once.
 };
 
 /// Reads and checks the request. Throws InputError with all faults.

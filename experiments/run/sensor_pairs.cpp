@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <set>
-#include <string_view>
 
 #include "experiments/run/scene_groups.hpp"
 #include "framework/base/error.hpp"
-#include "framework/base/text.hpp"
 #include "framework/io/text_scan.hpp"
+#include "framework/recording/recording.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -51,23 +50,8 @@ void check_number_of_pairs(const Scene& scene, const std::string& file) {
 
 void check_name(const std::string& what, const std::string& name, const std::string& file,
                 std::vector<Fault>& faults) {
-  constexpr std::size_t kMostBytes = kMostFileNameBytes - std::string_view(".pcd").size();
-  if (name.size() > kMostBytes) {
-    faults.push_back({file, "",
-                      "expected a " + what + " with a name of at most " +
-                          std::to_string(kMostBytes) + " bytes, found one of " +
-                          std::to_string(name.size())});
-    return;
-  }
-  const bool is_fine = !name.empty() && printable(name) == name &&
-                       (std::string(kFormulaSigns) + ".").find(name.front()) == std::string::npos &&
-                       name.find('/') == std::string::npos;
-  if (is_fine) return;
-  faults.push_back({file, "",
-                    "expected a " + what +
-                        " with a name in UTF-8 without control characters that does not begin "
-                        "with = + - @ or a dot, found " +
-                        in_quotes(name)});
+  const std::string why_not = why_no_scan_name(name, "a " + what);
+  if (!why_not.empty()) faults.push_back({file, "", why_not});
 }
 
 /// Notes a fault for a name that tables have for something else, and for one that `scene` has

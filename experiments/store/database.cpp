@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -90,7 +91,7 @@ void refuse_unsafe_siblings(const fs::path& path) {
     const fs::file_status status = fs::symlink_status(sibling, error);
     if (status.type() == fs::file_type::not_found || fs::is_regular_file(status)) continue;
     throw InputError(sibling.string(), "",
-                     "expected a file of a store, found something that is not a file");
+                     "expected a file of a store, found " + found_instead_of_file(sibling));
   }
   const fs::path journal = file.string() + "-journal";
   if (!names_super_journal(journal)) return;

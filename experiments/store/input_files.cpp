@@ -80,7 +80,7 @@ class KeptClouds {
 /// The file of `scan`: what is counted and what is digested are the same bytes, and those that
 /// `kept` gets.
 InputFile input_file(const SensorScan& scan, const fs::path& data_root, KeptClouds& kept) {
-  InputFile input{relative_path(scan.file, data_root), "", {}, {}};
+  InputFile input{relative_path(scan.file, data_root), "", {}, {}, scan.file};
   try {
     LoadedCloud cloud = scan.load();
     input.points = cloud.points.size();

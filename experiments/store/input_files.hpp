@@ -17,6 +17,7 @@ struct InputFile {
   /// The numbers of finite points and of points that were dropped as not finite; std::nullopt if
   /// the file could not be loaded.
   std::optional<std::size_t> points, dropped_non_finite;
+  std::string file;  ///< The path as the dataset gives it; in no manifest.
 };
 
 /// The files of the clouds of `scenes`, in order, each once; read on `jobs` threads. After that the

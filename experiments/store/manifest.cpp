@@ -35,7 +35,7 @@ Json files_json(const std::vector<ExperimentFile>& files) {
   return json;
 }
 
-Json inputs_json(const std::vector<InputFile>& inputs) {
+Json listed_inputs(const std::vector<InputFile>& inputs) {
   Json json = Json::array();
   for (const InputFile& input : inputs) {
     Json file = {{"path", input.path}, {"sha256", input.sha256}};
@@ -119,7 +119,8 @@ std::string pose_text(const std::optional<RigidTransform>& T) {
 }
 
 /// The digests of the files by path, and one digest of the rig's poses.
-std::string inputs_json(const std::vector<Scene>& scenes, const std::vector<InputFile>& inputs) {
+std::string deciding_inputs_json(const std::vector<Scene>& scenes,
+                                 const std::vector<InputFile>& inputs) {
   nlohmann::json json = {{"files", nlohmann::json::object()}};
   for (const InputFile& input : inputs) json["files"][input.path] = input.sha256;
   std::string poses;
@@ -153,7 +154,7 @@ std::string manifest_json(const Experiment& experiment, const std::vector<Scene>
   manifest["experiment"] = Json::parse(experiment_json(experiment));
   manifest["experiment_files"] = files_json(experiment.files);
   if (experiment.scenes_per_trial > 1) manifest["groups"] = groups_json(scenes);
-  manifest["inputs"] = inputs_json(inputs);
+  manifest["inputs"] = listed_inputs(inputs);
   manifest["provenance"] = {{"inputs", sha256_of_text(provenance.at("inputs"))},
                             {"pipelines", sha256_of_text(pipelines_text(experiment))}};
   manifest["planned"] = planned_trials(experiment, scenes);
@@ -230,7 +231,7 @@ std::string merged_manifest(const std::string& manifest, const std::string& host
 Provenance provenance_of(const Experiment& experiment, const std::vector<Scene>& scenes,
                          const std::vector<InputFile>& inputs) {
   Provenance provenance = {{"dataset", experiment.dataset.resolved()},
-                           {"inputs", inputs_json(scenes, inputs)},
+                           {"inputs", deciding_inputs_json(scenes, inputs)},
                            {"seed", std::to_string(experiment.seed)},
                            {"starts", deciding_starts_json(experiment.starts)},
                            {"success", success_json(experiment.success)}};

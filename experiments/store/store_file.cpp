@@ -9,6 +9,7 @@
 #include "experiments/store/store_header.hpp"
 #include "experiments/store/trial_rows.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -53,10 +54,18 @@ bool is_sqlite_file(const FileHeader& bytes) {
   throw InputError(path.string(), "", "expected the store of a run, found " + found);
 }
 
+/// What is at `path`, which has no store, for a message.
+std::string found_instead_of_store(const fs::path& path) {
+  if (!fs::is_regular_file(path)) return "none";
+  if (fs::is_empty(path)) return "an empty file";
+  return "a database without the tables of a store; a run that was killed has them in " +
+         path.string() + "-wal, which was beside it";
+}
+
 void refuse_unless_file(const fs::path& path) {
   std::error_code error;
   // Before it is opened: opening a pipe would wait for a writer.
-  if (!fs::is_regular_file(path, error)) refuse_other_file(path, "something that is not a file");
+  if (!fs::is_regular_file(path, error)) refuse_other_file(path, found_instead_of_file(path));
 }
 
 bool has_bytes(const fs::path& path) {
@@ -201,8 +210,7 @@ bool has_store(const fs::path& path) {
 }
 
 Database open_to_read(const fs::path& path) {
-  if (!has_store(path))
-    throw InputError(path.string(), "", "expected the store of a run, found none");
+  if (!has_store(path)) refuse_other_file(path, found_instead_of_store(path));
   Database database(path, Access::read);
   check_schema(database);
   return database;

@@ -13,6 +13,8 @@ struct Fault {
   std::string file;
   std::string where;
   std::string message;
+  /// Of a rule over several values: the JSON pointers of those that break it together.
+  std::vector<std::string> parts = {};
 
   /// The fault as one line for the user, `file: where: message`: printable, and cut if it is long.
   std::string line() const;

@@ -168,6 +168,12 @@ std::string printable(const std::string& text) {
   return shown;
 }
 
+std::string why_too_long(const std::string& name, std::size_t most, const std::string& what) {
+  if (name.size() <= most) return "";
+  return "expected " + what + " of at most " + std::to_string(most) + " bytes, found one of " +
+         std::to_string(name.size());
+}
+
 std::string counted(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }

@@ -8,8 +8,16 @@ namespace croon {
 /// A cell that begins with one of these is a formula to a spreadsheet.
 inline constexpr const char* kFormulaSigns = "=+-@";
 
+/// The bytes of the name of a file or folder, on the usual file systems.
+inline constexpr std::size_t kMostFileNameBytes = 255;
+
 /// The longest name of a variant or a step, in bytes; those of scenes and sensors are shorter.
 inline constexpr std::size_t kMostNameBytes = 1000;
+
+/// "expected WHAT of at most 255 bytes, found one of 256" if `name` has more bytes than `most`;
+/// else empty.
+std::string why_too_long(const std::string& name, std::size_t most,
+                         const std::string& what = "a name");
 
 /// The number of columns that UTF-8 text takes: its code points.
 std::size_t text_columns(const std::string& text);

@@ -9,6 +9,9 @@
 
 namespace croon {
 
+/// The most threads that a user may ask for: more than machines have, and started in a few seconds.
+inline constexpr int kMostJobs = 1024;
+
 /// How many of `jobs` threads may be used: all of them, unless there are more than cores and the
 /// system does not start so many. TBB ends the process if a thread does not start.
 int startable_threads(int jobs);

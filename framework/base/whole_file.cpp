@@ -82,15 +82,20 @@ int write_all(int descriptor, std::string_view bytes) {
 
 }  // namespace
 
+std::string found_instead_of_file(const fs::path& path) {
+  std::error_code none;
+  const fs::file_status status = fs::status(path, none);
+  if (fs::is_directory(status)) return "a folder";
+  if (fs::exists(status)) return "something that is not a file";
+  return fs::is_symlink(fs::symlink_status(path, none)) ? "a link that leads nowhere" : "none";
+}
+
 std::string read_whole_file(const fs::path& path) {
   std::error_code error;
   // Before it is opened: opening a pipe would wait for a writer.
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::is_regular_file(status)) {
-    const bool is_something = fs::exists(status);
+  if (!fs::is_regular_file(path, error)) {
     throw UnavailableFile(path.string(), "",
-                          std::string("expected a readable file, found ") +
-                              (is_something ? "something that is not a file" : "none"));
+                          "expected a readable file, found " + found_instead_of_file(path));
   }
   std::ifstream stream(path, std::ios::binary);
   if (!stream) {
@@ -114,7 +119,7 @@ std::string read_whole_file(const fs::path& path) {
 
 std::optional<std::string> read_file_if_there(const fs::path& path) {
   std::error_code error;
-  if (fs::status(path, error).type() == fs::file_type::not_found) return std::nullopt;
+  if (fs::symlink_status(path, error).type() == fs::file_type::not_found) return std::nullopt;
   return read_whole_file(path);
 }
 
@@ -132,7 +137,7 @@ void write_whole_file(const fs::path& path, std::string_view bytes) {
   // Renaming onto a device or a pipe would replace it by a file.
   if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
     throw InputError(path.string(), "",
-                     "expected a file that can be written, found something else");
+                     "expected a file that can be written, found " + found_instead_of_file(path));
   }
   const PartFile part = create_part_file(path);
   int error = write_all(part.descriptor, bytes);

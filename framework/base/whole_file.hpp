@@ -16,10 +16,14 @@ class UnavailableFile : public InputError {
   using InputError::InputError;
 };
 
+/// What a message says that was found at `path`, if it is no file: none, a folder, a link that
+/// leads nowhere, or something else. Other links are followed.
+std::string found_instead_of_file(const std::filesystem::path& path);
+
 /// The bytes of the file `path`. Throws UnavailableFile if it cannot be read or is too large.
 std::string read_whole_file(const std::filesystem::path& path);
 
-/// The same; std::nullopt if nothing is there.
+/// The same; std::nullopt if nothing is there, no link either.
 std::optional<std::string> read_file_if_there(const std::filesystem::path& path);
 
 /// Whether `path` is a file, and no link, that begins with `bytes`. False if it cannot be read.

@@ -132,7 +132,8 @@ std::vector<std::string> check_point_cloud_file(const fs::path& path) {
   const Format& format = format_of(path);
   std::error_code error;
   if (!fs::is_regular_file(path, error)) {
-    throw InputError(path.string(), "", "expected a readable file, found none");
+    throw InputError(path.string(), "",
+                     "expected a readable file, found " + found_instead_of_file(path));
   }
   const std::uintmax_t file_bytes = fs::file_size(path, error);
   if (error) throw InputError(path.string(), "", "cannot be read: " + error.message());

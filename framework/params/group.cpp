@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 namespace croon::params {
-const NameRule kKeyName = {"_-", "a name of letters, digits, _ and -"};
+const NameRule kKeyName = {"_-", "a name of letters, digits, _ and -, not starting with -", "-"};
 
 std::vector<std::string> read_names(const Node& node, const std::string& name_words) {
   std::vector<std::string> names;
@@ -11,7 +11,7 @@ std::vector<std::string> read_names(const Node& node, const std::string& name_wo
   for (const auto& [name, value] : node.value().items()) {
     names.push_back(name);
     if (kKeyName.allows(name)) continue;
-    node.member(name).fault("expected " + name_words + " of letters, digits, _ and -, found " +
+    node.member(name).fault("expected " + name_words + ", " + kKeyName.words + ", found " +
                             value_json(name));
   }
   if (names.empty()) node.expected("an object with " + name_words + " for each key");

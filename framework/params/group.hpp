@@ -20,7 +20,8 @@ struct Preset {
 /// The key of a group's object that names the preset to begin with.
 constexpr const char* kLikeKey = "like";
 
-/// The names of steps and of the keys of maps.
+/// The names of steps and of the keys of maps. They stand in tables, in which a minus sign in front
+/// would begin a formula.
 extern const NameRule kKeyName;
 
 /// The keys of the object `node`, in order. Notes a fault if there are none, for each that is not a

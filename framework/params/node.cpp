@@ -82,8 +82,10 @@ bool Node::has(const std::string& key) const { return has_members() && value_->c
 
 bool Node::has_members() const { return value_->is_object(); }
 
-void Node::fault(const std::string& message) const {
-  faults_->push_back({file_, pointer_.empty() ? "/" : pointer_, message});
+std::string Node::pointer_to(const std::string& key) const { return pointer_ + "/" + escaped(key); }
+
+void Node::fault(const std::string& message, std::vector<std::string> parts) const {
+  faults_->push_back({file_, pointer_.empty() ? "/" : pointer_, message, std::move(parts)});
 }
 
 void Node::expected(const std::string& what) const {
@@ -109,9 +111,9 @@ void Node::refuse_unknown_keys(const std::vector<std::string>& known) const {
   }
 }
 
-bool Node::require(const std::string& key) const {
+bool Node::require(const std::string& key, std::vector<std::string> parts) const {
   if (has(key)) return true;
-  fault("the key \"" + key + "\" is missing");
+  fault("the key \"" + key + "\" is missing", std::move(parts));
   return false;
 }
 

@@ -42,8 +42,11 @@ class Node {
   /// True for an object; notes no fault.
   bool has_members() const;
 
-  /// Notes that this value is wrong.
-  void fault(const std::string& message) const;
+  /// RFC 6901 pointer of the member `key` of this object, which need not be there.
+  std::string pointer_to(const std::string& key) const;
+
+  /// Notes that this value is wrong. `parts`: see Fault.
+  void fault(const std::string& message, std::vector<std::string> parts = {}) const;
   /// Notes `expected WHAT, found VALUE`.
   void expected(const std::string& what) const;
 
@@ -56,8 +59,9 @@ class Node {
   bool is_array() const;
   /// Notes a fault for each key of this object that is not in `known`, with the nearest known one.
   void refuse_unknown_keys(const std::vector<std::string>& known) const;
-  /// Notes a fault if the member `key` is missing.
-  bool require(const std::string& key) const;
+  /// Notes a fault if the member `key` is missing. `parts` are the values that require it, see
+  /// Fault.
+  bool require(const std::string& key, std::vector<std::string> parts = {}) const;
 
   /// The value at `path`, "sweep/rotation_deg", below this object; null if there is none.
   const nlohmann::json* find(const std::string& path) const;

@@ -66,7 +66,8 @@ class Table {
     return conditions_;
   }
 
-  /// Adds a condition on the parameters together; `message` says what must hold.
+  /// Adds a condition on the parameters together; `message` says what must hold, and names the
+  /// keys.
   Table& require(std::function<bool(const P&)> holds, std::string message) {
     conditions_.push_back({std::move(holds), std::move(message)});
     return *this;
@@ -110,6 +111,15 @@ class Table {
   }
 
  private:
+  /// The keys with the JSON text of their values.
+  std::vector<std::pair<std::string, std::string>> members(const P& params) const {
+    std::vector<std::pair<std::string, std::string>> members;
+    for (const Parameter<P>& parameter : parameters_) {
+      members.emplace_back(parameter.doc.key, parameter.json(params));
+    }
+    return members;
+  }
+
   static bool is_missing(const Parameter<P>& parameter, const P& params) {
     return parameter.doc.is_required && parameter.json(params) == parameter.doc.default_json;
   }
@@ -128,7 +138,7 @@ P Table<P>::read(const Node& node, const std::vector<std::string>& other_keys,
   // Of parameters of which one could not be read, nothing can be said together.
   if (node.fault_count() > faults_before) return params;
   for (const auto& [holds, message] : conditions_) {
-    if (!holds(params)) node.fault(message);
+    if (!holds(params)) note_broken_rule(node, message, members(params));
   }
   for (const auto& finish : finishes_) finish(params, node);
   return params;
@@ -162,14 +172,13 @@ bool Table<P>::is_whole(const P& params) const {
 
 template <class P>
 std::string Table<P>::members_json(const P& params, const std::vector<std::string>& without) const {
-  std::vector<std::pair<std::string, std::string>> members;
-  for (const Parameter<P>& parameter : parameters_) {
-    const std::string& key = parameter.doc.key;
-    if (std::find(without.begin(), without.end(), key) == without.end()) {
-      members.emplace_back(key, parameter.json(params));
+  std::vector<std::pair<std::string, std::string>> kept;
+  for (std::pair<std::string, std::string>& member : members(params)) {
+    if (std::find(without.begin(), without.end(), member.first) == without.end()) {
+      kept.push_back(std::move(member));
     }
   }
-  return members_text(members, rules_);
+  return members_text(kept, rules_);
 }
 
 /// A row for any value that `read_value` and `value_json` know.

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 
 namespace croon::params {
 namespace {
@@ -30,6 +31,17 @@ void read_text(const Node& node, const ParameterDoc& doc, std::string& out) {
   if (doc.name_rule && !doc.name_rule->allows(text)) return node.expected(doc.name_rule->words);
   if (text.empty() && !doc.may_be_empty) return node.expected("a string that is not empty");
   out = text;
+}
+
+/// Whether `word` stands in `text`, and not as a part of a longer word.
+bool has_word(const std::string& text, const std::string& word) {
+  const auto ends_at = [&](std::size_t i) {
+    return i >= text.size() || (!is_alphanumeric(text[i]) && text[i] != '_');
+  };
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    if ((at == 0 || ends_at(at - 1)) && ends_at(at + word.size())) return true;
+  }
+  return false;
 }
 
 /// Whether the rule's condition holds for the object `node`.
@@ -236,12 +248,30 @@ void check_key_rules(const Node& node, const std::vector<KeyRule>& rules) {
       continue;
     }
     if (!applies(rule, node)) continue;
-    for (const std::string& key : rule.required) node.require(key);
+    const std::vector<std::string> because = {node.pointer_to(rule.key)};
+    for (const std::string& key : rule.required) node.require(key, because);
     for (const std::string& key : rule.excluded) {
       if (!node.has(key)) continue;
-      node.member(key).fault("expected " + rule.expected + ", found \"" + key + "\"");
+      node.member(key).fault("expected " + rule.expected + ", found \"" + key + "\"", because);
     }
   }
+}
+
+void note_broken_rule(const Node& node, const std::string& message,
+                      const std::vector<std::pair<std::string, std::string>>& members) {
+  constexpr std::size_t kLongestValue = 60;
+  std::vector<std::string> parts;
+  std::vector<std::pair<std::string, std::string>> named;
+  for (const auto& [key, text] : members) {
+    if (text.empty() || !has_word(message, key)) continue;
+    parts.push_back(node.pointer_to(key));
+    named.emplace_back(key, cut_in_the_middle(text, kLongestValue));
+  }
+  std::string found;
+  for (const auto& [key, text] : named) {
+    found += (found.empty() ? ", found " : " and ") + (named.size() > 1 ? key + " " : "") + text;
+  }
+  node.fault(message + found, parts);
 }
 
 std::string members_text(const std::vector<std::pair<std::string, std::string>>& members,

@@ -61,6 +61,11 @@ std::string node_json(const Node& node);
 /// Notes a fault for each of the rules that the object `node` breaks.
 void check_key_rules(const Node& node, const std::vector<KeyRule>& rules);
 
+/// Notes that `members`, keys with their JSON text, break the rule `message`, with the values of
+/// those that it names.
+void note_broken_rule(const Node& node, const std::string& message,
+                      const std::vector<std::pair<std::string, std::string>>& members);
+
 /// The JSON members `"key":value`, comma-separated. Leaves out keys whose text is empty and those
 /// that the rules exclude.
 std::string members_text(const std::vector<std::pair<std::string, std::string>>& members,

@@ -43,9 +43,9 @@ std::string read_step_name(const Node& step) {
   std::string name;
   const Node member = step.member("name");
   if (!member.read(name)) return name;
-  if (name.size() > kMostNameBytes) {
-    member.fault("expected a name of at most " + std::to_string(kMostNameBytes) +
-                 " bytes, found one of " + std::to_string(name.size()));
+  const std::string too_long = why_too_long(name, kMostNameBytes);
+  if (!too_long.empty()) {
+    member.fault(too_long);
   } else if (!params::kKeyName.allows(name)) {
     member.expected(params::kKeyName.words);
   }
@@ -69,18 +69,33 @@ void set_origin(std::vector<Origin>& origins, const Origin& origin) {
   origins.push_back(origin);
 }
 
-/// `fault`, which names a pointer in the step, with the file and the pointer where it was written.
-Fault located(Fault fault, const std::vector<Origin>& origins) {
-  const std::string pointer = fault.where == "/" ? "" : fault.where;
-  const Origin* nearest = nullptr;
-  for (const Origin& origin : origins) {
-    if (contains(origin.part, pointer) &&
-        (nearest == nullptr || origin.part.size() > nearest->part.size())) {
-      nearest = &origin;
+/// The origin of the value at `pointer`. Later ones in the list were set later.
+std::vector<Origin>::const_iterator origin_of(const std::vector<Origin>& origins,
+                                              const std::string& pointer) {
+  auto nearest = origins.end();
+  for (auto origin = origins.begin(); origin != origins.end(); ++origin) {
+    if (contains(origin->part, pointer) &&
+        (nearest == origins.end() || origin->part.size() > nearest->part.size())) {
+      nearest = origin;
     }
   }
-  fault.file = nearest->file;
-  fault.where = nearest->pointer + pointer.substr(nearest->part.size());
+  return nearest;
+}
+
+/// `fault`, which names a pointer in the step, with the file and the pointer where it was written.
+/// Of values that break a rule together, the last that was set broke it.
+Fault located(Fault fault, const std::vector<Origin>& origins) {
+  std::string pointer = fault.where == "/" ? "" : fault.where;
+  auto origin = origin_of(origins, pointer);
+  for (const std::string& part : fault.parts) {
+    const auto of_part = origin_of(origins, part);
+    if (of_part <= origin) continue;
+    origin = of_part;
+    pointer = part;
+  }
+  fault.file = origin->file;
+  fault.where = origin->pointer + pointer.substr(origin->part.size());
+  fault.parts.clear();
   return fault;
 }
 
@@ -222,6 +237,10 @@ Pipeline build_pipeline(const PatchedPipeline& pipeline, const Catalogue& catalo
   return built;
 }
 
+Fault fault_of_step(const PatchedStep& step, const std::string& message) {
+  return located({"", "/", "the step \"" + step.name + "\" " + message}, step.origins);
+}
+
 std::vector<Fault> unmet_needs(const PatchedPipeline& pipeline, const Pipeline& built) {
   std::vector<Fault> faults;
   std::map<std::string, params::ExtraDoc> given;
@@ -235,10 +254,8 @@ std::vector<Fault> unmet_needs(const PatchedPipeline& pipeline, const Pipeline& 
       const std::string why = found == given.end()
                                   ? "which no step before it gives" + name_hint(extra.name, names)
                                   : "which a step before it gives with another type";
-      faults.push_back(located({"", "/",
-                                "the step \"" + built[i].name + "\" needs the extra \"" +
-                                    extra.name + "\" (" + extra.meaning + "), " + why},
-                               pipeline[i].origins));
+      faults.push_back(fault_of_step(
+          pipeline[i], "needs the extra \"" + extra.name + "\" (" + extra.meaning + "), " + why));
     }
     for (const params::ExtraDoc& extra : flow.gives) given[extra.name] = extra;
   }

@@ -55,6 +55,9 @@ std::string replace_value(PatchedPipeline& pipeline, const std::string& path,
 Pipeline build_pipeline(const PatchedPipeline& pipeline, const Catalogue& catalogue,
                         std::vector<Fault>& faults, std::string& resolved);
 
+/// The fault `message` of the step, where the step was written.
+Fault fault_of_step(const PatchedStep& step, const std::string& message);
+
 /// The extras that steps of `pipeline` take and no step before them gives, or gives with another
 /// type: a fault for each, where the step was written. `built` is what `build_pipeline` made of it
 /// without faults.

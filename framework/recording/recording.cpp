@@ -1,8 +1,11 @@
 #include "framework/recording/recording.hpp"
 
 #include <algorithm>
+#include <string_view>
+#include <tuple>
 
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 #include "framework/io/point_cloud_file.hpp"
 #include "framework/io/text_scan.hpp"
 
@@ -96,6 +99,30 @@ std::vector<Scene> with_file_errors(const std::function<std::vector<Scene>()>& r
   } catch (const fs::filesystem_error& error) {
     throw InputError(error.path1().string(), "", error.code().message());
   }
+}
+
+bool SceneOrder::operator()(const std::string& a, const std::string& b) const {
+  // Numbers of any length: without zeros in front the longer one is larger.
+  const auto key = [](const std::string& name) {
+    const bool is_number = name.find_first_not_of("0123456789") == std::string::npos;
+    const std::size_t first = is_number ? std::min(name.find_first_not_of('0'), name.size()) : 0;
+    return std::tuple(!is_number, is_number ? name.size() - first : 0, name.substr(first), name);
+  };
+  return key(a) < key(b);
+}
+
+std::string why_no_scan_name(const std::string& name, const std::string& what) {
+  constexpr std::size_t kMostBytes = kMostFileNameBytes - std::string_view(".pcd").size();
+  const std::string too_long = why_too_long(name, kMostBytes, what + " with a name");
+  if (!too_long.empty()) return too_long;
+  const bool is_fine = !name.empty() && printable(name) == name &&
+                       (std::string(kFormulaSigns) + ".").find(name.front()) == std::string::npos &&
+                       name.find('/') == std::string::npos;
+  if (is_fine) return "";
+  return "expected " + what +
+         " with a name in UTF-8 without slashes and control characters that does not begin with "
+         "= + - @ or a dot, found " +
+         in_quotes(name);
 }
 
 }  // namespace croon

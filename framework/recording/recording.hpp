@@ -53,4 +53,14 @@ std::vector<std::string> chosen_scenes(std::vector<std::string> names,
 /// Returns what `read` returns; a std::filesystem::filesystem_error becomes an InputError.
 std::vector<Scene> with_file_errors(const std::function<std::vector<Scene>()>& read);
 
+/// Whether the scene called `a` comes before that called `b`: names that are whole numbers first,
+/// by number, so that 1000000 comes after 999999; then the others as text.
+struct SceneOrder {
+  bool operator()(const std::string& a, const std::string& b) const;
+};
+
+/// Why a scene or a sensor cannot be called `name`, for a message, as names stand in tables and are
+/// those of files; empty if it can. `what` is "a sensor".
+std::string why_no_scan_name(const std::string& name, const std::string& what);
+
 }  // namespace croon

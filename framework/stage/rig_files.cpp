@@ -36,7 +36,8 @@ void check_position(const params::Node& pose, const Eigen::Vector3d& translation
     if (std::abs(translation_m(i)) <= kLargestCoordinate_m) continue;
     pose.member("translation_m")
         .element(static_cast<std::size_t>(i))
-        .expected("a number of at most " + fixed_number(kLargestCoordinate_m, 0) + " m");
+        .expected("a number from -" + fixed_number(kLargestCoordinate_m, 0) + " to " +
+                  fixed_number(kLargestCoordinate_m, 0) + " m");
   }
 }
 

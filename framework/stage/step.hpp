@@ -21,6 +21,9 @@ struct GroundSplit {
   std::shared_ptr<const Cloud> non_ground;  ///< The points off the ground, in the sensor's frame.
 };
 
+/// `Estimate::covariance`, for the data flow of steps that give one or cannot do without.
+inline constexpr Extra<PoseCovariance> kCovariance{"covariance", "the covariance of the pose"};
+
 /// A number that a step reports of its work: ("inlier_ratio", 0.83).
 using Diagnostic = std::pair<std::string, double>;
 

@@ -2,6 +2,7 @@
 #include <set>
 
 #include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
 #include "framework/io/data_path.hpp"
 #include "framework/io/opencalib_files.hpp"
 #include "framework/io/point_cloud_file.hpp"
@@ -57,7 +58,11 @@ fs::path find_cloud(const ListedCloud& cloud, const SceneLocation& location) {
     std::error_code error;
     const fs::path path = location.links == Links::inside ? fs::canonical(candidate, error)
                                                           : candidate.lexically_normal();
-    if (!error && fs::is_regular_file(path, error) && is_within(path, location.root)) return path;
+    if (error || !is_within(path, location.root) || !fs::exists(path, error)) continue;
+    if (fs::is_regular_file(path, error)) return path;
+    throw InputError(
+        (location.folder / kCloudList).string(), cloud.place,
+        "expected a cloud, found " + found_instead_of_file(path) + " at " + path.string());
   }
   throw InputError((location.folder / kCloudList).string(), cloud.place,
                    "the cloud \"" + cloud.path +
@@ -126,11 +131,13 @@ Scene read_scene(const SceneLocation& location, RigFilesAbove& rig_files) {
 }
 
 /// The folders of scenes by the scenes' names.
-std::map<std::string, fs::path> scene_folders(const fs::path& folder) {
+using SceneFolders = std::map<std::string, fs::path, SceneOrder>;
+
+SceneFolders scene_folders(const fs::path& folder) {
   if (!fs::is_directory(folder))
     throw InputError(folder.string(), "", "expected a folder of scenes");
   if (fs::exists(folder / kCloudList)) return {{folder.filename().string(), folder}};
-  std::map<std::string, fs::path> folders;
+  SceneFolders folders;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (!fs::exists(entry.path() / kCloudList)) continue;
     folders.emplace(entry.path().filename().string(), entry.path());
@@ -145,7 +152,7 @@ std::map<std::string, fs::path> scene_folders(const fs::path& folder) {
 /// Of the scenes in `folder`, or of `folder` itself if it is a scene, those in `chosen`.
 std::vector<SceneLocation> scene_locations(const fs::path& folder, const fs::path& root,
                                            Links links, const std::vector<std::string>& chosen) {
-  const std::map<std::string, fs::path> folders = scene_folders(folder);
+  const SceneFolders folders = scene_folders(folder);
   std::vector<std::string> names;
   for (const auto& [name, path] : folders) names.push_back(name);
   std::vector<SceneLocation> locations;

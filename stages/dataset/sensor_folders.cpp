@@ -2,6 +2,7 @@
 #include <set>
 
 #include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
 #include "framework/io/point_cloud_file.hpp"
 #include "framework/io/text_scan.hpp"
 #include "framework/params/repeats.hpp"
@@ -21,11 +22,18 @@ struct Params {
   bool follow_links = false;
 };
 
-/// Notes a fault for each name that stands twice, and for a sensor that is the reference.
+/// Notes a fault for each name that a sensor cannot have or that stands twice, and for a sensor
+/// that is the reference.
 void check_names(const Params& params, const params::Node& node) {
+  const auto check_name = [](const std::string& name, const params::Node& at) {
+    const std::string why_not = why_no_scan_name(name, "a sensor");
+    if (!why_not.empty()) at.fault(why_not);
+  };
   params::refuse_repeats(params.scenes, node, "scenes");
   params::refuse_repeats(params.sensors, node, "sensors");
+  check_name(params.reference, node.member("reference"));
   for (std::size_t i = 0; i < params.sensors.size(); ++i) {
+    check_name(params.sensors[i], node.member("sensors").element(i));
     if (params.sensors[i] != params.reference) continue;
     node.member("sensors").element(i).fault("expected another sensor than the reference, found " +
                                             in_quotes(params.sensors[i]));
@@ -54,7 +62,7 @@ const params::Table<Params>& table() {
 }
 
 /// The clouds of one sensor by their names without suffix.
-using Clouds = std::map<std::string, fs::path>;
+using Clouds = std::map<std::string, fs::path, SceneOrder>;
 
 /// Throws InputError for a link that leads nowhere, as to a disk that is not mounted: what it
 /// stands for must not be missed in silence.
@@ -72,7 +80,7 @@ Clouds clouds_in(const SceneLocation& folder) {
     refuse_dangling(entry);
     if (!entry.is_regular_file()) {
       throw InputError(entry.path().string(), "",
-                       "expected a cloud, found something that is not a file");
+                       "expected a cloud, found " + found_instead_of_file(entry.path()));
     }
     const fs::path file = path_in_data_root(folder.root, entry.path().string(), folder.links);
     const auto [found, is_new] = clouds.emplace(entry.path().stem().string(), file);

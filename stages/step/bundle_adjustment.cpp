@@ -72,6 +72,8 @@ class BundleAdjustmentStep final : public RigStep {
  public:
   explicit BundleAdjustmentStep(const Params& params) : params_(params) {}
 
+  static params::DataFlow data_flow(const Params&) { return {{}, {}, {}, {kCovariance.doc()}}; }
+
   void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
     std::map<std::string, std::vector<RigEstimate*>> references;
     for (RigEstimate& one : rig) {

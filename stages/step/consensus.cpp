@@ -57,6 +57,11 @@ class ConsensusStep final : public RigStep {
   explicit ConsensusStep(const Params& params)
       : params_(params), bounds_{rad_from_deg(params.rotation_deg), params.translation_m} {}
 
+  static params::DataFlow data_flow(const Params& params) {
+    if (params.weights != Weights::covariance) return {};
+    return {{}, {}, {kCovariance.doc()}, {kCovariance.doc()}};
+  }
+
   void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
     std::map<std::pair<std::string, std::string>, OfSensor> sensors;
     for (RigEstimate& one : rig) sensors[{one.target, one.source}].push_back(&one);

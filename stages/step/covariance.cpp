@@ -57,6 +57,8 @@ const params::Table<Params>& table() {
                            "What is not known of its rate of turning about z."),
         }
             .inherit(option_table());
+    rows.require([](const Params& p) { return p.unobservable_ratio <= p.weak_ratio; },
+                 "unobservable_ratio must not be above weak_ratio");
     rows.require([](const Params& p) { return p.velocity_std_mps.size() == 3; },
                  "velocity_std_mps must have three numbers");
     return rows;
@@ -69,8 +71,11 @@ class CovarianceStep final : public Step {
   explicit CovarianceStep(const Params& chosen) : options_(options_of(chosen)) {}
 
   static params::DataFlow data_flow(const Params& chosen) {
-    if (options_of(chosen).motion_covariance.isZero(0.0)) return {};
-    return params::needs_channels({kTime});
+    params::DataFlow flow;
+    flow.gives = {kCovariance.doc()};
+    if (!options_of(chosen).motion_covariance.isZero(0.0))
+      flow.add(params::needs_channels({kTime}));
+    return flow;
   }
 
   Estimate advance(Estimate estimate, Rng&) const override {

@@ -46,7 +46,9 @@ const params::Table<Params>& table() {
                           "its error is estimated, with its covariance as what is expected."),
       }
           .inherit(joint_table())
-          .inherit(motion_table());
+          .inherit(motion_table())
+          .require([](const Params& p) { return p.motion || p.clock_offset_std_s == 0.0; },
+                   "clock_offset_std_s must be 0 if motion is false: at rest no clock shows");
   return table;
 }
 

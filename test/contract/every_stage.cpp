@@ -17,7 +17,7 @@ using params::ParameterType;
 nlohmann::ordered_json any_value(const ParameterDoc& parameter) {
   switch (parameter.type) {
     case ParameterType::text:
-      return "some/words";
+      return "some_words";
     case ParameterType::group:
       if (!parameter.choices.empty()) return parameter.choices.front();
       return minimal_object(parameter.members);

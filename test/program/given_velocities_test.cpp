@@ -81,11 +81,20 @@ TEST_F(GivenVelocities, AreReadStrictly) {
   expect_refusal(run(R"("file": "v.csv")"),
                  "x.json: the step \"known_velocity\": expected a file of velocities, found "
                  "neither ");
+  std::filesystem::create_directory(path("v.csv"));
+  expect_refusal(run(R"("file": "v.csv")"),
+                 "expected a file of velocities, found a folder at " + path("v.csv"));
+  std::filesystem::remove(path("v.csv"));
+  expect_refusal(run(R"("file": "v.csv")", R"("variants": [{"name": "p", "poses": "p.csv"}], )"),
+                 "x.json: /variants/0/poses: expected a file of poses, found neither ");
+  expect_refusal(run(R"("file": "v.csv")", R"("variants": [{"name": "p", "poses": "p.csv"}], )"),
+                 "expected a file of velocities, found neither ");
   write_velocities("000000,10,0,0,0,0,0\n000002,10,0,0,0,0,1\n");
   expect_refusal(run(R"("file": "v.csv")"),
                  "v.csv: line 3: expected a scene of the dataset, found \"000002\"; did you mean");
   write_velocities(kRows);
-  expect_refusal(run(R"("file": "v.csv")", R"("loops": true, )"), "expected no \"loops\"");
+  expect_refusal(run(R"("file": "v.csv")", R"("loops": true, )"),
+                 "x.json: /pipeline/0: the step \"known_velocity\" expects no \"loops\"");
   expect_refusal(run(R"("file": "v.csv", "linear_mps": [1, 0, 0])"), "no key beside \"file\"");
   expect_refusal(run(R"("linear_std_mps": 1)"), "must both be 0 or both be above it");
 }

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <map>
 
+#include "experiments/run/given_velocities.hpp"
+#include "experiments/run/pose_file.hpp"
 #include "framework/base/whole_file.hpp"
 #include "test/program/program.hpp"
 #include "test/support/temp_folder.hpp"
@@ -92,6 +94,26 @@ TEST_F(OutputFile, ReplacesNeitherInputsNorResultsNorData) {
       expect_refused(command, there, *what == '\0' ? is_input : what);
     }
   }
+}
+
+TEST_F(OutputFile, ReplacesNoFileThatExperimentsName) {
+  const std::string starts = path("starts.csv");
+  ASSERT_EQ(croon("starts " + path("x.json") + " --out " + starts).code, 0);
+  folder_.write("velocities.csv", std::string("\xef\xbb\xbf") + kVelocityHeader + "\n");
+  folder_.write("poses.csv", std::string(kPoseHeader) + "\n");
+  folder_.write("part.json", R"({"pipeline": []})");
+  const std::pair<const char*, const char*> files[] = {{"starts.csv", "a file of starts"},
+                                                       {"velocities.csv", "a file of velocities"},
+                                                       {"poses.csv", "a file of poses"},
+                                                       {"part.json", "an experiment"}};
+  for (const auto& [file, what] : files) {
+    for (const auto& [name, command] : commands(path(file))) {
+      if (name == "starts" && path(file) == starts) continue;
+      expect_refused(command, path(file), what);
+    }
+  }
+  // A list of starts is made again.
+  EXPECT_EQ(croon("starts " + path("x.json") + " --trials 2 --out " + starts).code, 0);
 }
 
 TEST_F(OutputFile, IsNoFileThatAStoreWouldTakeForItsOwn) {

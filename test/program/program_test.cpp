@@ -20,12 +20,21 @@ TEST(Program, AnswersAWrongCommandLineWithOneLine) {
   expect_line("validate none.json", "croon: none.json: expected a readable file, found none");
   for (const char* arguments :
        {"run", "run x.json --jobs two", "run x.json --jobs 0", "run x.json --trials -1",
-        "run x.json --shard", "stages --json --markdown", "schema more", "stages no_such_kind",
-        "run x.json y.json"}) {
+        "run x.json --jobs 1025", "run x.json --shard", "stages --json --markdown", "schema more",
+        "stages no_such_kind", "run x.json y.json"}) {
     const Answer answer = croon(arguments);
     EXPECT_EQ(answer.code, 2) << arguments;
     EXPECT_EQ(answer.text.rfind("croon: ", 0), 0U) << answer.text;
     EXPECT_EQ(answer.text.find('\n') + 1, answer.text.size()) << answer.text;
+  }
+}
+
+TEST(Program, TakesNoEmptyTextForADefault) {
+  for (const char* option : {"--figure", "--format", "--units", "--width", "--out"}) {
+    const Answer answer = croon(std::string("export results ") + option + " ''");
+    EXPECT_EQ(answer.code, 2) << option;
+    EXPECT_EQ(answer.text.rfind(std::string("croon: ") + option + ": expected ", 0), 0U)
+        << answer.text;
   }
 }
 
@@ -46,6 +55,35 @@ TEST(Program, ValidatesFilesAndFolders) {
                              "/bad.json: /pipeline/0/step: expected a step, found "
                              "\"identiy\"; did you mean \"identity\"?\n"),
             std::string::npos);
+}
+
+TEST(Program, RefusesWhatCanOnlyFailWhenItValidates) {
+  const test::TempFolder folder;
+  const auto validate = [&](const std::string& members) {
+    const std::string file =
+        folder
+            .write("x.json", R"({"name": "x", "dataset": {"type": "simulated"}, )" + members + "}")
+            .string();
+    const Answer answer = croon("validate " + file);
+    return answer.code == 2 ? answer.text.substr(std::string("croon: " + file + ": ").size())
+                            : answer.text;
+  };
+  EXPECT_EQ(validate(R"("pipeline": [{"step": "consensus", "weights": "covariance"}])"),
+            "/pipeline/0: the step \"consensus\" needs the extra \"covariance\" (the covariance of "
+            "the pose), which no step before it gives, in variant \"base\"\n");
+  for (const char* before : {"covariance", "bundle_adjustment"}) {
+    const std::string steps = std::string(R"({"step": ")") + before +
+                              R"("}, {"step": "consensus", "weights": "covariance"})";
+    EXPECT_EQ(validate(R"("pipeline": [)" + steps + "]"), folder.path().string() + "/x.json: ok\n");
+  }
+  EXPECT_EQ(
+      validate(R"("loops": true, "pipeline": [{"step": "identity"}], "variants": [{"name": "v",
+                        "replace": {"identity": {"step": "known_velocity"}}}])"),
+      "/variants/0/replace/identity: the step \"identity\" expects no \"loops\": the velocity "
+      "is that of the reference, and pairs have another\n");
+  EXPECT_EQ(validate(R"("pipeline": [{"step": "identity", "name": "-x"}])"),
+            "/pipeline/0/name: expected a name of letters, digits, _ and -, not starting with -, "
+            "found \"-x\"\n");
 }
 
 TEST(Program, TellsItsVersionStagesAndSchema) {

@@ -458,6 +458,22 @@ class Experiments(TestCase):
         register(2)
         self.assertIn("test_version", self.line_of(croon.InputError, croon.run, steps, out="out"))
 
+    def test_say_that_a_step_gives_a_covariance(self):
+        gives = [croon.extra("covariance", "the covariance of the pose")]
+        for name, given in (("test_certain", gives), ("test_silent", [])):
+            @croon.stage("step", name, summary="Sets a covariance.", gives=given)
+            class Certain(croon.Step):
+                def advance(self, estimate, rng):
+                    estimate.covariance = 1e-4 * np.eye(6)
+                    return estimate
+
+        def run(name):
+            steps = [{"step": name}, {"step": "consensus", "weights": "covariance"}]
+            return croon.run(experiment(pipeline=steps), out=name, trials=1)
+
+        self.assertNotIn("failed", run("test_certain").trials["status"])
+        self.assertIn('needs the extra "covariance"', self.line_of(croon.InputError, run, "test_silent"))
+
     def test_record_what_failed(self):
         def fail(estimate, rng):
             if estimate.trial.number == 1:

@@ -123,7 +123,7 @@ def _request(experiment, out="", data="", jobs=0, trials=0, only=(), shard=""):
         "text": text,
         "out": path_of(out, "out") if out else "",
         "data": path_of(data, "data") if data else "",
-        "jobs": whole(jobs, "jobs", 0, 4096),
+        "jobs": whole(jobs, "jobs", 0, _core.MOST_JOBS),
         "trials": whole(trials, "trials", 0, 1000000000),
         "only": [word(variant, "only") for variant in only],
         "shard": word(shard, "shard"),

@@ -97,6 +97,21 @@ TEST(Coverage, OfACovarianceWithoutRankIsFiniteAlongIt) {
             std::numeric_limits<double>::infinity());
 }
 
+TEST(Coverage, CountsErrorsThatACovarianceDeniesAsMissesOnly) {
+  std::vector<TrialRecord> records = drawn_records(10, 1.0);
+  const Coverage all = coverage_on(records);
+  records[0].covariance->matrix.setZero();
+  const Coverage coverage = coverage_on(records);
+  EXPECT_EQ(coverage.errors.back().trials, 19);
+  EXPECT_TRUE(std::isfinite(coverage.errors.back().mean));
+  EXPECT_TRUE(std::isfinite(coverage.errors.back().interval->high));
+  EXPECT_EQ(coverage.rows.back().held.back().trials, 20);
+  EXPECT_LE(coverage.rows.back().held.back().count, all.rows.back().held.back().count);
+  for (TrialRecord& record : records) record.covariance->matrix.setZero();
+  EXPECT_TRUE(coverage_on(records).errors.empty());
+  EXPECT_EQ(coverage_on(records).rows.back().held.back().count, 0);
+}
+
 TEST(Coverage, HasTablesAndAFigure) {
   const std::vector<TrialRecord> records = drawn_records(10, 1.0);
   const Coverage coverage = coverage_on(records);

@@ -91,6 +91,13 @@ class AvailableClouds : public testing::Test {
                                 R"("}, "starts": {"trials": 3}, "pipeline": [{"step": "drift"}],
                                      "variants": [{"name": "again"}]})");
   }
+  /// Makes the two scenes one group.
+  void group() const {
+    std::string text = read_whole_file(folder_.path() / "x.json");
+    text.insert(1, "\"scenes_per_trial\": 2, ");
+    folder_.write("x.json", text);
+  }
+
   ~AvailableClouds() override { on_second_load() = {}; }
 
   void write(const std::string& cloud, float x) const {
@@ -189,6 +196,20 @@ TEST_F(AvailableClouds, ThatAreDamagedAreAResultWithTheirPath) {
                          "found 4 bytes, in b_left.bin"),
             std::string::npos)
       << summary;
+}
+
+TEST_F(AvailableClouds, OfGroupsThatAreDamagedAreToldByEachRun) {
+  group();
+  folder_.write("b_left.bin", "half");
+  const std::string told =
+      "croon: scene b: the cloud of left: expected records of 16 bytes (x, y, z, intensity), found "
+      "4 bytes, in b_left.bin; its trials use the other scenes of the group\n";
+  for (const char* which : {"first", "again"}) {
+    const Answer answer = run("out");
+    EXPECT_EQ(answer.code, 3) << which;
+    EXPECT_EQ(answer.complaints, told) << which;
+  }
+  EXPECT_EQ(count_of(trials("out"), "failed"), 0U);
 }
 
 TEST_F(AvailableClouds, AreReadOnceToBeRecorded) {

@@ -10,6 +10,7 @@
 
 #include "experiments/analysis/results.hpp"
 #include "experiments/cli/commands.hpp"
+#include "experiments/store/database.hpp"
 #include "experiments/store/store.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/rng.hpp"
@@ -377,6 +378,19 @@ TEST_F(CraftedStore, HasFilesBesideIt) {
     EXPECT_EQ(refusals("a link"), "ecmr") << ending;
     EXPECT_NE(test::input_error([&] { read_store(store()); }).find(sibling), std::string::npos);
   }
+}
+
+TEST_F(CraftedStore, IsCalledWhatItIs) {
+  const auto found = [&] { return test::input_error([&] { read_store(store()); }); };
+  fs::create_directories(store().parent_path());
+  fs::remove(store());
+  EXPECT_NE(found().find("expected the store of a run, found none"), std::string::npos) << found();
+  folder_.write("bad/store.sqlite", "");
+  EXPECT_NE(found().find("found an empty file"), std::string::npos) << found();
+  fs::remove(store());
+  Database(store(), Access::create).run("CREATE TABLE notes (text); DROP TABLE notes;");
+  EXPECT_NE(found().find("found a database without the tables of a store"), std::string::npos)
+      << found();
 }
 
 TEST_F(CraftedStore, OfChangedBytesIsReadOrRefused) {

@@ -84,6 +84,10 @@ TEST_F(MergeCommand, ReadsAllBeforeItWrites) {
     EXPECT_NE(fault({"1", "2"}, "merged").find(file), std::string::npos);
     EXPECT_FALSE(fs::exists(path("merged"))) << file;
     fs::remove(path("1") / file);
+    fs::create_symlink("nowhere", path("1") / file);
+    EXPECT_NE(fault({"1", "2"}, "merged").find(file), std::string::npos);
+    EXPECT_FALSE(fs::exists(path("merged"))) << file;
+    fs::remove(path("1") / file);
     fs::rename(path("kept"), path("1") / file);
   }
   EXPECT_EQ(merge({"1", "2"}, "merged"), 0);

@@ -130,8 +130,10 @@ TEST(Experiment, WantsAPipelineOfNamedSteps) {
       json::parse(R"([{"step": "drift"}, {"step": "drift", "name": "again"}])");
   EXPECT_EQ(faults_of(experiment), Lines{});
   experiment["pipeline"][1]["name"] = "a.b";
-  EXPECT_EQ(faults_of(experiment),
-            Lines{"/pipeline/1/name: expected a name of letters, digits, _ and -, found \"a.b\""});
+  EXPECT_EQ(
+      faults_of(experiment),
+      Lines{"/pipeline/1/name: expected a name of letters, digits, _ and -, not starting with "
+            "-, found \"a.b\""});
   experiment["pipeline"][1]["name"] = std::string(1001, 'n');
   EXPECT_EQ(faults_of(experiment),
             Lines{"/pipeline/1/name: expected a name of at most 1000 bytes, found one of 1001"});

@@ -127,6 +127,31 @@ TEST(Variants, FaultsStandWhereTheFileHasThem) {
           "/variants/4/replace/behave: expected an object, found 3"}));
 }
 
+TEST(Variants, FaultsOfSeveralKeysStandWhereTheLastOfThemWasSet) {
+  const std::string rule = "low_deg must not be above high_deg, found low_deg ";
+  const ReadVariants all = read_variants(R"("variants": [
+      {"name": "a", "replace": {"first.search": {"type": "between", "low_deg": 9, "high_deg": 8}}},
+      {"name": "b", "replace": {"first.search": {"type": "between", "low_deg": 6, "high_deg": 8},
+                                "first.search.high_deg": 5}},
+      {"name": "c", "replace": {"first.search": {"type": "between"}, "first.search.low_deg": 20}},
+      {"name": "d", "pipeline": [{"step": "drift", "name": "first",
+                                  "search": {"type": "between", "low_deg": 30, "high_deg": 20}}]}])");
+  EXPECT_EQ(all.faults,
+            (Lines{"/variants/0/replace/first.search: " + rule + "9 and high_deg 8",
+                   "/variants/1/replace/first.search.high_deg: " + rule + "6 and high_deg 5",
+                   "/variants/2/replace/first.search.low_deg: the key \"high_deg\" is missing",
+                   "/variants/3/pipeline/0/search: " + rule + "30 and high_deg 20"}));
+}
+
+TEST(Grid, FaultsOfSeveralKeysStandWhereTheLastOfThemWasSet) {
+  const ReadVariants all = read_variants(R"("variants": [
+      {"name": "a", "replace": {"first.search": {"type": "between", "low_deg": 6, "high_deg": 8}}}],
+      "grid": {"first.search.high_deg": [5, 7]})");
+  // The base pipeline's search has no such parameter.
+  EXPECT_EQ(all.faults, (Lines{"/grid/first.search.high_deg/0: low_deg must not be above high_deg, "
+                               "found low_deg 6 and high_deg 5"}));
+}
+
 TEST(Variants, EscapesPointers) {
   const ReadVariants all =
       read_variants(R"("variants": [{"name": "a", "replace": {"first.a/b~c": 1}}])");

@@ -33,8 +33,8 @@ Lines velocity_faults(const std::string& header, const Lines& lines, const Lines
 }
 
 TEST(VelocityFile, HasAVelocityForEachScene) {
-  const VelocityTable table =
-      read_velocities(kVelocityHeader, {"b,1,2,3,4,5,6", "\"a,1\",-1,0,0,0,0,90"}, {"a,1", "b"});
+  const VelocityTable table = read_velocities(
+      kVelocityHeader, {"b,1,2,3,4,\"5\",6", "\"a,1\",-1,0,0,0,0,90"}, {"a,1", "b"});
   EXPECT_EQ(table.sha256.size(), 64U);
   const GivenMotion& b = table.motions.at("b");
   EXPECT_EQ(b.velocity.linear_mps, Eigen::Vector3d(1, 2, 3));
@@ -58,8 +58,11 @@ TEST(VelocityFile, NamesWhatIsWrongWithALine) {
       {"a,1,2,3,4,5", "expected 7 fields, found 6"},
       {"a,1,2,3,4,5,x", "expected a number, found \"x\""},
       {"a,1,2,inf,4,5,6", "expected a finite number, found \"inf\""},
-      {"a,1001,2,3,4,5,6", "expected a number of at most 1000 m/s, found \"1001\""},
-      {"a,1,2,3,4,5,-3601", "expected a number of at most 3600 deg/s, found \"-3601\""},
+      {"a,1001,2,3,4,5,6", "expected a number from -1000 to 1000 m/s, found \"1001\""},
+      {"a,1,2,3,4,5,-3601", "expected a number from -3600 to 3600 deg/s, found \"-3601\""},
+      {"a,1,2,3,4,5,6\"\"", "expected no quote inside a field, found \"6\"\"\""},
+      {"a,1,2,3,4,5,\"6\"7", "expected a comma behind the quotes around a field, found \"7\""},
+      {"a,1,2,3,4,5,\"6", "expected a second quote, found \"a,1,2,3,4,5,\"6\""},
       {"aa,1,2,3,4,5,6", "expected a scene of the dataset, found \"aa\"; did you mean \"a\"?"}};
   for (const auto& [line, message] : cases) {
     EXPECT_EQ(velocity_faults(kVelocityHeader, {line}), Lines{"line 2: " + message});

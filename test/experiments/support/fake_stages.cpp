@@ -75,6 +75,11 @@ struct FineParams {
   int levels = 3;
 };
 
+struct BetweenParams {
+  double low_deg = 0.0;
+  double high_deg = 10.0;
+};
+
 /// A yaw search that looks nowhere; only its parameters matter.
 template <class Params>
 class FakeSearch final : public YawSearch {
@@ -237,6 +242,13 @@ Catalogue fake_catalogue() {
   catalogue.add(stage_entry<FakeSearch<FineParams>, FineParams>(
       "fine", "Looks nowhere.", "croon",
       {integer("levels", &FineParams::levels, {1, 9}, "Its levels.")}));
+  catalogue.add(stage_entry<FakeSearch<BetweenParams>, BetweenParams>(
+      "between", "Looks nowhere.", "croon",
+      Table<BetweenParams>{number("low_deg", &BetweenParams::low_deg, {0, 90}, "Its begin."),
+                           number("high_deg", &BetweenParams::high_deg, {0, 90}, "Its end.")}
+          .require([](const BetweenParams& p) { return p.low_deg <= p.high_deg; },
+                   "low_deg must not be above high_deg")
+          .rule({"low_deg", {}, false, {"high_deg"}})));
   catalogue.add(stage_entry<Drift, DriftParams>(
       "drift", "Moves the pose.", "croon",
       {number("size_m", &DriftParams::size_m, {0, 10}, "How far."),

@@ -94,10 +94,14 @@ TEST(WholeFile, RefusesWhatIsNoFile) {
   EXPECT_THAT(test::input_error([&] { write_whole_file(missing, "x"); }),
               HasSubstr(missing.string()));
   EXPECT_THAT(test::input_error([&] { write_whole_file(folder.path(), "x"); }),
-              HasSubstr("something else"));
+              HasSubstr("found a folder"));
   EXPECT_THAT(test::input_error([&] { read_whole_file(missing); }), HasSubstr("found none"));
   EXPECT_THAT(test::input_error([&] { read_whole_file(folder.path()); }),
-              HasSubstr("found something that is not a file"));
+              HasSubstr("found a folder"));
+  std::filesystem::create_symlink("nowhere", folder.path() / "link");
+  EXPECT_THAT(test::input_error([&] { read_whole_file(folder.path() / "link"); }),
+              HasSubstr("found a link that leads nowhere"));
+  std::filesystem::remove(folder.path() / "link");
   EXPECT_EQ(read_file_if_there(missing), std::nullopt);
   EXPECT_THROW(read_file_if_there(folder.path()), InputError);
   EXPECT_EQ(files_in(folder.path()), 0u);

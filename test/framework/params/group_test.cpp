@@ -135,7 +135,8 @@ TEST(Group, NotesEveryFaultWithItsPlace) {
       "f: /model/ring: unknown key \"ring\"; did you mean \"rings\"?",
       "f: /model/near_m: expected a number from 0 to 1000, found -1",
       "f: /rig/reference: expected a string, found 1",
-      "f: /rig/sensors/a.b: expected a sensor's name of letters, digits, _ and -, found \"a.b\"",
+      "f: /rig/sensors/a.b: expected a sensor's name, a name of letters, digits, _ and -, not "
+      "starting with -, found \"a.b\"",
       "f: /rig/sensors/b: expected an object, found \"fine\"",
       "f: /rig/sensors/c/model: expected one of coarse, fine or an object, found \"fin\"; did you "
       "mean \"fine\"?",

@@ -38,7 +38,8 @@ const Table<Sample>& sample_table() {
                   "Words."),
       }
           .inherit(Table<Base>{integer("count", &Base::count, {1, 9}, "Count.")})
-          .require([](const Sample& s) { return s.count * s.size_m < 20.0; }, "too much");
+          .require([](const Sample& s) { return s.count * s.size_m < 20.0; },
+                   "too much for its size_m");
   return table;
 }
 
@@ -117,7 +118,7 @@ TEST(Table, RefusesEmptyLists) {
 TEST(Table, ChecksConditionsOnWhatCouldBeRead) {
   std::vector<std::string> lines;
   read(R"({"count": 9, "size_m": 10})", lines);
-  EXPECT_EQ(lines, std::vector<std::string>{"f: /: too much"});
+  EXPECT_EQ(lines, std::vector<std::string>{"f: /: too much for its size_m, found 10"});
   read(R"({"count": 9, "size_m": "ten"})", lines);
   EXPECT_EQ(lines, std::vector<std::string>{"f: /size_m: expected a number, found \"ten\""});
 }

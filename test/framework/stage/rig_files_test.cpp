@@ -34,7 +34,7 @@ TEST(RigPoses, ReadStrictly) {
       {R"({"a": {"rotation_rpy_deg": [0, 0, 0], "translation_m": [0, "1", 0]}})",
        "/a/translation_m/1: expected a number"},
       {R"({"a": {"rotation_rpy_deg": [0, 0, 0], "translation_m": [0, -2e6, 0]}})",
-       "/a/translation_m/1: expected a number of at most 1000000 m, found -2000000.0"},
+       "/a/translation_m/1: expected a number from -1000000 to 1000000 m, found -2000000.0"},
       {R"({"a": {"rotation_rpy_deg": [0, 0, 0], "translation": [0, 0, 0], "translation_m": [0, 0, 0]}})",
        "did you mean \"translation_m\""},
       {R"({"a": {}, "a": {}})", "twice"}};

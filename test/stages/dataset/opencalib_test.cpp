@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "framework/base/angles.hpp"
 #include "framework/stage/dataset.hpp"
@@ -144,6 +145,15 @@ TEST_F(MadeUpRig, FindsCloudsWhereverTheListWasWritten) {
                  "device_id: 0\npath: top-1.pcd\ndevice_id: 1\npath: " + entry + "\n");
     EXPECT_EQ(scenes(root, "rig/a")[0].sensors[0].load().points, (Points{{2, 0, 0}})) << entry;
   }
+}
+
+TEST_F(MadeUpRig, SaysWhatIsThereInPlaceOfACloud) {
+  ASSERT_EQ(::mkfifo((root / "rig/a/pipe.pcd").c_str(), 0600), 0);
+  folder.write("data/rig/a/lidar_cloud_path.txt",
+               "device_id: 0\npath: top-1.pcd\ndevice_id: 1\npath: pipe.pcd\n");
+  EXPECT_THAT(error_of(root, "rig/a"),
+              HasSubstr("expected a cloud, found something that is not a file at " +
+                        (root / "rig/a/pipe.pcd").string()));
 }
 
 TEST_F(MadeUpRig, SaysWhatIsWrongWithAScene) {

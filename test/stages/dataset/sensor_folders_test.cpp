@@ -68,7 +68,7 @@ TEST_F(SensorFolders, AreThoseThatAreNamed) {
   EXPECT_EQ(some[0].sensors.size(), 1U);
   EXPECT_THAT(error(R"(, "sensors": ["none"])"), HasSubstr("car/none"));
   EXPECT_THAT(error(R"(, "sensors": ["pictures"])"), HasSubstr("expected clouds of one name"));
-  EXPECT_THAT(error(R"(, "sensors": ["../.."])"), HasSubstr("leads outside the data root"));
+  EXPECT_THAT(error(R"(, "sensors": ["../.."])"), HasSubstr("a name in UTF-8 without slashes"));
 }
 
 TEST_F(SensorFolders, AreEachAnotherSensor) {
@@ -117,8 +117,28 @@ TEST_F(SensorFolders, MissNoLinkThatLeadsNowhere) {
     fs::remove(link);
   }
   fs::create_directory(folder.path() / "data/car/back/000001.pcd");
-  EXPECT_THAT(error(),
-              HasSubstr("000001.pcd: expected a cloud, found something that is not a file"));
+  EXPECT_THAT(error(), HasSubstr("000001.pcd: expected a cloud, found a folder"));
+}
+
+TEST_F(SensorFolders, ScenesAreInTheOrderOfTheirNumbers) {
+  for (const char* name : {"1000000", "999999", "000003a"}) {
+    for (const char* sensor : {"top", "back"}) {
+      folder.write(std::string("data/car/") + sensor + "/" + name + ".pcd", test::one_point_pcd(1));
+    }
+  }
+  std::vector<std::string> names;
+  for (const Scene& scene : scenes()) names.push_back(scene.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"000001", "000002", "999999", "1000000", "000003a"}));
+}
+
+TEST_F(SensorFolders, HaveNamesThatTablesCanShow) {
+  EXPECT_THAT(error(R"(, "sensors": ["-left"])"),
+              HasSubstr("/sensors/0: expected a sensor with a name in UTF-8"));
+  EXPECT_THAT(test::input_error([] {
+                test::build_stage(
+                    "dataset", R"({"type": "sensor_folders", "path": "x", "reference": "=top"})");
+              }),
+              HasSubstr("/reference: expected a sensor with a name in UTF-8"));
 }
 
 TEST_F(SensorFolders, FollowLinksIfAsked) {

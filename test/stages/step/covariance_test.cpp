@@ -13,6 +13,7 @@
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"
 #include "test/support/street_estimate.hpp"
+#include "test/support/temp_folder.hpp"
 
 namespace croon {
 namespace {
@@ -221,6 +222,13 @@ TEST(CovarianceStep, IsAboutAsLargeAsTheErrorsOfTheRegistration) {
   }
   EXPECT_GT(sum, 0.25);
   EXPECT_LT(sum, 3.0);
+}
+
+TEST(Covariance, RefusesBoundsInTheWrongOrder) {
+  EXPECT_EQ(test::input_error(
+                [] { test::build_stage("step", R"({"step": "covariance", "weak_ratio": 1})"); }),
+            "test: /: unobservable_ratio must not be above weak_ratio, found weak_ratio 1 and "
+            "unobservable_ratio 2");
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"
 #include "test/support/street_estimate.hpp"
+#include "test/support/temp_folder.hpp"
 
 namespace croon {
 namespace {
@@ -341,6 +342,15 @@ TEST(JointRegistration, StartsACommonPoseWhereMostScenesAgree) {
   for (const RigEstimate& one : rig.estimates) {
     EXPECT_LT(pose_error(one.estimate.T_target_source, rig.truth[one.source]).translation_m, 0.05);
   }
+}
+
+TEST(JointRegistration, HasNoClockOffsetsAtRest) {
+  const std::string message = test::input_error([] {
+    test::build_stage("step", R"({"step": "joint_registration", "motion": false,
+                                  "clock_offset_std_s": 0.1})");
+  });
+  EXPECT_NE(message.find("clock_offset_std_s must be 0 if motion is false"), std::string::npos)
+      << message;
 }
 
 }  // namespace

@@ -1,0 +1,96 @@
+#include "experiments/report/output_files.hpp"
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "experiments/report/result_files.hpp"
+#include "experiments/run/given_csv.hpp"
+#include "experiments/run/given_velocities.hpp"
+#include "experiments/run/pose_file.hpp"
+#include "experiments/store/bounded_json.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/whole_file.hpp"
+#include "framework/io/point_cloud_file.hpp"
+
+namespace croon::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether the file `path` is JSON with a key that experiments, or what they extend, have.
+bool is_experiment(const fs::path& path) {
+  if (path.extension() != ".json") return false;
+  const nlohmann::json json = parsed_or_discarded(read_whole_file(path));
+  return json.is_object() &&
+         (json.contains("dataset") || json.contains("extends") || json.contains("pipeline"));
+}
+
+/// Which kind of file that an experiment names is at the path of `file`, unless the new bytes are
+/// one too: "a file of starts"; else empty.
+std::string named_by_experiments(const OutputFile& file) {
+  for (const auto& [header, what] :
+       {std::pair(kVelocityHeader, "a file of velocities"),
+        std::pair(kStartHeader, "a file of starts"), std::pair(kPoseHeader, "a file of poses")}) {
+    if (file.bytes.rfind(header, 0) != 0 && begins_with_header(file.path, header)) return what;
+  }
+  return "";
+}
+
+/// What is at the path of `file` and must not be replaced, or belongs there; empty if nothing, or
+/// another file.
+std::string what_must_stay(const OutputFile& file, const std::vector<fs::path>& inputs) {
+  const fs::path& path = file.path;
+  static const std::set<std::string> of_datasets = {
+      "truth.json",      "nominal.json",         "scene_kinds.json",
+      "simulation.json", "lidar_cloud_path.txt", "initial_extrinsic.txt"};
+  std::error_code error;
+  // Also if it is not there: SQLite would take it for a part of the store.
+  if (is_result_of_run(path)) return "a file of the results of a run";
+  const fs::file_status status = fs::symlink_status(path, error);
+  if (!fs::exists(status)) return "";
+  if (fs::is_symlink(status)) return "a link";
+  if (!fs::is_regular_file(status)) return found_instead_of_file(path);
+  for (const fs::path& input : inputs) {
+    if (fs::equivalent(path, input, error)) return "which is read";
+  }
+  if (of_datasets.count(path.filename().string()) > 0) return "a file of a dataset";
+  if (has_point_cloud_suffix(path)) return "a cloud";
+  return is_experiment(path) ? "an experiment" : named_by_experiments(file);
+}
+
+/// Whether `path` is a file, and no link, with these bytes.
+bool has_bytes(const fs::path& path, const std::string& bytes) {
+  std::error_code error;
+  return file_begins_with(path, bytes) && fs::file_size(path, error) == bytes.size();
+}
+
+}  // namespace
+
+void replace_output_files(const std::vector<OutputFile>& files,
+                          const std::vector<fs::path>& inputs) {
+  for (const OutputFile& file : files) {
+    const std::string what = what_must_stay(file, inputs);
+    if (what.empty()) continue;
+    throw InputError("", "--out",
+                     "expected a file to write, found " + file.path.string() + ", " + what);
+  }
+  for (const OutputFile& file : files) write_whole_file(file.path, file.bytes);
+}
+
+void write_output_files(const std::vector<OutputFile>& files) {
+  std::vector<const OutputFile*> missing;
+  for (const OutputFile& file : files) {
+    std::error_code error;
+    if (!fs::exists(fs::symlink_status(file.path, error))) {
+      missing.push_back(&file);
+    } else if (!has_bytes(file.path, file.bytes)) {
+      throw InputError("", "--out",
+                       "expected a new file, found " + file.path.string() +
+                           ", which is there; delete it first, or write to another");
+    }
+  }
+  for (const OutputFile* file : missing) write_whole_file(file->path, file->bytes);
+}
+
+}  // namespace croon::experiments
