@@ -169,8 +169,8 @@ Quadratic quadratic_of(const Contact& contact, double weight, double kernel_widt
   return sums;
 }
 
-/// What is known of any pose, in the units of the contacts' Hessian, whose weights are those of
-/// residuals with the variance 1 m^2 if they have the standard deviation `noise_m`.
+/// What is known of any pose, in the units of the contacts' Hessian: information times the variance
+/// of a residual, the square of `noise_m`.
 Matrix6d prior_information(double noise_m) {
   return (noise_m * noise_m * unknown_variances().cwiseInverse()).asDiagonal();
 }
