@@ -20,10 +20,7 @@ void add_patch(const PlanePatch& patch, const std::vector<RigidTransform>& poses
                std::vector<PlaneEvidence>& evidence) {
   PointSums all;
   for (const PlanePatch::View& view : patch.views) {
-    const PointSums part = moved(view.sums, poses[view.sensor]);
-    all.weight += part.weight;
-    all.sum += part.sum;
-    all.products += part.products;
+    all.add(moved(view.sums, poses[view.sensor]));
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(all.scatter());
   const Eigen::Vector3d& across = solver.eigenvalues();

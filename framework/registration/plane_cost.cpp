@@ -49,10 +49,7 @@ Joined joined(const PlanePatch& patch, const RigState& state) {
   result.views.reserve(patch.views.size());
   for (const PlanePatch::View& view : patch.views) {
     result.views.push_back(at_velocity(view, state));
-    const PointSums part = moved(result.views.back().sums, state.poses[view.sensor]);
-    result.all.weight += part.weight;
-    result.all.sum += part.sum;
-    result.all.products += part.products;
+    result.all.add(moved(result.views.back().sums, state.poses[view.sensor]));
   }
   return result;
 }
@@ -114,6 +111,12 @@ void PointSums::add(const Eigen::Vector3d& point, double point_weight) {
   weight += point_weight;
   sum += point_weight * point;
   products.noalias() += point_weight * point * point.transpose();
+}
+
+void PointSums::add(const PointSums& other) {
+  weight += other.weight;
+  sum += other.sum;
+  products += other.products;
 }
 
 PointSums PointSums::scaled(double factor) const {

@@ -17,6 +17,8 @@ struct PointSums {
   Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
 
   void add(const Eigen::Vector3d& point, double point_weight = 1.0);
+  /// Adds the points of `other`, in the same frame.
+  void add(const PointSums& other);
   /// The sums with all weights times `factor`.
   PointSums scaled(double factor) const;
   /// `sum w (p - c)(p - c)^T` around the mean c, m^2; zero without points.
