@@ -21,6 +21,7 @@
 #include "framework/io/pcd_file.hpp"
 #include "framework/picture/top_view.hpp"
 #include "framework/stage/rig_files.hpp"
+#include "framework/stage/velocity_numbers.hpp"
 #include "framework/table/renderers.hpp"
 
 namespace croon::experiments {
@@ -60,7 +61,7 @@ std::string velocities_json(const Scene& scene) {
   return json.dump(2) + "\n";
 }
 
-/// A row of the file of velocities; see kVelocityHeader.
+/// A row of the file of velocities; see velocity_header.
 struct VelocityRow {
   std::string scene;
   Twist velocity;  ///< Of the reference, in its own frame.
@@ -69,14 +70,9 @@ struct VelocityRow {
 std::string velocities_csv(const std::vector<VelocityRow>& rows) {
   Columns<VelocityRow> columns;
   columns.add({"scene"}, &VelocityRow::scene);
-  for (const int i : {0, 1, 2}) {
-    columns.add({std::string("v") + "xyz"[i], "mps"},
-                [i](const VelocityRow& row) { return row.velocity.linear_mps(i); });
-  }
-  for (const int i : {0, 1, 2}) {
-    columns.add(
-        {std::string(kDofNames.at(static_cast<std::size_t>(i))) + "_rate", "degps"},
-        [i](const VelocityRow& row) { return deg_from_rad(row.velocity.angular_radps(i)); });
+  for (const VelocityNumber& number : velocity_numbers()) {
+    columns.add({number.name, number.unit},
+                [number](const VelocityRow& row) { return number.of(row.velocity); });
   }
   return csv_of(columns, rows);
 }

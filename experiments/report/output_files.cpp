@@ -30,7 +30,7 @@ bool is_experiment(const fs::path& path) {
 /// one too: "a file of starts"; else empty.
 std::string named_by_experiments(const OutputFile& file) {
   for (const auto& [header, what] :
-       {std::pair(kVelocityHeader, "a file of velocities"),
+       {std::pair(velocity_header().c_str(), "a file of velocities"),
         std::pair(kStartHeader, "a file of starts"), std::pair(kPoseHeader, "a file of poses")}) {
     if (file.bytes.rfind(header, 0) != 0 && begins_with_header(file.path, header)) return what;
   }

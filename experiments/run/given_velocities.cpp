@@ -10,6 +10,7 @@
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
 #include "framework/io/text_scan.hpp"
+#include "framework/stage/velocity_numbers.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -32,7 +33,7 @@ Vector6d six_numbers(const std::vector<std::string>& fields, std::size_t first) 
 }
 
 GivenMotion motion_of(const CsvLine& line) {
-  const bool has_stds = line.header != kVelocityHeader;
+  const bool has_stds = line.header != velocity_header();
   require_fields(line, has_stds ? 13 : 7);
   const Vector6d numbers = six_numbers(line.fields, 1);
   GivenMotion motion{{numbers.head<3>(), numbers.tail<3>()}, std::nullopt};
@@ -113,26 +114,41 @@ void resolve_step(Experiment& experiment, Variant& variant, NamedStep& named, Ta
   hand_over(variant, named, *step, table);
 }
 
+/// `first`, then a column for each number of a velocity.
+std::string with_columns(std::string first, std::string (VelocityNumber::*column)() const) {
+  for (const VelocityNumber& number : velocity_numbers()) first += "," + (number.*column)();
+  return first;
+}
+
 }  // namespace
+
+const std::string& velocity_header() {
+  static const std::string header = with_columns("scene", &VelocityNumber::column);
+  return header;
+}
+
+const std::string& velocity_header_with_stds() {
+  static const std::string header = with_columns(velocity_header(), &VelocityNumber::std_column);
+  return header;
+}
 
 VelocityTable read_velocity_file(const std::filesystem::path& path,
                                  const std::vector<std::string>& names,
                                  const std::vector<std::string>& needed) {
   const std::set<std::string> known(names.begin(), names.end());
   VelocityTable table;
-  table.sha256 =
-      read_given_csv(path, {kVelocityHeader, std::string(kVelocityHeader) + kVelocityStdHeader},
-                     [&](const CsvLine& line) {
-                       const GivenMotion motion = motion_of(line);
-                       const std::string& scene = line.fields.front();
-                       if (known.count(scene) == 0) {
-                         const std::string hint = line.is_shown ? name_hint(scene, names) : "";
-                         refuse("a scene of the dataset", in_quotes(scene) + hint);
-                       }
-                       if (!table.motions.emplace(scene, motion).second) {
-                         refuse("each scene once", in_quotes(scene) + " again");
-                       }
-                     });
+  table.sha256 = read_given_csv(
+      path, {velocity_header(), velocity_header_with_stds()}, [&](const CsvLine& line) {
+        const GivenMotion motion = motion_of(line);
+        const std::string& scene = line.fields.front();
+        if (known.count(scene) == 0) {
+          const std::string hint = line.is_shown ? name_hint(scene, names) : "";
+          refuse("a scene of the dataset", in_quotes(scene) + hint);
+        }
+        if (!table.motions.emplace(scene, motion).second) {
+          refuse("each scene once", in_quotes(scene) + " again");
+        }
+      });
   std::vector<Fault> faults = missing(table.motions, needed, path.string());
   if (!faults.empty()) throw_first(std::move(faults), path.string());
   return table;

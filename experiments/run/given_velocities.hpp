@@ -9,15 +9,12 @@
 
 namespace croon::experiments {
 
-/// The first line of a file of velocities; each line after it is the velocity of the car in one
-/// scene. `croon simulate` writes this format.
-inline constexpr const char* kVelocityHeader =
-    "scene,vx_mps,vy_mps,vz_mps,roll_rate_degps,pitch_rate_degps,yaw_rate_degps";
+/// The first line of a file of velocities: `scene` and the columns of velocity_numbers(). Each line
+/// after it is the velocity of the car in one scene. `croon simulate` writes this format.
+const std::string& velocity_header();
 
-/// What the first line goes on with if the file has standard deviations.
-inline constexpr const char* kVelocityStdHeader =
-    ",vx_std_mps,vy_std_mps,vz_std_mps,roll_rate_std_degps,pitch_rate_std_degps,"
-    "yaw_rate_std_degps";
+/// The first line of a file that has standard deviations too.
+const std::string& velocity_header_with_stds();
 
 /// The velocities of a file.
 struct VelocityTable {

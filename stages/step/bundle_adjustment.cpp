@@ -15,6 +15,7 @@
 #include "framework/stage/motion.hpp"
 #include "framework/stage/rig_step.hpp"
 #include "framework/stage/stage_entry.hpp"
+#include "framework/stage/velocity_numbers.hpp"
 
 namespace croon::stages::step {
 namespace {
@@ -235,8 +236,8 @@ class BundleAdjustmentStep final : public RigStep {
     } else {
       estimate.covariance->matrix = guarded_inverse<6>(start.information);
     }
-    const std::optional<Twist>& velocity = result.velocities[scene];
-    const double speed_change_mps = velocity ? velocity->linear_mps.norm() : 0.0;
+    const std::optional<Twist>& change = result.velocities[scene];
+    const double speed_change_mps = change ? change->linear_mps.norm() : 0.0;
     estimate.diagnostics = {{"scenes", static_cast<double>(result.velocities.size())},
                             {"planes", static_cast<double>(result.planes[sensor])},
                             {"moved_deg", deg_from_rad(moved.rotation_rad)},
@@ -246,6 +247,12 @@ class BundleAdjustmentStep final : public RigStep {
                             {"passes", static_cast<double>(result.passes)},
                             {"iterations", static_cast<double>(result.iterations)},
                             {"converged", result.converged ? 1.0 : 0.0}};
+    if (const Twist* const removed = estimate.extras.find(kMotion)) {
+      const std::vector<Diagnostic> of_velocity =
+          velocity_diagnostics(change ? stepped(*removed, vector_of(*change)) : *removed);
+      estimate.diagnostics.insert(estimate.diagnostics.end(), of_velocity.begin(),
+                                  of_velocity.end());
+    }
     if (params_.clock_offset_std_s > 0.0) {
       estimate.diagnostics.emplace_back("clock_offset_s", result.clock_offsets_s[sensor]);
       estimate.diagnostics.emplace_back("clock_offset_std_s", result.clock_offset_stds_s[sensor]);
@@ -262,7 +269,7 @@ StageEntry bundle_adjustment() {
       "bundle_adjustment",
       "Sees the whole rig: gives each sensor, in all scenes of a trial, the pose at which what all "
       "sensors see lies best on common planes. Rejected poses take no part.",
-      "Liu and Zhang, BALM, RA-L 2021; Liu, Yuan and Zhang, MLCC, T-IM 2022", table(), 5);
+      "Liu and Zhang, BALM, RA-L 2021; Liu, Yuan and Zhang, MLCC, T-IM 2022", table(), 6);
 }
 
 }  // namespace croon::stages::step

@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
 #include "framework/geometry/pose_mean.hpp"
 #include "framework/params/choice.hpp"
@@ -16,6 +15,7 @@
 #include "framework/stage/reasons.hpp"
 #include "framework/stage/rig_step.hpp"
 #include "framework/stage/stage_entry.hpp"
+#include "framework/stage/velocity_numbers.hpp"
 
 namespace croon::stages::step {
 namespace {
@@ -220,13 +220,15 @@ class JointRegistrationStep final : public RigStep {
             "only " + std::to_string(result.correspondences[s][j]) + " points correspond";
         continue;
       }
-      estimate.diagnostics = {{"speed_mps", motion.velocity.linear_mps.norm()},
-                              {"speed_std_mps", motion.speed_std_mps()},
-                              {"speed_shift_std_m", motion.shift_std_m[j]},
-                              {"turn_degps", deg_from_rad(motion.velocity.angular_radps.norm())},
-                              {"rmse_m", result.rmse_m},
-                              {"iterations", static_cast<double>(result.iterations)},
-                              {"converged", result.converged ? 1.0 : 0.0}};
+      estimate.diagnostics = velocity_diagnostics(motion.velocity);
+      const std::vector<Diagnostic> stds = velocity_std_diagnostics(motion.covariance);
+      estimate.diagnostics.insert(estimate.diagnostics.end(), stds.begin(), stds.end());
+      estimate.diagnostics.insert(estimate.diagnostics.end(),
+                                  {{"speed_std_mps", motion.speed_std_mps()},
+                                   {"speed_shift_std_m", motion.shift_std_m[j]},
+                                   {"rmse_m", result.rmse_m},
+                                   {"iterations", static_cast<double>(result.iterations)},
+                                   {"converged", result.converged ? 1.0 : 0.0}});
       if (params_.clock_offset_std_s > 0.0) {
         estimate.diagnostics.emplace_back("clock_offset_s",
                                           result.state.clock_offsets_s[source.sensor]);
@@ -272,7 +274,7 @@ StageEntry joint_registration() {
       "joint_registration",
       "Sees the whole rig: registers all sensors together with the velocity of each scene, and "
       "removes the distortion of the scans by it.",
-      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 5);
+      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 6);
 }
 
 }  // namespace croon::stages::step

@@ -8,6 +8,7 @@
 #include "framework/stage/given_motions.hpp"
 #include "framework/stage/motion.hpp"
 #include "framework/stage/stage_entry.hpp"
+#include "framework/stage/velocity_numbers.hpp"
 
 namespace croon::stages::step {
 namespace {
@@ -162,8 +163,7 @@ class KnownVelocityStep final : public GivenMotionStep {
         still(*estimate.source, velocity_in(T_sensor_reference, velocity), reference_s));
     estimate.extras.put(kMotion, velocity);
     estimate.extras.put(kMotionCovariance, covariance_of(motion));
-    estimate.diagnostics = {{"speed_mps", velocity.linear_mps.norm()},
-                            {"turn_degps", deg_from_rad(velocity.angular_radps.norm())}};
+    estimate.diagnostics = velocity_diagnostics(velocity);
   }
 
   static std::shared_ptr<const Cloud> still(const Cloud& cloud, const Twist& velocity,
@@ -185,7 +185,7 @@ StageEntry known_velocity() {
       "known_velocity",
       "Removes the distortion of all scans of a scene by a velocity that is known, for each scene "
       "from a file or one for all; the poses should be near the truth.",
-      "Zhang and Singh, LOAM, 2014, section V.B", table());
+      "Zhang and Singh, LOAM, 2014, section V.B", table(), 2);
 }
 
 }  // namespace croon::stages::step

@@ -14,7 +14,7 @@ class GivenVelocities : public testing::Test {
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
   void write_velocities(const std::string& rows) const {
-    folder_.write("v.csv", std::string(kVelocityHeader) + "\n" + rows);
+    folder_.write("v.csv", velocity_header() + "\n" + rows);
   }
 
   /// Runs known_velocity with the parameters `members` into the folder `out`.
@@ -37,7 +37,9 @@ TEST_F(GivenVelocities, DecideByTheirBytesWhetherARunGoesOn) {
   EXPECT_EQ(run(R"("file": "v.csv")").code, 0);
   const std::string manifest = read_whole_file(path("out/manifest.json"));
   EXPECT_NE(manifest.find("\"path\": \"v.csv\""), std::string::npos) << manifest;
-  EXPECT_NE(read_whole_file(path("out/diagnostics.csv")).find("turn_degps,1"), std::string::npos);
+  const std::string diagnostics = read_whole_file(path("out/diagnostics.csv"));
+  EXPECT_NE(diagnostics.find("yaw_rate_degps,1"), std::string::npos) << diagnostics;
+  EXPECT_NE(diagnostics.find("vx_mps,10"), std::string::npos) << diagnostics;
   EXPECT_EQ(run(R"("file": "v.csv")").code, 0);
   write_velocities("000000,10,0,0,0,0,0\n000001,11,0,0,0,0,1\n");
   EXPECT_EQ(run(R"("file": "v.csv")").code, 2);
@@ -62,7 +64,7 @@ TEST_F(GivenVelocities, AreBelowTheDataOrTheExperiment) {
 }
 
 TEST_F(GivenVelocities, OfAllScenesServeGroupsThatLeaveSomeOut) {
-  folder_.write("v.csv", std::string(kVelocityHeader) + "\n" + kRows + "000002,10,0,0,0,0,0\n");
+  folder_.write("v.csv", velocity_header() + "\n" + kRows + "000002,10,0,0,0,0,0\n");
   folder_.write("x.json",
                 R"({"name": "x", "dataset": {"type": "simulated", "rig": "croon_three",
                     "scenes": 3, "noise": "real", "speed_mps": 10}, "scenes_per_trial": 2,

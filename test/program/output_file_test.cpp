@@ -99,7 +99,7 @@ TEST_F(OutputFile, ReplacesNeitherInputsNorResultsNorData) {
 TEST_F(OutputFile, ReplacesNoFileThatExperimentsName) {
   const std::string starts = path("starts.csv");
   ASSERT_EQ(croon("starts " + path("x.json") + " --out " + starts).code, 0);
-  folder_.write("velocities.csv", std::string("\xef\xbb\xbf") + kVelocityHeader + "\n");
+  folder_.write("velocities.csv", std::string("\xef\xbb\xbf") + velocity_header() + "\n");
   folder_.write("poses.csv", std::string(kPoseHeader) + "\n");
   folder_.write("part.json", R"({"pipeline": []})");
   const std::pair<const char*, const char*> files[] = {{"starts.csv", "a file of starts"},

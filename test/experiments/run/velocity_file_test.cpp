@@ -10,7 +10,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-const std::string kWithStds = std::string(kVelocityHeader) + kVelocityStdHeader;
+const std::string kWithStds = velocity_header_with_stds();
 
 VelocityTable read_velocities(const std::string& header, const Lines& lines, const Lines& scenes) {
   const test::TempFolder folder;
@@ -32,9 +32,17 @@ Lines velocity_faults(const std::string& header, const Lines& lines, const Lines
   return faults;
 }
 
+TEST(VelocityFile, BeginsAsTheDocumentationSays) {
+  EXPECT_EQ(velocity_header(),
+            "scene,vx_mps,vy_mps,vz_mps,roll_rate_degps,pitch_rate_degps,yaw_rate_degps");
+  EXPECT_EQ(kWithStds, velocity_header() +
+                           ",vx_std_mps,vy_std_mps,vz_std_mps,roll_rate_std_degps,"
+                           "pitch_rate_std_degps,yaw_rate_std_degps");
+}
+
 TEST(VelocityFile, HasAVelocityForEachScene) {
   const VelocityTable table = read_velocities(
-      kVelocityHeader, {"b,1,2,3,4,\"5\",6", "\"a,1\",-1,0,0,0,0,90"}, {"a,1", "b"});
+      velocity_header(), {"b,1,2,3,4,\"5\",6", "\"a,1\",-1,0,0,0,0,90"}, {"a,1", "b"});
   EXPECT_EQ(table.sha256.size(), 64U);
   const GivenMotion& b = table.motions.at("b");
   EXPECT_EQ(b.velocity.linear_mps, Eigen::Vector3d(1, 2, 3));
@@ -65,29 +73,28 @@ TEST(VelocityFile, NamesWhatIsWrongWithALine) {
       {"a,1,2,3,4,5,\"6", "expected a second quote, found \"a,1,2,3,4,5,\"6\""},
       {"aa,1,2,3,4,5,6", "expected a scene of the dataset, found \"aa\"; did you mean \"a\"?"}};
   for (const auto& [line, message] : cases) {
-    EXPECT_EQ(velocity_faults(kVelocityHeader, {line}), Lines{"line 2: " + message});
+    EXPECT_EQ(velocity_faults(velocity_header(), {line}), Lines{"line 2: " + message});
   }
   EXPECT_EQ(velocity_faults(kWithStds, {"a,1,2,3,4,5,6,0.1,0.1,0,1,1,1"}),
             Lines{"line 2: expected a standard deviation above 0, found \"0\""});
-  EXPECT_EQ(velocity_faults(kVelocityHeader, {"a,1,2,3,4,5,6", "a,1,2,3,4,5,6"}),
+  EXPECT_EQ(velocity_faults(velocity_header(), {"a,1,2,3,4,5,6", "a,1,2,3,4,5,6"}),
             Lines{"line 3: expected each scene once, found \"a\" again"});
 }
 
 TEST(VelocityFile, MayHaveScenesThatNoTrialNeeds) {
   const test::TempFolder folder;
-  const auto path =
-      folder.write("v.csv", std::string(kVelocityHeader) + "\na,1,2,3,4,5,6\nb,1,2,3,4,5,6\n");
+  const auto path = folder.write("v.csv", velocity_header() + "\na,1,2,3,4,5,6\nb,1,2,3,4,5,6\n");
   EXPECT_EQ(read_velocity_file(path, {"a", "b", "c"}, {"a"}).motions.size(), 2U);
 }
 
 TEST(VelocityFile, WantsItsHeaderAndEveryScene) {
   EXPECT_EQ(velocity_faults("scene,vx", {}),
-            Lines{"line 1: expected \"" + std::string(kVelocityHeader) + "\" or \"" + kWithStds +
+            Lines{"line 1: expected \"" + velocity_header() + "\" or \"" + kWithStds +
                   "\", found \"scene,vx\""});
-  EXPECT_EQ(velocity_faults(kVelocityHeader, {"a,1,2,3,4,5,6"}, {"a", "b"}),
+  EXPECT_EQ(velocity_faults(velocity_header(), {"a,1,2,3,4,5,6"}, {"a", "b"}),
             Lines{"expected a velocity of scene \"b\", found none"});
   const Lines many = velocity_faults(
-      kVelocityHeader, {}, Lines{"a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l"});
+      velocity_header(), {}, Lines{"a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l"});
   ASSERT_EQ(many.size(), 11U);
   EXPECT_EQ(many.back(), "and 2 more faults");
 }

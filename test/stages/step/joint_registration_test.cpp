@@ -113,6 +113,11 @@ TEST(JointRegistration, SaysHowWellItKnowsTheVelocity) {
       EXPECT_LT(std::abs(error(k)), 5.0 * std) << rig.estimates[i].scene << " " << k;
       EXPECT_LT(std, k < 3 ? rad_from_deg(10.0) : 2.0) << rig.estimates[i].scene << " " << k;
     }
+    EXPECT_EQ(test::diagnostic(estimate, "vx_mps"), found.linear_mps.x());
+    EXPECT_EQ(test::diagnostic(estimate, "vx_std_mps"), std::sqrt(covariance(3, 3)));
+    EXPECT_EQ(test::diagnostic(estimate, "yaw_rate_degps"), deg_from_rad(found.angular_radps.z()));
+    EXPECT_EQ(test::diagnostic(estimate, "yaw_rate_std_degps"),
+              deg_from_rad(std::sqrt(covariance(2, 2))));
   }
 }
 
