@@ -1,0 +1,355 @@
+#include "framework/registration/azimuth_error.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
+#include "framework/geometry/guarded_inverse.hpp"
+#include "framework/registration/direction_balance.hpp"
+#include "framework/registration/gauss_newton.hpp"
+#include "framework/spatial/evenly_spaced.hpp"
+
+namespace croon {
+namespace {
+
+constexpr int kFewestCorrespondences = 30;
+
+/// The functions of sine, cosine and slope at a point: sin a, cos a and e.
+Eigen::Vector3d terms_at(const Eigen::Vector3d& point) {
+  const double across = std::hypot(point.x(), point.y());
+  if (!(across > 0.0)) return Eigen::Vector3d::Zero();
+  return {point.y() / across, point.x() / across, std::atan2(point.z(), across)};
+}
+
+/// The error whose mean over points with the mean terms `mean` is zero.
+AzimuthError error_of(const Eigen::Vector3d& sizes, const Eigen::Vector3d& mean) {
+  return {-sizes.dot(mean), sizes.x(), sizes.y(), sizes.z()};
+}
+
+/// A point on a surface of the target, linearised.
+struct Contact {
+  Vector6d by_pose;         ///< The Jacobian of its distance by `moved`,
+  Eigen::Vector3d by_size;  ///< and by sine, cosine and slope.
+  double distance_m = 0.0;
+  int direction = 0;
+  std::array<int, 4> surface{};
+};
+
+/// A view and the points of it that take part.
+class ViewProblem {
+ public:
+  /// At most `most` points of the source take part, evenly through it.
+  ViewProblem(const AzimuthView& view, const AzimuthOptions& options, std::size_t most)
+      : view_(view),
+        options_(options),
+        target_normals_(view.target->normals(options.normal_neighbours)),
+        source_normals_(view.source->normals(options.normal_neighbours)) {
+    const std::size_t size = view.source->points().size();
+    const std::size_t count = std::min(size, most);
+    for (std::size_t i = 0; i < count; ++i) {
+      indices_.push_back(static_cast<int>(evenly_spaced_index(i, size, count)));
+    }
+  }
+
+  std::size_t points() const { return indices_.size(); }
+
+  Eigen::Vector3d sum_of_terms() const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const int index : indices_) sum += terms_at(point_at(index));
+    return sum;
+  }
+
+  std::vector<Contact> contacts(const RigidTransform& T, const AzimuthError& error,
+                                const Eigen::Vector3d& mean_terms) const {
+    std::vector<Contact> found;
+    Contact contact;
+    for (const int index : indices_) {
+      if (touches(index, T, error, mean_terms, contact)) found.push_back(contact);
+    }
+    return found;
+  }
+
+ private:
+  Eigen::Vector3d point_at(int index) const { return view_.source->points()[index].cast<double>(); }
+
+  bool touches(int index, const RigidTransform& T, const AzimuthError& error,
+               const Eigen::Vector3d& mean_terms, Contact& contact) const {
+    const Eigen::Vector3d reported = point_at(index);
+    const Eigen::Vector3d point = without_error(reported, error);
+    const Eigen::Vector3d arm = T.rotation * point;
+    const Eigen::Vector3d in_target = arm + T.translation;
+    const Neighbour nearest = view_.target->kd_tree().nearest(
+        in_target.cast<float>(), static_cast<float>(options_.max_distance_m));
+    if (!nearest) return false;
+    const Eigen::Vector3d normal = target_normals_.at(nearest.index).normal.cast<double>();
+    const Eigen::Vector3d own = T.rotation * source_normals_.at(index).normal.cast<double>();
+    // Without a normal the product is zero.
+    const double min_cosine = std::cos(rad_from_deg(options_.max_normal_angle_deg));
+    if (!(std::abs(normal.dot(own)) > std::max(min_cosine, 1e-9))) return false;
+    contact.by_pose = plane_jacobian(arm, normal);
+    const Eigen::Vector3d turned = T.rotation * Eigen::Vector3d(point.y(), -point.x(), 0.0);
+    contact.by_size = normal.dot(turned) * (terms_at(reported) - mean_terms);
+    contact.distance_m =
+        normal.dot(in_target - view_.target->points()[nearest.index].cast<double>());
+    contact.direction = direction_bin(normal);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double cell = in_target(static_cast<Eigen::Index>(k)) / options_.surface_size_m;
+      contact.surface.at(k) = static_cast<int>(std::floor(cell));
+    }
+    contact.surface[3] = contact.direction;
+    return true;
+  }
+
+  AzimuthView view_;
+  const AzimuthOptions& options_;
+  const Normals& target_normals_;
+  const Normals& source_normals_;
+  std::vector<int> indices_;
+};
+
+/// The weights of contacts: n to the minus `direction_balance` for n of about one direction, times
+/// that of the robust kernel.
+std::vector<double> weights_of(const std::vector<Contact>& contacts,
+                               const AzimuthOptions& options) {
+  std::array<int, kDirectionBins> counts{};
+  for (const Contact& contact : contacts) ++counts.at(static_cast<std::size_t>(contact.direction));
+  const RobustKernel kernel(Kernel::geman_mcclure, options.kernel_width_m);
+  std::vector<double> weights;
+  for (const Contact& contact : contacts) {
+    const double count = counts.at(static_cast<std::size_t>(contact.direction));
+    weights.push_back(std::pow(count, -options.direction_balance) *
+                      kernel.weight(contact.distance_m * contact.distance_m));
+  }
+  return weights;
+}
+
+/// What one view says of sine, cosine and slope when its pose follows them.
+struct ReducedView {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();  ///< Of the gradients of surfaces.
+  Vector6d pose_step = Vector6d::Zero();              ///< With the sizes as they are,
+  Eigen::Matrix<double, 6, 3> pose_by_size;           ///< and by a change of them.
+  double square_sum = 0.0;
+  double weight_sum = 0.0;
+  int correspondences = 0;
+};
+
+ReducedView reduced(const std::vector<Contact>& contacts, const AzimuthOptions& options) {
+  using Vector9d = Eigen::Matrix<double, 9, 1>;
+  const std::vector<double> weights = weights_of(contacts, options);
+  Eigen::Matrix<double, 9, 9> information = Eigen::Matrix<double, 9, 9>::Zero();
+  std::map<std::array<int, 4>, Vector9d> gradients;  // By surface.
+  ReducedView view;
+  view.correspondences = static_cast<int>(contacts.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = contacts[i];
+    Vector9d J;
+    J << contact.by_pose, contact.by_size;
+    information.noalias() += weights[i] * (J * J.transpose());
+    const auto [gradient, is_new] = gradients.emplace(contact.surface, Vector9d::Zero());
+    gradient->second += weights[i] * contact.distance_m * J;
+    view.square_sum += weights[i] * contact.distance_m * contact.distance_m;
+    view.weight_sum += weights[i];
+  }
+  const Matrix6d inverse = guarded_inverse<6>(information.topLeftCorner<6, 6>());
+  const Eigen::Matrix<double, 6, 3> coupling = information.topRightCorner<6, 3>();
+  view.pose_by_size = -inverse * coupling;
+  view.information =
+      information.bottomRightCorner<3, 3>() + coupling.transpose() * view.pose_by_size;
+  Vector6d of_pose = Vector6d::Zero();
+  for (const auto& [surface, gradient] : gradients) {
+    const Eigen::Vector3d own =
+        gradient.tail<3>() + view.pose_by_size.transpose() * gradient.head<6>();
+    of_pose += gradient.head<6>();
+    view.gradient += own;
+    view.scatter += own * own.transpose();
+  }
+  view.pose_step = -inverse * of_pose;
+  return view;
+}
+
+/// The state of an estimation and its next step.
+class Problem {
+ public:
+  Problem(const std::vector<AzimuthView>& views, const AzimuthOptions& options)
+      : options_(options) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    std::size_t points = 0;
+    const std::size_t most =
+        static_cast<std::size_t>(options.points) / std::max<std::size_t>(views.size(), 1) + 1;
+    for (const AzimuthView& view : views) {
+      views_.emplace_back(view, options_, most);
+      poses_.push_back(view.T_target_source);
+      sum += views_.back().sum_of_terms();
+      points += views_.back().points();
+    }
+    if (points > 0) mean_terms_ = sum / static_cast<double>(points);
+  }
+
+  /// Linearises all views at the present state. Throws StageError if too few points correspond.
+  void linearise() {
+    reduced_.clear();
+    information_.setZero();
+    gradient_.setZero();
+    scatter_.setZero();
+    for (std::size_t v = 0; v < views_.size(); ++v) {
+      reduced_.push_back(reduced(views_[v].contacts(poses_[v], error(), mean_terms_), options_));
+      const ReducedView& view = reduced_.back();
+      if (view.correspondences < kFewestCorrespondences) {
+        throw StageError("only " + std::to_string(view.correspondences) + " points correspond");
+      }
+      information_ += view.information;
+      gradient_ += view.gradient;
+      scatter_ += view.scatter;
+    }
+  }
+
+  /// Moves the state by a Gauss-Newton step. Returns whether it was a small one.
+  bool step() {
+    const double expected_rad = rad_from_deg(options_.expected_error_deg);
+    // What a unit of information is worth: by it the scatter of gradients is that of information.
+    const double variance =
+        std::max((guarded_inverse<3>(information_) * scatter_).trace() / 3.0, 1e-12);
+    const double prior = variance / (expected_rad * expected_rad);
+    information_.diagonal().array() += prior;
+    const Eigen::Vector3d change = -guarded_inverse<3>(information_) * (gradient_ + prior * sizes_);
+    sizes_ += change;
+    double largest = change.cwiseAbs().maxCoeff();
+    for (std::size_t v = 0; v < views_.size(); ++v) {
+      const Vector6d move = reduced_[v].pose_step + reduced_[v].pose_by_size * change;
+      poses_[v] = stepped(poses_[v], move);
+      largest = std::max(largest, move.cwiseAbs().maxCoeff());
+    }
+    constexpr double kSmall = 5e-6;  // Radians and metres.
+    return largest < kSmall;
+  }
+
+  AzimuthError error() const { return error_of(sizes_, mean_terms_); }
+
+  double rmse_m() const {
+    double squares = 0.0, weights = 0.0;
+    for (const ReducedView& view : reduced_) {
+      squares += view.square_sum;
+      weights += view.weight_sum;
+    }
+    return weights > 0.0 ? std::sqrt(squares / weights) : 0.0;
+  }
+
+  /// Fills in what is found, from the last linearisation.
+  void give(AzimuthCalibration& result) const {
+    result.error = error();
+    const Eigen::Matrix3d inverse = guarded_inverse<3>(measured_hessian());
+    result.covariance = inverse * scatter_ * inverse;
+    result.T_target_source = poses_;
+    result.rmse_m = rmse_m();
+    for (const ReducedView& view : reduced_) result.correspondences += view.correspondences;
+  }
+
+ private:
+  /// The change of the gradient by sine, cosine and slope when the poses follow them. Other points
+  /// correspond then, so it is less than what the present correspondences let expect.
+  Eigen::Matrix3d measured_hessian() const {
+    constexpr double kOffset_rad = 2e-3;
+    Eigen::Matrix3d hessian;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d offset = kOffset_rad * Eigen::Vector3d::Unit(k);
+      hessian.col(k) = (gradient_at(offset) - gradient_at(-offset)) / (2.0 * kOffset_rad);
+    }
+    return symmetric<3>(hessian);
+  }
+
+  Eigen::Vector3d gradient_at(const Eigen::Vector3d& offset) const {
+    const AzimuthError error = error_of(sizes_ + offset, mean_terms_);
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+    for (std::size_t v = 0; v < views_.size(); ++v) {
+      const RigidTransform T = stepped(poses_[v], reduced_[v].pose_by_size * offset);
+      gradient += reduced(views_[v].contacts(T, error, mean_terms_), options_).gradient;
+    }
+    return gradient;
+  }
+
+  AzimuthOptions options_;
+  std::vector<ViewProblem> views_;
+  std::vector<RigidTransform> poses_;
+  Eigen::Vector3d sizes_ = Eigen::Vector3d::Zero();  ///< Sine, cosine, slope.
+  Eigen::Vector3d mean_terms_ = Eigen::Vector3d::Zero();
+  std::vector<ReducedView> reduced_;
+  Eigen::Matrix3d information_, scatter_;
+  Eigen::Vector3d gradient_;
+};
+
+}  // namespace
+
+double AzimuthError::at(const Eigen::Vector3d& point) const {
+  return offset_rad + terms_at(point).dot(Eigen::Vector3d(sine_rad, cosine_rad, slope));
+}
+
+Eigen::Vector3d without_error(const Eigen::Vector3d& point, const AzimuthError& error) {
+  const double angle = error.at(point);
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * point.x() + s * point.y(), c * point.y() - s * point.x(), point.z()};
+}
+
+std::shared_ptr<const Cloud> without_error(const Cloud& cloud, const AzimuthError& error) {
+  PointCloud corrected = cloud.with_channels();
+  for (Eigen::Vector3f& point : corrected.points) {
+    point = without_error(point.cast<double>(), error).cast<float>();
+  }
+  return cloud.derived(std::move(corrected), "without_azimuth_error");
+}
+
+const params::Table<AzimuthOptions>& azimuth_table() {
+  using O = AzimuthOptions;
+  static const params::Table<O> table = {
+      params::number("max_distance_m", &O::max_distance_m, {1e-6, 1e6},
+                     "Points that are farther apart do not correspond."),
+      params::integer("points", &O::points, {30, 100000000},
+                      "How many points of the sensor take part, as many of each scene, evenly "
+                      "through its scan."),
+      params::integer("normal_neighbours", &O::normal_neighbours, {3, 1000},
+                      "The number of neighbours that a normal is computed from."),
+      params::number("max_normal_angle_deg", &O::max_normal_angle_deg, {0.0, 90.0},
+                     "Points whose normals differ by more do not correspond."),
+      params::number("direction_balance", &O::direction_balance, {0.0, 1.0},
+                     "Each of n points on surfaces of about one direction weighs n to the minus "
+                     "this."),
+      params::number("kernel_width_m", &O::kernel_width_m, {1e-6, 1e6},
+                     "Residuals above it begin to lose weight."),
+      params::number("surface_size_m", &O::surface_size_m, {0.01, 1e6},
+                     "Points of one direction in a cell of this edge are one surface, whose errors "
+                     "are not independent."),
+      params::number("expected_error_deg", &O::expected_error_deg, {1e-6, 90.0},
+                     "What is expected of an error before any point is seen: the standard "
+                     "deviation of sine and cosine about 0, and of the slope for an elevation of "
+                     "one radian."),
+      params::integer("max_iterations", &O::max_iterations, {1, 10000}, "The most iterations."),
+  };
+  return table;
+}
+
+double AzimuthCalibration::significance() const {
+  const Eigen::Vector3d sizes(error.sine_rad, error.cosine_rad, error.slope);
+  return std::sqrt(std::max(0.0, sizes.dot(guarded_inverse<3>(covariance) * sizes) / 3.0));
+}
+
+AzimuthCalibration calibrate_azimuth(const std::vector<AzimuthView>& views,
+                                     const AzimuthOptions& options) {
+  Problem problem(views, options);
+  AzimuthCalibration result;
+  problem.linearise();
+  result.rmse_before_m = problem.rmse_m();
+  while (result.iterations < options.max_iterations && !result.converged) {
+    result.converged = problem.step();
+    ++result.iterations;
+    problem.linearise();
+  }
+  problem.give(result);
+  return result;
+}
+
+}  // namespace croon

@@ -1,0 +1,171 @@
+#include <map>
+#include <utility>
+
+#include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/threads.hpp"
+#include "framework/params/group.hpp"
+#include "framework/registration/azimuth_error.hpp"
+#include "framework/stage/rig_step.hpp"
+#include "framework/stage/stage_entry.hpp"
+
+namespace croon::stages::step {
+namespace {
+
+/// An azimuth error in the units of users.
+struct KnownError {
+  double offset_deg = 0.0;
+  double sine_deg = 0.0;
+  double cosine_deg = 0.0;
+  double slope = 0.0;
+
+  AzimuthError error() const {
+    return {rad_from_deg(offset_deg), rad_from_deg(sine_deg), rad_from_deg(cosine_deg), slope};
+  }
+  /// Tells it from others.
+  std::string key() const {
+    return params::value_json(std::vector<double>{offset_deg, sine_deg, cosine_deg, slope});
+  }
+};
+
+const params::Table<KnownError>& known_table() {
+  static const params::Table<KnownError> table = {
+      params::number("offset_deg", &KnownError::offset_deg, {-180.0, 180.0},
+                     "The error at all azimuths."),
+      params::number("sine_deg", &KnownError::sine_deg, {-90.0, 90.0},
+                     "The part that follows the azimuth's sine."),
+      params::number("cosine_deg", &KnownError::cosine_deg, {-90.0, 90.0},
+                     "The part that follows its cosine."),
+      params::number("slope", &KnownError::slope, {-10.0, 10.0},
+                     "The part that follows the elevation: degrees per degree."),
+  };
+  return table;
+}
+
+struct Params : AzimuthOptions {
+  std::vector<std::pair<std::string, KnownError>> known;
+  bool estimate = true;
+  double min_significance = 4.0;
+};
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table =
+      params::Table<Params>{
+          params::optional(params::map(
+              "known", &Params::known, known_table(), "a sensor's name",
+              "The errors of these sensors are known: their clouds are corrected, of the "
+              "reference too, and nothing is estimated of them.")),
+          params::boolean("estimate", &Params::estimate,
+                          "Whether the errors of the other sensors are estimated; else they are "
+                          "taken to have none."),
+          params::number("min_significance", &Params::min_significance, {0.0, 1e6},
+                         "An error that was estimated is corrected, and the pose with it, only if "
+                         "it is so many standard deviations from zero."),
+      }
+          .inherit(azimuth_table());
+  return table;
+}
+
+class AzimuthCalibrationStep final : public RigStep {
+ public:
+  explicit AzimuthCalibrationStep(const Params& params)
+      : params_(params), known_(params.known.begin(), params.known.end()) {}
+
+  void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
+    // A sensor's error is its own, but it is found against the surfaces of one target.
+    std::map<std::pair<std::string, std::string>, std::vector<RigEstimate*>> unknown;
+    for (RigEstimate& one : rig) {
+      if (one.estimate.rejection) continue;
+      try {
+        require_usable_clouds(one.estimate);
+        correct_known(one);
+        if (known_.count(one.source) == 0) unknown[{one.target, one.source}].push_back(&one);
+      } catch (const StageError& error) {
+        one.failure = error.what();
+      }
+    }
+    if (!params_.estimate) return;
+    std::vector<std::vector<RigEstimate*>> sensors;
+    for (auto& [names, estimates] : unknown) sensors.push_back(std::move(estimates));
+    for_each_in_parallel(sensors.size(), [&](std::size_t i) { calibrate(sensors[i]); });
+  }
+
+ private:
+  /// Corrects the clouds of both sensors, as far as their errors are known.
+  void correct_known(RigEstimate& one) const {
+    Estimate& estimate = one.estimate;
+    const auto of_target = known_.find(one.target);
+    if (of_target != known_.end()) {
+      const AzimuthError error = of_target->second.error();
+      // The target is the same for all sensors and trials of the scene.
+      estimate.take_clouds(
+          estimate.target->once<Cloud>("without_azimuth_error", of_target->second.key(),
+                                       [&] { return without_error(*estimate.target, error); }),
+          estimate.source);
+    }
+    const auto of_source = known_.find(one.source);
+    if (of_source == known_.end()) return;
+    correct(of_source->second.error(), estimate);
+  }
+
+  static void correct(const AzimuthError& error, Estimate& estimate) {
+    estimate.take_clouds(estimate.target, without_error(*estimate.source, error));
+    estimate.information.reset();
+  }
+
+  void calibrate(const std::vector<RigEstimate*>& estimates) const {
+    std::vector<AzimuthView> views;
+    for (const RigEstimate* const one : estimates) {
+      const Estimate& estimate = one->estimate;
+      views.push_back({&*estimate.target, &*estimate.source, estimate.T_target_source});
+    }
+    try {
+      const AzimuthCalibration found = calibrate_azimuth(views, params_);
+      for (std::size_t v = 0; v < views.size(); ++v) {
+        give(found, found.T_target_source[v], estimates[v]->estimate);
+      }
+    } catch (const StageError& error) {
+      for (RigEstimate* const one : estimates) one->failure = error.what();
+    }
+  }
+
+  void give(const AzimuthCalibration& found, const RigidTransform& T, Estimate& estimate) const {
+    const bool is_corrected = found.significance() >= params_.min_significance;
+    if (is_corrected) {
+      correct(found.error, estimate);
+      estimate.T_target_source = T;
+      estimate.covariance.reset();
+    }
+    const Eigen::Vector3d stds = found.covariance.diagonal().cwiseSqrt();
+    estimate.diagnostics = {{"azimuth_offset_deg", deg_from_rad(found.error.offset_rad)},
+                            {"azimuth_sine_deg", deg_from_rad(found.error.sine_rad)},
+                            {"azimuth_cosine_deg", deg_from_rad(found.error.cosine_rad)},
+                            {"azimuth_slope", found.error.slope},
+                            {"azimuth_sine_std_deg", deg_from_rad(stds.x())},
+                            {"azimuth_cosine_std_deg", deg_from_rad(stds.y())},
+                            {"azimuth_slope_std", stds.z()},
+                            {"azimuth_significance", found.significance()},
+                            {"corrected", is_corrected ? 1.0 : 0.0},
+                            {"rmse_before_m", found.rmse_before_m},
+                            {"rmse_m", found.rmse_m},
+                            {"correspondences", static_cast<double>(found.correspondences)},
+                            {"iterations", static_cast<double>(found.iterations)},
+                            {"converged", found.converged ? 1.0 : 0.0}};
+  }
+
+  Params params_;
+  std::map<std::string, KnownError> known_;
+};
+
+}  // namespace
+
+StageEntry azimuth_calibration() {
+  return stage_entry<AzimuthCalibrationStep>(
+      "azimuth_calibration",
+      "Sees the whole rig: estimates what each sensor's azimuths are off by, one smooth error in "
+      "all scenes of a trial, and corrects its clouds; or corrects them by errors that are known. "
+      "Rejected poses take no part.",
+      "Lichti, ISPRS J. 2007; Muhammad and Lacroix, IROS 2010", table());
+}
+
+}  // namespace croon::stages::step
