@@ -46,11 +46,11 @@ def distance(a, b):
             1000 * math.dist(a[0], b[0]))
 
 
-def poses_of(results):
-    """By scene and sensor, those that finished and were not rejected."""
+def poses_of(results, variant="base"):
+    """By scene and sensor, those of a variant that finished and were not rejected."""
     return {(one["scene"], one["sensor"]): ([float(one[f"t{axis}_m"]) for axis in "xyz"],
                                            [float(one[f"q{axis}"]) for axis in "xyzw"])
-            for one in rows_of(results, "trials.csv") if one["status"] == FINISHED}
+            for one in rows_of(results, "trials.csv") if one["status"] == FINISHED and one["variant"] == variant}
 
 
 def uncertainties(results):

@@ -18,13 +18,13 @@ def run_experiment(croon, experiment, results, options):
         sys.exit(f"croon run {experiment} ended with {ended.returncode}")
 
 
-def run_changed(croon, out, options, name, keys, dataset):
+def run_changed(croon, out, options, name, keys, dataset, what=None):
     """Runs the experiment `name`.json beside this file with other `keys` and with a dataset of which the keys `dataset`
-    are others. The folder of the results, a folder of `out` that is named after the changes."""
+    are others. The folder of the results, a folder of `out` that is named `what`, or else after the changes."""
     base = os.path.join(HERE, f"{name}.json")
     with open(base, encoding="utf-8") as file:
         experiment = {**json.load(file), **keys}
-    what = "_".join(short(value) for value in {**keys, **dataset}.values())
+    what = what or "_".join(short(value) for value in {**keys, **dataset}.values())
     folder = os.path.join(out, f"{name}_{what}")
     os.makedirs(folder, exist_ok=True)
     changed = os.path.join(folder, "experiment.json")

@@ -56,8 +56,7 @@ RigidTransform some_pose() {
 TEST(AzimuthError, IsTakenAwayFromWhatASensorReports) {
   Rng rng = test::test_rng();
   for (int i = 0; i < 1000; ++i) {
-    const Eigen::Vector3d point(rng.uniform(-50.0, 50.0), rng.uniform(-50.0, 50.0),
-                                rng.uniform(-10.0, 10.0));
+    const Eigen::Vector3d point = test::random_pose(rng, 50.0).translation;
     const Eigen::Vector3d reported = with_error(point, kError);
     EXPECT_LT((without_error(reported, kError) - point).norm(), 1e-9);
     EXPECT_NEAR(reported.norm(), point.norm(), 1e-9);
