@@ -40,7 +40,7 @@ struct AzimuthView {
 /// How an azimuth error is estimated.
 struct AzimuthOptions {
   double max_distance_m = 0.3;
-  int points = 10000;
+  int points = 20000;
   int normal_neighbours = 10;
   double max_normal_angle_deg = 45.0;
   double direction_balance = 0.5;
