@@ -11,7 +11,6 @@
 #include "framework/spatial/deskew.hpp"
 #include "framework/spatial/evenly_spaced.hpp"
 #include "framework/spatial/ground_candidates.hpp"
-#include "framework/spatial/leaf_grid.hpp"
 #include "framework/spatial/vehicle_sized.hpp"
 
 namespace croon {
@@ -56,8 +55,7 @@ struct JointTerm {
 };
 
 JointCell cell_of(const JointTerm& term) {
-  const Eigen::Vector3i leaf = LeafGrid(kJointCell_m).leaf_of(term.point);
-  return {leaf.x(), leaf.y(), leaf.z()};
+  return leaf_key(LeafGrid(kJointCell_m).leaf_of(term.point));
 }
 
 RobustKernel kernel_at(double max_distance_m, const JointOptions& options) {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <array>
 #include <map>
 #include <memory>
 
 #include "framework/registration/joint_registration.hpp"
+#include "framework/spatial/leaf_grid.hpp"
 
 namespace croon {
 
@@ -80,8 +80,8 @@ struct PairEquations {
 PairEquations pair_equations(const JointScene::Source& source, const StillTarget& target,
                              const JointView& view);
 
-/// A cube of space around the target: its indices along the axes.
-using JointCell = std::array<int, 3>;
+/// A cube of space around the target.
+using JointCell = LeafKey;
 
 /// The edge of a cube. A car is in few of them.
 inline constexpr double kJointCell_m = 6.0;
