@@ -72,7 +72,7 @@ class BundleAdjustmentStep final : public RigStep {
  public:
   explicit BundleAdjustmentStep(const Params& params) : params_(params) {}
 
-  static params::DataFlow data_flow(const Params&) { return {{}, {}, {}, {kCovariance.doc()}}; }
+  static params::DataFlow data_flow(const Params&) { return gives(kCovariance); }
 
   void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
     std::map<std::string, std::vector<RigEstimate*>> references;

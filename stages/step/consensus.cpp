@@ -59,7 +59,9 @@ class ConsensusStep final : public RigStep {
 
   static params::DataFlow data_flow(const Params& params) {
     if (params.weights != Weights::covariance) return {};
-    return {{}, {}, {kCovariance.doc()}, {kCovariance.doc()}};
+    params::DataFlow flow = takes(kCovariance);
+    flow.add(gives(kCovariance));
+    return flow;
   }
 
   void adjust(std::vector<RigEstimate>& rig, Rng&) const override {

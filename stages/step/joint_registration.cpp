@@ -76,8 +76,7 @@ class JointRegistrationStep final : public RigStep {
   static params::DataFlow data_flow(const Params& params) {
     params::DataFlow flow = params.thinning.flow();
     if (params.motion) flow.add(params::needs_channels({kTime}));
-    flow.gives.push_back(kMotion.doc());
-    flow.gives.push_back(kMotionCovariance.doc());
+    flow.add(gives(kMotion, kMotionCovariance));
     return flow;
   }
 
