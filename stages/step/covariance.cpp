@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "framework/base/angles.hpp"
 #include "framework/registration/pose_uncertainty.hpp"
 #include "framework/stage/motion.hpp"
