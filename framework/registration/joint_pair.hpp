@@ -35,8 +35,8 @@ class StillTarget {
   /// Not a Cloud: what is computed for one velocity alone is work of the trial, not shared work.
   Points moved_points_;
   std::unique_ptr<const KdTree> moved_tree_;
-  const Points* points_;    ///< Those that moved, or those of the scan if it stands still,
-  const KdTree* tree_;      ///< whose tree there may be already.
+  const Points* points_;    ///< Those that moved, or those of the scan if it stands still.
+  const KdTree* tree_;      ///< Of these points; that of a scan is shared.
   const Normals& normals_;  ///< Of the scan as it was measured.
   double vehicle_weight_;
   /// Which points belong to things of a vehicle's size; null if they weigh as much as others.
