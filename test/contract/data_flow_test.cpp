@@ -47,7 +47,7 @@ class ContractOfDataFlow : public EveryStage {};
 TEST_P(ContractOfDataFlow, HasWhatTheStagesInSlotsNeed) {
   const json stage = with_full_slots(entry());
   std::vector<Fault> faults;
-  const NeedyStages slots;
+  NeedyStages slots;
   const params::BuiltStage built =
       entry().build(params::Node(stage, "contract.json", faults), slots);
   ASSERT_TRUE(faults.empty()) << faults.front().line();
