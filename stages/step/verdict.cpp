@@ -202,8 +202,8 @@ class Verdict final : public Step {
 StageEntry verdict() {
   return stage_entry<Verdict>("verdict",
                               "Accepts or rejects the pose: overlap, free space, the margin to "
-                              "other poses, directions that "
-                              "nothing constrains, agreement of two halves of the points.",
+                              "other poses, directions that nothing constrains, agreement of two "
+                              "halves of the points.",
                               "croon; directions after Gelfand et al., 3DIM 2003", table());
 }
 
