@@ -2,7 +2,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <tuple>
 
 #include "experiments/report/export.hpp"

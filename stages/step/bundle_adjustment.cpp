@@ -4,7 +4,6 @@
 #include <array>
 #include <map>
 #include <optional>
-#include <utility>
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"

@@ -1,6 +1,5 @@
 #include <set>
 #include <utility>
-#include <vector>
 
 #include "framework/base/error.hpp"
 #include "framework/params/values.hpp"
