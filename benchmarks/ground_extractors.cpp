@@ -1,7 +1,6 @@
 // What does it cost to find the ground of one cloud?
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "benchmarks/support/clouds.hpp"
 #include "benchmarks/support/run.hpp"

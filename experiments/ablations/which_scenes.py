@@ -3,8 +3,9 @@
 
 which_scenes.py CROON OUT [OPTIONS OF CROON RUN]: runs which_scenes.json beside this file with scenes of each kind and
 of all ordinary kinds alike, in a folder of OUT for each, and prints a Markdown table per number of scenes: the 95th
-percentile of the absolute error of the accepted poses of all sensors by degree of freedom, in degrees and mm, and in
-brackets the median of the standard deviation that their covariances say. What is in OUT already is not run again.
+percentile of the absolute error of the poses of all sensors by degree of freedom, in degrees and mm, and in brackets
+the median of the standard deviation that their covariances say. No verdict judges: all poses count but those of trials
+that failed. What is in OUT already is not run again.
 """
 import math
 import statistics
@@ -50,7 +51,7 @@ def main(croon, out, *options):
     """Runs what is missing and prints the tables."""
     for number, scenes in NUMBERS.items():
         print(f"Scenes: {number}\n")
-        head("kind", "accepted", *(f"{dof} {'°' if dof in DOFS[:3] else 'mm'}" for dof in DOFS))
+        head("kind", "poses", *(f"{dof} {'°' if dof in DOFS[:3] else 'mm'}" for dof in DOFS))
         for kind, mix in KINDS.items():
             results = run_changed(croon, out, options, "which_scenes", {"scenes_per_trial": number},
                                   {"scenes": scenes, "mix": mix})

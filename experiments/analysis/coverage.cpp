@@ -1,6 +1,3 @@
-// Boost.Math would compute in long double, whose functions depend on the processor.
-#define BOOST_MATH_PROMOTE_DOUBLE_POLICY false
-
 #include "experiments/analysis/coverage.hpp"
 
 #include <Eigen/Eigenvalues>

@@ -1,7 +1,3 @@
-// Boost.Math would compute in long double, and the long double functions of the C library use
-// instructions whose last bits depend on the processor.
-#define BOOST_MATH_PROMOTE_DOUBLE_POLICY false
-
 #include "experiments/analysis/paired_tests.hpp"
 
 #include <algorithm>

@@ -164,6 +164,32 @@ std::vector<Measures> joined(const std::vector<const SceneSummary*>& scenes,
   return all;
 }
 
+/// Sets what the scenes of `row` agree on, by their consensus, of which `scenes` has the trials.
+void set_consensus(SummaryRow& row, const std::vector<SceneRecords>& scenes,
+                   const PoseBounds& bounds) {
+  std::vector<RigidTransform> consensus;
+  std::vector<double> votes;
+  SceneRecords all, of_agreeing_scenes;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const SceneSummary& scene = row.scenes[i];
+    all.insert(all.end(), scenes[i].begin(), scenes[i].end());
+    if (!scene.consensus) continue;
+    consensus.push_back(*scene.consensus);
+    votes.push_back(std::max(1, scene.agreeing.count));
+    if (scene.agreeing.count == 0) continue;
+    of_agreeing_scenes.insert(of_agreeing_scenes.end(), scenes[i].begin(), scenes[i].end());
+  }
+  if (consensus.empty()) return;
+  row.consensus = consensus_pose(consensus, bounds, votes);
+  const bool is_alone = all.size() == 1;
+  // Trials that agree with no other one of their scene may be near those of another by chance: they
+  // make no pose.
+  if (agreeing_with(*row.consensus, of_agreeing_scenes, bounds, is_alone).count > 0) {
+    row.agreeing = agreeing_with(*row.consensus, all, bounds, is_alone);
+  }
+  row.covariance = covariance_near(*row.consensus, row.scenes, bounds);
+}
+
 }  // namespace
 
 void SceneCounts::add(const std::string& scene, int count, int trials) {
@@ -313,28 +339,10 @@ SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds
   SummaryRow row;
   row.variant = scenes.front().front()->id.variant;
   row.sensor = scenes.front().front()->id.sensor;
-  std::vector<RigidTransform> consensus;
-  std::vector<double> votes;
-  SceneRecords all, of_agreeing_scenes;
   for (const SceneRecords& records : scenes) {
-    const SceneSummary& scene = row.scenes.emplace_back(without_deviations(records, bounds));
-    all.insert(all.end(), records.begin(), records.end());
-    if (!scene.consensus) continue;
-    consensus.push_back(*scene.consensus);
-    votes.push_back(std::max(1, scene.agreeing.count));
-    if (scene.agreeing.count == 0) continue;
-    of_agreeing_scenes.insert(of_agreeing_scenes.end(), records.begin(), records.end());
+    row.scenes.push_back(without_deviations(records, bounds));
   }
-  if (!consensus.empty()) {
-    row.consensus = consensus_pose(consensus, bounds, votes);
-    const bool is_alone = all.size() == 1;
-    // Trials that agree with no other one of their scene may be near those of another by chance:
-    // they make no pose.
-    if (agreeing_with(*row.consensus, of_agreeing_scenes, bounds, is_alone).count > 0) {
-      row.agreeing = agreeing_with(*row.consensus, all, bounds, is_alone);
-    }
-    row.covariance = covariance_near(*row.consensus, row.scenes, bounds);
-  }
+  set_consensus(row, scenes, bounds);
   // Truth if one trial of any scene has it.
   const DeviationsFrom from = pooled_counts(scenes_of({&row})).deviations_from;
   for (std::size_t i = 0; i < scenes.size(); ++i) {

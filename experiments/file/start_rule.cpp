@@ -1,7 +1,5 @@
 #include "experiments/file/start_rule.hpp"
 
-#include <algorithm>
-
 #include "framework/base/error.hpp"
 #include "framework/geometry/length_bound.hpp"
 #include "framework/params/group.hpp"

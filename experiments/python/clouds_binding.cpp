@@ -1,6 +1,5 @@
 // Clouds as stages see them, and the readers and writers of files.
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <set>
 #include <utility>

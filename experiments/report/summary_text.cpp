@@ -2,7 +2,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <tuple>
 
 #include "experiments/report/export.hpp"
@@ -252,88 +251,128 @@ View frames_view() {
           0};
 }
 
-}  // namespace
+/// The sections of the text.
+class SummaryText {
+ public:
+  SummaryText(const Summary& summary, const TableStyle& style)
+      : summary_(summary),
+        style_(style),
+        table_(row_columns().table(summary.rows)),
+        has_truth_(has_deviations_from(table_, DeviationsFrom::truth)),
+        has_consensus_(has_deviations_from(table_, DeviationsFrom::consensus)),
+        has_scenes_(any_row([](const SummaryRow& row) { return row.scenes.size() > 1; })),
+        bounds_("within " + bounds_text(summary.bounds)) {
+    const std::vector<std::string> shares = share_names(table_);
+    share_ = shares.size() == 1 ? shares.front() : "success (no truth: agreement)";
+  }
 
-std::string summary_text(const Summary& summary, const TableStyle& style) {
-  if (summary.rows.empty()) return "no trials\n";
-  const Table table = row_columns().table(summary.rows);
-  const auto rows_text = [&](const View& view) {
-    return text_by_variant(table, view, summary, style);
-  };
-  const auto dofs_text = [&](const std::string& content, bool shows_each) {
+  std::string text() const {
+    return definitions() + outcomes() + deviations() + comparisons() + by_scene() + agreed_poses() +
+           reason_text(summary_, style_);
+  }
+
+ private:
+  template <class Condition>
+  bool any_row(const Condition& condition) const {
+    return std::any_of(summary_.rows.begin(), summary_.rows.end(), condition);
+  }
+
+  /// A table of the degrees of freedom.
+  std::string dofs(const std::string& content, bool shows_each = false) const {
     View view{{{"sensor"}}};
     add_measures(view, kPaperOrder, content);
     for (Shown& shown : view.columns) shown.shows_each = shows_each;
-    return rows_text(view);
-  };
-  const auto any_row = [&](auto condition) {
-    return std::any_of(summary.rows.begin(), summary.rows.end(), condition);
-  };
-  const bool has_consensus = has_deviations_from(table, DeviationsFrom::consensus);
-  const bool has_scenes = any_row([](const SummaryRow& row) { return row.scenes.size() > 1; });
-  const bool has_spread = any_row([](const SummaryRow& row) { return !!row.within_scene_std; });
-  const std::string bounds = "within " + bounds_text(summary.bounds);
+    return text_by_variant(table_, view, summary_, style_);
+  }
 
-  std::string text;
-  const bool has_truth = has_deviations_from(table, DeviationsFrom::truth);
-  if (has_truth) {
-    text += "success: " + bounds + "the truth; errors of those trials\n";
+  /// What the words and numbers below mean.
+  std::string definitions() const {
+    std::string text;
+    if (has_truth_) text += "success: " + bounds_ + "the truth; errors of those trials\n";
+    if (has_consensus_) {
+      text += "agreement (no truth): " + bounds_ +
+              "what the trials of the scene agree on;\n  deviations of those trials from what all "
+              "scenes agree on\n";
+    }
+    return text + "rotation, translation: median, 95th percentile\n";
   }
-  if (has_consensus) {
-    text += "agreement (no truth): " + bounds +
-            "what the trials of the scene agree on;\n  deviations of those "
-            "trials from what all "
-            "scenes agree on\n";
+
+  std::string outcomes() const {
+    std::string text = "\n" + text_by_variant(table_, outcomes_view(table_), summary_, style_);
+    if (any_row([](const SummaryRow& row) { return !main_share(row).interval; })) {
+      text += "no interval: trials of one scene are alike, and there are fewer than " +
+              std::to_string(kLeastScenes) + " scenes\n";
+    }
+    if (!has_scenes_ || summary_.frames.empty()) return text;
+    return text + "\nframes: scenes in which every trial of all sensors succeeds\n" +
+           text_by_variant(frame_columns().table(summary_.frames), frames_view(), summary_, style_);
   }
-  const std::vector<std::string> shares = share_names(table);
-  const std::string share = shares.size() == 1 ? shares.front() : "success (no truth: agreement)";
-  text += "rotation, translation: median, 95th percentile\n\n" + rows_text(outcomes_view(table));
-  const bool lacks_interval =
-      any_row([](const SummaryRow& row) { return !main_share(row).interval; });
-  if (lacks_interval) {
-    text += "no interval: trials of one scene are alike, and there are fewer than " +
-            std::to_string(kLeastScenes) + " scenes\n";
+
+  std::string deviations() const {
+    // Without truth deviations are from a mean of the trials: their own means are zero.
+    std::string text =
+        has_truth_ ? "\nmean ± std\n" + dofs("<mean> ±<std>") : "\nstd\n" + dofs("<std>");
+    if (has_scenes_ && any_row([](const SummaryRow& row) { return !!row.within_scene_std; })) {
+      text += "\nstd within scenes / across scenes\n" +
+              dofs("<within_scene_std> / <across_scenes_std>", true);
+    }
+    return text;
   }
-  if (has_scenes && !summary.frames.empty()) {
-    text += "\nframes: scenes in which every trial of all sensors succeeds\n" +
-            text_by_variant(frame_columns().table(summary.frames), frames_view(), summary, style);
-  }
-  // Without truth deviations are from a mean of the trials: their own means are zero.
-  text += has_truth ? "\nmean ± std\n" + dofs_text("<mean> ±<std>", false)
-                    : "\nstd\n" + dofs_text("<std>", false);
-  if (has_scenes && has_spread) {
-    text += "\nstd within scenes / across scenes\n" +
-            dofs_text("<within_scene_std> / <across_scenes_std>", true);
-  }
-  if (!summary.comparisons.empty()) {
-    text += "\nagainst " + summary.comparisons.front().base +
-            ", pair by pair: median difference [95 % interval over scenes], "
-            "failures as infinite\n";
-    if (has_consensus) {
+
+  std::string comparisons() const {
+    if (summary_.comparisons.empty()) return "";
+    std::string text = "\nagainst " + summary_.comparisons.front().base +
+                       ", pair by pair: median difference [95 % interval over scenes], "
+                       "failures as infinite\n";
+    if (has_consensus_) {
       text +=
-          "  (no truth: of the distances to what the variant's own trials "
-          "of the scene agree "
+          "  (no truth: of the distances to what the variant's own trials of the scene agree "
           "on, so of how\n  repeatable it is, not how accurate)\n";
     }
-    text += comparison_text(summary, style);
+    return text + comparison_text(summary_, style_);
   }
-  if (!summary.loops.empty()) {
-    text += "\nloops: T_reference_target T_target_source " + bounds +
-            "T_reference_source; how far loops are from it\n" + loop_text(summary, style);
+
+  /// Loops, kinds of scenes, scenes.
+  std::string by_scene() const {
+    std::string text;
+    if (!summary_.loops.empty()) {
+      text += "\nloops: T_reference_target T_target_source " + bounds_ +
+              "T_reference_source; how far loops are from it\n" + loop_text(summary_, style_);
+    }
+    if (!summary_.scene_kinds.empty()) {
+      text += "\nby kind of scene: " + share_ + " in %\n" + scene_kind_text(summary_, style_);
+    }
+    if (has_scenes_) text += "\n" + share_ + " per scene\n" + scene_text(summary_, style_);
+    return text;
   }
-  if (!summary.scene_kinds.empty()) {
-    text += "\nby kind of scene: " + share + " in %\n" + scene_kind_text(summary, style);
-  }
-  if (has_scenes) text += "\n" + share + " per scene\n" + scene_text(summary, style);
-  if (has_consensus) {
-    text += "\nresult: T_reference_sensor that all scenes agree on; agreeing: trials " + bounds +
-            "it;\n  spread: their root mean square distance from it (extrinsics.json)\n" +
-            agreed_text(summary, style);
+
+  std::string agreed_poses() const {
+    if (!has_consensus_) return "";
+    std::string text = "\nresult: T_reference_sensor that all scenes agree on; agreeing: trials " +
+                       bounds_ +
+                       "it;\n  spread: their root mean square distance from it "
+                       "(extrinsics.json)\n" +
+                       agreed_text(summary_, style_);
     if (any_row([](const SummaryRow& row) { return lacks_truth(row) && !agreed_consensus(row); })) {
       text += "no pose: no two trials agree\n";
     }
+    return text;
   }
-  return text + reason_text(summary, style);
+
+  const Summary& summary_;
+  const TableStyle& style_;
+  Table table_;  ///< Of the rows, of which the views show parts.
+  bool has_truth_;
+  bool has_consensus_;
+  bool has_scenes_;
+  std::string bounds_;
+  std::string share_;  ///< What the shares of scenes and kinds are.
+};
+
+}  // namespace
+
+std::string summary_text(const Summary& summary, const TableStyle& style) {
+  return summary.rows.empty() ? "no trials\n" : SummaryText(summary, style).text();
 }
 
 }  // namespace croon::experiments

@@ -8,7 +8,6 @@
 #include "experiments/run/sensor_pairs.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
-#include "framework/base/text.hpp"
 #include "framework/io/text_scan.hpp"
 #include "framework/stage/velocity_numbers.hpp"
 

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "framework/base/error.hpp"
-#include "framework/base/text.hpp"
 #include "framework/geometry/length_bound.hpp"
 #include "framework/io/text_scan.hpp"
 

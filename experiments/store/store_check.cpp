@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>

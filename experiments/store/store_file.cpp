@@ -1,6 +1,5 @@
 #include "experiments/store/store_file.hpp"
 
-#include <algorithm>
 #include <array>
 #include <fstream>
 #include <string_view>

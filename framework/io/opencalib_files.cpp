@@ -6,7 +6,6 @@
 #include <iomanip>
 #include <limits>
 #include <locale>
-#include <map>
 #include <optional>
 #include <sstream>
 

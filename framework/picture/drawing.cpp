@@ -1,6 +1,5 @@
 #include "framework/picture/drawing.hpp"
 
-#include <algorithm>
 #include <array>
 #include <sstream>
 #include <stdexcept>

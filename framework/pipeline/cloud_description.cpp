@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <tuple>
 
 #include "framework/base/error.hpp"
 #include "framework/base/statistics.hpp"
@@ -18,10 +17,9 @@ constexpr double kBinsPerDecade = 8.0;
 double volume_m3(const Points& points) {
   constexpr double kLeaf_m = 0.1;
   const LeafGrid grid(kLeaf_m);
-  std::set<std::tuple<int, int, int>> leaves;
+  std::set<LeafKey> leaves;
   for (const Eigen::Vector3f& point : points) {
-    const Eigen::Vector3i leaf = grid.leaf_of(point.cast<double>());
-    leaves.insert({leaf.x(), leaf.y(), leaf.z()});
+    leaves.insert(leaf_key(grid.leaf_of(point.cast<double>())));
   }
   return static_cast<double>(leaves.size()) * kLeaf_m * kLeaf_m * kLeaf_m;
 }

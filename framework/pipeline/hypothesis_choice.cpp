@@ -61,7 +61,7 @@ std::vector<Hypothesis> judged(const std::vector<Hypothesis>& poses, const Estim
 params::DataFlow HypothesisChoice::flow() const {
   params::DataFlow flow = thinning.flow();
   flow.add(icp.flow());
-  flow.gives.push_back(kHypotheses.doc());
+  flow.add(gives(kHypotheses));
   return flow;
 }
 

@@ -14,8 +14,8 @@ struct VoxelOptions {
   double max_thickness_ratio = 0.1;
   int min_points = 10;
   int min_sensor_points = 3;
-  double noise_m = 0.005;          ///< Planes are not trusted to be known better per point,
-  double surface_error_m = 0.003;  ///< nor surfaces to be planes, whatever the number of points.
+  double noise_m = 0.005;          ///< The least standard deviation of a point across its plane.
+  double surface_error_m = 0.003;  ///< What a surface is off a plane, however many points it has.
 };
 
 /// The rows of VoxelOptions that users set.

@@ -145,8 +145,8 @@ const params::Table<BundleOptions>& bundle_table() {
         params::integer(
             "min_planes", &O::min_planes, {1, 1000000},
             "A sensor that shares fewer planes (counted in each of the two grids) with others is "
-            "not adjusted: it keeps its start "
-            "if a step before has given it a covariance, and fails if not."),
+            "not adjusted: it keeps its start if a step before has given it a covariance, and "
+            "fails if not."),
         params::number("covariance_scale", &O::covariance_scale, {0.0, 1e6},
                        "Multiplies the standard deviations; found on scenes with truth."),
         params::number("velocity_error_mps", &O::velocity_error_mps, {0.0, 1e6},

@@ -52,8 +52,8 @@ struct Bundle {
   std::vector<PoseCovariance> covariances;
   /// By sensor: how well its planes alone hold each degree of freedom, see plane_words.
   std::vector<std::array<Observability, 6>> plane_words;
-  /// By sensor: what its times lack to those of the first, and the standard deviation of that; zero
-  /// unless they are unknowns.
+  /// By sensor: added to its times, they are those of the first; and the standard deviation of
+  /// that. Zero unless they are unknowns.
   std::vector<double> clock_offsets_s;
   std::vector<double> clock_offset_stds_s;
   /// The cost over the planes, with that of what was known before, in units of the planes' noise.

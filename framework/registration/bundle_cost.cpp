@@ -23,34 +23,35 @@ void for_each_patch(const std::vector<PlanePatch>& patches, const Use& use) {
   });
 }
 
-/// One of the unknowns of six of a patch, and where it is in the gradient.
-struct Place {
+/// An unknown of six of a patch: the derivatives by it, and where it begins among all unknowns.
+struct PatchUnknown {
   const PlaneCost::Part* part;
   Eigen::Index at;
 };
 
+/// Adds `b c / (b + c)` for the cost c of a patch and the bound b, with its derivatives.
 void add(const PlanePatch& patch, const PlaneCost& cost, double bound, BundleCost& sum) {
   const double share = bound / (bound + cost.value);
   const double slope = share * share;
   const double curvature = -2.0 * slope * share / bound;
   sum.value += share * cost.value;
-  std::vector<Place> places;
+  std::vector<PatchUnknown> unknowns;
   for (std::size_t k = 0; k < cost.views.size(); ++k) {
-    places.push_back({&cost.views[k], static_cast<Eigen::Index>(6 * patch.views[k].sensor)});
+    unknowns.push_back({&cost.views[k], static_cast<Eigen::Index>(6 * patch.views[k].sensor)});
   }
   if (!cost.view_velocity.empty()) {
     const Eigen::Index at = sum.gradient.size() - 6;
     for (std::size_t k = 0; k < cost.views.size(); ++k) {
       const Matrix6d mixed = slope * cost.view_velocity[k];
-      sum.hessian.block<6, 6>(places[k].at, at) += mixed;
-      sum.hessian.block<6, 6>(at, places[k].at) += mixed.transpose();
+      sum.hessian.block<6, 6>(unknowns[k].at, at) += mixed;
+      sum.hessian.block<6, 6>(at, unknowns[k].at) += mixed.transpose();
     }
-    places.push_back({&cost.velocity, at});
+    unknowns.push_back({&cost.velocity, at});
   }
-  for (const Place& a : places) {
+  for (const PatchUnknown& a : unknowns) {
     sum.gradient.segment<6>(a.at) += slope * a.part->gradient;
     sum.hessian.block<6, 6>(a.at, a.at) += slope * a.part->direct;
-    for (const Place& b : places) {
+    for (const PatchUnknown& b : unknowns) {
       sum.hessian.block<6, 6>(a.at, b.at) +=
           curvature * a.part->gradient * b.part->gradient.transpose() -
           slope * a.part->to_plane * b.part->to_plane.transpose();

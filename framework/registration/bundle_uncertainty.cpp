@@ -2,13 +2,14 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "framework/base/threads.hpp"
 #include "framework/geometry/guarded_inverse.hpp"
 #include "framework/registration/direction_balance.hpp"
+#include "framework/spatial/leaf_grid.hpp"
 
 namespace croon {
 namespace {
@@ -17,14 +18,12 @@ namespace {
 std::vector<std::vector<PlanePatch>> clusters_of(const std::vector<PlanePatch>& planes,
                                                  const RigState& state) {
   constexpr double kCell_m = 8.0;
-  std::map<std::array<int, 4>, std::vector<PlanePatch>> clusters;
+  const LeafGrid cells(kCell_m);
+  std::map<std::pair<int, LeafKey>, std::vector<PlanePatch>> clusters;
   PlaneCost cost;
   for (const PlanePatch& plane : planes) {
     plane_cost(plane, state, cost);
-    const Eigen::Vector3d cell = cost.centre / kCell_m;
-    clusters[{direction_bin(cost.normal), static_cast<int>(std::floor(cell.x())),
-              static_cast<int>(std::floor(cell.y())), static_cast<int>(std::floor(cell.z()))}]
-        .push_back(plane);
+    clusters[{direction_bin(cost.normal), leaf_key(cells.leaf_of(cost.centre))}].push_back(plane);
   }
   std::vector<std::vector<PlanePatch>> result;
   for (auto& [place, cluster] : clusters) result.push_back(std::move(cluster));

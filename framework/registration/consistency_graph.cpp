@@ -51,6 +51,11 @@ ConsistencyGraph::ConsistencyGraph(const OrientedPairs& pairs, const Consistency
   }
 }
 
+ConsistencyGraph::Bits ConsistencyGraph::neighbours(int vertex) const {
+  const auto row = rows_.begin() + static_cast<std::ptrdiff_t>(word(vertex, 0));
+  return Bits(row, row + static_cast<std::ptrdiff_t>(words_));
+}
+
 int ConsistencyGraph::common(int vertex, const Bits& set) const {
   const std::uint64_t* const row = &rows_[word(vertex, 0)];
   int count = 0;
@@ -86,8 +91,7 @@ std::vector<int> ConsistencyGraph::core_numbers() const {
     bins[least].pop_back();
     if (cores[vertex] >= 0 || degrees[vertex] != static_cast<int>(least)) continue;
     cores[vertex] = static_cast<int>(least);
-    const auto row = rows_.begin() + static_cast<std::ptrdiff_t>(word(vertex, 0));
-    for (const int other : members(Bits(row, row + static_cast<std::ptrdiff_t>(words_)))) {
+    for (const int other : members(neighbours(vertex))) {
       if (cores[other] >= 0 || degrees[other] <= static_cast<int>(least)) continue;
       bins[static_cast<std::size_t>(--degrees[other])].push_back(other);
     }
@@ -106,8 +110,7 @@ std::vector<int> ConsistencyGraph::by_neighbours(const Bits& set) const {
 
 std::vector<int> ConsistencyGraph::clique(int seed) const {
   std::vector<int> clique = {seed};
-  const auto begin = rows_.begin() + static_cast<std::ptrdiff_t>(word(seed, 0));
-  Bits candidates(begin, begin + static_cast<std::ptrdiff_t>(words_));
+  Bits candidates = neighbours(seed);
   for (;;) {
     const std::vector<int> order = by_neighbours(candidates);
     if (order.empty()) return clique;

@@ -57,8 +57,12 @@ class ConsistencyGraph {
   std::size_t word(int row, int column) const {
     return static_cast<std::size_t>(row) * words_ + static_cast<std::size_t>(column) / 64;
   }
+  /// The neighbours of a vertex.
+  Bits neighbours(int vertex) const;
+  /// How many of `set` are neighbours of a vertex.
   int common(int vertex, const Bits& set) const;
   std::vector<int> members(const Bits& set) const;
+  /// The members of `set`, those with the most neighbours in it first.
   std::vector<int> by_neighbours(const Bits& set) const;
 
   int size_;

@@ -20,7 +20,7 @@ std::vector<Contact> contacts_of(const SensorView& target, const SensorView& sou
   const KdTree& tree = target.thinned->kd_tree();
   const Normals& normals = target.thinned->normals(target.normal_neighbours);
   const Normals& source_normals = source.thinned->normals(source.normal_neighbours);
-  constexpr double kMinCosine = 0.85;
+  constexpr double kMinCosine = 0.85;  // Of the normals of surfaces that touch: 32 degrees.
   std::vector<Contact> contacts;
   for (const int index : source.sample) {
     const Eigen::Vector3d point = T * source.thinned->points()[index].cast<double>();
@@ -71,6 +71,7 @@ std::vector<HeldDirection> held_directions(const SensorView& target, const Senso
 }
 
 std::string words_of(const std::vector<HeldDirection>& directions) {
+  constexpr double kTakesPart = 0.4;  // The least share of a turn, or of a shift.
   std::array<double, 6> shares{};
   for (const HeldDirection& direction : directions) {
     const double turn = direction.motion.head<3>().norm();
@@ -85,7 +86,7 @@ std::string words_of(const std::vector<HeldDirection>& directions) {
   }
   std::vector<std::string> names;
   for (const std::size_t i : {3U, 4U, 5U, 0U, 1U, 2U}) {
-    if (shares[i] > 0.4) names.push_back(kDofNames[i]);
+    if (shares[i] > kTakesPart) names.push_back(kDofNames[i]);
   }
   std::string words;
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -8,14 +8,14 @@ namespace croon {
 
 /// A pair of corresponding points at the current pose.
 struct Correspondence {
-  Eigen::Vector3d arm =
-      Eigen::Vector3d::Zero();  ///< `R s`: the source point turned into the target's axes.
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< `R s + t - p`: from the target point to
-                                                     ///< the source point, target frame.
-  Eigen::Vector3d target_normal =
-      Eigen::Vector3d::Zero();  ///< Unit; zero if it is undefined or not needed.
-  Eigen::Vector3d source_normal =
-      Eigen::Vector3d::Zero();    ///< `R n`, in the target's axes; zero in the same cases.
+  /// `R s`: the source point turned into the target's axes, m.
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();
+  /// `R s + t - p`: from the target point to the source point, in the target's frame, m.
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  /// Unit; zero if it is undefined or not needed.
+  Eigen::Vector3d target_normal = Eigen::Vector3d::Zero();
+  /// `R n`, in the target's axes; zero in the same cases.
+  Eigen::Vector3d source_normal = Eigen::Vector3d::Zero();
   float target_variation = 0.0F;  ///< LocalShape::surface_variation.
   double weight = 1.0;            ///< Of its residuals, beside that of the robust kernel.
 };

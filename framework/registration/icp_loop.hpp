@@ -14,7 +14,7 @@ namespace croon {
 using Correspondences = std::vector<Correspondence>;
 
 /// Removes correspondences of one iteration, or changes their weights; the order must stay. It sees
-/// all of them at once: the best 70 %, one for each point of the target.
+/// all of them at once, to keep for example the best 70 %, or one for each point of the target.
 using SelectCorrespondences = std::function<void(Correspondences&)>;
 
 /// Which points correspond, in addition to being nearest within the current distance.

@@ -25,12 +25,10 @@ const params::Table<IcpOptions>& icp_table() {
              "Residuals above this begin to lose weight."),
       number("rotation_tolerance_deg", &IcpOptions::rotation_tolerance_deg, {0.0, 180.0},
              "Converged if an iteration turns by less than this and moves by less than the "
-             "translation "
-             "tolerance."),
-      number(
-          "translation_tolerance_m", &IcpOptions::translation_tolerance_m, {0.0, 1e6},
-          "Converged if an iteration moves by less than this and turns by less than the rotation "
-          "tolerance."),
+             "translation tolerance."),
+      number("translation_tolerance_m", &IcpOptions::translation_tolerance_m, {0.0, 1e6},
+             "Converged if an iteration moves by less than this and turns by less than the "
+             "rotation tolerance."),
       integer(
           "coarse_points", &IcpOptions::coarse_points, {10, 1e9},
           "At most this many of the sensor's points, evenly spaced, are used at every distance but "

@@ -11,7 +11,6 @@
 #include "framework/spatial/deskew.hpp"
 #include "framework/spatial/evenly_spaced.hpp"
 #include "framework/spatial/ground_candidates.hpp"
-#include "framework/spatial/leaf_grid.hpp"
 #include "framework/spatial/vehicle_sized.hpp"
 
 namespace croon {
@@ -50,14 +49,13 @@ struct JointTerm {
   PairVector J;
   double residual_m;
   int patch;
-  double weight;          ///< Of the patch.
+  double weight;          ///< Of the patch and the target point, without the kernel.
   double later_s;         ///< So much later than the target the sensor measured it.
   Eigen::Vector3d point;  ///< Of the target.
 };
 
 JointCell cell_of(const JointTerm& term) {
-  const Eigen::Vector3i leaf = LeafGrid(kJointCell_m).leaf_of(term.point);
-  return {leaf.x(), leaf.y(), leaf.z()};
+  return leaf_key(LeafGrid(kJointCell_m).leaf_of(term.point));
 }
 
 RobustKernel kernel_at(double max_distance_m, const JointOptions& options) {
@@ -68,7 +66,7 @@ RobustKernel kernel_at(double max_distance_m, const JointOptions& options) {
 /// `1 / (1 + r^2 / width^2)`: 1 without a residual, negative for large ones.
 double curvature_share(double weight) { return 4.0 * std::sqrt(weight) - 3.0; }
 
-/// Weighs a patch that is off as a whole less: it moves by itself.
+/// Weighs less the terms of a patch that is off as a whole: it moves by itself.
 void weigh_patches(std::vector<JointTerm>& terms, const JointView& view) {
   if (view.options.patch_kernel_m <= 0.0) return;
   struct Mean {
@@ -92,43 +90,67 @@ void weigh_patches(std::vector<JointTerm>& terms, const JointView& view) {
   }
 }
 
-/// The terms of the points of `source` that correspond, in their order.
-std::vector<JointTerm> terms_of(const JointScene::Source& source, const StillTarget& target,
-                                const JointView& view) {
-  using Eigen::Vector3d;
-  const JointOptions& options = view.options;
-  const Twist& velocity = view.velocity;
-  const RigidTransform& T = view.state.T_target_sensor[source.sensor];
-  const Cloud& cloud = *source.scan.cloud;
-  const Normals& normals = cloud.normals(options.normal_neighbours);
-  const double min_cosine = std::cos(rad_from_deg(options.max_normal_angle_deg));
-  const auto max_distance_m = static_cast<float>(view.max_distance_m);
-  const std::shared_ptr<const Sample> sample = sample_of(cloud, options);
-  std::vector<JointTerm> terms;
-  JointTerm term;
-  for (std::size_t k = 0; k < sample->indices.size(); ++k) {
-    const int i = sample->indices[k];
-    const double source_s =
-        source.scan.times_s[i] + view.state.clock_offsets_s[source.sensor] - target.reference_s();
-    const RigidTransform motion = motion_over(velocity, source_s);
-    const Vector3d turned = T.rotation * cloud.points()[i].cast<double>();
-    const Vector3d q = motion * Vector3d(turned + T.translation);
-    const Neighbour nearest = target.tree().nearest(q.cast<float>(), max_distance_m);
-    if (!nearest) continue;
-    const Vector3d n = target.normal(nearest.index);
+/// Linearises what the points of a source say in one iteration.
+class TermMaker {
+ public:
+  TermMaker(const JointScene::Source& source, const StillTarget& target, const JointView& view)
+      : scan_(source.scan),
+        target_(target),
+        velocity_(view.velocity),
+        T_(view.state.T_target_sensor[source.sensor]),
+        clock_offset_s_(view.state.clock_offsets_s[source.sensor]),
+        normals_(source.scan.cloud->normals(view.options.normal_neighbours)),
+        min_cosine_(std::cos(rad_from_deg(view.options.max_normal_angle_deg))),
+        max_distance_m_(static_cast<float>(view.max_distance_m)) {}
+
+  /// Writes into `term` what point `index` of the source says, all but its patch, with the weight
+  /// of the target point alone. False if the point does not correspond.
+  bool make(int index, JointTerm& term) const {
+    using Eigen::Vector3d;
+    const double source_s = scan_.times_s[index] + clock_offset_s_ - target_.reference_s();
+    const RigidTransform motion = motion_over(velocity_, source_s);
+    const Vector3d turned = T_.rotation * scan_.cloud->points()[index].cast<double>();
+    const Vector3d q = motion * Vector3d(turned + T_.translation);
+    const Neighbour nearest = target_.tree().nearest(q.cast<float>(), max_distance_m_);
+    if (!nearest) return false;
+    const Vector3d n = target_.normal(nearest.index);
     const Vector3d source_normal =
-        motion.rotation * (T.rotation * normals.at(i).normal.cast<double>());
-    if (n.isZero() || n.dot(source_normal) < min_cosine) continue;
-    const Vector3d p = target.points()[nearest.index].cast<double>();
-    const double target_s = target.time_s(nearest.index);
+        motion.rotation * (T_.rotation * normals_.at(index).normal.cast<double>());
+    if (n.isZero() || n.dot(source_normal) < min_cosine_) return false;
+    const Vector3d p = target_.points()[nearest.index].cast<double>();
+    const double target_s = target_.time_s(nearest.index);
     term.residual_m = n.dot(q - p);
-    term.patch = sample->patches[k];
-    term.weight = sample->weights[k] * target.weight(nearest.index);
+    term.weight = target_.weight(nearest.index);
     term.later_s = source_s - target_s;
     term.point = p;
     // The derivatives of exp(xi t) at small xi t: a scan turns by a few degrees at most.
     term.J << (motion.rotation * turned).cross(n), n, source_s * q.cross(n) - target_s * p.cross(n),
-        term.later_s * n, n.dot(velocity.angular_radps.cross(q) + velocity.linear_mps);
+        term.later_s * n, n.dot(velocity_.angular_radps.cross(q) + velocity_.linear_mps);
+    return true;
+  }
+
+ private:
+  const TimedScan& scan_;
+  const StillTarget& target_;
+  const Twist& velocity_;
+  const RigidTransform& T_;
+  double clock_offset_s_;
+  const Normals& normals_;
+  double min_cosine_;
+  float max_distance_m_;
+};
+
+/// The terms of the points of `source` that correspond, in their order.
+std::vector<JointTerm> terms_of(const JointScene::Source& source, const StillTarget& target,
+                                const JointView& view) {
+  const TermMaker maker(source, target, view);
+  const std::shared_ptr<const Sample> sample = sample_of(*source.scan.cloud, view.options);
+  std::vector<JointTerm> terms;
+  JointTerm term;
+  for (std::size_t k = 0; k < sample->indices.size(); ++k) {
+    if (!maker.make(sample->indices[k], term)) continue;
+    term.patch = sample->patches[k];
+    term.weight *= sample->weights[k];
     terms.push_back(term);
   }
   weigh_patches(terms, view);
@@ -186,7 +208,7 @@ StillTarget::StillTarget(const JointScene& scene, const Twist& velocity,
     points_ = &moved_points_;
     tree_ = moved_tree_.get();
   }
-  if (vehicle_weight_ < 1.0) vehicles_ = vehicles_of(*scene.target.cloud);
+  if (vehicle_weight_ < 1.0) vehicles_ = vehicles_of(cloud);
 }
 
 Eigen::Vector3d StillTarget::normal(int index) const {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <array>
 #include <map>
 #include <memory>
 
 #include "framework/registration/joint_registration.hpp"
+#include "framework/spatial/leaf_grid.hpp"
 
 namespace croon {
 
@@ -35,8 +35,8 @@ class StillTarget {
   /// Not a Cloud: what is computed for one velocity alone is work of the trial, not shared work.
   Points moved_points_;
   std::unique_ptr<const KdTree> moved_tree_;
-  const Points* points_;    ///< Those that moved, or those of the scan if it stands still,
-  const KdTree* tree_;      ///< whose tree there may be already.
+  const Points* points_;    ///< Those that moved, or those of the scan if it stands still.
+  const KdTree* tree_;      ///< Of these points; that of a scan is shared.
   const Normals& normals_;  ///< Of the scan as it was measured.
   double vehicle_weight_;
   /// Which points belong to things of a vehicle's size; null if they weigh as much as others.
@@ -80,8 +80,8 @@ struct PairEquations {
 PairEquations pair_equations(const JointScene::Source& source, const StillTarget& target,
                              const JointView& view);
 
-/// A cube of space around the target: its indices along the axes.
-using JointCell = std::array<int, 3>;
+/// A cube of space around the target.
+using JointCell = LeafKey;
 
 /// The edge of a cube. A car is in few of them.
 inline constexpr double kJointCell_m = 6.0;

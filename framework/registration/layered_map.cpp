@@ -11,8 +11,8 @@
 namespace croon {
 namespace {
 
-constexpr int kFull = 4;  // Of a cell that holds points; less in its neighbours.
-constexpr int kLane = 16;
+constexpr int kFull = 4;   // Of a cell that holds points; less in its neighbours.
+constexpr int kLane = 16;  // Sums in a vector register.
 
 /// The index of (row, column) in rows of `columns` cells.
 template <class Row>
@@ -44,6 +44,7 @@ std::vector<Eigen::Vector3d> cell_centres(const Points& levelled,
   return centres;
 }
 
+/// Within 3 steps of yaw and 2 cells, and a little more, so that rounding does not decide.
 bool is_near(const MapPeak& a, const MapPeak& b, const LayeredMapOptions& options) {
   const double turn = std::abs(std::remainder(a.yaw_rad - b.yaw_rad, 2.0 * kPi));
   const double shift = std::max(std::abs(a.x_m - b.x_m), std::abs(a.y_m - b.y_m));

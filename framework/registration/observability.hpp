@@ -7,9 +7,9 @@
 namespace croon {
 
 /// A degree of freedom is weak if the information about it is below so many times what noise
-/// pretends,
+/// pretends.
 inline constexpr double kWeakRatio = 10.0;
-/// and unobservable below so many times.
+/// It is unobservable if that is below so many times what noise pretends.
 inline constexpr double kUnobservableRatio = 2.0;
 
 /// How well the data hold a degree of freedom.

@@ -78,9 +78,8 @@ struct PlaneCost {
   std::vector<Matrix6d> view_velocity;  ///< By view: mixed_ab with the velocity.
 };
 
-/// The velocity of the origin of a sensor at `origin` follows linearly from that of the common
-/// frame:
-/// `(w, u + w x origin)`.
+/// The matrix that takes the velocity (w, u) of the common frame, about its axes and along them, to
+/// that of a sensor at `origin` in the same axes: `(w, u + w x origin)`.
 Matrix6d velocity_at(const Eigen::Vector3d& origin);
 
 /// Only the value of the cost.

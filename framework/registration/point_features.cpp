@@ -58,7 +58,7 @@ Surface surface_of(const Cloud& cloud, const FeatureOptions& options) {
   }
   if (surface.points.empty()) return surface;
   const KdTree tree(surface.points);
-  const auto bound = static_cast<float>(options.radius_m * options.radius_m);
+  const auto radius_m2 = static_cast<float>(options.radius_m * options.radius_m);
   surface.neighbours.resize(surface.points.size());
   for (std::size_t i = 0; i < surface.points.size(); ++i) {
     std::vector<Neighbour>& near = surface.neighbours[i];
@@ -66,7 +66,7 @@ Surface surface_of(const Cloud& cloud, const FeatureOptions& options) {
     near.erase(std::remove_if(near.begin(), near.end(),
                               [&](const Neighbour& neighbour) {
                                 return neighbour.index == static_cast<int>(i) ||
-                                       neighbour.squared_distance_m2 > bound;
+                                       neighbour.squared_distance_m2 > radius_m2;
                               }),
                near.end());
   }

@@ -10,8 +10,8 @@ struct EvidenceOptions {
   double max_distance_m = 0.5;        ///< To the nearest point of the other cloud.
   double max_plane_distance_m = 0.1;  ///< To the plane through it.
   double max_normal_angle_deg = 30.0;
-  double range_margin_m = 0.4;  ///< Ranges agree that differ by less than this,
-  double range_ratio = 0.02;    ///< or by less than this share of them.
+  double range_margin_m = 0.4;  ///< Ranges agree that differ by at most this.
+  double range_ratio = 0.02;    ///< So do those that differ by at most this share of them.
 };
 
 /// Numbers of points of one cloud's sample, as the other sensor sees them at a pose.

@@ -81,8 +81,9 @@ class ContactFinder {
     if (contact.of_target.dot(contact.of_source) < 0.0) contact.of_source *= -1.0;
     contact.offset = point - target_.points()[nearest.index].cast<double>();
     for (std::size_t k = 0; k < 3; ++k) {
-      const double cell = point(static_cast<Eigen::Index>(k)) / options_.surface_size_m;
-      contact.surface.at(k) = static_cast<int>(std::floor(cell));
+      const double cell = std::floor(point(static_cast<Eigen::Index>(k)) / options_.surface_size_m);
+      // A stray point that both clouds have may be farther off than cells can be counted.
+      contact.surface.at(k) = static_cast<int>(std::clamp(cell, -1e9, 1e9));
     }
     contact.surface[3] = direction_bin(contact.of_target);
     contact.delay_s = source_times_.empty()

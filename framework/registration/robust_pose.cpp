@@ -45,20 +45,20 @@ double surrogate_weight(double squared_residual, double squared_bound, double mu
 }  // namespace
 
 Eigen::Matrix3d robust_rotation(const Vectors& target, const Vectors& source, double bound_m) {
-  constexpr double kGrowth = 1.4;
+  constexpr double kGrowth = 1.4;  // Of the control, per round (Yang et al. 2020).
   constexpr int kMaxRounds = 100;
   std::vector<double> weights(target.size(), 1.0);
   if (target.size() < 2) throw StageError("less than two vectors give no rotation");
   Eigen::Matrix3d R = weighted_rotation(target, source, weights);
   std::vector<double> residuals = squared_residuals(target, source, R);
-  const double bound = bound_m * bound_m;
+  const double bound_m2 = bound_m * bound_m;
   const double largest = *std::max_element(residuals.begin(), residuals.end());
-  if (!(2.0 * largest > bound)) return R;
-  double mu = bound / (2.0 * largest - bound);
+  if (!(2.0 * largest > bound_m2)) return R;
+  double mu = bound_m2 / (2.0 * largest - bound_m2);
   for (int round = 0; round < kMaxRounds; ++round, mu *= kGrowth) {
     bool is_binary = true;
     for (std::size_t i = 0; i < residuals.size(); ++i) {
-      weights[i] = surrogate_weight(residuals[i], bound, mu);
+      weights[i] = surrogate_weight(residuals[i], bound_m2, mu);
       is_binary = is_binary && (weights[i] == 0.0 || weights[i] == 1.0);
     }
     R = weighted_rotation(target, source, weights);

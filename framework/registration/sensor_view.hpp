@@ -16,11 +16,11 @@ struct SensorView {
   std::vector<int> sample;               ///< Points of `thinned` with normals, see balanced_sample.
 };
 
-/// About `count` points of `cloud` with a normal (those of a direction are a rounded number),
-/// evenly through the cloud, such that surfaces of rare directions are not lost among those of
-/// frequent ones: a point is taken with the weight 1/sqrt(n) for n points whose normals have about
-/// its direction (after Rusinkiewicz and Levoy 2001, normal-space sampling). A normal's sign does
-/// not matter.
+/// Indices of points of `cloud` with a normal, evenly through the cloud, such that surfaces of rare
+/// directions are not lost among those of frequent ones: a point is taken with the weight 1/sqrt(n)
+/// for n points whose normals have about its direction (after Rusinkiewicz and Levoy 2001,
+/// normal-space sampling). A normal's sign does not matter. About `count` points: the number of
+/// each direction is rounded.
 std::vector<int> balanced_sample(const Cloud& cloud, int normal_neighbours, int count);
 
 }  // namespace croon

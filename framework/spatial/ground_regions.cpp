@@ -120,43 +120,55 @@ class GroundRegions {
   }
 
   /// The plane of the lowest points of a region, then of those near it (region-wise plane fitting).
+  /// No points if fewer than three are near it.
   Region lowest_plane(const Points& level, const std::vector<int>& points) const {
-    constexpr int kLowest = 20;
     constexpr int kRounds = 3;
-    std::vector<float> heights;
-    for (const int i : points) heights.push_back(level[static_cast<std::size_t>(i)].z());
-    const std::size_t lowest = std::min<std::size_t>(kLowest, heights.size());
-    std::partial_sort(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(lowest),
-                      heights.end());
-    const double bottom_m =
-        std::accumulate(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(lowest),
-                        0.0) /
-        static_cast<double>(lowest);
     Region region;
-    for (const int i : points) {
-      if (level[static_cast<std::size_t>(i)].z() <= bottom_m + options_.seed_height_m) {
-        region.on_plane.push_back(i);
-      }
-    }
+    region.on_plane = lowest_points(level, points);
     for (int round = 0; round < kRounds; ++round) {
-      region.plane = fit_plane(level, region.on_plane);
-      if (region.plane.normal.z() < 0.0) region.plane = region.plane.flipped();
-      region.on_plane.clear();
-      double elevations_m = 0.0;
-      double squares_m2 = 0.0;
-      for (const int i : points) {
-        const Eigen::Vector3d point = level[static_cast<std::size_t>(i)].cast<double>();
-        const double distance_m = region.plane.signed_distance(point);
-        if (std::abs(distance_m) > options_.region_threshold_m) continue;
-        region.on_plane.push_back(i);
-        elevations_m += point.z();
-        squares_m2 += distance_m * distance_m;
-      }
+      region = refitted(level, points, region.on_plane);
       if (region.on_plane.size() < 3) return {};
-      const auto count = static_cast<double>(region.on_plane.size());
-      region.elevation_m = elevations_m / count;
-      region.flatness_m = std::sqrt(squares_m2 / count);
     }
+    return region;
+  }
+
+  /// The points that are not higher than the mean of the lowest few by more than `seed_height_m`.
+  std::vector<int> lowest_points(const Points& level, const std::vector<int>& points) const {
+    constexpr std::size_t kLowest = 20;
+    std::vector<float> heights_m;
+    for (const int i : points) heights_m.push_back(level[static_cast<std::size_t>(i)].z());
+    const std::size_t count = std::min(kLowest, heights_m.size());
+    const auto end = heights_m.begin() + static_cast<std::ptrdiff_t>(count);
+    std::partial_sort(heights_m.begin(), end, heights_m.end());
+    const double bottom_m =
+        std::accumulate(heights_m.begin(), end, 0.0) / static_cast<double>(count);
+    std::vector<int> lowest;
+    for (const int i : points) {
+      const double height_m = level[static_cast<std::size_t>(i)].z();
+      if (height_m <= bottom_m + options_.seed_height_m) lowest.push_back(i);
+    }
+    return lowest;
+  }
+
+  /// The plane through the points `on_plane`, with its normal up, and those of `points` near it.
+  Region refitted(const Points& level, const std::vector<int>& points,
+                  const std::vector<int>& on_plane) const {
+    Region region;
+    region.plane = fit_plane(level, on_plane);
+    if (region.plane.normal.z() < 0.0) region.plane = region.plane.flipped();
+    double elevations_m = 0.0;
+    double squares_m2 = 0.0;
+    for (const int i : points) {
+      const Eigen::Vector3d point = level[static_cast<std::size_t>(i)].cast<double>();
+      const double distance_m = region.plane.signed_distance(point);
+      if (std::abs(distance_m) > options_.region_threshold_m) continue;
+      region.on_plane.push_back(i);
+      elevations_m += point.z();
+      squares_m2 += distance_m * distance_m;
+    }
+    const auto count = static_cast<double>(std::max<std::size_t>(region.on_plane.size(), 1));
+    region.elevation_m = elevations_m / count;
+    region.flatness_m = std::sqrt(squares_m2 / count);
     return region;
   }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <sstream>
 
 #include "framework/base/error.hpp"
@@ -46,5 +47,10 @@ class LeafGrid {
   double leaf_size_m_;
   double inverse_;
 };
+
+/// A leaf as an element of sets and a key of maps, which are in the order of i, then j, then k.
+using LeafKey = std::array<int, 3>;
+
+inline LeafKey leaf_key(const Eigen::Vector3i& leaf) { return {leaf.x(), leaf.y(), leaf.z()}; }
 
 }  // namespace croon

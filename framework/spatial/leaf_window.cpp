@@ -22,7 +22,7 @@ PointColumns::PointColumns(const Points& points) {
 }
 
 std::int64_t count_new(const FarLeaves& leaves, const FarLeaves& others) {
-  return std::count_if(leaves.begin(), leaves.end(), [&](const std::array<int, 3>& leaf) {
+  return std::count_if(leaves.begin(), leaves.end(), [&](const LeafKey& leaf) {
     return !std::binary_search(others.begin(), others.end(), leaf);
   });
 }

@@ -24,7 +24,7 @@ struct PointColumns {
 };
 
 /// Leaves outside of a window, in order, each once.
-using FarLeaves = std::vector<std::array<int, 3>>;
+using FarLeaves = std::vector<LeafKey>;
 
 /// How many of `leaves` are not among `others`.
 std::int64_t count_new(const FarLeaves& leaves, const FarLeaves& others);
@@ -112,7 +112,7 @@ class LeafWindow {
       if (const std::optional<std::uint64_t> near = key_of(leaf)) {
         use(&*near, std::size_t{1});
       } else {
-        far.push_back({leaf.x(), leaf.y(), leaf.z()});
+        far.push_back(leaf_key(leaf));
       }
     }
     sort_each_once(far);

@@ -1,7 +1,6 @@
 #include "framework/spatial/normals.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <array>
 #include <set>
 
 #include "framework/spatial/kd_tree.hpp"
@@ -27,11 +26,11 @@ Eigen::Matrix3d covariance(const Points& points, const Eigen::Vector3f& centre,
 
 Points first_points(const Points& cloud, double leaf_size_m) {
   const LeafGrid grid(leaf_size_m);
-  std::set<std::array<int, 3>> leaves;
+  std::set<LeafKey> leaves;
   Points points;
   for (const Eigen::Vector3f& point : cloud) {
-    const Eigen::Vector3i leaf = grid.leaf_of(point.cast<double>());
-    if (leaves.insert({leaf.x(), leaf.y(), leaf.z()}).second) points.push_back(point);
+    const LeafKey leaf = leaf_key(grid.leaf_of(point.cast<double>()));
+    if (leaves.insert(leaf).second) points.push_back(point);
   }
   return points;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include "framework/geometry/point_cloud.hpp"
@@ -29,14 +28,14 @@ class PointsByCube {
   template <class Use>
   void for_each_near(const Eigen::Vector3d& place, const Use& use) const {
     const double reach_m2 = reach_m() * reach_m();
-    const Cube middle = cube_of(place);
+    const LeafKey middle = cube_of(place);
     for (int i = middle[0] - 1; i <= middle[0] + 1; ++i) {
       for (int j = middle[1] - 1; j <= middle[1] + 1; ++j) {
         // The cubes of a column follow each other.
-        const Cube last = {i, j, middle[2] + 1};
+        const LeafKey last = {i, j, middle[2] + 1};
         auto entry =
-            std::lower_bound(points_.begin(), points_.end(), Cube{i, j, middle[2] - 1},
-                             [](const Entry& a, const Cube& cube) { return a.cube < cube; });
+            std::lower_bound(points_.begin(), points_.end(), LeafKey{i, j, middle[2] - 1},
+                             [](const Entry& a, const LeafKey& cube) { return a.cube < cube; });
         for (; entry != points_.end() && entry->cube <= last; ++entry) {
           const double squared_m2 = (entry->point - place).squaredNorm();
           if (squared_m2 <= reach_m2) use(entry->point, squared_m2);
@@ -46,16 +45,12 @@ class PointsByCube {
   }
 
  private:
-  using Cube = std::array<int, 3>;
   struct Entry {
-    Cube cube;
+    LeafKey cube;
     Eigen::Vector3d point;
   };
 
-  Cube cube_of(const Eigen::Vector3d& point) const {
-    const Eigen::Vector3i cube = cubes_.leaf_of(point);
-    return {cube.x(), cube.y(), cube.z()};
-  }
+  LeafKey cube_of(const Eigen::Vector3d& point) const { return leaf_key(cubes_.leaf_of(point)); }
 
   LeafGrid cubes_;
   std::vector<Entry> points_;

@@ -1,7 +1,6 @@
 #include "framework/stage/catalogue.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <tuple>
 

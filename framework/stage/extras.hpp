@@ -23,6 +23,18 @@ struct Extra {
   params::ExtraDoc doc() const { return {name, typeid(T).name(), meaning}; }
 };
 
+/// The flow of a step that reads these extras.
+template <class... T>
+params::DataFlow takes(const Extra<T>&... extras) {
+  return {{}, {}, {extras.doc()...}, {}};
+}
+
+/// The flow of a step that puts these extras.
+template <class... T>
+params::DataFlow gives(const Extra<T>&... extras) {
+  return {{}, {}, {}, {extras.doc()...}};
+}
+
 /// The values that steps put into an estimate for later steps, by name. Cheap to copy: values are
 /// shared and do not change.
 class Extras {

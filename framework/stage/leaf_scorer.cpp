@@ -1,7 +1,6 @@
 #include "framework/stage/leaf_scorer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -45,11 +44,10 @@ std::vector<Lattice> lattices_of(const LeafOptions& options) {
 /// The points in leaves that hold at least `min_points` of them, in any order.
 PointColumns in_full_leaves(const PointColumns& points, const RigidTransform& T_grid_points,
                             const LeafGrid& grid, int min_points) {
-  std::vector<std::pair<std::array<int, 3>, std::size_t>> by_leaf;
+  std::vector<std::pair<LeafKey, std::size_t>> by_leaf;
   by_leaf.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3i leaf = grid.leaf_of(T_grid_points * points.point(i));
-    by_leaf.push_back({{leaf.x(), leaf.y(), leaf.z()}, i});
+    by_leaf.emplace_back(leaf_key(grid.leaf_of(T_grid_points * points.point(i))), i);
   }
   std::sort(by_leaf.begin(), by_leaf.end());
   Points kept;

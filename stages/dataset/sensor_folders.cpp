@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <set>
 
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"

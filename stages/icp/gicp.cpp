@@ -1,5 +1,3 @@
-#include <Eigen/LU>
-
 #include "framework/registration/direction_balance.hpp"
 #include "framework/registration/icp_loop.hpp"
 #include "framework/stage/icp.hpp"

@@ -1,6 +1,5 @@
 #include <nlopt.h>
 
-#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <memory>

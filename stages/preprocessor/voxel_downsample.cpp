@@ -1,4 +1,3 @@
-#include <array>
 #include <cstdint>
 #include <unordered_map>
 
@@ -28,7 +27,7 @@ struct LeafSum {
 };
 
 struct LeafHash {
-  std::size_t operator()(const std::array<int, 3>& leaf) const {
+  std::size_t operator()(const LeafKey& leaf) const {
     std::uint64_t hash = 0;
     for (const int index : leaf) {
       hash = (hash ^ static_cast<std::uint32_t>(index)) * 0x9e3779b97f4a7c15ULL;
@@ -43,12 +42,13 @@ class VoxelDownsample final : public Preprocessor {
   explicit VoxelDownsample(const Params& params) : grid_(params.leaf_size_m) {}
 
   PointCloud apply(const PointCloud& cloud) const override {
-    std::unordered_map<std::array<int, 3>, std::size_t, LeafHash> indices;  // In `leaves`.
+    std::unordered_map<LeafKey, std::size_t, LeafHash> indices;  // In `leaves`.
     std::vector<LeafSum> leaves;  // In the order of their first points in the cloud.
     std::vector<std::size_t> first_points;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       const Eigen::Vector3d point = cloud.points[i].cast<double>();
-      const auto [entry, is_new] = indices.try_emplace(leaf_of(point), leaves.size());
+      const auto [entry, is_new] =
+          indices.try_emplace(leaf_key(grid_.leaf_of(point)), leaves.size());
       if (is_new) {
         leaves.emplace_back();
         first_points.push_back(i);
@@ -65,11 +65,6 @@ class VoxelDownsample final : public Preprocessor {
   }
 
  private:
-  std::array<int, 3> leaf_of(const Eigen::Vector3d& point) const {
-    const Eigen::Vector3i leaf = grid_.leaf_of(point);
-    return {leaf.x(), leaf.y(), leaf.z()};
-  }
-
   LeafGrid grid_;
 };
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <map>
 #include <optional>
-#include <utility>
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
@@ -73,7 +72,7 @@ class BundleAdjustmentStep final : public RigStep {
  public:
   explicit BundleAdjustmentStep(const Params& params) : params_(params) {}
 
-  static params::DataFlow data_flow(const Params&) { return {{}, {}, {}, {kCovariance.doc()}}; }
+  static params::DataFlow data_flow(const Params&) { return gives(kCovariance); }
 
   void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
     std::map<std::string, std::vector<RigEstimate*>> references;
@@ -94,19 +93,13 @@ class BundleAdjustmentStep final : public RigStep {
     RigBundle bundle;
     std::map<std::string, std::size_t> scenes, sensors;
     std::vector<double> zeros_s;  // By scene: the zero of its times, so that they are small.
-    std::vector<std::vector<const Estimate*>> starts;
+    std::vector<std::vector<const Estimate*>> starts;  // By sensor, without the reference.
     for (const RigEstimate* const one : estimates) {
       const Estimate& estimate = one->estimate;
       const auto [scene, is_new_scene] = scenes.emplace(one->scene, bundle.scenes.size());
       if (is_new_scene) {
-        bundle.scenes.emplace_back();
-        const Twist* const velocity = estimate.extras.find(kMotion);
-        if (velocity != nullptr) bundle.scenes.back().velocity = *velocity;
-        const Matrix6d* const motion = estimate.extras.find(kMotionCovariance);
-        if (motion != nullptr) bundle.scenes.back().motion_covariance = *motion;
-        const bool is_moving = motion != nullptr && !motion->isZero(0.0);
-        zeros_s.push_back(is_moving ? span_of(times_s(estimate.target->with_channels())).middle_s()
-                                    : 0.0);
+        bundle.scenes.push_back(scene_of(estimate));
+        zeros_s.push_back(zero_of_times_s(bundle.scenes.back(), *estimate.target));
         add_cloud(0, *estimate.target, zeros_s.back(), bundle.scenes.back());
       }
       const auto [sensor, is_new_sensor] = sensors.emplace(one->source, starts.size() + 1);
@@ -128,6 +121,22 @@ class BundleAdjustmentStep final : public RigStep {
       bundle.start_words.push_back(start_words_of(of_sensor));
     }
     return bundle;
+  }
+
+  /// The scene of an estimate, with its motion and without clouds.
+  static BundleScene scene_of(const Estimate& estimate) {
+    BundleScene scene;
+    const Twist* const velocity = estimate.extras.find(kMotion);
+    if (velocity != nullptr) scene.velocity = *velocity;
+    const Matrix6d* const motion = estimate.extras.find(kMotionCovariance);
+    if (motion != nullptr) scene.motion_covariance = *motion;
+    return scene;
+  }
+
+  /// The middle of the target's scan, if the scene's velocity is not certain: else no time counts.
+  static double zero_of_times_s(const BundleScene& scene, const Cloud& target) {
+    if (scene.motion_covariance.isZero(0.0)) return 0.0;
+    return span_of(times_s(target.with_channels())).middle_s();
   }
 
   /// The best of each degree of freedom of a sensor's estimates, one per scene.

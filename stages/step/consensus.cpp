@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -59,7 +58,9 @@ class ConsensusStep final : public RigStep {
 
   static params::DataFlow data_flow(const Params& params) {
     if (params.weights != Weights::covariance) return {};
-    return {{}, {}, {kCovariance.doc()}, {kCovariance.doc()}};
+    params::DataFlow flow = takes(kCovariance);
+    flow.add(gives(kCovariance));
+    return flow;
   }
 
   void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
@@ -72,13 +73,8 @@ class ConsensusStep final : public RigStep {
   /// Gives all estimates of a sensor the pose that they agree on.
   void agree_on_pose(const OfSensor& estimates) const {
     const OfSensor votes = voters(estimates);
-    std::vector<RigidTransform> poses;
-    for (const RigEstimate* const vote : votes) poses.push_back(vote->estimate.T_target_source);
-    RigidTransform pose = consensus_pose(poses, bounds_);
-    OfSensor agreeing;
-    for (RigEstimate* const vote : votes) {
-      if (agree(vote->estimate.T_target_source, pose, bounds_)) agreeing.push_back(vote);
-    }
+    RigidTransform pose = consensus_of(votes);
+    const OfSensor agreeing = near(votes, pose);
     const double ratio =
         static_cast<double>(agreeing.size()) / static_cast<double>(estimates.front()->scenes);
     const std::optional<Matrix6d> information = joint_information(agreeing);
@@ -90,11 +86,7 @@ class ConsensusStep final : public RigStep {
         }
         return;
       }
-      std::vector<InformedPose> known;
-      for (const RigEstimate* const one : agreeing) {
-        known.push_back(informed(one->estimate.T_target_source, one->estimate.covariance->matrix));
-      }
-      const InformedPose mean = informed_mean(known);
+      const InformedPose mean = weighted_mean(agreeing);
       pose = mean.pose;
       covariance->matrix = guarded_inverse<6>(mean.information);
     }
@@ -107,6 +99,30 @@ class ConsensusStep final : public RigStep {
       one->estimate.diagnostics = {{"scenes", static_cast<double>(estimates.front()->scenes)},
                                    {"agreeing_ratio", ratio}};
     }
+  }
+
+  RigidTransform consensus_of(const OfSensor& votes) const {
+    std::vector<RigidTransform> poses;
+    for (const RigEstimate* const vote : votes) poses.push_back(vote->estimate.T_target_source);
+    return consensus_pose(poses, bounds_);
+  }
+
+  /// The votes within the bounds of `pose`.
+  OfSensor near(const OfSensor& votes, const RigidTransform& pose) const {
+    OfSensor agreeing;
+    for (RigEstimate* const vote : votes) {
+      if (agree(vote->estimate.T_target_source, pose, bounds_)) agreeing.push_back(vote);
+    }
+    return agreeing;
+  }
+
+  /// The mean of the poses of these scenes, each of which has a covariance, weighed by it.
+  static InformedPose weighted_mean(const OfSensor& agreeing) {
+    std::vector<InformedPose> known;
+    for (const RigEstimate* const one : agreeing) {
+      known.push_back(informed(one->estimate.T_target_source, one->estimate.covariance->matrix));
+    }
+    return informed_mean(known);
   }
 
   /// Scenes are independent observations of one pose, so their information adds; std::nullopt if

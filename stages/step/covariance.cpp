@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "framework/base/angles.hpp"
 #include "framework/registration/pose_uncertainty.hpp"
 #include "framework/stage/motion.hpp"
@@ -71,10 +73,10 @@ class CovarianceStep final : public Step {
   explicit CovarianceStep(const Params& chosen) : options_(options_of(chosen)) {}
 
   static params::DataFlow data_flow(const Params& chosen) {
-    params::DataFlow flow;
-    flow.gives = {kCovariance.doc()};
-    if (!options_of(chosen).motion_covariance.isZero(0.0))
+    params::DataFlow flow = gives(kCovariance);
+    if (!options_of(chosen).motion_covariance.isZero(0.0)) {
       flow.add(params::needs_channels({kTime}));
+    }
     return flow;
   }
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "framework/base/error.hpp"
-#include "framework/params/values.hpp"
 #include "framework/pipeline/hypothesis_choice.hpp"
 #include "framework/registration/layered_map.hpp"
 #include "framework/spatial/ground_candidates.hpp"

@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "framework/base/error.hpp"
 #include "framework/stage/ground_extractor.hpp"
 #include "framework/stage/stage_entry.hpp"

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
@@ -55,8 +54,8 @@ const params::Table<Params>& table() {
 /// The estimates that are registered together.
 struct Group {
   std::vector<JointScene> scenes;
-  std::vector<std::vector<RigEstimate*>>
-      estimates;  ///< Of each scene, in the order of its sources.
+  /// Of each scene, in the order of its sources.
+  std::vector<std::vector<RigEstimate*>> estimates;
   std::vector<std::string> sensors;
   JointState state;
 };
@@ -76,8 +75,7 @@ class JointRegistrationStep final : public RigStep {
   static params::DataFlow data_flow(const Params& params) {
     params::DataFlow flow = params.thinning.flow();
     if (params.motion) flow.add(params::needs_channels({kTime}));
-    flow.gives.push_back(kMotion.doc());
-    flow.gives.push_back(kMotionCovariance.doc());
+    flow.add(gives(kMotion, kMotionCovariance));
     return flow;
   }
 
@@ -208,45 +206,50 @@ class JointRegistrationStep final : public RigStep {
     return index;
   }
 
+  /// Gives the estimates of scene `s` their poses, and clouds that stand still.
   void give(const Group& group, std::size_t s, const JointRegistration& result,
             const SceneMotion& motion) const {
     const JointScene& scene = group.scenes[s];
     std::shared_ptr<const Cloud> target;
     for (std::size_t j = 0; j < scene.sources.size(); ++j) {
-      Estimate& estimate = group.estimates[s][j]->estimate;
       const JointScene::Source& source = scene.sources[j];
+      RigEstimate& one = *group.estimates[s][j];
       if (result.correspondences[s][j] < kLeastJointCorrespondences) {
-        group.estimates[s][j]->failure =
-            "only " + std::to_string(result.correspondences[s][j]) + " points correspond";
+        one.failure = "only " + std::to_string(result.correspondences[s][j]) + " points correspond";
         continue;
       }
-      estimate.diagnostics = velocity_diagnostics(motion.velocity);
-      const std::vector<Diagnostic> stds = velocity_std_diagnostics(motion.covariance);
-      estimate.diagnostics.insert(estimate.diagnostics.end(), stds.begin(), stds.end());
-      estimate.diagnostics.insert(estimate.diagnostics.end(),
-                                  {{"speed_std_mps", motion.speed_std_mps()},
-                                   {"speed_shift_std_m", motion.shift_std_m[j]},
-                                   {"rmse_m", result.rmse_m},
-                                   {"iterations", static_cast<double>(result.iterations)},
-                                   {"converged", result.converged ? 1.0 : 0.0}});
-      if (params_.clock_offset_std_s > 0.0) {
-        estimate.diagnostics.emplace_back("clock_offset_s",
-                                          result.state.clock_offsets_s[source.sensor]);
-      }
-      if (motion.lead) estimate.diagnostics.emplace_back("speed_lead", *motion.lead);
+      Estimate& estimate = one.estimate;
+      const RigidTransform& T = result.state.T_target_sensor[source.sensor];
+      const double offset_s = result.state.clock_offsets_s[source.sensor];
+      estimate.T_target_source = T;
+      estimate.diagnostics = diagnostics_of(result, motion, motion.shift_std_m[j], offset_s);
       // With common poses other scenes tell what a scene's velocity is.
       const std::string rejection =
           params_.poses == Poses::common ? "" : motion.rejection(j, params_);
       if (!rejection.empty()) estimate.rejection = with_reason(estimate.rejection, rejection);
       give_motion(estimate.extras, scene.is_moving, motion);
-      const RigidTransform& T = result.state.T_target_sensor[source.sensor];
-      estimate.T_target_source = T;
       if (!motion.is_moving) continue;
       if (!target) target = still(scene.target, motion.velocity, scene.reference_s);
-      const double offset_s = result.state.clock_offsets_s[source.sensor];
       estimate.take_clouds(target, still(source.scan, velocity_in(T.inverse(), motion.velocity),
                                          scene.reference_s - offset_s));
     }
+  }
+
+  std::vector<Diagnostic> diagnostics_of(const JointRegistration& result, const SceneMotion& motion,
+                                         double shift_std_m, double clock_offset_s) const {
+    std::vector<Diagnostic> diagnostics = velocity_diagnostics(motion.velocity);
+    const std::vector<Diagnostic> stds = velocity_std_diagnostics(motion.covariance);
+    diagnostics.insert(diagnostics.end(), stds.begin(), stds.end());
+    diagnostics.insert(diagnostics.end(), {{"speed_std_mps", motion.speed_std_mps()},
+                                           {"speed_shift_std_m", shift_std_m},
+                                           {"rmse_m", result.rmse_m},
+                                           {"iterations", static_cast<double>(result.iterations)},
+                                           {"converged", result.converged ? 1.0 : 0.0}});
+    if (params_.clock_offset_std_s > 0.0) {
+      diagnostics.emplace_back("clock_offset_s", clock_offset_s);
+    }
+    if (motion.lead) diagnostics.emplace_back("speed_lead", *motion.lead);
+    return diagnostics;
   }
 
   /// Gives later steps the motion. A step before may have removed a velocity that it knew: then

@@ -93,7 +93,7 @@ class KnownVelocityStep final : public GivenMotionStep {
 
   static params::DataFlow data_flow(const Params&) {
     params::DataFlow flow = params::needs_channels({kTime});
-    flow.gives = {kMotion.doc(), kMotionCovariance.doc()};
+    flow.add(gives(kMotion, kMotionCovariance));
     return flow;
   }
 

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <cmath>
+#include <optional>
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
@@ -9,6 +9,7 @@
 #include "framework/registration/pose_evidence.hpp"
 #include "framework/stage/hypotheses.hpp"
 #include "framework/stage/icp.hpp"
+#include "framework/stage/reasons.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/step.hpp"
 
@@ -92,7 +93,7 @@ class Verdict final : public Step {
                          deg_from_rad(halves.rotation_rad), params_.max_halves_rotation_deg);
     reasons.need_at_most("the distance between two halves of the points, m,", halves.translation_m,
                          params_.max_halves_translation_m);
-    if (!reasons.words.empty()) estimate.rejection = reasons.words;
+    if (reasons.words) estimate.rejection = reasons.words;
     estimate.diagnostics = {{"overlap_ratio", evidence.overlap_ratio()},
                             {"violation_ratio", evidence.violation_ratio()},
                             {"score", evidence.score()},
@@ -108,8 +109,8 @@ class Verdict final : public Step {
  private:
   /// Why a pose is rejected, in words and numbers.
   struct Reasons {
-    std::string words;
-    void add(const std::string& reason) { words += (words.empty() ? "" : "; ") + reason; }
+    std::optional<std::string> words;
+    void add(const std::string& reason) { words = with_reason(words, reason); }
     void need_at_least(const std::string& what, double value, double bound) {
       if (value >= bound) return;
       add(what + " is " + fixed_number(value, 3) + ", below " + fixed_number(bound, 3));
@@ -201,8 +202,8 @@ class Verdict final : public Step {
 StageEntry verdict() {
   return stage_entry<Verdict>("verdict",
                               "Accepts or rejects the pose: overlap, free space, the margin to "
-                              "other poses, directions that "
-                              "nothing constrains, agreement of two halves of the points.",
+                              "other poses, directions that nothing constrains, agreement of two "
+                              "halves of the points.",
                               "croon; directions after Gelfand et al., 3DIM 2003", table());
 }
 

@@ -1,7 +1,5 @@
-#include <array>
 #include <set>
 #include <utility>
-#include <vector>
 
 #include "framework/base/error.hpp"
 #include "framework/params/values.hpp"
@@ -37,13 +35,6 @@ const params::Table<Params>& table() {
   return table;
 }
 
-using Cube = std::array<int, 3>;
-
-Cube cube_of(const LeafGrid& cubes, const Eigen::Vector3d& point) {
-  const Eigen::Vector3i cube = cubes.leaf_of(point);
-  return {cube.x(), cube.y(), cube.z()};
-}
-
 /// The source's points in cubes that hold points of the target. They are chosen once for all poses
 /// of a search, since clouds that move apart would otherwise occupy less. The target keeps all of
 /// its points: those elsewhere add the same to every pose. Throws StageError if none is left.
@@ -51,16 +42,17 @@ std::shared_ptr<const Cloud> overlapping(const SelectedClouds& clouds,
                                          const RigidTransform& T_target_source, double cube_m) {
   const LeafGrid cubes(cube_m);
   const auto of_target =
-      clouds.target->once<std::set<Cube>>("overlap_cubes", params::value_json(cube_m), [&] {
-        const auto set = std::make_shared<std::set<Cube>>();
+      clouds.target->once<std::set<LeafKey>>("overlap_cubes", params::value_json(cube_m), [&] {
+        const auto set = std::make_shared<std::set<LeafKey>>();
         for (const Eigen::Vector3f& p : clouds.target->points()) {
-          set->insert(cube_of(cubes, p.cast<double>()));
+          set->insert(leaf_key(cubes.leaf_of(p.cast<double>())));
         }
         return set;
       });
   Points kept;
   for (const Eigen::Vector3f& p : clouds.source->points()) {
-    if (of_target->count(cube_of(cubes, T_target_source * p.cast<double>())) > 0) kept.push_back(p);
+    if (of_target->count(leaf_key(cubes.leaf_of(T_target_source * p.cast<double>()))) > 0)
+      kept.push_back(p);
   }
   if (kept.empty()) throw StageError("the two clouds share no cube of overlap_cube_m");
   return clouds.source->derived(std::move(kept), "overlap");

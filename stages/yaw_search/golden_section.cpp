@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "framework/base/angles.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/yaw_search.hpp"

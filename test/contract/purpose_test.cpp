@@ -1,6 +1,5 @@
 // Every stage does what its kind is for, on a street whose geometry is known. The bounds are loose:
 // they separate stages that work from stages that do not, not good ones from better ones.
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 

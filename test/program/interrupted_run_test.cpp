@@ -2,7 +2,6 @@
 // many. The results are the bytes of one undisturbed run.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <map>

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <sstream>
 
 #include "experiments/cli/commands.hpp"
 #include "framework/base/whole_file.hpp"

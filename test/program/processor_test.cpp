@@ -1,7 +1,6 @@
 // The results are the same bytes on a newer and on an older processor.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <string>
 
 #include "framework/base/whole_file.hpp"

@@ -25,7 +25,7 @@ class OverlapVerdict final : public Step {
  public:
   explicit OverlapVerdict(Params params) : params_(std::move(params)) {}
 
-  static params::DataFlow data_flow(const Params&) { return {{}, {}, {}, {kOverlapRatio.doc()}}; }
+  static params::DataFlow data_flow(const Params&) { return gives(kOverlapRatio); }
 
   Estimate advance(Estimate estimate, Rng&) const override {
     const double ratio = params_.measure->overlap_ratio(*estimate.target, *estimate.source,

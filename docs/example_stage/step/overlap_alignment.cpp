@@ -54,7 +54,7 @@ class OverlapAlignment final : public Step {
  public:
   explicit OverlapAlignment(const Params& params) : params_(params) {}
 
-  static params::DataFlow data_flow(const Params&) { return {{}, {}, {}, {kOverlap.doc()}}; }
+  static params::DataFlow data_flow(const Params&) { return gives(kOverlap); }
 
   Estimate advance(Estimate estimate, Rng&) const override {
     const SelectedClouds clouds = selected_clouds(estimate, params_.points);

@@ -22,7 +22,7 @@ class OverlapCheck final : public Step {
  public:
   explicit OverlapCheck(const Params& params) : params_(params) {}
 
-  static params::DataFlow data_flow(const Params&) { return {{}, {}, {kOverlap.doc()}, {}}; }
+  static params::DataFlow data_flow(const Params&) { return takes(kOverlap); }
 
   Estimate advance(Estimate estimate, Rng&) const override {
     const double overlap_ratio = estimate.extras.get(kOverlap);

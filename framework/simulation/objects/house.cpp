@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "framework/simulation/objects/facade.hpp"
 #include "framework/simulation/objects/objects.hpp"
 #include "framework/simulation/objects/shapes.hpp"

@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "experiments/analysis/trial_summary.hpp"
 #include "test/support/random_geometry.hpp"
 

@@ -122,7 +122,7 @@ class Give final : public Step {
  public:
   explicit Give(GiveParams params) : params_(params) {}
 
-  static params::DataFlow data_flow(const GiveParams&) { return {{}, {}, {}, {kToken.doc()}}; }
+  static params::DataFlow data_flow(const GiveParams&) { return gives(kToken); }
 
   Estimate advance(Estimate estimate, Rng&) const override {
     estimate.extras.put(kToken, params_.value);
@@ -140,7 +140,7 @@ class Take final : public Step {
  public:
   explicit Take(TakeParams) {}
 
-  static params::DataFlow data_flow(const TakeParams&) { return {{}, {}, {kToken.doc()}, {}}; }
+  static params::DataFlow data_flow(const TakeParams&) { return takes(kToken); }
 
   Estimate advance(Estimate estimate, Rng&) const override {
     estimate.T_target_source.translation.x() += estimate.extras.get(kToken);
@@ -154,7 +154,7 @@ class GiveOther final : public Step {
   explicit GiveOther(TakeParams) {}
 
   static params::DataFlow data_flow(const TakeParams&) {
-    return {{}, {}, {}, {Extra<int>{"token", "a number"}.doc()}};
+    return gives(Extra<int>{"token", "a number"});
   }
 
   Estimate advance(Estimate estimate, Rng&) const override { return estimate; }

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <cstring>
 #include <sstream>
-#include <stdexcept>
 
 namespace croon::test {
 namespace {

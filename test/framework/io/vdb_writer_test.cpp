@@ -31,11 +31,11 @@ TEST(VdbWriter, HasTheLeavesWhereTheyAre) {
     write_occupancy_vdb(path, points, leaf_size_m);
     const openvdb::BoolGrid::Ptr grid = read_grid(path);
     const LeafGrid leaves(leaf_size_m);
-    std::set<std::array<int, 3>> expected;
+    std::set<LeafKey> expected;
     for (const Eigen::Vector3f& p : points) {
       const Eigen::Vector3d point = p.cast<double>();
       const Eigen::Vector3i leaf = leaves.leaf_of(point);
-      expected.insert({leaf.x(), leaf.y(), leaf.z()});
+      expected.insert(leaf_key(leaf));
       EXPECT_TRUE(grid->tree().isValueOn({leaf.x(), leaf.y(), leaf.z()}));
       // A viewer draws a voxel half a voxel around its centre: the point must be in it.
       const openvdb::Vec3d index = grid->worldToIndex({point.x(), point.y(), point.z()});

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
 
 #include "framework/base/angles.hpp"
 #include "framework/base/statistics.hpp"

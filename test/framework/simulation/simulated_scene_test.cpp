@@ -7,7 +7,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cstring>
 #include <map>
 
 #include "test/support/simulated_worlds.hpp"

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <stdexcept>
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"

@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "framework/base/angles.hpp"
 #include "framework/geometry/dof.hpp"
 #include "framework/stage/pose_search.hpp"

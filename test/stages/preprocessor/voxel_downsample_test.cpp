@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <array>
 #include <limits>
 #include <map>
 
@@ -17,9 +16,8 @@ params::Slot<Preprocessor> downsample(double leaf_size_m) {
                                    std::to_string(leaf_size_m) + "}");
 }
 
-std::array<int, 3> leaf_of(const LeafGrid& grid, const Eigen::Vector3f& point) {
-  const Eigen::Vector3i leaf = grid.leaf_of(point.cast<double>());
-  return {leaf.x(), leaf.y(), leaf.z()};
+LeafKey leaf_of(const LeafGrid& grid, const Eigen::Vector3f& point) {
+  return leaf_key(grid.leaf_of(point.cast<double>()));
 }
 
 TEST(VoxelDownsample, PutsTheMeanInPlaceOfEachLeaf) {
@@ -27,8 +25,8 @@ TEST(VoxelDownsample, PutsTheMeanInPlaceOfEachLeaf) {
   for (const double leaf_size_m : {0.25, 1.0, 7.5}) {
     const Points cloud = test::random_cloud(rng, 2000, 5.0);
     const LeafGrid grid(leaf_size_m);
-    std::map<std::array<int, 3>, Points> leaves;
-    std::vector<std::array<int, 3>> order;
+    std::map<LeafKey, Points> leaves;
+    std::vector<LeafKey> order;
     for (const Eigen::Vector3f& point : cloud) {
       Points& leaf = leaves[leaf_of(grid, point)];
       if (leaf.empty()) order.push_back(leaf_of(grid, point));

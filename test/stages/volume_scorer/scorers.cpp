@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -34,19 +33,16 @@ std::shared_ptr<const Cloud> cloud_of(Points points) {
 
 namespace {
 
-using Leaf = std::array<int, 3>;
-
 /// The leaves that hold at least `min_points` of the points, on a lattice with this origin.
-std::set<Leaf> occupied(const Points& points, const RigidTransform& T, double leaf_size_m,
-                        const Eigen::Vector3d& origin_m, int min_points) {
+std::set<LeafKey> occupied(const Points& points, const RigidTransform& T, double leaf_size_m,
+                           const Eigen::Vector3d& origin_m, int min_points) {
   RigidTransform pose = T;
   pose.translation -= origin_m;
-  std::map<Leaf, int> counts;
+  std::map<LeafKey, int> counts;
   for (const Eigen::Vector3f& point : points) {
-    const Eigen::Vector3i leaf = LeafGrid(leaf_size_m).leaf_of(pose * point.cast<double>());
-    ++counts[{leaf.x(), leaf.y(), leaf.z()}];
+    ++counts[leaf_key(LeafGrid(leaf_size_m).leaf_of(pose * point.cast<double>()))];
   }
-  std::set<Leaf> leaves;
+  std::set<LeafKey> leaves;
   for (const auto& [leaf, count] : counts) {
     if (count >= min_points) leaves.insert(leaf);
   }
@@ -74,7 +70,7 @@ OccupiedVolume volume_by_sets(const Points& target, const Points& source,
         origin_m(axis) =
             leaf_size_m * (options.lattice_offset_ratio[axis] + share - std::floor(share));
       }
-      std::set<Leaf> leaves = occupied(target, {}, leaf_size_m, origin_m, options.min_points);
+      std::set<LeafKey> leaves = occupied(target, {}, leaf_size_m, origin_m, options.min_points);
       leaves.merge(occupied(source, T_target_source, leaf_size_m, origin_m, options.min_points));
       const auto count = static_cast<std::int64_t>(leaves.size());
       volume.leaves += count;

@@ -1,7 +1,5 @@
 #include "framework/simulation/scenes/scene.hpp"
 
-#include <cmath>
-
 #include "framework/base/angles.hpp"
 #include "framework/simulation/objects/shapes.hpp"
 #include "framework/simulation/scenes/boundaries.hpp"

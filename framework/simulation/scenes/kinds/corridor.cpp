@@ -1,6 +1,5 @@
 #include "framework/simulation/scenes/scene.hpp"
 
-#include "framework/base/angles.hpp"
 #include "framework/simulation/scenes/boundaries.hpp"
 #include "framework/simulation/scenes/lanes.hpp"
 

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "framework/base/angles.hpp"
 #include "framework/simulation/objects/shapes.hpp"
 #include "test/support/random_geometry.hpp"

@@ -3,9 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "framework/base/angles.hpp"
 #include "test/support/mesh_checks.hpp"
 #include "test/support/random_geometry.hpp"

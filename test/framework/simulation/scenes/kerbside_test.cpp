@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "framework/simulation/objects/objects.hpp"
 #include "test/support/random_geometry.hpp"

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "framework/simulation/ray_caster.hpp"
 #include "test/support/mesh_checks.hpp"
 #include "test/support/simulated_worlds.hpp"
