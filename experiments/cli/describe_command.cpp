@@ -2,6 +2,7 @@
 
 #include <tbb/info.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "experiments/file/experiment.hpp"
@@ -51,32 +52,60 @@ params::Slot<GroundExtractor> extractor_of(const Catalogue& catalogue) {
   return extractor;
 }
 
-/// Describes all clouds of a scene that have points.
-std::vector<CloudDescription> describe_scene(const NamedScene& named,
-                                             const GroundExtractor& extractor) {
+/// The clouds of a scene: those that have points, and the sensors whose clouds have none.
+struct DescribedScene {
   std::vector<CloudDescription> clouds;
+  std::vector<std::string> empty;
+};
+
+DescribedScene describe_scene(const NamedScene& named, const GroundExtractor& extractor) {
+  DescribedScene described;
   const auto add = [&](const SensorScan& scan, const Points& points) {
+    if (points.empty()) {
+      described.empty.push_back(scan.sensor);
+      return false;
+    }
     try {
-      clouds.push_back(description_of(points, extractor));
+      described.clouds.push_back(description_of(points, extractor));
     } catch (const StageError& error) {
       throw InputError(scan.file, "", error.what());
     }
-    clouds.back().dataset = named.dataset;
-    clouds.back().scene = named.scene.name;
-    clouds.back().kind = named.scene.kind;
-    clouds.back().sensor = scan.sensor;
+    CloudDescription& cloud = described.clouds.back();
+    cloud.dataset = named.dataset;
+    cloud.scene = named.scene.name;
+    cloud.kind = named.scene.kind;
+    cloud.sensor = scan.sensor;
+    return true;
   };
   const Points reference = named.scene.reference.load().points;
-  if (reference.empty()) return {};
-  add(named.scene.reference, reference);
+  const bool has_reference = add(named.scene.reference, reference);
   const KdTree tree(reference);
   for (const SensorScan& scan : named.scene.sensors) {
     const Points points = scan.load().points;
-    if (points.empty()) continue;
-    add(scan, points);
-    if (scan.truth) add_overlap(clouds.back(), points, tree, *scan.truth);
+    const bool has_points = add(scan, points);
+    if (has_points && has_reference && scan.truth) {
+      add_overlap(described.clouds.back(), points, tree, *scan.truth);
+    }
   }
-  return clouds;
+  return described;
+}
+
+/// A line for each sensor that has clouds without points, which are in no row of the table.
+std::string empty_clouds_text(const std::vector<NamedScene>& scenes,
+                              const std::vector<DescribedScene>& described) {
+  std::map<std::pair<std::string, std::string>, std::vector<std::string>> empty;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    for (const std::string& sensor : described[i].empty) {
+      empty[{scenes[i].dataset, sensor}].push_back(scenes[i].scene.name);
+    }
+  }
+  std::string text;
+  for (const auto& [name, of] : empty) {
+    text += (text.empty() ? "\n" : "") + name.second + " of " + name.first +
+            " has no points in scene " + of.front() +
+            (of.size() > 1 ? " and " + std::to_string(of.size() - 1) + " more" : "") + "\n";
+  }
+  return text;
 }
 
 /// The writer called `options.format`. Throws InputError if there is none.
@@ -108,20 +137,20 @@ int describe_command(const DescribeOptions& options, const Catalogue& catalogue,
   const Sheet sheet = sheet_called(options.width, options.format, kTwoColumns);
   const std::vector<NamedScene> scenes = scenes_of(options, catalogue);
   const params::Slot<GroundExtractor> extractor = extractor_of(catalogue);
-  std::vector<std::vector<CloudDescription>> by_scene(scenes.size());
+  std::vector<DescribedScene> by_scene(scenes.size());
   on_threads(options.jobs > 0 ? options.jobs : tbb::info::default_concurrency(), [&] {
     for_each_in_parallel(
         scenes.size(), [&](std::size_t i) { by_scene[i] = describe_scene(scenes[i], *extractor); });
   });
   std::vector<CloudDescription> clouds;
-  for (const auto& of_scene : by_scene) {
-    clouds.insert(clouds.end(), of_scene.begin(), of_scene.end());
+  for (const DescribedScene& of_scene : by_scene) {
+    clouds.insert(clouds.end(), of_scene.clouds.begin(), of_scene.clouds.end());
   }
   if (!options.out.empty()) write_files(options.out, clouds, writer, sheet);
   out << "median over scenes (least to largest); ground: within 0.2 m of the largest plane;\n"
          "distance to the reference's nearest point, of points that have one within 1 m "
          "(overlap)\n\n"
-      << clouds_text(clouds);
+      << clouds_text(clouds) << empty_clouds_text(scenes, by_scene);
   return 0;
 }
 

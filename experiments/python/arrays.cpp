@@ -28,9 +28,16 @@ std::string array_words(const py::array& array) {
   return "an array of shape " + shape + " and type " + type;
 }
 
+/// A masked array says of some of its numbers that they are none; an array of it has them all.
+bool is_masked_array(const py::object& object) {
+  return py::isinstance(object, py::module_::import("numpy").attr("ma").attr("MaskedArray"));
+}
+
 py::array any_array(const py::object& object, const std::string& what, const std::string& words) {
   const bool is_text = py::isinstance<py::str>(object) || py::isinstance<py::bytes>(object);
-  if (object.is_none() || is_text) refuse(what, words, type_words(object));
+  if (object.is_none() || is_text || is_masked_array(object)) {
+    refuse(what, words, type_words(object));
+  }
   const py::array array = py::array::ensure(object);
   if (!array || array.dtype().kind() == 'O') refuse(what, words, type_words(object));
   return array;

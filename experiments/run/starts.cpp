@@ -42,7 +42,9 @@ std::string centres_of(const SensorScan& scan) {
     if (!centre_pose(centre, scan)) continue;
     known += (known.empty() ? "\"" : ", \"") + word + "\"";
   }
-  return known.empty() ? "it has no pose to draw starts around" : "it has " + known;
+  return known.empty() ? "it has none at all: truth.json or nominal.json gives the poses of a "
+                         "recording by the names of the sensors"
+                       : "it has " + known;
 }
 
 /// The scenes in which one sensor has no pose to draw starts around.

@@ -77,6 +77,9 @@ class HeaderParser {
     if (words[0] == "element" && words.size() == 3) {
       const std::optional<std::uint64_t> count = count_from(words[2]);
       if (!count) expected("a number of elements");
+      for (const PlyElement& element : header_.elements) {
+        if (element.name == words[1]) expected("each element once");
+      }
       header_.elements.push_back({std::string(words[1]), *count, {}});
     } else if (words[0] == "property" && words.size() == 3) {
       add_property({std::string(words[2]), type(words[1]), std::nullopt});
@@ -100,7 +103,13 @@ class HeaderParser {
 
   void add_property(const PlyProperty& property) {
     if (header_.elements.empty()) expected("an element before its properties");
-    header_.elements.back().properties.push_back(property);
+    std::vector<PlyProperty>& properties = header_.elements.back().properties;
+    for (const PlyProperty& other : properties) {
+      const bool is_same = other.name == property.name && !other.list_count && !property.list_count;
+      const bool is_axis = property.name == "x" || property.name == "y" || property.name == "z";
+      if (is_same && is_axis) expected("each coordinate once");
+    }
+    properties.push_back(property);
   }
 
   void find_vertex() {

@@ -33,6 +33,21 @@ Content content_above(const std::string& name, const SceneLocation& location,
   return found != known.end() ? found->second : known.emplace(*file, read(*file)).first->second;
 }
 
+/// Reads the poses of a rig. A pose of `reference` other than zero is a fault: then the poses are
+/// those in another frame, such as the car's, and would all be wrong.
+RigPoses poses_in_frame_of(const std::string& reference, const fs::path& file) {
+  constexpr double kZero = 1e-9;
+  const RigPoses poses = read_rig_poses(file);
+  const auto found = poses.find(reference);
+  if (found == poses.end()) return poses;
+  const auto& [rotation, translation_m] = found->second;
+  if (translation_m.norm() <= kZero && (rotation - Eigen::Matrix3d::Identity()).norm() <= kZero)
+    return poses;
+  throw InputError(file.string(), "/" + reference,
+                   "expected zeros, because poses are in the frame of the reference, found a pose "
+                   "of the reference itself");
+}
+
 std::optional<RigidTransform> pose_of(const RigPoses& poses, const std::string& sensor) {
   const auto found = poses.find(sensor);
   return found == poses.end() ? std::nullopt : std::make_optional(found->second);
@@ -50,10 +65,13 @@ void RigFilesAbove::complete(Scene& scene, const SceneLocation& location) {
   std::vector<Fault> faults;
   SceneKinds kinds;
   RigPoses truth, nominal;
+  const auto read_poses = [&](const fs::path& file) {
+    return poses_in_frame_of(scene.reference.sensor, file);
+  };
   collect_faults(faults,
-                 [&] { truth = content_above("truth.json", location, poses_, read_rig_poses); });
-  collect_faults(
-      faults, [&] { nominal = content_above("nominal.json", location, poses_, read_rig_poses); });
+                 [&] { truth = content_above("truth.json", location, poses_, read_poses); });
+  collect_faults(faults,
+                 [&] { nominal = content_above("nominal.json", location, poses_, read_poses); });
   collect_faults(faults, [&] {
     kinds = content_above("scene_kinds.json", location, kinds_, read_scene_kinds);
   });

@@ -39,9 +39,12 @@ void require_near(const std::vector<double>& times_s, double reference_s) {
   constexpr double kLongest_s = 60.0;
   for (const double time_s : times_s) {
     if (std::abs(time_s - reference_s) <= kLongest_s) continue;
+    if (!std::isfinite(time_s) || !std::isfinite(reference_s)) {
+      throw StageError("a point's time is not a finite number");
+    }
     throw StageError("a point's time is more than " + fixed_number(kLongest_s, 0) +
-                     " s from the reference time: is its zero another one than the scan's "
-                     "(reference_time)?");
+                     " s from the reference time: is it in seconds, or in whole nanoseconds, and "
+                     "is its zero the scan's (reference_time)?");
   }
 }
 

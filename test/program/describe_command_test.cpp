@@ -58,6 +58,36 @@ TEST(DescribeCommand, ReplacesWhatItWroteAndNoLink) {
   }
 }
 
+/// A PCD file of the corners of a square on the ground, or of no points.
+std::string square_pcd(int points = 4) {
+  const std::string count = std::to_string(points);
+  return "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + count +
+         "\nHEIGHT 1\nPOINTS " + count + "\nDATA ascii\n" +
+         (points > 0 ? "5 5 -2\n5 -5 -2\n-5 -5 -2\n-5 5 -2\n" : "");
+}
+
+TEST(DescribeCommand, NamesSensorsWithoutPoints) {
+  const test::TempFolder folder;
+  const std::string file = folder
+                               .write("x.json", R"({"name": "car", "starts": {"around": "nominal"},
+    "dataset": {"type": "sensor_folders", "path": "car", "reference": "top"},
+    "pipeline": [{"step": "identity"}]})")
+                               .string();
+  folder.write("data/car/top/1.pcd", square_pcd());
+  folder.write("data/car/top/2.pcd", square_pcd(0));
+  for (const char* scene : {"1", "2"}) {
+    folder.write(std::string("data/car/left/") + scene + ".pcd", square_pcd(0));
+    folder.write(std::string("data/car/right/") + scene + ".pcd", square_pcd());
+  }
+  const Answer answer = croon("describe " + file + " --data " + (folder.path() / "data").string());
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  EXPECT_NE(answer.text.find("\nleft of car has no points in scene 1 and 1 more\n"
+                             "top of car has no points in scene 2\n"),
+            std::string::npos)
+      << answer.text;
+  EXPECT_NE(answer.text.find("\nright "), std::string::npos) << answer.text;
+}
+
 TEST(DescribeCommand, RefusesWhatIsNotThere) {
   const test::TempFolder folder;
   EXPECT_EQ(croon("describe " + (folder.path() / "none.json").string()).code, 2);

@@ -80,7 +80,7 @@ class Pipelines(TestCase):
                 (TOP[:0], "expected points, found none"), (good[:, :2], ", 2)"), (good[None], "(1, "),
                 (good.astype("i4"), "int32"), (good.astype("f2"), "float16"), (good.astype("c8"), "complex64"),
                 (TOP[["x", "y"]], "N×3"), (TOP.reshape(1, -1), "N×3"), (text, '"label", found <U3'), (None, "NoneType"),
-                ("cloud.pcd", "a str"), (object(), "object"), ([[1, 2], [3]], "list"), (7, "shape ()"), ([], "shape (0,)")):
+                (np.ma.masked_array(good, good > 1), "MaskedArray"), ("cloud.pcd", "a str"), (object(), "object"), ([[1, 2], [3]], "list"), (7, "shape ()"), ([], "shape (0,)")):
             with self.subTest(expected=expected):
                 message = self.line_of(croon.InputError, pipeline.run, good, wrong)
                 self.assertTrue(message.startswith("source: "), message)

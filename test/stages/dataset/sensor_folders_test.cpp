@@ -62,6 +62,19 @@ TEST_F(SensorFolders, HoldCloudsOfOneNameForEachScene) {
   EXPECT_EQ(all[1].sensors[1].sensor, "front-left");
 }
 
+TEST_F(SensorFolders, HavePosesInTheFrameOfTheReference) {
+  const std::string left =
+      R"("front-left": {"rotation_rpy_deg": [0, 0, 0], "translation_m": [1, 0, 0]})";
+  folder.write(
+      "data/car/truth.json",
+      R"({"top": {"rotation_rpy_deg": [0, 0, 0], "translation_m": [0, 0, 0]}, )" + left + "}");
+  EXPECT_EQ(scenes().size(), 2U);
+  folder.write(
+      "data/car/nominal.json",
+      R"({"top": {"rotation_rpy_deg": [0, 0, 0], "translation_m": [0, 0, 1.8]}, )" + left + "}");
+  EXPECT_THAT(error(), HasSubstr("nominal.json: /top: expected zeros"));
+}
+
 TEST_F(SensorFolders, AreThoseThatAreNamed) {
   const std::vector<Scene> some = scenes(R"(, "sensors": ["back"])");
   ASSERT_EQ(some.size(), 1U);

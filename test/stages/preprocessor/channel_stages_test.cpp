@@ -148,9 +148,13 @@ TEST(Deskew, MovesToTheTimeThatIsAsked) {
 TEST(Deskew, RefusesTimesThatAreOfNoScan) {
   PointCloud cloud = Points(1, Eigen::Vector3f(1, 0, 0));
   EXPECT_THAT(error_of(R"({"type": "deskew"})", cloud), HasSubstr("no channel \"time\""));
-  for (const double time_s : {1.6e9, std::nan(""), -100.0}) {
+  const std::pair<double, const char*> cases[] = {{1.6e9, "reference_time"},
+                                                  {-100.0, "in seconds"},
+                                                  {std::nan(""), "finite"},
+                                                  {HUGE_VAL, "finite"}};
+  for (const auto& [time_s, message] : cases) {
     cloud.channels = {make_channel(kTime, std::vector<double>{time_s})};
-    EXPECT_THAT(error_of(R"({"type": "deskew"})", cloud), HasSubstr("reference_time"));
+    EXPECT_THAT(error_of(R"({"type": "deskew"})", cloud), HasSubstr(message)) << time_s;
   }
 }
 
