@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
@@ -12,6 +13,7 @@
 #include "framework/registration/direction_balance.hpp"
 #include "framework/registration/gauss_newton.hpp"
 #include "framework/spatial/evenly_spaced.hpp"
+#include "framework/spatial/leaf_grid.hpp"
 
 namespace croon {
 namespace {
@@ -30,13 +32,15 @@ AzimuthError error_of(const Eigen::Vector3d& sizes, const Eigen::Vector3d& mean)
   return {-sizes.dot(mean), sizes.x(), sizes.y(), sizes.z()};
 }
 
+/// A cube and a direction: the points of one surface.
+using SurfaceKey = std::pair<LeafKey, int>;
+
 /// A point on a surface of the target, linearised.
 struct Contact {
   Vector6d by_pose;         ///< The Jacobian of its distance by `moved`,
   Eigen::Vector3d by_size;  ///< and by sine, cosine and slope.
   double distance_m = 0.0;
-  int direction = 0;
-  std::array<int, 4> surface{};
+  SurfaceKey surface;
 };
 
 /// A view and the points of it that take part.
@@ -46,6 +50,7 @@ class ViewProblem {
   ViewProblem(const AzimuthView& view, const AzimuthOptions& options, std::size_t most)
       : view_(view),
         options_(options),
+        surfaces_(options.surface_size_m),
         target_normals_(view.target->normals(options.normal_neighbours)),
         source_normals_(view.source->normals(options.normal_neighbours)) {
     const std::size_t size = view.source->points().size();
@@ -95,17 +100,13 @@ class ViewProblem {
     contact.by_size = normal.dot(turned) * (terms_at(reported) - mean_terms);
     contact.distance_m =
         normal.dot(in_target - view_.target->points()[nearest.index].cast<double>());
-    contact.direction = direction_bin(normal);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double cell = in_target(static_cast<Eigen::Index>(k)) / options_.surface_size_m;
-      contact.surface.at(k) = static_cast<int>(std::floor(cell));
-    }
-    contact.surface[3] = contact.direction;
+    contact.surface = {leaf_key(surfaces_.leaf_of(in_target)), direction_bin(normal)};
     return true;
   }
 
   AzimuthView view_;
   const AzimuthOptions& options_;
+  LeafGrid surfaces_;
   const Normals& target_normals_;
   const Normals& source_normals_;
   std::vector<int> indices_;
@@ -116,11 +117,12 @@ class ViewProblem {
 std::vector<double> weights_of(const std::vector<Contact>& contacts,
                                const AzimuthOptions& options) {
   std::array<int, kDirectionBins> counts{};
-  for (const Contact& contact : contacts) ++counts.at(static_cast<std::size_t>(contact.direction));
+  for (const Contact& contact : contacts)
+    ++counts.at(static_cast<std::size_t>(contact.surface.second));
   const RobustKernel kernel(Kernel::geman_mcclure, options.kernel_width_m);
   std::vector<double> weights;
   for (const Contact& contact : contacts) {
-    const double count = counts.at(static_cast<std::size_t>(contact.direction));
+    const double count = counts.at(static_cast<std::size_t>(contact.surface.second));
     weights.push_back(std::pow(count, -options.direction_balance) *
                       kernel.weight(contact.distance_m * contact.distance_m));
   }
@@ -143,7 +145,7 @@ ReducedView reduced(const std::vector<Contact>& contacts, const AzimuthOptions& 
   using Vector9d = Eigen::Matrix<double, 9, 1>;
   const std::vector<double> weights = weights_of(contacts, options);
   Eigen::Matrix<double, 9, 9> information = Eigen::Matrix<double, 9, 9>::Zero();
-  std::map<std::array<int, 4>, Vector9d> gradients;  // By surface.
+  std::map<SurfaceKey, Vector9d> gradients;  // By surface.
   ReducedView view;
   view.correspondences = static_cast<int>(contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
