@@ -138,6 +138,7 @@ struct ReducedView {
   Eigen::Matrix<double, 6, 3> pose_by_size;           ///< and by a change of them.
   double square_sum = 0.0;
   double weight_sum = 0.0;
+  double square_weight_sum = 0.0;  ///< Of the weights of surfaces.
   int correspondences = 0;
 };
 
@@ -145,7 +146,11 @@ ReducedView reduced(const std::vector<Contact>& contacts, const AzimuthOptions& 
   using Vector9d = Eigen::Matrix<double, 9, 1>;
   const std::vector<double> weights = weights_of(contacts, options);
   Eigen::Matrix<double, 9, 9> information = Eigen::Matrix<double, 9, 9>::Zero();
-  std::map<SurfaceKey, Vector9d> gradients;  // By surface.
+  struct Surface {
+    Vector9d gradient = Vector9d::Zero();
+    double weight = 0.0;
+  };
+  std::map<SurfaceKey, Surface> surfaces;
   ReducedView view;
   view.correspondences = static_cast<int>(contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -153,8 +158,9 @@ ReducedView reduced(const std::vector<Contact>& contacts, const AzimuthOptions& 
     Vector9d J;
     J << contact.by_pose, contact.by_size;
     information.noalias() += weights[i] * (J * J.transpose());
-    const auto [gradient, is_new] = gradients.emplace(contact.surface, Vector9d::Zero());
-    gradient->second += weights[i] * contact.distance_m * J;
+    Surface& surface = surfaces[contact.surface];
+    surface.gradient += weights[i] * contact.distance_m * J;
+    surface.weight += weights[i];
     view.square_sum += weights[i] * contact.distance_m * contact.distance_m;
     view.weight_sum += weights[i];
   }
@@ -164,10 +170,11 @@ ReducedView reduced(const std::vector<Contact>& contacts, const AzimuthOptions& 
   view.information =
       information.bottomRightCorner<3, 3>() + coupling.transpose() * view.pose_by_size;
   Vector6d of_pose = Vector6d::Zero();
-  for (const auto& [surface, gradient] : gradients) {
+  for (const auto& [key, surface] : surfaces) {
     const Eigen::Vector3d own =
-        gradient.tail<3>() + view.pose_by_size.transpose() * gradient.head<6>();
-    of_pose += gradient.head<6>();
+        surface.gradient.tail<3>() + view.pose_by_size.transpose() * surface.gradient.head<6>();
+    view.square_weight_sum += surface.weight * surface.weight;
+    of_pose += surface.gradient.head<6>();
     view.gradient += own;
     view.scatter += own * own.transpose();
   }
@@ -249,7 +256,13 @@ class Problem {
     result.covariance = inverse * scatter_ * inverse;
     result.T_target_source = poses_;
     result.rmse_m = rmse_m();
-    for (const ReducedView& view : reduced_) result.correspondences += view.correspondences;
+    double weights = 0.0, squares = 0.0;
+    for (const ReducedView& view : reduced_) {
+      result.correspondences += view.correspondences;
+      weights += view.weight_sum;
+      squares += view.square_weight_sum;
+    }
+    result.surfaces = squares > 0.0 ? weights * weights / squares : 0.0;
   }
 
  private:
@@ -335,6 +348,9 @@ const params::Table<AzimuthOptions>& azimuth_table() {
 }
 
 double AzimuthCalibration::significance() const {
+  // The gradients of a few surfaces add up to zero, whatever the error, and scatter by nothing.
+  constexpr double kFewestSurfaces = 10.0;
+  if (surfaces < kFewestSurfaces) return 0.0;
   const Eigen::Vector3d sizes(error.sine_rad, error.cosine_rad, error.slope);
   return std::sqrt(std::max(0.0, sizes.dot(guarded_inverse<3>(covariance) * sizes) / 3.0));
 }

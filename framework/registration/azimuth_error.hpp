@@ -63,11 +63,13 @@ struct AzimuthCalibration {
                                ///< and no error.
   double rmse_m = 0.0;         ///< The same at the end.
   int correspondences = 0;
+  double surfaces = 0.0;  ///< On which the points lie, of all views; as many of one weight.
   int iterations = 0;
   bool converged = false;
 
   /// How many standard deviations sine, cosine and slope are from zero: the root of a third of
-  /// their squared Mahalanobis distance, about 1 for a sensor without an error.
+  /// their squared Mahalanobis distance, about 1 for a sensor without an error. 0 if the points lie
+  /// on too few surfaces to tell.
   double significance() const;
 };
 

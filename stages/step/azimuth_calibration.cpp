@@ -149,6 +149,7 @@ class AzimuthCalibrationStep final : public RigStep {
                             {"rmse_before_m", found.rmse_before_m},
                             {"rmse_m", found.rmse_m},
                             {"correspondences", static_cast<double>(found.correspondences)},
+                            {"surfaces", found.surfaces},
                             {"iterations", static_cast<double>(found.iterations)},
                             {"converged", found.converged ? 1.0 : 0.0}};
   }

@@ -14,7 +14,11 @@ using params::ParameterType;
 /// An object that the parameter takes: the first preset's, for conditions hold there.
 json any_object(const ParameterDoc& parameter) {
   if (!parameter.preset_json.empty()) return json::parse(parameter.preset_json.front());
-  if (!parameter.is_required) return json::parse(parameter.default_json);
+  if (!parameter.is_required) {
+    // An empty map has no object with members.
+    const json value = json::parse(parameter.default_json);
+    if (parameter.type != ParameterType::map || !value.empty()) return value;
+  }
   const json members = minimal_object(parameter.members);
   return parameter.type == ParameterType::map ? json{{kAnyName, members}} : members;
 }

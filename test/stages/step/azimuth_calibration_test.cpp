@@ -106,6 +106,24 @@ TEST(AzimuthCalibration, LeavesASensorWithoutAnErrorAsItIs) {
   }
 }
 
+TEST(AzimuthCalibration, LeavesASensorThatSeesFewSurfacesAsItIs) {
+  Rng rng = test::test_rng();
+  Points corner;  // Three walls in one cube of 8 m.
+  for (int i = 0; i < 9000; ++i) {
+    Eigen::Vector3d point = Eigen::Vector3d::Constant(1.0 + 1e-4 * rng.normal());
+    point((i + 1) % 3) = rng.uniform(1.0, 7.0);
+    point((i + 2) % 3) = rng.uniform(1.0, 7.0);
+    corner.push_back(point.cast<float>());
+  }
+  std::vector<RigEstimate> rig(1);
+  rig[0] = {"a", "top", "left", test::estimate_of(corner, with_error(corner, kError), {})};
+  const auto source = rig[0].estimate.source;
+  calibrate(rig);
+  EXPECT_LT(test::diagnostic(rig[0].estimate, "surfaces"), 10.0);
+  EXPECT_EQ(test::diagnostic(rig[0].estimate, "azimuth_significance"), 0.0);
+  EXPECT_EQ(rig[0].estimate.source, source);
+}
+
 TEST(AzimuthCalibration, CorrectsWhatIsKnown) {
   const RigidTransform T = some_pose();
   const std::vector<RigEstimate> right = two_streets({}, T);
