@@ -97,7 +97,7 @@ class TermMaker {
       : scan_(source.scan),
         target_(target),
         velocity_(view.velocity),
-        T_(view.state.T_target_sensor[source.sensor]),
+        pose_(view.state.T_target_sensor[source.sensor]),
         clock_offset_s_(view.state.clock_offsets_s[source.sensor]),
         normals_(source.scan.cloud->normals(view.options.normal_neighbours)),
         min_cosine_(std::cos(rad_from_deg(view.options.max_normal_angle_deg))),
@@ -109,13 +109,13 @@ class TermMaker {
     using Eigen::Vector3d;
     const double source_s = scan_.times_s[index] + clock_offset_s_ - target_.reference_s();
     const RigidTransform motion = motion_over(velocity_, source_s);
-    const Vector3d turned = T_.rotation * scan_.cloud->points()[index].cast<double>();
-    const Vector3d q = motion * Vector3d(turned + T_.translation);
+    const Vector3d turned = pose_.rotation * scan_.cloud->points()[index].cast<double>();
+    const Vector3d q = motion * Vector3d(turned + pose_.translation);
     const Neighbour nearest = target_.tree().nearest(q.cast<float>(), max_distance_m_);
     if (!nearest) return false;
     const Vector3d n = target_.normal(nearest.index);
     const Vector3d source_normal =
-        motion.rotation * (T_.rotation * normals_.at(index).normal.cast<double>());
+        motion.rotation * (pose_.rotation * normals_.at(index).normal.cast<double>());
     if (n.isZero() || n.dot(source_normal) < min_cosine_) return false;
     const Vector3d p = target_.points()[nearest.index].cast<double>();
     const double target_s = target_.time_s(nearest.index);
@@ -133,7 +133,7 @@ class TermMaker {
   const TimedScan& scan_;
   const StillTarget& target_;
   const Twist& velocity_;
-  const RigidTransform& T_;
+  const RigidTransform& pose_;
   double clock_offset_s_;
   const Normals& normals_;
   double min_cosine_;
