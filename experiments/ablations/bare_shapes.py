@@ -30,7 +30,7 @@ POSES = {"top": ([0, 0, 0], [0, 0, 0]), "front": ([0, 10, 3], [2.0, 0.1, -1.0]),
 GROUND = ((0, 0, -1), 2.0)
 LEFT, RIGHT, AHEAD, BEHIND = ((0, 1, 0), 4.0), ((0, -1, 0), 5.0), ((1, 0, 0), 9.0), ((-1, 0, 0), 7.0)
 ROUGH_PLANE = "plane, noise across"
-SHAPES = {"plane": [GROUND], ROUGH_PLANE: [GROUND], "wall": [GROUND, LEFT], "corridor": [GROUND, LEFT, RIGHT], 
+SHAPES = {"plane": [GROUND], ROUGH_PLANE: [GROUND], "wall": [GROUND, LEFT], "corridor": [GROUND, LEFT, RIGHT],
           "corner": [GROUND, LEFT, AHEAD], "room": [GROUND, LEFT, RIGHT, AHEAD, BEHIND]}
 DOFS = ("roll", "pitch", "yaw", "x", "y", "z")
 WORDS = ("determined", "weak", "unobservable")

@@ -51,6 +51,7 @@ class ViewProblem {
       : view_(view),
         options_(options),
         surfaces_(options.surface_size_m),
+        min_cosine_(std::max(std::cos(rad_from_deg(options.max_normal_angle_deg)), 1e-9)),
         target_normals_(view.target->normals(options.normal_neighbours)),
         source_normals_(view.source->normals(options.normal_neighbours)) {
     const std::size_t size = view.source->points().size();
@@ -92,9 +93,7 @@ class ViewProblem {
     if (!nearest) return false;
     const Eigen::Vector3d normal = target_normals_.at(nearest.index).normal.cast<double>();
     const Eigen::Vector3d own = T.rotation * source_normals_.at(index).normal.cast<double>();
-    // Without a normal the product is zero.
-    const double min_cosine = std::cos(rad_from_deg(options_.max_normal_angle_deg));
-    if (!(std::abs(normal.dot(own)) > std::max(min_cosine, 1e-9))) return false;
+    if (!(std::abs(normal.dot(own)) > min_cosine_)) return false;
     contact.by_pose = plane_jacobian(arm, normal);
     const Eigen::Vector3d turned = T.rotation * Eigen::Vector3d(point.y(), -point.x(), 0.0);
     contact.by_size = normal.dot(turned) * (terms_at(reported) - mean_terms);
@@ -107,6 +106,7 @@ class ViewProblem {
   AzimuthView view_;
   const AzimuthOptions& options_;
   LeafGrid surfaces_;
+  double min_cosine_;  ///< Above zero: the product with a normal that is not there is zero.
   const Normals& target_normals_;
   const Normals& source_normals_;
   std::vector<int> indices_;
