@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <vector>
 
@@ -21,8 +22,24 @@ struct NearestAndRest {
   float rest_beyond_m2 = 0.0F;  ///< No point but the nearest has a smaller squared distance, m^2.
 };
 
-/// Nearest neighbours in a fixed cloud (nanoflann's kd-tree). The cloud must outlive the tree.
-/// Queries may run on many threads at once and give the same answer every time.
+/// `dx^2 + dy^2 + dz^2` in single precision, summed in this order: the distance that a KdTree
+/// finds, to the last bit.
+inline float squared_distance_m2(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+  const float x = a.x() - b.x();
+  const float y = a.y() - b.y();
+  const float z = a.z() - b.z();
+  return x * x + y * y + z * z;
+}
+
+/// Nearest neighbours in a fixed cloud. Of points at the same distance the one with the least index
+/// is the nearer, so an answer depends on the points alone and not on how the tree divides them.
+/// Queries may run on many threads at once.
+///
+/// A kd-tree (Bentley 1975, "Multidimensional binary search trees used for associative searching")
+/// for the processors of today: cells are split at the median of their longest edge, two splits
+/// make a node of four children, whose tight boxes are tested at once, and the coordinates of a
+/// leaf lie side by side, so that the compiler computes four distances with one instruction. See
+/// docs/design.md for what that gains over nanoflann.
 class KdTree {
  public:
   explicit KdTree(const Points& points);
@@ -38,11 +55,14 @@ class KdTree {
   /// the reach if that is nearer.
   NearestAndRest nearest_and_rest(const Eigen::Vector3f& query, float reach_m) const;
   /// The `count` nearest points (fewer in a smaller cloud), nearest first, written to `neighbours`.
-  void nearest(const Eigen::Vector3f& query, int count, std::vector<Neighbour>& neighbours) const;
+  /// They are first looked for within `guess_m`, then everywhere: a good guess makes the search
+  /// faster and changes nothing else.
+  void nearest(const Eigen::Vector3f& query, int count, std::vector<Neighbour>& neighbours,
+               float guess_m = 0.0F) const;
 
  private:
-  struct Index;
-  std::unique_ptr<Index> index_;
+  struct Tree;
+  std::unique_ptr<const Tree> tree_;
 };
 
 }  // namespace croon

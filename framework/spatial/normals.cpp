@@ -1,7 +1,9 @@
 #include "framework/spatial/normals.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <set>
+#include <vector>
 
 #include "framework/spatial/kd_tree.hpp"
 #include "framework/spatial/leaf_grid.hpp"
@@ -23,6 +25,28 @@ Eigen::Matrix3d covariance(const Points& points, const Eigen::Vector3f& centre,
   const double count = static_cast<double>(neighbours.size());
   return products / count - (sum / count) * (sum / count).transpose();
 }
+
+/// How far the neighbours of a point are expected, from those of the point before it: points are
+/// mostly asked for one near the other, and as many neighbours are within the radius of the last
+/// point and the way from it. Another cloud's radius costs time and changes nothing.
+class ExpectedRadius {
+ public:
+  /// In metres, 0 if nothing is known.
+  float at(const Eigen::Vector3f& point) const {
+    return radius_m_ > 0.0F ? radius_m_ + (point - last_).norm() : 0.0F;
+  }
+  void set(const Eigen::Vector3f& point, const std::vector<Neighbour>& neighbours) {
+    last_ = point;
+    constexpr float kMoreThanRounding = 1.001F;
+    radius_m_ = neighbours.empty()
+                    ? 0.0F
+                    : kMoreThanRounding * std::sqrt(neighbours.back().squared_distance_m2);
+  }
+
+ private:
+  Eigen::Vector3f last_ = Eigen::Vector3f::Zero();
+  float radius_m_ = 0.0F;
+};
 
 Points first_points(const Points& cloud, double leaf_size_m) {
   const LeafGrid grid(leaf_size_m);
@@ -61,8 +85,10 @@ LocalShape Normals::at(int index) const {
 
 LocalShape Normals::computed(int index) const {
   thread_local std::vector<Neighbour> neighbours;
+  thread_local ExpectedRadius radius;
   const Eigen::Vector3f& point = points_[index];
-  tree_.nearest(point, neighbours_, neighbours);
+  tree_.nearest(point, neighbours_, neighbours, radius.at(point));
+  radius.set(point, neighbours);
   LocalShape shape;
   if (neighbours.size() < 3) return shape;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;

@@ -14,33 +14,25 @@ constexpr float kRounding = 1e-5F;
 /// too.
 constexpr float kReach = 1.1F;
 
-/// As nanoflann computes it: the answers must be the same to the last bit.
-float squared_distance(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  const float x = a.x() - b.x();
-  const float y = a.y() - b.y();
-  const float z = a.z() - b.z();
-  return x * x + y * y + z * z;
-}
-
 }  // namespace
 
 float TrackedNeighbours::reach_m(const Track& track, const Eigen::Vector3f& query,
                                  float max_distance_m) const {
   const float reach_m = max_distance_m * kReach;
   if (track.second < 0) return reach_m;
-  const float both_within_m2 = std::max(squared_distance(query, target_[track.nearest]),
-                                        squared_distance(query, target_[track.second]));
+  const float both_within_m2 = std::max(squared_distance_m2(query, target_[track.nearest]),
+                                        squared_distance_m2(query, target_[track.second]));
   return std::min(reach_m, std::sqrt(both_within_m2) * (1.0F + kRounding));
 }
 
 Neighbour TrackedNeighbours::nearest(int index, const Eigen::Vector3f& query,
                                      float max_distance_m) {
   Track& track = tracks_[static_cast<std::size_t>(index)];
-  const float moved_m = std::sqrt(squared_distance(query, track.query));
+  const float moved_m = std::sqrt(squared_distance_m2(query, track.query));
   const float rest_beyond_m =
       track.rest_beyond_m * (1.0F - kRounding) - moved_m * (1.0F + kRounding);
   if (rest_beyond_m > 0.0F) {
-    const float known_m2 = track.nearest >= 0 ? squared_distance(query, target_[track.nearest])
+    const float known_m2 = track.nearest >= 0 ? squared_distance_m2(query, target_[track.nearest])
                                               : std::numeric_limits<float>::infinity();
     if (known_m2 < rest_beyond_m * rest_beyond_m) {
       return known_m2 <= max_distance_m * max_distance_m ? Neighbour{track.nearest, known_m2}

@@ -9,33 +9,90 @@
 namespace croon {
 namespace {
 
-/// Squared distances to all points, in order of size.
-std::vector<float> sorted_squared_distances(const Points& cloud, const Eigen::Vector3f& query) {
-  std::vector<float> distances;
-  for (const Eigen::Vector3f& point : cloud) distances.push_back((point - query).squaredNorm());
-  std::sort(distances.begin(), distances.end());
-  return distances;
+/// All points of a cloud, nearest first, and of those at the same distance the least index first.
+std::vector<Neighbour> by_distance(const Points& cloud, const Eigen::Vector3f& query) {
+  std::vector<Neighbour> all;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    all.push_back({static_cast<int>(i), squared_distance_m2(cloud[i], query)});
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Neighbour& a, const Neighbour& b) {
+    return a.squared_distance_m2 < b.squared_distance_m2;
+  });
+  return all;
+}
+
+void expect_same(const Neighbour& found, const Neighbour& expected) {
+  EXPECT_EQ(found.index, expected.index);
+  EXPECT_EQ(found.squared_distance_m2, expected.squared_distance_m2);
+}
+
+/// Every kind of search against all points in order, to the last bit.
+void expect_exact(const KdTree& tree, const Points& cloud, const Eigen::Vector3f& query) {
+  const std::vector<Neighbour> truth = by_distance(cloud, query);
+  expect_same(tree.nearest(query), truth[0]);
+  for (const float reach_m : {0.2F, 0.8F, 4.0F}) {
+    const float reach_m2 = reach_m * reach_m;
+    const auto is_within = [&](std::size_t i) {
+      return i < truth.size() && truth[i].squared_distance_m2 <= reach_m2;
+    };
+    const Neighbour nearest = tree.nearest(query, reach_m);
+    ASSERT_EQ(static_cast<bool>(nearest), is_within(0));
+    if (nearest) expect_same(nearest, truth[0]);
+    const NearestAndRest both = tree.nearest_and_rest(query, reach_m);
+    EXPECT_EQ(both.nearest.index, is_within(0) ? truth[0].index : -1);
+    EXPECT_EQ(both.second, is_within(1) ? truth[1].index : -1);
+    EXPECT_EQ(both.rest_beyond_m2, is_within(1) ? truth[1].squared_distance_m2 : reach_m2);
+  }
+  std::vector<Neighbour> neighbours;
+  for (const int count : {1, 2, 12, 40, 200}) {
+    for (const float guess_m : {0.0F, 0.01F, 0.7F, 1e30F}) {
+      tree.nearest(query, count, neighbours, guess_m);
+      ASSERT_EQ(neighbours.size(), std::min<std::size_t>(cloud.size(), count));
+      for (std::size_t i = 0; i < neighbours.size(); ++i) expect_same(neighbours[i], truth[i]);
+    }
+  }
 }
 
 TEST(KdTree, AgreesWithLookingAtEveryPoint) {
   Rng rng = test::test_rng();
-  const Points cloud = test::random_cloud(rng, 700, 5.0);
-  const KdTree tree(cloud);
-  std::vector<Neighbour> neighbours;
-  for (const Eigen::Vector3f& query : test::random_cloud(rng, 200, 7.0)) {
-    const std::vector<float> truth = sorted_squared_distances(cloud, query);
-    const Neighbour nearest = tree.nearest(query);
-    ASSERT_TRUE(nearest);
-    EXPECT_NEAR(nearest.squared_distance_m2, truth[0], 1e-5F * truth[0]);
-    EXPECT_FLOAT_EQ((cloud[nearest.index] - query).squaredNorm(), nearest.squared_distance_m2);
-    tree.nearest(query, 12, neighbours);
-    ASSERT_EQ(neighbours.size(), 12u);
-    for (int i = 0; i < 12; ++i) {
-      EXPECT_NEAR(neighbours[i].squared_distance_m2, truth[i], 1e-5F * truth[i]);
+  // Less than a leaf, leaves that are full, one point more, and levels of two and of four children.
+  for (const int size : {1, 2, 23, 24, 25, 48, 49, 96, 97, 700, 3000}) {
+    const Points cloud = test::random_cloud(rng, size, 5.0);
+    const KdTree tree(cloud);
+    for (const Eigen::Vector3f& query : test::random_cloud(rng, 20, 7.0)) {
+      expect_exact(tree, cloud, query);
     }
-    const float bound = 0.8F;
-    EXPECT_EQ(static_cast<bool>(tree.nearest(query, bound)), truth[0] <= bound * bound);
+    expect_exact(tree, cloud, cloud.front());
+    expect_exact(tree, cloud, {1e4F, -3.0F, 0.0F});
   }
+}
+
+TEST(KdTree, OfEquallyNearPointsTheFirstIsNearest) {
+  // A lattice, every point of which is there twice, and one place with more points than any search
+  // keeps candidates.
+  Points cloud(500, Eigen::Vector3f(1.0F, 1.0F, 0.0F));
+  for (int twice = 0; twice < 2; ++twice) {
+    for (int i = 0; i < 512; ++i) {
+      cloud.emplace_back(static_cast<float>(i % 8), static_cast<float>(i / 8 % 8),
+                         static_cast<float>(i / 64));
+    }
+  }
+  const KdTree tree(cloud);
+  for (int i = 0; i < 300; ++i) {
+    expect_exact(tree, cloud,
+                 {static_cast<float>(i % 17) * 0.5F, static_cast<float>(i % 13) * 0.5F,
+                  static_cast<float>(i % 5) * 0.5F});
+  }
+}
+
+TEST(KdTree, PointsMayBeFarApart) {
+  const Points cloud = {{1e18F, 0.0F, 0.0F}, {-1e18F, 1e18F, 0.0F}, {0.0F, 0.0F, 1e-20F}};
+  const KdTree tree(cloud);
+  EXPECT_EQ(tree.nearest({0.9e18F, 0.0F, 0.0F}).index, 0);
+  EXPECT_EQ(tree.nearest({0.0F, 0.0F, 0.0F}).index, 2);
+  std::vector<Neighbour> neighbours;
+  tree.nearest({0.0F, 0.0F, 0.0F}, 3, neighbours);
+  EXPECT_EQ(neighbours.size(), 3U);
 }
 
 TEST(KdTree, CountsTheBoundItselfAsWithin) {
@@ -52,7 +109,11 @@ TEST(KdTree, SmallAndEmptyCloudsAnswer) {
   const Points two = {{0, 0, 0}, {0, 0, 0}};
   std::vector<Neighbour> neighbours;
   KdTree(two).nearest({1, 0, 0}, 40, neighbours);
-  EXPECT_EQ(neighbours.size(), 2u);
+  EXPECT_EQ(neighbours.size(), 2U);
+  KdTree(two).nearest({1, 0, 0}, 0, neighbours);
+  EXPECT_TRUE(neighbours.empty());
+  empty.nearest({1, 0, 0}, 40, neighbours);
+  EXPECT_TRUE(neighbours.empty());
 }
 
 }  // namespace
