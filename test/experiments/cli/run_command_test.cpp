@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "experiments/analysis/results.hpp"
+#include "experiments/report/run_text.hpp"
 #include "experiments/store/store.hpp"
 #include "framework/base/whole_file.hpp"
 #include "test/experiments/support/fake_stages.hpp"
@@ -251,6 +253,24 @@ TEST(RunCommand, SaysWithItsCodeThatATrialFailed) {
   experiment["pipeline"][1]["how"] = "defeat";
   const Bench bench(experiment);
   EXPECT_EQ(bench.run(bench.options("out")), 3);
+}
+
+TEST(RunCommand, KnowsNoSuccessWithoutTruthAlsoIfEveryTrialFailed) {
+  json experiment = drifting();
+  experiment["pipeline"][1]["how"] = "defeat";
+  experiment["starts"]["around"] = "nominal";
+  const auto summary_of = [&](bool truth) {
+    experiment["dataset"]["truth"] = truth;
+    const Bench bench(experiment);
+    EXPECT_EQ(bench.run(bench.options("out")), 3);
+    return summary_text(read_results(bench.folder().path() / "out").summary);
+  };
+  const std::string without = summary_of(false);
+  EXPECT_NE(without.find("agreement (no truth)"), std::string::npos) << without;
+  EXPECT_EQ(without.find("success"), std::string::npos) << without;
+  const std::string with = summary_of(true);
+  EXPECT_NE(with.find("success"), std::string::npos) << with;
+  EXPECT_EQ(with.find("agreement"), std::string::npos) << with;
 }
 
 TEST(RunCommand, WritesNothingWhereTheRequestIsWrong) {
