@@ -273,6 +273,24 @@ TEST(RunCommand, KnowsNoSuccessWithoutTruthAlsoIfEveryTrialFailed) {
   EXPECT_EQ(with.find("agreement"), std::string::npos) << with;
 }
 
+TEST(ClaimsCommand, RefusesAFolderThatIsNamedTwice) {
+  const Bench bench(agreeing());
+  EXPECT_EQ(bench.run(bench.options("out")), 0);
+  const fs::path folder = bench.folder().path() / "out";
+  std::ostringstream once;
+  EXPECT_EQ(claims_command({folder}, once), 0);
+  std::ostringstream twice;
+  try {
+    claims_command({folder, folder / "."}, twice);
+    FAIL() << "nothing was thrown";
+  } catch (const InputError& error) {
+    EXPECT_EQ(
+        error.faults().front().line(),
+        (folder / ".").string() + ": expected another folder, found one that is named before");
+  }
+  EXPECT_EQ(twice.str(), "");
+}
+
 TEST(RunCommand, WritesNothingWhereTheRequestIsWrong) {
   json experiment = drifting();
   experiment["dataset"]["truth"] = false;
