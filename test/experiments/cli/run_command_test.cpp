@@ -255,6 +255,29 @@ TEST(RunCommand, SaysWithItsCodeThatATrialFailed) {
   EXPECT_EQ(bench.run(bench.options("out")), 3);
 }
 
+TEST(RunCommand, SaysThatTheStoreHasLostTrials) {
+  const Bench bench;
+  const auto said = [&] {
+    std::ostringstream out, progress;
+    run_command(bench.options("out"), test::fake_catalogue(), out, progress);
+    return progress.str();
+  };
+  RunOptions first = bench.options("out");
+  first.only = {"far"};
+  EXPECT_EQ(bench.run(first), 0);
+  const fs::path store = bench.folder().path() / "out" / "store.sqlite";
+  fs::copy_file(store, bench.folder().path() / "before.sqlite");
+  EXPECT_EQ(said(), "");
+  EXPECT_EQ(said(), "");
+  // As if the log of the second run, which was killed, were lost.
+  fs::copy_file(bench.folder().path() / "before.sqlite", store,
+                fs::copy_options::overwrite_existing);
+  EXPECT_NE(said().find("store.sqlite: trials that were stored are not in it: its log "
+                        "store.sqlite-wal"),
+            std::string::npos);
+  EXPECT_EQ(said(), "");
+}
+
 TEST(RunCommand, KnowsNoSuccessWithoutTruthAlsoIfEveryTrialFailed) {
   json experiment = drifting();
   experiment["pipeline"][1]["how"] = "defeat";
