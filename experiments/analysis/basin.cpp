@@ -7,9 +7,11 @@
 namespace croon::experiments {
 namespace {
 
-/// The sensors with a trial that finished and has no error.
-std::set<std::string> sensors_without_truth(const std::vector<TrialRecord>& records) {
-  std::set<std::string> sensors;
+/// The sensors that are known to have no truth, and those with a trial that finished and has no
+/// error.
+std::set<std::string> sensors_left_out(const std::vector<TrialRecord>& records,
+                                       const ReportOrder& order) {
+  std::set<std::string> sensors = order.without_truth;
   for (const TrialRecord& record : records) {
     if (record.T_reference_sensor && !record.error) sensors.insert(record.id.sensor);
   }
@@ -31,7 +33,7 @@ std::optional<double> reach(const Sweep& sweep, const BasinRow& row, const F& is
 
 std::optional<Basin> basin_of(const std::vector<TrialRecord>& records, const Sweep& sweep,
                               const ReportOrder& order) {
-  const std::set<std::string> left_out = sensors_without_truth(records);
+  const std::set<std::string> left_out = sensors_left_out(records, order);
   std::map<std::pair<std::string, std::string>, std::vector<SceneCounts>> counts;
   for (const TrialRecord& record : records) {
     if (left_out.count(record.id.sensor) > 0) continue;

@@ -24,6 +24,7 @@ std::vector<std::string> current(const std::vector<StoredName>& stored) {
 
 ReportOrder report_order(const StoreHeader& header) {
   ReportOrder order;
+  order.without_truth = sensors_without_truth(header.manifest);
   order.variants = current(header.variants);
   order.sensors = current(header.sensors);
   order.scenes = current(header.scenes);

@@ -138,7 +138,8 @@ Summary summarise(const std::vector<TrialRecord>& records, const SuccessBounds& 
         if (!group.empty()) scenes.push_back(group);
       }
       if (scenes.empty()) continue;
-      SummaryRow& row = summary.rows.emplace_back(summary_row(scenes, bounds));
+      SummaryRow& row = summary.rows.emplace_back(
+          summary_row(scenes, bounds, order.without_truth.count(sensor) > 0));
       for (SceneSummary& scene : row.scenes) scene.scene_kind = kinds[scene.scene];
     }
     for (const SensorPair& pair : order.pairs) {

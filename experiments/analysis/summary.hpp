@@ -13,14 +13,15 @@
 
 namespace croon::experiments {
 
-/// The order of rows and scenes in every report. A name that records have and the order lacks comes
-/// last.
+/// The order of rows and scenes in every report, and what trials do not say of them. A name that
+/// records have and the order lacks comes last.
 struct ReportOrder {
   std::vector<std::string> variants;
   std::vector<std::string> sensors;
   std::vector<std::string> scenes;
   std::map<std::string, std::string> scene_kinds;  ///< By scene; not all scenes have one.
   std::vector<SensorPair> pairs = {};              ///< Of sensors that are pairs of others.
+  std::set<std::string> without_truth = {};        ///< Sensors whose success is not known.
 };
 
 /// `names`, then in alphabetical order those that records have as `name` and `names` lacks.

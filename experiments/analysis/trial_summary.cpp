@@ -335,7 +335,8 @@ std::optional<bool> agrees(const TrialRecord& record, const SceneSummary& scene,
   return near ? std::optional<bool>(*near && scene.agreeing.count > 0) : std::nullopt;
 }
 
-SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds& bounds) {
+SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds& bounds,
+                       bool without_truth) {
   SummaryRow row;
   row.variant = scenes.front().front()->id.variant;
   row.sensor = scenes.front().front()->id.sensor;
@@ -344,7 +345,8 @@ SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds
   }
   set_consensus(row, scenes, bounds);
   // Truth if one trial of any scene has it.
-  const DeviationsFrom from = pooled_counts(scenes_of({&row})).deviations_from;
+  DeviationsFrom from = pooled_counts(scenes_of({&row})).deviations_from;
+  if (without_truth) from = std::min(from, DeviationsFrom::consensus);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     SceneSummary& scene = row.scenes[i];
     scene.deviations_from = from;

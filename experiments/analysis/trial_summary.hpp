@@ -74,7 +74,7 @@ using DofValues = std::array<double, kDofs>;
 enum class DeviationsFrom {
   truth,      ///< Ground truth.
   consensus,  ///< There is no truth: the pose that the trials of all scenes agree on.
-  none        ///< No trial finished.
+  none        ///< No trial finished, and there may be truth.
 };
 
 /// "truth", "consensus" or "none".
@@ -201,7 +201,9 @@ const RigidTransform* usable_pose(const TrialRecord& record);
 std::optional<bool> agrees(const TrialRecord& record, const SceneSummary& scene,
                            const PoseBounds& bounds);
 
-/// The row of the trials in `scenes`, which are of one variant and sensor; not empty.
-SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds& bounds);
+/// The row of the trials in `scenes`, which are of one variant and sensor; not empty. Of
+/// `without_truth` it is known that there is no truth, also if no trial finished.
+SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds& bounds,
+                       bool without_truth);
 
 }  // namespace croon::experiments

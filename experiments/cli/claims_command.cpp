@@ -20,6 +20,7 @@ bool is_met(const ClaimResult& claim) {
 }  // namespace
 
 int claims_command(const std::vector<std::filesystem::path>& folders, std::ostream& out) {
+  refuse_repeats(folders);
   std::string text = kHead;
   bool are_met = true;
   for (const std::filesystem::path& folder : folders) {

@@ -53,18 +53,6 @@ void refuse_options(const ExportOptions& options) {
   throw InputError("", "--units", "expected m or mm, found \"" + options.units + "\"");
 }
 
-/// Throws InputError if two of `folders` are one: its rows would be in the table twice.
-void refuse_repeats(const std::vector<std::filesystem::path>& folders) {
-  std::error_code error;
-  for (std::size_t i = 0; i < folders.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!std::filesystem::equivalent(folders[i], folders[j], error)) continue;
-      throw InputError(folders[i].string(), "",
-                       "expected another folder, found one that is named before");
-    }
-  }
-}
-
 std::string figure_bytes(const ExportOptions& options) {
   if (options.figure == "ranges") {
     throw InputError("", "--figure", "the figure of ranges is of clouds: croon describe --out DIR");
@@ -126,6 +114,17 @@ std::string table_bytes(const ExportOptions& options) {
 }
 
 }  // namespace
+
+void refuse_repeats(const std::vector<std::filesystem::path>& folders) {
+  std::error_code error;
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!std::filesystem::equivalent(folders[i], folders[j], error)) continue;
+      throw InputError(folders[i].string(), "",
+                       "expected another folder, found one that is named before");
+    }
+  }
+}
 
 Sheet sheet_called(const std::string& width, const std::string& format, const Sheet& on_paper) {
   if (width.empty()) return format == "svg" ? Sheet{} : on_paper;

@@ -78,14 +78,16 @@ class Program {
     });
   }
 
-  static CLI::Option* add_path(CLI::App& command, const std::string& name,
-                               std::filesystem::path& option, const std::string& sentence) {
+  /// `option` is a path, or a list of them.
+  template <class T>
+  static CLI::Option* add_path(CLI::App& command, const std::string& name, T& option,
+                               const std::string& sentence) {
     return add_text(command, name, option, sentence, "a path");
   }
 
   template <class T>
   static void add_experiment(CLI::App& command, T& option) {
-    command.add_option("EXPERIMENT", option, "The experiment, a JSON file.")->required();
+    add_path(command, "EXPERIMENT", option, "The experiment, a JSON file.")->required();
   }
 
   static void add_data(CLI::App& command, std::filesystem::path& option) {
@@ -131,7 +133,7 @@ class Program {
       merge_.colours = ::isatty(STDOUT_FILENO) != 0;
       return merge_command(merge_, std::cout);
     });
-    merge.add_option("DIR", merge_.folders, "Folders of results.")->required();
+    add_path(merge, "DIR", merge_.folders, "Folders of results.")->required();
     add_path(merge, "--out", merge_.out, "Folder to write to.")->required();
     merge.add_flag("--same-build", merge_.same_build, "Refuse trials of different builds.");
   }
@@ -139,7 +141,7 @@ class Program {
   void add_export() {
     CLI::App& exporting = add("export", "Write results as a table or a figure for a paper.",
                               [this] { return export_command(export_, std::cout); });
-    exporting.add_option("DIR", export_.folders, "Folders of results, for one table.")->required();
+    add_path(exporting, "DIR", export_.folders, "Folders of results, for one table.")->required();
     add_text(exporting, "--format", export_.format,
              names_of(export_formats()) +
                  "; default md. With --figure: " + names_of(drawing_formats()) + "; default pdf.",
@@ -186,8 +188,7 @@ class Program {
   void add_describe() {
     CLI::App& describe = add("describe", "Describe the clouds of experiments' datasets.",
                              [this] { return describe_command(describe_, registry(), std::cout); });
-    describe.add_option("EXPERIMENT", describe_.experiments, "Experiments, JSON files.")
-        ->required();
+    add_path(describe, "EXPERIMENT", describe_.experiments, "Experiments, JSON files.")->required();
     add_data(describe, describe_.data);
     add_path(describe, "--out", describe_.out, "Folder for clouds.csv and ranges.svg.");
     add_text(describe, "--format", describe_.format,
@@ -209,14 +210,13 @@ class Program {
   }
 
   void add_validate_and_claims() {
-    add("validate", "Check experiment files; the data need not be there.",
-        [this] { return validate_command(paths_, registry(), std::cout, std::cerr); })
-        .add_option("PATH", paths_, "Files, or folders of *.json.")
-        ->required();
-    add("claims", "Hold results against the claims of their experiments.",
-        [this] { return claims_command(paths_, std::cout); })
-        .add_option("DIR", paths_, "Folders of results.")
-        ->required();
+    CLI::App& validate =
+        add("validate", "Check experiment files; the data need not be there.",
+            [this] { return validate_command(paths_, registry(), std::cout, std::cerr); });
+    add_path(validate, "PATH", paths_, "Files, or folders of *.json.")->required();
+    CLI::App& claims = add("claims", "Hold results against the claims of their experiments.",
+                           [this] { return claims_command(paths_, std::cout); });
+    add_path(claims, "DIR", paths_, "Folders of results.")->required();
   }
 
   void add_stages_and_schema() {
@@ -227,7 +227,8 @@ class Program {
                                             : HelpFormat::text);
       return 0;
     });
-    stages.add_option("KIND/NAME", stages_, "A kind of stage, or one stage with its parameters.");
+    add_text(stages, "KIND/NAME", stages_, "A kind of stage, or one stage with its parameters.",
+             "a kind of stage");
     CLI::Option* json = stages.add_flag("--json", as_json_, "As JSON.");
     stages.add_flag("--markdown", as_markdown_, "As Markdown.")->excludes(json);
     add("schema", "Print the JSON Schema of experiment files.", [] {

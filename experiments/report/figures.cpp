@@ -27,6 +27,7 @@ ReportOrder order_of(const Summary& summary) {
   }
   std::set<std::string> seen;
   for (const SummaryRow& row : summary.rows) {
+    if (lacks_truth(row)) order.without_truth.insert(row.sensor);
     for (const SceneSummary& scene : row.scenes) {
       if (!scene.scene_kind.empty()) order.scene_kinds[scene.scene] = scene.scene_kind;
       if (seen.insert(scene.scene).second) order.scenes.push_back(scene.scene);

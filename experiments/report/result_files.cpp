@@ -306,6 +306,11 @@ std::uintmax_t bytes_of_whole_lines(const fs::path& path, std::uintmax_t size) {
   return 0;
 }
 
+/// The cells of a row of timings.csv that name its trial.
+std::string trial_cells(const std::string& row) {
+  return row.substr(0, row.rfind(',', row.rfind(',') - 1));
+}
+
 /// Makes timings.csv end after its last whole line, or hold the header alone.
 void repair(const fs::path& path) {
   const std::string header = timings_csv({});
@@ -361,6 +366,26 @@ void TimingsFile::flush() {
   stream_ << timings_csv(rows_).substr(timings_csv({}).size()) << std::flush;
   rows_.clear();
   if (!stream_) throw InputError(path_.string(), "", "cannot be written");
+}
+
+std::set<std::string> last_timed_trials(const fs::path& path) {
+  constexpr std::uintmax_t kEnd = 1U << 14U;
+  std::set<std::string> trials;
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path, error);
+  std::ifstream stream(path, std::ios::binary);
+  if (error || !stream) return trials;
+  stream.seekg(static_cast<std::streamoff>(size - std::min(size, kEnd)));
+  std::string line;
+  std::getline(stream, line);  // The header, or a part of a line.
+  while (std::getline(stream, line) && !stream.eof()) {
+    if (is_timing(line)) trials.insert(trial_cells(line));
+  }
+  return trials;
+}
+
+std::string timed_trial(const TrialId& id) {
+  return trial_cells(timings_csv({{id, "", 0.0}}).substr(timings_csv({}).size()));
 }
 
 std::string merged_timings(const std::vector<fs::path>& folders) {

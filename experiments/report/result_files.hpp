@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,12 @@ class TimingsFile {
   std::ofstream stream_;
   std::vector<TimingRow> rows_;  ///< Not yet written.
 };
+
+/// The last trials of a timings.csv, as `timed_trial` names them; none if it cannot be read.
+std::set<std::string> last_timed_trials(const std::filesystem::path& path);
+
+/// What a row of timings.csv says of which trial it is.
+std::string timed_trial(const TrialId& id);
 
 /// The bytes of timings.csv of merged results: the rows of all `folders` that have the file, each
 /// row once, without lines of another form. Throws InputError if one of them is no file.

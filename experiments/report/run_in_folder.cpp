@@ -10,6 +10,7 @@
 #include "experiments/store/build.hpp"
 #include "experiments/store/manifest.hpp"
 #include "experiments/store/store_writer.hpp"
+#include "framework/base/text.hpp"
 #include "framework/base/threads.hpp"
 
 namespace croon::experiments {
@@ -102,6 +103,22 @@ std::vector<std::string> fill_store(const CheckedRun& run, const OutputFolder& f
   return complaints;
 }
 
+/// Whether a trial that is to run has a wall time, which is written after the trial is stored: the
+/// store has lost it. The last trials are looked at alone, which are in a store's log the longest.
+bool has_lost_trials(const CheckedRun& run, const Plan& plan,
+                     const std::filesystem::path& timings) {
+  const std::set<std::string> timed = last_timed_trials(timings);
+  if (timed.empty()) return false;
+  return std::any_of(plan.starts.begin(), plan.starts.end(), [&](const PlannedStart& start) {
+    const Scene& scene = run.scenes[start.scene];
+    const std::vector<std::size_t>& variants = plan.variants[start.variants];
+    return std::any_of(variants.begin(), variants.end(), [&](std::size_t variant) {
+      return timed.count(timed_trial({run.experiment.variants[variant].name, scene.name,
+                                      scene.sensors[start.sensor].sensor, start.trial})) > 0;
+    });
+  });
+}
+
 }  // namespace
 
 StoreHeader header_of(CheckedRun& run) {
@@ -138,6 +155,12 @@ FolderResults run_in_folder(const CheckedRun& run, StoreHeader header, const Out
   const Work work = work_of(run, std::move(header), how);
   FolderResults end;
   std::set<std::string> damage;
+  if (has_lost_trials(run, work.plan, folder.file(kTimings))) {
+    progress_out << "croon: " << printable(folder.store().string())
+                 << ": trials that were stored are not in it: its log "
+                 << printable(folder.store().filename().string())
+                 << "-wal, which an interrupted run leaves beside it, is lost; they run again\n";
+  }
   if (work.plan.trials > 0 || !is_same(work.stored, work.header)) {
     Progress progress(progress_out, how.progress, work.plan.trials + work.done);
     end.complaints = fill_store(run, folder, work, how, progress, damage);

@@ -51,7 +51,25 @@ std::string centres_of(const SensorScan& scan) {
 struct MissingPose {
   std::vector<std::string> scenes;
   std::string instead;
+  std::vector<UnusedPose> unused;  ///< Poses of other names, one of which may be meant.
 };
+
+/// The poses of `scene` around which starts could be drawn if their names were those of sensors.
+const std::vector<UnusedPose>& unused_poses(StartCentre around, const Scene& scene) {
+  static const std::vector<UnusedPose> none;
+  if (around == StartCentre::initial) return none;
+  return around == StartCentre::truth ? scene.unused_truth : scene.unused_nominal;
+}
+
+/// The pose among `unused` whose name `sensor` is most like; null if none is near.
+const UnusedPose* misspelt(const std::string& sensor, const std::vector<UnusedPose>& unused) {
+  std::vector<std::string> names;
+  for (const UnusedPose& pose : unused) names.push_back(pose.sensor);
+  const std::string near = nearest_name(sensor, names);
+  if (near.empty()) return nullptr;
+  return &*std::find_if(unused.begin(), unused.end(),
+                        [&](const UnusedPose& pose) { return pose.sensor == near; });
+}
 
 std::string scene_list(const std::vector<std::string>& scenes) {
   constexpr std::size_t kShown = 3;
@@ -70,12 +88,21 @@ void check_centres(const Experiment& experiment, const std::vector<Scene>& scene
   for (const Scene& scene : scenes) {
     for (const SensorScan& scan : scene.sensors) {
       if (centre_pose(around, scan)) continue;
-      missing[scan.sensor].scenes.push_back(scene.name);
-      missing[scan.sensor].instead = centres_of(scan);
+      MissingPose& of_sensor = missing[scan.sensor];
+      of_sensor.scenes.push_back(scene.name);
+      of_sensor.instead = centres_of(scan);
+      of_sensor.unused = unused_poses(around, scene);
     }
   }
   std::vector<Fault> faults;
   for (const auto& [sensor, poses] : missing) {
+    if (const UnusedPose* const pose = misspelt(sensor, poses.unused)) {
+      faults.push_back({pose->file, "/" + pose->sensor,
+                        "expected a sensor of " + scene_list(poses.scenes) + ", found " +
+                            in_quotes(pose->sensor) + "; did you mean " + in_quotes(sensor) +
+                            ", which has no pose to draw starts around?"});
+      continue;
+    }
     faults.push_back({experiment.file, "/starts/around",
                       "sensor \"" + sensor + "\" has no " + params::word_of(kStartCentres, around) +
                           " pose to draw starts around in " + scene_list(poses.scenes) + "; " +

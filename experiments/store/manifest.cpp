@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 #include <thread>
 
@@ -46,6 +47,8 @@ Json listed_inputs(const std::vector<InputFile>& inputs) {
   }
   return json;
 }
+
+constexpr const char* kWithoutTruth = "sensors_without_truth";
 
 /// More trials than any run has; products with it do not overflow.
 constexpr std::size_t kMostPlanned = 1'000'000'000'000;
@@ -145,6 +148,20 @@ Json groups_json(const std::vector<Scene>& groups) {
   return json;
 }
 
+/// The sensors of which no scene has the truth.
+std::vector<std::string> without_truth(const std::vector<Scene>& scenes) {
+  std::set<std::string> with_truth;
+  for (const Scene& scene : scenes) {
+    for (const SensorScan& scan : scene.sensors) {
+      if (scan.truth) with_truth.insert(scan.sensor);
+    }
+  }
+  std::vector<std::string> sensors = sensor_names(scenes);
+  const auto has_truth = [&](const std::string& sensor) { return with_truth.count(sensor) > 0; };
+  sensors.erase(std::remove_if(sensors.begin(), sensors.end(), has_truth), sensors.end());
+  return sensors;
+}
+
 }  // namespace
 
 std::string manifest_json(const Experiment& experiment, const std::vector<Scene>& scenes,
@@ -157,6 +174,8 @@ std::string manifest_json(const Experiment& experiment, const std::vector<Scene>
   manifest["provenance"] = {{"inputs", sha256_of_text(provenance.at("inputs"))},
                             {"pipelines", sha256_of_text(pipelines_text(experiment))}};
   manifest["planned"] = planned_trials(experiment, scenes);
+  const std::vector<std::string> sensors = without_truth(scenes);
+  if (!sensors.empty()) manifest[kWithoutTruth] = sensors;
   return text_of(manifest);
 }
 
@@ -166,6 +185,12 @@ std::size_t planned_trials(const std::string& manifest) {
     throw std::runtime_error("\"planned\" of its manifest is no number of trials");
   }
   return planned;
+}
+
+std::set<std::string> sensors_without_truth(const std::string& manifest) {
+  const Json json = parse_bounded<Json>(manifest);
+  const auto found = json.find(kWithoutTruth);
+  return found == json.end() ? std::set<std::string>() : found->get<std::set<std::string>>();
 }
 
 std::size_t planned_trials_of_variant(const std::string& manifest) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,8 @@ StoreHeader header_of(const Experiment& experiment, const std::vector<Scene>& sc
                       const Provenance& provenance, const std::string& manifest);
 
 /// JSON of what was run: the experiment with every default, the files that it was read from,
-/// digests of the inputs, and `planned`, the number of trials of the whole experiment.
+/// digests of the inputs, `planned`, the number of trials of the whole experiment, and
+/// `sensors_without_truth`, if there are any.
 /// `provenance` has the digests of everything that decides results, also of the rig's poses. What
 /// the builds say is added by manifest_with_builds.
 std::string manifest_json(const Experiment& experiment, const std::vector<Scene>& scenes,
@@ -31,6 +33,10 @@ std::string manifest_json(const Experiment& experiment, const std::vector<Scene>
 /// std::exception if the manifest is damaged.
 std::size_t planned_trials(const std::string& manifest);
 std::size_t planned_trials_of_variant(const std::string& manifest);
+
+/// The sensors of a manifest of which no scene has the truth; none for manifests that were written
+/// before they said so. Throws std::exception if the manifest is damaged.
+std::set<std::string> sensors_without_truth(const std::string& manifest);
 
 /// The manifest with those of `variants` that are current.
 std::string manifest_with_variants(const std::string& manifest,

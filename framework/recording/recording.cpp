@@ -23,6 +23,19 @@ std::optional<fs::path> file_above(const std::string& name, const SceneLocation&
   return std::nullopt;
 }
 
+/// What the file `name` above `location` has beside the poses of the sensors of `scene`.
+std::vector<UnusedPose> unused_in(const std::string& name, const SceneLocation& location,
+                                  const RigPoses& poses, const Scene& scene) {
+  std::vector<UnusedPose> unused;
+  for (const auto& [sensor, T] : poses) {
+    const auto is_it = [&name = sensor](const SensorScan& scan) { return scan.sensor == name; };
+    if (is_it(scene.reference)) continue;
+    if (std::any_of(scene.sensors.begin(), scene.sensors.end(), is_it)) continue;
+    unused.push_back({file_above(name, location)->string(), sensor});
+  }
+  return unused;
+}
+
 /// The content of the file `name` above `location`, read by `read` unless it is in `known`.
 template <class Content, class Read>
 Content content_above(const std::string& name, const SceneLocation& location,
@@ -78,6 +91,8 @@ void RigFilesAbove::complete(Scene& scene, const SceneLocation& location) {
   if (!faults.empty()) throw InputError(std::move(faults));
   const auto kind = kinds.find(scene.name);
   if (kind != kinds.end()) scene.kind = kind->second;
+  scene.unused_truth = unused_in("truth.json", location, truth, scene);
+  scene.unused_nominal = unused_in("nominal.json", location, nominal, scene);
   for (SensorScan& scan : scene.sensors) {
     scan.truth = pose_of(truth, scan.sensor);
     scan.nominal = pose_of(nominal, scan.sensor);

@@ -126,9 +126,9 @@ const params::Table<BundleOptions>& bundle_table() {
         params::number("kernel_width", &O::kernel_width, {1e-3, 1e9},
                        "Planes that fit worse than so many standard deviations lose weight."),
         params::numbers("start_std", &O::start_std, {1e-9, 1e9},
-                        "How far a start is expected to be off, degrees and metres: standard "
-                        "deviations about each axis and along it. It keeps sensors from moving "
-                        "where no plane holds them."),
+                        "How far a start is expected to be off, two standard deviations: the first "
+                        "in degrees, about each axis; the second in metres, along each axis. They "
+                        "keep sensors from moving where no plane holds them."),
         params::number(
             "start_weight", &O::start_weight, {0.0, 1.0},
             "The weight of what steps before know of poses and velocities, by covariances: "
@@ -159,7 +159,7 @@ const params::Table<BundleOptions>& bundle_table() {
     };
     rows.inherit(voxel_table());
     rows.require([](const O& o) { return o.start_std.size() == 2; },
-                 "start_std must have two numbers");
+                 "start_std must have two numbers, degrees and metres");
     return rows;
   }();
   return table;

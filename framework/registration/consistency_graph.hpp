@@ -48,9 +48,6 @@ class ConsistencyGraph {
   std::vector<int> clique(int seed) const;
 
   int size() const { return size_; }
-  bool are_consistent(int a, int b) const {
-    return ((rows_[word(a, b)] >> (static_cast<unsigned>(b) % 64U)) & 1U) != 0;
-  }
 
  private:
   using Bits = std::vector<std::uint64_t>;

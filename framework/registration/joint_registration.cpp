@@ -156,8 +156,9 @@ const params::Table<JointOptions>& joint_table() {
         params::numbers("max_distances_m", &JointOptions::max_distances_m, {1e-6, 1e6},
                         "Points that are farther apart do not correspond; one pass for each."),
         params::numbers("velocity_std", &JointOptions::velocity_std, {1e-9, 1e6},
-                        "What is expected of a velocity before any point is seen: standard "
-                        "deviations of 0 m/s along each axis and of 0 rad/s about it."),
+                        "What is expected of a velocity before any point is seen, two standard "
+                        "deviations from zero: the first in m/s, along each axis; the second in "
+                        "rad/s, about each axis."),
         params::number("clock_offset_std_s", &JointOptions::clock_offset_std_s, {0.0, 1e6},
                        "The same of the sensors' clocks against the target's; at 0 they agree."),
         params::integer("max_iterations", &JointOptions::max_iterations, {1, 10000},
@@ -188,7 +189,7 @@ const params::Table<JointOptions>& joint_table() {
     rows.require([](const JointOptions& o) { return !o.max_distances_m.empty(); },
                  "max_distances_m must have a number");
     rows.require([](const JointOptions& o) { return o.velocity_std.size() == 2; },
-                 "velocity_std must have two numbers");
+                 "velocity_std must have two numbers, m/s and rad/s");
     return rows;
   }();
   return table;

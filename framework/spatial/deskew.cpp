@@ -46,6 +46,14 @@ void require_near(const std::vector<double>& times_s, double reference_s) {
                      " s from the reference time: is it in seconds, or in whole nanoseconds, and "
                      "is its zero the scan's (reference_time)?");
   }
+  // A turn of a LiDAR lasts 0.05 to 0.2 s; what a LiDAR without turns collects lasts a few seconds.
+  // All of that is longer in milliseconds.
+  constexpr double kLongestScan_s = 10.0;
+  if (times_s.empty()) return;
+  const TimeSpan span = span_of(times_s);
+  if (span.last_s - span.first_s <= kLongestScan_s) return;
+  throw StageError("the scan lasts longer than " + fixed_number(kLongestScan_s, 0) +
+                   " s: are its times in seconds, or in whole nanoseconds?");
 }
 
 }  // namespace croon

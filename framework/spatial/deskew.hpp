@@ -28,7 +28,8 @@ struct TimeSpan {
 };
 TimeSpan span_of(const std::vector<double>& times_s);
 
-/// Throws StageError if a time is not finite, or farther from `reference_s` than a scan lasts.
+/// Throws StageError if `times_s` cannot be those of a scan: one is not finite or far from
+/// `reference_s`, or the first and the last are farther apart than a scan lasts.
 void require_near(const std::vector<double>& times_s, double reference_s);
 
 }  // namespace croon

@@ -32,12 +32,20 @@ struct SensorScan {
   std::string source = {}, target = {};
 };
 
+/// A pose in a file of poses whose sensor the scene does not have: not recorded, or misspelt.
+struct UnusedPose {
+  std::string file;
+  std::string sensor;
+};
+
 /// One recording of the rig: the reference LiDAR and the sensors to be calibrated to it.
 struct Scene {
   std::string name;
   std::string kind;  ///< The kind of scene, "urban"; empty if it is not known.
   SensorScan reference;
   std::vector<SensorScan> sensors;
+  /// Of the files of true and of nominal poses, for messages; empty if there are no files.
+  std::vector<UnusedPose> unused_truth = {}, unused_nominal = {};
   /// Draws the scene from behind and above the car; empty if the dataset cannot draw.
   std::function<Image()> draw = {};
   /// Datasets leave this empty. For a group of scenes from which a trial calibrates one rig: the

@@ -9,6 +9,7 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 #include "framework/spatial/normals.hpp"
 #include "framework/stage/ground_from_planes.hpp"
 #include "framework/stage/stage_entry.hpp"
@@ -25,6 +26,10 @@ struct Params : GroundRule {
   double min_region_ratio = 0.02;
 };
 
+/// CGAL connects the points of a plane in a bitmap of its extent, with four bytes for each square
+/// of the edge cluster_distance_m. It has at most so many squares along each side: 200 MB.
+constexpr int kMostSquares = 7000;
+
 const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
@@ -35,8 +40,11 @@ const params::Table<Params>& table() {
           params::number(
               "max_angle_deg", &Params::max_angle_deg, {0.0, 90.0},
               "The normals of a plane's points differ from the plane's by at most this."),
-          params::number("cluster_distance_m", &Params::cluster_distance_m, {1e-3, 1000.0},
-                         "The points of a plane are connected over gaps of about this size."),
+          params::number(
+              "cluster_distance_m", &Params::cluster_distance_m, {1e-3, 1000.0},
+              "The points of a plane are connected over gaps of about this size; a scan fails "
+              "with a plane that is more than " +
+                  std::to_string(kMostSquares) + " times as long."),
           params::number(
               "miss_probability", &Params::miss_probability, {1e-9, 0.999},
               "The search ends when the probability of having missed a plane is below this."),
@@ -54,6 +62,32 @@ using Traits = CGAL::Shape_detection::Efficient_RANSAC_traits<
     Kernel, CgalPoints, CGAL::First_of_pair_property_map<PointWithNormal>,
     CGAL::Second_of_pair_property_map<PointWithNormal>>;
 using Search = CGAL::Shape_detection::Efficient_RANSAC<Traits>;
+
+/// A plane without a bitmap of too many squares: in its place, the search of this thread is to end.
+/// If a shape threw, CGAL would not free the others.
+class BoundedPlane final : public CGAL::Shape_detection::Plane<Traits> {
+ public:
+  /// The extent of a plane that is too large since this was 0.
+  static double& refused_extent_m() {
+    static thread_local double extent_m = 0.0;
+    return extent_m;
+  }
+
+ protected:
+  std::size_t connected_component(std::vector<std::size_t>& indices,
+                                  double cluster_epsilon) override {
+    if (indices.empty()) return 0;
+    CGAL::Bbox_3 box;
+    for (const std::size_t index : indices) box += point(index).bbox();
+    const double extent_m = Eigen::Vector3d(box.x_span(), box.y_span(), box.z_span()).norm();
+    if (extent_m <= kMostSquares * cluster_epsilon) {
+      return CGAL::Shape_detection::Plane<Traits>::connected_component(indices, cluster_epsilon);
+    }
+    refused_extent_m() = extent_m;
+    indices.clear();
+    return 0;
+  }
+};
 
 CgalPoints cgal_points(const OrientedPoints& oriented) {
   CgalPoints points;
@@ -90,8 +124,14 @@ class CgalEfficientRansac final : public GroundExtractor {
     CGAL::get_default_random() = CGAL::Random(static_cast<unsigned int>(rng.bits() >> 32));
     Search search;
     search.set_input(points);
-    search.add_shape_factory<CGAL::Shape_detection::Plane<Traits>>();
-    search.detect(options(points.size()));
+    search.add_shape_factory<BoundedPlane>();
+    BoundedPlane::refused_extent_m() = 0.0;
+    search.detect(options(points.size()),
+                  [](double) { return BoundedPlane::refused_extent_m() == 0.0; });
+    if (const double extent_m = BoundedPlane::refused_extent_m(); extent_m > 0.0) {
+      throw StageError("cluster_distance_m " + shortest_number(params_.cluster_distance_m) +
+                       " is too small for a plane of " + fixed_number(extent_m, 0) + " m");
+    }
     std::vector<Plane> found;
     for (const auto& shape : search.planes()) {
       const Kernel::Vector_3 n = shape->plane_normal();

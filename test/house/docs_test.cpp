@@ -111,6 +111,20 @@ TEST_P(Docs, NamedFilesExist) {
   }
 }
 
+/// This build has the stages of the examples, which are not of the tree.
+TEST(GenerateDocs, RefusesAProgramWithOtherStagesThanTheTree) {
+  const TempFolder folder;
+  const std::string script = (source_root() / ".ci" / "generate_docs").string();
+  const Finished finished =
+      run_script("\"" + script + "\" \"$(command -v croon)\" pages || echo code $?", folder.path());
+  EXPECT_EQ(finished.status, 0);
+  for (const char* part :
+       {"expected the stages of this tree, found also", " step/overlap_alignment", "\ncode 2\n"}) {
+    EXPECT_NE(finished.output.find(part), std::string::npos) << finished.output;
+  }
+  EXPECT_FALSE(fs::exists(folder.path() / "pages"));
+}
+
 /// The example in docs/extending.md is the one that is built.
 TEST(ExampleStage, StandsInThePage) {
   std::string sources;

@@ -232,6 +232,20 @@ TEST_F(BadInput, NoStartsForASensor) {
   expect_refused_with({": /starts/around: sensor \"left\" has no truth"});
 }
 
+TEST_F(BadInput, MisspeltSensorOfTheTruth) {
+  folder_.write("data/rig/truth.json",
+                R"({"lfet": {"rotation_rpy_deg": [0, 0, 0], "translation_m": [0, 0, 0]}})");
+  expect_refused_with(
+      {"data/rig/truth.json: /lfet: expected a sensor of scene s1, found \"lfet\"; "
+       "did you mean \"left\", which has no pose"});
+}
+
+TEST_F(BadInput, TruthOfOtherSensorsAlone) {
+  folder_.write("data/rig/truth.json",
+                R"({"back": {"rotation_rpy_deg": [0, 0, 0], "translation_m": [0, 0, 0]}})");
+  expect_refused_with({": /starts/around: sensor \"left\" has no truth"});
+}
+
 TEST_F(BadInput, FaultyTruth) {
   folder_.write("data/rig/truth.json",
                 R"({"left": {"rotation_rpy_deg": [0, 0], "translation_m": [0, 0, 0]}})");

@@ -38,6 +38,22 @@ TEST(Program, TakesNoEmptyTextForADefault) {
   }
 }
 
+TEST(Program, TakesNoEmptyTextForAPath) {
+  const auto expect_line = [](const std::string& arguments, const std::string& line) {
+    const Answer answer = croon(arguments);
+    EXPECT_EQ(answer.code, 2) << arguments;
+    EXPECT_EQ(answer.text, "croon: " + line + ", found \"\"\n") << arguments;
+  };
+  for (const char* command : {"run ''", "simulate '' --out o", "describe ''", "starts ''"}) {
+    expect_line(command, "EXPERIMENT: expected a path");
+  }
+  for (const char* command : {"export ''", "export results ''", "merge '' --out o", "claims ''"}) {
+    expect_line(command, "DIR: expected a path");
+  }
+  expect_line("validate ''", "PATH: expected a path");
+  expect_line("stages ''", "KIND/NAME: expected a kind of stage");
+}
+
 TEST(Program, ValidatesFilesAndFolders) {
   const test::TempFolder folder;
   const std::string path = folder.path().string();

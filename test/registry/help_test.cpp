@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "framework/base/error.hpp"
 #include "registry/registry.hpp"
@@ -41,6 +42,21 @@ TEST(StagesHelp, ShowsEveryParameterInEveryFormat) {
         EXPECT_NE(page.find(parameter.key), std::string::npos) << entry.name;
         EXPECT_NE(page.find(parameter.sentence), std::string::npos) << entry.name;
       }
+    }
+  }
+}
+
+/// Numbers of several units, whose names say none, have their order and units in the sentence.
+TEST(StagesHelp, SaysTheUnitOfEachNumberOfAListWithoutOneInItsName) {
+  for (const StageEntry& entry : registry().entries()) {
+    for (const params::ParameterDoc& parameter : entry.parameters) {
+      if (parameter.type != params::ParameterType::numbers) continue;
+      const std::string& key = parameter.key;
+      const std::string unit = key.substr(key.rfind('_') + 1);
+      const std::set<std::string> units = {"m", "mps", "degps", "deg", "s", "ratio"};
+      if (units.count(unit) > 0) continue;
+      EXPECT_NE(parameter.sentence.find("the first in "), std::string::npos) << key;
+      EXPECT_NE(parameter.sentence.find("the second in "), std::string::npos) << key;
     }
   }
 }

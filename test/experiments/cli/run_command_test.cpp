@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "experiments/analysis/results.hpp"
+#include "experiments/report/run_text.hpp"
 #include "experiments/store/store.hpp"
 #include "framework/base/whole_file.hpp"
 #include "test/experiments/support/fake_stages.hpp"
@@ -251,6 +253,65 @@ TEST(RunCommand, SaysWithItsCodeThatATrialFailed) {
   experiment["pipeline"][1]["how"] = "defeat";
   const Bench bench(experiment);
   EXPECT_EQ(bench.run(bench.options("out")), 3);
+}
+
+TEST(RunCommand, SaysThatTheStoreHasLostTrials) {
+  const Bench bench;
+  const auto said = [&] {
+    std::ostringstream out, progress;
+    run_command(bench.options("out"), test::fake_catalogue(), out, progress);
+    return progress.str();
+  };
+  RunOptions first = bench.options("out");
+  first.only = {"far"};
+  EXPECT_EQ(bench.run(first), 0);
+  const fs::path store = bench.folder().path() / "out" / "store.sqlite";
+  fs::copy_file(store, bench.folder().path() / "before.sqlite");
+  EXPECT_EQ(said(), "");
+  EXPECT_EQ(said(), "");
+  // As if the log of the second run, which was killed, were lost.
+  fs::copy_file(bench.folder().path() / "before.sqlite", store,
+                fs::copy_options::overwrite_existing);
+  EXPECT_NE(said().find("store.sqlite: trials that were stored are not in it: its log "
+                        "store.sqlite-wal"),
+            std::string::npos);
+  EXPECT_EQ(said(), "");
+}
+
+TEST(RunCommand, KnowsNoSuccessWithoutTruthAlsoIfEveryTrialFailed) {
+  json experiment = drifting();
+  experiment["pipeline"][1]["how"] = "defeat";
+  experiment["starts"]["around"] = "nominal";
+  const auto summary_of = [&](bool truth) {
+    experiment["dataset"]["truth"] = truth;
+    const Bench bench(experiment);
+    EXPECT_EQ(bench.run(bench.options("out")), 3);
+    return summary_text(read_results(bench.folder().path() / "out").summary);
+  };
+  const std::string without = summary_of(false);
+  EXPECT_NE(without.find("agreement (no truth)"), std::string::npos) << without;
+  EXPECT_EQ(without.find("success"), std::string::npos) << without;
+  const std::string with = summary_of(true);
+  EXPECT_NE(with.find("success"), std::string::npos) << with;
+  EXPECT_EQ(with.find("agreement"), std::string::npos) << with;
+}
+
+TEST(ClaimsCommand, RefusesAFolderThatIsNamedTwice) {
+  const Bench bench(agreeing());
+  EXPECT_EQ(bench.run(bench.options("out")), 0);
+  const fs::path folder = bench.folder().path() / "out";
+  std::ostringstream once;
+  EXPECT_EQ(claims_command({folder}, once), 0);
+  std::ostringstream twice;
+  try {
+    claims_command({folder, folder / "."}, twice);
+    FAIL() << "nothing was thrown";
+  } catch (const InputError& error) {
+    EXPECT_EQ(
+        error.faults().front().line(),
+        (folder / ".").string() + ": expected another folder, found one that is named before");
+  }
+  EXPECT_EQ(twice.str(), "");
 }
 
 TEST(RunCommand, WritesNothingWhereTheRequestIsWrong) {

@@ -209,6 +209,26 @@ TEST(GroundThatIsTheGround, IsTheRoadIfAWallHasMorePoints) {
   }
 }
 
+TEST(CgalEfficientRansac, RefusesClustersThatNeedTooMuchMemory) {
+  const std::string name = "cgal_efficient_ransac";
+  const std::vector<std::string> names = registry().names("ground_extractor");
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    GTEST_SKIP() << "this build has no CGAL";
+  }
+  Rng rng = test::test_rng(11);
+  const Points street = test::random_street(rng, 1, 8000, 0.02);
+  try {
+    extracted(*extractor(name, R"(, "cluster_distance_m": 0.001)"), street);
+    FAIL() << "nothing was thrown";
+  } catch (const StageError& error) {
+    EXPECT_NE(
+        std::string(error.what()).find("cluster_distance_m 0.001 is too small for a plane of "),
+        std::string::npos)
+        << error.what();
+  }
+  EXPECT_NO_THROW(extracted(*extractor(name), street));
+}
+
 TEST(Patchwork, TakesTheSensorsZForUpOnlyIfAsked) {
   Rng rng = test::test_rng(10);
   const auto z_up = extractor("patchwork", R"(, "up": "sensor_z")");

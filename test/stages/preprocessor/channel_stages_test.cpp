@@ -145,6 +145,21 @@ TEST(Deskew, MovesToTheTimeThatIsAsked) {
   EXPECT_THAT(x_of("zero"), ::testing::Contains(FloatNear(101, 1e-3F)));
 }
 
+TEST(Deskew, RefusesAScanInMilliseconds) {
+  PointCloud cloud = Points(101, Eigen::Vector3f(1, 0, 0));
+  const auto error_in = [&](double units_per_s) {
+    std::vector<double> times;
+    for (int i = 0; i <= 100; ++i) times.push_back(0.001 * i * units_per_s);
+    cloud.channels = {make_channel(kTime, times)};
+    return error_of(R"({"type": "deskew", "reference_time": "middle"})", cloud);
+  };
+  EXPECT_THAT(error_in(1e3),
+              HasSubstr("the scan lasts longer than 10 s: are its times in seconds"));
+  EXPECT_THAT(error_in(1e6), HasSubstr("in seconds"));
+  EXPECT_EQ(error_in(1.0), "");
+  EXPECT_EQ(error_in(20.0), "");  // A LiDAR without turns collected it.
+}
+
 TEST(Deskew, RefusesTimesThatAreOfNoScan) {
   PointCloud cloud = Points(1, Eigen::Vector3f(1, 0, 0));
   EXPECT_THAT(error_of(R"({"type": "deskew"})", cloud), HasSubstr("no channel \"time\""));
