@@ -57,7 +57,6 @@ class StageError : public std::runtime_error {
 /// |---|---|---|
 /// | CGAL::Failure_exception | yes | a precondition or assertion fails on degenerate points |
 /// | openvdb::Exception | no | thrown at trees of another type or origin: a wrong call |
-/// | std::runtime_error of nanoflann | no | thrown at an index that was not built: a wrong call |
 /// | tbb::bad_last_alloc, std::system_error | no | the machine has no memory or threads left |
 /// | std::bad_alloc | no | of this machine at this time, so it must not become a result |
 ///

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -34,7 +35,17 @@ struct Contact {
   SurfaceKey surface;
   double delay_s;  ///< Of the source point's measurement against the target point's.
   bool is_grazed;  ///< One of the sensors sees its surface at a grazing angle.
+  /// How broad the line is on which the neighbours of one of the points lie, the narrower one;
+  /// infinite if those of neither lie on a line.
+  double line_breadth_m;
 };
+
+/// As Contact has it, of one point.
+double line_breadth_m(const LocalShape& shape, double line_breadth_ratio) {
+  return shape.breadth_m < line_breadth_ratio * shape.length_m
+             ? shape.breadth_m
+             : std::numeric_limits<double>::infinity();
+}
 
 /// The contacts of two clouds at a pose, in the order of the source's points.
 class ContactFinder {
@@ -75,8 +86,10 @@ class ContactFinder {
     const Neighbour nearest =
         tree_.nearest(point.cast<float>(), static_cast<float>(options_.max_distance_m));
     if (!nearest) return false;
-    contact.of_target = target_normals_.at(nearest.index).normal.cast<double>();
-    contact.of_source = T.rotation * source_normals_.at(index).normal.cast<double>();
+    const LocalShape target_shape = target_normals_.at(nearest.index);
+    const LocalShape source_shape = source_normals_.at(index);
+    contact.of_target = target_shape.normal.cast<double>();
+    contact.of_source = T.rotation * source_shape.normal.cast<double>();
     if (contact.of_target.isZero() || contact.of_source.isZero()) return false;
     if (contact.of_target.dot(contact.of_source) < 0.0) contact.of_source *= -1.0;
     contact.offset = point - target_.points()[nearest.index].cast<double>();
@@ -94,6 +107,8 @@ class ContactFinder {
     contact.is_grazed =
         std::abs(contact.of_target.dot(point)) < kGrazing * point.norm() ||
         std::abs(contact.of_source.dot(contact.arm)) < kGrazing * contact.arm.norm();
+    contact.line_breadth_m = std::min(line_breadth_m(target_shape, options_.line_breadth_ratio),
+                                      line_breadth_m(source_shape, options_.line_breadth_ratio));
     return true;
   }
 
@@ -121,9 +136,10 @@ std::array<double, kDirectionBins> direction_weights(const std::vector<Contact>&
 /// The cost of contacts to second order.
 struct Quadratic {
   Vector6d gradient = Vector6d::Zero();
-  Matrix6d hessian = Matrix6d::Zero();      ///< With the curvature of the robust kernel.
-  Matrix6d information = Matrix6d::Zero();  ///< Along the mean of the two normals,
-  Matrix6d noise = Matrix6d::Zero();        ///< and half of what they differ by.
+  Matrix6d hessian = Matrix6d::Zero();  ///< With the curvature of the robust kernel.
+  /// Of contacts whose normals are evidence: along the mean of the two,
+  Matrix6d information = Matrix6d::Zero();
+  Matrix6d noise = Matrix6d::Zero();   ///< and half of what they differ by.
   Vector6d grazed = Vector6d::Zero();  ///< What the gradient gains if grazed surfaces are 1 m off.
   /// The same if the target turned at 1 rad/s about each axis, or moved at 1 m/s along it.
   Matrix6d moved = Matrix6d::Zero();
@@ -139,8 +155,10 @@ struct Quadratic {
 };
 
 /// Half of `weight * rho(r^T Omega r)` with Omega of Generalized-ICP, which weighs a distance
-/// across two planes that agree by one, and rho of Geman and McClure.
-Quadratic quadratic_of(const Contact& contact, double weight, double kernel_width_m) {
+/// across two planes that agree by one, and rho of Geman and McClure. Distances across surfaces
+/// have the standard deviation `noise_m`.
+Quadratic quadratic_of(const Contact& contact, double weight, double kernel_width_m,
+                       double noise_m) {
   constexpr double kEpsilon = 0.001;  // The variance across a surface over that along it.
   const Eigen::Vector3d &a = contact.of_target, &b = contact.of_source;
   const Eigen::Matrix3d Omega = plane_to_plane_information(a, b, kEpsilon);
@@ -157,15 +175,17 @@ Quadratic quadratic_of(const Contact& contact, double weight, double kernel_widt
   Quadratic sums;
   sums.gradient = w * slope;
   sums.hessian = by_offset * J;
+  if (contact.delay_s != 0.0) {
+    sums.moved = contact.delay_s * (by_offset * point_jacobian(contact.point));
+  }
+  if (contact.is_grazed) sums.grazed = by_offset * a;
+  // About a line that is no broader than the noise, the noise turns both normals alike.
+  if (contact.line_breadth_m < noise_m) return sums;
   const Eigen::Vector3d normal = (a + b).normalized();
   const double along = w * normal.dot(Omega * normal);
   const Vector6d mean = plane_jacobian(contact.arm, normal);
   const Vector6d half = 0.5 * plane_jacobian(contact.arm, a - b);
   sums.information = along * (mean * mean.transpose());
-  if (contact.delay_s != 0.0) {
-    sums.moved = contact.delay_s * (by_offset * point_jacobian(contact.point));
-  }
-  if (contact.is_grazed) sums.grazed = by_offset * a;
   sums.noise = along * (half * half.transpose());
   return sums;
 }
@@ -199,12 +219,14 @@ class ContactModel {
     std::vector<double> across_m;
     for (const Contact& contact : contacts) {
       across_m.push_back(std::abs(contact.of_target.dot(contact.offset)));
+    }
+    constexpr double kStdOfMedian = 1.4826;  // Of the magnitude of a normal variable.
+    if (!across_m.empty()) noise_m_ = kStdOfMedian * median(std::move(across_m));
+    for (const Contact& contact : contacts) {
       const Quadratic one = quadratic(contact);
       surfaces_[contact.surface].add(one);
       all_.add(one);
     }
-    constexpr double kStdOfMedian = 1.4826;  // Of the magnitude of a normal variable.
-    if (!across_m.empty()) noise_m_ = kStdOfMedian * median(std::move(across_m));
   }
 
   std::size_t count() const { return count_; }
@@ -254,7 +276,7 @@ class ContactModel {
  private:
   Quadratic quadratic(const Contact& contact) const {
     return quadratic_of(contact, weights_.at(static_cast<std::size_t>(contact.surface[3])),
-                        options_.kernel_width_m);
+                        options_.kernel_width_m, noise_m_);
   }
 
   Vector6d gradient_at(int dof, double step, std::size_t most) const {

@@ -23,6 +23,9 @@ struct UncertaintyOptions {
   /// in rad/s, along them in m/s. If it is not zero, both clouds need the channel time, with a
   /// common zero.
   Matrix6d motion_covariance = Matrix6d::Zero();
+  /// The neighbours of a point lie on a line if they spread across it less than this times along
+  /// it.
+  double line_breadth_ratio = 0.14;
   double weak_ratio = kWeakRatio;
   double unobservable_ratio = kUnobservableRatio;
 };
@@ -46,9 +49,12 @@ struct UncertaintyOptions {
 /// the pose makes for it is known, so an unknown velocity adds its variance along that step.
 ///
 /// A degree of freedom is held if the information about it is above what noise of normals pretends:
-/// both follow from the two normals of a contact, which agree but for their noise. Information is
-/// that of one degree of freedom with all others free (the Schur complement), so units and other
-/// directions do not matter.
+/// both follow from the two normals of a contact, which agree but for their noise. That is not so
+/// where the neighbours of a point lie on a line that is no broader than the noise, as on ground
+/// far off, on one ring: there the noise decides how the normal is turned about the line, and
+/// because the rings of both clouds run alike, both normals are turned alike. Such contacts do not
+/// count for the words. Information is that of one degree of freedom with all others free (the
+/// Schur complement), so units and other directions do not matter.
 PoseCovariance pose_uncertainty(const Cloud& target, const Cloud& source,
                                 const RigidTransform& T_target_source,
                                 const UncertaintyOptions& options);

@@ -100,6 +100,8 @@ LocalShape Normals::computed(int index) const {
   const Eigen::Vector3f normal = solver.eigenvectors().col(0).normalized().cast<float>();
   shape.normal = normal.dot(point) > 0.0F ? Eigen::Vector3f(-normal) : normal;
   shape.surface_variation = static_cast<float>(variances(0) / variances.sum());
+  shape.length_m = static_cast<float>(std::sqrt(variances(2)));
+  shape.breadth_m = static_cast<float>(std::sqrt(variances(1)));
   return shape;
 }
 

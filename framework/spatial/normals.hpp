@@ -16,6 +16,9 @@ struct LocalShape {
   /// The smallest variance over the sum of the three (Pauly et al. 2002): 0 on a plane, 1/3 for an
   /// isotropic neighbourhood.
   float surface_variation = 0.0F;
+  /// The standard deviations of the neighbours along the surface, in the direction in which they
+  /// spread farthest and across it. The neighbours of a far point lie on one ring.
+  float length_m = 0.0F, breadth_m = 0.0F;
 };
 
 /// Normals of a cloud by principal component analysis of each point's nearest neighbours (paper,

@@ -37,6 +37,10 @@ const params::Table<UncertaintyOptions>& option_table() {
       params::number("grazing_error_ratio", &O::grazing_error_ratio, {0.0, 1e3},
                      "Surfaces that a sensor sees more than 60 degrees off their normals share an "
                      "error of so many times the noise."),
+      params::number("line_breadth_ratio", &O::line_breadth_ratio, {0.0, 1.0},
+                     "Neighbours that spread across their longest axis less than this times along "
+                     "it, and less than the noise, are on a line. Their normal does not count for "
+                     "the words."),
       params::number("weak_ratio", &O::weak_ratio, {0.0, 1e9},
                      "A degree of freedom is weak if its information is below so many times what "
                      "the noise of normals pretends."),
@@ -118,7 +122,7 @@ StageEntry covariance() {
       "Estimates the covariance of the pose, and says of each degree of freedom whether the "
       "surfaces hold it.",
       "croon; the jackknife over clusters is that of Bell and McCaffrey, Survey Methodology 2002",
-      table(), 4);
+      table(), 5);
 }
 
 }  // namespace croon::stages::step

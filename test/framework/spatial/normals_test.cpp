@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <thread>
 
 #include "test/support/random_geometry.hpp"
@@ -59,6 +60,24 @@ TEST(Normals, VariationTellsARoundCloudFromAFlatOne) {
   Points cloud = test::random_cloud(rng, 400, 1.0);
   const KdTree tree(cloud);
   EXPECT_GT(Normals(cloud, tree, 400).at(0).surface_variation, 0.25F);
+}
+
+TEST(Normals, LengthAndBreadthAreStandardDeviationsInAnyPose) {
+  Rng rng = test::test_rng();
+  for (int trial = 0; trial < 20; ++trial) {
+    const RigidTransform pose = test::random_pose(rng, 5.0);
+    const double half_length_m = rng.uniform(1.0, 2.0), half_breadth_m = rng.uniform(0.01, 0.5);
+    Points cloud;
+    for (int i = 0; i < 2000; ++i) {
+      cloud.push_back((pose * Eigen::Vector3d{rng.uniform(-half_length_m, half_length_m),
+                                              rng.uniform(-half_breadth_m, half_breadth_m), 0})
+                          .cast<float>());
+    }
+    const KdTree tree(cloud);
+    const LocalShape shape = Normals(cloud, tree, 2000).at(0);
+    EXPECT_NEAR(shape.length_m, half_length_m / std::sqrt(3.0), 0.05 * half_length_m);
+    EXPECT_NEAR(shape.breadth_m, half_breadth_m / std::sqrt(3.0), 0.05 * half_breadth_m);
+  }
 }
 
 TEST(Normals, AreTheSameWhicheverThreadAsksFirst) {

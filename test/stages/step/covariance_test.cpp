@@ -123,6 +123,66 @@ TEST(CovarianceStep, ACorridorDoesNotHoldItsAxis) {
   }
 }
 
+/// A LiDAR and the noise of its points.
+struct RingSensor {
+  RigidTransform T_world_sensor;
+  double noise_along_m, noise_across_m;  ///< Along the rays and across the plain.
+};
+
+/// What it sees, with 32 rings, of the plain z = -2 m: in its own frame, at most 0.1 m dense.
+Points rings_on_plain(Rng& rng, const RingSensor& sensor) {
+  const RigidTransform& T = sensor.T_world_sensor;
+  PointCloud seen;
+  for (int ring = 0; ring < 32; ++ring) {
+    const double up = rad_from_deg(-30.0 + 42.0 * ring / 31.0);
+    for (int i = 0; i < 720; ++i) {
+      const double azimuth = rad_from_deg(0.5 * i);
+      const Eigen::Vector3d ray =
+          T.rotation * Eigen::Vector3d(std::cos(up) * std::cos(azimuth),
+                                       std::cos(up) * std::sin(azimuth), std::sin(up));
+      const double distance_m = (-2.0 - T.translation.z()) / ray.z();
+      if (!(ray.z() < 0.0) || distance_m > 100.0) continue;
+      Eigen::Vector3d point =
+          T.translation + (distance_m + sensor.noise_along_m * rng.normal()) * ray;
+      point.z() += sensor.noise_across_m * rng.normal();
+      seen.points.push_back((T.inverse() * point).cast<float>());
+    }
+  }
+  return test::stage<Preprocessor>(R"({"type": "voxel_downsample"})")->apply(seen).points;
+}
+
+/// The words of a sensor in front of the reference, both on the plain, with this noise.
+PoseCovariance of_rings(Rng& rng, double noise_along_m, double noise_across_m) {
+  const RigidTransform pose{rotation_from_rpy({0.0, rad_from_deg(10.0), rad_from_deg(3.0)}),
+                            {2.0, 0.1, -1.0}};
+  const Points target = rings_on_plain(rng, {{}, noise_along_m, noise_across_m});
+  const Points source = rings_on_plain(rng, {pose, noise_along_m, noise_across_m});
+  return *judged(test::estimate_of(target, source, pose)).covariance;
+}
+
+TEST(CovarianceStep, RingsOnAPlainDoNotHoldXYAndYaw) {
+  Rng rng = test::test_rng(9);
+  for (int i = 0; i < 8; ++i) {
+    // On a far ring the noise turns the normals of both clouds alike, as if a wall stood there.
+    const PoseCovariance covariance =
+        i % 2 == 0 ? of_rings(rng, 0.02, 0.0) : of_rings(rng, 0.0, 0.007);
+    for (const Dof dof : {Dof::x, Dof::y, Dof::yaw}) {
+      EXPECT_EQ(word_of(covariance, dof), kUnobservable) << i;
+    }
+    for (const Dof dof : {Dof::roll, Dof::pitch, Dof::z}) {
+      EXPECT_NE(word_of(covariance, dof), kUnobservable) << i;
+    }
+  }
+}
+
+TEST(CovarianceStep, RingsWithoutNoiseCount) {
+  Rng rng = test::test_rng(10);
+  const PoseCovariance covariance = of_rings(rng, 0.0, 0.0);
+  for (const Dof dof : {Dof::roll, Dof::pitch, Dof::z}) {
+    EXPECT_EQ(word_of(covariance, dof), kDetermined);
+  }
+}
+
 /// The clouds of a simulated scene of this kind, at the truth.
 std::vector<Estimate> simulated_estimates(const std::string& kind, int scenes) {
   const auto dataset = test::stage<Dataset>(
