@@ -152,12 +152,13 @@ Points rings_on_plain(Rng& rng, const RingSensor& sensor) {
 }
 
 /// The words of a sensor in front of the reference, both on the plain, with this noise.
-PoseCovariance of_rings(Rng& rng, double noise_along_m, double noise_across_m) {
+PoseCovariance of_rings(Rng& rng, double noise_along_m, double noise_across_m,
+                        const std::string& parameters = "") {
   const RigidTransform pose{rotation_from_rpy({0.0, rad_from_deg(10.0), rad_from_deg(3.0)}),
                             {2.0, 0.1, -1.0}};
   const Points target = rings_on_plain(rng, {{}, noise_along_m, noise_across_m});
   const Points source = rings_on_plain(rng, {pose, noise_along_m, noise_across_m});
-  return *judged(test::estimate_of(target, source, pose)).covariance;
+  return *judged(test::estimate_of(target, source, pose), parameters).covariance;
 }
 
 TEST(CovarianceStep, RingsOnAPlainDoNotHoldXYAndYaw) {
@@ -173,6 +174,16 @@ TEST(CovarianceStep, RingsOnAPlainDoNotHoldXYAndYaw) {
       EXPECT_NE(word_of(covariance, dof), kUnobservable) << i;
     }
   }
+}
+
+TEST(CovarianceStep, NormalsOnRingsPretendToHoldAPlain) {
+  Rng rng = test::test_rng(9);
+  int held = 0;
+  for (int i = 0; i < 4; ++i) {
+    const PoseCovariance covariance = of_rings(rng, 0.0, 0.007, R"(, "line_breadth_ratio": 0)");
+    for (const Dof dof : {Dof::x, Dof::y}) held += word_of(covariance, dof) != kUnobservable;
+  }
+  EXPECT_GT(held, 0);
 }
 
 TEST(CovarianceStep, RingsWithoutNoiseCount) {
