@@ -1,17 +1,25 @@
 #include "framework/spatial/kd_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 
+#include "framework/spatial/kd_nodes.hpp"
+
 namespace croon {
 namespace {
 
+using Distances = KdNodes::Distances;
+using Indices = KdNodes::Indices;
+using Node = KdNodes::Node;
+constexpr int kChildren = KdNodes::kChildren;
+constexpr int kLeafSize = KdNodes::kLeafSize;
+
 /// Beyond every point, and nearer than a place of a leaf without a point.
 constexpr float kUnbounded = std::numeric_limits<float>::max();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Whether a point is nearer than the best one so far. If there is none, the best distance is the
 /// bound of the search, which is within.
@@ -33,193 +41,69 @@ float float_of(std::uint32_t bits) {
   return value;
 }
 
-constexpr int kLeafSize = 24;  // The fastest of 8, 16, 24 and 32.
-constexpr int kChildren = 4;
-using Distances = Eigen::Array<float, kLeafSize, 1>;
-using Indices = std::array<int, kLeafSize>;
-struct IndexedPoint {
-  Eigen::Array3f point;
-  int index;
-};
-
-using Box = std::array<Eigen::Array3f, 2>;  ///< The least and the greatest coordinates.
-
-/// Points side by side; places without a point are infinitely far and have the index -1.
-struct Leaf {
-  std::array<Distances, 3> coordinates;
-  Indices indices;
-};
-
-/// The boxes and places of four children. A box without points is infinitely far.
-struct Node {
-  using PerChild = Eigen::Array<float, kChildren, 1>;
-  std::array<PerChild, 3> low, high;
-  std::array<int, kChildren> children;  ///< A node, or ~ of a leaf.
-};
-
-}  // namespace
-
-struct KdTree::Tree {
-  explicit Tree(const Points& points);
-
-  /// Shows `result` the leaves that have points within `result.bound_m2()`, nearest box first.
-  template <class Result>
-  void search(const Eigen::Vector3f& query, Result& result) const;
-
-  int size;
-  int root = -1;  ///< As in Node.
-  std::vector<Node> nodes;
-  std::vector<Leaf> leaves;
-
- private:
-  class Builder;
-};
-
-/// Divides the points until a leaf holds them.
-class KdTree::Tree::Builder {
+/// Subtrees that a search may have to visit.
+class Waiting {
  public:
-  Builder(const Points& points, Tree& tree) : tree_(tree) {
-    points_.reserve(points.size());
-    for (const Eigen::Vector3f& point : points) {
-      points_.push_back({point.array(), static_cast<int>(points_.size())});
-    }
-    tree_.leaves.reserve(points.size() / kLeafSize + 1);
-    tree_.nodes.reserve(points.size() / (2 * kLeafSize) + 1);
-  }
+  struct Place {
+    float squared_distance;  ///< From the query to its box.
+    int place;               ///< As in Node.
+  };
+  bool empty() const { return count_ == 0; }
+  Place pop() { return places_[--count_]; }
 
-  void build() {
-    if (!points_.empty()) tree_.root = subtree({0, static_cast<int>(points_.size())});
+  /// Adds the children of a node that are within the bound, the nearest last.
+  void push(const Node& node, const Node::PerChild& squared, float bound_m2) {
+    // Mostly it is one. What the processor cannot guess costs more than what it computes in vain.
+    unsigned within = 0;
+    for (int i = 0; i < kChildren; ++i) {
+      within |= squared.data()[i] <= bound_m2 ? 1U << i : 0U;
+    }
+    const int first = count_;
+    for (; within != 0; within &= within - 1) {
+      const int child = __builtin_ctz(within);
+      int at = count_++;
+      for (; at > first && places_[at - 1].squared_distance < squared[child]; --at) {
+        places_[at] = places_[at - 1];
+      }
+      places_[at] = {squared[child], node.children[child]};
+    }
   }
+  void push(const Place& place) { places_[count_++] = place; }
 
  private:
-  struct Range {
-    int begin, end;
-    bool is_leaf() const { return end - begin <= kLeafSize; }
-  };
-
-  Box box_of(Range range) const {
-    Box box = {points_[range.begin].point, points_[range.begin].point};
-    for (int i = range.begin + 1; i < range.end; ++i) {
-      box[0] = box[0].min(points_[i].point);
-      box[1] = box[1].max(points_[i].point);
-    }
-    return box;
-  }
-
-  /// Near the median of the longest edge, so that all leaves of the first part are full.
-  int split(Range range) {
-    const Box box = box_of(range);
-    Eigen::Index axis = 0;
-    (box[1] - box[0]).maxCoeff(&axis);
-    const int leaves = (range.end - range.begin + kLeafSize - 1) / kLeafSize;
-    const int middle = range.begin + (leaves + 1) / 2 * kLeafSize;
-    std::nth_element(points_.begin() + range.begin, points_.begin() + middle,
-                     points_.begin() + range.end,
-                     [axis](const IndexedPoint& a, const IndexedPoint& b) {
-                       return a.point[axis] < b.point[axis];
-                     });
-    return middle;
-  }
-
-  int leaf(Range range) {
-    Leaf leaf;
-    leaf.coordinates.fill(Distances::Constant(kInfinity));
-    leaf.indices.fill(-1);
-    for (int i = range.begin; i < range.end; ++i) {
-      const int place = i - range.begin;
-      for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        leaf.coordinates[axis][place] = points_[i].point[axis];
-      }
-      leaf.indices[place] = points_[i].index;
-    }
-    tree_.leaves.push_back(leaf);
-    return ~static_cast<int>(tree_.leaves.size() - 1);
-  }
-
-  /// The place of the subtree over a range, as in Node.
-  int subtree(Range range) {
-    if (range.is_leaf()) return leaf(range);
-    std::vector<Range> parts;
-    const int middle = split(range);
-    for (const Range half : {Range{range.begin, middle}, Range{middle, range.end}}) {
-      if (half.is_leaf()) {
-        parts.push_back(half);
-      } else {
-        const int quarter = split(half);
-        parts.push_back({half.begin, quarter});
-        parts.push_back({quarter, half.end});
-      }
-    }
-    const std::size_t place = tree_.nodes.size();
-    tree_.nodes.emplace_back();
-    Node node;
-    node.children.fill(0);
-    for (int axis = 0; axis < 3; ++axis) {
-      node.low[axis].setConstant(kInfinity);
-      node.high[axis].setConstant(kInfinity);
-    }
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      const Box box = box_of(parts[i]);
-      for (int axis = 0; axis < 3; ++axis) {
-        node.low[axis][static_cast<Eigen::Index>(i)] = box[0][axis];
-        node.high[axis][static_cast<Eigen::Index>(i)] = box[1][axis];
-      }
-      node.children[i] = subtree(parts[i]);
-    }
-    tree_.nodes[place] = node;
-    return static_cast<int>(place);
-  }
-
-  Tree& tree_;
-  std::vector<IndexedPoint> points_;
+  // Each level leaves seven siblings at most, and 2^31 points have ten levels.
+  std::array<Place, 10 * kChildren> places_;
+  int count_ = 0;
 };
 
-KdTree::Tree::Tree(const Points& points) : size(static_cast<int>(points.size())) {
-  Builder(points, *this).build();
-}
-
+/// Shows `result` the leaves that have points within `result.bound_m2()`, nearest box first.
 template <class Result>
-void KdTree::Tree::search(const Eigen::Vector3f& query, Result& result) const {
-  struct Place {
-    float squared_distance;
-    int place;
-  };
-  // Each level of the tree leaves three siblings at most; 2^31 points have less than 16 levels.
-  std::array<Place, 64> waiting;
-  int count = 0;
-  if (size > 0) waiting[count++] = {0.0F, root};
-  while (count > 0) {
-    const Place next = waiting[--count];
-    // The same operations in the same order as for a point: rounding never makes a box farther off
-    // than a point in it.
+void search(const KdNodes& tree, const Eigen::Vector3f& query, Result& result) {
+  Waiting waiting;
+  if (tree.size > 0) waiting.push({0.0F, tree.root});
+  while (!waiting.empty()) {
+    const Waiting::Place next = waiting.pop();
     if (next.squared_distance > result.bound_m2()) continue;
+    // The same operations in the same order for a box as for a point: rounding never makes a box
+    // farther off than a point in it.
     if (next.place < 0) {
-      const Leaf& leaf = leaves[~next.place];
+      const KdNodes::Leaf& leaf = tree.leaves[~next.place];
       Distances squared = (leaf.coordinates[0] - query.x()).square();
       squared += (leaf.coordinates[1] - query.y()).square();
       squared += (leaf.coordinates[2] - query.z()).square();
       result.visit(squared, leaf.indices);
-      continue;
-    }
-    const Node& node = nodes[next.place];
-    Node::PerChild squared = Node::PerChild::Zero();
-    for (int axis = 0; axis < 3; ++axis) {
-      squared +=
-          (node.low[axis] - query[axis]).max(query[axis] - node.high[axis]).max(0.0F).square();
-    }
-    const int first = count;
-    for (int i = 0; i < kChildren; ++i) {
-      if (squared[i] > result.bound_m2()) continue;
-      int at = count++;
-      for (; at > first && waiting[at - 1].squared_distance < squared[i]; --at) {
-        waiting[at] = waiting[at - 1];
-      }
-      waiting[at] = {squared[i], node.children[i]};
+    } else {
+      const Node& node = tree.nodes[next.place];
+      const auto outside = [&](int axis) -> Node::PerChild {
+        return (node.low[axis] - query[axis]).max(query[axis] - node.high[axis]).max(0.0F).square();
+      };
+      Node::PerChild squared = outside(0);
+      squared += outside(1);
+      squared += outside(2);
+      waiting.push(node, squared, result.bound_m2());
     }
   }
 }
-
-namespace {
 
 class NearestResult {
  public:
@@ -230,12 +114,13 @@ class NearestResult {
   void visit(const Distances& squared, const Indices& indices) {
     const float least = squared.minCoeff();
     if (least > best_.squared_distance_m2) return;
+    constexpr int kNone = std::numeric_limits<int>::max();
+    int first = kNone;
     for (int i = 0; i < kLeafSize; ++i) {
-      if (squared[i] == least &&
-          is_nearer(least, indices[i], best_.squared_distance_m2, best_.index)) {
-        best_ = {indices[i], least};
-      }
+      const int index = squared.data()[i] == least ? indices.data()[i] : kNone;
+      first = index < first ? index : first;
     }
+    if (is_nearer(least, first, best_.squared_distance_m2, best_.index)) best_ = {first, least};
   }
 
  private:
@@ -386,24 +271,28 @@ class NearestManyResult {
 
 }  // namespace
 
+struct KdTree::Tree : KdNodes {
+  using KdNodes::KdNodes;
+};
+
 KdTree::KdTree(const Points& points) : tree_(std::make_unique<const Tree>(points)) {}
 KdTree::~KdTree() = default;
 
 Neighbour KdTree::nearest(const Eigen::Vector3f& query, float max_distance_m) const {
   NearestResult result(std::min(max_distance_m * max_distance_m, kUnbounded));
-  tree_->search(query, result);
+  search(*tree_, query, result);
   return result.best();
 }
 
 Neighbour KdTree::nearest(const Eigen::Vector3f& query) const {
   NearestResult result(kUnbounded);
-  tree_->search(query, result);
+  search(*tree_, query, result);
   return result.best();
 }
 
 NearestAndRest KdTree::nearest_and_rest(const Eigen::Vector3f& query, float reach_m) const {
   NearestTwoResult result(std::min(reach_m * reach_m, kUnbounded));
-  tree_->search(query, result);
+  search(*tree_, query, result);
   return result.found();
 }
 
@@ -413,10 +302,10 @@ void KdTree::nearest(const Eigen::Vector3f& query, int count, std::vector<Neighb
   neighbours.clear();
   if (wanted <= 0) return;
   NearestManyResult result(wanted, std::min(guess_m * guess_m, kUnbounded));
-  if (guess_m > 0.0F) tree_->search(query, result);
+  if (guess_m > 0.0F) search(*tree_, query, result);
   if (result.count() < wanted) {
     result = NearestManyResult(wanted, kUnbounded);
-    tree_->search(query, result);
+    search(*tree_, query, result);
   }
   result.write_nearest_first(neighbours);
 }

@@ -36,8 +36,8 @@ inline float squared_distance_m2(const Eigen::Vector3f& a, const Eigen::Vector3f
 /// Queries may run on many threads at once.
 ///
 /// A kd-tree (Bentley 1975, "Multidimensional binary search trees used for associative searching")
-/// for the processors of today: cells are split at the median of their longest edge, two splits
-/// make a node of four children, whose tight boxes are tested at once, and the coordinates of a
+/// for the processors of today: cells are split at the median of their longest edge, three splits
+/// make a node of eight children, whose tight boxes are tested at once, and the coordinates of a
 /// leaf lie side by side, so that the compiler computes four distances with one instruction. See
 /// docs/design.md for what that gains over nanoflann.
 class KdTree {

@@ -1,0 +1,128 @@
+#include "framework/spatial/kd_nodes.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace croon {
+namespace {
+
+/// Divides the points until a leaf holds them.
+class KdBuilder {
+ public:
+  KdBuilder(const Points& points, KdNodes& tree) : tree_(tree) {
+    points_.reserve(points.size());
+    for (const Eigen::Vector3f& point : points) {
+      points_.push_back({point.array(), static_cast<int>(points_.size())});
+    }
+    tree_.leaves.reserve(points.size() / kLeafSize + 1);
+    tree_.nodes.reserve(points.size() / (2 * kLeafSize) + 1);
+  }
+
+  void build() {
+    if (!points_.empty()) tree_.root = subtree({0, static_cast<int>(points_.size())});
+  }
+
+ private:
+  using Leaf = KdNodes::Leaf;
+  using Node = KdNodes::Node;
+  static constexpr int kLeafSize = KdNodes::kLeafSize;
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+  struct IndexedPoint {
+    Eigen::Array3f point;
+    int index;
+  };
+  using Box = std::array<Eigen::Array3f, 2>;  ///< The least and the greatest coordinates.
+  struct Range {
+    int begin, end;
+    bool is_leaf() const { return end - begin <= kLeafSize; }
+  };
+
+  Box box_of(Range range) const {
+    Box box = {points_[range.begin].point, points_[range.begin].point};
+    for (int i = range.begin + 1; i < range.end; ++i) {
+      box[0] = box[0].min(points_[i].point);
+      box[1] = box[1].max(points_[i].point);
+    }
+    return box;
+  }
+
+  /// Near the median of the longest edge, so that all leaves of the first part are full.
+  int split(Range range) {
+    const Box box = box_of(range);
+    Eigen::Index axis = 0;
+    (box[1] - box[0]).maxCoeff(&axis);
+    const int leaves = (range.end - range.begin + kLeafSize - 1) / kLeafSize;
+    const int middle = range.begin + (leaves + 1) / 2 * kLeafSize;
+    std::nth_element(points_.begin() + range.begin, points_.begin() + middle,
+                     points_.begin() + range.end,
+                     [axis](const IndexedPoint& a, const IndexedPoint& b) {
+                       return a.point[axis] < b.point[axis];
+                     });
+    return middle;
+  }
+
+  int leaf(Range range) {
+    Leaf leaf;
+    leaf.coordinates.fill(KdNodes::Distances::Constant(kInfinity));
+    leaf.indices.fill(-1);
+    for (int i = range.begin; i < range.end; ++i) {
+      const int place = i - range.begin;
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        leaf.coordinates[axis][place] = points_[i].point[axis];
+      }
+      leaf.indices[place] = points_[i].index;
+    }
+    tree_.leaves.push_back(leaf);
+    return ~static_cast<int>(tree_.leaves.size() - 1);
+  }
+
+  /// The halves of each range that is no leaf.
+  std::vector<Range> halves(const std::vector<Range>& ranges) {
+    std::vector<Range> parts;
+    for (const Range range : ranges) {
+      if (range.is_leaf()) {
+        parts.push_back(range);
+      } else {
+        const int middle = split(range);
+        parts.push_back({range.begin, middle});
+        parts.push_back({middle, range.end});
+      }
+    }
+    return parts;
+  }
+
+  /// The place of the subtree over a range, as in Node.
+  int subtree(Range range) {
+    if (range.is_leaf()) return leaf(range);
+    std::vector<Range> parts = {range};
+    for (int i = 0; i < KdNodes::kSplits; ++i) parts = halves(parts);
+    const std::size_t place = tree_.nodes.size();
+    tree_.nodes.emplace_back();
+    Node node;
+    node.children.fill(0);
+    node.low.fill(Node::PerChild::Constant(kInfinity));
+    node.high.fill(Node::PerChild::Constant(kInfinity));
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const Box box = box_of(parts[i]);
+      for (int axis = 0; axis < 3; ++axis) {
+        node.low[axis][static_cast<Eigen::Index>(i)] = box[0][axis];
+        node.high[axis][static_cast<Eigen::Index>(i)] = box[1][axis];
+      }
+      node.children[i] = subtree(parts[i]);
+    }
+    tree_.nodes[place] = node;
+    return static_cast<int>(place);
+  }
+
+  KdNodes& tree_;
+  std::vector<IndexedPoint> points_;
+};
+
+}  // namespace
+
+KdNodes::KdNodes(const Points& points) : size(static_cast<int>(points.size())) {
+  KdBuilder(points, *this).build();
+}
+
+}  // namespace croon
