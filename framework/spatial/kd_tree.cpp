@@ -185,8 +185,16 @@ class NearestManyResult {
     neighbours.resize(static_cast<std::size_t>(count_));
     const float* const squared = this->squared().data();
     const int* const indices = this->indices().data();
+    constexpr int kFew = 128;
+    if (count_ > kFew) {
+      for (int i = 0; i < count_; ++i) neighbours[i] = {indices[i], squared[i]};
+      std::sort(neighbours.begin(), neighbours.end(), [](const Neighbour& a, const Neighbour& b) {
+        return is_nearer(a.squared_distance_m2, a.index, b.squared_distance_m2, b.index);
+      });
+      return;
+    }
     for (int i = 0; i < count_; ++i) {
-      int nearer = 0;  // Without branches it is faster than a sort.
+      int nearer = 0;  // For few, counting without branches is faster than a sort.
       for (int k = 0; k < count_; ++k) {
         nearer += static_cast<int>(squared[k] < squared[i]) |
                   (static_cast<int>(squared[k] == squared[i]) &
