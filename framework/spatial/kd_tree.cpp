@@ -160,7 +160,7 @@ class NearestTwoResult {
 class NearestManyResult {
  public:
   NearestManyResult(int wanted, float bound_m2) : wanted_(wanted), bound_m2_(bound_m2) {
-    const std::size_t room = static_cast<std::size_t>(most() + kLeafSize);
+    const auto room = static_cast<std::size_t>(most()) + kLeafSize;
     if (squared().size() < room) {
       squared().resize(room);
       indices().resize(room);
