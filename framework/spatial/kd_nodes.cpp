@@ -1,5 +1,6 @@
 #include "framework/spatial/kd_nodes.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 
@@ -12,7 +13,7 @@ class KdBuilder {
   KdBuilder(const Points& points, KdNodes& tree) : tree_(tree) {
     points_.reserve(points.size());
     for (const Eigen::Vector3f& point : points) {
-      points_.push_back({point.array(), static_cast<int>(points_.size())});
+      points_.push_back({point, static_cast<int>(points_.size())});
     }
     tree_.leaves.reserve(points.size() / kLeafSize + 1);
     tree_.nodes.reserve(points.size() / (2 * kLeafSize) + 1);
@@ -29,29 +30,24 @@ class KdBuilder {
   static constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
   struct IndexedPoint {
-    Eigen::Array3f point;
+    Eigen::Vector3f point;
     int index;
   };
-  using Box = std::array<Eigen::Array3f, 2>;  ///< The least and the greatest coordinates.
   struct Range {
     int begin, end;
     bool is_leaf() const { return end - begin <= kLeafSize; }
   };
 
-  Box box_of(Range range) const {
-    Box box = {points_[range.begin].point, points_[range.begin].point};
-    for (int i = range.begin + 1; i < range.end; ++i) {
-      box[0] = box[0].min(points_[i].point);
-      box[1] = box[1].max(points_[i].point);
-    }
+  Eigen::AlignedBox3f box_of(Range range) const {
+    Eigen::AlignedBox3f box;
+    for (int i = range.begin; i < range.end; ++i) box.extend(points_[i].point);
     return box;
   }
 
   /// Near the median of the longest edge, so that all leaves of the first part are full.
   int split(Range range) {
-    const Box box = box_of(range);
     Eigen::Index axis = 0;
-    (box[1] - box[0]).maxCoeff(&axis);
+    box_of(range).sizes().maxCoeff(&axis);
     const int leaves = (range.end - range.begin + kLeafSize - 1) / kLeafSize;
     const int middle = range.begin + (leaves + 1) / 2 * kLeafSize;
     std::nth_element(points_.begin() + range.begin, points_.begin() + middle,
@@ -104,10 +100,10 @@ class KdBuilder {
     node.low.fill(Node::PerChild::Constant(kInfinity));
     node.high.fill(Node::PerChild::Constant(kInfinity));
     for (std::size_t i = 0; i < parts.size(); ++i) {
-      const Box box = box_of(parts[i]);
+      const Eigen::AlignedBox3f box = box_of(parts[i]);
       for (int axis = 0; axis < 3; ++axis) {
-        node.low[axis][static_cast<Eigen::Index>(i)] = box[0][axis];
-        node.high[axis][static_cast<Eigen::Index>(i)] = box[1][axis];
+        node.low[axis][static_cast<Eigen::Index>(i)] = box.min()[axis];
+        node.high[axis][static_cast<Eigen::Index>(i)] = box.max()[axis];
       }
       node.children[i] = subtree(parts[i]);
     }
