@@ -68,7 +68,7 @@ RUN_TESTS = for program in $(addprefix build/$(1)/bin/test_,$(or $(4),*)); do pr
     GTEST_SHARD_INDEX=$$1 "$$0" --gtest_brief=1 --gtest_filter="$(3)" || exit 255'
 
 # Long under a sanitizer, a minute each: tests of a stage that shorter ones run too, simulated statistics, LaTeX, kills.
-LONG_WHEN_SANITIZED = *CoversTheTr*:*KeepsItsLevel*:*WhereTrialsOfASceneAreAlike*:*ExportedLatex*:*AtEachChange*:JointRegistration.SaysHowWell*:JointRegistration.FindsThePosesAndTheVelocity*:JointRegistration.FailsTheSensor*:JointRegistration.RejectsAScene*:JointRegistration.KnowsTheVelocity*:BundleAdjustment.ManyScenes*:JointRegistration.MovesOneTarget*:JointRegistration.LeavesTheCloudsOf*:FeatureAlignment.FindsThe*:*TurnedAnyhow*:*UpsideDown*:*DoesNotDependOnTheStart*
+LONG_WHEN_SANITIZED = *CoversTheTr*:*KeepsItsLevel*:*WhereTrialsOfASceneAreAlike*:*ExportedLatex*:*AtEachChange*:JointRegistration.SaysHowWell*:JointRegistration.FindsThePosesAndTheVelocity*:*FindsTheOffsetOfAClock*:JointRegistration.EstimatesWhatRemains*:JointRegistration.FailsTheSensor*:JointRegistration.RejectsAScene*:JointRegistration.KnowsTheVelocity*:BundleAdjustment.ManyScenes*:JointRegistration.MovesOneTarget*:JointRegistration.LeavesTheCloudsOf*:FeatureAlignment.FindsThe*:*TurnedAnyhow*:*UpsideDown*:*DoesNotDependOnTheStart*
 SANITIZED_TESTS ?=
 sanitize: sanitizer_packages
 	cmake --preset sanitized

@@ -85,7 +85,7 @@ inline RTCDevice embree_device() {
 using TriangleId = std::pair<unsigned int, unsigned int>;
 
 /// Calls `use(id)` for the triangles whose bounding boxes are within `radius_m` of `point`, and
-/// others near it, in any order.
+/// others near it, in any order, until it returns false; a few calls more may follow.
 template <class Use>
 void for_each_triangle_near(RTCScene scene, const Eigen::Vector3d& point, double radius_m,
                             double time_ratio, const Use& use) {
@@ -98,8 +98,10 @@ void for_each_triangle_near(RTCScene scene, const Eigen::Vector3d& point, double
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   const auto call = [](RTCPointQueryFunctionArguments* found) {
-    (*static_cast<const Use*>(found->userPtr))(TriangleId(found->geomID, found->primID));
-    return false;  // The radius stays.
+    const bool goes_on =
+        (*static_cast<const Use*>(found->userPtr))(TriangleId(found->geomID, found->primID));
+    if (!goes_on) found->query->radius = 0.0F;
+    return !goes_on;  // Whether the radius changed.
   };
   rtcPointQuery(scene, &query, &context, call, const_cast<Use*>(&use));
 }

@@ -5,10 +5,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <deque>
+#include <mutex>
 #include <optional>
 
 #include "framework/simulation/embree.hpp"
+#include "framework/simulation/inner_triangle.hpp"
 
 namespace croon::simulation {
 namespace {
@@ -73,6 +77,28 @@ Vector3d vertex_at(const PlacedMesh& placed, std::uint32_t index, double time_ra
   return begin + time_ratio * (placed.end[index].cast<double>() - begin);
 }
 
+struct Sphere {
+  Vector3d centre;
+  double radius_m = 0.0;
+};
+
+/// A sphere that holds a triangle, about the middle of its longest edge.
+Sphere sphere_around(const Corners& corners) {
+  Sphere sphere{corners[0]};
+  double longest_m = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3d& next = corners[(k + 1) % 3];
+    const double length_m = (next - corners[k]).norm();
+    if (length_m <= longest_m) continue;
+    longest_m = length_m;
+    sphere.centre = 0.5 * (next + corners[k]);
+  }
+  for (const Vector3d& corner : corners) {
+    sphere.radius_m = std::max(sphere.radius_m, (corner - sphere.centre).norm());
+  }
+  return sphere;
+}
+
 /// Surfaces that a ray meets within this length of each other are taken for equally far by Embree,
 /// which computes in single precision.
 constexpr double kTied_m = 3e-4;
@@ -82,8 +108,8 @@ constexpr double kMiss_m = 3e-5;
 /// Where a ray meets the plane of a triangle.
 struct PlaneHit {
   Hit hit;
-  std::array<Vector3d, 3> corners;  ///< Of the triangle, from the origin of the ray.
-  Vector3d normal;                  ///< Zero if the triangle has no area.
+  Corners corners;  ///< Of the triangle, from the origin of the ray.
+  Vector3d normal;  ///< Zero if the triangle has no area.
 
   /// Whether the hit is on the triangle, or off it by no more than kMiss_m.
   bool is_on_triangle(const Ray& ray) const;
@@ -94,7 +120,7 @@ struct PlaneHit {
 /// reciprocal, whose bits depend on the processor.
 PlaneHit hit_on_plane(const PlacedMesh& placed, std::uint32_t triangle, const Ray& ray,
                       double time_ratio) {
-  std::array<Vector3d, 3> corners;
+  Corners corners;
   for (std::size_t k = 0; k < 3; ++k) {
     corners[k] = vertex_at(placed, placed.mesh->triangles[triangle][k], time_ratio) - ray.origin;
   }
@@ -119,6 +145,19 @@ bool PlaneHit::is_on_triangle(const Ray& ray) const {
   }
   return true;
 }
+
+/// The part of a triangle that is away from its edges, and all triangles that may be tied with a
+/// hit on that part.
+struct Interior {
+  InnerTriangle inner;
+  std::vector<TriangleId> near;
+};
+
+/// What hits have shown of a triangle so far.
+struct Visited {
+  std::atomic<const Interior*> interior = nullptr;  ///< Null if it is not known.
+  std::atomic<int> hits = 0;                        ///< Before the interior was known.
+};
 
 }  // namespace
 
@@ -159,6 +198,8 @@ class RayCaster::Embree {
   void add(PlacedMesh mesh) {
     if (mesh.mesh->triangles.empty()) return;
     if (mesh.end.empty()) mesh.planes = planes_of(*mesh.mesh, mesh.begin);
+    stands_still_ = stands_still_ && mesh.end.empty();
+    visited_.emplace_back(mesh.mesh->triangles.size());
     meshes_.push_back(std::move(mesh));
   }
 
@@ -171,6 +212,63 @@ class RayCaster::Embree {
     if (planes.empty()) return true;
     const TrianglePlane& plane = planes[id.second];
     return std::abs(plane.normal.dot(point) - plane.offset_m) <= kTied_m + kMiss_m + kRounding_m;
+  }
+
+  Corners corners_of(const TriangleId& id) const {
+    const PlacedMesh& mesh = meshes_[id.first];
+    Corners corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = vertex_at(mesh, mesh.mesh->triangles[id.second][k], 0.0);
+    }
+    return corners;
+  }
+
+  /// The interior of the triangle, if there is one and few triangles are near it.
+  std::optional<Interior> interior_of(const TriangleId& id) const {
+    // Triangles that meet at an edge are kTied_m apart so far from it, if they meet at more than
+    // ten degrees.
+    constexpr double kInset_m = 4e-3;
+    constexpr double kApart_m = 2.0 * kTied_m;
+    constexpr std::size_t kMostNear = 12;
+    // Where more are around, to look at all of them costs more than it saves.
+    constexpr int kMostAround = 2000;
+    const Corners corners = corners_of(id);
+    Interior interior = {InnerTriangle(corners, kInset_m), {}};
+    if (interior.inner.is_empty()) return std::nullopt;
+    const Sphere sphere = sphere_around(corners);
+    const double reach_m = sphere.radius_m + kApart_m;
+    int around = 0;
+    const auto compare = [&](const TriangleId& other) {
+      ++around;
+      const TrianglePlane& plane = meshes_[other.first].planes[other.second];
+      const bool reaches = std::abs(plane.normal.dot(sphere.centre) - plane.offset_m) <= reach_m;
+      if (reaches && other != id && !interior.inner.is_farther_than(kApart_m, corners_of(other))) {
+        interior.near.push_back(other);
+      }
+      return around <= kMostAround && interior.near.size() <= kMostNear;
+    };
+    for_each_triangle_near(scene_, sphere.centre, reach_m, 0.0, compare);
+    if (around > kMostAround || interior.near.size() > kMostNear) return std::nullopt;
+    return interior;
+  }
+
+  /// The interior of the triangle `id`, if it is known and `point` is in it. Which hits find it
+  /// known depends on the order of the threads, but changes only how long the answer takes.
+  const Interior* known_interior(const TriangleId& id, const Vector3d& point) const {
+    // To find an interior costs about as much as so many searches around a hit.
+    constexpr int kOften = 6;
+    if (!stands_still_) return nullptr;
+    Visited& triangle = visited_[id.first][id.second];
+    const Interior* interior = triangle.interior.load(std::memory_order_acquire);
+    if (interior == nullptr) {
+      if (triangle.hits.fetch_add(1, std::memory_order_relaxed) + 1 != kOften) return nullptr;
+      std::optional<Interior> found = interior_of(id);
+      if (!found) return nullptr;
+      const std::lock_guard lock(interiors_mutex_);
+      interior = &interiors_.emplace_back(std::move(*found));
+      triangle.interior.store(interior, std::memory_order_release);
+    }
+    return interior->inner.holds(point) ? interior : nullptr;
   }
 
   PlaneHit hit_on(const TriangleId& id, const Ray& ray) const {
@@ -187,16 +285,21 @@ class RayCaster::Embree {
     std::optional<std::pair<double, TriangleId>> first;
     Hit hit = on_found.hit;
     const auto compare = [&](const TriangleId& id) {
-      if (id == found || !may_be_tied(id, point)) return;
+      if (id == found || !may_be_tied(id, point)) return true;
       const PlaneHit other = hit_on(id, ray);
       const double other_m = other.hit.range_m;
-      if (std::abs(other_m - found_m) > kTied_m || !other.is_on_triangle(ray)) return;
+      if (std::abs(other_m - found_m) > kTied_m || !other.is_on_triangle(ray)) return true;
       const std::pair<double, TriangleId> key{other_m, id};
-      if (first && *first <= key) return;
+      if (first && *first <= key) return true;
       first = key;
       hit = other.hit;
+      return true;
     };
-    for_each_triangle_near(scene_, point, 2.0 * kTied_m, time_ratio(ray), compare);
+    if (const Interior* interior = known_interior(found, point)) {
+      std::for_each(interior->near.begin(), interior->near.end(), compare);
+    } else {
+      for_each_triangle_near(scene_, point, 2.0 * kTied_m, time_ratio(ray), compare);
+    }
     const bool is_first =
         !first || (std::pair{found_m, found} < *first && on_found.is_on_triangle(ray));
     return is_first ? on_found.hit : hit;
@@ -210,7 +313,11 @@ class RayCaster::Embree {
 
   Span window_s_;
   std::vector<PlacedMesh> meshes_;  ///< By Embree's number of the geometry.
+  bool stands_still_ = true;        ///< No mesh moves in the window.
   RTCScene scene_ = nullptr;
+  mutable std::vector<std::vector<Visited>> visited_;  ///< By mesh and triangle.
+  mutable std::deque<Interior> interiors_;
+  mutable std::mutex interiors_mutex_;  ///< Of `interiors_` while it grows.
 };
 
 RayCaster::RayCaster(std::shared_ptr<const World> world, Span window_s)

@@ -81,6 +81,10 @@ PoseCovariance random_covariance(Rng& rng) {
   return covariance;
 }
 
+Eigen::Vector3d random_point(Rng& rng, double extent_m) {
+  return random_cloud(rng, 1, extent_m).front().cast<double>();
+}
+
 Points random_cloud(Rng& rng, int count, double extent_m) {
   Points cloud;
   for (int i = 0; i < count; ++i) {

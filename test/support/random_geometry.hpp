@@ -23,7 +23,10 @@ Vector6d pose_vector(Rng& rng);
 /// A covariance of such errors, with words drawn at random.
 PoseCovariance random_covariance(Rng& rng);
 
-/// `count` points uniform in a cube of +-`extent_m`.
+/// A point uniform in a cube of +-`extent_m`.
+Eigen::Vector3d random_point(Rng& rng, double extent_m);
+
+/// `count` such points.
 Points random_cloud(Rng& rng, int count, double extent_m);
 
 /// A street as a LiDAR 2 m above it may see it, 20 m around: ground, two house fronts along x with

@@ -15,18 +15,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d draw_point(Rng& rng, double extent_m) {
-  return test::random_cloud(rng, 1, extent_m).front().cast<double>();
-}
-
 /// `count` triangles of a metre or two, anywhere within 10 m.
 std::shared_ptr<World> soup(Rng& rng, int count) {
   auto world = std::make_shared<World>();
   Mesh& mesh = world->fixed;
   for (int i = 0; i < count; ++i) {
-    const Vector3d middle = draw_point(rng, 10.0);
+    const Vector3d middle = test::random_point(rng, 10.0);
     std::array<std::uint32_t, 3> corner{};
-    for (std::uint32_t& index : corner) index = mesh.add_vertex(middle + draw_point(rng, 1.0));
+    for (std::uint32_t& index : corner)
+      index = mesh.add_vertex(middle + test::random_point(rng, 1.0));
     mesh.add_triangle(corner[0], corner[1], corner[2], Material::brick);
   }
   return world;
@@ -63,7 +60,7 @@ TEST(RayCaster, FindsTheFirstOfTrianglesInOnePlane) {
   for (int i = 0; i < 60; ++i) {
     std::array<std::uint32_t, 3> corner{};
     for (std::uint32_t& index : corner) {
-      Vector3d point = draw_point(rng, 2.0);
+      Vector3d point = test::random_point(rng, 2.0);
       point.x() = 5.0;
       index = mesh.add_vertex(point);
     }
@@ -72,7 +69,7 @@ TEST(RayCaster, FindsTheFirstOfTrianglesInOnePlane) {
   }
   std::vector<Ray> rays(1000);
   for (Ray& ray : rays) {
-    Vector3d target = draw_point(rng, 1.0);
+    Vector3d target = test::random_point(rng, 1.0);
     target.x() = 5.0;
     ray.direction = target.normalized();
   }
@@ -104,8 +101,8 @@ TEST(RayCaster, AgreesWithBruteForce) {
     // The number of rays is not a multiple of eight.
     std::vector<Ray> rays(501 + seed);
     for (Ray& ray : rays) {
-      ray.origin = draw_point(rng, 12.0);
-      ray.direction = draw_point(rng, 1.0).normalized();
+      ray.origin = test::random_point(rng, 12.0);
+      ray.direction = test::random_point(rng, 1.0).normalized();
     }
     constexpr double kMin_m = 0.5;
     constexpr double kMax_m = 15.0;
@@ -131,6 +128,48 @@ TEST(RayCaster, AgreesWithBruteForce) {
     }
     EXPECT_GT(compared, 400);
   }
+}
+
+/// The caster learns which triangles have others near them. That must not change a bit: walls with
+/// signs in front of them and behind them by less than single precision tells apart.
+TEST(RayCaster, ARayHitsTheSameAloneAndAfterManyOthers) {
+  int compared = 0;
+  int signs = 0;
+  for (std::uint64_t seed = 1; seed < 9; ++seed) {
+    Rng rng = test::test_rng(seed);
+    auto world = std::make_shared<World>();
+    Mesh& mesh = world->fixed;
+    const Eigen::Matrix3d turn = test::random_pose(rng, 1.0).rotation;
+    const auto quad = [&](double x_m, double y_m, double z_m, double half_m, Material material) {
+      mesh.add_quad(turn * Vector3d(x_m, y_m - half_m, z_m - half_m),
+                    turn * Vector3d(x_m, y_m + half_m, z_m - half_m),
+                    turn * Vector3d(x_m, y_m + half_m, z_m + half_m),
+                    turn * Vector3d(x_m, y_m - half_m, z_m + half_m), material);
+    };
+    for (const double y_m : {-3.0, 0.0, 3.0}) quad(5.0, y_m, 0.0, 1.5, Material::brick);
+    for (int i = 0; i < 8; ++i) {
+      quad(5.0 + rng.uniform(-1e-6, 1e-6), rng.uniform(-4.0, 4.0), rng.uniform(-1.0, 1.0),
+           rng.uniform(0.05, 0.5), Material::sign);
+    }
+    std::vector<Ray> rays(2000);
+    for (Ray& ray : rays) {
+      ray.origin = test::random_point(rng, 0.1);
+      const Vector3d target(5.0, rng.uniform(-4.4, 4.4), rng.uniform(-1.4, 1.4));
+      ray.direction = (turn * target - ray.origin).normalized();
+    }
+    const RayCaster among_others(world, {});
+    const std::vector<Hit> hits = among_others.cast(rays, 0.5, 15.0);
+    for (std::size_t i = 0; i < rays.size(); i += 10) {
+      const Hit alone = RayCaster(world, {}).cast({rays[i]}, 0.5, 15.0).front();
+      EXPECT_EQ(hits[i].range_m, alone.range_m);
+      EXPECT_EQ(hits[i].incidence_cos, alone.incidence_cos);
+      EXPECT_EQ(hits[i].material, alone.material);
+      signs += alone.material == Material::sign ? 1 : 0;
+      ++compared;
+    }
+  }
+  EXPECT_GT(signs, compared / 20);
+  EXPECT_LT(signs, compared / 2);
 }
 
 TEST(RayCaster, MeetsABodyWhereItIsAtTheRaysTime) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "test/support/neighbours.hpp"
 #include "test/support/random_geometry.hpp"
 
 namespace croon {
@@ -21,15 +22,10 @@ std::vector<Neighbour> by_distance(const Points& cloud, const Eigen::Vector3f& q
   return all;
 }
 
-void expect_same(const Neighbour& found, const Neighbour& expected) {
-  EXPECT_EQ(found.index, expected.index);
-  EXPECT_EQ(found.squared_distance_m2, expected.squared_distance_m2);
-}
-
 /// Every kind of search against all points in order, to the last bit.
 void expect_exact(const KdTree& tree, const Points& cloud, const Eigen::Vector3f& query) {
   const std::vector<Neighbour> truth = by_distance(cloud, query);
-  expect_same(tree.nearest(query), truth[0]);
+  test::expect_same(tree.nearest(query), truth[0]);
   for (const float reach_m : {0.2F, 0.8F, 4.0F}) {
     const float reach_m2 = reach_m * reach_m;
     const auto is_within = [&](std::size_t i) {
@@ -37,7 +33,7 @@ void expect_exact(const KdTree& tree, const Points& cloud, const Eigen::Vector3f
     };
     const Neighbour nearest = tree.nearest(query, reach_m);
     ASSERT_EQ(static_cast<bool>(nearest), is_within(0));
-    if (nearest) expect_same(nearest, truth[0]);
+    if (nearest) test::expect_same(nearest, truth[0]);
     const NearestAndRest both = tree.nearest_and_rest(query, reach_m);
     EXPECT_EQ(both.nearest.index, is_within(0) ? truth[0].index : -1);
     EXPECT_EQ(both.second, is_within(1) ? truth[1].index : -1);
@@ -48,7 +44,8 @@ void expect_exact(const KdTree& tree, const Points& cloud, const Eigen::Vector3f
     for (const float guess_m : {0.0F, 0.01F, 0.7F, 1e30F}) {
       tree.nearest(query, count, neighbours, guess_m);
       ASSERT_EQ(neighbours.size(), std::min<std::size_t>(cloud.size(), count));
-      for (std::size_t i = 0; i < neighbours.size(); ++i) expect_same(neighbours[i], truth[i]);
+      for (std::size_t i = 0; i < neighbours.size(); ++i)
+        test::expect_same(neighbours[i], truth[i]);
     }
   }
 }

@@ -2,16 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "test/support/neighbours.hpp"
 #include "test/support/random_geometry.hpp"
 
 namespace croon {
 namespace {
-
-void expect_same(const Neighbour& found, const Neighbour& expected) {
-  EXPECT_EQ(found.index, expected.index);
-  if (!expected) return;
-  EXPECT_EQ(found.squared_distance_m2, expected.squared_distance_m2);
-}
 
 TEST(TrackedNeighbours, AnswersAsTheTreeWhateverThePointsDo) {
   Rng rng = test::test_rng();
@@ -23,8 +18,8 @@ TEST(TrackedNeighbours, AnswersAsTheTreeWhateverThePointsDo) {
     for (const float max_distance_m : {1.0F, 0.3F, 0.05F, 2.0F}) {
       for (std::size_t i = 0; i < queries.size(); ++i) {
         queries[i] += (step_m * test::random_pose(rng, 1.0).rotation.col(0)).cast<float>();
-        expect_same(tracked.nearest(static_cast<int>(i), queries[i], max_distance_m),
-                    target.kd_tree().nearest(queries[i], max_distance_m));
+        test::expect_same(tracked.nearest(static_cast<int>(i), queries[i], max_distance_m),
+                          target.kd_tree().nearest(queries[i], max_distance_m));
       }
     }
   }
@@ -41,8 +36,8 @@ TEST(TrackedNeighbours, TiesAndBoundsAreThoseOfTheTree) {
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector3f query(static_cast<float>(i) * 0.25F, 0.0F, 0.0F);
     for (const float max_distance_m : {0.25F, 0.5F, 0.4999F, 10.0F}) {
-      expect_same(tracked.nearest(0, query, max_distance_m),
-                  target.kd_tree().nearest(query, max_distance_m));
+      test::expect_same(tracked.nearest(0, query, max_distance_m),
+                        target.kd_tree().nearest(query, max_distance_m));
     }
   }
 }

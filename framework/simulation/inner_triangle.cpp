@@ -1,0 +1,59 @@
+#include "framework/simulation/inner_triangle.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace croon::simulation {
+
+using Eigen::Vector3d;
+
+InnerTriangle::Planes InnerTriangle::planes_of(const Corners& corners) {
+  const auto& [a, b, c] = corners;
+  const Vector3d normal = (b - a).cross(c - a).normalized();
+  Planes planes = {{{normal, normal.dot(a)}, {}, {}, {}}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3d outwards = (corners[(k + 1) % 3] - corners[k]).normalized().cross(normal);
+    planes[k + 1] = {outwards, outwards.dot(corners[k])};
+  }
+  return planes;
+}
+
+InnerTriangle::InnerTriangle(const Corners& corners, double inset_m) : planes_(planes_of(corners)) {
+  const auto& [a, b, c] = corners;
+  // The centre of the incircle weighs each corner by the length of the opposite edge. Its radius is
+  // twice the area by the sum of these lengths.
+  const Vector3d lengths_m((c - b).norm(), (a - c).norm(), (b - a).norm());
+  const double around_m = lengths_m.sum();
+  if (around_m <= 0.0) return;
+  const Vector3d centre = (lengths_m[0] * a + lengths_m[1] * b + lengths_m[2] * c) / around_m;
+  const double radius_m = (b - a).cross(c - a).norm() / around_m;
+  is_empty_ = radius_m <= inset_m;
+  if (is_empty_) return;
+  for (std::size_t k = 0; k < 3; ++k) {
+    corners_[k] = centre + (1.0 - inset_m / radius_m) * (corners[k] - centre);
+    planes_[k + 1].offset_m -= inset_m;
+  }
+}
+
+bool InnerTriangle::holds(const Vector3d& point) const {
+  if (is_empty_) return false;
+  return std::all_of(planes_.begin() + 1, planes_.end(),
+                     [&](const Plane& edge) { return edge.normal.dot(point) < edge.offset_m; });
+}
+
+bool InnerTriangle::is_farther_than(double distance_m, const Corners& other) const {
+  const auto are_above = [&](const Corners& corners, const Plane& plane) {
+    return std::all_of(corners.begin(), corners.end(), [&](const Vector3d& corner) {
+      return plane.normal.dot(corner) - plane.offset_m > distance_m;
+    });
+  };
+  const auto separates = [&](const Planes& planes, const Corners& corners) {
+    const Plane turned = {-planes[0].normal, -planes[0].offset_m};
+    return are_above(corners, turned) ||
+           std::any_of(planes.begin(), planes.end(),
+                       [&](const Plane& plane) { return are_above(corners, plane); });
+  };
+  return separates(planes_, other) || separates(planes_of(other), corners_);
+}
+
+}  // namespace croon::simulation
