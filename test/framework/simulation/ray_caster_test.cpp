@@ -148,13 +148,14 @@ TEST(RayCaster, ARayHitsTheSameAloneAndAfterManyOthers) {
     };
     for (const double y_m : {-3.0, 0.0, 3.0}) quad(5.0, y_m, 0.0, 1.5, Material::brick);
     for (int i = 0; i < 8; ++i) {
-      quad(5.0 + rng.uniform(-1e-6, 1e-6), rng.uniform(-4.0, 4.0), rng.uniform(-1.0, 1.0),
-           rng.uniform(0.05, 0.5), Material::sign);
+      const Vector3d at = test::random_point(rng, 1.0);
+      quad(5.0 + 1e-6 * at.x(), 4.0 * at.y(), at.z(), rng.uniform(0.05, 0.5), Material::sign);
     }
     std::vector<Ray> rays(2000);
     for (Ray& ray : rays) {
       ray.origin = test::random_point(rng, 0.1);
-      const Vector3d target(5.0, rng.uniform(-4.4, 4.4), rng.uniform(-1.4, 1.4));
+      const Vector3d at = test::random_point(rng, 1.0);
+      const Vector3d target(5.0, 4.4 * at.y(), 1.4 * at.z());
       ray.direction = (turn * target - ray.origin).normalized();
     }
     const RayCaster among_others(world, {});
