@@ -225,8 +225,7 @@ class RayCaster::Embree {
 
   /// The interior of the triangle, if there is one and few triangles are near it.
   std::optional<Interior> interior_of(const TriangleId& id) const {
-    // Triangles that meet at an edge are kTied_m apart so far from it, if they meet at more than
-    // ten degrees.
+    // So far from a common edge, triangles that meet at more than ten degrees are kApart_m apart.
     constexpr double kInset_m = 4e-3;
     constexpr double kApart_m = 2.0 * kTied_m;
     constexpr std::size_t kMostNear = 12;
