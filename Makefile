@@ -67,8 +67,9 @@ RUN_TESTS = for program in $(addprefix build/$(1)/bin/test_,$(or $(4),*)); do pr
   $(2) GTEST_TOTAL_SHARDS=8 xargs -P 2 -n 2 bash -c '\
     GTEST_SHARD_INDEX=$$1 "$$0" --gtest_brief=1 --gtest_filter="$(3)" || exit 255'
 
-# Long under a sanitizer, a minute each: tests of a stage that shorter ones run too, simulated statistics, LaTeX, kills.
-LONG_WHEN_SANITIZED = *CoversTheTr*:*KeepsItsLevel*:*WhereTrialsOfASceneAreAlike*:*ExportedLatex*:*AtEachChange*:JointRegistration.SaysHowWell*:JointRegistration.FindsThePosesAndTheVelocity*:*FindsTheOffsetOfAClock*:JointRegistration.EstimatesWhatRemains*:JointRegistration.FailsTheSensor*:JointRegistration.RejectsAScene*:JointRegistration.KnowsTheVelocity*:BundleAdjustment.ManyScenes*:JointRegistration.MovesOneTarget*:JointRegistration.LeavesTheCloudsOf*:FeatureAlignment.FindsThe*:*TurnedAnyhow*:*UpsideDown*:*DoesNotDependOnTheStart*
+# Long under a sanitizer, from ten seconds to minutes: tests of a stage that shorter ones run too, simulated statistics, LaTeX,
+# kills, and comparisons of threads, which have a sanitizer of their own.
+LONG_WHEN_SANITIZED = *CoversTheTr*:*KeepsItsLevel*:*WhereTrialsOfASceneAreAlike*:*ExportedLatex*:*AtEachChange*:JointRegistration.SaysHowWell*:JointRegistration.FindsThePosesAndTheVelocity*:*FindsTheOffsetOfAClock*:JointRegistration.EstimatesWhatRemains*:JointRegistration.FailsTheSensor*:JointRegistration.RejectsAScene*:JointRegistration.KnowsTheVelocity*:BundleAdjustment.ManyScenes*:JointRegistration.MovesOneTarget*:JointRegistration.LeavesTheCloudsOf*:FeatureAlignment.FindsThe*:*TurnedAnyhow*:*UpsideDown*:*DoesNotDependOnTheStart*:*SameOnOneThreadAndOnFour/step_*:BundleAdjustment.AnErrorOfTheSpeed*:BundleAdjustment.WhatIsNotKnownOfTheVelocity*:BundleAdjustment.FindsOnePose*:JointRegistration.ASensorThatTheVelocity*:LayeredMap.FindsYaw*
 SANITIZED_TESTS ?=
 sanitize: sanitizer_packages
 	cmake --preset sanitized
