@@ -1,6 +1,5 @@
 #include "framework/simulation/inner_triangle.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace croon::simulation {
@@ -8,12 +7,10 @@ namespace croon::simulation {
 using Eigen::Vector3d;
 
 InnerTriangle::Planes InnerTriangle::planes_of(const Corners& corners) {
-  const auto& [a, b, c] = corners;
-  const Vector3d normal = (b - a).cross(c - a).normalized();
-  Planes planes = {{{normal, normal.dot(a)}, {}, {}, {}}};
+  Planes planes = {plane_of(corners)};
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vector3d outwards = (corners[(k + 1) % 3] - corners[k]).normalized().cross(normal);
-    planes[k + 1] = {outwards, outwards.dot(corners[k])};
+    const Vector3d outwards = outwards_of_edge(corners, k, planes[0].normal);
+    planes[k + 1] = {outwards, -outwards.dot(corners[k])};
   }
   return planes;
 }
@@ -31,25 +28,24 @@ InnerTriangle::InnerTriangle(const Corners& corners, double inset_m) : planes_(p
   if (is_empty_) return;
   for (std::size_t k = 0; k < 3; ++k) {
     corners_[k] = centre + (1.0 - inset_m / radius_m) * (corners[k] - centre);
-    planes_[k + 1].offset_m -= inset_m;
+    planes_[k + 1].offset_m += inset_m;
   }
 }
 
 bool InnerTriangle::holds(const Vector3d& point) const {
   if (is_empty_) return false;
   return std::all_of(planes_.begin() + 1, planes_.end(),
-                     [&](const Plane& edge) { return edge.normal.dot(point) < edge.offset_m; });
+                     [&](const Plane& edge) { return edge.signed_distance(point) < 0.0; });
 }
 
 bool InnerTriangle::is_farther_than(double distance_m, const Corners& other) const {
   const auto are_above = [&](const Corners& corners, const Plane& plane) {
     return std::all_of(corners.begin(), corners.end(), [&](const Vector3d& corner) {
-      return plane.normal.dot(corner) - plane.offset_m > distance_m;
+      return plane.signed_distance(corner) > distance_m;
     });
   };
   const auto separates = [&](const Planes& planes, const Corners& corners) {
-    const Plane turned = {-planes[0].normal, -planes[0].offset_m};
-    return are_above(corners, turned) ||
+    return are_above(corners, planes[0].flipped()) ||
            std::any_of(planes.begin(), planes.end(),
                        [&](const Plane& plane) { return are_above(corners, plane); });
   };

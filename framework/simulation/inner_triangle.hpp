@@ -1,12 +1,28 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
+
+#include "framework/geometry/plane.hpp"
 
 namespace croon::simulation {
 
 /// The corners of a triangle, metres.
 using Corners = std::array<Eigen::Vector3d, 3>;
+
+/// The plane of a triangle. Its normal is zero if the triangle has no area.
+inline Plane plane_of(const Corners& corners) {
+  const auto& [a, b, c] = corners;
+  const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
+  return {normal, -normal.dot(a)};
+}
+
+/// The direction in a triangle with the unit normal `normal` that leaves it across the edge from
+/// corner `k` to the next one. Of length 1.
+inline Eigen::Vector3d outwards_of_edge(const Corners& corners, std::size_t k,
+                                        const Eigen::Vector3d& normal) {
+  return (corners[(k + 1) % 3] - corners[k]).normalized().cross(normal);
+}
 
 /// The part of a triangle that is farther than `inset_m` from its edges. It tells quickly that no
 /// other triangle is near a point.
@@ -23,11 +39,6 @@ class InnerTriangle {
   bool is_farther_than(double distance_m, const Corners& other) const;
 
  private:
-  /// The points p with `normal . p = offset_m`.
-  struct Plane {
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-    double offset_m = 0.0;
-  };
   using Planes = std::array<Plane, 4>;
 
   /// The plane of the triangle, then those upright on its edges, with normals outwards.

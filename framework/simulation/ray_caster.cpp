@@ -19,33 +19,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The plane `normal . p = offset_m`; zeros for a triangle without area.
-struct TrianglePlane {
-  Vector3d normal;
-  double offset_m = 0.0;
-};
-
 /// A mesh with its vertices in the world at the two ends of the time window; `end` is empty if the
 /// mesh does not move, else `planes` is.
 struct PlacedMesh {
   const Mesh* mesh = nullptr;
   Points begin;
   Points end;
-  std::vector<TrianglePlane> planes;  ///< Of the triangles, in the world.
+  std::vector<Plane> planes;  ///< Of the triangles, in the world.
 };
-
-std::vector<TrianglePlane> planes_of(const Mesh& mesh, const Points& vertices) {
-  std::vector<TrianglePlane> planes;
-  planes.reserve(mesh.triangles.size());
-  for (const auto& corners : mesh.triangles) {
-    const Vector3d a = vertices[corners[0]].cast<double>();
-    const Vector3d ab = vertices[corners[1]].cast<double>() - a;
-    const Vector3d ac = vertices[corners[2]].cast<double>() - a;
-    const Vector3d normal = ab.cross(ac).normalized();
-    planes.push_back({normal, normal.dot(a)});
-  }
-  return planes;
-}
 
 PlacedMesh placed(const Body& body, const Span& window_s) {
   PlacedMesh result{
@@ -75,6 +56,22 @@ Vector3d vertex_at(const PlacedMesh& placed, std::uint32_t index, double time_ra
   const Vector3d begin = placed.begin[index].cast<double>();
   if (placed.end.empty()) return begin;
   return begin + time_ratio * (placed.end[index].cast<double>() - begin);
+}
+
+/// The corners of a triangle of a mesh at `time_ratio` of the window.
+Corners corners_of(const PlacedMesh& placed, std::uint32_t triangle, double time_ratio) {
+  const auto& [a, b, c] = placed.mesh->triangles[triangle];
+  return {vertex_at(placed, a, time_ratio), vertex_at(placed, b, time_ratio),
+          vertex_at(placed, c, time_ratio)};
+}
+
+std::vector<Plane> planes_of(const PlacedMesh& placed) {
+  std::vector<Plane> planes;
+  planes.reserve(placed.mesh->triangles.size());
+  for (std::uint32_t i = 0; i < placed.mesh->triangles.size(); ++i) {
+    planes.push_back(plane_of(corners_of(placed, i, 0.0)));
+  }
+  return planes;
 }
 
 struct Sphere {
@@ -120,27 +117,24 @@ struct PlaneHit {
 /// reciprocal, whose bits depend on the processor.
 PlaneHit hit_on_plane(const PlacedMesh& placed, std::uint32_t triangle, const Ray& ray,
                       double time_ratio) {
-  Corners corners;
-  for (std::size_t k = 0; k < 3; ++k) {
-    corners[k] = vertex_at(placed, placed.mesh->triangles[triangle][k], time_ratio) - ray.origin;
-  }
+  Corners corners = corners_of(placed, triangle, time_ratio);
+  for (Vector3d& corner : corners) corner -= ray.origin;
   const auto& [a, b, c] = corners;
-  const Vector3d normal = (b - a).cross(c - a).normalized();
-  const double cosine = normal.dot(ray.direction);
+  const Plane plane = plane_of(corners);
+  const double cosine = plane.normal.dot(ray.direction);
   const auto [nearest, farthest] =
       std::minmax({a.dot(ray.direction), b.dot(ray.direction), c.dot(ray.direction)});
   // A ray along the plane meets it anywhere, but is on the triangle.
   const double range_m =
-      cosine == 0.0 ? nearest : std::clamp(normal.dot(a) / cosine, nearest, farthest);
-  return {{range_m, std::abs(cosine), placed.mesh->materials[triangle]}, corners, normal};
+      cosine == 0.0 ? nearest : std::clamp(-plane.offset_m / cosine, nearest, farthest);
+  return {{range_m, std::abs(cosine), placed.mesh->materials[triangle]}, corners, plane.normal};
 }
 
 bool PlaneHit::is_on_triangle(const Ray& ray) const {
   const Vector3d point = hit.range_m * ray.direction;
   if (normal.isZero() || std::abs(normal.dot(point - corners[0])) > kMiss_m) return false;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vector3d edge = (corners[(k + 1) % 3] - corners[k]).normalized();
-    const Vector3d outwards = edge.cross(normal);
+    const Vector3d outwards = outwards_of_edge(corners, k, normal);
     if (outwards.dot(point - corners[k]) > kMiss_m) return false;
   }
   return true;
@@ -197,7 +191,7 @@ class RayCaster::Embree {
   /// Embree takes no empty buffers, so meshes without triangles are left out.
   void add(PlacedMesh mesh) {
     if (mesh.mesh->triangles.empty()) return;
-    if (mesh.end.empty()) mesh.planes = planes_of(*mesh.mesh, mesh.begin);
+    if (mesh.end.empty()) mesh.planes = planes_of(mesh);
     stands_still_ = stands_still_ && mesh.end.empty();
     visited_.emplace_back(mesh.mesh->triangles.size());
     meshes_.push_back(std::move(mesh));
@@ -208,19 +202,13 @@ class RayCaster::Embree {
   /// near by their bounding boxes are not.
   bool may_be_tied(const TriangleId& id, const Vector3d& point) const {
     constexpr double kRounding_m = 1e-6;
-    const std::vector<TrianglePlane>& planes = meshes_[id.first].planes;
+    const std::vector<Plane>& planes = meshes_[id.first].planes;
     if (planes.empty()) return true;
-    const TrianglePlane& plane = planes[id.second];
-    return std::abs(plane.normal.dot(point) - plane.offset_m) <= kTied_m + kMiss_m + kRounding_m;
+    return std::abs(planes[id.second].signed_distance(point)) <= kTied_m + kMiss_m + kRounding_m;
   }
 
   Corners corners_of(const TriangleId& id) const {
-    const PlacedMesh& mesh = meshes_[id.first];
-    Corners corners;
-    for (std::size_t k = 0; k < 3; ++k) {
-      corners[k] = vertex_at(mesh, mesh.mesh->triangles[id.second][k], 0.0);
-    }
-    return corners;
+    return simulation::corners_of(meshes_[id.first], id.second, 0.0);
   }
 
   /// The interior of the triangle, if there is one and few triangles are near it.
@@ -239,8 +227,8 @@ class RayCaster::Embree {
     int around = 0;
     const auto compare = [&](const TriangleId& other) {
       ++around;
-      const TrianglePlane& plane = meshes_[other.first].planes[other.second];
-      const bool reaches = std::abs(plane.normal.dot(sphere.centre) - plane.offset_m) <= reach_m;
+      const Plane& plane = meshes_[other.first].planes[other.second];
+      const bool reaches = std::abs(plane.signed_distance(sphere.centre)) <= reach_m;
       if (reaches && other != id && !interior.inner.is_farther_than(kApart_m, corners_of(other))) {
         interior.near.push_back(other);
       }
