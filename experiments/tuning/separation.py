@@ -3,14 +3,14 @@
 
 separation.py RESULTS...: folders of runs with truth whose pipeline ends with `verdict`. Prints Markdown: the
 counts of right and wrong against accepted and rejected, and quantiles of each measure. Right means within
-the bounds of success of the run.
+the bounds of success of the run. A pose without a rival has no lead.
 """
 import csv
 import json
 import os
 import sys
 
-MEASURES = ("overlap_ratio", "violation_ratio", "margin", "strength", "halves_rotation_deg",
+MEASURES = ("overlap_ratio", "violation_ratio", "lead", "strength", "halves_rotation_deg",
             "halves_translation_m")
 
 
@@ -61,8 +61,8 @@ def main(*folders):
             right = is_right(row, bounds)
             state = "rejected" if row["status"] == "rejected" else "accepted"
             counts[right, state] = counts.get((right, state), 0) + 1
-            for name in MEASURES:
-                measured[right][name].append(measures[name])
+            for name, value in measures.items():
+                measured[right][name].append(value)
     print("| | accepted | rejected |\n|---|---|---|")
     for right, word in ((True, "right"), (False, "wrong")):
         print(f"| {word} | {counts.get((right, 'accepted'), 0)} | {counts.get((right, 'rejected'), 0)} |")

@@ -3,6 +3,38 @@
 #include <cmath>
 
 namespace croon {
+namespace {
+
+/// With K the cross product with an angle times its axis, the rotation is `I + a K + b K^2` and the
+/// translation `(I + b K + c K^2)` times the way.
+struct Shares {
+  double a, b, c;
+};
+
+/// The shares of the angle whose square is `square_rad2`: sin x / x, (1 - cos x) / x^2 and
+/// (x - sin x) / x^3.
+Shares shares_of(double square_rad2) {
+  // So many terms of the series are exact to double precision up to here. A scan turns by less, and
+  // has its own time, so its own angle, for nearly every point: sine and cosine cost more.
+  constexpr double kSeries_rad2 = 0.25;
+  constexpr int kTerms = 7;
+  if (square_rad2 > kSeries_rad2) {
+    const double angle = std::sqrt(square_rad2);
+    const double sine = std::sin(angle);
+    return {sine / angle, (1.0 - std::cos(angle)) / square_rad2,
+            (angle - sine) / (angle * square_rad2)};
+  }
+  // Horner's scheme: each sum is 1/n! of the series 1 - x^2 / ((n+1)(n+2)) (1 - ...).
+  Shares shares = {1.0, 1.0, 1.0};
+  for (int k = 2 * (kTerms - 1); k > 0; k -= 2) {
+    shares.a = 1.0 - square_rad2 * (1.0 / (k * (k + 1))) * shares.a;
+    shares.b = 1.0 - square_rad2 * (1.0 / ((k + 1) * (k + 2))) * shares.b;
+    shares.c = 1.0 - square_rad2 * (1.0 / ((k + 2) * (k + 3))) * shares.c;
+  }
+  return {shares.a, shares.b / 2.0, shares.c / 6.0};
+}
+
+}  // namespace
 
 Vector6d vector_of(const Twist& velocity) {
   Vector6d vector;
@@ -17,17 +49,14 @@ Twist stepped(const Twist& velocity, const Vector6d& step) {
 RigidTransform motion_over(const Twist& velocity, double time_s) {
   const Eigen::Vector3d turn_rad = velocity.angular_radps * time_s;
   const Eigen::Vector3d way_m = velocity.linear_mps * time_s;
-  const double angle = turn_rad.norm();
-  // V = I + a K + b K^2 with K the cross product with `turn_rad`. Below this angle the first terms
-  // of the series are exact in double precision.
-  double a = 0.5 - angle * angle / 24.0;
-  double b = 1.0 / 6.0 - angle * angle / 120.0;
-  if (angle > 1e-4) {
-    a = (1.0 - std::cos(angle)) / (angle * angle);
-    b = (angle - std::sin(angle)) / (angle * angle * angle);
-  }
+  const Shares shares = shares_of(turn_rad.squaredNorm());
+  Eigen::Matrix3d K;
+  K << 0.0, -turn_rad.z(), turn_rad.y(),  //
+      turn_rad.z(), 0.0, -turn_rad.x(),   //
+      -turn_rad.y(), turn_rad.x(), 0.0;
   const Eigen::Vector3d once = turn_rad.cross(way_m);
-  return {rotation_exp(turn_rad), way_m + a * once + b * turn_rad.cross(once)};
+  return {Eigen::Matrix3d::Identity() + shares.a * K + shares.b * (K * K),
+          way_m + shares.b * once + shares.c * turn_rad.cross(once)};
 }
 
 Twist velocity_in(const RigidTransform& T_a_b, const Twist& velocity_b) {

@@ -23,7 +23,7 @@ struct BundleOptions : VoxelOptions {
   int max_passes = 8;
   int max_iterations = 20;
   int min_planes = 6;
-  double covariance_scale = 1.12;
+  double covariance_scale = 1.23;
   double velocity_error_mps = 0.08;
   double clock_offset_std_s = 0.0;
 };
@@ -80,16 +80,18 @@ struct Bundle {
 /// What is known of the starts is an observation like a plane, weighed with `start_weight`: a
 /// registration sees what is no plane, and its error is nearly independent of that of the planes.
 ///
-/// Covariances are the jackknife over clusters: the sum of d_c d_c^T of the steps
-/// `d_c = (H - H_c)^-1 g_c` that the poses make if the planes c of one scene, one direction and one
-/// cube of 8 m are left out, whose errors are not independent (see pose_uncertainty). Poses
-/// and velocities are eliminated from each other, and what is known of starts and velocities adds
-/// its own, with the covariance that it has and the weight that it got. In a scene that moves, what
-/// the poses would move if the velocity were off by `velocity_error_mps` along itself is added:
-/// what drives by itself is elsewhere when the next sensor sees it, which leaving out one surface
-/// at a time does not show. By its covariance a degree of freedom is weak if its standard deviation
-/// is more than a tenth of `start_std`, and unobservable if it is more than a half; by its planes
-/// as plane_words says.
+/// Covariances are by clusters c, the planes of one scene, one direction and one cube of 8 m, whose
+/// errors are not independent: the sum of d_c d_c^T, where `d_c = K (1 - K^T H_c K)^-1/2 K^T g_c`
+/// and `H^-1 = K K^T`. It is the linearization estimator with its bias removed of Bell and
+/// McCaffrey, Survey Methodology 2002 (CR2). Without the inner factor it is the sandwich, which is
+/// too small where a cluster has much leverage; with its square the jackknife, which is too large.
+/// Poses and velocities are eliminated from each other, and what is known of starts and velocities
+/// adds its own, with the covariance that it has and the weight that it got. In a scene that moves,
+/// what the poses would move if the velocity were off by `velocity_error_mps` along itself is
+/// added: what drives by itself is elsewhere when the next sensor sees it, which leaving out one
+/// surface at a time does not show. By its covariance a degree of freedom is weak if its standard
+/// deviation is more than a tenth of `start_std`, and unobservable if it is more than a half; by
+/// its planes as plane_words says.
 ///
 /// `start` is by sensor, T_common_sensor and what is known of it beside BundleOptions::start_std;
 /// the first of them is the identity.

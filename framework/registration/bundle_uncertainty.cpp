@@ -40,22 +40,21 @@ BundleCost along(const BundleCost& cost, const ReducedCost& scene) {
           follow.transpose() * cost.hessian * follow};
 }
 
-/// The steps that the poses make if a cluster is left out, each of which is `(H - H_c)^-1 g_c`.
-/// `K` is a root of the inverse of the Hessian, `H^-1 = K K^T`.
-std::vector<Eigen::VectorXd> steps_without(const BundleSystem& system, std::size_t scene,
-                                           const ReducedCost& scene_cost,
-                                           const Eigen::MatrixXd& K) {
+/// What the errors in each cluster move the poses by: `K (1 - K^T H_c K)^-1/2 K^T g_c`. `K` is a
+/// root of the inverse of the Hessian, `H^-1 = K K^T`.
+std::vector<Eigen::VectorXd> steps_by_cluster(const BundleSystem& system, std::size_t scene,
+                                              const ReducedCost& scene_cost,
+                                              const Eigen::MatrixXd& K) {
   // A cluster that alone holds a direction has a leverage of one there, and no finite step.
-  constexpr double kLargestLeverage = 0.9;
+  constexpr double kLargestLeverage = 0.99;
   const auto clusters =
       clusters_of(system.planes()[scene], system.rig_state(system.state(), scene));
   std::vector<Eigen::VectorXd> steps(clusters.size());
   for_each_in_parallel(clusters.size(), [&](std::size_t c) {
     const BundleCost own = along(system.scene_cost(scene, clusters[c], false), scene_cost);
-    // (H - H_c)^-1 g = K (1 - K^T H_c K)^-1 K^T g.
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> leverage(K.transpose() * own.hessian * K);
     const Eigen::VectorXd rest =
-        1.0 - leverage.eigenvalues().array().max(0.0).min(kLargestLeverage);
+        (1.0 - leverage.eigenvalues().array().max(0.0).min(kLargestLeverage)).sqrt();
     const Eigen::VectorXd inner =
         leverage.eigenvectors().transpose() * K.transpose() * own.gradient;
     steps[c] = K * leverage.eigenvectors() * inner.cwiseQuotient(rest);
@@ -116,17 +115,17 @@ Eigen::MatrixXd joint_covariance(const BundleSystem& system, const BundleOptions
   const Eigen::MatrixXd inverse = guarded_inverse<Eigen::Dynamic>(all.hessian);
   const Eigen::MatrixXd K = Eigen::LLT<Eigen::MatrixXd>(inverse).matrixL();
   Eigen::MatrixXd by_velocity = Eigen::MatrixXd::Zero(inverse.rows(), inverse.cols());
-  Eigen::MatrixXd jackknife = by_velocity;
+  Eigen::MatrixXd by_clusters = by_velocity;
   for (std::size_t s = 0; s < all.costs.size(); ++s) {
-    for (const Eigen::VectorXd& step : steps_without(system, s, all.reduced[s], K)) {
-      jackknife += step * step.transpose();
+    for (const Eigen::VectorXd& step : steps_by_cluster(system, s, all.reduced[s], K)) {
+      by_clusters += step * step.transpose();
     }
     const Eigen::VectorXd step =
         step_for_velocity_error(system.known_velocity(s), all.costs[s], all.reduced[s], all.hessian,
                                 options.velocity_error_mps);
     by_velocity += step * step.transpose();
   }
-  return options.covariance_scale * options.covariance_scale * jackknife + by_velocity +
+  return options.covariance_scale * options.covariance_scale * by_clusters + by_velocity +
          inverse * all.scatter * inverse;
 }
 

@@ -5,7 +5,7 @@
 namespace croon {
 
 /// What is not known of the present state of a bundle adjustment, by sensor, as adjust_bundle
-/// documents it: the jackknife over clusters of planes, and what starts, velocities and clocks are
+/// documents it: that by clusters of planes, and what starts, velocities and clocks are
 /// not known by. Zero for the first sensor and for those that are not free.
 struct BundleUncertainty {
   std::vector<PoseCovariance> covariances;

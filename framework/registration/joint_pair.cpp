@@ -101,7 +101,7 @@ class TermMaker {
         clock_offset_s_(view.state.clock_offsets_s[source.sensor]),
         normals_(source.scan.cloud->normals(view.options.normal_neighbours)),
         min_cosine_(std::cos(rad_from_deg(view.options.max_normal_angle_deg))),
-        max_distance_m_(static_cast<float>(view.max_distance_m)) {}
+        max_distance_m_(view.max_distance_m) {}
 
   /// Writes into `term` what point `index` of the source says, all but its patch, with the weight
   /// of the target point alone. False if the point does not correspond.
@@ -111,13 +111,12 @@ class TermMaker {
     const RigidTransform motion = motion_over(velocity_, source_s);
     const Vector3d turned = pose_.rotation * scan_.cloud->points()[index].cast<double>();
     const Vector3d q = motion * Vector3d(turned + pose_.translation);
-    const Neighbour nearest = target_.tree().nearest(q.cast<float>(), max_distance_m_);
+    const Neighbour nearest = target_.nearest(q, max_distance_m_);
     if (!nearest) return false;
-    const Vector3d n = target_.normal(nearest.index);
+    const auto [p, n] = target_.surface(nearest.index);
     const Vector3d source_normal =
         motion.rotation * (pose_.rotation * normals_.at(index).normal.cast<double>());
     if (n.isZero() || n.dot(source_normal) < min_cosine_) return false;
-    const Vector3d p = target_.points()[nearest.index].cast<double>();
     const double target_s = target_.time_s(nearest.index);
     term.residual_m = n.dot(q - p);
     term.weight = target_.weight(nearest.index);
@@ -137,7 +136,7 @@ class TermMaker {
   double clock_offset_s_;
   const Normals& normals_;
   double min_cosine_;
-  float max_distance_m_;
+  double max_distance_m_;
 };
 
 /// The terms of the points of `source` that correspond, in their order.
@@ -199,21 +198,43 @@ StillTarget::StillTarget(const JointScene& scene, const Twist& velocity,
       normals_(scene.target.cloud->normals(options.normal_neighbours)),
       vehicle_weight_(options.vehicle_weight) {
   const Cloud& cloud = *scene.target.cloud;
-  if (velocity.linear_mps.isZero(0.0) && velocity.angular_radps.isZero(0.0)) {
-    points_ = &cloud.points();
-    tree_ = &cloud.kd_tree();
-  } else {
-    moved_points_ = deskewed(cloud.points(), scene.target.times_s, velocity, scene.reference_s);
-    moved_tree_ = std::make_unique<const KdTree>(moved_points_);
-    points_ = &moved_points_;
-    tree_ = moved_tree_.get();
+  for (std::size_t i = 0; i < cloud.points().size(); ++i) {
+    const double away_s = std::abs(time_s(static_cast<int>(i)));
+    longest_s_ = std::max(longest_s_, away_s);
+    widest_sm_ = std::max(widest_sm_, away_s * cloud.points()[i].cast<double>().norm());
   }
   if (vehicle_weight_ < 1.0) vehicles_ = vehicles_of(cloud);
+  make_tree();
 }
 
-Eigen::Vector3d StillTarget::normal(int index) const {
-  return rotation_exp(velocity_.angular_radps * time_s(index)) *
-         normals_.at(index).normal.cast<double>();
+void StillTarget::make_tree() {
+  const Cloud& cloud = *scene_.target.cloud;
+  tree_velocity_ = velocity_;
+  if (vector_of(velocity_).isZero(0.0)) {
+    tree_ = &cloud.kd_tree();
+    return;
+  }
+  moved_tree_ = std::make_unique<const KdTree>(
+      deskewed(cloud.points(), scene_.target.times_s, velocity_, scene_.reference_s));
+  tree_ = moved_tree_.get();
+}
+
+void StillTarget::set_velocity(const Twist& velocity, double max_shift_m) {
+  velocity_ = velocity;
+  const Twist change = stepped(velocity, -vector_of(tree_velocity_));
+  const double shift_m =
+      longest_s_ * change.linear_mps.norm() + widest_sm_ * change.angular_radps.norm();
+  if (shift_m > max_shift_m) make_tree();
+}
+
+Neighbour StillTarget::nearest(const Eigen::Vector3d& query, double max_distance_m) const {
+  return tree_->nearest(query.cast<float>(), static_cast<float>(max_distance_m));
+}
+
+StillTarget::Surface StillTarget::surface(int index) const {
+  const RigidTransform motion = motion_over(velocity_, time_s(index));
+  return {motion * scene_.target.cloud->points()[index].cast<double>(),
+          motion.rotation * normals_.at(index).normal.cast<double>()};
 }
 
 PairEquations pair_equations(const JointScene::Source& source, const StillTarget& target,

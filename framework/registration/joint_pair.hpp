@@ -13,14 +13,21 @@ class StillTarget {
  public:
   StillTarget(const JointScene& scene, const Twist& velocity, const JointOptions& options);
 
+  /// Moves the points to another velocity. The tree that finds them is made anew if one of them may
+  /// be farther than `max_shift_m` from where the tree has it, to first order.
+  void set_velocity(const Twist& velocity, double max_shift_m);
+
   const JointScene& scene() const { return scene_; }
   const Twist& velocity() const { return velocity_; }
-  /// The points where they were at the reference time, and their tree.
-  const Points& points() const { return *points_; }
-  const KdTree& tree() const { return *tree_; }
-  /// The unit normal at point `index`, zero if it has none: that of the scan as it was measured,
-  /// turned with the point, because a point's neighbours were measured at about its time.
-  Eigen::Vector3d normal(int index) const;
+  /// The point that is nearest to `query`, by the places that the tree has.
+  Neighbour nearest(const Eigen::Vector3d& query, double max_distance_m) const;
+  /// A point where it was at the reference time, and its unit normal there, zero if it has none:
+  /// that of the scan as it was measured, turned with the point, because a point's neighbours were
+  /// measured at about its time.
+  struct Surface {
+    Eigen::Vector3d point, normal;
+  };
+  Surface surface(int index) const;
   /// When point `index` was measured, from the reference time on.
   double time_s(int index) const { return scene_.target.times_s[index] - scene_.reference_s; }
   double reference_s() const { return scene_.reference_s; }
@@ -30,14 +37,17 @@ class StillTarget {
   }
 
  private:
+  void make_tree();
+
   const JointScene& scene_;
   Twist velocity_;
-  /// Not a Cloud: what is computed for one velocity alone is work of the trial, not shared work.
-  Points moved_points_;
+  Twist tree_velocity_;  ///< That at which the tree has the points.
+  /// Not of a Cloud: what is computed for one velocity alone is work of the trial, not shared work.
   std::unique_ptr<const KdTree> moved_tree_;
-  const Points* points_;    ///< Those that moved, or those of the scan if it stands still.
-  const KdTree* tree_;      ///< Of these points; that of a scan is shared.
-  const Normals& normals_;  ///< Of the scan as it was measured.
+  const KdTree* tree_ = nullptr;  ///< Of the points that moved, or that of the scan, shared.
+  const Normals& normals_;        ///< Of the scan as it was measured.
+  double longest_s_ = 0.0;        ///< The most that a time is from the reference time.
+  double widest_sm_ = 0.0;        ///< The most that its product with the point's range is.
   double vehicle_weight_;
   /// Which points belong to things of a vehicle's size; null if they weigh as much as others.
   std::shared_ptr<const std::vector<bool>> vehicles_;

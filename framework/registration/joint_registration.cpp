@@ -30,11 +30,21 @@ class Problem {
     }
   }
 
+  /// The targets of all scenes, as they are at `state`.
+  std::vector<StillTarget> targets_at(const JointState& state) const {
+    std::vector<StillTarget> targets;
+    for (std::size_t s = 0; s < scenes_.size(); ++s) {
+      targets.emplace_back(scenes_[s], state.velocities[s], options_);
+    }
+    return targets;
+  }
+
   /// Moves `outcome` by Gauss-Newton at one distance until it stays.
-  void run(JointRegistration& outcome, double max_distance_m) const {
+  void run(JointRegistration& outcome, std::vector<StillTarget>& targets,
+           double max_distance_m) const {
     outcome.converged = false;
     for (int i = 0; i < options_.max_iterations && !outcome.converged; ++i) {
-      const Eigen::VectorXd step = step_at(outcome, max_distance_m);
+      const Eigen::VectorXd step = step_at(outcome, targets, max_distance_m);
       outcome.converged = is_small(step);
       move(outcome.state, step);
       ++outcome.iterations;
@@ -42,12 +52,17 @@ class Problem {
   }
 
  private:
-  Eigen::VectorXd step_at(JointRegistration& outcome, double max_distance_m) const {
+  Eigen::VectorXd step_at(JointRegistration& outcome, std::vector<StillTarget>& targets,
+                          double max_distance_m) const {
+    // A tree with points that have moved by less finds about the same neighbours, and residuals
+    // are of the points as they are.
+    constexpr double kShiftShare = 0.04;
     std::vector<std::vector<PairEquations>> pairs(scenes_.size());
     for_each_in_parallel(scenes_.size(), [&](std::size_t s) {
       const JointScene& scene = scenes_[s];
       const Twist& velocity = outcome.state.velocities[s];
-      const StillTarget target(scene, velocity, options_);
+      StillTarget& target = targets[s];
+      target.set_velocity(velocity, kShiftShare * max_distance_m);
       for (const JointScene::Source& source : scene.sources) {
         pairs[s].push_back(
             pair_equations(source, target, {outcome.state, velocity, max_distance_m, options_}));
@@ -201,7 +216,8 @@ JointRegistration register_jointly(const std::vector<JointScene>& scenes, JointS
   const std::size_t sensors = start.T_target_sensor.size();
   outcome.state = std::move(start);
   const Problem problem(scenes, options, sensors);
-  for (const double distance : options.max_distances_m) problem.run(outcome, distance);
+  std::vector<StillTarget> targets = problem.targets_at(outcome.state);
+  for (const double distance : options.max_distances_m) problem.run(outcome, targets, distance);
   return outcome;
 }
 

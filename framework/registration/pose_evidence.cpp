@@ -8,8 +8,10 @@
 namespace croon {
 namespace {
 
-OneWayEvidence one_way(const SensorView& target, const SensorView& source, const RigidTransform& T,
-                       const EvidenceOptions& options) {
+bool is_visible(Sight sight) { return sight != Sight::unseen && sight != Sight::hidden; }
+
+std::vector<Sight> one_way(const SensorView& target, const SensorView& source,
+                           const RigidTransform& T, const EvidenceOptions& options) {
   const KdTree& tree = target.thinned->kd_tree();
   const Normals& target_normals = target.thinned->normals(target.normal_neighbours);
   const Normals& source_normals = source.thinned->normals(source.normal_neighbours);
@@ -24,47 +26,76 @@ OneWayEvidence one_way(const SensorView& target, const SensorView& source, const
     const Eigen::Vector3d other = T.rotation * source_normals.at(index).normal.cast<double>();
     return std::abs(normal.dot(other)) >= min_cosine;
   };
-  OneWayEvidence evidence;
-  evidence.points = static_cast<int>(source.sample.size());
-  for (const int index : source.sample) {
+  const auto sight_of = [&](int index) {
     const Eigen::Vector3d point = T * source.thinned->points()[index].cast<double>();
     const auto seen = target.image.at(point);
+    if (!seen) return Sight::unseen;
     const double range_m = point.norm();
     const double margin_m = std::max(options.range_margin_m, options.range_ratio * range_m);
-    if (!seen) {
-      ++evidence.unseen;
-    } else if (range_m > seen->farthest_m + margin_m) {
-      ++evidence.hidden;
-    } else if (range_m < seen->nearest_m - margin_m) {
-      ++evidence.violate;
-    } else {
-      ++(agrees(index, point) ? evidence.agree : evidence.disagree);
+    if (range_m > seen->farthest_m + margin_m) return Sight::hidden;
+    if (range_m < seen->nearest_m - margin_m) return Sight::violates;
+    return agrees(index, point) ? Sight::agrees : Sight::disagrees;
+  };
+  std::vector<Sight> sights;
+  sights.reserve(source.sample.size());
+  for (const int index : source.sample) sights.push_back(sight_of(index));
+  return sights;
+}
+
+double count(const std::vector<Sight>& sights, Sight sight) {
+  return static_cast<double>(std::count(sights.begin(), sights.end(), sight));
+}
+
+double visible(const std::vector<Sight>& sights) {
+  return static_cast<double>(std::count_if(sights.begin(), sights.end(), is_visible));
+}
+
+double ratio(double part, double all) { return all > 0.0 ? part / all : 0.0; }
+
+/// The share of the points that are visible which are `sight`, both ways.
+double visible_share(const PoseEvidence& evidence, Sight sight) {
+  return ratio(count(evidence.source, sight) + count(evidence.target, sight),
+               visible(evidence.source) + visible(evidence.target));
+}
+
+/// The points that are visible at both of two poses.
+struct Common {
+  double points = 0.0;
+  double first_alone = 0.0, other_alone = 0.0;  ///< Those that agree at one of them alone.
+
+  void add(const std::vector<Sight>& first, const std::vector<Sight>& other) {
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      if (!is_visible(first[i]) || !is_visible(other[i])) continue;
+      points += 1.0;
+      const bool agrees = first[i] == Sight::agrees;
+      if (agrees != (other[i] == Sight::agrees)) (agrees ? first_alone : other_alone) += 1.0;
     }
   }
-  return evidence;
-}
-
-double ratio(int part, int all) { return all > 0 ? static_cast<double>(part) / all : 0.0; }
-
-int visible(const OneWayEvidence& evidence) {
-  return evidence.agree + evidence.disagree + evidence.violate;
-}
+};
 
 }  // namespace
 
-double PoseEvidence::overlap_ratio() const {
-  return ratio(source.agree + target.agree, visible(source) + visible(target));
-}
+double PoseEvidence::overlap_ratio() const { return visible_share(*this, Sight::agrees); }
 
-double PoseEvidence::violation_ratio() const {
-  return ratio(source.violate + target.violate, visible(source) + visible(target));
-}
+double PoseEvidence::violation_ratio() const { return visible_share(*this, Sight::violates); }
 
 double PoseEvidence::score() const {
-  const auto of = [](const OneWayEvidence& e) {
-    return ratio(2 * e.agree - e.disagree - 4 * e.violate, 2 * e.points);
+  const auto of = [](const std::vector<Sight>& sights) {
+    return ratio(2.0 * count(sights, Sight::agrees) - count(sights, Sight::disagrees) -
+                     4.0 * count(sights, Sight::violates),
+                 2.0 * static_cast<double>(sights.size()));
   };
   return of(source) + of(target);
+}
+
+std::optional<double> lead_over(const PoseEvidence& evidence, const PoseEvidence& other) {
+  Common common;
+  common.add(evidence.source, other.source);
+  common.add(evidence.target, other.target);
+  const double visible_at_first = visible(evidence.source) + visible(evidence.target);
+  if (common.points == 0.0 || common.points < 0.5 * visible_at_first) return std::nullopt;
+  return (common.first_alone - common.other_alone) /
+         std::sqrt(std::max(1.0, common.first_alone + common.other_alone));
 }
 
 PoseEvidence pose_evidence(const SensorView& target, const SensorView& source,

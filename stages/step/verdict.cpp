@@ -21,7 +21,7 @@ struct Params {
   params::Slot<Icp> icp;
   double min_overlap_ratio = 0.15;
   double max_violation_ratio = 0.05;
-  double min_margin = 0.02;
+  double min_lead = 4.0;
   double min_strength = 0.01;
   double max_halves_rotation_deg = 0.5;
   double max_halves_translation_m = 0.1;
@@ -44,8 +44,10 @@ const params::Table<Params>& table() {
                      "Least share of the points that both sensors should see that agree."),
       params::number("max_violation_ratio", &Params::max_violation_ratio, {0.0, 1.0},
                      "Largest share of these points that lie where the other sensor sees through."),
-      params::number("min_margin", &Params::min_margin, {-4.0, 4.0},
-                     "Least difference of the scores of the pose and of the best other one."),
+      params::number(
+          "min_lead", &Params::min_lead, {-1e3, 1e3},
+          "Of the points that are visible at the pose and at another one that the search "
+          "found, at least so many standard deviations more agree at the pose."),
       params::number("min_strength", &Params::min_strength, {0.0, 1.0},
                      "In the direction that is held the least, at least this share of the points' "
                      "mean squared motion is off their surfaces."),
@@ -80,14 +82,17 @@ class Verdict final : public Step {
     constexpr double kContact_m = 0.3;
     const std::vector<HeldDirection> held = held_directions(*target, *source, T, kContact_m);
     const Halves halves = halves_of(*target, *source, T, held);
-    const double margin = evidence.score() - best_other(estimate, *target, *source);
+    const std::optional<double> lead = least_lead(evidence, estimate, *target, *source);
     const double strength = held.empty() ? 0.0 : held.front().strength;
     Reasons reasons;
     reasons.need_at_least("the overlap with agreeing surfaces", evidence.overlap_ratio(),
                           params_.min_overlap_ratio);
     reasons.need_at_most("the share of points in free space", evidence.violation_ratio(),
                          params_.max_violation_ratio);
-    reasons.need_at_least("the margin to the next pose", margin, params_.min_margin);
+    if (lead) {
+      reasons.need_at_least("the lead over another pose, in standard deviations,", *lead,
+                            params_.min_lead);
+    }
     add_loose(held, reasons);
     reasons.need_at_most("the rotation between two halves of the points, deg,",
                          deg_from_rad(halves.rotation_rad), params_.max_halves_rotation_deg);
@@ -97,12 +102,12 @@ class Verdict final : public Step {
     estimate.diagnostics = {{"overlap_ratio", evidence.overlap_ratio()},
                             {"violation_ratio", evidence.violation_ratio()},
                             {"score", evidence.score()},
-                            {"margin", margin},
                             {"strength", strength},
                             {"strength_2", held.size() > 1 ? held[1].strength : 0.0},
                             {"strength_3", held.size() > 2 ? held[2].strength : 0.0},
                             {"halves_rotation_deg", deg_from_rad(halves.rotation_rad)},
                             {"halves_translation_m", halves.translation_m}};
+    if (lead) estimate.diagnostics.emplace_back("lead", *lead);
     return estimate;
   }
 
@@ -167,31 +172,37 @@ class Verdict final : public Step {
     return worst;
   }
 
-  /// The best score of the poses that a global search found elsewhere; -4 if there is none.
-  double best_other(const Estimate& estimate, const SensorView& target,
-                    const SensorView& source) const {
-    constexpr double kNone = -4.0;
+  /// The least lead over the poses that a global search found elsewhere, those that have the most
+  /// evidence and do not lie in free space; nothing if there is none.
+  std::optional<double> least_lead(const PoseEvidence& evidence, const Estimate& estimate,
+                                   const SensorView& target, const SensorView& source) const {
     constexpr std::size_t kRefined = 3;
     const std::vector<Hypothesis>* const others = estimate.extras.find(kHypotheses);
-    if (others == nullptr) return kNone;
+    if (others == nullptr) return std::nullopt;
     const Cloud points = part(source, 0, 2);
-    double best = kNone;
+    std::optional<double> least;
     std::size_t refined = 0;
     for (const Hypothesis& other : *others) {
       if (agree(other.T_target_source, estimate.T_target_source, kSameHypothesis)) continue;
       if (++refined > kRefined) break;
-      double score = other.score;
-      try {
-        const RigidTransform T =
-            params_.icp->align(*target.thinned, points, other.T_target_source).T_target_source;
-        if (!agree(T, estimate.T_target_source, kSameHypothesis)) {
-          score = std::max(score, pose_evidence(target, source, T, {}).score());
-        }
-      } catch (const StageError&) {
-      }  // It stays where it was found.
-      best = std::max(best, score);
+      const RigidTransform T = refined_pose(other.T_target_source, target, points);
+      if (agree(T, estimate.T_target_source, kSameHypothesis)) continue;
+      const PoseEvidence its = pose_evidence(target, source, T, {});
+      if (its.violation_ratio() > params_.max_violation_ratio) continue;
+      const std::optional<double> lead = lead_over(evidence, its);
+      if (lead) least = std::min(*lead, least.value_or(*lead));
     }
-    return best;
+    return least;
+  }
+
+  /// The pose `T` refined; as it is if too few points correspond.
+  RigidTransform refined_pose(const RigidTransform& T, const SensorView& target,
+                              const Cloud& points) const {
+    try {
+      return params_.icp->align(*target.thinned, points, T).T_target_source;
+    } catch (const StageError&) {
+      return T;
+    }
   }
 
   Params params_;
@@ -201,10 +212,12 @@ class Verdict final : public Step {
 
 StageEntry verdict() {
   return stage_entry<Verdict>("verdict",
-                              "Accepts or rejects the pose: overlap, free space, the margin to "
+                              "Accepts or rejects the pose: overlap, free space, the lead over "
                               "other poses, directions that nothing constrains, agreement of two "
                               "halves of the points.",
-                              "croon; directions after Gelfand et al., 3DIM 2003", table());
+                              "croon; directions after Gelfand et al., 3DIM 2003; the lead "
+                              "after McNemar, Psychometrika 1947",
+                              table(), 2);
 }
 
 }  // namespace croon::stages::step

@@ -34,6 +34,15 @@ TEST(Twist, MotionsOverTimesAddUp) {
   }
 }
 
+TEST(Twist, TurnsByTheExponentialOfTheRotation) {
+  Rng rng = test::test_rng(2);
+  for (int i = 0; i < 1000; ++i) {
+    const Twist twist = random_twist(rng, 1.0);
+    const RigidTransform T = motion_over(twist, 1.0);
+    EXPECT_LT((T.rotation - rotation_exp(twist.angular_radps)).norm(), 1e-15) << i;
+  }
+}
+
 TEST(Twist, IsTheDerivativeOfTheMotion) {
   Rng rng = test::test_rng();
   for (int i = 0; i < 50; ++i) {

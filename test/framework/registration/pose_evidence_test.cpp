@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "framework/base/angles.hpp"
 #include "framework/registration/constraint.hpp"
 #include "framework/registration/direction_balance.hpp"
 #include "test/support/random_geometry.hpp"
@@ -11,9 +13,9 @@
 namespace croon {
 namespace {
 
-SensorView view_of(const Points& points, std::uint64_t seed) {
+SensorView view_of(const Points& points, std::uint64_t seed, int cells = 90) {
   SensorView view{
-      std::make_shared<const Cloud>(points, StreamKey(seed)), RangeImage(points, 90), 10, {}};
+      std::make_shared<const Cloud>(points, StreamKey(seed)), RangeImage(points, cells), 10, {}};
   view.sample = balanced_sample(*view.thinned, view.normal_neighbours, 1500);
   return view;
 }
@@ -45,23 +47,74 @@ TEST(PoseEvidence, KnowsPointsInFreeSpace) {
     if (i < 2000) board.emplace_back(5.0F, 0.2F * y, 0.2F * z);
   }
   const PoseEvidence evidence = pose_evidence(view_of(wall, 1), view_of(board, 2), {}, {});
-  EXPECT_GT(evidence.source.violate, evidence.source.points * 9 / 10);
-  EXPECT_GT(evidence.target.hidden, 0);
+  const auto count = [](const std::vector<Sight>& sights, Sight sight) {
+    return std::count(sights.begin(), sights.end(), sight);
+  };
+  EXPECT_GT(10 * count(evidence.source, Sight::violates),
+            9 * static_cast<int>(evidence.source.size()));
+  EXPECT_GT(count(evidence.target, Sight::hidden), 0);
   EXPECT_GT(evidence.violation_ratio(), 0.9);
   EXPECT_EQ(evidence.overlap_ratio(), 0.0);
 }
 
-TEST(PoseEvidence, CountsEachPointOnce) {
-  Rng rng = test::test_rng(3);
-  const test::StreetPair pair =
-      test::street_pair(rng, 3, test::random_pose(rng, 1.0), 8000, 5000, 0.01);
-  const SensorView target = view_of(pair.target, 1);
-  const SensorView source = view_of(pair.source, 2);
-  const PoseEvidence evidence = pose_evidence(target, source, test::random_pose(rng, 3.0), {});
-  for (const OneWayEvidence& way : {evidence.source, evidence.target}) {
-    EXPECT_EQ(way.agree + way.disagree + way.violate + way.hidden + way.unseen, way.points);
+/// Evidence of so many points that agree, disagree and are unseen, in this order.
+PoseEvidence evidence_of(int agree, int disagree, int unseen) {
+  PoseEvidence evidence;
+  evidence.source.insert(evidence.source.end(), agree, Sight::agrees);
+  evidence.source.insert(evidence.source.end(), disagree, Sight::disagrees);
+  evidence.source.insert(evidence.source.end(), unseen, Sight::unseen);
+  return evidence;
+}
+
+TEST(PoseEvidence, LeadsByWhatAgreesAtOnePoseAlone) {
+  const PoseEvidence more = evidence_of(90, 10, 0);
+  const PoseEvidence fewer = evidence_of(65, 35, 0);
+  EXPECT_DOUBLE_EQ(lead_over(more, fewer).value(), 5.0);
+  EXPECT_DOUBLE_EQ(lead_over(fewer, more).value(), -5.0);
+  EXPECT_EQ(lead_over(more, more).value(), 0.0);
+  // What is unseen at one of the poses does not count, and half must be seen at both.
+  EXPECT_DOUBLE_EQ(lead_over(more, evidence_of(50, 16, 34)).value(), 4.0);
+  EXPECT_FALSE(lead_over(more, evidence_of(49, 0, 51)));
+  EXPECT_FALSE(lead_over(evidence_of(0, 0, 100), more));
+}
+
+/// The floor and the walls of a room that looks the same after half a turn about z, as a sensor at
+/// `origin` sees them, with noise.
+Points room_from(Rng& rng, const Eigen::Vector3d& origin, int count) {
+  Points points;
+  while (static_cast<int>(points.size()) < count) {
+    Eigen::Vector3d ray;
+    for (double& part : ray) part = rng.normal();
+    ray.normalize();
+    double range_m = ray.z() < 0.0 ? (-2.0 - origin.z()) / ray.z() : 100.0;
+    for (const int axis : {0, 1}) {
+      const double wall_m = std::copysign(axis == 0 ? 8.0 : 4.5, ray(axis));
+      range_m = std::min(range_m, (wall_m - origin(axis)) / ray(axis));
+    }
+    range_m += 0.02 * rng.normal();
+    if (origin.z() + range_m * ray.z() < 3.0) points.push_back((range_m * ray).cast<float>());
   }
-  EXPECT_EQ(evidence.source.points, static_cast<int>(source.sample.size()));
+  return points;
+}
+
+TEST(PoseEvidence, HasNoLeadWhereHalfATurnLooksTheSame) {
+  Rng rng = test::test_rng(3);
+  double square_sum = 0.0;
+  constexpr int kRooms = 10;
+  for (int i = 0; i < kRooms; ++i) {
+    const Eigen::Vector3d at = rng.uniform(0.5, 2.0) * Eigen::Vector3d::UnitX();
+    const SensorView target = view_of(room_from(rng, Eigen::Vector3d::Zero(), 20000), 1, 30);
+    const SensorView source = view_of(room_from(rng, at, 20000), 2, 30);
+    const RigidTransform turned = {rotation_exp(kPi * Eigen::Vector3d::UnitZ()), -at};
+    const RigidTransform off = {Eigen::Matrix3d::Identity(), at + Eigen::Vector3d(0.3, 0.3, 0.0)};
+    const PoseEvidence right = pose_evidence(target, source, {Eigen::Matrix3d::Identity(), at}, {});
+    const double lead = lead_over(right, pose_evidence(target, source, turned, {})).value();
+    EXPECT_LT(std::abs(lead), 4.0) << "room " << i;
+    square_sum += lead * lead;
+    EXPECT_GT(lead_over(right, pose_evidence(target, source, off, {})).value(), 10.0) << i;
+  }
+  // Points side by side err together, so it is a little more than one.
+  EXPECT_LT(std::sqrt(square_sum / kRooms), 2.0);
 }
 
 TEST(BalancedSample, KeepsSurfacesOfRareDirections) {

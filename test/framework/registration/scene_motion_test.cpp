@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "framework/registration/joint_pair.hpp"
 #include "framework/registration/joint_rivals.hpp"
 #include "framework/registration/joint_uncertainty.hpp"
 #include "test/support/random_geometry.hpp"
@@ -112,6 +113,37 @@ TEST(OtherSpeeds, KeepTheCloudsWhereTheyMet) {
     EXPECT_NEAR((velocity_mps - speeds_mps[i] * axis).norm(), 0.0, 1e-12);
     const Eigen::Vector3d met = states[i].T_target_sensor[0].translation + kLater_s * velocity_mps;
     EXPECT_NEAR(met.norm(), 0.0, 1e-9);
+  }
+}
+
+TEST(StillTarget, HasItsPointsAtTheVelocityAndFindsThemToTheShift) {
+  Rng rng = test::test_rng(3);
+  Points points;
+  std::vector<double> times_s;
+  for (int i = 0; i < 3000; ++i) {
+    const Eigen::Vector3d point = test::random_point(rng, 15.0);
+    points.push_back(point.cast<float>());
+    times_s.push_back(rng.uniform(0.0, 0.1));
+  }
+  JointScene scene;
+  scene.target = {std::make_shared<const Cloud>(PointCloud(points), StreamKey(1)), times_s};
+  scene.reference_s = 0.05;
+  const JointOptions options;
+  Twist velocity{{0.0, 0.02, -0.1}, {12.0, 0.5, -0.1}};
+  StillTarget target(scene, velocity, options);
+  constexpr double kShift_m = 0.02;
+  for (int i = 0; i < 30; ++i) {
+    for (double& part : velocity.linear_mps) part += rng.uniform(-0.1, 0.1);
+    for (double& part : velocity.angular_radps) part += rng.uniform(-0.005, 0.005);
+    target.set_velocity(velocity, kShift_m);
+    const StillTarget fresh(scene, velocity, options);
+    const Eigen::Vector3d query = test::random_point(rng, 15.0);
+    const int found = target.nearest(query, 100.0).index;
+    const int nearest = fresh.nearest(query, 100.0).index;
+    EXPECT_EQ(target.surface(found).point, fresh.surface(found).point);
+    const double too_far_m =
+        (fresh.surface(found).point - query).norm() - (fresh.surface(nearest).point - query).norm();
+    EXPECT_LT(too_far_m, 2.0 * kShift_m + 1e-4) << i;
   }
 }
 

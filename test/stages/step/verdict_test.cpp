@@ -94,17 +94,44 @@ TEST(Verdict, NamesTheAxisOfATunnel) {
   EXPECT_NE(judged.rejection->find("not constrained: x "), std::string::npos) << *judged.rejection;
 }
 
-TEST(Verdict, RejectsAPoseWithARivalThatScoresAsWell) {
+/// The floor and the walls of a room that looks the same after half a turn about z.
+Points bare_room(Rng& rng) {
+  Points points;
+  for (int i = 0; i < 30000; ++i) {
+    const auto x = static_cast<float>(rng.uniform(-8.0, 8.0));
+    const auto y = static_cast<float>(rng.uniform(-4.5, 4.5));
+    const auto z = static_cast<float>(rng.uniform(-2.0, 3.0));
+    if (i % 3 == 0) points.emplace_back(x, y, -2.0F);
+    if (i % 3 == 1) points.emplace_back(x, i % 2 == 0 ? 4.5F : -4.5F, z);
+    if (i % 3 == 2) points.emplace_back(i % 2 == 0 ? 8.0F : -8.0F, y, z);
+  }
+  return points;
+}
+
+TEST(Verdict, RejectsAPoseWithARivalThatFitsAsWell) {
   Rng rng = test::test_rng(6);
-  Estimate estimate = street_estimate(rng, 5);
+  const Points target = bare_room(rng);
+  Estimate estimate = estimate_of(target, bare_room(rng), {});
   EXPECT_FALSE(verdict()->advance(estimate, rng).rejection);
-  Vector6d away = Vector6d::Zero();
-  away(3) = 2.0;
-  estimate.extras.put(
-      kHypotheses, {{estimate.T_target_source, 1.0}, {moved(estimate.T_target_source, away), 4.0}});
+  const RigidTransform turned = {rotation_exp(kPi * Eigen::Vector3d::UnitZ()), {0.0, 0.0, 0.0}};
+  estimate.extras.put(kHypotheses, {{estimate.T_target_source, 1.0}, {turned, 1.0}});
   const auto rejection = verdict()->advance(estimate, rng).rejection;
   ASSERT_TRUE(rejection);
-  EXPECT_NE(rejection->find("margin"), std::string::npos) << *rejection;
+  EXPECT_NE(rejection->find("the lead over another pose"), std::string::npos) << *rejection;
+}
+
+TEST(Verdict, IsNotMisledByRivalsThatFitWorse) {
+  Rng rng = test::test_rng(8);
+  Estimate estimate = street_estimate(rng, 5);
+  const RigidTransform T = estimate.T_target_source;
+  Vector6d away = Vector6d::Zero();
+  away(3) = 2.0;
+  const RigidTransform turned = {rotation_exp(kPi * Eigen::Vector3d::UnitZ()) * T.rotation,
+                                 T.translation};
+  // What the search thought of them does not count.
+  estimate.extras.put(kHypotheses, {{T, 1.0}, {moved(T, away), 1.9}, {turned, 1.9}});
+  const Estimate judged = verdict()->advance(estimate, rng);
+  EXPECT_FALSE(judged.rejection) << *judged.rejection;
 }
 
 TEST(Verdict, AddsItsReasonsToThoseOfStepsBefore) {
