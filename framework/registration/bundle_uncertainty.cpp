@@ -40,24 +40,16 @@ BundleCost along(const BundleCost& cost, const ReducedCost& scene) {
           follow.transpose() * cost.hessian * follow};
 }
 
-/// What the errors in each cluster move the poses by: `K (1 - K^T H_c K)^-1/2 K^T g_c`. `K` is a
-/// root of the inverse of the Hessian, `H^-1 = K K^T`.
+/// What the errors in each cluster of a scene move the poses by, see cluster_step.
 std::vector<Eigen::VectorXd> steps_by_cluster(const BundleSystem& system, std::size_t scene,
                                               const ReducedCost& scene_cost,
                                               const Eigen::MatrixXd& K) {
-  // A cluster that alone holds a direction has a leverage of one there, and no finite step.
-  constexpr double kLargestLeverage = 0.99;
   const auto clusters =
       clusters_of(system.planes()[scene], system.rig_state(system.state(), scene));
   std::vector<Eigen::VectorXd> steps(clusters.size());
   for_each_in_parallel(clusters.size(), [&](std::size_t c) {
     const BundleCost own = along(system.scene_cost(scene, clusters[c], false), scene_cost);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> leverage(K.transpose() * own.hessian * K);
-    const Eigen::VectorXd rest =
-        (1.0 - leverage.eigenvalues().array().max(0.0).min(kLargestLeverage)).sqrt();
-    const Eigen::VectorXd inner =
-        leverage.eigenvectors().transpose() * K.transpose() * own.gradient;
-    steps[c] = K * leverage.eigenvectors() * inner.cwiseQuotient(rest);
+    steps[c] = cluster_step(own.gradient, own.hessian, K);
   });
   return steps;
 }
@@ -130,6 +122,17 @@ Eigen::MatrixXd joint_covariance(const BundleSystem& system, const BundleOptions
 }
 
 }  // namespace
+
+Eigen::VectorXd cluster_step(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& hessian,
+                             const Eigen::MatrixXd& K) {
+  // A cluster that alone holds a direction has a leverage of one there, and no finite step.
+  constexpr double kLargestLeverage = 0.99;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> leverage(K.transpose() * hessian * K);
+  const Eigen::VectorXd rest =
+      (1.0 - leverage.eigenvalues().array().max(0.0).min(kLargestLeverage)).sqrt();
+  const Eigen::VectorXd inner = leverage.eigenvectors().transpose() * K.transpose() * gradient;
+  return K * leverage.eigenvectors() * inner.cwiseQuotient(rest);
+}
 
 BundleUncertainty bundle_uncertainty(const BundleSystem& system, const BundleOptions& options) {
   BundleUncertainty result;
