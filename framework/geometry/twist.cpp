@@ -36,6 +36,12 @@ Shares shares_of(double square_rad2) {
 
 }  // namespace
 
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d matrix;
+  matrix << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return matrix;
+}
+
 Vector6d vector_of(const Twist& velocity) {
   Vector6d vector;
   vector << velocity.angular_radps, velocity.linear_mps;
@@ -50,10 +56,7 @@ RigidTransform motion_over(const Twist& velocity, double time_s) {
   const Eigen::Vector3d turn_rad = velocity.angular_radps * time_s;
   const Eigen::Vector3d way_m = velocity.linear_mps * time_s;
   const Shares shares = shares_of(turn_rad.squaredNorm());
-  Eigen::Matrix3d K;
-  K << 0.0, -turn_rad.z(), turn_rad.y(),  //
-      turn_rad.z(), 0.0, -turn_rad.x(),   //
-      -turn_rad.y(), turn_rad.x(), 0.0;
+  const Eigen::Matrix3d K = cross_matrix(turn_rad);
   const Eigen::Vector3d once = turn_rad.cross(way_m);
   return {Eigen::Matrix3d::Identity() + shares.a * K + shares.b * (K * K),
           way_m + shares.b * once + shares.c * turn_rad.cross(once)};

@@ -11,6 +11,10 @@ struct Twist {
   Eigen::Vector3d linear_mps = Eigen::Vector3d::Zero();
 };
 
+/// The matrix of the cross product with `v`: `cross_matrix(v) * w` is `v x w`. With the angular
+/// velocity it gives the velocities of points.
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
+
 /// The six numbers of a velocity: about the axes in rad/s, along them in m/s.
 Vector6d vector_of(const Twist& velocity);
 

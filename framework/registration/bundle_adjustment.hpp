@@ -81,10 +81,7 @@ struct Bundle {
 /// registration sees what is no plane, and its error is nearly independent of that of the planes.
 ///
 /// Covariances are by clusters c, the planes of one scene, one direction and one cube of 8 m, whose
-/// errors are not independent: the sum of d_c d_c^T, where `d_c = K (1 - K^T H_c K)^-1/2 K^T g_c`
-/// and `H^-1 = K K^T`. It is the linearization estimator with its bias removed of Bell and
-/// McCaffrey, Survey Methodology 2002 (CR2). Without the inner factor it is the sandwich, which is
-/// too small where a cluster has much leverage; with its square the jackknife, which is too large.
+/// errors are not independent: the sum of d_c d_c^T, with d_c as cluster_step has it.
 /// Poses and velocities are eliminated from each other, and what is known of starts and velocities
 /// adds its own, with the covariance that it has and the weight that it got. In a scene that moves,
 /// what the poses would move if the velocity were off by `velocity_error_mps` along itself is

@@ -6,12 +6,6 @@
 namespace croon {
 namespace {
 
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d matrix;
-  matrix << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return matrix;
-}
-
 /// The sums of a view's points in its sensor's frame, after the motion for their times.
 PlanePatch::View displaced(const PlanePatch::View& view, const Twist& own) {
   const Eigen::Vector3d& u = own.linear_mps;

@@ -57,6 +57,17 @@ TEST(PoseEvidence, KnowsPointsInFreeSpace) {
   EXPECT_EQ(evidence.overlap_ratio(), 0.0);
 }
 
+TEST(PoseEvidence, HasEachPointOfTheSamplesOnce) {
+  Rng rng = test::test_rng(3);
+  const test::StreetPair pair =
+      test::street_pair(rng, 3, test::random_pose(rng, 1.0), 8000, 5000, 0.01);
+  const SensorView target = view_of(pair.target, 1);
+  const SensorView source = view_of(pair.source, 2);
+  const PoseEvidence evidence = pose_evidence(target, source, test::random_pose(rng, 3.0), {});
+  EXPECT_EQ(evidence.source.size(), source.sample.size());
+  EXPECT_EQ(evidence.target.size(), target.sample.size());
+}
+
 /// Evidence of so many points that agree, disagree and are unseen, in this order.
 PoseEvidence evidence_of(int agree, int disagree, int unseen) {
   PoseEvidence evidence;
