@@ -1,6 +1,7 @@
 // What does a nearest neighbour cost, and what do our result set and bound save over nanoflann as
 // it comes?
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "benchmarks/support/clouds.hpp"
@@ -29,6 +30,9 @@ void check_equal_distances(const Points& points, const Points& queries) {
     tree.nearest(query, kNormalNeighbours, ours);
     peer.nearest(query, kNormalNeighbours, theirs);
     equal = equal && ours.size() == theirs.size();
+    std::sort(ours.begin(), ours.end(), [](const Neighbour& a, const Neighbour& b) {
+      return a.squared_distance_m2 < b.squared_distance_m2;
+    });
     for (std::size_t i = 0; equal && i < ours.size(); ++i) {
       equal = ours[i].squared_distance_m2 == theirs[i].squared_distance_m2;
     }

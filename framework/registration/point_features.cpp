@@ -69,6 +69,9 @@ Surface surface_of(const Cloud& cloud, const FeatureOptions& options) {
                                        neighbour.squared_distance_m2 > radius_m2;
                               }),
                near.end());
+    // Sums over them are in the order of the points, not in that of the search.
+    std::sort(near.begin(), near.end(),
+              [](const Neighbour& a, const Neighbour& b) { return a.index < b.index; });
   }
   return surface;
 }

@@ -180,28 +180,12 @@ class NearestManyResult {
     if (count_ > most()) drop_farthest();
   }
 
-  void write_nearest_first(std::vector<Neighbour>& neighbours) {
+  void write(std::vector<Neighbour>& neighbours) {
     if (count_ > wanted_) drop_farthest();
     neighbours.resize(static_cast<std::size_t>(count_));
     const float* const squared = this->squared().data();
     const int* const indices = this->indices().data();
-    constexpr int kFew = 128;
-    if (count_ > kFew) {
-      for (int i = 0; i < count_; ++i) neighbours[i] = {indices[i], squared[i]};
-      std::sort(neighbours.begin(), neighbours.end(), [](const Neighbour& a, const Neighbour& b) {
-        return is_nearer(a.squared_distance_m2, a.index, b.squared_distance_m2, b.index);
-      });
-      return;
-    }
-    for (int i = 0; i < count_; ++i) {
-      int nearer = 0;  // For few, counting without branches is faster than a sort.
-      for (int k = 0; k < count_; ++k) {
-        nearer += static_cast<int>(squared[k] < squared[i]) |
-                  (static_cast<int>(squared[k] == squared[i]) &
-                   static_cast<int>(indices[k] < indices[i]));
-      }
-      neighbours[static_cast<std::size_t>(nearer)] = {indices[i], squared[i]};
-    }
+    for (int i = 0; i < count_; ++i) neighbours[i] = {indices[i], squared[i]};
   }
 
  private:
@@ -315,7 +299,7 @@ void KdTree::nearest(const Eigen::Vector3f& query, int count, std::vector<Neighb
     result = NearestManyResult(wanted, kUnbounded);
     search(*tree_, query, result);
   }
-  result.write_nearest_first(neighbours);
+  result.write(neighbours);
 }
 
 }  // namespace croon

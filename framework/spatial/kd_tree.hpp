@@ -54,9 +54,9 @@ class KdTree {
   /// The nearest point within `reach_m` of `query`, and the squared distance of the second, or of
   /// the reach if that is nearer.
   NearestAndRest nearest_and_rest(const Eigen::Vector3f& query, float reach_m) const;
-  /// The `count` nearest points (fewer in a smaller cloud), nearest first, written to `neighbours`.
-  /// They are first looked for within `guess_m`, then everywhere: a good guess makes the search
-  /// faster and changes nothing else.
+  /// The `count` nearest points (fewer in a smaller cloud), written to `neighbours`. They are first
+  /// looked for within `guess_m`, then everywhere: a good guess makes the search faster. Which
+  /// points they are does not depend on it or on the tree; their order does.
   void nearest(const Eigen::Vector3f& query, int count, std::vector<Neighbour>& neighbours,
                float guess_m = 0.0F) const;
 

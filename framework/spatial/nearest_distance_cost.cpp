@@ -11,17 +11,25 @@ NearestDistanceCost::NearestDistanceCost(std::shared_ptr<const Cloud> target, co
       points_(evenly_spaced(source.points(), max_points)),
       max_distance_m_(static_cast<float>(max_distance_m)) {}
 
-double NearestDistanceCost::squared_distance_m2(const Eigen::Vector3f& point_in_target) const {
-  const Neighbour nearest = tree_.nearest(point_in_target, max_distance_m_);
-  return nearest ? static_cast<double>(nearest.squared_distance_m2)
-                 : static_cast<double>(max_distance_m_) * max_distance_m_;
+Neighbour NearestDistanceCost::nearest(const Eigen::Vector3f& point_in_target,
+                                       float reach_m) const {
+  return tree_.nearest(point_in_target, reach_m);
+}
+
+double NearestDistanceCost::addend_m2(const Neighbour& nearest) const {
+  const bool is_within =
+      nearest && nearest.squared_distance_m2 <= max_distance_m_ * max_distance_m_;
+  return is_within ? static_cast<double>(nearest.squared_distance_m2)
+                   : static_cast<double>(max_distance_m_) * max_distance_m_;
 }
 
 double NearestDistanceCost::operator()(const RigidTransform& T_target_source) const {
   const Eigen::Matrix3f R = T_target_source.rotation.cast<float>();
   const Eigen::Vector3f t = T_target_source.translation.cast<float>();
   double sum = 0.0;
-  for (const Eigen::Vector3f& point : points_) sum += squared_distance_m2(R * point + t);
+  for (const Eigen::Vector3f& point : points_) {
+    sum += addend_m2(nearest(R * point + t, max_distance_m_));
+  }
   return points_.empty() ? 0.0 : sum / static_cast<double>(points_.size());
 }
 

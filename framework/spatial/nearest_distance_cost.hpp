@@ -23,8 +23,11 @@ class NearestDistanceCost {
 
   /// The points of the source that are used, in its frame, m.
   const Points& points() const { return points_; }
-  /// The contribution of a point at `point_in_target`: its squared truncated distance, m^2.
-  double squared_distance_m2(const Eigen::Vector3f& point_in_target) const;
+  /// The point of the target that is nearest to `point_in_target`, within `reach_m`.
+  Neighbour nearest(const Eigen::Vector3f& point_in_target, float reach_m) const;
+  /// What a point adds to the sum whose nearest neighbour is this: its squared truncated distance,
+  /// m^2.
+  double addend_m2(const Neighbour& nearest) const;
   float max_distance_m() const { return max_distance_m_; }
 
  private:

@@ -11,19 +11,56 @@
 namespace croon {
 namespace {
 
-/// The covariance of the neighbours, summed from `centre` on so that no digits are lost far from
-/// the sensor.
-Eigen::Matrix3d covariance(const Points& points, const Eigen::Vector3f& centre,
-                           const std::vector<Neighbour>& neighbours) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-  for (const Neighbour& neighbour : neighbours) {
-    const Eigen::Vector3d offset = (points[neighbour.index] - centre).cast<double>();
-    sum += offset;
-    products.noalias() += offset * offset.transpose();
+/// Rounds the offsets within a radius so that sums of the products of two are exact: 21 bits each,
+/// and double precision has 53, so up to 2^11 products are.
+class OffsetRounding {
+ public:
+  explicit OffsetRounding(float radius) {
+    constexpr int kBits = 21, kSinglePrecision = 24;
+    int exponent = 0;
+    std::frexp(radius, &exponent);
+    // A float of this size has no room for what is less than the radius over 2^21.
+    shift_ = std::ldexp(1.5F, exponent - kBits + kSinglePrecision - 1);
   }
+  double operator()(float offset) const { return (offset + shift_) - shift_; }
+
+ private:
+  float shift_;
+};
+
+/// The distance of the farthest neighbour, m.
+float radius_m(const std::vector<Neighbour>& neighbours) {
+  float farthest_m2 = 0.0F;
+  for (const Neighbour& neighbour : neighbours) {
+    farthest_m2 = std::max(farthest_m2, neighbour.squared_distance_m2);
+  }
+  return std::sqrt(farthest_m2);
+}
+
+/// The covariance of the neighbours, summed from `centre` on so that no digits are lost far from
+/// the sensor. The sums are exact, so the order of the neighbours does not matter.
+Eigen::Matrix3d covariance(const Points& points, const Eigen::Vector3f& centre,
+                           const std::vector<Neighbour>& neighbours, float radius_m) {
+  const OffsetRounding rounded(radius_m);
+  double x = 0.0, y = 0.0, z = 0.0, xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
+  for (const Neighbour& neighbour : neighbours) {
+    const Eigen::Vector3f offset = points[neighbour.index] - centre;
+    const double dx = rounded(offset.x()), dy = rounded(offset.y()), dz = rounded(offset.z());
+    x += dx;
+    y += dy;
+    z += dz;
+    xx += dx * dx;
+    xy += dx * dy;
+    xz += dx * dz;
+    yy += dy * dy;
+    yz += dy * dz;
+    zz += dz * dz;
+  }
+  Eigen::Matrix3d products;
+  products << xx, xy, xz, xy, yy, yz, xz, yz, zz;
   const double count = static_cast<double>(neighbours.size());
-  return products / count - (sum / count) * (sum / count).transpose();
+  const Eigen::Vector3d mean = Eigen::Vector3d(x, y, z) / count;
+  return products / count - mean * mean.transpose();
 }
 
 /// How far the neighbours of a point are expected, from those of the point before it: points are
@@ -35,12 +72,10 @@ class ExpectedRadius {
   float at(const Eigen::Vector3f& point) const {
     return radius_m_ > 0.0F ? radius_m_ + (point - last_).norm() : 0.0F;
   }
-  void set(const Eigen::Vector3f& point, const std::vector<Neighbour>& neighbours) {
+  void set(const Eigen::Vector3f& point, float radius_m) {
     last_ = point;
     constexpr float kMoreThanRounding = 1.001F;
-    radius_m_ = neighbours.empty()
-                    ? 0.0F
-                    : kMoreThanRounding * std::sqrt(neighbours.back().squared_distance_m2);
+    radius_m_ = kMoreThanRounding * radius_m;
   }
 
  private:
@@ -85,14 +120,15 @@ LocalShape Normals::at(int index) const {
 
 LocalShape Normals::computed(int index) const {
   thread_local std::vector<Neighbour> neighbours;
-  thread_local ExpectedRadius radius;
+  thread_local ExpectedRadius expected;
   const Eigen::Vector3f& point = points_[index];
-  tree_.nearest(point, neighbours_, neighbours, radius.at(point));
-  radius.set(point, neighbours);
+  tree_.nearest(point, neighbours_, neighbours, expected.at(point));
+  const float radius = radius_m(neighbours);
+  expected.set(point, radius);
   LocalShape shape;
   if (neighbours.size() < 3) return shape;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(covariance(points_, point, neighbours));
+  solver.computeDirect(covariance(points_, point, neighbours, radius));
   const Eigen::Vector3d variances = solver.eigenvalues().cwiseMax(0.0);
   // Neighbours on one line have no normal; the closed form knows small eigenvalues to about 1e-8 of
   // the greatest.

@@ -8,11 +8,16 @@
 #include <numeric>
 #include <utility>
 
+#include "framework/spatial/evenly_spaced.hpp"
+
 namespace croon {
 namespace {
 
 /// More than the relative error of a few operations in single precision.
 constexpr float kSingleRounding = 1e-6F;
+
+/// So many times as far as the cost's largest distance a search looks.
+constexpr float kLooksFarther = 1.5F;
 
 /// Of the most points at all angles together it is kept what is known: 64 MB.
 constexpr std::size_t kMostKnown = 8'000'000;
@@ -22,7 +27,8 @@ constexpr std::size_t kMostKnown = 8'000'000;
 TurningCost::TurningCost(NearestDistanceCost cost, const RigidTransform& start,
                          const Eigen::Vector3d& axis)
     : cost_(std::move(cost)), start_(start), axis_(axis) {
-  const float away_m = static_cast<float>(start.translation.norm()) + cost_.max_distance_m();
+  const float away_m =
+      static_cast<float>(start.translation.norm()) + kLooksFarther * cost_.max_distance_m();
   for (const Eigen::Vector3f& point : cost_.points()) {
     const Eigen::Vector3d arm = start.rotation * point.cast<double>();
     points_.push_back({point, points_.size(),
@@ -69,6 +75,11 @@ void TurningCost::keep(double angle_rad, Known known) {
   if (known_.size() * points_.size() < kMostKnown) known_[angle_rad] = std::move(known);
 }
 
+double TurningCost::addend_at_least_m2(const Known& known, std::size_t i) const {
+  const double distance_m = std::min(known.at_least_m[i], cost_.max_distance_m());
+  return distance_m * distance_m;
+}
+
 std::vector<std::size_t> TurningCost::promising_first(const Known& known) const {
   // A few classes do: the order within a class decides little, and a full sort costs as much as a
   // hundred searches.
@@ -77,8 +88,8 @@ std::vector<std::size_t> TurningCost::promising_first(const Known& known) const 
   std::vector<std::uint8_t> classes(points_.size());
   std::array<std::size_t, kClasses + 1> begins = {};
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const float raise_m2 =
-        known.expected_m[i] * known.expected_m[i] - known.at_least_m[i] * known.at_least_m[i];
+    const float raise_m2 = known.expected_m[i] * known.expected_m[i] -
+                           static_cast<float>(addend_at_least_m2(known, i));
     const float share = std::clamp(1.0F - raise_m2 / most_m2, 0.0F, 0.999F);
     classes[i] = static_cast<std::uint8_t>(share * kClasses);
     ++begins[classes[i] + 1];
@@ -100,21 +111,42 @@ double TurningCost::below(double angle_rad, double enough_m2) {
   // The sum is at least this much: what has been searched, and the bounds of all other points. It
   // is compared with a little more than enough, because it is summed in another order than a mean.
   double at_least_m2 = 0.0;
-  for (const float bound_m : here.at_least_m) at_least_m2 += static_cast<double>(bound_m) * bound_m;
+  for (std::size_t i = 0; i < points_.size(); ++i) at_least_m2 += addend_at_least_m2(here, i);
   const double enough = enough_m2 * count * (1.0 + 1e-9);
-  std::vector<double> squared_distances_m2(points_.size());
+  const float reach_m = kLooksFarther * cost_.max_distance_m();
+  std::vector<double> addends_m2(points_.size());
   for (const std::size_t i : promising_first(here)) {
     if (at_least_m2 >= enough) {
       keep(angle_rad, std::move(here));
       return at_least_m2 / count;
     }
-    const double squared_m2 = cost_.squared_distance_m2(R * points_[i].point + t);
-    squared_distances_m2[points_[i].index] = squared_m2;
-    at_least_m2 += squared_m2 - static_cast<double>(here.at_least_m[i]) * here.at_least_m[i];
-    here.at_least_m[i] = here.expected_m[i] = static_cast<float>(std::sqrt(squared_m2));
+    double& addend_m2 = addends_m2[points_[i].index];
+    if (here.at_least_m[i] > cost_.max_distance_m()) {
+      addend_m2 = cost_.addend_m2({});
+      continue;
+    }
+    const Neighbour nearest = cost_.nearest(R * points_[i].point + t, reach_m);
+    addend_m2 = cost_.addend_m2(nearest);
+    at_least_m2 += addend_m2 - addend_at_least_m2(here, i);
+    here.at_least_m[i] = nearest ? std::sqrt(nearest.squared_distance_m2) : reach_m;
+    here.expected_m[i] = std::min(here.at_least_m[i], cost_.max_distance_m());
   }
   keep(angle_rad, std::move(here));
-  return std::accumulate(squared_distances_m2.begin(), squared_distances_m2.end(), 0.0) / count;
+  return std::accumulate(addends_m2.begin(), addends_m2.end(), 0.0) / count;
+}
+
+double TurningCost::glance(double angle_rad) const {
+  constexpr std::size_t kFew = 48;
+  const RigidTransform T = turned(angle_rad);
+  const Eigen::Matrix3f R = T.rotation.cast<float>();
+  const Eigen::Vector3f t = T.translation.cast<float>();
+  const std::size_t count = std::min(points_.size(), kFew);
+  double sum = 0.0;
+  for (std::size_t n = 0; n < count; ++n) {
+    const Turning& point = points_[evenly_spaced_index(n, points_.size(), count)];
+    sum += cost_.addend_m2(cost_.nearest(R * point.point + t, cost_.max_distance_m()));
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
 }  // namespace croon

@@ -14,7 +14,9 @@ namespace croon {
 /// and its distance to the target changes by no more than that. So what is known at one angle
 /// bounds the cost at another from below, and most sums need few searches of neighbours to show
 /// that they are not the least. The points that were far from the target at the nearest angle are
-/// searched first, because they raise the sum most. Neither changes a result. One thread at a time.
+/// searched first, because they raise the sum most. A search looks farther than the cost does, so
+/// that a point beyond its largest distance is known to be there at the next angles too. None of
+/// this changes a result. One thread at a time.
 class TurningCost {
  public:
   /// `axis` is a unit vector in the target's frame.
@@ -29,6 +31,9 @@ class TurningCost {
   /// The same if it is below `enough_m2`, else a number that is not.
   double below(double angle_rad, double enough_m2);
 
+  /// The cost of a few of the points, m^2.
+  double glance(double angle_rad) const;
+
  private:
   /// One point of the source.
   struct Turning {
@@ -39,13 +44,15 @@ class TurningCost {
   };
   /// What is known of the distances to the target at one angle, in the order of `points_`.
   struct Known {
-    std::vector<float> at_least_m;
+    std::vector<float> at_least_m;  ///< May be more than the cost's largest distance.
     std::vector<float> expected_m;  ///< As at the nearest angle at which the point was searched.
   };
 
   /// What the angles around this one tell of it.
   Known known_at(double angle_rad) const;
   void keep(double angle_rad, Known known);
+  /// What the point at place `i` of `points_` adds to the sum at least, m^2.
+  double addend_at_least_m2(const Known& known, std::size_t i) const;
   /// The places in `points_`, those first whose search is expected to raise the sum most.
   std::vector<std::size_t> promising_first(const Known& known) const;
 

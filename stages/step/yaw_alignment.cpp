@@ -29,7 +29,8 @@ class YawAlignment final : public Step {
     TurningCost cost(nearest_cost(estimate, params_), estimate.T_target_source, estimate.up());
     const YawMinimum minimum = params_.search->minimise(
         {[&](double yaw_rad) { return cost(yaw_rad); },
-         [&](double yaw_rad, double enough) { return cost.below(yaw_rad, enough); }});
+         [&](double yaw_rad, double enough) { return cost.below(yaw_rad, enough); },
+         [&](double yaw_rad) { return cost.glance(yaw_rad); }});
     estimate.T_target_source = cost.turned(minimum.yaw_rad);
     estimate.diagnostics = {{"cost_m2", minimum.cost},
                             {"evaluations", static_cast<double>(minimum.evaluations)}};

@@ -44,10 +44,15 @@ class Binary final : public YawSearch {
     const double finest_step_deg = std::ldexp(params_.step_deg, 1 - params_.levels);
     // Yaws are integer multiples of the last level's step, so every second yaw of a level was
     // evaluated in the level before. It was not less then and is not now.
-    std::set<std::int64_t> evaluated = {0};
-    std::int64_t best = 0;
-    double least = cost(0.0);
-    for (int level = 0; level < params_.levels; ++level) {
+    const std::int64_t first_step = std::int64_t{1} << (params_.levels - 1);
+    std::set<std::int64_t> evaluated;
+    for (const int i : yaw_grid(params_.range_deg, params_.step_deg)) {
+      evaluated.insert(i * first_step);
+    }
+    const GridMinimum on_first = least_on_grid(cost, params_.range_deg, params_.step_deg);
+    std::int64_t best = on_first.multiple * first_step;
+    double least = on_first.cost;
+    for (int level = 1; level < params_.levels; ++level) {
       const std::int64_t centre = best;
       const std::int64_t step = std::int64_t{1} << (params_.levels - 1 - level);
       const double scale = std::ldexp(1.0, -level);

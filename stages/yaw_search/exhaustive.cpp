@@ -1,3 +1,4 @@
+#include "framework/base/angles.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/yaw_search.hpp"
 
@@ -23,7 +24,8 @@ class Exhaustive final : public YawSearch {
   explicit Exhaustive(const Params& params) : params_(params) {}
 
   YawMinimum minimise(const YawCost& cost) const override {
-    return least_on_grid(cost, params_.range_deg, params_.step_deg);
+    const GridMinimum least = least_on_grid(cost, params_.range_deg, params_.step_deg);
+    return {rad_from_deg(least.multiple * params_.step_deg), least.cost, least.evaluations};
   }
 
  private:

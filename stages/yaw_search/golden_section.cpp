@@ -38,7 +38,9 @@ class GoldenSection final : public YawSearch {
   explicit GoldenSection(const Params& params) : params_(params) {}
 
   YawMinimum minimise(const YawCost& cost) const override {
-    YawMinimum least = least_on_grid(cost, params_.range_deg, params_.bracket_step_deg);
+    const GridMinimum on_grid = least_on_grid(cost, params_.range_deg, params_.bracket_step_deg);
+    YawMinimum least = {rad_from_deg(on_grid.multiple * params_.bracket_step_deg), on_grid.cost,
+                        on_grid.evaluations};
     const double tolerance_rad = rad_from_deg(params_.tolerance_deg);
     const double step_rad = rad_from_deg(params_.bracket_step_deg);
     double low_rad = least.yaw_rad - step_rad;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "test/support/neighbours.hpp"
 #include "test/support/random_geometry.hpp"
@@ -10,15 +11,17 @@
 namespace croon {
 namespace {
 
+bool is_nearer(const Neighbour& a, const Neighbour& b) {
+  return std::tie(a.squared_distance_m2, a.index) < std::tie(b.squared_distance_m2, b.index);
+}
+
 /// All points of a cloud, nearest first, and of those at the same distance the least index first.
 std::vector<Neighbour> by_distance(const Points& cloud, const Eigen::Vector3f& query) {
   std::vector<Neighbour> all;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     all.push_back({static_cast<int>(i), squared_distance_m2(cloud[i], query)});
   }
-  std::stable_sort(all.begin(), all.end(), [](const Neighbour& a, const Neighbour& b) {
-    return a.squared_distance_m2 < b.squared_distance_m2;
-  });
+  std::sort(all.begin(), all.end(), is_nearer);
   return all;
 }
 
@@ -44,6 +47,7 @@ void expect_exact(const KdTree& tree, const Points& cloud, const Eigen::Vector3f
     for (const float guess_m : {0.0F, 0.01F, 0.7F, 1e30F}) {
       tree.nearest(query, count, neighbours, guess_m);
       ASSERT_EQ(neighbours.size(), std::min<std::size_t>(cloud.size(), count));
+      std::sort(neighbours.begin(), neighbours.end(), is_nearer);
       for (std::size_t i = 0; i < neighbours.size(); ++i)
         test::expect_same(neighbours[i], truth[i]);
     }

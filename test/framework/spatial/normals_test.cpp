@@ -80,6 +80,25 @@ TEST(Normals, LengthAndBreadthAreStandardDeviationsInAnyPose) {
   }
 }
 
+TEST(Normals, DoNotDependOnTheOrderOfTheCalls) {
+  // The radius of the point before it decides in which order the neighbours of a point are found.
+  Rng rng = test::test_rng();
+  for (const double noise_m : {0.0, 0.01}) {
+    const Points cloud = test::random_street(rng, 1, 3000, noise_m);
+    const KdTree tree(cloud);
+    const Normals forwards(cloud, tree, 40), shuffled(cloud, tree, 40);
+    for (int i = 0; i < 3000; ++i) forwards.at(i);
+    for (int i = 0; i < 3000; ++i) {
+      const int index = i * 1861 % 3000;
+      const LocalShape a = shuffled.at(index), b = forwards.at(index);
+      EXPECT_EQ(a.normal, b.normal);
+      EXPECT_EQ(a.surface_variation, b.surface_variation);
+      EXPECT_EQ(a.length_m, b.length_m);
+      EXPECT_EQ(a.breadth_m, b.breadth_m);
+    }
+  }
+}
+
 TEST(Normals, AreTheSameWhicheverThreadAsksFirst) {
   Rng rng = test::test_rng();
   const Points cloud = test::random_street(rng, 1, 4000, 0.01);

@@ -67,12 +67,32 @@ TEST(TurningCost, BelowIsRightAboutWhatIsLess) {
   }
 }
 
+TEST(TurningCost, AGlanceIsTheCostOfFewPointsAndChangesNothing) {
+  for (std::uint64_t seed = 11; seed <= 14; ++seed) {
+    Turn turn(seed);
+    TurningCost turning(*turn.cost, turn.start, turn.axis),
+        glanced(*turn.cost, turn.start, turn.axis);
+    double squares = 0.0, errors = 0.0;
+    for (int i = 0; i < 40; ++i) {
+      const double angle_rad = turn.rng.uniform(-3.0, 3.0);
+      const double glance = glanced.glance(angle_rad);
+      const double cost = turning(angle_rad);
+      EXPECT_EQ(glanced(angle_rad), cost);
+      squares += cost * cost;
+      errors += (glance - cost) * (glance - cost);
+    }
+    EXPECT_LT(std::sqrt(errors / squares), 0.5);
+    EXPECT_GT(errors, 0.0);
+  }
+}
+
 TEST(TurningCost, OfNoPointsIsZero) {
   const auto target = std::make_shared<const Cloud>(Points{{1.0F, 0.0F, 0.0F}}, StreamKey(1));
   const Cloud source(Points{}, StreamKey(2));
   TurningCost turning(NearestDistanceCost(target, source, 10, 1.0), {}, Eigen::Vector3d::UnitZ());
   EXPECT_EQ(turning(0.1), 0.0);
   EXPECT_EQ(turning.below(0.1, 0.0), 0.0);
+  EXPECT_EQ(turning.glance(0.1), 0.0);
 }
 
 }  // namespace

@@ -117,6 +117,38 @@ TEST(YawSearch, CountsItsEvaluationsRepeatsNoneAndIsDeterministic) {
   }
 }
 
+TEST(YawSearch, AGlanceDecidesWhereItLooksFirstAndNotWhatItFinds) {
+  Rng rng = test::test_rng(5);
+  for (const Case& search : kCases) {
+    const auto stage = test::stage<YawSearch>(search.json);
+    for (int i = 0; i < 50; ++i) {
+      const Bowl bowl = random_bowl(rng);
+      // Steps, so that many yaws cost the same.
+      const auto cost = [&](double yaw_rad) { return std::floor(3.0 * bowl(yaw_rad)); };
+      const YawMinimum plain = stage->minimise(cost);
+      for (const double sign : {1.0, -1.0}) {
+        std::vector<double> looked_rad;
+        const YawMinimum glanced =
+            stage->minimise({[&](double yaw_rad) {
+                               looked_rad.push_back(yaw_rad);
+                               return cost(yaw_rad);
+                             },
+                             {},
+                             [&](double yaw_rad) { return sign * bowl(yaw_rad); }});
+        EXPECT_EQ(glanced.yaw_rad, plain.yaw_rad) << search.json;
+        EXPECT_EQ(glanced.cost, plain.cost) << search.json;
+        EXPECT_EQ(glanced.evaluations, plain.evaluations) << search.json;
+        const double first_away_rad = std::abs(looked_rad.front() - bowl.least_rad);
+        if (sign > 0.0) {
+          EXPECT_LE(first_away_rad, rad_from_deg(2.6)) << search.json;
+        } else {
+          EXPECT_GE(first_away_rad, rad_from_deg(80.0)) << search.json;
+        }
+      }
+    }
+  }
+}
+
 TEST(YawSearch, KeepsTheStartWhereNothingIsLower) {
   for (const Case& search : kCases) {
     const YawMinimum minimum =

@@ -1,0 +1,46 @@
+#include "framework/stage/yaw_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "framework/base/angles.hpp"
+
+namespace croon {
+
+std::vector<int> yaw_grid(double range_deg, double step_deg) {
+  // The addend makes a range that is a multiple of the step, up to rounding, include its ends.
+  const int count = static_cast<int>(std::floor(range_deg / step_deg + 1e-9));
+  std::vector<int> grid = {0};
+  for (int i = 1; i <= count; ++i) {
+    grid.push_back(i);
+    if (i * step_deg < 180.0 - 1e-9) grid.push_back(-i);
+  }
+  return grid;
+}
+
+GridMinimum least_on_grid(const YawCost& cost, double range_deg, double step_deg) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const std::vector<int> grid = yaw_grid(range_deg, step_deg);
+  const auto yaw_rad = [&](std::size_t i) { return rad_from_deg(grid[i] * step_deg); };
+  std::vector<double> glances;
+  for (std::size_t i = 0; i < grid.size(); ++i) glances.push_back(cost.glance(yaw_rad(i)));
+  std::vector<std::size_t> order(grid.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return glances[a] < glances[b]; });
+  std::size_t best = order.front();
+  double least = cost(yaw_rad(best));
+  for (std::size_t n = 1; n < order.size(); ++n) {
+    const std::size_t i = order[n];
+    const double enough = i < best ? std::nextafter(least, kInfinity) : least;
+    const double yaw_cost = cost.below(yaw_rad(i), enough);
+    if (yaw_cost >= enough) continue;
+    best = i;
+    least = yaw_cost;
+  }
+  return {grid[best], least, static_cast<int>(grid.size())};
+}
+
+}  // namespace croon
