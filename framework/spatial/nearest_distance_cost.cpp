@@ -1,5 +1,8 @@
 #include "framework/spatial/nearest_distance_cost.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "framework/spatial/evenly_spaced.hpp"
 
 namespace croon {
@@ -11,9 +14,12 @@ NearestDistanceCost::NearestDistanceCost(std::shared_ptr<const Cloud> target, co
       points_(evenly_spaced(source.points(), max_points)),
       max_distance_m_(static_cast<float>(max_distance_m)) {}
 
-Neighbour NearestDistanceCost::nearest(const Eigen::Vector3f& point_in_target,
-                                       float reach_m) const {
-  return tree_.nearest(point_in_target, reach_m);
+Neighbour NearestDistanceCost::nearest(const Eigen::Vector3f& point_in_target, float reach_m,
+                                       int near) const {
+  if (near < 0) return tree_.nearest(point_in_target, reach_m);
+  constexpr float kMoreThanRounding = 1.00001F;
+  const float near_m2 = croon::squared_distance_m2(point_in_target, target_->points()[near]);
+  return tree_.nearest(point_in_target, std::min(reach_m, std::sqrt(near_m2) * kMoreThanRounding));
 }
 
 double NearestDistanceCost::addend_m2(const Neighbour& nearest) const {

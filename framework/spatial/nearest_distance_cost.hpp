@@ -23,8 +23,9 @@ class NearestDistanceCost {
 
   /// The points of the source that are used, in its frame, m.
   const Points& points() const { return points_; }
-  /// The point of the target that is nearest to `point_in_target`, within `reach_m`.
-  Neighbour nearest(const Eigen::Vector3f& point_in_target, float reach_m) const;
+  /// The point of the target that is nearest to `point_in_target`, within `reach_m`. If one that is
+  /// near is known, `near`, it is found faster; -1 if none is.
+  Neighbour nearest(const Eigen::Vector3f& point_in_target, float reach_m, int near = -1) const;
   /// What a point adds to the sum whose nearest neighbour is this: its squared truncated distance,
   /// m^2.
   double addend_m2(const Neighbour& nearest) const;

@@ -49,7 +49,8 @@ double TurningCost::operator()(double angle_rad) {
 
 TurningCost::Known TurningCost::known_at(double angle_rad) const {
   Known here{std::vector<float>(points_.size(), 0.0F),
-             std::vector<float>(points_.size(), cost_.max_distance_m())};
+             std::vector<float>(points_.size(), cost_.max_distance_m()),
+             std::vector<int>(points_.size(), -1)};
   const auto raise = [&](const std::pair<const double, Known>& there) {
     const float turn_rad = static_cast<float>(std::abs(angle_rad - there.first)) + kSingleRounding;
     for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -58,15 +59,20 @@ TurningCost::Known TurningCost::known_at(double angle_rad) const {
     }
     return turn_rad;
   };
+  const Known* nearest = nullptr;
   const auto next = known_.lower_bound(angle_rad);
   float to_next_rad = std::numeric_limits<float>::infinity();
   if (next != known_.end()) {
     to_next_rad = raise(*next);
-    here.expected_m = next->second.expected_m;
+    nearest = &next->second;
   }
   if (next != known_.begin()) {
     const auto previous = std::prev(next);
-    if (raise(*previous) < to_next_rad) here.expected_m = previous->second.expected_m;
+    if (raise(*previous) < to_next_rad) nearest = &previous->second;
+  }
+  if (nearest != nullptr) {
+    here.expected_m = nearest->expected_m;
+    here.nearest = nearest->nearest;
   }
   return here;
 }
@@ -125,11 +131,12 @@ double TurningCost::below(double angle_rad, double enough_m2) {
       addend_m2 = cost_.addend_m2({});
       continue;
     }
-    const Neighbour nearest = cost_.nearest(R * points_[i].point + t, reach_m);
+    const Neighbour nearest = cost_.nearest(R * points_[i].point + t, reach_m, here.nearest[i]);
     addend_m2 = cost_.addend_m2(nearest);
     at_least_m2 += addend_m2 - addend_at_least_m2(here, i);
     here.at_least_m[i] = nearest ? std::sqrt(nearest.squared_distance_m2) : reach_m;
     here.expected_m[i] = std::min(here.at_least_m[i], cost_.max_distance_m());
+    here.nearest[i] = nearest.index;
   }
   keep(angle_rad, std::move(here));
   return std::accumulate(addends_m2.begin(), addends_m2.end(), 0.0) / count;

@@ -45,7 +45,10 @@ class TurningCost {
   /// What is known of the distances to the target at one angle, in the order of `points_`.
   struct Known {
     std::vector<float> at_least_m;  ///< May be more than the cost's largest distance.
-    std::vector<float> expected_m;  ///< As at the nearest angle at which the point was searched.
+    /// Of the point as it was last searched, at an angle nearby: how far its nearest neighbour is,
+    /// at most the cost's largest distance, and which that is, -1 if none was found.
+    std::vector<float> expected_m;
+    std::vector<int> nearest;
   };
 
   /// What the angles around this one tell of it.
