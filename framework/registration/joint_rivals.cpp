@@ -39,11 +39,16 @@ double lead_of(const Agreement& a, const Agreement& b) {
   return squares > 0.0 ? sum_of(differences) / std::sqrt(squares) : 0.0;
 }
 
+/// Whether a sensor has another place in one state than in the other.
+bool is_elsewhere(const JointState& a, const JointState& b, std::size_t sensor) {
+  const Eigen::Vector3d apart_m =
+      a.T_target_sensor[sensor].translation - b.T_target_sensor[sensor].translation;
+  return apart_m.norm() > kRivalDistance_m;
+}
+
 bool is_rival(const JointState& a, const JointState& b) {
   for (std::size_t k = 0; k < a.T_target_sensor.size(); ++k) {
-    const Eigen::Vector3d apart_m =
-        a.T_target_sensor[k].translation - b.T_target_sensor[k].translation;
-    if (apart_m.norm() > kRivalDistance_m) return true;
+    if (is_elsewhere(a, b, k)) return true;
   }
   return false;
 }
@@ -74,10 +79,12 @@ std::vector<JointState> other_speeds(const JointScene& scene, const JointState& 
   return others;
 }
 
-std::optional<double> lead_over_rivals(const JointScene& scene, const JointScene& coarse,
-                                       const JointState& state, std::vector<JointState> starts,
-                                       const JointOptions& options,
-                                       const JointOptions& coarse_options) {
+std::vector<std::optional<double>> leads_over_rivals(const JointScene& scene,
+                                                     const JointScene& coarse,
+                                                     const JointState& state,
+                                                     std::vector<JointState> starts,
+                                                     const JointOptions& options,
+                                                     const JointOptions& coarse_options) {
   constexpr std::size_t kRefined = 3;
   struct Rival {
     JointState state;
@@ -93,7 +100,7 @@ std::optional<double> lead_over_rivals(const JointScene& scene, const JointScene
                    [](const Rival& a, const Rival& b) { return a.agreement > b.agreement; });
   const Agreement own = agreement_of(scene, state, options);
   std::vector<JointState> seen = {state};
-  std::optional<double> least;
+  std::vector<std::optional<double>> least(scene.sources.size());
   for (const Rival& rival : rivals) {
     if (seen.size() > kRefined) break;
     const bool is_new = std::all_of(seen.begin(), seen.end(), [&](const JointState& other) {
@@ -104,7 +111,10 @@ std::optional<double> lead_over_rivals(const JointScene& scene, const JointScene
     const JointState fine = register_jointly({scene}, rival.state, options).state;
     if (!is_rival(fine, state)) continue;
     const double lead = lead_of(own, agreement_of(scene, fine, options));
-    least = std::min(lead, least.value_or(lead));
+    for (std::size_t j = 0; j < least.size(); ++j) {
+      if (!is_elsewhere(fine, state, scene.sources[j].sensor)) continue;
+      least[j] = std::min(lead, least[j].value_or(lead));
+    }
   }
   return least;
 }

@@ -19,15 +19,18 @@ inline constexpr double kRivalDistance_m = 0.1;
 
 /// By how many standard deviations more points agree in `state` of one scene than in its rivals:
 /// where the registration ends from `starts`, with `coarse_options` on the thinned scene `coarse`
-/// and then, for the three in which the most points agree, with `options` on `scene`. The least of
-/// these leads; nothing if there is no rival; negative if more points agree in one.
+/// and then, for the three in which the most points agree, with `options` on `scene`. Of each
+/// source the least of the leads over rivals that have it elsewhere; nothing if none has; negative
+/// if more points agree in one.
 ///
 /// The difference is a sum over cubes of space, which count as independent: its variance is the sum
 /// of their squares. So a rival that a few moving cars agree with is behind by little, or ahead by
 /// little.
-std::optional<double> lead_over_rivals(const JointScene& scene, const JointScene& coarse,
-                                       const JointState& state, std::vector<JointState> starts,
-                                       const JointOptions& options,
-                                       const JointOptions& coarse_options);
+std::vector<std::optional<double>> leads_over_rivals(const JointScene& scene,
+                                                     const JointScene& coarse,
+                                                     const JointState& state,
+                                                     std::vector<JointState> starts,
+                                                     const JointOptions& options,
+                                                     const JointOptions& coarse_options);
 
 }  // namespace croon

@@ -25,12 +25,14 @@ const params::Table<MotionOptions>& motion_table() {
       params::numbers(
           "other_speeds_mps", &MotionOptions::other_speeds_mps, {-1e3, 1e3},
           "These speeds, along the axis along which the scene moves the most, forwards."),
-      params::number("min_speed_lead", &MotionOptions::min_speed_lead, {-1e3, 1e3},
-                     "Such a scene is rejected unless more points agree than where any of them, "
-                     "or the state in which no patch loses weight, leads with a sensor more than " +
-                         fixed_number(kRivalDistance_m, 1) +
-                         " m away: by so many standard deviations, with cubes of " +
-                         fixed_number(kJointCell_m, 0) + " m as independent."),
+      params::number(
+          "min_speed_lead", &MotionOptions::min_speed_lead, {-1e3, 1e3},
+          "A sensor of such a scene is rejected unless more points agree than where any of them, "
+          "or the state in which no patch loses weight, leads with the sensor more "
+          "than " +
+              fixed_number(kRivalDistance_m, 1) +
+              " m away: by so many standard deviations, with cubes of " +
+              fixed_number(kJointCell_m, 0) + " m as independent."),
       params::number("certain_shift_m", &MotionOptions::certain_shift_m, {0.0, 1e6},
                      "A sensor that what is not known of the velocity moves by less, one that sees "
                      "things when the reference sees them, needs no lead: it is rejected if "
@@ -48,6 +50,7 @@ bool SceneMotion::is_in_doubt(const MotionOptions& options) const {
 std::string SceneMotion::rejection(std::size_t source, const MotionOptions& options) const {
   const bool is_held = shift_std_m.at(source) <= options.certain_shift_m;
   const double least = is_held ? std::min(options.min_speed_lead, 0.0) : options.min_speed_lead;
+  const std::optional<double>& lead = leads.at(source);
   if (!lead || *lead >= least) return "";
   return "the standard deviation of the speed, m/s, is " + fixed_number(speed_std_mps(), 3) +
          ", and the lead over another speed, in standard deviations, is " + fixed_number(*lead, 2) +
@@ -59,6 +62,7 @@ SceneMotion motion_of(const JointScene& scene, std::size_t s, const JointState& 
                       const MotionOptions& motion_options) {
   SceneMotion motion;
   motion.shift_std_m.assign(scene.sources.size(), 0.0);
+  motion.leads.resize(scene.sources.size());
   if (!scene.is_moving) return motion;
   const Vector6d velocity = vector_of(state.velocities[s]);
   const StillTarget target(scene, state.velocities[s], options);

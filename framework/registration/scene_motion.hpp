@@ -14,7 +14,7 @@ struct MotionOptions {
   double min_motion = 100.0;
   double certain_speed_std_mps = 0.1;
   std::vector<double> other_speeds_mps = {-30.0, -20.0, -10.0, 0.0, 10.0, 20.0, 30.0};
-  double min_speed_lead = 1.0;
+  double min_speed_lead = 1.5;
   double certain_shift_m = 0.0025;
 };
 
@@ -26,9 +26,9 @@ struct SceneMotion {
   Twist velocity;  ///< Of the target, in its own frame; zero if the scene stands still.
   Matrix6d covariance = Matrix6d::Zero();  ///< About the axes in rad/s, along them in m/s.
   bool is_moving = false;
-  /// Where the speed is not certain: by how many standard deviations more points agree than at
-  /// another speed, see lead_over_rivals. Nothing if no other speed leads elsewhere.
-  std::optional<double> lead;
+  /// Where the speed is not certain, of each source: by how many standard deviations more points
+  /// agree than at another speed, see leads_over_rivals. Nothing if no other speed has it elsewhere.
+  std::vector<std::optional<double>> leads;
   std::vector<double> shift_std_m;  ///< What is not known of it moves each source by so much.
 
   /// Of the velocity along x and y of the target.

@@ -106,16 +106,16 @@ class JointRegistrationStep final : public RigStep {
       SceneMotion motion =
           motion_of(group.scenes[s], s, result.state, every_patch, params_, params_);
       if (params_.poses == Poses::per_scene && motion.is_in_doubt(params_)) {
-        motion.lead = lead_of(group.scenes[s], coarse[s], result.state, motion, every_patch);
+        motion.leads = leads_of(group.scenes[s], coarse[s], result.state, motion, every_patch);
       }
       give(group, s, result, motion);
     }
   }
 
-  /// How far the `state` of a scene is ahead of where other speeds lead.
-  std::optional<double> lead_of(const JointScene& scene, const JointScene& coarse,
-                                const JointState& state, const SceneMotion& motion,
-                                const std::optional<JointState>& every_patch) const {
+  /// How far the `state` of a scene is ahead of where other speeds lead each source.
+  std::vector<std::optional<double>> leads_of(const JointScene& scene, const JointScene& coarse,
+                                              const JointState& state, const SceneMotion& motion,
+                                              const std::optional<JointState>& every_patch) const {
     const Eigen::Vector3d axis = axis_of_motion(motion, state.velocities.front());
     std::vector<JointState> starts =
         other_speeds(scene, state, axis, params_.other_speeds_mps, params_);
@@ -124,7 +124,7 @@ class JointRegistrationStep final : public RigStep {
     JointOptions near = params_;
     near.max_distances_m = params_.coarse_distances_m;
     if (near.max_distances_m.size() > 1) near.max_distances_m.erase(near.max_distances_m.begin());
-    return lead_over_rivals(scene, coarse, state, std::move(starts), params_, near);
+    return leads_over_rivals(scene, coarse, state, std::move(starts), params_, near);
   }
 
   /// The passes over the thinned scenes `coarse`, then those over all points.
@@ -222,7 +222,7 @@ class JointRegistrationStep final : public RigStep {
       const RigidTransform& T = result.state.T_target_sensor[source.sensor];
       const double offset_s = result.state.clock_offsets_s[source.sensor];
       estimate.T_target_source = T;
-      estimate.diagnostics = diagnostics_of(result, motion, motion.shift_std_m[j], offset_s);
+      estimate.diagnostics = diagnostics_of(result, motion, j, offset_s);
       // With common poses other scenes tell what a scene's velocity is.
       const std::string rejection =
           params_.poses == Poses::common ? "" : motion.rejection(j, params_);
@@ -236,19 +236,19 @@ class JointRegistrationStep final : public RigStep {
   }
 
   std::vector<Diagnostic> diagnostics_of(const JointRegistration& result, const SceneMotion& motion,
-                                         double shift_std_m, double clock_offset_s) const {
+                                         std::size_t source, double clock_offset_s) const {
     std::vector<Diagnostic> diagnostics = velocity_diagnostics(motion.velocity);
     const std::vector<Diagnostic> stds = velocity_std_diagnostics(motion.covariance);
     diagnostics.insert(diagnostics.end(), stds.begin(), stds.end());
     diagnostics.insert(diagnostics.end(), {{"speed_std_mps", motion.speed_std_mps()},
-                                           {"speed_shift_std_m", shift_std_m},
+                                           {"speed_shift_std_m", motion.shift_std_m[source]},
                                            {"rmse_m", result.rmse_m},
                                            {"iterations", static_cast<double>(result.iterations)},
                                            {"converged", result.converged ? 1.0 : 0.0}});
     if (params_.clock_offset_std_s > 0.0) {
       diagnostics.emplace_back("clock_offset_s", clock_offset_s);
     }
-    if (motion.lead) diagnostics.emplace_back("speed_lead", *motion.lead);
+    if (motion.leads[source]) diagnostics.emplace_back("speed_lead", *motion.leads[source]);
     return diagnostics;
   }
 
@@ -277,7 +277,7 @@ StageEntry joint_registration() {
       "joint_registration",
       "Sees the whole rig: registers all sensors together with the velocity of each scene, and "
       "removes the distortion of the scans by it.",
-      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 7);
+      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 8);
 }
 
 }  // namespace croon::stages::step

@@ -68,7 +68,8 @@ std::optional<double> lead(const JointScene& scene, double x_m, double rival_x_m
   JointOptions options;
   options.vehicle_weight = vehicle_weight;
   options.points = 100000;
-  return lead_over_rivals(scene, scene, sensor_at(x_m), {sensor_at(rival_x_m)}, options, options);
+  return leads_over_rivals(scene, scene, sensor_at(x_m), {sensor_at(rival_x_m)}, options, options)
+      .at(0);
 }
 
 TEST(LeadOverRivals, ManySignsAreAheadOfOneLorry) {
@@ -95,6 +96,26 @@ TEST(LeadOverRivals, RisesIfTheLorryWeighsLess) {
   EXPECT_LT(as_others, little);
   EXPECT_GT(*lead(scene, 0.0, -0.5, 0.0), little);
   EXPECT_GT(*lead(scene, 0.0, -0.5, 0.0), 0.5);
+}
+
+TEST(LeadOverRivals, IsOfTheSensorsThatARivalHasElsewhere) {
+  // A second sensor that stands where the first does and scans when the target does: a lorry that
+  // moves between the two scans moves the first alone.
+  JointScene scene = street(2, 0.5F);
+  JointScene at_once = street(2, 0.0F, 0.0);
+  scene.sources.push_back({1, at_once.sources[0].scan});
+  const auto rig_at = [](double x_m) {
+    JointState state = sensor_at(x_m);
+    state.T_target_sensor.emplace_back();
+    state.clock_offsets_s.push_back(0.0);
+    return state;
+  };
+  JointOptions options;
+  options.points = 100000;
+  const auto leads = leads_over_rivals(scene, scene, rig_at(0.0), {rig_at(-0.5)}, options, options);
+  ASSERT_EQ(leads.size(), 2U);
+  EXPECT_TRUE(leads[0]);
+  EXPECT_FALSE(leads[1]);
 }
 
 TEST(LeadOverRivals, IsNothingIfAllStartsEndAtTheState) {
@@ -167,6 +188,7 @@ TEST(SceneMotion, RejectsWhatIsNotCertainAndHasNoLead) {
   const MotionOptions options;
   SceneMotion motion;
   motion.shift_std_m = {0.1, 0.001};
+  motion.leads.resize(2);
   motion.covariance(3, 3) = 0.03 * 0.03;
   motion.covariance(4, 4) = 0.04 * 0.04;
   EXPECT_DOUBLE_EQ(motion.speed_std_mps(), 0.05);
@@ -174,14 +196,15 @@ TEST(SceneMotion, RejectsWhatIsNotCertainAndHasNoLead) {
   motion.covariance(3, 3) = 0.04;
   EXPECT_TRUE(motion.is_in_doubt(options));
   EXPECT_EQ(motion.rejection(0, options), "");
-  motion.lead = 3.0;
+  motion.leads = {3.0, 3.0};
   EXPECT_EQ(motion.rejection(0, options), "");
-  motion.lead = 0.2;
+  motion.leads = {0.2, 0.2};
   EXPECT_EQ(motion.rejection(0, options),
             "the standard deviation of the speed, m/s, is 0.204, and the lead over another speed, "
-            "in standard deviations, is 0.20, below 1.00");
+            "in standard deviations, is 0.20, below 1.50");
   EXPECT_EQ(motion.rejection(1, options), "") << "It sees things when the target sees them.";
-  motion.lead = -0.2;
+  motion.leads = {std::nullopt, -0.2};
+  EXPECT_EQ(motion.rejection(0, options), "") << "No other speed has it elsewhere.";
   EXPECT_EQ(motion.rejection(1, options),
             "the standard deviation of the speed, m/s, is 0.204, and the lead over another speed, "
             "in standard deviations, is -0.20, below 0.00");
