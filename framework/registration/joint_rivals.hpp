@@ -15,7 +15,7 @@ std::vector<JointState> other_speeds(const JointScene& scene, const JointState& 
                                      const JointOptions& options);
 
 /// A rival of a state has a sensor farther than this from its place there.
-inline constexpr double kRivalDistance_m = 0.1;
+inline constexpr double kRivalDistance_m = 0.05;
 
 /// By how many standard deviations more points agree in `state` of one scene than in its rivals:
 /// where the registration ends from `starts`, with `coarse_options` on the thinned scene `coarse`

@@ -30,7 +30,7 @@ const params::Table<MotionOptions>& motion_table() {
           "A sensor of such a scene is rejected unless more points agree than where any of them, "
           "or the state in which no patch loses weight, leads with the sensor more "
           "than " +
-              fixed_number(kRivalDistance_m, 1) +
+              fixed_number(kRivalDistance_m, 2) +
               " m away: by so many standard deviations, with cubes of " +
               fixed_number(kJointCell_m, 0) + " m as independent."),
       params::number("certain_shift_m", &MotionOptions::certain_shift_m, {0.0, 1e6},

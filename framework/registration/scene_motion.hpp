@@ -27,7 +27,8 @@ struct SceneMotion {
   Matrix6d covariance = Matrix6d::Zero();  ///< About the axes in rad/s, along them in m/s.
   bool is_moving = false;
   /// Where the speed is not certain, of each source: by how many standard deviations more points
-  /// agree than at another speed, see leads_over_rivals. Nothing if no other speed has it elsewhere.
+  /// agree than at another speed, see leads_over_rivals. Nothing if no other speed has it
+  /// elsewhere.
   std::vector<std::optional<double>> leads;
   std::vector<double> shift_std_m;  ///< What is not known of it moves each source by so much.
 
