@@ -29,14 +29,25 @@ double NearestDistanceCost::addend_m2(const Neighbour& nearest) const {
                    : static_cast<double>(max_distance_m_) * max_distance_m_;
 }
 
-double NearestDistanceCost::operator()(const RigidTransform& T_target_source) const {
+double NearestDistanceCost::mean_of(std::size_t count,
+                                    const RigidTransform& T_target_source) const {
   const Eigen::Matrix3f R = T_target_source.rotation.cast<float>();
   const Eigen::Vector3f t = T_target_source.translation.cast<float>();
   double sum = 0.0;
-  for (const Eigen::Vector3f& point : points_) {
+  for (std::size_t n = 0; n < count; ++n) {
+    const Eigen::Vector3f& point = points_[evenly_spaced_index(n, points_.size(), count)];
     sum += addend_m2(nearest(R * point + t, max_distance_m_));
   }
-  return points_.empty() ? 0.0 : sum / static_cast<double>(points_.size());
+  return count == 0 ? 0.0 : sum / static_cast<double>(count);
+}
+
+double NearestDistanceCost::operator()(const RigidTransform& T_target_source) const {
+  return mean_of(points_.size(), T_target_source);
+}
+
+double NearestDistanceCost::glance(const RigidTransform& T_target_source) const {
+  constexpr std::size_t kFew = 48;
+  return mean_of(std::min(points_.size(), kFew), T_target_source);
 }
 
 }  // namespace croon

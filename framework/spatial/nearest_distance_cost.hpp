@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -23,8 +24,12 @@ class NearestDistanceCost {
 
   /// The points of the source that are used, in its frame, m.
   const Points& points() const { return points_; }
-  /// The point of the target that is nearest to `point_in_target`, within `reach_m`. If one that is
-  /// near is known, `near`, it is found faster; -1 if none is.
+  /// The same of a few of the points, evenly spaced: an estimate.
+  double glance(const RigidTransform& T_target_source) const;
+
+  /// The point of the target that is nearest to `point_in_target`, within `reach_m`. `near` is the
+  /// index of a point of the target that is known to be near, or -1: it bounds the search and
+  /// changes nothing else.
   Neighbour nearest(const Eigen::Vector3f& point_in_target, float reach_m, int near = -1) const;
   /// What a point adds to the sum whose nearest neighbour is this: its squared truncated distance,
   /// m^2.
@@ -32,6 +37,9 @@ class NearestDistanceCost {
   float max_distance_m() const { return max_distance_m_; }
 
  private:
+  /// The mean over `count` of the points, evenly spaced.
+  double mean_of(std::size_t count, const RigidTransform& T_target_source) const;
+
   std::shared_ptr<const Cloud> target_;
   const KdTree& tree_;
   Points points_;
