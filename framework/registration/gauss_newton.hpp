@@ -46,7 +46,7 @@ struct NormalEquations {
   /// Adds the scalar residual `r` with the Jacobian row `J` and the weight `w`.
   void add(const Vector6d& J, double r, double w) {
     w *= factor;
-    information.selfadjointView<Eigen::Lower>().rankUpdate(J, w);
+    information.noalias() += J * (w * J).transpose();
     gradient += (w * r) * J;
     weighted_square_sum += w * r * r;
     weight_sum += w;

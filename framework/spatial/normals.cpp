@@ -106,9 +106,8 @@ Normals::Normals(const Points& points, const KdTree& tree, int neighbours)
     states_[i].store(kEmpty, std::memory_order_relaxed);
 }
 
-LocalShape Normals::at(int index) const {
+LocalShape Normals::first_at(int index) const {
   std::atomic<unsigned char>& state = states_[index];
-  if (state.load(std::memory_order_acquire) == kReady) return shapes_[index];
   const LocalShape shape = computed(index);
   unsigned char expected = kEmpty;
   if (state.compare_exchange_strong(expected, kBeingWritten, std::memory_order_acq_rel)) {

@@ -32,9 +32,14 @@ class Normals {
 
   /// The shape around point `index`. The normal is zero if the neighbours are fewer than three, or
   /// lie on one line.
-  LocalShape at(int index) const;
+  LocalShape at(int index) const {
+    return states_[index].load(std::memory_order_acquire) == kReady ? shapes_[index]
+                                                                    : first_at(index);
+  }
 
  private:
+  /// Computes the shape, and keeps it unless another thread does.
+  LocalShape first_at(int index) const;
   LocalShape computed(int index) const;
 
   const Points& points_;
