@@ -34,7 +34,7 @@ Eigen::Matrix3d plane_to_plane_information(const Eigen::Vector3d& target_normal,
                                            const Eigen::Vector3d& source_normal, double epsilon);
 
 /// The sums of one Gauss-Newton step: `information = sum w J^T Omega J`, `gradient = sum w J^T
-/// Omega r`.
+/// Omega r`. Of `information` only the lower triangle is meant.
 struct NormalEquations {
   Matrix6d information = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();

@@ -45,7 +45,7 @@ class Laser {
   }
 
   /// Replaces `rays` and `firings` by those of the next azimuths, about a block of rays; false if
-  /// there are none. A block stays in the cache, and the memory does not grow with the scan.
+  /// there are none. A block stays in the cache, and rays take no more memory in a larger scan.
   bool fire_next(std::vector<Ray>& rays, std::vector<Firing>& firings) {
     constexpr std::size_t kBlock = 4096;
     rays.clear();

@@ -24,7 +24,7 @@ class NearestDistanceCost {
 
   /// The points of the source that are used, in its frame, m.
   const Points& points() const { return points_; }
-  /// The same of a few of the points, evenly spaced: an estimate.
+  /// An estimate of the cost from a few of the points, evenly spaced.
   double glance(const RigidTransform& T_target_source) const;
 
   /// The point of the target that is nearest to `point_in_target`, within `reach_m`. `near` is the

@@ -130,7 +130,7 @@ class BrickTable {
     resize(bits);
   }
 
-  std::vector<Brick> slots_;  ///< The first slot_count() are in use, few of them taken.
+  std::vector<Brick> slots_;  ///< The first slot_count() are in use, at most a quarter taken.
   std::vector<std::uint32_t> used_;
   std::vector<Brick> moved_;
   std::size_t used_count_ = 0;
