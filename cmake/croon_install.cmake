@@ -14,7 +14,7 @@ function(install_libraries export)
   install(EXPORT ${export} NAMESPACE croon:: DESTINATION "${package_folder}")
 endfunction()
 
-set(libraries croon_framework croon_registry croon_stages croon_library)
+set(libraries croon_openvdb croon_framework croon_registry croon_stages croon_library)
 if(TARGET croon_cgal)
   list(APPEND libraries croon_cgal)
 endif()
@@ -31,6 +31,7 @@ if(CROON_BUILD_TOOLS)
   install_libraries(croonProgramTargets croon_simulation croon_experiment_file croon_run croon_store croon_analysis
     croon_report croon_cli croon_program)
   install(TARGETS croon)
+  install(TARGETS croon_openvdb_module LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/croon")
   install(FILES experiments/store/version.hpp DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/croon/experiments/store")
   install(FILES "${CMAKE_BINARY_DIR}/experiments/store/version.cpp.in"
     "${CMAKE_BINARY_DIR}/experiments/store/croon_commit.cmake" DESTINATION "${package_folder}")

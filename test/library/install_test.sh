@@ -38,6 +38,11 @@ cat >"$folder/two.json" <<'END'
 {"name": "two", "dataset": {"type": "simulated", "scenes": 1, "mix": {"urban": 1}},
  "starts": {"rotation_deg": 5, "trials": 1}, "pipeline": [{"step": "ground_alignment"}]}
 END
+# The module that it loads on demand is beside it, wherever the prefix is.
+mv "$folder/prefix" "$folder/moved"
+sed 's/"ground_alignment"/"volume_refinement", "scorer": {"type": "openvdb_grid"}/' "$folder/two.json" >"$folder/openvdb.json"
+"$folder/moved/bin/croon" run "$folder/openvdb.json" --out "$folder/openvdb" --quiet >/dev/null || fail 'the program does not find OpenVDB'
+mv "$folder/moved" "$folder/prefix"
 "$croon" simulate "$folder/two.json" --out "$folder/scenes" --quiet >/dev/null
 answer=$("$calibrate" "$pipeline" "$folder/scenes/000000/top.pcd" "$folder/scenes/000000/left.pcd")
 # A rotation, a translation and a matrix of six by six.

@@ -165,7 +165,7 @@ TEST_F(OddInput, ManyFaultsAreCounted) {
 TEST_F(OddInput, EmbreeWithoutMemoryIsNoBug) {
   experiment(R"("starts": {"trials": 1})", R"({"type": "simulated", "scenes": 1})");
   const Answer answer =
-      croon("validate " + path("x.json") + " >/dev/null; ulimit -v 300000; \"" + CROON_BINARY_DIR +
+      croon("validate " + path("x.json") + " >/dev/null; ulimit -v 180000; \"" + CROON_BINARY_DIR +
             "/bin/croon\" run " + path("x.json") + " --quiet --jobs 1 --out " + path("out"));
   EXPECT_EQ(answer.code, 1);
   EXPECT_NE(answer.text.find("croon: Embree does not start: "), std::string::npos) << answer.text;

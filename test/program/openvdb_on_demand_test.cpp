@@ -1,0 +1,58 @@
+// The program starts without OpenVDB, and has it where a stage or a file wants it.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "framework/base/whole_file.hpp"
+#include "test/support/script.hpp"
+#include "test/support/temp_folder.hpp"
+
+namespace croon::experiments {
+namespace {
+
+/// An experiment of one scene whose starts are refined by `scorer`.
+std::string refined_by(const std::string& scorer) {
+  return R"({"name": "openvdb", "starts": {"rotation_deg": 1, "trials": 1},
+    "dataset": {"type": "simulated", "scenes": 1, "mix": {"urban": 1}},
+    "pipeline": [{"step": "volume_refinement", "scorer": {"type": ")" +
+         scorer + R"("}}]})";
+}
+
+TEST(OpenvdbOnDemand, IsNotLoadedByAProgramThatStarts) {
+  const test::TempFolder folder;
+  const test::Finished finished = test::run_script("ldd \"$(type -P croon)\"\n", folder.path());
+  ASSERT_EQ(finished.status, 0) << finished.output;
+  EXPECT_NE(finished.output.find("libstdc++"), std::string::npos) << finished.output;
+  EXPECT_EQ(finished.output.find("openvdb"), std::string::npos) << finished.output;
+}
+
+TEST(OpenvdbOnDemand, CountsTheLeavesThatOtherScorersCount) {
+  const test::TempFolder folder;
+  folder.write("openvdb.json", refined_by("openvdb_grid"));
+  folder.write("other.json", refined_by("pointer_octree"));
+  const test::Finished finished = test::run_script(
+      "croon run openvdb.json --out openvdb --quiet\n"
+      "croon run other.json --out other --quiet\n",
+      folder.path());
+  ASSERT_EQ(finished.status, 0) << finished.output;
+  EXPECT_EQ(read_whole_file(folder.path() / "openvdb/trials.csv"),
+            read_whole_file(folder.path() / "other/trials.csv"));
+}
+
+TEST(OpenvdbOnDemand, IsMissedInOneLineByAProgramThatWasMovedAlone) {
+  const test::TempFolder folder;
+  folder.write("openvdb.json", refined_by("openvdb_grid"));
+  const test::Finished finished = test::run_script(
+      "mkdir bin; cp \"$(type -P croon)\" bin/alone\n"
+      "bin/alone run openvdb.json --out results --quiet || [[ $? == 2 ]]\n",
+      folder.path());
+  EXPECT_EQ(finished.status, 0) << finished.output;
+  EXPECT_NE(
+      finished.output.find("openvdb.so: the part of croon that uses OpenVDB cannot be loaded"),
+      std::string::npos)
+      << finished.output;
+  EXPECT_EQ(finished.output.find('\n'), finished.output.size() - 1) << finished.output;
+}
+
+}  // namespace
+}  // namespace croon::experiments
