@@ -1,10 +1,17 @@
 #include "benchmarks/support/run.hpp"
 
+#ifdef CROON_WITH_JEMALLOC
+#include <jemalloc/jemalloc.h>
+#else
 #include <malloc.h>
+#endif
 
+#include <cstdint>
 #include <exception>
 #include <iostream>
 #include <vector>
+
+#include "framework/base/huge_pages.hpp"
 
 namespace croon::benchmarks {
 namespace {
@@ -17,8 +24,19 @@ int& failures() {
 }  // namespace
 
 std::size_t allocated_bytes() {
+#ifdef CROON_WITH_JEMALLOC
+  // What is freed counts once it has left the thread's cache, and numbers are those of an epoch.
+  mallctl("thread.tcache.flush", nullptr, nullptr, nullptr, 0);
+  std::uint64_t epoch = 1;
+  mallctl("epoch", nullptr, nullptr, &epoch, sizeof(epoch));
+  std::size_t bytes = 0;
+  std::size_t size = sizeof(bytes);
+  mallctl("stats.allocated", &bytes, &size, nullptr, 0);
+  return bytes;
+#else
   const struct mallinfo2 info = mallinfo2();
   return info.uordblks + info.hblkhd;
+#endif
 }
 
 void add(const std::string& name, benchmark::TimeUnit unit,

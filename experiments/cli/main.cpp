@@ -15,18 +15,12 @@
 #include "experiments/report/figures.hpp"
 #include "experiments/store/version.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/huge_pages.hpp"
 #include "framework/base/text.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/picture/writers.hpp"
 #include "registry/help.hpp"
 #include "registry/registry.hpp"
-
-/// jemalloc's options (its manual, `TUNING`), if the program has it: pages of 2 MiB, and memory
-/// that is kept once it was used. A page fault costs more than what is computed from the page.
-extern "C" {
-extern const char* malloc_conf;
-const char* malloc_conf = "thp:always,dirty_decay_ms:-1,muzzy_decay_ms:-1";
-}
 
 namespace croon::experiments {
 namespace {

@@ -1,5 +1,7 @@
-// The program starts without OpenVDB, and has it where a stage or a file wants it.
+// The program starts without OpenVDB, and has it where a stage or a file wants it. It tells
+// jemalloc how to allocate.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <string>
 
@@ -52,6 +54,18 @@ TEST(OpenvdbOnDemand, IsMissedInOneLineByAProgramThatWasMovedAlone) {
       std::string::npos)
       << finished.output;
   EXPECT_EQ(finished.output.find('\n'), finished.output.size() - 1) << finished.output;
+}
+
+TEST(Allocator, IsToldToTakeHugePages) {
+  const test::TempFolder folder;
+  const test::Finished finished = test::run_script(
+      "program=$(type -P croon)\n"
+      "ldd \"$program\" | grep jemalloc >all.txt || exit 77\n"
+      "nm --dynamic \"$program\" | grep -w malloc_conf\n"
+      "strings \"$program\" | grep ^thp:always\n",
+      folder.path());
+  if (WEXITSTATUS(finished.status) == 77) GTEST_SKIP() << "the program is built without jemalloc";
+  EXPECT_EQ(finished.status, 0) << finished.output;
 }
 
 }  // namespace
