@@ -54,6 +54,16 @@ std::vector<double> times_s(const PointCloud& cloud) {
   return times;
 }
 
+void set_channel(PointCloud& cloud, Channel channel) {
+  const auto is_of_its_name = [&](const Channel& other) { return other.name == channel.name; };
+  const auto old = std::find_if(cloud.channels.begin(), cloud.channels.end(), is_of_its_name);
+  if (old == cloud.channels.end()) {
+    cloud.channels.push_back(std::move(channel));
+  } else {
+    *old = std::move(channel);
+  }
+}
+
 void keep_channels(PointCloud& cloud, const std::set<std::string>& names) {
   const auto is_other = [&](const Channel& channel) { return names.count(channel.name) == 0; };
   cloud.channels.erase(std::remove_if(cloud.channels.begin(), cloud.channels.end(), is_other),

@@ -33,6 +33,9 @@ struct Channel {
 inline constexpr const char* kIntensity = "intensity";
 inline constexpr const char* kRing = "ring";
 inline constexpr const char* kTime = "time";
+/// How many measured points a point of a thinned cloud is the mean of, at least one; without the
+/// channel, of one. plane_patches says what it is good for.
+inline constexpr const char* kMeanOf = "mean_of";
 
 /// The points of one scan (one revolution of the LiDAR), and named channels, each as long as the
 /// points.
@@ -78,6 +81,9 @@ std::vector<double> channel_values(const PointCloud& cloud, const std::string& n
 /// When each ray was fired, seconds, from the channel `time`. Floating numbers are seconds;
 /// integers are nanoseconds, as drivers write them. Throws StageError if there is no such channel.
 std::vector<double> times_s(const PointCloud& cloud);
+
+/// Gives the cloud this channel, in place of one of its name.
+void set_channel(PointCloud& cloud, Channel channel);
 
 /// Removes the channels that are not among `names`.
 void keep_channels(PointCloud& cloud, const std::set<std::string>& names);

@@ -16,6 +16,7 @@ struct PlacedPoint {
   Eigen::Vector3f common;
   Eigen::Vector3f own;
   float time_s;
+  float weight;
   int view;  ///< An index into the clouds.
 };
 
@@ -93,24 +94,27 @@ class PatchSearch {
 
   void add_patch(Iterator begin, Iterator end, double rms_m) {
     std::vector<PlanePatch::View> views(clouds_.size());
+    std::vector<int> counts(clouds_.size());
     for (Iterator point = begin; point != end; ++point) {
       PlanePatch::View& view = views[point->view];
+      ++counts[point->view];
       const Eigen::Vector3d own = point->own.cast<double>();
-      view.sums.add(own);
+      const double weight = point->weight;
+      view.sums.add(own, weight);
       const double time_s = point->time_s;
       if (time_s == 0.0) continue;
-      view.timed.add(own, time_s);
-      view.timed_twice.add(own, time_s * time_s);
+      view.timed.add(own, weight * time_s);
+      view.timed_twice.add(own, weight * time_s * time_s);
     }
     const double noise_m = std::max(rms_m, options_.noise_m);
     PlanePatch patch;
     for (std::size_t k = 0; k < clouds_.size(); ++k) {
       const PlanePatch::View& view = views[k];
-      const double count = view.sums.weight;
+      const double count = counts[k];
       if (count < options_.min_sensor_points) continue;
       const double variance =
           noise_m * noise_m / count + options_.surface_error_m * options_.surface_error_m;
-      const double weight = 1.0 / (variance * count);
+      const double weight = 1.0 / (variance * view.sums.weight);
       patch.views.push_back({clouds_[k].sensor, view.sums.scaled(weight), view.timed.scaled(weight),
                              view.timed_twice.scaled(weight)});
       patch.own_cost += least_eigenvalue(patch.views.back().sums.scatter());
@@ -130,6 +134,7 @@ std::vector<PlacedPoint> placed_points(const std::vector<SensorCloud>& clouds,
     const RigidTransform& T = state.poses[clouds[view].sensor];
     const Points& own = clouds[view].cloud->points();
     const std::vector<double>& times_s = clouds[view].times_s;
+    const Channel* const mean_of = find_channel(clouds[view].cloud->with_channels(), kMeanOf);
     std::optional<Twist> velocity;
     if (state.velocity && !times_s.empty()) velocity = velocity_in(T.inverse(), *state.velocity);
     for (std::size_t i = 0; i < own.size(); i += static_cast<std::size_t>(stride)) {
@@ -138,8 +143,10 @@ std::vector<PlacedPoint> placed_points(const std::vector<SensorCloud>& clouds,
       if (velocity) {
         point += time_s * (velocity->linear_mps + velocity->angular_radps.cross(point));
       }
-      points.push_back({(T * point).cast<float>(), point.cast<float>(), static_cast<float>(time_s),
-                        static_cast<int>(view)});
+      points.push_back(
+          {(T * point).cast<float>(), point.cast<float>(), static_cast<float>(time_s),
+           mean_of == nullptr ? 1.0F : std::max(1.0F, static_cast<float>(mean_of->value(i))),
+           static_cast<int>(view)});
     }
   }
   return points;

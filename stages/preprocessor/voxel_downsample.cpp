@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <unordered_map>
 
@@ -23,7 +24,7 @@ const params::Table<Params>& table() {
 /// The points of one leaf.
 struct LeafSum {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  int points = 0;
+  std::uint32_t points = 0;
 };
 
 struct LeafHash {
@@ -37,6 +38,12 @@ struct LeafHash {
   }
 };
 
+/// How many points of the scan a point stands for.
+std::uint32_t measured_points(const Channel* mean_of, std::size_t point) {
+  if (mean_of == nullptr) return 1;
+  return static_cast<std::uint32_t>(std::clamp(mean_of->value(point), 1.0, 1e9));
+}
+
 class VoxelDownsample final : public Preprocessor {
  public:
   explicit VoxelDownsample(const Params& params) : grid_(params.leaf_size_m) {}
@@ -45,6 +52,7 @@ class VoxelDownsample final : public Preprocessor {
     std::unordered_map<LeafKey, std::size_t, LeafHash> indices;  // In `leaves`.
     std::vector<LeafSum> leaves;  // In the order of their first points in the cloud.
     std::vector<std::size_t> first_points;
+    const Channel* const mean_of = find_channel(cloud, kMeanOf);
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       const Eigen::Vector3d point = cloud.points[i].cast<double>();
       const auto [entry, is_new] =
@@ -54,13 +62,17 @@ class VoxelDownsample final : public Preprocessor {
         first_points.push_back(i);
       }
       LeafSum& leaf = leaves[entry->second];
-      leaf.sum += point;
-      ++leaf.points;
+      const std::uint32_t points = measured_points(mean_of, i);
+      leaf.sum += points * point;
+      leaf.points += points;
     }
     PointCloud thinned = selected(cloud, first_points);
+    std::vector<std::uint32_t> counts(leaves.size());
     for (std::size_t i = 0; i < leaves.size(); ++i) {
-      thinned.points[i] = (leaves[i].sum / static_cast<double>(leaves[i].points)).cast<float>();
+      counts[i] = leaves[i].points;
+      thinned.points[i] = (leaves[i].sum / static_cast<double>(counts[i])).cast<float>();
     }
+    set_channel(thinned, make_channel(kMeanOf, counts));
     return thinned;
   }
 
@@ -74,8 +86,8 @@ StageEntry voxel_downsample() {
   return stage_entry<VoxelDownsample>(
       "voxel_downsample",
       "Replaces the points of each leaf by their mean, with the channels of the first of them, in "
-      "the order of the cloud.",
-      "croon", table());
+      "the order of the cloud. The channel mean_of says how many there were.",
+      "croon", table(), 2);
 }
 
 }  // namespace croon::stages::preprocessor

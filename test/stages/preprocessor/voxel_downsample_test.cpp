@@ -1,8 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 
+#include "framework/registration/adaptive_voxels.hpp"
 #include "framework/spatial/leaf_grid.hpp"
 #include "framework/stage/preprocessor.hpp"
 #include "test/support/random_geometry.hpp"
@@ -48,6 +52,57 @@ TEST(VoxelDownsample, LeavesSinglePointsAlone) {
   EXPECT_EQ(downsample(1.0)->apply(cloud).points, cloud);
   EXPECT_TRUE(downsample(1.0)->apply({}).empty());
   EXPECT_EQ(downsample(1.0)->apply(Points(100, cloud[0])).points, (Points{cloud[0]}));
+}
+
+TEST(VoxelDownsample, SaysOfHowManyPointsEachIsTheMean) {
+  Rng rng = test::test_rng();
+  const Points cloud = test::random_cloud(rng, 2000, 5.0);
+  const PointCloud once = downsample(0.5)->apply(cloud);
+  const PointCloud twice = downsample(2.0)->apply(once);
+  const PointCloud directly = downsample(2.0)->apply(cloud);
+  ASSERT_EQ(twice.size(), directly.size());
+  // Leaves of 2 m are unions of leaves of 0.5 m: thinning in two steps is thinning in one.
+  EXPECT_EQ(channel_values(twice, kMeanOf), channel_values(directly, kMeanOf));
+  for (std::size_t i = 0; i < twice.size(); ++i) {
+    EXPECT_LT((twice.points[i] - directly.points[i]).norm(), 1e-5F);
+  }
+  const std::vector<double> counts = channel_values(directly, kMeanOf);
+  EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0.0), 2000.0);
+}
+
+/// How far off `y_m` the planes are that two sensors with these clouds see, in the mean, metres.
+double mean_plane_error_m(const PointCloud& cloud, double y_m) {
+  const Cloud one(cloud, StreamKey(1)), other(cloud, StreamKey(2));
+  RigState state;
+  state.poses.resize(2);
+  double error_m = 0.0;
+  const std::vector<PlanePatch> patches =
+      plane_patches({{0, &one}, {1, &other}}, state, 1, VoxelOptions{});
+  for (const PlanePatch& patch : patches) {
+    const PointSums& sums = patch.views.front().sums;
+    error_m += sums.sum.y() / sums.weight - y_m;
+  }
+  EXPECT_GT(patches.size(), 4U);
+  return error_m / static_cast<double>(patches.size());
+}
+
+TEST(VoxelDownsample, LeavesNoisyWallsInTheirPlaces) {
+  Rng rng = test::test_rng();
+  double worst_without_m = 0.0;
+  for (const double y_m : {2.35, 2.37, 2.40, 2.42}) {
+    Points wall;
+    for (int i = 0; i < 40000; ++i) {
+      const double x = rng.uniform(0.0, 4.0);
+      const double y = y_m + 0.015 * rng.normal();
+      const double z = rng.uniform(0.0, 2.0);
+      wall.push_back(Eigen::Vector3d(x, y, z).cast<float>());
+    }
+    PointCloud thinned = downsample(0.1)->apply(wall);
+    EXPECT_LT(std::abs(mean_plane_error_m(thinned, y_m)), 4e-4) << y_m;
+    thinned.channels.clear();
+    worst_without_m = std::max(worst_without_m, std::abs(mean_plane_error_m(thinned, y_m)));
+  }
+  EXPECT_GT(worst_without_m, 2e-3);
 }
 
 TEST(VoxelDownsample, GivesUpOnPointsBeyondItsLeaves) {
