@@ -49,7 +49,7 @@ lint: packages
 	.ci/install_packages clang-tidy
 	cmake --preset lint
 	cmake --build --preset lint --target croon_version
-	$(RUN_CLANG_TIDY) -quiet -p build/lint -checks=-bugprone-suspicious-include -extra-arg=-Wno-unknown-warning-option
+	$(RUN_CLANG_TIDY) -quiet -p build/lint -checks=-bugprone-suspicious-include -extra-arg=-Wno-unknown-warning-option -extra-arg=-Wreserved-identifier
 
 sanitizer_packages: packages
 	.ci/install_packages clang libclang-rt-dev

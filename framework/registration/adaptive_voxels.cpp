@@ -6,6 +6,7 @@
 #include <optional>
 #include <tuple>
 
+#include "framework/geometry/measured_points.hpp"
 #include "framework/spatial/leaf_grid.hpp"
 
 namespace croon {
@@ -134,7 +135,8 @@ std::vector<PlacedPoint> placed_points(const std::vector<SensorCloud>& clouds,
     const RigidTransform& T = state.poses[clouds[view].sensor];
     const Points& own = clouds[view].cloud->points();
     const std::vector<double>& times_s = clouds[view].times_s;
-    const Channel* const mean_of = find_channel(clouds[view].cloud->with_channels(), kMeanOf);
+    const std::vector<std::uint32_t> measured =
+        measured_points(clouds[view].cloud->with_channels());
     std::optional<Twist> velocity;
     if (state.velocity && !times_s.empty()) velocity = velocity_in(T.inverse(), *state.velocity);
     for (std::size_t i = 0; i < own.size(); i += static_cast<std::size_t>(stride)) {
@@ -143,10 +145,8 @@ std::vector<PlacedPoint> placed_points(const std::vector<SensorCloud>& clouds,
       if (velocity) {
         point += time_s * (velocity->linear_mps + velocity->angular_radps.cross(point));
       }
-      points.push_back(
-          {(T * point).cast<float>(), point.cast<float>(), static_cast<float>(time_s),
-           mean_of == nullptr ? 1.0F : std::max(1.0F, static_cast<float>(mean_of->value(i))),
-           static_cast<int>(view)});
+      points.push_back({(T * point).cast<float>(), point.cast<float>(), static_cast<float>(time_s),
+                        static_cast<float>(measured[i]), static_cast<int>(view)});
     }
   }
   return points;

@@ -23,7 +23,7 @@ struct BundleOptions : VoxelOptions {
   int max_passes = 8;
   int max_iterations = 20;
   int min_planes = 6;
-  double covariance_scale = 1.23;
+  double covariance_scale = 1.15;
   double velocity_error_mps = 0.08;
   double clock_offset_std_s = 0.0;
 };
@@ -80,8 +80,8 @@ struct Bundle {
 /// What is known of the starts is an observation like a plane, weighed with `start_weight`: a
 /// registration sees what is no plane, and its error is nearly independent of that of the planes.
 ///
-/// Covariances are by clusters c, the planes of one scene, one direction and one cube of 8 m, whose
-/// errors are not independent: the sum of d_c d_c^T, with d_c as cluster_step has it.
+/// Covariances are by clusters c, the planes of one scene, one direction and one cube of 3 m, whose
+/// errors are not independent: see covariance_by_clusters.
 /// Poses and velocities are eliminated from each other, and what is known of starts and velocities
 /// adds its own, with the covariance that it has and the weight that it got. In a scene that moves,
 /// what the poses would move if the velocity were off by `velocity_error_mps` along itself is

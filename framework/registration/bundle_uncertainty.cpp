@@ -2,7 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -17,7 +19,7 @@ namespace {
 /// The planes of one scene by direction and place: the errors in a cluster are not independent.
 std::vector<std::vector<PlanePatch>> clusters_of(const std::vector<PlanePatch>& planes,
                                                  const RigState& state) {
-  constexpr double kCell_m = 8.0;
+  constexpr double kCell_m = 3.0;
   const LeafGrid cells(kCell_m);
   std::map<std::pair<int, LeafKey>, std::vector<PlanePatch>> clusters;
   PlaneCost cost;
@@ -40,13 +42,12 @@ BundleCost along(const BundleCost& cost, const ReducedCost& scene) {
           follow.transpose() * cost.hessian * follow};
 }
 
-/// What the errors in each cluster of a scene move the poses by, see cluster_step.
-std::vector<Eigen::VectorXd> steps_by_cluster(const BundleSystem& system, std::size_t scene,
-                                              const ReducedCost& scene_cost,
-                                              const Eigen::MatrixXd& K) {
+/// By cluster of planes of a scene.
+std::vector<ClusterStep> steps_by_cluster(const BundleSystem& system, std::size_t scene,
+                                          const ReducedCost& scene_cost, const Eigen::MatrixXd& K) {
   const auto clusters =
       clusters_of(system.planes()[scene], system.rig_state(system.state(), scene));
-  std::vector<Eigen::VectorXd> steps(clusters.size());
+  std::vector<ClusterStep> steps(clusters.size());
   for_each_in_parallel(clusters.size(), [&](std::size_t c) {
     const BundleCost own = along(system.scene_cost(scene, clusters[c], false), scene_cost);
     steps[c] = cluster_step(own.gradient, own.hessian, K);
@@ -107,31 +108,56 @@ Eigen::MatrixXd joint_covariance(const BundleSystem& system, const BundleOptions
   const Eigen::MatrixXd inverse = guarded_inverse<Eigen::Dynamic>(all.hessian);
   const Eigen::MatrixXd K = Eigen::LLT<Eigen::MatrixXd>(inverse).matrixL();
   Eigen::MatrixXd by_velocity = Eigen::MatrixXd::Zero(inverse.rows(), inverse.cols());
-  Eigen::MatrixXd by_clusters = by_velocity;
+  std::vector<ClusterStep> clusters;
   for (std::size_t s = 0; s < all.costs.size(); ++s) {
-    for (const Eigen::VectorXd& step : steps_by_cluster(system, s, all.reduced[s], K)) {
-      by_clusters += step * step.transpose();
-    }
+    std::vector<ClusterStep> own = steps_by_cluster(system, s, all.reduced[s], K);
+    std::move(own.begin(), own.end(), std::back_inserter(clusters));
     const Eigen::VectorXd step =
         step_for_velocity_error(system.known_velocity(s), all.costs[s], all.reduced[s], all.hessian,
                                 options.velocity_error_mps);
     by_velocity += step * step.transpose();
   }
+  Eigen::MatrixXd by_clusters = Eigen::MatrixXd::Zero(inverse.rows(), inverse.cols());
+  if (!clusters.empty()) by_clusters = covariance_by_clusters(clusters);
   return options.covariance_scale * options.covariance_scale * by_clusters + by_velocity +
          inverse * all.scatter * inverse;
 }
 
 }  // namespace
 
-Eigen::VectorXd cluster_step(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& hessian,
-                             const Eigen::MatrixXd& K) {
+ClusterStep cluster_step(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& hessian,
+                         const Eigen::MatrixXd& K) {
   // A cluster that alone holds a direction has a leverage of one there, and no finite step.
   constexpr double kLargestLeverage = 0.99;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> leverage(K.transpose() * hessian * K);
-  const Eigen::VectorXd rest =
-      (1.0 - leverage.eigenvalues().array().max(0.0).min(kLargestLeverage)).sqrt();
-  const Eigen::VectorXd inner = leverage.eigenvectors().transpose() * K.transpose() * gradient;
-  return K * leverage.eigenvectors() * inner.cwiseQuotient(rest);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> of_leverage(K.transpose() * hessian * K);
+  const Eigen::VectorXd leverage = of_leverage.eigenvalues().cwiseMax(0.0);
+  const Eigen::MatrixXd directions = K * of_leverage.eigenvectors();
+  const Eigen::VectorXd rest = (1.0 - leverage.array().min(kLargestLeverage)).sqrt();
+  const Eigen::VectorXd along = directions.transpose() * gradient;
+  return {directions * along.cwiseQuotient(rest), directions.cwiseAbs2() * leverage};
+}
+
+Eigen::MatrixXd covariance_by_clusters(const std::vector<ClusterStep>& clusters) {
+  const Eigen::Index size = clusters.front().step.size();
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(size, size);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(size), sum_of_squares = sum;
+  for (const ClusterStep& cluster : clusters) {
+    covariance += cluster.step * cluster.step.transpose();
+    sum += cluster.variances;
+    sum_of_squares += cluster.variances.cwiseAbs2();
+  }
+  Eigen::VectorXd widening(size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const bool is_held = sum_of_squares(i) > 0.0;
+    widening(i) = is_held ? student_widening(sum(i) * sum(i) / sum_of_squares(i)) : 1.0;
+  }
+  return widening.asDiagonal() * covariance * widening.asDiagonal();
+}
+
+double student_widening(double freedom) {
+  constexpr double kLeast = 1.5;
+  const double n = std::max(freedom, kLeast);
+  return std::sqrt((n + 1.0) / (n - 1.0));
 }
 
 BundleUncertainty bundle_uncertainty(const BundleSystem& system, const BundleOptions& options) {

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <unordered_map>
 
+#include "framework/geometry/measured_points.hpp"
 #include "framework/spatial/leaf_grid.hpp"
 #include "framework/stage/preprocessor.hpp"
 #include "framework/stage/stage_entry.hpp"
@@ -24,7 +26,7 @@ const params::Table<Params>& table() {
 /// The points of one leaf.
 struct LeafSum {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  std::uint32_t points = 0;
+  std::uint64_t points = 0;
 };
 
 struct LeafHash {
@@ -38,12 +40,6 @@ struct LeafHash {
   }
 };
 
-/// How many points of the scan a point stands for.
-std::uint32_t measured_points(const Channel* mean_of, std::size_t point) {
-  if (mean_of == nullptr) return 1;
-  return static_cast<std::uint32_t>(std::clamp(mean_of->value(point), 1.0, 1e9));
-}
-
 class VoxelDownsample final : public Preprocessor {
  public:
   explicit VoxelDownsample(const Params& params) : grid_(params.leaf_size_m) {}
@@ -52,7 +48,7 @@ class VoxelDownsample final : public Preprocessor {
     std::unordered_map<LeafKey, std::size_t, LeafHash> indices;  // In `leaves`.
     std::vector<LeafSum> leaves;  // In the order of their first points in the cloud.
     std::vector<std::size_t> first_points;
-    const Channel* const mean_of = find_channel(cloud, kMeanOf);
+    const std::vector<std::uint32_t> measured = measured_points(cloud);
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       const Eigen::Vector3d point = cloud.points[i].cast<double>();
       const auto [entry, is_new] =
@@ -62,15 +58,15 @@ class VoxelDownsample final : public Preprocessor {
         first_points.push_back(i);
       }
       LeafSum& leaf = leaves[entry->second];
-      const std::uint32_t points = measured_points(mean_of, i);
-      leaf.sum += points * point;
-      leaf.points += points;
+      leaf.sum += measured[i] * point;
+      leaf.points += measured[i];
     }
     PointCloud thinned = selected(cloud, first_points);
     std::vector<std::uint32_t> counts(leaves.size());
     for (std::size_t i = 0; i < leaves.size(); ++i) {
-      counts[i] = leaves[i].points;
-      thinned.points[i] = (leaves[i].sum / static_cast<double>(counts[i])).cast<float>();
+      constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+      counts[i] = static_cast<std::uint32_t>(std::min(leaves[i].points, kMost));
+      thinned.points[i] = (leaves[i].sum / static_cast<double>(leaves[i].points)).cast<float>();
     }
     set_channel(thinned, make_channel(kMeanOf, counts));
     return thinned;

@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "framework/base/error.hpp"
+#include "framework/geometry/measured_points.hpp"
 #include "test/support/random_geometry.hpp"
 
 namespace croon {
@@ -22,6 +25,14 @@ PointCloud numbered(int count) {
   cloud.channels = {make_channel(kRing, ring), make_channel("descriptor", descriptor)};
   cloud.channels[1].count = 2;
   return cloud;
+}
+
+TEST(MeasuredPoints, AreTheCountsOfMeansAndAtLeastOne) {
+  PointCloud cloud = numbered(5);
+  EXPECT_THAT(measured_points(cloud), testing::Each(1U));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  cloud.channels.push_back(make_channel(kMeanOf, std::vector<double>{0.0, 3.0, nan, 1e12, -7.0}));
+  EXPECT_THAT(measured_points(cloud), testing::ElementsAre(1U, 3U, 1U, 1000000000U, 1U));
 }
 
 TEST(PointCloud, SelectionKeepsTheChannelsOfEachPoint) {

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "framework/geometry/point_cloud.hpp"
+
+namespace croon {
+
+/// How many measured points each point of a cloud stands for: what its channel kMeanOf says, at
+/// most 1e9; one without the channel, and where that says less than one or NaN.
+inline std::vector<std::uint32_t> measured_points(const PointCloud& cloud) {
+  constexpr double kMost = 1e9;
+  std::vector<std::uint32_t> counts(cloud.size(), 1);
+  const Channel* const mean_of = find_channel(cloud, kMeanOf);
+  if (mean_of == nullptr) return counts;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const double count = mean_of->value(i);
+    if (count >= 1.0) counts[i] = static_cast<std::uint32_t>(std::min(count, kMost));
+  }
+  return counts;
+}
+
+}  // namespace croon
