@@ -36,7 +36,7 @@ json with_full_slots(const StageEntry& entry) {
   json stage = json::parse(minimal_json(entry));
   for (const ParameterDoc& parameter : entry.parameters) {
     if (parameter.type != ParameterType::stages) continue;
-    const StageEntry any = every_stage_of(parameter.stage_kind).front();
+    const StageEntry& any = every_stage_of(parameter.stage_kind).front();
     stage[parameter.key] = json::array({json::parse(minimal_json(any))});
   }
   return stage;

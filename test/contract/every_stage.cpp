@@ -44,26 +44,26 @@ std::string minimal_json(const StageEntry& entry) {
   return value.dump();
 }
 
-std::vector<StageEntry> every_stage(const std::vector<std::string>& left_out) {
-  std::vector<StageEntry> stages;
+std::vector<StageCase> every_stage(const std::vector<std::string>& left_out) {
+  std::vector<StageCase> stages;
   for (const StageEntry& entry : registry().entries()) {
     if (std::find(left_out.begin(), left_out.end(), entry.kind) == left_out.end()) {
-      stages.push_back(entry);
+      stages.emplace_back(entry);
     }
   }
   return stages;
 }
 
-std::vector<StageEntry> every_stage_of(const std::string& kind) {
-  std::vector<StageEntry> stages;
+std::vector<StageCase> every_stage_of(const std::string& kind) {
+  std::vector<StageCase> stages;
   for (const StageEntry& entry : registry().entries()) {
-    if (entry.kind == kind) stages.push_back(entry);
+    if (entry.kind == kind) stages.emplace_back(entry);
   }
   return stages;
 }
 
-std::string stage_case_name(const testing::TestParamInfo<StageEntry>& info) {
-  return info.param.kind + "_" + info.param.name;
+std::string stage_case_name(const testing::TestParamInfo<StageCase>& info) {
+  return info.param.get().kind + "_" + info.param.get().name;
 }
 
 }  // namespace croon::test

@@ -197,8 +197,12 @@ TEST_P(ContractOfParameters, MissingKeyIsAFault) {
 INSTANTIATE_TEST_SUITE_P(Registry, ContractOfParameters, testing::ValuesIn(every_stage()),
                          stage_case_name);
 // A stage with every type of object, because the registry need not have one.
-INSTANTIATE_TEST_SUITE_P(Nested, ContractOfParameters, testing::Values(nested_stage()),
-                         stage_case_name);
+const StageEntry& the_nested_stage() {
+  static const StageEntry entry = nested_stage();
+  return entry;
+}
+INSTANTIATE_TEST_SUITE_P(Nested, ContractOfParameters,
+                         testing::Values(StageCase(the_nested_stage())), stage_case_name);
 
 }  // namespace
 }  // namespace croon::test
