@@ -133,8 +133,8 @@ ClusterStep cluster_step(const Eigen::VectorXd& gradient, const Eigen::MatrixXd&
   const Eigen::VectorXd leverage = of_leverage.eigenvalues().cwiseMax(0.0);
   const Eigen::MatrixXd directions = K * of_leverage.eigenvectors();
   const Eigen::VectorXd rest = (1.0 - leverage.array().min(kLargestLeverage)).sqrt();
-  const Eigen::VectorXd along = directions.transpose() * gradient;
-  return {directions * along.cwiseQuotient(rest), directions.cwiseAbs2() * leverage};
+  const Eigen::VectorXd slope = directions.transpose() * gradient;
+  return {directions * slope.cwiseQuotient(rest), directions.cwiseAbs2() * leverage};
 }
 
 Eigen::MatrixXd covariance_by_clusters(const std::vector<ClusterStep>& clusters) {

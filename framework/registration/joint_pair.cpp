@@ -263,7 +263,7 @@ PairAgreement pair_agreement(const JointScene::Source& source, const StillTarget
   PairAgreement agreement;
   for (const JointTerm& term : terms) {
     const double widths = term.residual_m / view.options.kernel_width_m;
-    agreement.by_cell[cell_of(term)] += term.weight / (1.0 + widths * widths);
+    agreement.by_cell[cell_of(term)] += term.weight * (1.0 / (1.0 + widths * widths) - 0.5);
     agreement.later_s += term.later_s / static_cast<double>(terms.size());
   }
   return agreement;

@@ -98,8 +98,9 @@ inline constexpr double kJointCell_m = 6.0;
 
 /// How well one pair of clouds fits.
 struct PairAgreement {
-  /// The weights of the points that lie on a surface of the target, each times
-  /// `1 / (1 + r^2 / width^2)` for its residual r, by cubes. No patch has lost weight.
+  /// The weights of the points that correspond, each times `1 / (1 + r^2 / width^2) - 1/2` for its
+  /// residual r, by cubes: a point that is farther than the kernel's width from the surface speaks
+  /// against the pose. No patch has lost weight.
   std::map<JointCell, double> by_cell;
   double later_s = 0.0;  ///< So much later than the target the sensor measures, in the mean.
 };

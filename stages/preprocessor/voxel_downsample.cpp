@@ -63,8 +63,8 @@ class VoxelDownsample final : public Preprocessor {
     }
     PointCloud thinned = selected(cloud, first_points);
     std::vector<std::uint32_t> counts(leaves.size());
+    constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
     for (std::size_t i = 0; i < leaves.size(); ++i) {
-      constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
       counts[i] = static_cast<std::uint32_t>(std::min(leaves[i].points, kMost));
       thinned.points[i] = (leaves[i].sum / static_cast<double>(leaves[i].points)).cast<float>();
     }

@@ -277,7 +277,7 @@ StageEntry joint_registration() {
       "joint_registration",
       "Sees the whole rig: registers all sensors together with the velocity of each scene, and "
       "removes the distortion of the scans by it.",
-      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 8);
+      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 9);
 }
 
 }  // namespace croon::stages::step
