@@ -46,12 +46,14 @@ std::shared_ptr<const Sample> sample_of(const Cloud& cloud, const JointOptions& 
 
 /// A point on a surface of the target, linearised.
 struct JointTerm {
-  PairVector J;
+  PairVector J;  ///< Its three elements by the translation are the normal of the target's surface.
   double residual_m;
   int patch;
   double weight;          ///< Of the patch and the target point, without the kernel.
   double later_s;         ///< So much later than the target the sensor measured it.
   Eigen::Vector3d point;  ///< Of the target.
+
+  Eigen::Vector3d normal() const { return J.segment<3>(kPairPose + 3); }
 };
 
 JointCell cell_of(const JointTerm& term) {
@@ -255,7 +257,7 @@ PairEquations pair_equations(const JointScene::Source& source, const StillTarget
 }
 
 PairAgreement pair_agreement(const JointScene::Source& source, const StillTarget& target,
-                             const JointView& view) {
+                             const JointView& view, const std::optional<Eigen::Vector3d>& axis) {
   JointOptions every_patch = view.options;
   every_patch.patch_kernel_m = 0.0;
   const std::vector<JointTerm> terms =
@@ -263,7 +265,9 @@ PairAgreement pair_agreement(const JointScene::Source& source, const StillTarget
   PairAgreement agreement;
   for (const JointTerm& term : terms) {
     const double widths = term.residual_m / view.options.kernel_width_m;
-    agreement.by_cell[cell_of(term)] += term.weight * (1.0 / (1.0 + widths * widths) - 0.5);
+    const double facing = axis ? std::abs(axis->dot(term.normal())) : 1.0;
+    agreement.by_cell[cell_of(term)] +=
+        facing * term.weight * (1.0 / (1.0 + widths * widths) - 0.5);
     agreement.later_s += term.later_s / static_cast<double>(terms.size());
   }
   return agreement;

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "framework/registration/joint_registration.hpp"
 #include "framework/spatial/leaf_grid.hpp"
@@ -100,13 +101,15 @@ inline constexpr double kJointCell_m = 6.0;
 struct PairAgreement {
   /// The weights of the points that correspond, each times `1 / (1 + r^2 / width^2) - 1/2` for its
   /// residual r, by cubes: a point that is farther than the kernel's width from the surface speaks
-  /// against the pose. No patch has lost weight.
+  /// against the pose. With an axis also times `|n . axis|` for the normal n of the surface: what
+  /// does not face along it cannot tell poses along it apart. No patch has lost weight.
   std::map<JointCell, double> by_cell;
   double later_s = 0.0;  ///< So much later than the target the sensor measures, in the mean.
 };
 
 PairAgreement pair_agreement(const JointScene::Source& source, const StillTarget& target,
-                             const JointView& view);
+                             const JointView& view,
+                             const std::optional<Eigen::Vector3d>& axis = std::nullopt);
 
 /// What the correspondences in one cube add to the cost's gradient and Hessian, which has the
 /// curvature of the robust kernel.

@@ -13,12 +13,14 @@ using Agreement = std::map<JointCell, double>;
 
 /// Where the points of a scene agree in `state`, of all sensors.
 Agreement agreement_of(const JointScene& scene, const JointState& state,
-                       const JointOptions& options) {
+                       const JointOptions& options,
+                       const std::optional<Eigen::Vector3d>& axis = std::nullopt) {
   const Twist& velocity = state.velocities.front();
   const StillTarget target(scene, velocity, options);
   Agreement agreement;
   for (const JointScene::Source& source : scene.sources) {
-    const PairAgreement pair = pair_agreement(source, target, last_view(state, velocity, options));
+    const PairAgreement pair =
+        pair_agreement(source, target, last_view(state, velocity, options), axis);
     for (const auto& [cell, agreeing] : pair.by_cell) agreement[cell] += agreeing;
   }
   return agreement;
@@ -28,6 +30,15 @@ double sum_of(const Agreement& agreement) {
   double sum = 0.0;
   for (const auto& [cell, agreeing] : agreement) sum += agreeing;
   return sum;
+}
+
+/// The axis in the plane of x and y along which the velocities of two states differ; nothing if
+/// they do not.
+std::optional<Eigen::Vector3d> axis_between(const JointState& a, const JointState& b) {
+  Eigen::Vector3d apart_mps = a.velocities.front().linear_mps - b.velocities.front().linear_mps;
+  apart_mps.z() = 0.0;
+  if (apart_mps.isZero(0.0)) return std::nullopt;
+  return apart_mps.normalized();
 }
 
 /// By how many standard deviations `a` is ahead of `b`; 0 if they agree in every cube.
@@ -98,7 +109,6 @@ std::vector<std::optional<double>> leads_over_rivals(const JointScene& scene,
   }
   std::stable_sort(rivals.begin(), rivals.end(),
                    [](const Rival& a, const Rival& b) { return a.agreement > b.agreement; });
-  const Agreement own = agreement_of(scene, state, options);
   std::vector<JointState> seen = {state};
   std::vector<std::optional<double>> least(scene.sources.size());
   for (const Rival& rival : rivals) {
@@ -110,7 +120,9 @@ std::vector<std::optional<double>> leads_over_rivals(const JointScene& scene,
     seen.push_back(rival.state);
     const JointState fine = register_jointly({scene}, rival.state, options).state;
     if (!is_rival(fine, state)) continue;
-    const double lead = lead_of(own, agreement_of(scene, fine, options));
+    const std::optional<Eigen::Vector3d> axis = axis_between(state, fine);
+    const double lead = lead_of(agreement_of(scene, state, options, axis),
+                                agreement_of(scene, fine, options, axis));
     for (std::size_t j = 0; j < least.size(); ++j) {
       if (!is_elsewhere(fine, state, scene.sources[j].sensor)) continue;
       least[j] = std::min(lead, least[j].value_or(lead));
