@@ -96,29 +96,15 @@ std::vector<std::optional<double>> leads_over_rivals(const JointScene& scene,
                                                      std::vector<JointState> starts,
                                                      const JointOptions& options,
                                                      const JointOptions& coarse_options) {
-  constexpr std::size_t kRefined = 3;
-  struct Rival {
-    JointState state;
-    double agreement;
-  };
-  std::vector<Rival> rivals;
-  for (JointState& start : starts) {
-    JointState near = register_jointly({coarse}, std::move(start), coarse_options).state;
-    const double agreement = sum_of(agreement_of(scene, near, options));
-    rivals.push_back({std::move(near), agreement});
-  }
-  std::stable_sort(rivals.begin(), rivals.end(),
-                   [](const Rival& a, const Rival& b) { return a.agreement > b.agreement; });
   std::vector<JointState> seen = {state};
   std::vector<std::optional<double>> least(scene.sources.size());
-  for (const Rival& rival : rivals) {
-    if (seen.size() > kRefined) break;
-    const bool is_new = std::all_of(seen.begin(), seen.end(), [&](const JointState& other) {
-      return is_rival(other, rival.state);
-    });
+  for (JointState& start : starts) {
+    const JointState near = register_jointly({coarse}, std::move(start), coarse_options).state;
+    const bool is_new = std::all_of(seen.begin(), seen.end(),
+                                    [&](const JointState& other) { return is_rival(other, near); });
     if (!is_new) continue;
-    seen.push_back(rival.state);
-    const JointState fine = register_jointly({scene}, rival.state, options).state;
+    seen.push_back(near);
+    const JointState fine = register_jointly({scene}, near, options).state;
     if (!is_rival(fine, state)) continue;
     const std::optional<Eigen::Vector3d> axis = axis_between(state, fine);
     const double lead = lead_of(agreement_of(scene, state, options, axis),

@@ -19,10 +19,10 @@ inline constexpr double kRivalDistance_m = 0.05;
 
 /// By how many standard deviations the agreement of all points (see PairAgreement) is larger in
 /// `state` of one scene than in its rivals: where the registration ends from `starts`, with
-/// `coarse_options` on the thinned scene `coarse` and then, for the three with the most agreement,
-/// with `options` on `scene`. Of each source the least of the leads over rivals that have it
-/// elsewhere; nothing if none has; negative if one agrees better. Surfaces count by how much they
-/// face along the axis in which the two velocities differ.
+/// `coarse_options` on the thinned scene `coarse` and then with `options` on `scene`. Of each
+/// source the least of the leads over rivals that have it elsewhere; nothing if none has; negative
+/// if one agrees better. Surfaces count by how much they face along the axis in which the two
+/// velocities differ.
 ///
 /// The difference is a sum over cubes of space, which count as independent: its variance is the sum
 /// of their squares. So a rival that a few moving cars agree with is behind by little, or ahead by
