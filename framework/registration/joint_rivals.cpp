@@ -13,8 +13,7 @@ using Agreement = std::map<JointCell, double>;
 
 /// Where the points of a scene agree in `state`, of all sensors.
 Agreement agreement_of(const JointScene& scene, const JointState& state,
-                       const JointOptions& options,
-                       const std::optional<Eigen::Vector3d>& axis = std::nullopt) {
+                       const JointOptions& options, const std::optional<Eigen::Vector3d>& axis) {
   const Twist& velocity = state.velocities.front();
   const StillTarget target(scene, velocity, options);
   Agreement agreement;
