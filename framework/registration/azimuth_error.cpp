@@ -10,10 +10,10 @@
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
 #include "framework/geometry/guarded_inverse.hpp"
-#include "framework/registration/direction_balance.hpp"
 #include "framework/registration/gauss_newton.hpp"
+#include "framework/registration/icp_options.hpp"
+#include "framework/registration/surface_key.hpp"
 #include "framework/spatial/evenly_spaced.hpp"
-#include "framework/spatial/leaf_grid.hpp"
 
 namespace croon {
 namespace {
@@ -32,9 +32,6 @@ AzimuthError error_of(const Eigen::Vector3d& sizes, const Eigen::Vector3d& mean)
   return {-sizes.dot(mean), sizes.x(), sizes.y(), sizes.z()};
 }
 
-/// A cube and a direction: the points of one surface.
-using SurfaceKey = std::pair<LeafKey, int>;
-
 /// A point on a surface of the target, linearised.
 struct Contact {
   Vector6d by_pose;         ///< The Jacobian of its distance by `moved`,
@@ -50,7 +47,6 @@ class ViewProblem {
   ViewProblem(const AzimuthView& view, const AzimuthOptions& options, std::size_t most)
       : view_(view),
         options_(options),
-        surfaces_(options.surface_size_m),
         min_cosine_(std::max(std::cos(rad_from_deg(options.max_normal_angle_deg)), 1e-9)),
         target_normals_(view.target->normals(options.normal_neighbours)),
         source_normals_(view.source->normals(options.normal_neighbours)) {
@@ -99,13 +95,12 @@ class ViewProblem {
     contact.by_size = normal.dot(turned) * (terms_at(reported) - mean_terms);
     contact.distance_m =
         normal.dot(in_target - view_.target->points()[nearest.index].cast<double>());
-    contact.surface = {leaf_key(surfaces_.leaf_of(in_target)), direction_bin(normal)};
+    contact.surface = surface_key(in_target, normal, options_.surface_size_m);
     return true;
   }
 
   AzimuthView view_;
   const AzimuthOptions& options_;
-  LeafGrid surfaces_;
   double min_cosine_;  ///< Above zero: the product with a normal that is not there is zero.
   const Normals& target_normals_;
   const Normals& source_normals_;
@@ -116,14 +111,13 @@ class ViewProblem {
 /// that of the robust kernel.
 std::vector<double> weights_of(const std::vector<Contact>& contacts,
                                const AzimuthOptions& options) {
-  std::array<int, kDirectionBins> counts{};
-  for (const Contact& contact : contacts)
-    ++counts.at(static_cast<std::size_t>(contact.surface.second));
+  DirectionCounts counts{};
+  for (const Contact& contact : contacts) ++counts.at(contact.surface.second);
+  const auto of_direction = direction_weights(counts, options.direction_balance);
   const RobustKernel kernel(Kernel::geman_mcclure, options.kernel_width_m);
   std::vector<double> weights;
   for (const Contact& contact : contacts) {
-    const double count = counts.at(static_cast<std::size_t>(contact.surface.second));
-    weights.push_back(std::pow(count, -options.direction_balance) *
+    weights.push_back(of_direction.at(contact.surface.second) *
                       kernel.weight(contact.distance_m * contact.distance_m));
   }
   return weights;

@@ -10,8 +10,7 @@
 
 #include "framework/base/threads.hpp"
 #include "framework/geometry/guarded_inverse.hpp"
-#include "framework/registration/direction_balance.hpp"
-#include "framework/spatial/leaf_grid.hpp"
+#include "framework/registration/surface_key.hpp"
 
 namespace croon {
 namespace {
@@ -20,15 +19,14 @@ namespace {
 std::vector<std::vector<PlanePatch>> clusters_of(const std::vector<PlanePatch>& planes,
                                                  const RigState& state) {
   constexpr double kCell_m = 3.0;
-  const LeafGrid cells(kCell_m);
-  std::map<std::pair<int, LeafKey>, std::vector<PlanePatch>> clusters;
+  std::map<SurfaceKey, std::vector<PlanePatch>> clusters;
   PlaneCost cost;
   for (const PlanePatch& plane : planes) {
     plane_cost(plane, state, cost);
-    clusters[{direction_bin(cost.normal), leaf_key(cells.leaf_of(cost.centre))}].push_back(plane);
+    clusters[surface_key(cost.centre, cost.normal, kCell_m)].push_back(plane);
   }
   std::vector<std::vector<PlanePatch>> result;
-  for (auto& [place, cluster] : clusters) result.push_back(std::move(cluster));
+  for (auto& [surface, cluster] : clusters) result.push_back(std::move(cluster));
   return result;
 }
 

@@ -11,9 +11,9 @@
 
 #include "framework/base/statistics.hpp"
 #include "framework/geometry/guarded_inverse.hpp"
-#include "framework/registration/direction_balance.hpp"
 #include "framework/registration/gauss_newton.hpp"
 #include "framework/registration/observability.hpp"
+#include "framework/registration/surface_key.hpp"
 #include "framework/spatial/deskew.hpp"
 #include "framework/spatial/evenly_spaced.hpp"
 
@@ -22,9 +22,6 @@ namespace {
 
 constexpr std::size_t kFewestContacts = 12;
 constexpr int kDofCount = 6;
-
-/// A cell and a direction: contacts that share them are one surface.
-using SurfaceKey = std::array<int, 4>;
 
 /// A source point on a surface of the target.
 struct Contact {
@@ -93,12 +90,7 @@ class ContactFinder {
     if (contact.of_target.isZero() || contact.of_source.isZero()) return false;
     if (contact.of_target.dot(contact.of_source) < 0.0) contact.of_source *= -1.0;
     contact.offset = point - target_.points()[nearest.index].cast<double>();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double cell = std::floor(point(static_cast<Eigen::Index>(k)) / options_.surface_size_m);
-      // A stray point that both clouds have may be farther off than cells can be counted.
-      contact.surface.at(k) = static_cast<int>(std::clamp(cell, -1e9, 1e9));
-    }
-    contact.surface[3] = direction_bin(contact.of_target);
+    contact.surface = surface_key(point, contact.of_target, options_.surface_size_m);
     contact.delay_s = source_times_.empty()
                           ? 0.0
                           : source_times_.at(static_cast<std::size_t>(index)) -
@@ -120,18 +112,6 @@ class ContactFinder {
   const Normals& source_normals_;
   std::vector<double> target_times_, source_times_;  ///< Empty if the motion is known.
 };
-
-/// The weight of each direction, see balanced_directions.
-std::array<double, kDirectionBins> direction_weights(const std::vector<Contact>& contacts,
-                                                     double exponent) {
-  std::array<int, kDirectionBins> counts{};
-  for (const Contact& contact : contacts) ++counts.at(static_cast<std::size_t>(contact.surface[3]));
-  std::array<double, kDirectionBins> weights{};
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (counts.at(i) > 0) weights.at(i) = std::pow(counts.at(i), -exponent);
-  }
-  return weights;
-}
 
 /// The cost of contacts to second order.
 struct Quadratic {
@@ -215,7 +195,9 @@ class ContactModel {
     constexpr std::size_t kMost = 20000;
     const std::vector<Contact> contacts = finder.contacts(T, kMost);
     count_ = contacts.size();
-    weights_ = direction_weights(contacts, options.direction_balance);
+    DirectionCounts counts{};
+    for (const Contact& contact : contacts) ++counts.at(contact.surface.second);
+    weights_ = direction_weights(counts, options.direction_balance);
     std::vector<double> across_m;
     for (const Contact& contact : contacts) {
       across_m.push_back(std::abs(contact.of_target.dot(contact.offset)));
@@ -275,8 +257,8 @@ class ContactModel {
 
  private:
   Quadratic quadratic(const Contact& contact) const {
-    return quadratic_of(contact, weights_.at(static_cast<std::size_t>(contact.surface[3])),
-                        options_.kernel_width_m, noise_m_);
+    return quadratic_of(contact, weights_.at(contact.surface.second), options_.kernel_width_m,
+                        noise_m_);
   }
 
   Vector6d gradient_at(int dof, double step, std::size_t most) const {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "framework/registration/direction_balance.hpp"
+#include "framework/registration/surface_key.hpp"
 
 namespace croon {
 
@@ -12,7 +12,7 @@ std::vector<int> balanced_sample(const Cloud& cloud, int normal_neighbours, int 
   const Normals& normals = cloud.normals(normal_neighbours);
   const int size = static_cast<int>(cloud.points().size());
   std::vector<int> bins(size, -1);
-  std::array<int, kDirectionBins> counts{};
+  DirectionCounts counts{};
   for (int i = 0; i < size; ++i) {
     const LocalShape shape = normals.at(i);
     if (shape.normal.isZero()) continue;

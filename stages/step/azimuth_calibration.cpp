@@ -166,7 +166,7 @@ StageEntry azimuth_calibration() {
       "Sees the whole rig: estimates what each sensor's azimuths are off by, one smooth error in "
       "all scenes of a trial, and corrects its clouds; or corrects them by errors that are known. "
       "Rejected poses take no part.",
-      "Lichti, ISPRS J. 2007; Muhammad and Lacroix, IROS 2010", table());
+      "Lichti, ISPRS J. 2007; Muhammad and Lacroix, IROS 2010", table(), 2);
 }
 
 }  // namespace croon::stages::step

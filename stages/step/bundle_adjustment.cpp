@@ -278,7 +278,7 @@ StageEntry bundle_adjustment() {
       "bundle_adjustment",
       "Sees the whole rig: gives each sensor, in all scenes of a trial, the pose at which what all "
       "sensors see lies best on common planes. Rejected poses take no part.",
-      "Liu and Zhang, BALM, RA-L 2021; Liu, Yuan and Zhang, MLCC, T-IM 2022", table(), 9);
+      "Liu and Zhang, BALM, RA-L 2021; Liu, Yuan and Zhang, MLCC, T-IM 2022", table(), 10);
 }
 
 }  // namespace croon::stages::step
