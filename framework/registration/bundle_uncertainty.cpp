@@ -10,6 +10,7 @@
 
 #include "framework/base/threads.hpp"
 #include "framework/geometry/guarded_inverse.hpp"
+#include "framework/registration/observability.hpp"
 #include "framework/registration/surface_key.hpp"
 
 namespace croon {
@@ -73,6 +74,23 @@ Observability word_of(double std_ratio) {
   constexpr double kWeak = 0.1, kUnobservable = 0.5;
   if (std_ratio > kUnobservable) return Observability::unobservable;
   return std_ratio > kWeak ? Observability::weak : Observability::determined;
+}
+
+/// The words of a pose by its standard deviations; of degrees of freedom that follow another one
+/// (leading_dofs), with that one held.
+std::array<Observability, 6> words_of(const Matrix6d& covariance, const Vector6d& start_std) {
+  std::array<Observability, 6> words;
+  const auto judge = [&](std::size_t dof, const Matrix6d& of_free) {
+    const auto i = static_cast<Eigen::Index>(dof);
+    words[dof] = word_of(std::sqrt(of_free(i, i)) / start_std(i));
+  };
+  for (std::size_t dof = 0; dof < words.size(); ++dof) judge(dof, covariance);
+  const std::array<bool, 6> leads = leading_dofs(words, covariance);
+  const Matrix6d of_others = guarded_inverse<6>(with_held(guarded_inverse<6>(covariance), leads));
+  for (std::size_t dof = 0; dof < words.size(); ++dof) {
+    if (words[dof] != Observability::determined && !leads[dof]) judge(dof, of_others);
+  }
+  return words;
 }
 
 /// What all scenes say of the poses, the velocities following them.
@@ -169,10 +187,7 @@ BundleUncertainty bundle_uncertainty(const BundleSystem& system, const BundleOpt
     const auto at = static_cast<Eigen::Index>(6 * a);
     PoseCovariance& own = result.covariances[sensors[a]];
     own.matrix = bounded_covariance(covariance.block<6, 6>(at, at));
-    for (std::size_t dof = 0; dof < own.dofs.size(); ++dof) {
-      const auto i = static_cast<Eigen::Index>(dof);
-      own.dofs[dof] = word_of(std::sqrt(own.matrix(i, i)) / system.start_std()(i));
-    }
+    own.dofs = words_of(own.matrix, system.start_std());
     const auto offset_at = static_cast<Eigen::Index>(6 * sensors.size() + a);
     if (offset_at < covariance.rows()) {
       result.clock_offset_stds_s[sensors[a]] = std::sqrt(covariance(offset_at, offset_at));

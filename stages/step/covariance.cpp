@@ -122,7 +122,7 @@ StageEntry covariance() {
       "Estimates the covariance of the pose, and says of each degree of freedom whether the "
       "surfaces hold it.",
       "croon; the jackknife over clusters is that of Bell and McCaffrey, Survey Methodology 2002",
-      table(), 5);
+      table(), 6);
 }
 
 }  // namespace croon::stages::step

@@ -141,8 +141,11 @@ TEST(BundleAdjustment, ManyScenesOfWhichNoneHoldsADirectionDoNotHoldIt) {
                   Observability::determined)
             << static_cast<int>(kind) << one.source;
       }
-      EXPECT_EQ(one.estimate.covariance->dofs[static_cast<std::size_t>(Dof::z)],
-                Observability::determined);
+      for (const Dof dof : {Dof::roll, Dof::pitch, Dof::z}) {
+        EXPECT_EQ(one.estimate.covariance->dofs[static_cast<std::size_t>(dof)],
+                  Observability::determined)
+            << static_cast<int>(kind) << one.source << static_cast<int>(dof);
+      }
     }
   }
 }

@@ -123,6 +123,47 @@ TEST(CovarianceStep, ACorridorDoesNotHoldItsAxis) {
   }
 }
 
+/// The covariance between a reference that `tilt` turns in the world and a level sensor.
+PoseCovariance of_tilted(const Points& target, const Points& source, const Eigen::Matrix3d& tilt) {
+  const RigidTransform T_target_source{tilt, Eigen::Vector3d::Zero()};
+  Points seen;
+  for (const Eigen::Vector3f& point : target) {
+    seen.push_back((T_target_source * point.cast<double>()).cast<float>());
+  }
+  return *judged(test::estimate_of(seen, source, T_target_source)).covariance;
+}
+
+TEST(CovarianceStep, ATiltOfTheReferenceDoesNotChangeWhatAPlainHolds) {
+  Rng rng = test::test_rng(5);
+  for (int i = 0; i < 5; ++i) {
+    const double roll_rad = rad_from_deg(rng.uniform(-7.0, 7.0));
+    const double pitch_rad = rad_from_deg(rng.uniform(-7.0, 7.0));
+    const Points target = plain(rng, 0.01);
+    const PoseCovariance covariance =
+        of_tilted(target, plain(rng, 0.01), rotation_from_rpy({roll_rad, pitch_rad, 0.0}));
+    for (const Dof dof : {Dof::x, Dof::y, Dof::yaw}) {
+      EXPECT_EQ(word_of(covariance, dof), kUnobservable) << i;
+    }
+    for (const Dof dof : {Dof::roll, Dof::pitch, Dof::z}) {
+      EXPECT_EQ(word_of(covariance, dof), kDetermined) << i;
+    }
+  }
+}
+
+TEST(CovarianceStep, ACorridorHoldsNeitherXNorYIfItGoesBetweenThem) {
+  Rng rng = test::test_rng(6);
+  for (const double yaw_deg : {30.0, 45.0, -60.0}) {
+    const Points target = corridor(rng, 0.005);
+    const PoseCovariance covariance =
+        of_tilted(target, corridor(rng, 0.005),
+                  rotation_from_rpy({0.0, rad_from_deg(3.0), rad_from_deg(yaw_deg)}));
+    for (const Dof dof : {Dof::x, Dof::y}) EXPECT_NE(word_of(covariance, dof), kDetermined);
+    for (const Dof dof : {Dof::roll, Dof::pitch, Dof::yaw, Dof::z}) {
+      EXPECT_EQ(word_of(covariance, dof), kDetermined) << yaw_deg;
+    }
+  }
+}
+
 /// A LiDAR and the noise of its points.
 struct RingSensor {
   RigidTransform T_world_sensor;
