@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <ostream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -112,6 +113,9 @@ struct StartsOptions {
 /// Writes the starts of the experiment, by scene, sensor and trial, as a file that an experiment
 /// can name in "starts": with it, trials have the same bits.
 int starts_command(const StartsOptions& options, const Catalogue& catalogue, std::ostream& out);
+
+/// The names of the files from which the variants of `experiment` take poses and velocities.
+std::set<std::string> given_files(const Experiment& experiment);
 
 /// The content of that file. Call `resolve_starts` before.
 std::string starts_csv(const Experiment& experiment, const std::vector<Scene>& scenes);

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "experiments/file/experiment.hpp"
 #include "experiments/report/output_files.hpp"
+#include "experiments/run/given_csv.hpp"
 #include "experiments/run/scene_groups.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
@@ -19,6 +21,7 @@
 #include "framework/base/whole_file.hpp"
 #include "framework/io/opencalib_files.hpp"
 #include "framework/io/pcd_file.hpp"
+#include "framework/io/text_scan.hpp"
 #include "framework/picture/top_view.hpp"
 #include "framework/stage/rig_files.hpp"
 #include "framework/stage/velocity_numbers.hpp"
@@ -31,6 +34,10 @@ namespace fs = std::filesystem;
 
 /// What the dataset in a folder was made from; another program may not go on with it.
 constexpr const char* kRecipe = "simulation.json";
+
+constexpr const char* kTruth = "truth.json";
+constexpr const char* kKinds = "scene_kinds.json";
+constexpr const char* kExperiment = "experiment.json";
 
 /// The starts of an experiment that reads them, beside the scenes.
 constexpr const char* kStarts = "starts.csv";
@@ -184,11 +191,37 @@ void prepare(const fs::path& folder, const std::string& recipe) {
                    "expected a new folder, or one with the same scenes; found something else");
 }
 
+/// The files that the variants name, as they are beside the experiment on the written dataset.
+std::vector<OutputFile> copies_of_given_files(const Experiment& experiment,
+                                              const fs::path& folder) {
+  const fs::path beside = fs::path(experiment.file).parent_path();
+  const std::set<std::string> written = {kTruth,      kKinds,  kExperiment,
+                                         kVelocities, kStarts, kRecipe};
+  std::vector<OutputFile> copies;
+  for (const std::string& name : given_files(experiment)) {
+    // Else those of the dataset are meant.
+    if (name == kVelocities && !fs::exists(beside / name)) continue;
+    if (written.count(name) > 0) {
+      throw InputError(experiment.file, "",
+                       "expected another name for a file that a variant reads than one that is "
+                       "written, found " +
+                           in_quotes(name));
+    }
+    const Fault at = {experiment.file, "", ""};
+    copies.push_back({folder / name, read_whole_file(found_input(experiment, name, data_root({}),
+                                                                 at, "a file that it names"))});
+  }
+  return copies;
+}
+
 /// The experiment with its dataset, and its file of starts, replaced by the written ones.
 std::string experiment_on(const Experiment& experiment) {
   auto json = nlohmann::ordered_json::parse(experiment.merged);
   json["dataset"] = {{"type", "opencalib"}, {"path", "."}};
-  if (json.contains("starts") && json["starts"].contains("file")) json["starts"]["file"] = kStarts;
+  if (json.contains("starts") && json["starts"].contains("file")) {
+    json["starts"]["file"] = kStarts;
+    json["starts"].erase("sha256");
+  }
   return json.dump(2) + "\n";
 }
 
@@ -240,6 +273,7 @@ int simulate_command(const SimulateOptions& options, const Catalogue& catalogue,
   const std::vector<Scene> started = scenes_to_write(experiment);
   // Those that fill no group too: without them, the written dataset would have other groups.
   const std::vector<Scene> scenes = dataset_scenes(experiment, fs::path());
+  const std::vector<OutputFile> copies = copies_of_given_files(experiment, options.out);
   prepare(options.out, recipe_json(experiment));
   std::vector<VelocityRow> velocities;
   {
@@ -247,19 +281,23 @@ int simulate_command(const SimulateOptions& options, const Catalogue& catalogue,
     velocities = write_scenes(options, experiment, scenes, trial_scenes(scenes, started), progress);
     progress.finish();
   }
-  std::vector<OutputFile> files = {{options.out / "truth.json", truth_json(scenes.front())},
-                                   {options.out / "scene_kinds.json", kinds_json(scenes)},
-                                   {options.out / "experiment.json", experiment_on(experiment)}};
+  std::vector<OutputFile> files = {{options.out / kTruth, truth_json(scenes.front())},
+                                   {options.out / kKinds, kinds_json(scenes)},
+                                   {options.out / kExperiment, experiment_on(experiment)}};
   if (!velocities.empty()) {
     files.push_back({options.out / kVelocities, velocities_csv(velocities)});
   }
   if (experiment.starts.table) {
     files.push_back({options.out / kStarts, starts_csv(experiment, started)});
   }
+  for (const OutputFile& copy : copies) {
+    fs::create_directories(copy.path.parent_path());
+    files.push_back(copy);
+  }
   write_output_files(files);
   const std::string folder = printable(options.out.string());
   out << scenes.size() << (scenes.size() == 1 ? " scene is in " : " scenes are in ") << folder
-      << "; run them with: croon run " << printable((options.out / "experiment.json").string())
+      << "; run them with: croon run " << printable((options.out / kExperiment).string())
       << " --data " << folder << "\n";
   return 0;
 }

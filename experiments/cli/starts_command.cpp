@@ -58,19 +58,26 @@ std::vector<std::filesystem::path> inputs_of(const Experiment& experiment,
     inputs.push_back(inputs.back().parent_path() / experiment.files[i].path);
   }
   inputs.insert(inputs.end(), {root / experiment.starts.file, folder / experiment.starts.file});
-  for (const Variant& variant : experiment.variants) {
-    inputs.insert(inputs.end(), {root / variant.poses.name, folder / variant.poses.name});
-    for (const NamedStep& named : variant.pipeline) {
-      const auto* const given = dynamic_cast<const GivenMotionStep*>(&*named.step);
-      if (given == nullptr) continue;
-      const std::string name = given->file().name;
-      inputs.insert(inputs.end(), {root / name, folder / name});
-    }
+  for (const std::string& name : given_files(experiment)) {
+    inputs.insert(inputs.end(), {root / name, folder / name});
   }
   return inputs;
 }
 
 }  // namespace
+
+std::set<std::string> given_files(const Experiment& experiment) {
+  std::set<std::string> names;
+  for (const Variant& variant : experiment.variants) {
+    names.insert(variant.poses.name);
+    for (const NamedStep& named : variant.pipeline) {
+      const auto* const given = dynamic_cast<const GivenMotionStep*>(&*named.step);
+      if (given != nullptr) names.insert(given->file().name);
+    }
+  }
+  names.erase("");
+  return names;
+}
 
 std::string starts_csv(const Experiment& experiment, const std::vector<Scene>& scenes) {
   check_list_size(experiment, scenes);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "experiments/file/start_rule.hpp"
 #include "framework/base/angles.hpp"
@@ -51,15 +52,7 @@ std::string centres_of(const SensorScan& scan) {
 struct MissingPose {
   std::vector<std::string> scenes;
   std::string instead;
-  std::vector<UnusedPose> unused;  ///< Poses of other names, one of which may be meant.
 };
-
-/// The poses of `scene` around which starts could be drawn if their names were those of sensors.
-const std::vector<UnusedPose>& unused_poses(StartCentre around, const Scene& scene) {
-  static const std::vector<UnusedPose> none;
-  if (around == StartCentre::initial) return none;
-  return around == StartCentre::truth ? scene.unused_truth : scene.unused_nominal;
-}
 
 /// The pose among `unused` whose name `sensor` is most like; null if none is near.
 const UnusedPose* misspelt(const std::string& sensor, const std::vector<UnusedPose>& unused) {
@@ -81,6 +74,48 @@ std::string scene_list(const std::vector<std::string>& scenes) {
   return text;
 }
 
+/// The poses of one name that no sensor has.
+struct MisspeltPose {
+  std::string sensor;  ///< That may be meant.
+  std::string kind;    ///< What the sensor has none of.
+  std::vector<std::string> scenes;
+};
+
+/// Throws InputError, with a line per name, if poses have a name like that of a sensor without one:
+/// its errors would be measured against nothing, without a word.
+void check_names(const std::vector<Scene>& scenes) {
+  std::set<std::string> sensors;
+  for (const Scene& scene : scenes) {
+    for (const SensorScan& scan : scene.sensors) sensors.insert(scan.sensor);
+  }
+  std::map<std::pair<std::string, std::string>, MisspeltPose> found;  // By file and name.
+  for (const Scene& scene : scenes) {
+    for (const SensorScan& scan : scene.sensors) {
+      const auto look = [&](bool has_pose, const std::vector<UnusedPose>& unused,
+                            const std::string& kind) {
+        if (has_pose) return;
+        const UnusedPose* const pose = misspelt(scan.sensor, unused);
+        if (pose == nullptr || sensors.count(pose->sensor) > 0) return;
+        MisspeltPose& of_name = found[{pose->file, pose->sensor}];
+        of_name.sensor = scan.sensor;
+        of_name.kind = kind;
+        of_name.scenes.push_back(scene.name);
+      };
+      look(scan.truth.has_value(), scene.unused_truth, "true");
+      look(scan.nominal.has_value(), scene.unused_nominal, "nominal");
+    }
+  }
+  std::vector<Fault> faults;
+  for (const auto& [place, pose] : found) {
+    const auto& [file, name] = place;
+    faults.push_back({file, "/" + name,
+                      "expected a sensor of " + scene_list(pose.scenes) + ", found " +
+                          in_quotes(name) + "; did you mean " + in_quotes(pose.sensor) +
+                          ", which has no " + pose.kind + " pose?"});
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
 /// Throws InputError, with a line per sensor, if a scene has no pose to draw starts around.
 void check_centres(const Experiment& experiment, const std::vector<Scene>& scenes) {
   const StartCentre around = experiment.starts.around;
@@ -91,18 +126,10 @@ void check_centres(const Experiment& experiment, const std::vector<Scene>& scene
       MissingPose& of_sensor = missing[scan.sensor];
       of_sensor.scenes.push_back(scene.name);
       of_sensor.instead = centres_of(scan);
-      of_sensor.unused = unused_poses(around, scene);
     }
   }
   std::vector<Fault> faults;
   for (const auto& [sensor, poses] : missing) {
-    if (const UnusedPose* const pose = misspelt(sensor, poses.unused)) {
-      faults.push_back({pose->file, "/" + pose->sensor,
-                        "expected a sensor of " + scene_list(poses.scenes) + ", found " +
-                            in_quotes(pose->sensor) + "; did you mean " + in_quotes(sensor) +
-                            ", which has no pose to draw starts around?"});
-      continue;
-    }
     faults.push_back({experiment.file, "/starts/around",
                       "sensor \"" + sensor + "\" has no " + params::word_of(kStartCentres, around) +
                           " pose to draw starts around in " + scene_list(poses.scenes) + "; " +
@@ -210,6 +237,7 @@ Start start_of(const Experiment& experiment, const std::string& scene, const Sen
 void resolve_starts(Experiment& experiment, const std::vector<Scene>& scenes,
                     const std::filesystem::path& data_root) {
   StartRule& rule = experiment.starts;
+  check_names(scenes);
   if (rule.file.empty()) return check_centres(experiment, scenes);
   const std::filesystem::path path = found_input(
       experiment, rule.file, data_root, {experiment.file, "/starts/file", ""}, "a file of starts");

@@ -15,9 +15,7 @@ PoseCovariance scaled_sum(const std::vector<PoseCovariance>& covariances, double
   PoseCovariance sum;
   for (const PoseCovariance& one : covariances) {
     sum.matrix += one.matrix;
-    for (std::size_t i = 0; i < sum.dofs.size(); ++i) {
-      sum.dofs[i] = std::max(sum.dofs[i], one.dofs[i]);
-    }
+    sum.dofs = worse_words(sum.dofs, one.dofs);
   }
   sum.matrix *= factor;
   return sum;
@@ -30,6 +28,18 @@ std::optional<Observability> observability_of(const std::string& name) {
     if (name == name_of(word)) return word;
   }
   return std::nullopt;
+}
+
+DofWords better_words(const DofWords& a, const DofWords& b) {
+  DofWords words;
+  for (std::size_t dof = 0; dof < words.size(); ++dof) words[dof] = std::min(a[dof], b[dof]);
+  return words;
+}
+
+DofWords worse_words(const DofWords& a, const DofWords& b) {
+  DofWords words;
+  for (std::size_t dof = 0; dof < words.size(); ++dof) words[dof] = std::max(a[dof], b[dof]);
+  return words;
 }
 
 bool is_covariance(const Matrix6d& matrix) {

@@ -29,13 +29,20 @@ inline const char* name_of(Observability word) {
 /// The word of a name; std::nullopt if it is none.
 std::optional<Observability> observability_of(const std::string& name);
 
+/// How well the data hold each degree of freedom, by Dof.
+using DofWords = std::array<Observability, 6>;
+
+/// Of each degree of freedom the better of two words, and the worse.
+DofWords better_words(const DofWords& a, const DofWords& b);
+DofWords worse_words(const DofWords& a, const DofWords& b);
+
 /// The uncertainty of an estimate of `T_reference_sensor`: the covariance of its error as
 /// `pose_error` measures it, `e = (roll, pitch, yaw of T_estimate T_truth^-1, t_estimate -
 /// t_truth)`, in rad and m, in the reference frame. So the pose `moved(T_estimate, -e)` is the
 /// truth to first order: the rotation turns the sensor about its own origin, from the left.
 struct PoseCovariance {
   Matrix6d matrix = Matrix6d::Zero();
-  std::array<Observability, 6> dofs = {};  ///< By Dof.
+  DofWords dofs = {};
 };
 
 /// The largest variance that a covariance may have, rad^2 or m^2.

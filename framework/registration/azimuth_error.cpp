@@ -18,8 +18,6 @@
 namespace croon {
 namespace {
 
-constexpr int kFewestCorrespondences = 30;
-
 /// The functions of sine, cosine and slope at a point: sin a, cos a and e.
 Eigen::Vector3d terms_at(const Eigen::Vector3d& point) {
   const double across = std::hypot(point.x(), point.y());
@@ -48,6 +46,7 @@ class ViewProblem {
       : view_(view),
         options_(options),
         min_cosine_(std::max(std::cos(rad_from_deg(options.max_normal_angle_deg)), 1e-9)),
+        target_tree_(view.target->kd_tree()),
         target_normals_(view.target->normals(options.normal_neighbours)),
         source_normals_(view.source->normals(options.normal_neighbours)) {
     const std::size_t size = view.source->points().size();
@@ -84,8 +83,8 @@ class ViewProblem {
     const Eigen::Vector3d point = without_error(reported, error);
     const Eigen::Vector3d arm = T.rotation * point;
     const Eigen::Vector3d in_target = arm + T.translation;
-    const Neighbour nearest = view_.target->kd_tree().nearest(
-        in_target.cast<float>(), static_cast<float>(options_.max_distance_m));
+    const Neighbour nearest =
+        target_tree_.nearest(in_target.cast<float>(), static_cast<float>(options_.max_distance_m));
     if (!nearest) return false;
     const Eigen::Vector3d normal = target_normals_.at(nearest.index).normal.cast<double>();
     const Eigen::Vector3d own = T.rotation * source_normals_.at(index).normal.cast<double>();
@@ -102,6 +101,7 @@ class ViewProblem {
   AzimuthView view_;
   const AzimuthOptions& options_;
   double min_cosine_;  ///< Above zero: the product with a normal that is not there is zero.
+  const KdTree& target_tree_;
   const Normals& target_normals_;
   const Normals& source_normals_;
   std::vector<int> indices_;
@@ -129,7 +129,8 @@ struct ReducedView {
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();  ///< Of the gradients of surfaces.
   Vector6d pose_step = Vector6d::Zero();              ///< With the sizes as they are,
-  Eigen::Matrix<double, 6, 3> pose_by_size;           ///< and by a change of them.
+  Eigen::Matrix<double, 6, 3> pose_by_size =          ///< and by a change of them.
+      Eigen::Matrix<double, 6, 3>::Zero();
   double square_sum = 0.0;
   double weight_sum = 0.0;
   double square_weight_sum = 0.0;  ///< Of the weights of surfaces.
@@ -194,21 +195,24 @@ class Problem {
     if (points > 0) mean_terms_ = sum / static_cast<double>(points);
   }
 
-  /// Linearises all views at the present state. Throws StageError if too few points correspond.
+  /// Linearises all views at the present state. Throws StageError if too few points correspond in
+  /// all of them.
   void linearise() {
     reduced_.clear();
     information_.setZero();
     gradient_.setZero();
     scatter_.setZero();
+    int most = 0;
     for (std::size_t v = 0; v < views_.size(); ++v) {
-      reduced_.push_back(reduced(views_[v].contacts(poses_[v], error(), mean_terms_), options_));
+      reduced_.push_back(reduced_at(v, poses_[v], error()));
       const ReducedView& view = reduced_.back();
-      if (view.correspondences < kFewestCorrespondences) {
-        throw StageError("only " + std::to_string(view.correspondences) + " points correspond");
-      }
       information_ += view.information;
       gradient_ += view.gradient;
       scatter_ += view.scatter;
+      most = std::max(most, view.correspondences);
+    }
+    if (most < kFewestAzimuthCorrespondences) {
+      throw StageError("only " + std::to_string(most) + " points correspond");
     }
   }
 
@@ -252,7 +256,7 @@ class Problem {
     result.rmse_m = rmse_m();
     double weights = 0.0, squares = 0.0;
     for (const ReducedView& view : reduced_) {
-      result.correspondences += view.correspondences;
+      result.correspondences.push_back(view.correspondences);
       weights += view.weight_sum;
       squares += view.square_weight_sum;
     }
@@ -260,6 +264,15 @@ class Problem {
   }
 
  private:
+  /// A view, linearised. One in which too few points correspond says nothing and stays where it is.
+  ReducedView reduced_at(std::size_t v, const RigidTransform& T, const AzimuthError& error) const {
+    ReducedView view = reduced(views_[v].contacts(T, error, mean_terms_), options_);
+    if (view.correspondences >= kFewestAzimuthCorrespondences) return view;
+    ReducedView nothing;
+    nothing.correspondences = view.correspondences;
+    return nothing;
+  }
+
   /// The change of the gradient by sine, cosine and slope when the poses follow them. Other points
   /// correspond then, so it is less than what the present correspondences let expect.
   Eigen::Matrix3d measured_hessian() const {
@@ -277,7 +290,7 @@ class Problem {
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
     for (std::size_t v = 0; v < views_.size(); ++v) {
       const RigidTransform T = stepped(poses_[v], reduced_[v].pose_by_size * offset);
-      gradient += reduced(views_[v].contacts(T, error, mean_terms_), options_).gradient;
+      gradient += reduced_at(v, T, error).gradient;
     }
     return gradient;
   }

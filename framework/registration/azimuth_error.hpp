@@ -53,6 +53,9 @@ struct AzimuthOptions {
 /// The rows of AzimuthOptions.
 const params::Table<AzimuthOptions>& azimuth_table();
 
+/// A view in which less points correspond takes no part.
+inline constexpr int kFewestAzimuthCorrespondences = 30;
+
 /// The azimuth error of a sensor, and its pose without it in each view.
 struct AzimuthCalibration {
   AzimuthError error;
@@ -62,7 +65,9 @@ struct AzimuthCalibration {
   double rmse_before_m = 0.0;  ///< Weighted, of the distances to surfaces, with the start's poses
                                ///< and no error.
   double rmse_m = 0.0;         ///< The same at the end.
-  int correspondences = 0;
+  /// By view. In one with less than kFewestAzimuthCorrespondences the pose is the start's, and the
+  /// error does not follow from it.
+  std::vector<int> correspondences;
   double surfaces = 0.0;  ///< On which the points lie, of all views; as many of one weight.
   int iterations = 0;
   bool converged = false;
@@ -78,7 +83,7 @@ struct AzimuthCalibration {
 /// poses of the views. An error that is the same at all azimuths is a yaw of the mounting, so the
 /// offset is the one that makes the mean error of all points zero. Of sine, cosine and slope a
 /// standard deviation of `expected_error_deg` about zero is expected. Throws StageError if too few
-/// points correspond.
+/// points correspond in all views.
 AzimuthCalibration calibrate_azimuth(const std::vector<AzimuthView>& views,
                                      const AzimuthOptions& options);
 

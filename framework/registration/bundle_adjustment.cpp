@@ -125,10 +125,11 @@ const params::Table<BundleOptions>& bundle_table() {
     params::Table<O> rows = {
         params::number("kernel_width", &O::kernel_width, {1e-3, 1e9},
                        "Planes that fit worse than so many standard deviations lose weight."),
-        params::numbers("start_std", &O::start_std, {1e-9, 1e9},
-                        "How far a start is expected to be off, two standard deviations: the first "
-                        "in degrees, about each axis; the second in metres, along each axis. They "
-                        "keep sensors from moving where no plane holds them."),
+        params::numbers(
+            "start_std", &O::start_std, {1e-9, 1e9},
+            "The standard deviation of how far a start is expected to be off: the first "
+            "number in degrees, about each axis; the second in metres, along each "
+            "axis. They keep sensors from moving where no plane holds them."),
         params::number(
             "start_weight", &O::start_weight, {0.0, 1.0},
             "The weight of what steps before know of poses and velocities, by covariances: "
@@ -150,7 +151,8 @@ const params::Table<BundleOptions>& bundle_table() {
         params::number("covariance_scale", &O::covariance_scale, {0.0, 1e6},
                        "Multiplies the standard deviations; found on scenes with truth."),
         params::number("velocity_error_mps", &O::velocity_error_mps, {0.0, 1e6},
-                       "In a scene that moves, the poses are less certain, as if the speed were "
+                       "In a scene that moves with a velocity that is not certain, the poses are "
+                       "less certain, as if the speed were "
                        "off by this standard deviation; found on scenes with truth."),
         params::number("clock_offset_std_s", &O::clock_offset_std_s, {0.0, 1e6},
                        "How far a sensor's clock is expected to be off from the target's, beyond "

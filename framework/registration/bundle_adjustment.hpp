@@ -51,7 +51,7 @@ struct Bundle {
   /// By sensor, see adjust_bundle; zero for the first and for those that took no part.
   std::vector<PoseCovariance> covariances;
   /// By sensor: how well its planes alone hold each degree of freedom, see plane_words.
-  std::vector<std::array<Observability, 6>> plane_words;
+  std::vector<DofWords> plane_words;
   /// By sensor: added to its times, they are those of the first; and the standard deviation of
   /// that. Zero unless they are unknowns.
   std::vector<double> clock_offsets_s;
@@ -71,7 +71,7 @@ struct Bundle {
 /// see a plane hold each other, not only those that share it with the first. The velocity of a
 /// scene that is not certain is an unknown as well, expected to differ by its covariance. Coarse
 /// passes take a part of the points. A sensor with less than `min_planes` keeps its pose and takes
-/// no part.
+/// no part: the others are where they would be without it.
 ///
 /// If BundleOptions::clock_offset_std_s is above zero, the offset of each sensor's clock to the
 /// first's is an unknown, the same in all scenes: in a scene with the velocity xi a sensor whose
@@ -83,12 +83,12 @@ struct Bundle {
 /// Covariances are by clusters c, the planes of one scene, one direction and one cube of 3 m, whose
 /// errors are not independent: see covariance_by_clusters.
 /// Poses and velocities are eliminated from each other, and what is known of starts and velocities
-/// adds its own, with the covariance that it has and the weight that it got. In a scene that moves,
-/// what the poses would move if the velocity were off by `velocity_error_mps` along itself is
-/// added: what drives by itself is elsewhere when the next sensor sees it, which leaving out one
-/// surface at a time does not show. By its covariance a degree of freedom is weak if its standard
-/// deviation is more than a tenth of `start_std`, and unobservable if it is more than a half; by
-/// its planes as plane_words says.
+/// adds its own, with the covariance that it has and the weight that it got. In a scene that moves
+/// with a velocity that is not certain, what the poses would move if the velocity were off by
+/// `velocity_error_mps` along itself is added: what drives by itself is elsewhere when the next
+/// sensor sees it, which leaving out one surface at a time does not show. By its covariance a
+/// degree of freedom is weak if its standard deviation is more than a tenth of `start_std`, and
+/// unobservable if it is more than a half; by its planes as plane_words says.
 ///
 /// `start` is by sensor, T_common_sensor and what is known of it beside BundleOptions::start_std;
 /// the first of them is the identity.

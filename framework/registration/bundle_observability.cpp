@@ -44,7 +44,7 @@ void add_patch(const PlanePatch& patch, const std::vector<RigidTransform>& poses
 
 }  // namespace
 
-std::vector<std::array<Observability, 6>> plane_words(const BundleSystem& system) {
+std::vector<DofWords> plane_words(const BundleSystem& system) {
   const std::size_t sensors = system.state().poses.size();
   std::vector<PlaneEvidence> evidence(sensors);
   for (std::size_t s = 0; s < system.planes().size(); ++s) {
@@ -52,7 +52,7 @@ std::vector<std::array<Observability, 6>> plane_words(const BundleSystem& system
     for (const PlanePatch& patch : system.planes()[s]) add_patch(patch, poses, evidence);
   }
   const Matrix6d prior = unknown_variances().cwiseInverse().asDiagonal();
-  std::vector<std::array<Observability, 6>> words(sensors);  // First all determined.
+  std::vector<DofWords> words(sensors);  // First all determined.
   for (std::size_t k = 1; k < sensors; ++k) {
     const auto held = held_dofs(evidence[k].information, evidence[k].noise, prior);
     for (std::size_t dof = 0; dof < held.size(); ++dof) words[k][dof] = held[dof].word;

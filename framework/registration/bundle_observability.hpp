@@ -12,6 +12,6 @@ namespace croon {
 /// is known as well as its points let it be turned, and turns by so much at random; in a direction
 /// that no surface holds, all that planes say of it is this noise, however many scenes there are
 /// (see held_dofs).
-std::vector<std::array<Observability, 6>> plane_words(const BundleSystem& system);
+std::vector<DofWords> plane_words(const BundleSystem& system);
 
 }  // namespace croon

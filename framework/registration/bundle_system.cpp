@@ -1,5 +1,8 @@
 #include "framework/registration/bundle_system.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "framework/base/angles.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/geometry/guarded_inverse.hpp"
@@ -73,9 +76,37 @@ void BundleSystem::find_planes(int stride) {
                                stride, options_);
   });
   free_sensors_.clear();
-  const std::vector<int> planes = planes_of_sensors();
-  for (std::size_t k = 1; k < planes.size(); ++k) {
-    if (planes[k] >= options_.min_planes) free_sensors_.push_back(k);
+  for (std::size_t k = 1; k < state_.poses.size(); ++k) free_sensors_.push_back(k);
+  planes_of_sensors_ = counted_planes();
+  while (!free_sensors_.empty()) {
+    const std::vector<int> planes = counted_planes();
+    planes_of_sensors_[0] = planes[0];
+    for (const std::size_t k : free_sensors_) planes_of_sensors_[k] = planes[k];
+    // The one with the fewest first: others may share planes with it alone.
+    const auto fewest =
+        std::min_element(free_sensors_.begin(), free_sensors_.end(),
+                         [&](std::size_t a, std::size_t b) { return planes[a] < planes[b]; });
+    if (planes[*fewest] >= options_.min_planes) break;
+    leave_out(*fewest);
+    free_sensors_.erase(fewest);
+  }
+}
+
+void BundleSystem::leave_out(std::size_t sensor) {
+  state_.poses[sensor] = start_[sensor].pose;
+  state_.clock_offsets_s[sensor] = 0.0;
+  for (std::vector<PlanePatch>& of_scene : planes_) {
+    std::vector<PlanePatch> others;
+    for (PlanePatch& patch : of_scene) {
+      const auto view = std::find_if(patch.views.begin(), patch.views.end(),
+                                     [&](const auto& one) { return one.sensor == sensor; });
+      if (view != patch.views.end()) {
+        patch.own_cost -= least_eigenvalue(view->sums.scatter());
+        patch.views.erase(view);
+      }
+      if (patch.views.size() > 1) others.push_back(std::move(patch));
+    }
+    of_scene = std::move(others);
   }
 }
 
@@ -85,7 +116,7 @@ std::size_t BundleSystem::number_of_planes() const {
   return number;
 }
 
-std::vector<int> BundleSystem::planes_of_sensors() const {
+std::vector<int> BundleSystem::counted_planes() const {
   std::vector<int> planes(state_.poses.size(), 0);
   for (const auto& of_scene : planes_) {
     for (const PlanePatch& patch : of_scene) {

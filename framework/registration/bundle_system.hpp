@@ -37,13 +37,16 @@ class BundleSystem {
   const BundleState& state() const { return state_; }
   void set_state(BundleState state) { state_ = std::move(state); }
 
-  /// Finds the planes of all scenes at the present state, of every `stride`-th point.
+  /// Finds the planes of all scenes at the present state, of every `stride`-th point. A sensor that
+  /// shares less than BundleOptions::min_planes of them with others that take part takes no part:
+  /// it goes back to its start, and no plane has what it sees.
   void find_planes(int stride);
   /// By scene.
   const std::vector<std::vector<PlanePatch>>& planes() const { return planes_; }
   std::size_t number_of_planes() const;
-  /// By sensor: how many planes it shares with others.
-  std::vector<int> planes_of_sensors() const;
+  /// By sensor: how many planes it shares with others; of one that takes no part, those for which
+  /// it was left out.
+  const std::vector<int>& planes_of_sensors() const { return planes_of_sensors_; }
   /// The sensors that share enough planes to be moved; never the first.
   const std::vector<std::size_t>& free_sensors() const { return free_sensors_; }
 
@@ -85,6 +88,8 @@ class BundleSystem {
   /// The cost of a scene, which is by where its sensors stand in it, by the unknowns.
   BundleCost with_offsets(const BundleCost& cost, std::size_t scene) const;
   double start_value(const BundleState& state) const;
+  std::vector<int> counted_planes() const;
+  void leave_out(std::size_t sensor);
 
   const std::vector<BundleScene>& scenes_;
   const std::vector<InformedPose>& start_;
@@ -95,6 +100,7 @@ class BundleSystem {
   std::vector<std::vector<PlanePatch>> planes_;
   std::vector<std::optional<Twist>> planes_velocities_;  ///< At which the planes were found.
   std::vector<std::size_t> free_sensors_;
+  std::vector<int> planes_of_sensors_;
 };
 
 /// Eliminates the velocity, the last six of the unknowns of `cost`, if `has_velocity`.

@@ -78,8 +78,8 @@ Observability word_of(double std_ratio) {
 
 /// The words of a pose by its standard deviations; of degrees of freedom that follow another one
 /// (leading_dofs), with that one held.
-std::array<Observability, 6> words_of(const Matrix6d& covariance, const Vector6d& start_std) {
-  std::array<Observability, 6> words;
+DofWords words_of(const Matrix6d& covariance, const Vector6d& start_std) {
+  DofWords words;
   const auto judge = [&](std::size_t dof, const Matrix6d& of_free) {
     const auto i = static_cast<Eigen::Index>(dof);
     words[dof] = word_of(std::sqrt(of_free(i, i)) / start_std(i));

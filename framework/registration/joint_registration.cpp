@@ -170,10 +170,11 @@ const params::Table<JointOptions>& joint_table() {
     params::Table<JointOptions> rows = {
         params::numbers("max_distances_m", &JointOptions::max_distances_m, {1e-6, 1e6},
                         "Points that are farther apart do not correspond; one pass for each."),
-        params::numbers("velocity_std", &JointOptions::velocity_std, {1e-9, 1e6},
-                        "What is expected of a velocity before any point is seen, two standard "
-                        "deviations from zero: the first in m/s, along each axis; the second in "
-                        "rad/s, about each axis."),
+        params::numbers(
+            "velocity_std", &JointOptions::velocity_std, {1e-9, 1e6},
+            "The standard deviation of a velocity about zero before any point is seen: the "
+            "first number in m/s, along each axis; the second in rad/s, about each "
+            "axis."),
         params::number("clock_offset_std_s", &JointOptions::clock_offset_std_s, {0.0, 1e6},
                        "The same of the sensors' clocks against the target's; at 0 they agree."),
         params::integer("max_iterations", &JointOptions::max_iterations, {1, 10000},
@@ -190,16 +191,19 @@ const params::Table<JointOptions>& joint_table() {
                        "Each of the n points of a patch weighs n to the minus this: at 1 every "
                        "patch weighs the same, at 0 every point. It keeps one large thing that "
                        "moves from outvoting many small ones that stand."),
-        params::number("patch_kernel_m", &JointOptions::patch_kernel_m, {0.0, 1e6},
-                       "A patch whose residuals are above it in the mean begins to lose weight as "
-                       "a whole: it moves by itself. In a coarse pass it is a tenth of its "
-                       "distance; at 0 no patch loses weight."),
+        params::number(
+            "patch_kernel_m", &JointOptions::patch_kernel_m, {0.0, 1e6},
+            "A patch whose residuals are above it in the mean begins to lose weight as "
+            "a whole: it moves by itself. It is at least a tenth of a pass's distance; at 0 "
+            "no patch loses weight."),
         params::number("vehicle_weight", &JointOptions::vehicle_weight, {0.0, 1.0},
                        "What a point of the reference weighs that belongs to a thing of a "
                        "vehicle's size, as such things may move by themselves; others weigh 1."),
-        params::number("kernel_width_m", &JointOptions::kernel_width_m, {1e-6, 1e6},
-                       "Residuals above it begin to lose weight; in a coarse pass a quarter of its "
-                       "distance."),
+        params::number(
+            "kernel_width_m", &JointOptions::kernel_width_m, {1e-6, 1e6},
+            "Residuals above it begin to lose weight; it is at least a quarter of a pass's "
+            "distance, so 0.075 m in one of 0.3 m. What is expected before any point is "
+            "seen, and whether points agree with other speeds, count by it alone."),
     };
     rows.require([](const JointOptions& o) { return !o.max_distances_m.empty(); },
                  "max_distances_m must have a number");

@@ -34,8 +34,7 @@ HeldDof judged(const Evidence& evidence, const Matrix6d& covariance, std::size_t
 
 }  // namespace
 
-std::array<bool, 6> leading_dofs(const std::array<Observability, 6>& words,
-                                 const Matrix6d& covariance) {
+std::array<bool, 6> leading_dofs(const DofWords& words, const Matrix6d& covariance) {
   constexpr double kFollows = 4.0;
   const Vector6d scale = unknown_variances().cwiseSqrt().cwiseInverse();
   const Matrix6d scaled = scale.asDiagonal() * covariance * scale.asDiagonal();
@@ -66,7 +65,7 @@ std::array<HeldDof, 6> held_dofs(const Matrix6d& information, const Matrix6d& no
   const Evidence evidence = {information, noise, weak_ratio, unobservable_ratio};
   const Matrix6d covariance = guarded_inverse<6>(information + prior);
   std::array<HeldDof, 6> held;
-  std::array<Observability, 6> words;
+  DofWords words;
   for (std::size_t dof = 0; dof < held.size(); ++dof) {
     held[dof] = judged(evidence, covariance, dof);
     words[dof] = held[dof].word;

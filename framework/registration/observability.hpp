@@ -25,8 +25,7 @@ struct HeldDof {
 /// of the two is more than four times its own variance. So on a plain seen by a reference that is
 /// tilted by up to 14 degrees roll follows yaw, because the turn that the plain does not hold,
 /// about its normal, is mostly yaw.
-std::array<bool, 6> leading_dofs(const std::array<Observability, 6>& words,
-                                 const Matrix6d& covariance);
+std::array<bool, 6> leading_dofs(const DofWords& words, const Matrix6d& covariance);
 
 /// `information` with the degrees of freedom `held` known: they are independent of the others.
 Matrix6d with_held(const Matrix6d& information, const std::array<bool, 6>& held);

@@ -1,4 +1,5 @@
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "framework/base/angles.hpp"
@@ -122,6 +123,11 @@ class AzimuthCalibrationStep final : public RigStep {
     try {
       const AzimuthCalibration found = calibrate_azimuth(views, params_);
       for (std::size_t v = 0; v < views.size(); ++v) {
+        const int correspondences = found.correspondences[v];
+        if (correspondences < kFewestAzimuthCorrespondences) {
+          estimates[v]->failure = "only " + std::to_string(correspondences) + " points correspond";
+          continue;
+        }
         give(found, found.T_target_source[v], estimates[v]->estimate);
       }
     } catch (const StageError& error) {
@@ -136,6 +142,8 @@ class AzimuthCalibrationStep final : public RigStep {
       estimate.T_target_source = T;
       estimate.covariance.reset();
     }
+    const int correspondences =
+        std::accumulate(found.correspondences.begin(), found.correspondences.end(), 0);
     const Eigen::Vector3d stds = found.covariance.diagonal().cwiseSqrt();
     estimate.diagnostics = {{"azimuth_offset_deg", deg_from_rad(found.error.offset_rad)},
                             {"azimuth_sine_deg", deg_from_rad(found.error.sine_rad)},
@@ -148,7 +156,7 @@ class AzimuthCalibrationStep final : public RigStep {
                             {"corrected", is_corrected ? 1.0 : 0.0},
                             {"rmse_before_m", found.rmse_before_m},
                             {"rmse_m", found.rmse_m},
-                            {"correspondences", static_cast<double>(found.correspondences)},
+                            {"correspondences", static_cast<double>(correspondences)},
                             {"surfaces", found.surfaces},
                             {"iterations", static_cast<double>(found.iterations)},
                             {"converged", found.converged ? 1.0 : 0.0}};

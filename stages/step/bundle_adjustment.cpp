@@ -37,24 +37,9 @@ const params::Table<Params>& table() {
   return table;
 }
 
-/// How well each degree of freedom is held.
-using Words = std::array<Observability, 6>;
-
-Words all_of(Observability word) {
-  Words words;
+DofWords all_of(Observability word) {
+  DofWords words;
   words.fill(word);
-  return words;
-}
-
-Observability better(Observability a, Observability b) { return std::min(a, b); }
-Observability worse(Observability a, Observability b) { return std::max(a, b); }
-
-/// Of each degree of freedom the one of the two words that `choose` takes.
-Words combined(Words words, const Words& others,
-               Observability (*choose)(Observability, Observability)) {
-  for (std::size_t dof = 0; dof < words.size(); ++dof) {
-    words[dof] = choose(words[dof], others[dof]);
-  }
   return words;
 }
 
@@ -65,7 +50,7 @@ struct RigBundle {
   std::vector<BundleScene> scenes;
   std::vector<InformedPose> start;  ///< By sensor, first the reference.
   /// By sensor: how well the scene that holds it best does, by the covariances of steps before.
-  std::vector<Words> start_words;
+  std::vector<DofWords> start_words;
 };
 
 class BundleAdjustmentStep final : public RigStep {
@@ -140,10 +125,10 @@ class BundleAdjustmentStep final : public RigStep {
   }
 
   /// The best of each degree of freedom of a sensor's estimates, one per scene.
-  static Words start_words_of(const std::vector<const Estimate*>& estimates) {
-    Words words = all_of(Observability::unobservable);
+  static DofWords start_words_of(const std::vector<const Estimate*>& estimates) {
+    DofWords words = all_of(Observability::unobservable);
     for (const Estimate* const one : estimates) {
-      if (one->covariance) words = combined(words, one->covariance->dofs, better);
+      if (one->covariance) words = better_words(words, one->covariance->dofs);
     }
     return words;
   }
@@ -240,8 +225,8 @@ class BundleAdjustmentStep final : public RigStep {
     if (is_adjusted) {
       estimate.covariance = result.covariances[sensor];
       // Planes or registrations must hold it, and well enough.
-      const Words held = combined(result.plane_words[sensor], rig.start_words[sensor], better);
-      estimate.covariance->dofs = combined(estimate.covariance->dofs, held, worse);
+      const DofWords held = better_words(result.plane_words[sensor], rig.start_words[sensor]);
+      estimate.covariance->dofs = worse_words(estimate.covariance->dofs, held);
     } else {
       estimate.covariance->matrix = guarded_inverse<6>(start.information);
     }

@@ -89,6 +89,10 @@ class ConsensusStep final : public RigStep {
       const InformedPose mean = weighted_mean(agreeing);
       pose = mean.pose;
       covariance->matrix = guarded_inverse<6>(mean.information);
+      // A scene that does not hold a direction has no weight in it, so its word does not count.
+      for (const RigEstimate* const one : agreeing) {
+        covariance->dofs = better_words(covariance->dofs, one->estimate.covariance->dofs);
+      }
     }
     const std::optional<std::string> rejection = verdict(estimates, votes, agreeing.size(), ratio);
     for (RigEstimate* const one : estimates) {
@@ -170,7 +174,7 @@ StageEntry consensus() {
       "consensus",
       "Sees the whole rig: gives each sensor, in all scenes of a trial, the pose that most of its "
       "scenes agree on.",
-      "the mean is that of Markley et al., Averaging Quaternions, JGCD 2007", table());
+      "the mean is that of Markley et al., Averaging Quaternions, JGCD 2007", table(), 2);
 }
 
 }  // namespace croon::stages::step

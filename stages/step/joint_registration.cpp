@@ -62,9 +62,10 @@ struct Group {
 
 bool has_times(const Cloud& cloud) { return find_channel(cloud.with_channels(), kTime) != nullptr; }
 
-/// When the points were measured; without the channel `time` all at once.
-TimedScan timed(const std::shared_ptr<const Cloud>& cloud, double otherwise_s) {
-  if (has_times(*cloud)) return {cloud, times_s(cloud->with_channels())};
+/// When the points were measured; all at once if times are not `wanted`, or without the channel
+/// `time`. Another variant of an experiment may have asked for the channel.
+TimedScan timed(const std::shared_ptr<const Cloud>& cloud, bool wanted, double otherwise_s) {
+  if (wanted && has_times(*cloud)) return {cloud, times_s(cloud->with_channels())};
   return {cloud, std::vector<double>(cloud->points().size(), otherwise_s)};
 }
 
@@ -172,10 +173,10 @@ class JointRegistrationStep final : public RigStep {
     const Estimate& estimate = one.estimate;
     require_usable_clouds(estimate);
     JointScene scene;
-    scene.target = timed(estimate.target, 0.0);
+    scene.target = timed(estimate.target, params_.motion, 0.0);
     scene.reference_s = span_of(scene.target.times_s).middle_s();
     require_near(scene.target.times_s, scene.reference_s);
-    scene.sources.push_back({0, timed(estimate.source, scene.reference_s)});
+    scene.sources.push_back({0, timed(estimate.source, params_.motion, scene.reference_s)});
     require_near(scene.sources.front().scan.times_s, scene.reference_s);
     scene.is_moving = params_.motion && has_times(*estimate.target) && has_times(*estimate.source);
     // A velocity that was given is removed already: what remains of it is its error.
@@ -195,7 +196,7 @@ class JointRegistrationStep final : public RigStep {
   }
 
   TimedScan thinned(const TimedScan& scan, double otherwise_s) const {
-    return timed(shared_view(*scan.cloud, params_.thinning)->thinned, otherwise_s);
+    return timed(shared_view(*scan.cloud, params_.thinning)->thinned, params_.motion, otherwise_s);
   }
 
   /// The index of `name` in `names`; a new name is appended.
@@ -277,7 +278,7 @@ StageEntry joint_registration() {
       "joint_registration",
       "Sees the whole rig: registers all sensors together with the velocity of each scene, and "
       "removes the distortion of the scans by it.",
-      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 9);
+      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 10);
 }
 
 }  // namespace croon::stages::step

@@ -237,7 +237,16 @@ TEST_F(BadInput, MisspeltSensorOfTheTruth) {
                 R"({"lfet": {"rotation_rpy_deg": [0, 0, 0], "translation_m": [0, 0, 0]}})");
   expect_refused_with(
       {"data/rig/truth.json: /lfet: expected a sensor of scene s1, found \"lfet\"; "
-       "did you mean \"left\", which has no pose"});
+       "did you mean \"left\", which has no true pose"});
+}
+
+TEST_F(BadInput, MisspeltSensorOfTheTruthWithStartsAroundOtherPoses) {
+  folder_.write("data/rig/truth.json",
+                R"({"lfet": {"rotation_rpy_deg": [0, 0, 0], "translation_m": [0, 0, 0]}})");
+  folder_.write("data/rig/nominal.json",
+                R"({"left": {"rotation_rpy_deg": [0, 0, 0], "translation_m": [0, 0, 0]}})");
+  edit(R"("around": "truth")", R"("around": "nominal")");
+  expect_refused_with({"data/rig/truth.json: /lfet: expected a sensor of scene s1"});
 }
 
 TEST_F(BadInput, TruthOfOtherSensorsAlone) {

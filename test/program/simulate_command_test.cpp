@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/base/whole_file.hpp"
+#include "framework/io/digest.hpp"
 #include "test/program/program.hpp"
 #include "test/support/temp_folder.hpp"
 
@@ -118,6 +119,31 @@ TEST_F(SimulateCommand, WritesTheFileOfVelocitiesThatKnownVelocityTakes) {
     // The lever arm of the reference adds to the speed in a bend.
     EXPECT_NEAR(std::stod(diagnostics.substr(number)), 12.0, 0.1);
   }
+}
+
+TEST_F(SimulateCommand, WritesWhatTheExperimentReadsBesideIt) {
+  const std::string dataset = R"({"name": "x", "dataset": {"type": "simulated", "scenes": 2,
+      "noise": "real", "speed_mps": 12}, )";
+  folder_.write("x.json", dataset + R"("starts": {"rotation_deg": 1, "trials": 2},
+      "pipeline": [{"step": "identity"}]})");
+  run("simulate " + path("x.json") + " --out " + path("first") + " --quiet");
+  folder_.write("given/v.csv", read_whole_file(path("first/velocities.csv")));
+  run("starts " + path("x.json") + " --out " + path("s.csv"));
+  const std::string sha256 = sha256_of_file(path("s.csv"));
+  folder_.write("y.json", dataset + R"("starts": {"file": "s.csv", "trials": 1, "sha256": ")" +
+                              sha256 + R"("},
+      "pipeline": [{"step": "known_velocity", "file": "given/v.csv"}]})");
+  run("simulate " + path("y.json") + " --out " + path("data") + " --quiet");
+  run("run " + path("y.json") + " --out " + path("made") + " --quiet");
+  run("run " + path("data/experiment.json") + " --data " + path("data") + " --out " + path("read") +
+      " --quiet");
+  EXPECT_EQ(read_whole_file(path("made/trials.csv")), read_whole_file(path("read/trials.csv")));
+
+  folder_.write("truth.json", read_whole_file(path("first/velocities.csv")));
+  folder_.write("z.json", dataset + R"("starts": {"rotation_deg": 1, "trials": 1},
+      "pipeline": [{"step": "known_velocity", "file": "truth.json"}]})");
+  run("simulate " + path("z.json") + " --out " + path("other") + " --quiet", 2);
+  EXPECT_FALSE(fs::exists(path("other")));
 }
 
 TEST_F(SimulateCommand, WritesThroughNoLink) {

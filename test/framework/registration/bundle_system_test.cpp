@@ -105,5 +105,38 @@ TEST(BundleSystem, AClockMovesASensorAlongTheVelocityOfTheScene) {
   }
 }
 
+TEST(BundleSystem, LeavesOutASensorThatSharesTooFewPlanes) {
+  Rng rng = test::test_rng(2);
+  const Room made = room(rng);
+  BundleOptions options;
+  // A third sensor that sees little of the corner, from a start that is 2 cm off.
+  Room more = made;
+  InformedPose off = {test::random_pose(rng, 1.0)};
+  for (BundleScene& scene : more.scenes) {
+    PointCloud little = corner_seen_from(off.pose, rng);
+    little.points.resize(40);
+    more.clouds.push_back(std::make_shared<const Cloud>(std::move(little), StreamKey(2)));
+    scene.clouds.push_back({2, more.clouds.back().get(), std::vector<double>(40, 0.0)});
+  }
+  off.pose.translation.x() += 0.02;
+  more.start.push_back(off);
+
+  BundleSystem without(made.scenes, made.start, options), with(more.scenes, more.start, options);
+  BundleState moved = with.state();
+  moved.poses[2].translation.y() += 0.1;
+  with.set_state(moved);
+  with.find_planes(1);
+  without.find_planes(1);
+  EXPECT_EQ(with.free_sensors(), without.free_sensors());
+  EXPECT_LT(with.planes_of_sensors()[2], options.min_planes);
+  EXPECT_EQ(with.state().poses[2].translation, off.pose.translation);
+  for (std::size_t s = 0; s < with.planes().size(); ++s) {
+    for (const PlanePatch& patch : with.planes()[s]) {
+      ASSERT_EQ(patch.views.size(), 2U);
+      for (const PlanePatch::View& view : patch.views) EXPECT_NE(view.sensor, 2U);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace croon

@@ -154,5 +154,19 @@ TEST(AzimuthCalibration, FailsAloneWhereTooFewPointsCorrespond) {
   EXPECT_EQ(rig.back().failure, "");
 }
 
+TEST(AzimuthCalibration, ASceneThatWentAstrayDoesNotSpoilTheOthers) {
+  std::vector<RigEstimate> rig = two_streets(kError, some_pose());
+  std::vector<RigEstimate> alone = {rig.back()};
+  rig.front().estimate.T_target_source.translation.x() += 1000.0;
+  calibrate(rig);
+  calibrate(alone);
+  EXPECT_EQ(rig.front().failure, "only 0 points correspond");
+  ASSERT_EQ(rig.back().failure, "");
+  const PoseError apart =
+      pose_error(rig.back().estimate.T_target_source, alone.front().estimate.T_target_source);
+  EXPECT_LT(deg_from_rad(apart.rotation_rad), 0.1);
+  EXPECT_LT(apart.translation_m, 0.01);
+}
+
 }  // namespace
 }  // namespace croon

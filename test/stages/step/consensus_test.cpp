@@ -200,5 +200,24 @@ TEST(Consensus, HasTheCovarianceOfAMeanOfScenes) {
   EXPECT_FALSE(without.back().estimate.covariance);
 }
 
+TEST(Consensus, ASceneWithoutWeightInADirectionDoesNotMakeItUnobservable) {
+  Rng rng = test::test_rng(14);
+  const RigidTransform truth = test::random_pose(rng, 3.0);
+  std::vector<RigEstimate> rig = near_estimates(rng, "left", truth, 4);
+  for (RigEstimate& one : rig) {
+    one.estimate.covariance = PoseCovariance();
+    one.estimate.covariance->matrix = 1e-6 * Matrix6d::Identity();
+  }
+  // A corridor along x.
+  rig.back().estimate.covariance->matrix(3, 3) = kUnknown_m * kUnknown_m;
+  rig.back().estimate.covariance->dofs[3] = Observability::unobservable;
+  auto alike = rig;
+  adjust(rig, R"(, "weights": "covariance")");
+  adjust(alike);
+  EXPECT_EQ(rig.front().estimate.covariance->dofs[3], Observability::determined);
+  EXPECT_LT(rig.front().estimate.covariance->matrix(3, 3), 1e-6);
+  EXPECT_EQ(alike.front().estimate.covariance->dofs[3], Observability::unobservable);
+}
+
 }  // namespace
 }  // namespace croon
