@@ -12,9 +12,11 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 def run_experiment(croon, experiment, results, options):
     """Runs `experiment`, or what of it is missing, into the folder `results`. Ends the script if that has trials of
     something else, which croon refuses."""
-    ended = subprocess.run([croon, "run", experiment, "--out", results, "--quiet", *options], check=False,
-                           stdout=subprocess.DEVNULL)
-    if ended.returncode not in (0, 3):  # 3: a trial failed, which is a result.
+    command = [croon, "run", experiment, "--out", results, "--quiet", *options]
+    ended = subprocess.run(command, check=False, stdout=subprocess.DEVNULL)
+    if ended.returncode == 3:  # A trial failed, which is a result, or could not be read: that alone is run again.
+        ended = subprocess.run(command, check=False, stdout=subprocess.DEVNULL)
+    if ended.returncode not in (0, 3):
         sys.exit(f"croon run {experiment} ended with {ended.returncode}")
 
 

@@ -17,11 +17,16 @@ for ((shard = 1; shard <= shards; ++shard)); do folders+=("$out/shard.$shard"); 
 mkdir -p "$out/log"
 
 run_shard() {
-  local shard=$1 status=0
+  local shard=$1 status=3
   shift
-  "$program" run "$experiment" --shard "$shard/$shards" --out "$out/shard.$shard" --jobs 1 --quiet "$@" \
-    >"$out/log/shard.$shard.log" 2>&1 || status=$?
-  # With 3 the shard is done and some trial in it failed; croon merge says it again.
+  # With 3 some trial failed, which croon merge says again, or its files could not be read just then: a second run runs
+  # the latter alone.
+  for _ in 1 2; do
+    if [[ $status -ne 3 ]]; then break; fi
+    status=0
+    "$program" run "$experiment" --shard "$shard/$shards" --out "$out/shard.$shard" --jobs 1 --quiet "$@" \
+      >"$out/log/shard.$shard.log" 2>&1 || status=$?
+  done
   if [[ $status -eq 0 || $status -eq 3 ]]; then return 0; fi
   cat "$out/log/shard.$shard.log" >&2
   return "$status"

@@ -18,10 +18,17 @@ shift 2
 shard=$((SLURM_ARRAY_TASK_ID + 1))
 shards=${CROON_SHARDS:-$SLURM_ARRAY_TASK_COUNT}
 
+run_shard() {
+  "${CROON:-croon}" run "$experiment" --shard "$shard/$shards" --out "$out/shard.$shard" \
+    --jobs "${SLURM_CPUS_PER_TASK:-1}" --quiet "$@"
+}
 status=0
-"${CROON:-croon}" run "$experiment" --shard "$shard/$shards" --out "$out/shard.$shard" \
-  --jobs "${SLURM_CPUS_PER_TASK:-1}" --quiet "$@" || status=$?
-# With 3 the shard is done and some trial in it failed: a result like any other, which must not keep the others
-# from being merged. croon merge says it again.
+run_shard "$@" || status=$?
+# With 3 some trial failed, or its files could not be read just then. A second run runs the latter alone. A trial that
+# failed is a result like any other, which must not keep the others from being merged; croon merge says it again.
+if [[ $status -eq 3 ]]; then
+  status=0
+  run_shard "$@" || status=$?
+fi
 if [[ $status -eq 3 ]]; then exit 0; fi
 exit "$status"

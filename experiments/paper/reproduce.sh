@@ -12,10 +12,15 @@ results=${RESULTS:-results/paper}
 page=docs/reproduction.md
 
 folders=()
-# run_experiment NAME: a trial that failed (code 3) is a result like others.
+# run_experiment NAME: with code 3 some trial failed, a result like others, or its files could not be read just then; a
+# second run runs the latter alone.
 run_experiment() {
-  local code=0
-  "$croon" run "experiments/paper/$1.json" --data "$data" --out "$results/$1" || code=$?
+  local code=3
+  for _ in 1 2; do
+    if [[ $code != 3 ]]; then break; fi
+    code=0
+    "$croon" run "experiments/paper/$1.json" --data "$data" --out "$results/$1" || code=$?
+  done
   if [[ $code != 0 && $code != 3 ]]; then exit "$code"; fi
   folders+=("$results/$1")
 }
