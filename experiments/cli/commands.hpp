@@ -59,9 +59,10 @@ struct ExportOptions {
   bool title = false;                 ///< A figure with its title.
 };
 
-/// Throws InputError if two of the folders are one, by any names: a command would show its results
-/// twice.
-void refuse_repeats(const std::vector<std::filesystem::path>& folders);
+/// Throws InputError if two of the paths are one, by any names: a command would show its results
+/// twice. `what` they are is a word.
+void refuse_repeats(const std::vector<std::filesystem::path>& paths,
+                    const std::string& what = "folder");
 
 /// Writes a table of folders of results for a paper, or a figure of one folder.
 int export_command(const ExportOptions& options, std::ostream& out);
