@@ -118,7 +118,8 @@ int starts_command(const StartsOptions& options, const Catalogue& catalogue, std
 std::string starts_csv(const Experiment& experiment, const std::vector<Scene>& scenes);
 
 /// Checks experiment files; a folder stands for every *.json below it. The data need not be there.
-/// Writes `FILE: ok`, or all faults to `err`. Returns 2 if a file has faults.
+/// Writes `FILE: ok`, or all faults to `err`. Returns 2 if a file has faults or a folder cannot be
+/// read; the other files are checked all the same.
 int validate_command(const std::vector<std::filesystem::path>& paths, const Catalogue& catalogue,
                      std::ostream& out, std::ostream& err);
 

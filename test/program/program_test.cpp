@@ -1,12 +1,19 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
+#include <sstream>
 #include <string>
 
+#include "experiments/cli/commands.hpp"
+#include "registry/registry.hpp"
 #include "test/program/program.hpp"
 #include "test/support/temp_folder.hpp"
 
 namespace croon::experiments {
 namespace {
+
+namespace fs = std::filesystem;
 
 TEST(Program, AnswersAWrongCommandLineWithOneLine) {
   const auto expect_line = [](const std::string& arguments, const std::string& line) {
@@ -71,6 +78,63 @@ TEST(Program, ValidatesFilesAndFolders) {
                              "/bad.json: /pipeline/0/step: expected a step, found "
                              "\"identiy\"; did you mean \"identity\"?\n"),
             std::string::npos);
+}
+
+/// This process without the rights of root, to which no folder is closed.
+class WithoutRights {
+ public:
+  WithoutRights() : user_(::geteuid()) {
+    if (user_ == 0) {
+      EXPECT_EQ(::seteuid(65534), 0);
+    }
+  }
+  ~WithoutRights() {
+    if (user_ == 0) {
+      EXPECT_EQ(::seteuid(user_), 0);
+    }
+  }
+  WithoutRights(const WithoutRights&) = delete;
+  WithoutRights& operator=(const WithoutRights&) = delete;
+
+ private:
+  ::uid_t user_;
+};
+
+TEST(Program, ValidatesBesideFoldersThatItCannotRead) {
+  const test::TempFolder folder;
+  const fs::path root = folder.path();
+  for (const char* name : {"a/x.json", "closed/x.json", "shut/x.json", "z/x.json"}) {
+    folder.write(name, R"({"name": "x", "dataset": {"type": "opencalib", "path": "nowhere"},
+                           "pipeline": [{"step": "identity"}]})");
+  }
+  fs::permissions(root, fs::perms::all);
+  for (const char* name : {"closed", "shut"}) fs::permissions(root / name, fs::perms::none);
+  std::ostringstream out, err;
+  {
+    const WithoutRights without;
+    EXPECT_EQ(validate_command({root}, registry(), out, err), 2);
+  }
+  for (const char* name : {"closed", "shut"}) {
+    fs::permissions(root / name, fs::perms::all);
+    EXPECT_NE(err.str().find("croon: " + (root / name).string() +
+                             ": cannot be read: Permission denied\n"),
+              std::string::npos)
+        << err.str();
+  }
+  EXPECT_EQ(out.str(),
+            (root / "a/x.json").string() + ": ok\n" + (root / "z/x.json").string() + ": ok\n");
+}
+
+TEST(Program, ValidatesBesideFoldersWithoutExperiments) {
+  const test::TempFolder folder;
+  folder.write("a/x.json", R"({"name": "x", "dataset": {"type": "opencalib", "path": "nowhere"},
+                               "pipeline": [{"step": "identity"}]})");
+  fs::create_directory(folder.path() / "empty");
+  const std::string root = folder.path().string();
+  const Answer answer = croon("validate " + root + "/empty " + root + "/a");
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_EQ(answer.text, "croon: " + root + "/empty: expected a folder with *.json files\n" + root +
+                             "/a/x.json: ok\n");
 }
 
 TEST(Program, RefusesWhatCanOnlyFailWhenItValidates) {
