@@ -2,10 +2,12 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <set>
 #include <sstream>
 #include <string>
 
 #include "experiments/cli/commands.hpp"
+#include "experiments/file/experiment.hpp"
 #include "registry/registry.hpp"
 #include "test/program/program.hpp"
 #include "test/support/temp_folder.hpp"
@@ -135,6 +137,18 @@ TEST(Program, ValidatesBesideFoldersWithoutExperiments) {
   EXPECT_EQ(answer.code, 2);
   EXPECT_EQ(answer.text, "croon: " + root + "/empty: expected a folder with *.json files\n" + root +
                              "/a/x.json: ok\n");
+}
+
+TEST(Program, GivesEachPointOfAGridANameOfItsOwn) {
+  const test::TempFolder folder;
+  const fs::path file = folder.write("x.json", R"-({"name": "x", "dataset": {"type": "simulated"},
+          "pipeline": [{"step": "known_velocity"}],
+          "grid": {"known_velocity.file": ["a_b (3)", "a/b", "a_b", "a,b", "a_b (4)"]}})-");
+  std::set<std::string> names;
+  for (const Variant& variant : load_experiment(file, registry()).variants) {
+    names.insert(variant.name);
+  }
+  EXPECT_EQ(names.size(), 5U);
 }
 
 TEST(Program, RefusesWhatCanOnlyFailWhenItValidates) {
