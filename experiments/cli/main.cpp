@@ -69,13 +69,22 @@ class Program {
     return *command;
   }
 
-  /// Adds an option for text. An empty one is refused: a variable of a script that is not set must
-  /// not stand for the default.
+  /// Why `text` is not what the option `name` expects; empty if it is. An empty text is refused: a
+  /// variable of a script that is not set must not stand for the default. So is the next option,
+  /// which such a variable without quotes leaves for a value.
+  static std::string why_no_text(const std::string& name, const std::string& text,
+                                 const std::string& what) {
+    if (text.empty()) return "expected " + what + ", found \"\"";
+    if (name.compare(0, 2, "--") != 0 || text.compare(0, 2, "--") != 0) return "";
+    return "expected " + what + ", found the option \"" + text + "\"";
+  }
+
+  /// Adds an option for text, or for a list of them.
   template <class T>
   static CLI::Option* add_text(CLI::App& command, const std::string& name, T& option,
                                const std::string& sentence, const std::string& what) {
-    return command.add_option(name, option, sentence)->check([what](const std::string& text) {
-      return text.empty() ? "expected " + what + ", found \"\"" : "";
+    return command.add_option(name, option, sentence)->check([name, what](const std::string& text) {
+      return why_no_text(name, text, what);
     });
   }
 
@@ -115,7 +124,7 @@ class Program {
     add_data(run, run_.data);
     add_jobs(run, run_.jobs);
     add_trials(run, run_.trials, "Starts per variant, scene and sensor.");
-    run.add_option("--only", run_.only, "Run these variants alone.");
+    add_text(run, "--only", run_.only, "Run these variants alone.", "a variant");
     add_text(run, "--shard", run_.shard, "Run part K of N of the trials, K/N.",
              "K/N with 1 <= K <= N");
     run.add_flag("--plan", run_.plan, "Show what there is to run, and how much variants share.");
@@ -152,12 +161,12 @@ class Program {
              "a figure");
     add_width(exporting, export_.width);
     add_text(exporting, "--units", export_.units, "Of lengths: m, mm.", "m or mm");
-    exporting.add_option("--variants", export_.variants, "Only these variants.");
-    exporting.add_option("--sensors", export_.sensors,
-                         "Only these sensors; all: all together, a row of a table.");
-    exporting.add_option("--kinds", export_.kinds, "Only scenes of these kinds.");
-    exporting.add_option("--columns", export_.columns,
-                         "Columns of a table: success, rotation_median, x, x_p95, ...");
+    add_text(exporting, "--variants", export_.variants, "Only these variants.", "a variant");
+    add_text(exporting, "--sensors", export_.sensors,
+             "Only these sensors; all: all together, a row of a table.", "a sensor");
+    add_text(exporting, "--kinds", export_.kinds, "Only scenes of these kinds.", "a kind of scene");
+    add_text(exporting, "--columns", export_.columns,
+             "Columns of a table: success, rotation_median, x, x_p95, ...", "a column");
     exporting.add_flag("--compact", export_.compact, "A table of a row per variant, for a page.");
     exporting.add_flag("--title", export_.title, "A figure with its title.");
   }

@@ -47,6 +47,25 @@ TEST(Program, TakesNoEmptyTextForADefault) {
   }
 }
 
+TEST(Program, TakesNoOptionForTheValueOfAnother) {
+  const test::TempFolder folder;
+  folder.write("x.json", R"({"name": "x", "dataset": {"type": "simulated", "scenes": 1},
+                             "pipeline": [{"step": "identity"}]})");
+  const std::string run = "run " + (folder.path() / "x.json").string();
+  const auto expect_line = [](const std::string& arguments, const std::string& line) {
+    const Answer answer = croon(arguments);
+    EXPECT_EQ(answer.code, 2) << arguments;
+    EXPECT_EQ(answer.text, "croon: " + line + "\n");
+  };
+  for (const char* option : {"--out", "--data"}) {
+    expect_line(run + " " + option + " --fresh",
+                std::string(option) + ": expected a path, found the option \"--fresh\"");
+  }
+  expect_line(run + " --only --fresh", "--only: expected a variant, found the option \"--fresh\"");
+  expect_line("export results --columns --compact",
+              "--columns: expected a column, found the option \"--compact\"");
+}
+
 TEST(Program, TakesNoEmptyTextForAPath) {
   const auto expect_line = [](const std::string& arguments, const std::string& line) {
     const Answer answer = croon(arguments);
