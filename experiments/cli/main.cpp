@@ -2,6 +2,8 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
 #include <csignal>
 #include <exception>
 #include <functional>
@@ -11,6 +13,7 @@
 #include <system_error>
 
 #include "experiments/cli/commands.hpp"
+#include "experiments/file/start_rule.hpp"
 #include "experiments/report/export.hpp"
 #include "experiments/report/figures.hpp"
 #include "experiments/store/version.hpp"
@@ -52,6 +55,8 @@ class Program {
       app_.parse(argc, argv);
     } catch (const CLI::Success& success) {
       return app_.exit(success, std::cout, std::cout);
+    } catch (const CLI::RequiredError& error) {
+      throw InputError("", "", error.what() + long_list());
     } catch (const CLI::ParseError& error) {
       throw InputError("", "", error.what());
     }
@@ -110,8 +115,14 @@ class Program {
   }
 
   static void add_trials(CLI::App& command, int& option, const std::string& sentence) {
-    command.add_option("--trials", option, sentence)
-        ->check(CLI::Range(1, 1000000000).description(""));
+    command.add_option("--trials", option, sentence)->check([](const std::string& text) {
+      int trials = 0;
+      const char* const end = text.data() + text.size();
+      const auto read = std::from_chars(text.data(), end, trials);
+      const bool is_whole = read.ec == std::errc() && read.ptr == end;
+      if (is_whole && trials >= 1 && trials <= kMaxTrials) return std::string();
+      return "expected a whole number from 1 to " + std::to_string(kMaxTrials) + ", found " + text;
+    });
   }
 
   void add_run() {
@@ -252,15 +263,34 @@ class Program {
     const std::vector<CLI::App*> commands = app_.get_subcommands();
     const CLI::App& command = commands.empty() ? app_ : *commands.front();
     for (const std::string& word : app_.remaining(true)) {
-      if (word.compare(0, 1, "-") == 0) {
-        throw InputError("", "",
-                         "unknown option \"" + word + "\"" + name_hint(word, options_of(command)));
-      }
+      if (word.compare(0, 1, "-") == 0) refuse_option(word.substr(0, word.find('=')), command);
       if (!commands.empty()) throw InputError("", "", "unexpected \"" + word + "\"");
       std::vector<std::string> names;
       for (const CLI::App* known : app_.get_subcommands({})) names.push_back(known->get_name());
       throw InputError("", "", "unknown command \"" + word + "\"" + name_hint(word, names));
     }
+  }
+
+  [[noreturn]] static void refuse_option(const std::string& name, const CLI::App& command) {
+    const std::vector<std::string> known = options_of(command);
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw InputError("", "", "unknown option \"" + name + "\"" + name_hint(name, known));
+    }
+    throw InputError("", "",
+                     "expected the option \"" + name + "\" behind the command, found it before \"" +
+                         command.get_name() + "\"");
+  }
+
+  /// Says of an option that took several words that it did: what is missing may be among them.
+  std::string long_list() const {
+    for (const CLI::App* command : app_.get_subcommands()) {
+      for (const CLI::Option* option : command->get_options()) {
+        if (option->get_positional() || option->count() < 2) continue;
+        return "; " + option->get_name() + " took \"" + option->results().back() +
+               "\": what is required comes before " + option->get_name();
+      }
+    }
+    return "";
   }
 
   static std::vector<std::string> options_of(const CLI::App& command) {

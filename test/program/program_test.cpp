@@ -26,6 +26,14 @@ TEST(Program, AnswersAWrongCommandLineWithOneLine) {
   expect_line("rnu x.json", "croon: unknown command \"rnu\"; did you mean \"run\"?");
   expect_line("run x.json --jbos 2", "croon: unknown option \"--jbos\"; did you mean \"--jobs\"?");
   expect_line("--versoin", "croon: unknown option \"--versoin\"; did you mean \"--version\"?");
+  expect_line("--quiet run x.json",
+              "croon: expected the option \"--quiet\" behind the command, found it before \"run\"");
+  expect_line("--out=o run x.json",
+              "croon: expected the option \"--out\" behind the command, found it before \"run\"");
+  expect_line(
+      "run --only base x.json --plan",
+      "croon: EXPERIMENT is required; --only took \"x.json\": what is required comes before "
+      "--only");
   expect_line("validate none.json", "croon: none.json: expected a readable file, found none");
   for (const char* arguments :
        {"run", "run x.json --jobs two", "run x.json --jobs 0", "run x.json --trials -1",
@@ -64,6 +72,16 @@ TEST(Program, TakesNoOptionForTheValueOfAnother) {
   expect_line(run + " --only --fresh", "--only: expected a variant, found the option \"--fresh\"");
   expect_line("export results --columns --compact",
               "--columns: expected a column, found the option \"--compact\"");
+}
+
+TEST(Program, SaysHowManyTrialsThereMayBe) {
+  for (const char* trials : {"1000001", "99999999999", "1e3", "two", "0"}) {
+    const Answer answer = croon(std::string("run x.json --trials ") + trials);
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_EQ(answer.text,
+              std::string("croon: --trials: expected a whole number from 1 to 1000000, found ") +
+                  trials + "\n");
+  }
 }
 
 TEST(Program, TakesNoEmptyTextForAPath) {
