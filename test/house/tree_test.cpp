@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "test/support/script.hpp"
+#include "test/support/temp_folder.hpp"
 #include "test/support/tree.hpp"
 
 namespace croon::test {
@@ -79,6 +80,7 @@ TEST(Files, AreShort) {
 }
 
 TEST(Scripts, WithoutArgumentsSayHowTheyAreCalled) {
+  const TempFolder folder;
   int scripts = 0;
   for (const std::string& file : tree_files("experiments/", ".py")) {
     const std::vector<Line> lines = lines_of(file);
@@ -86,7 +88,8 @@ TEST(Scripts, WithoutArgumentsSayHowTheyAreCalled) {
     if (std::none_of(lines.begin(), lines.end(), is_start)) continue;
     ++scripts;
     const std::string name = file.substr(file.rfind('/') + 1);
-    const Finished ended = run_script("python3 -B " + file + " 2>&1", source_root());
+    const Finished ended =
+        run_script("python3 -B '" + (source_root() / file).string() + "' 2>&1", folder.path());
     EXPECT_NE(ended.status, 0) << file;
     EXPECT_NE(ended.output.find("\n" + name + " "), std::string::npos) << ended.output;
     EXPECT_EQ(ended.output.find("Traceback"), std::string::npos) << ended.output;
