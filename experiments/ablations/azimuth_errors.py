@@ -10,7 +10,7 @@ together, and from this scene (see left_out_scene.py). What is in OUT already is
 import sys
 
 from left_out_scene import opening, poses_of
-from runs import head, row, rows_of, run_changed
+from runs import head, row, rows_of, run_changed, start
 
 CALIBRATED = "azimuths calibrated"
 KNOWN = "azimuths known"
@@ -79,6 +79,4 @@ def main(croon, out, *options):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    main(*sys.argv[1:])
+    start(main, __doc__)

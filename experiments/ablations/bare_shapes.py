@@ -13,10 +13,9 @@ import math
 import os
 import random
 import struct
-import sys
 from collections import Counter
 
-from runs import HERE, head, row, rows_of, run_experiment
+from runs import HERE, head, row, rows_of, run_experiment, start
 
 SCENES = 10
 NOISE_M = 0.02
@@ -112,6 +111,4 @@ def main(croon, out, *options):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    main(*sys.argv[1:])
+    start(main, __doc__)

@@ -10,7 +10,7 @@ what the covariance says of the pair, the root of the sum of its variances. What
 import math
 import sys
 
-from runs import head, row, rows_of, run_changed
+from runs import head, row, rows_of, run_changed, start
 
 NAME = "left_out_scene"
 FINISHED = "finished"
@@ -92,6 +92,4 @@ def main(croon, out, *options):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    main(*sys.argv[1:])
+    start(main, __doc__)

@@ -16,9 +16,8 @@ the median and the 95th percentile of the accepted poses of all sensors. The tab
 import math
 import os
 import statistics
-import sys
 
-from runs import accepted, head, percentile_95, row, rows_of, run_changed
+from runs import accepted, head, percentile_95, row, rows_of, run_changed, start
 
 NUMBERS = (1, 2, 5, 10, 20, 50)
 TOTALS = {1: 20, 2: 40, 5: 40, 10: 40, 20: 80, 50: 100}  # Scenes of all groups of one number.
@@ -155,4 +154,4 @@ def main(croon, out, *options):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    start(main, __doc__)

@@ -72,3 +72,10 @@ def head(*names):
 def row(*values):
     """Prints a line of one."""
     print("| " + " | ".join(str(value) for value in values) + " |", flush=True)
+
+
+def start(main, usage):
+    """Calls `main` with the arguments of the script, CROON OUT and options, or ends it with its usage without them."""
+    if len(sys.argv) < 3:
+        sys.exit(usage)
+    main(*sys.argv[1:])

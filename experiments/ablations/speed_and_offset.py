@@ -7,9 +7,8 @@ and how many of all poses are accepted and right, accepted and wrong (0.5 degree
 is not run again.
 """
 import statistics
-import sys
 
-from runs import accepted, head, row, rows_of, run_changed
+from runs import accepted, head, row, rows_of, run_changed, start
 
 SPEEDS_MPS = (0, 5, 10, 15, 20, 30)
 OFFSETS_MS = (0, 10, 25, 50)
@@ -37,4 +36,4 @@ def main(croon, out, *options):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    start(main, __doc__)

@@ -10,9 +10,8 @@ significant over scenes after Holm's correction.
 """
 import os
 import statistics
-import sys
 
-from runs import HERE, head, row, rows_of, run_experiment
+from runs import HERE, head, row, rows_of, run_experiment, start
 
 BEFORE = (("rough steps", "_rough"), ("one iteration", "_one_iteration"), ("full registration", ""))
 NOISES = (("none", ""), ("real_still", "_still"), ("twice real_still", "_twice"))
@@ -158,4 +157,4 @@ def main(croon, out, *options):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    start(main, __doc__)

@@ -9,9 +9,8 @@ that failed. What is in OUT already is not run again.
 """
 import math
 import statistics
-import sys
 
-from runs import accepted, head, percentile_95, row, rows_of, run_changed
+from runs import accepted, head, percentile_95, row, rows_of, run_changed, start
 
 ORDINARY = ("urban", "suburban", "crossing", "car_park", "highway")
 KINDS = {**{kind: {kind: 1} for kind in (*ORDINARY, "blocked", "narrow", "corridor", "empty")},
@@ -65,4 +64,4 @@ def main(croon, out, *options):
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    start(main, __doc__)

@@ -120,11 +120,15 @@ def information(folder):
 QUESTIONS = {"moved": (moved, 1), "far_off": (far_off, 1), "information": (information, 0)}
 
 
-def main(question, *rest):
+def main(question="", *rest):
     """Answers the question for each folder."""
+    if not rest:
+        sys.exit(__doc__)
     if question not in QUESTIONS:
         sys.exit(f"expected one of {', '.join(QUESTIONS)}, found {question}")
     answer, options = QUESTIONS[question]
+    if len(rest) <= options:
+        sys.exit(__doc__)
     for folder in rest[options:]:
         print(f"\n{folder}\n")
         answer(folder, *rest[:options])

@@ -60,9 +60,10 @@ struct ExportOptions {
   bool title = false;                 ///< A figure with its title.
 };
 
-/// Throws InputError if two of the folders are one, by any names: a command would show its results
-/// twice.
-void refuse_repeats(const std::vector<std::filesystem::path>& folders);
+/// Throws InputError if two of the paths are one, by any names: a command would show its results
+/// twice. `what` they are is a word.
+void refuse_repeats(const std::vector<std::filesystem::path>& paths,
+                    const std::string& what = "folder");
 
 /// Writes a table of folders of results for a paper, or a figure of one folder.
 int export_command(const ExportOptions& options, std::ostream& out);
@@ -121,7 +122,8 @@ std::set<std::string> given_files(const Experiment& experiment);
 std::string starts_csv(const Experiment& experiment, const std::vector<Scene>& scenes);
 
 /// Checks experiment files; a folder stands for every *.json below it. The data need not be there.
-/// Writes `FILE: ok`, or all faults to `err`. Returns 2 if a file has faults.
+/// Writes `FILE: ok`, or all faults to `err`. Returns 2 if a file has faults or a folder cannot be
+/// read; the other files are checked all the same.
 int validate_command(const std::vector<std::filesystem::path>& paths, const Catalogue& catalogue,
                      std::ostream& out, std::ostream& err);
 

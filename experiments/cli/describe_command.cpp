@@ -1,6 +1,7 @@
 #include "experiments/cli/commands.hpp"
 
 #include <tbb/info.h>
+#include <unistd.h>
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -119,14 +120,23 @@ const DrawingFormat& writer_of(const DescribeOptions& options) {
                    "unknown format \"" + options.format + "\"" + name_hint(options.format, names));
 }
 
-void write_files(const std::filesystem::path& folder, const std::vector<CloudDescription>& clouds,
-                 const DrawingFormat& writer, const Sheet& sheet) {
+/// The files in `folder`, which describe `clouds`.
+std::vector<OutputFile> files_in(const std::filesystem::path& folder,
+                                 const std::vector<CloudDescription>& clouds,
+                                 const DrawingFormat& writer, const Sheet& sheet) {
+  return {{folder / "clouds.csv", clouds_csv(clouds)},
+          {folder / (std::string("ranges.") + writer.name),
+           writer.bytes(ranges_chart(clouds, {sheet}))}};
+}
+
+/// Makes `folder`. Throws InputError if it cannot be made or written to.
+void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw InputError(folder.string(), "", "cannot be made: " + error.message());
-  replace_output_files({{folder / "clouds.csv", clouds_csv(clouds)},
-                        {folder / (std::string("ranges.") + writer.name),
-                         writer.bytes(ranges_chart(clouds, {sheet}))}});
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw InputError(folder.string(), "", "expected a folder that may be written to");
+  }
 }
 
 }  // namespace
@@ -135,7 +145,13 @@ int describe_command(const DescribeOptions& options, const Catalogue& catalogue,
                      std::ostream& out) {
   const DrawingFormat& writer = writer_of(options);
   const Sheet sheet = sheet_called(options.width, options.format, kTwoColumns);
+  refuse_repeats(options.experiments, "experiment");
   const std::vector<NamedScene> scenes = scenes_of(options, catalogue);
+  if (!options.out.empty()) {
+    // Before the clouds are looked at, which takes long.
+    make_folder(options.out);
+    refuse_to_replace(files_in(options.out, {}, writer, sheet));
+  }
   const params::Slot<GroundExtractor> extractor = extractor_of(catalogue);
   std::vector<DescribedScene> by_scene(scenes.size());
   on_threads(options.jobs > 0 ? options.jobs : tbb::info::default_concurrency(), [&] {
@@ -146,7 +162,7 @@ int describe_command(const DescribeOptions& options, const Catalogue& catalogue,
   for (const DescribedScene& of_scene : by_scene) {
     clouds.insert(clouds.end(), of_scene.clouds.begin(), of_scene.clouds.end());
   }
-  if (!options.out.empty()) write_files(options.out, clouds, writer, sheet);
+  if (!options.out.empty()) replace_output_files(files_in(options.out, clouds, writer, sheet));
   out << "median over scenes (least to largest); ground: within 0.2 m of the largest plane;\n"
          "distance to the reference's nearest point, of points that have one within 1 m "
          "(overlap)\n\n"

@@ -115,13 +115,13 @@ std::string table_bytes(const ExportOptions& options) {
 
 }  // namespace
 
-void refuse_repeats(const std::vector<std::filesystem::path>& folders) {
+void refuse_repeats(const std::vector<std::filesystem::path>& paths, const std::string& what) {
   std::error_code error;
-  for (std::size_t i = 0; i < folders.size(); ++i) {
+  for (std::size_t i = 0; i < paths.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (!std::filesystem::equivalent(folders[i], folders[j], error)) continue;
-      throw InputError(folders[i].string(), "",
-                       "expected another folder, found one that is named before");
+      if (!std::filesystem::equivalent(paths[i], paths[j], error)) continue;
+      throw InputError(paths[i].string(), "",
+                       "expected another " + what + ", found one that is named before");
     }
   }
 }

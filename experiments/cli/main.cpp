@@ -2,6 +2,8 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
 #include <csignal>
 #include <exception>
 #include <functional>
@@ -11,6 +13,7 @@
 #include <system_error>
 
 #include "experiments/cli/commands.hpp"
+#include "experiments/file/start_rule.hpp"
 #include "experiments/report/export.hpp"
 #include "experiments/report/figures.hpp"
 #include "experiments/store/version.hpp"
@@ -52,6 +55,8 @@ class Program {
       app_.parse(argc, argv);
     } catch (const CLI::Success& success) {
       return app_.exit(success, std::cout, std::cout);
+    } catch (const CLI::RequiredError& error) {
+      throw InputError("", "", error.what() + long_list());
     } catch (const CLI::ParseError& error) {
       throw InputError("", "", error.what());
     }
@@ -69,13 +74,22 @@ class Program {
     return *command;
   }
 
-  /// Adds an option for text. An empty one is refused: a variable of a script that is not set must
-  /// not stand for the default.
+  /// Why `text` is not what the option `name` expects; empty if it is. An empty text is refused: a
+  /// variable of a script that is not set must not stand for the default. So is the next option,
+  /// which such a variable without quotes leaves for a value.
+  static std::string why_no_text(const std::string& name, const std::string& text,
+                                 const std::string& what) {
+    if (text.empty()) return "expected " + what + ", found \"\"";
+    if (name.compare(0, 2, "--") != 0 || text.compare(0, 2, "--") != 0) return "";
+    return "expected " + what + ", found the option \"" + text + "\"";
+  }
+
+  /// Adds an option for text, or for a list of them.
   template <class T>
   static CLI::Option* add_text(CLI::App& command, const std::string& name, T& option,
                                const std::string& sentence, const std::string& what) {
-    return command.add_option(name, option, sentence)->check([what](const std::string& text) {
-      return text.empty() ? "expected " + what + ", found \"\"" : "";
+    return command.add_option(name, option, sentence)->check([name, what](const std::string& text) {
+      return why_no_text(name, text, what);
     });
   }
 
@@ -101,8 +115,14 @@ class Program {
   }
 
   static void add_trials(CLI::App& command, int& option, const std::string& sentence) {
-    command.add_option("--trials", option, sentence)
-        ->check(CLI::Range(1, 1000000000).description(""));
+    command.add_option("--trials", option, sentence)->check([](const std::string& text) {
+      int trials = 0;
+      const char* const end = text.data() + text.size();
+      const auto read = std::from_chars(text.data(), end, trials);
+      const bool is_whole = read.ec == std::errc() && read.ptr == end;
+      if (is_whole && trials >= 1 && trials <= kMaxTrials) return std::string();
+      return "expected a whole number from 1 to " + std::to_string(kMaxTrials) + ", found " + text;
+    });
   }
 
   void add_run() {
@@ -115,7 +135,7 @@ class Program {
     add_data(run, run_.data);
     add_jobs(run, run_.jobs);
     add_trials(run, run_.trials, "Starts per variant, scene and sensor.");
-    run.add_option("--only", run_.only, "Run these variants alone.");
+    add_text(run, "--only", run_.only, "Run these variants alone.", "a variant");
     add_text(run, "--shard", run_.shard, "Run part K of N of the trials, K/N.",
              "K/N with 1 <= K <= N");
     run.add_flag("--plan", run_.plan, "Show what there is to run, and how much variants share.");
@@ -152,12 +172,12 @@ class Program {
              "a figure");
     add_width(exporting, export_.width);
     add_text(exporting, "--units", export_.units, "Of lengths: m, mm.", "m or mm");
-    exporting.add_option("--variants", export_.variants, "Only these variants.");
-    exporting.add_option("--sensors", export_.sensors,
-                         "Only these sensors; all: all together, a row of a table.");
-    exporting.add_option("--kinds", export_.kinds, "Only scenes of these kinds.");
-    exporting.add_option("--columns", export_.columns,
-                         "Columns of a table: success, rotation_median, x, x_p95, ...");
+    add_text(exporting, "--variants", export_.variants, "Only these variants.", "a variant");
+    add_text(exporting, "--sensors", export_.sensors,
+             "Only these sensors; all: all together, a row of a table.", "a sensor");
+    add_text(exporting, "--kinds", export_.kinds, "Only scenes of these kinds.", "a kind of scene");
+    add_text(exporting, "--columns", export_.columns,
+             "Columns of a table: success, rotation_median, x, x_p95, ...", "a column");
     exporting.add_flag("--compact", export_.compact, "A table of a row per variant, for a page.");
     exporting.add_flag("--title", export_.title, "A figure with its title.");
   }
@@ -243,15 +263,34 @@ class Program {
     const std::vector<CLI::App*> commands = app_.get_subcommands();
     const CLI::App& command = commands.empty() ? app_ : *commands.front();
     for (const std::string& word : app_.remaining(true)) {
-      if (word.compare(0, 1, "-") == 0) {
-        throw InputError("", "",
-                         "unknown option \"" + word + "\"" + name_hint(word, options_of(command)));
-      }
+      if (word.compare(0, 1, "-") == 0) refuse_option(word.substr(0, word.find('=')), command);
       if (!commands.empty()) throw InputError("", "", "unexpected \"" + word + "\"");
       std::vector<std::string> names;
       for (const CLI::App* known : app_.get_subcommands({})) names.push_back(known->get_name());
       throw InputError("", "", "unknown command \"" + word + "\"" + name_hint(word, names));
     }
+  }
+
+  [[noreturn]] static void refuse_option(const std::string& name, const CLI::App& command) {
+    const std::vector<std::string> known = options_of(command);
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw InputError("", "", "unknown option \"" + name + "\"" + name_hint(name, known));
+    }
+    throw InputError("", "",
+                     "expected the option \"" + name + "\" behind the command, found it before \"" +
+                         command.get_name() + "\"");
+  }
+
+  /// Says of an option that took several words that it did: what is missing may be among them.
+  std::string long_list() const {
+    for (const CLI::App* command : app_.get_subcommands()) {
+      for (const CLI::Option* option : command->get_options()) {
+        if (option->get_positional() || option->count() < 2) continue;
+        return "; " + option->get_name() + " took \"" + option->results().back() +
+               "\": what is required comes before " + option->get_name();
+      }
+    }
+    return "";
   }
 
   static std::vector<std::string> options_of(const CLI::App& command) {

@@ -11,25 +11,40 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The JSON files below `folder`, by path.
-std::vector<fs::path> json_files(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file() && entry.path().extension() == ".json") files.push_back(entry);
+/// Appends the JSON files below `folder`, and a fault for each folder that cannot be read.
+void find_json_files(const fs::path& folder, std::vector<fs::path>& files,
+                     std::vector<Fault>& faults) {
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    // No error: what cannot be looked at is neither.
+    std::error_code ignored;
+    if (entry->is_directory(ignored) && !entry->is_symlink(ignored)) {
+      find_json_files(entry->path(), files, faults);
+    } else if (entry->is_regular_file(ignored) && entry->path().extension() == ".json") {
+      files.push_back(entry->path());
+    }
   }
-  std::sort(files.begin(), files.end());
-  if (files.empty()) throw InputError(folder.string(), "", "expected a folder with *.json files");
-  return files;
+  if (error) faults.push_back({folder.string(), "", "cannot be read: " + error.message()});
 }
 
-std::vector<fs::path> all_files(const std::vector<fs::path>& paths) {
+/// The files that `paths` stand for, those below a folder by path. Appends a fault for each folder
+/// that cannot be read or has none.
+std::vector<fs::path> all_files(const std::vector<fs::path>& paths, std::vector<Fault>& faults) {
   std::vector<fs::path> files;
   for (const fs::path& path : paths) {
-    if (fs::is_directory(path)) {
-      const std::vector<fs::path> below = json_files(path);
-      files.insert(files.end(), below.begin(), below.end());
-    } else {
+    std::error_code ignored;
+    if (!fs::is_directory(path, ignored)) {
       files.push_back(path);
+      continue;
+    }
+    std::vector<fs::path> below;
+    const std::size_t faults_before = faults.size();
+    find_json_files(path, below, faults);
+    std::sort(below.begin(), below.end());
+    files.insert(files.end(), below.begin(), below.end());
+    if (below.empty() && faults.size() == faults_before) {
+      faults.push_back({path.string(), "", "expected a folder with *.json files"});
     }
   }
   return files;
@@ -47,8 +62,11 @@ void print_faults(const InputError& error, std::ostream& err) {
 
 int validate_command(const std::vector<fs::path>& paths, const Catalogue& catalogue,
                      std::ostream& out, std::ostream& err) {
-  int code = 0;
-  for (const fs::path& file : all_files(paths)) {
+  std::vector<Fault> faults;
+  const std::vector<fs::path> files = all_files(paths, faults);
+  int code = faults.empty() ? 0 : 2;
+  for (const Fault& fault : faults) print_faults(InputError({fault}), err);
+  for (const fs::path& file : files) {
     try {
       load_experiment(file, catalogue);
       out << printable(file.string()) << ": ok\n";

@@ -7,6 +7,7 @@
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
 #include "framework/base/whole_file.hpp"
+#include "framework/io/data_path.hpp"
 #include "framework/io/digest.hpp"
 #include "framework/params/json_file.hpp"
 
@@ -85,7 +86,7 @@ MergedFile read_extended(const json& own, const fs::path& path, const std::vecto
   if (!fs::is_regular_file(extended)) {
     refuse(path.string(), key,
            "expected an experiment file, found " + found_instead_of_file(extended) + " at " +
-               extended.string());
+               extended.string() + missing_path_hint("", extended));
   }
   MergedFile base = read_merged(params::read_json_text(extended), extended, chain, faults);
   if (!base.keys.is_object()) refuse(extended.string(), "/", "expected an object");

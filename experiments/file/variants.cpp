@@ -170,6 +170,14 @@ std::string axis_key(const json& grid, const std::string& path) {
   return axes == 1 ? last_key(path) : path;
 }
 
+/// `label`, or if it is in `labels` the label with an index that is not, from `index` on.
+std::string free_label(const std::string& label, std::size_t index,
+                       const std::set<std::string>& labels) {
+  std::string free = label;
+  for (; labels.count(free) > 0; ++index) free = label + " (" + std::to_string(index) + ")";
+  return free;
+}
+
 /// The axes of the object `grid`, by path. A stage is labelled by its type ("pointer_octree"), with
 /// the parameters in which it differs from others of that type ("pointer_octree(leaf_size_m=0.1)");
 /// any other value by its key ("leaf_size_m=0.1"). Notes faults in the node.
@@ -191,7 +199,7 @@ std::vector<GridAxis> read_grid(const Node& grid) {
         point.value.fault("\"" + point.label + "\" stands in this list twice");
       }
       // Lists of stages may differ in what a label does not show. Then the index is added.
-      if (labels.count(point.label) > 0) point.label += " (" + std::to_string(i + 1) + ")";
+      point.label = free_label(point.label, i + 1, labels);
       labels.insert(point.label);
       axis.points.push_back(point);
     }

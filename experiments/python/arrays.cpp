@@ -6,7 +6,9 @@
 
 #include "experiments/python/interpreter.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 #include "framework/geometry/rigid_transform.hpp"
+#include "framework/io/text_scan.hpp"
 
 namespace croon::python {
 namespace {
@@ -213,6 +215,15 @@ py::array structured_array(const PointCloud& cloud) {
     }
   }
   return array;
+}
+
+py::array array_of_file(const PointCloud& cloud, const std::string& file) {
+  for (const Channel& channel : cloud.channels) {
+    const std::string name = valid_utf8(channel.name);
+    if (name == channel.name) continue;
+    throw InputError(file, "", "expected names of fields in UTF-8, found " + in_quotes(name));
+  }
+  return structured_array(cloud);
 }
 
 py::array points_view(const Points& points, const py::object& owner) {

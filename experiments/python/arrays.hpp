@@ -26,6 +26,10 @@ PointCloud cloud_or_empty_from(const py::object& array, const std::string& what)
 /// A structured array with x, y, z (float32) and the channels; a copy.
 py::array structured_array(const PointCloud& cloud);
 
+/// The same of a cloud that was read from `file`. Throws InputError if the name of a channel is not
+/// UTF-8.
+py::array array_of_file(const PointCloud& cloud, const std::string& file);
+
 /// A read-only N×3 view of `points`, which `owner` keeps alive.
 py::array points_view(const Points& points, const py::object& owner);
 

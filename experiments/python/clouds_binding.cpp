@@ -23,7 +23,7 @@ py::array read_cloud(const std::string& path) {
     const WithoutGil no_gil;
     cloud = read_point_cloud(path);
   }
-  return structured_array(cloud);
+  return array_of_file(cloud, path);
 }
 
 /// Writes .pcd or .ply; croon._clouds has checked the words.

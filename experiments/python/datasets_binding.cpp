@@ -33,7 +33,7 @@ py::array cloud_of(const Scene& scene, const std::string& sensor) {
     const WithoutGil no_gil;
     cloud = scan->load();
   }
-  return structured_array(cloud);
+  return array_of_file(cloud, scan->file);
 }
 
 /// The poses of the sensors that have one.

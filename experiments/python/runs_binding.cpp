@@ -3,6 +3,7 @@
 #include <future>
 #include <iostream>
 
+#include "experiments/file/start_rule.hpp"
 #include "experiments/python/arrays.hpp"
 #include "experiments/python/bindings.hpp"
 #include "experiments/python/interpreter.hpp"
@@ -188,6 +189,7 @@ void bind_runs(py::module_& module) {
       .def("extrinsics", [](const R& r) { return extrinsics_json(r.summary, r.references); })
       .def("text", [](const R& r) { return result_text(r, false); });
   module.attr("MOST_JOBS") = kMostJobs;
+  module.attr("MOST_TRIALS") = kMaxTrials;
   module.def("run", run_from);
   module.def("load", load);
   module.def("starts", starts);

@@ -9,6 +9,7 @@
 #include "experiments/python/estimates.hpp"
 #include "experiments/python/stage_adapters.hpp"
 #include "experiments/python/stage_parameters.hpp"
+#include "framework/io/text_scan.hpp"
 #include "framework/params/group.hpp"
 #include "registry/help.hpp"
 #include "registry/registry.hpp"
@@ -157,6 +158,10 @@ void register_class(const py::dict& stage) {
 }
 
 std::string help(const std::string& which, const std::string& format) {
+  const std::vector<std::string> known = {"text", "json", "markdown"};
+  if (std::find(known.begin(), known.end(), format) == known.end()) {
+    throw InputError("", "format", "expected text, json or markdown, found " + in_quotes(format));
+  }
   return stages_help(*catalogue(), which,
                      format == "json"       ? HelpFormat::json
                      : format == "markdown" ? HelpFormat::markdown

@@ -67,14 +67,18 @@ bool has_bytes(const fs::path& path, const std::string& bytes) {
 
 }  // namespace
 
-void replace_output_files(const std::vector<OutputFile>& files,
-                          const std::vector<fs::path>& inputs) {
+void refuse_to_replace(const std::vector<OutputFile>& files, const std::vector<fs::path>& inputs) {
   for (const OutputFile& file : files) {
     const std::string what = what_must_stay(file, inputs);
     if (what.empty()) continue;
     throw InputError("", "--out",
                      "expected a file to write, found " + file.path.string() + ", " + what);
   }
+}
+
+void replace_output_files(const std::vector<OutputFile>& files,
+                          const std::vector<fs::path>& inputs) {
+  refuse_to_replace(files, inputs);
   for (const OutputFile& file : files) write_whole_file(file.path, file.bytes);
 }
 

@@ -23,4 +23,9 @@ void write_output_files(const std::vector<OutputFile>& files);
 void replace_output_files(const std::vector<OutputFile>& files,
                           const std::vector<std::filesystem::path>& inputs = {});
 
+/// Throws InputError if `replace_output_files` does before it writes. Of the bytes of a CSV file
+/// its first line suffices.
+void refuse_to_replace(const std::vector<OutputFile>& files,
+                       const std::vector<std::filesystem::path>& inputs = {});
+
 }  // namespace croon::experiments

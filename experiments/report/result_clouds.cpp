@@ -140,6 +140,7 @@ std::vector<std::string> write_fused_clouds(const Experiment& experiment,
                                             const std::vector<Scene>& scenes,
                                             const Summary& summary, const fs::path& folder) {
   std::vector<std::string> complaints;
+  bool is_any = false;
   for (const Scene& scene : shown_scenes(scenes)) {
     Points reference;
     std::vector<Points> points;
@@ -158,6 +159,7 @@ std::vector<std::string> write_fused_clouds(const Experiment& experiment,
         if (poses[i]) clouds.push_back({scene.sensors[i].sensor, points[i], *poses[i]});
       }
       if (clouds.size() == 1) continue;
+      is_any = true;
       const fs::path name = short_path(variant.name) / short_path(scene.name);
       const fs::path stem = folder / name;
       make_folder_below(folder.parent_path(), folder.filename() / name.parent_path());
@@ -171,6 +173,9 @@ std::vector<std::string> write_fused_clouds(const Experiment& experiment,
         complaints.push_back(stem.string() + ".vdb: not written: " + error.what());
       }
     }
+  }
+  if (!is_any && complaints.empty()) {
+    complaints.emplace_back("--clouds: there are no clouds to write: no trials of a sensor agree");
   }
   return complaints;
 }

@@ -237,6 +237,13 @@ void delete_clouds(const fs::path& folder) {
   if (fs::is_empty(folder, error)) delete_path(folder);
 }
 
+/// Whether the file `path` has these bytes, or is missing if there are none.
+bool is_unchanged(const fs::path& path, const Bytes& bytes) {
+  std::error_code error;
+  if (!bytes) return !fs::exists(fs::symlink_status(path, error));
+  return file_begins_with(path, *bytes) && fs::file_size(path, error) == bytes->size();
+}
+
 /// The cells of a line of a CSV file, as they are written.
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells(1);
@@ -344,9 +351,16 @@ void OutputFolder::clear() const {
 }
 
 void OutputFolder::write_reports(const Results& results, const std::string& manifest) const {
+  bool is_same = true;
   for (const ResultFile& result : result_files()) {
     if (result.bytes == nullptr) continue;
     const Bytes bytes = result.bytes(results);
+    if (is_same && !is_unchanged(file(result.name), bytes)) {
+      // Before the first table changes: a run that is killed here leaves none of other results.
+      is_same = false;
+      delete_clouds(file(kClouds));
+      delete_path(file(kPicture));
+    }
     bytes ? write_whole_file(file(result.name), *bytes) : delete_path(file(result.name));
   }
   write_whole_file(file(kManifest), manifest);

@@ -41,7 +41,8 @@ class OutputFolder {
   void clear() const;
 
   /// Writes the tables and the pictures of `results`, and removes those that an earlier run left
-  /// and this one lacks. `manifest` are the bytes of manifest.json.
+  /// and this one lacks. If a table changes, the fused clouds and the picture from above, which are
+  /// of other results then, are deleted. `manifest` are the bytes of manifest.json.
   void write_reports(const Results& results, const std::string& manifest) const;
 
  private:

@@ -61,6 +61,15 @@ std::string any_of(const std::vector<std::string>& headers) {
   return text;
 }
 
+/// The hint at the nearest path to `name` below one of `folders`; empty if none is near.
+std::string nearest_of(const std::string& name, const std::vector<std::filesystem::path>& folders) {
+  for (const std::filesystem::path& folder : folders) {
+    const std::string hint = missing_path_hint(folder.empty() ? "." : folder, name);
+    if (hint.rfind("; did you mean", 0) == 0) return hint;
+  }
+  return "";
+}
+
 }  // namespace
 
 void refuse(const std::string& expected, const std::string& found) {
@@ -149,6 +158,7 @@ std::filesystem::path found_input(const Experiment& experiment, const std::strin
   if (found.empty()) {
     const std::string first = (data_root / name).string(), second = (beside / name).string();
     found = first == second ? "no " + first : "neither " + first + " nor " + second;
+    found += nearest_of(name, {data_root, beside});
   }
   throw InputError(at.file, at.where, "expected " + what + ", found " + found);
 }

@@ -36,27 +36,31 @@ class GivenPoses final : public Step {
   PoseTable poses_;
 };
 
-PoseTable read_table(const std::filesystem::path& path, const DatasetNames& names,
-                     std::string& sha256) {
+/// The step that takes the poses of a file, and the digest of the file.
+struct PosesStep {
+  std::shared_ptr<const Step> step;
+  std::string sha256;
+};
+
+PosesStep read_step(const std::filesystem::path& path, const DatasetNames& names) {
   PoseTable table;
-  sha256 = read_pose_file(path, {kStartHeader, kPoseHeader}, names, [&](const PoseLine& line) {
-    if (table.emplace(std::tuple(line.scene, line.sensor, line.trial), line.pose).second) return;
-    throw InputError("", "",
-                     "expected each pose once, found sensor " + in_quotes(line.sensor) +
-                         " in scene " + in_quotes(line.scene) + " again");
-  });
-  return table;
+  const std::string sha256 =
+      read_pose_file(path, {kStartHeader, kPoseHeader}, names, [&](const PoseLine& line) {
+        if (table.emplace(std::tuple(line.scene, line.sensor, line.trial), line.pose).second)
+          return;
+        throw InputError("", "",
+                         "expected each pose once, found sensor " + in_quotes(line.sensor) +
+                             " in scene " + in_quotes(line.scene) + " again");
+      });
+  return {std::make_shared<const GivenPoses>(std::move(table)), sha256};
 }
 
-/// Puts the step that takes the poses of the file `path` before the other steps of `variant`.
-void add_step(Variant& variant, const std::filesystem::path& path, const DatasetNames& names,
-              ExperimentFile& file) {
-  const std::shared_ptr<const Step> step =
-      std::make_shared<const GivenPoses>(read_table(path, names, file.sha256));
-  const std::string members = "\"step\":\"poses\",\"sha256\":\"" + file.sha256 + "\"}";
+/// Puts the step before the other steps of `variant`.
+void add_step(Variant& variant, const PosesStep& poses) {
+  const std::string members = "\"step\":\"poses\",\"sha256\":\"" + poses.sha256 + "\"}";
   variant.pipeline.insert(
       variant.pipeline.begin(),
-      {kPosesStep, params::Slot<Step>(params::BuiltStage{step, kPosesStep, "{" + members})});
+      {kPosesStep, params::Slot<Step>(params::BuiltStage{poses.step, kPosesStep, "{" + members})});
   const bool is_only = variant.pipeline.size() == 1;
   variant.resolved = std::string("[{\"name\":\"") + kPosesStep + "\"," + members +
                      (is_only ? "" : ",") + variant.resolved.substr(1);
@@ -68,15 +72,18 @@ void resolve_poses(Experiment& experiment, const std::vector<Scene>& scenes,
                    const std::filesystem::path& data_root) {
   const DatasetNames names(scenes);
   std::vector<Fault> faults;
+  std::map<std::filesystem::path, PosesStep> steps;  // Of the files that were read.
   for (Variant& variant : experiment.variants) {
     if (variant.poses.name.empty()) continue;
     collect_faults(faults, [&] {
-      ExperimentFile file{variant.poses.name, ""};
       const std::filesystem::path path =
-          found_input(experiment, file.path, data_root,
+          found_input(experiment, variant.poses.name, data_root,
                       {variant.poses.file, variant.poses.pointer, ""}, "a file of poses");
-      add_step(variant, path, names, file);
-      experiment.files.push_back(file);
+      if (steps.count(path) == 0) {
+        steps[path] = read_step(path, names);
+        experiment.files.push_back({variant.poses.name, steps[path].sha256});
+      }
+      add_step(variant, steps[path]);
     });
   }
   if (!faults.empty()) throw InputError(without_repeats(faults));

@@ -290,10 +290,6 @@ StoredRun read_store(const fs::path& path, Content content) {
   return reading(path, [&] { return run_in(open_to_read(path), content); });
 }
 
-StoredRun read_snapshot(const fs::path& path) {
-  return reading(path, [&] { return run_in(open_snapshot(path), Content::trials); });
-}
-
 void rewrite_in_order(const fs::path& path) {
   if (is_in_order(open_to_read(path))) return;
   build_store(path, [&](Database& database) {

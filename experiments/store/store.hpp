@@ -92,10 +92,6 @@ StoreHeader stored_header(const std::filesystem::path& path);
 /// there is no store, or a damaged one.
 StoredRun read_store(const std::filesystem::path& path, Content content = Content::trials);
 
-/// The same from the file `path` alone, whatever is in it: nothing is changed or created, and what
-/// a killed process left beside it is not read.
-StoredRun read_snapshot(const std::filesystem::path& path);
-
 /// Rewrites the store `path`, which no one may have open, in report order: stores of the same
 /// trials become the same bytes, whatever the order in which the trials were added. Does nothing if
 /// the store is in order.

@@ -215,13 +215,6 @@ Database open_to_read(const fs::path& path) {
   return database;
 }
 
-Database open_snapshot(const fs::path& path) {
-  refuse_unless_file(path);
-  Database database(path, Access::snapshot);
-  check_schema(database);
-  return database;
-}
-
 Database open_to_write(const fs::path& path) {
   provide_log(path);
   Database database(path, Access::write);

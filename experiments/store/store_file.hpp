@@ -35,10 +35,6 @@ bool has_store(const std::filesystem::path& path);
 /// half-done. Throws InputError if there is no store.
 Database open_to_read(const std::filesystem::path& path);
 
-/// Opens the file `path` as it is, without what is beside it, and checks its schema. Changes and
-/// creates nothing. Throws InputError if it is no store.
-Database open_snapshot(const std::filesystem::path& path);
-
 /// Opens the store `path` for this process alone, and creates it if there is none.
 Database open_to_write(const std::filesystem::path& path);
 

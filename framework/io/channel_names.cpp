@@ -38,11 +38,17 @@ std::vector<std::string> channel_names(const std::vector<std::string>& fields) {
 }
 
 std::string field_name(const std::string& name, const PointCloud& cloud) {
-  return name == kTime && find_channel(cloud, "timestamp") == nullptr ? "timestamp" : name;
+  if (name != kTime) return name;
+  const auto is_other_time = [](const Channel& channel) {
+    return channel.name != kTime && known_name(channel.name) == kTime;
+  };
+  const bool has_other = std::any_of(cloud.channels.begin(), cloud.channels.end(), is_other_time);
+  return has_other ? name : "timestamp";
 }
 
 void check_writable(const PointCloud& cloud, const std::filesystem::path& path) {
   std::set<std::string> taken = {"x", "y", "z"};
+  std::vector<std::string> fields;
   for (const Channel& channel : cloud.channels) {
     const std::string field = field_name(channel.name, cloud);
     const auto is_of_word = [](unsigned char c) { return c > 0x20 && c < 0x7f; };
@@ -56,6 +62,16 @@ void check_writable(const PointCloud& cloud, const std::filesystem::path& path) 
       throw InputError(path.string(), "",
                        "the channel " + in_quotes(channel.name) + " is not as long as the points");
     }
+    fields.push_back(field);
+  }
+  const std::vector<std::string> read = channel_names(fields);
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    const std::string& name = cloud.channels[i].name;
+    if (read[i] == name) continue;
+    throw InputError(path.string(), "",
+                     "expected another name of the channel " + in_quotes(name) +
+                         (read[i].empty() ? ", which is that of padding in a file"
+                                          : ", which is read as " + in_quotes(read[i])));
   }
 }
 

@@ -14,11 +14,12 @@ namespace croon {
 std::vector<std::string> channel_names(const std::vector<std::string>& fields);
 
 /// The field that the channel `name` of `cloud` is written to: "timestamp" for "time", as the
-/// authors' samples have it, unless another channel is called so; the channel's name for others.
+/// authors' samples have it, unless another channel has a name that is read as "time"; the
+/// channel's name for others.
 std::string field_name(const std::string& name, const PointCloud& cloud);
 
 /// Throws InputError unless the channels of `cloud` can be fields of the file `path`: each as long
-/// as the points, with a name of its own that is one word.
+/// as the points, with a name of its own that is one word and that the reader gives it again.
 void check_writable(const PointCloud& cloud, const std::filesystem::path& path);
 
 }  // namespace croon

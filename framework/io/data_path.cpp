@@ -8,13 +8,75 @@ namespace croon {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr std::size_t kMostNames = 1000;
+
+/// The names in `folder`, sorted, without hidden ones; of a large folder some of them.
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.compare(0, 1, ".") != 0) names.push_back(name);
+    if (names.size() == kMostNames) break;
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// `; known: a, b`; empty if there is none.
+std::string list_of(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "; known: " : ", ") + name;
+  return list;
+}
+
+/// The nearest of `names` to that of a file. What two names have both behind their dots does not
+/// make them alike.
+std::string nearest_file_name(const fs::path& name, const std::vector<std::string>& names) {
+  std::vector<std::string> stems, others;
+  for (const std::string& other : names) {
+    const bool is_alike = fs::path(other).extension() == name.extension();
+    is_alike ? stems.push_back(fs::path(other).stem().string()) : others.push_back(other);
+  }
+  const std::string stem = nearest_name(name.stem().string(), stems);
+  return stem.empty() ? nearest_name(name.string(), others) : stem + name.extension().string();
+}
+
+}  // namespace
+
+std::string missing_path_hint(const fs::path& folder, const fs::path& relative) {
+  constexpr std::size_t kFew = 10;
+  const fs::path from = folder.empty() ? fs::path(".") : folder;
+  std::error_code error;
+  fs::path known;
+  for (const fs::path& part : relative.lexically_normal()) {
+    if (fs::exists(from / known / part, error)) {
+      known /= part;
+      continue;
+    }
+    const bool is_free = folder.empty();
+    if (!is_free && !is_within(fs::canonical(from / known, error), fs::canonical(from, error))) {
+      return "";
+    }
+    const std::vector<std::string> names = names_in(from / known);
+    const std::string near = nearest_file_name(part, names);
+    if (near.empty()) return names.size() <= kFew ? list_of(names) : "";
+    return "; did you mean \"" + (known / near).string() + "\"?";
+  }
+  return "";
+}
+
 bool is_within(const fs::path& path, const fs::path& folder) {
   const auto [in_folder, in_path] =
       std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
   return in_folder == folder.end();
 }
 
-fs::path path_in_data_root(const fs::path& data_root, const std::string& relative, Links links) {
+fs::path path_in_data_root(const fs::path& data_root, const std::string& relative, Links links,
+                           const std::string& pointer) {
   std::error_code error;
   const fs::path root = fs::canonical(data_root, error);
   if (error || !fs::is_directory(root, error)) {
@@ -26,13 +88,19 @@ fs::path path_in_data_root(const fs::path& data_root, const std::string& relativ
   if (path.filename().empty()) path = path.parent_path();
   if (links == Links::inside) path = fs::weakly_canonical(root / relative, error);
   const std::string shown = (data_root / relative).string();
-  if (error) throw InputError(shown, "", "cannot be looked at: " + error.message());
+  const auto refuse = [&](const std::string& message) {
+    if (pointer.empty()) throw InputError(shown, "", message);
+    throw InputError("", pointer, shown + ": " + message);
+  };
+  if (error) refuse("cannot be looked at: " + error.message());
   // Checked before existence, so that the message does not reveal which files exist outside.
   if (!is_within(path, root)) {
-    throw InputError(shown, "", "the path leads outside the data root " + data_root.string());
+    refuse("the path leads outside the data root " + data_root.string());
   }
-  if (!fs::exists(path, error))
-    throw InputError(shown, "", "expected a file or folder, found none");
+  if (!fs::exists(path, error)) {
+    refuse("expected a file or folder, found none" +
+           missing_path_hint(root, path.lexically_relative(root)));
+  }
   return path;
 }
 

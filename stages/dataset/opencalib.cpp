@@ -174,7 +174,7 @@ class OpenCalib final : public Dataset {
  private:
   std::vector<Scene> read_scenes(const fs::path& data_root) const {
     const Links links = params_.follow_links ? Links::anywhere : Links::inside;
-    const fs::path folder = path_in_data_root(data_root, params_.path, links);
+    const fs::path folder = path_in_data_root(data_root, params_.path, links, "/path");
     std::vector<Scene> scenes;
     std::vector<Fault> faults;
     RigFilesAbove rig_files;

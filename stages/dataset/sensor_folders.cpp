@@ -127,7 +127,7 @@ class SensorFolders final : public Dataset {
   std::vector<Scene> read_scenes(const fs::path& data_root) const {
     SceneLocation rig;
     rig.links = params_.follow_links ? Links::anywhere : Links::inside;
-    rig.folder = path_in_data_root(data_root, params_.path, rig.links);
+    rig.folder = path_in_data_root(data_root, params_.path, rig.links, "/path");
     rig.root = fs::canonical(data_root);
     check_folders(rig.folder);
     std::vector<std::string> names = params_.sensors;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <regex>
 
+#include "test/support/script.hpp"
+#include "test/support/temp_folder.hpp"
 #include "test/support/tree.hpp"
 
 namespace croon::test {
@@ -75,6 +77,24 @@ TEST(Files, AreShort) {
       EXPECT_LT(lines_of(file).size(), 450U) << file << " is two files";
     }
   }
+}
+
+TEST(Scripts, WithoutArgumentsSayHowTheyAreCalled) {
+  const TempFolder folder;
+  int scripts = 0;
+  for (const std::string& file : tree_files("experiments/", ".py")) {
+    const std::vector<Line> lines = lines_of(file);
+    const auto is_start = [](const Line& line) { return starts_with(line.text, "if __name__"); };
+    if (std::none_of(lines.begin(), lines.end(), is_start)) continue;
+    ++scripts;
+    const std::string name = file.substr(file.rfind('/') + 1);
+    const Finished ended =
+        run_script("python3 -B '" + (source_root() / file).string() + "' 2>&1", folder.path());
+    EXPECT_NE(ended.status, 0) << file;
+    EXPECT_NE(ended.output.find("\n" + name + " "), std::string::npos) << ended.output;
+    EXPECT_EQ(ended.output.find("Traceback"), std::string::npos) << ended.output;
+  }
+  EXPECT_GT(scripts, 5);
 }
 
 TEST(Files, AreSnakeCase) {

@@ -136,6 +136,37 @@ TEST_F(BadInput, MisspeltKey) {
   expect_refused({": /strats: unknown key \"strats\"; did you mean \"starts\"?"});
 }
 
+TEST_F(BadInput, MisspeltFolderOfTheData) {
+  const std::string root = folder_.path().string() + "/data/";
+  const std::string none = ": expected a file or folder, found none";
+  edit("\"path\": \"rig\"", "\"path\": \"rgi\"");
+  expect_refused({": /dataset/path: " + root + "rgi" + none + "; did you mean \"rig\"?"});
+  edit("\"path\": \"rig\"", "\"path\": \"rig/s2/left\"");
+  expect_refused(
+      {": /dataset/path: " + root + "rig/s2/left" + none + "; did you mean \"rig/s1\"?"});
+  edit("\"path\": \"rig\"", "\"path\": \"another\"");
+  expect_refused({": /dataset/path: " + root + "another" + none + "; known: rig"});
+  edit("\"path\": \"rig\"", "\"path\": \"../other\"");
+  expect_refused_with({"e.json: /dataset/path: ", "leads outside the data root"});
+}
+
+TEST_F(BadInput, MisspeltFiles) {
+  folder_.write("poses.csv", "");
+  edit(R"("around": "truth", "rotation_deg": 5, "translation_m": 0.1, "trials": 1)",
+       R"("file": "psoes.csv")");
+  expect_refused_with({"e.json: /starts/file: ", "found neither ", "did you mean \"poses.csv\"?"});
+  edit("\"replace\": {\"registration.icp\": {\"type\": \"point_to_plane\"}}",
+       "\"poses\": \"pose.csv\"");
+  expect_refused_with({"e.json: /variants/0/poses: ", "did you mean \"poses.csv\"?"});
+  // Nothing is said of what is outside the folders.
+  edit("\"replace\": {\"registration.icp\": {\"type\": \"point_to_plane\"}}",
+       "\"poses\": \"../pose.csv\"");
+  EXPECT_EQ(run().text.find("did you mean"), std::string::npos);
+  folder_.write("base.json", kExperiment);
+  folder_.write("e.json", R"({"extends": "bsae.json"})");
+  expect_refused_with({"e.json: /extends: ", "did you mean \"", "base.json\"?"});
+}
+
 TEST_F(BadInput, MissingKey) {
   edit("\"name\": \"e\",", "");
   expect_refused({": /: the key \"name\" is missing"});

@@ -58,6 +58,37 @@ TEST(DescribeCommand, ReplacesWhatItWroteAndNoLink) {
   }
 }
 
+TEST(DescribeCommand, LooksAtItsOutputBeforeTheClouds) {
+  const test::TempFolder folder;
+  folder.write("x.json", R"({"name": "car", "starts": {"around": "nominal"},
+    "dataset": {"type": "sensor_folders", "path": "car", "reference": "top"},
+    "pipeline": [{"step": "identity"}]})");
+  // A cloud that is found to be damaged when it is read.
+  const std::string damaged =
+      "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n"
+      "POINTS 1\nDATA ascii\noops\n";
+  for (const char* sensor : {"top", "left"}) {
+    folder.write(std::string("data/car/") + sensor + "/1.pcd", damaged);
+  }
+  folder.write("file", "mine");
+  const std::string root = folder.path().string();
+  const std::string command = "describe " + root + "/x.json --data " + root + "/data --out " + root;
+  EXPECT_NE(croon(command + "/out").text.find("1.pcd: "), std::string::npos);
+  EXPECT_EQ(croon(command + "/file").text.find("croon: " + root + "/file: "), 0U);
+  std::filesystem::create_symlink("x.json", folder.path() / "clouds.csv");
+  EXPECT_EQ(croon(command).text.find("croon: --out: expected a file to write, found "), 0U);
+}
+
+TEST(DescribeCommand, TakesNoExperimentTwice) {
+  const test::TempFolder folder;
+  const std::string file = folder.write("x.json", kTwoDatasets).string();
+  const std::string same = (folder.path() / "." / "x.json").string();
+  const Answer answer = croon("describe " + file + " " + same);
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_EQ(answer.text,
+            "croon: " + same + ": expected another experiment, found one that is named before\n");
+}
+
 /// A PCD file of the corners of a square on the ground, or of no points.
 std::string square_pcd(int points = 4) {
   const std::string count = std::to_string(points);

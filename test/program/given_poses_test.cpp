@@ -1,6 +1,7 @@
 // Poses of another program are judged like results.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "framework/base/whole_file.hpp"
@@ -93,6 +94,25 @@ TEST_F(GivenPoses, OfEachSensorServeAllTrials) {
   // Trials 0 to 5 of the first sensor have the same pose, hence the same row but for the number.
   const auto behind_number = [](const std::string& row) { return row.substr(row.find(",5,") + 3); };
   EXPECT_NE(given[0].find(behind_number(given[5])), std::string::npos) << given[0] << given[5];
+}
+
+TEST_F(GivenPoses, OfAFileAreReadOnceForAGrid) {
+  write_poses();
+  folder_.write("x.json",
+                R"({"name": "x", "dataset": {"type": "simulated", "scenes": 2},
+          "starts": {"rotation_deg": 1, "translation_m": 0.01, "trials": 2},
+          "pipeline": [{"step": "ground_alignment"}],
+          "grid": {"ground_alignment.extractor.threshold_m": [0.1, 0.2, 0.3]},
+          "variants": [{"name": "given", "poses": "poses.csv",
+                        "pipeline": [{"step": "ground_alignment"}]}]})");
+  const Answer answer = croon("run " + path("x.json") + " --out " + path("out") + " --quiet");
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  for (const char* threshold : {"0.1", "0.2", "0.3"}) {
+    const std::string name = std::string("/threshold_m=") + threshold;
+    EXPECT_EQ(trials("given" + name).size(), trials("base" + name).size());
+  }
+  const auto manifest = nlohmann::json::parse(read_whole_file(path("out/manifest.json")));
+  EXPECT_EQ(manifest.at("experiment_files").size(), 2U);
 }
 
 TEST_F(GivenPoses, ThatAreMissingAreFailedTrials) {

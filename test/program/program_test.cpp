@@ -1,12 +1,21 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
+#include <set>
+#include <sstream>
 #include <string>
 
+#include "experiments/cli/commands.hpp"
+#include "experiments/file/experiment.hpp"
+#include "registry/registry.hpp"
 #include "test/program/program.hpp"
 #include "test/support/temp_folder.hpp"
 
 namespace croon::experiments {
 namespace {
+
+namespace fs = std::filesystem;
 
 TEST(Program, AnswersAWrongCommandLineWithOneLine) {
   const auto expect_line = [](const std::string& arguments, const std::string& line) {
@@ -17,6 +26,14 @@ TEST(Program, AnswersAWrongCommandLineWithOneLine) {
   expect_line("rnu x.json", "croon: unknown command \"rnu\"; did you mean \"run\"?");
   expect_line("run x.json --jbos 2", "croon: unknown option \"--jbos\"; did you mean \"--jobs\"?");
   expect_line("--versoin", "croon: unknown option \"--versoin\"; did you mean \"--version\"?");
+  expect_line("--quiet run x.json",
+              "croon: expected the option \"--quiet\" behind the command, found it before \"run\"");
+  expect_line("--out=o run x.json",
+              "croon: expected the option \"--out\" behind the command, found it before \"run\"");
+  expect_line(
+      "run --only base x.json --plan",
+      "croon: EXPERIMENT is required; --only took \"x.json\": what is required comes before "
+      "--only");
   expect_line("validate none.json", "croon: none.json: expected a readable file, found none");
   for (const char* arguments :
        {"run", "run x.json --jobs two", "run x.json --jobs 0", "run x.json --trials -1",
@@ -35,6 +52,35 @@ TEST(Program, TakesNoEmptyTextForADefault) {
     EXPECT_EQ(answer.code, 2) << option;
     EXPECT_EQ(answer.text.rfind(std::string("croon: ") + option + ": expected ", 0), 0U)
         << answer.text;
+  }
+}
+
+TEST(Program, TakesNoOptionForTheValueOfAnother) {
+  const test::TempFolder folder;
+  folder.write("x.json", R"({"name": "x", "dataset": {"type": "simulated", "scenes": 1},
+                             "pipeline": [{"step": "identity"}]})");
+  const std::string run = "run " + (folder.path() / "x.json").string();
+  const auto expect_line = [](const std::string& arguments, const std::string& line) {
+    const Answer answer = croon(arguments);
+    EXPECT_EQ(answer.code, 2) << arguments;
+    EXPECT_EQ(answer.text, "croon: " + line + "\n");
+  };
+  for (const char* option : {"--out", "--data"}) {
+    expect_line(run + " " + option + " --fresh",
+                std::string(option) + ": expected a path, found the option \"--fresh\"");
+  }
+  expect_line(run + " --only --fresh", "--only: expected a variant, found the option \"--fresh\"");
+  expect_line("export results --columns --compact",
+              "--columns: expected a column, found the option \"--compact\"");
+}
+
+TEST(Program, SaysHowManyTrialsThereMayBe) {
+  for (const char* trials : {"1000001", "99999999999", "1e3", "two", "0"}) {
+    const Answer answer = croon(std::string("run x.json --trials ") + trials);
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_EQ(answer.text,
+              std::string("croon: --trials: expected a whole number from 1 to 1000000, found ") +
+                  trials + "\n");
   }
 }
 
@@ -71,6 +117,75 @@ TEST(Program, ValidatesFilesAndFolders) {
                              "/bad.json: /pipeline/0/step: expected a step, found "
                              "\"identiy\"; did you mean \"identity\"?\n"),
             std::string::npos);
+}
+
+/// This process without the rights of root, to which no folder is closed.
+class WithoutRights {
+ public:
+  WithoutRights() : user_(::geteuid()) {
+    if (user_ == 0) {
+      EXPECT_EQ(::seteuid(65534), 0);
+    }
+  }
+  ~WithoutRights() {
+    if (user_ == 0) {
+      EXPECT_EQ(::seteuid(user_), 0);
+    }
+  }
+  WithoutRights(const WithoutRights&) = delete;
+  WithoutRights& operator=(const WithoutRights&) = delete;
+
+ private:
+  ::uid_t user_;
+};
+
+TEST(Program, ValidatesBesideFoldersThatItCannotRead) {
+  const test::TempFolder folder;
+  const fs::path root = folder.path();
+  for (const char* name : {"a/x.json", "closed/x.json", "shut/x.json", "z/x.json"}) {
+    folder.write(name, R"({"name": "x", "dataset": {"type": "opencalib", "path": "nowhere"},
+                           "pipeline": [{"step": "identity"}]})");
+  }
+  fs::permissions(root, fs::perms::all);
+  for (const char* name : {"closed", "shut"}) fs::permissions(root / name, fs::perms::none);
+  std::ostringstream out, err;
+  {
+    const WithoutRights without;
+    EXPECT_EQ(validate_command({root}, registry(), out, err), 2);
+  }
+  for (const char* name : {"closed", "shut"}) {
+    fs::permissions(root / name, fs::perms::all);
+    EXPECT_NE(err.str().find("croon: " + (root / name).string() +
+                             ": cannot be read: Permission denied\n"),
+              std::string::npos)
+        << err.str();
+  }
+  EXPECT_EQ(out.str(),
+            (root / "a/x.json").string() + ": ok\n" + (root / "z/x.json").string() + ": ok\n");
+}
+
+TEST(Program, ValidatesBesideFoldersWithoutExperiments) {
+  const test::TempFolder folder;
+  folder.write("a/x.json", R"({"name": "x", "dataset": {"type": "opencalib", "path": "nowhere"},
+                               "pipeline": [{"step": "identity"}]})");
+  fs::create_directory(folder.path() / "empty");
+  const std::string root = folder.path().string();
+  const Answer answer = croon("validate " + root + "/empty " + root + "/a");
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_EQ(answer.text, "croon: " + root + "/empty: expected a folder with *.json files\n" + root +
+                             "/a/x.json: ok\n");
+}
+
+TEST(Program, GivesEachPointOfAGridANameOfItsOwn) {
+  const test::TempFolder folder;
+  const fs::path file = folder.write("x.json", R"-({"name": "x", "dataset": {"type": "simulated"},
+          "pipeline": [{"step": "known_velocity"}],
+          "grid": {"known_velocity.file": ["a_b (3)", "a/b", "a_b", "a,b", "a_b (4)"]}})-");
+  std::set<std::string> names;
+  for (const Variant& variant : load_experiment(file, registry()).variants) {
+    names.insert(variant.name);
+  }
+  EXPECT_EQ(names.size(), 5U);
 }
 
 TEST(Program, RefusesWhatCanOnlyFailWhenItValidates) {

@@ -35,6 +35,19 @@ class Files(TestCase):
                                 (croon.write_cloud, ("none/x.ply", np.zeros((1, 3), "f4")))):
             self.assertTrue(self.line_of(croon.InputError, call, *arguments))
 
+    def test_with_fields_that_would_be_renamed_are_refused(self):
+        for name, read in (("t", "time"), ("timestamp", "time"), ("i", "intensity"), ("_", "padding")):
+            cloud = np.zeros(2, [("x", "f4"), ("y", "f4"), ("z", "f4"), (name, "f4")])
+            for file in ("renamed.pcd", "renamed.ply"):
+                self.assertIn(read, self.line_of(croon.InputError, croon.write_cloud, file, cloud))
+                self.assertFalse(pathlib.Path(file).exists())
+
+    def test_with_a_name_that_is_not_utf_8_are_refused(self):
+        pathlib.Path("latin.pcd").write_bytes(
+            b"VERSION .7\nFIELDS x y z h\xf6he\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH 1\nHEIGHT 1\nPOINTS 1\n"
+            b"DATA ascii\n1 2 3 4\n")
+        self.assertIn("latin.pcd", self.line_of(croon.InputError, croon.read_cloud, "latin.pcd"))
+
     def test_with_points_that_are_not_finite_lose_them(self):
         pathlib.Path("nan.pcd").write_text(
             "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n"

@@ -406,6 +406,7 @@ class Registering(TestCase):
         self.assertIn("test_nudge", croon.help_on("step"))
         self.assertIn("icp/icpn", croon.help_on("icp/icpn"))
         self.assertTrue(self.line_of(croon.InputError, croon.help_on, "icp/icpnn"))
+        self.assertIn("jsonx", self.line_of(croon.InputError, croon.help_on, "icp", "jsonx"))
 
     def test_of_a_class_that_cannot_be_made_is_a_fault(self):
         @croon.stage("step", "test_unmade", summary="Fails.")

@@ -11,7 +11,7 @@ def read_cloud(path):
 
     Returns a structured array with the fields x, y and z (float32, metres, in the sensor's frame) and a field per
     channel of the file: intensity, ring, time and others, each in its type. Points that are not finite are left out.
-    Raises InputError if the file cannot be read or is damaged.
+    Raises InputError if the file cannot be read or is damaged, or if the name of a field is not UTF-8.
     """
     return _core.read_cloud(path_of(path, "path"))
 
@@ -20,7 +20,8 @@ def write_cloud(path, cloud, encoding="binary"):
     """Writes a cloud, N×3 or structured, as .pcd or .ply.
 
     `encoding` is binary, ascii or, for PCD, binary_compressed. What `read_cloud` then returns is the same cloud to the
-    last byte. Raises InputError for another suffix, and if the file cannot be written.
+    last byte. Raises InputError for another suffix, for a field whose name `read_cloud` would change ("t", "timestamp" and
+    "time_stamp" are read as "time", "i" as "intensity", "_" is padding), and if the file cannot be written.
     """
     path = path_of(path, "path")
     known = {".pcd": ("binary", "ascii", "binary_compressed"), ".ply": ("binary", "ascii")}

@@ -124,7 +124,7 @@ def _request(experiment, out="", data="", jobs=0, trials=0, only=(), shard=""):
         "out": path_of(out, "out") if out else "",
         "data": path_of(data, "data") if data else "",
         "jobs": whole(jobs, "jobs", 0, _core.MOST_JOBS),
-        "trials": whole(trials, "trials", 0, 1000000000),
+        "trials": whole(trials, "trials", 0, _core.MOST_TRIALS),
         "only": [word(variant, "only") for variant in only],
         "shard": word(shard, "shard"),
     }

@@ -409,7 +409,7 @@ TEST_F(CraftedStore, OfChangedBytesIsReadOrRefused) {
     }
     folder_.write("bad/store.sqlite", bytes);
     try {
-      read_snapshot(store());
+      read_store(store());
       std::ostringstream text;
       export_command(of_bad("json"), text);
     } catch (const InputError& error) {

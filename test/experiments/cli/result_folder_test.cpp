@@ -4,8 +4,10 @@
 #include <sys/stat.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "framework/base/whole_file.hpp"
+#include "test/experiments/support/fake_stages.hpp"
 #include "test/experiments/support/run_bench.hpp"
 
 namespace croon::experiments {
@@ -172,6 +174,59 @@ TEST(ResultFolder, ReplacesNoForeignCloud) {
   EXPECT_EQ(bench.run(options), 3);
   for (const fs::path& cloud : clouds) EXPECT_EQ(read_whole_file(cloud), "mine");
   EXPECT_TRUE(fs::exists(bench.folder().path() / "out/clouds/base/scene2.vdb"));
+}
+
+/// Runs the experiment so that the folder has clouds and a picture.
+RunOptions with_clouds(const Bench& bench, int trials) {
+  RunOptions options = bench.options("out");
+  options.trials = trials;
+  options.clouds = true;
+  options.png = true;
+  EXPECT_EQ(bench.run(options), 0);
+  options.clouds = false;
+  options.png = false;
+  return options;
+}
+
+TEST(ResultFolder, HasNoCloudsOfOtherResults) {
+  const Bench bench(agreeing());
+  const fs::path out = bench.folder().path() / "out";
+  RunOptions options = with_clouds(bench, 4);
+  const fs::path note = bench.folder().write("out/clouds/far/note.txt", "mine");
+  // The same results have the same clouds.
+  EXPECT_EQ(bench.run(options), 0);
+  EXPECT_TRUE(fs::exists(out / "clouds/base/scene1.ply"));
+  EXPECT_TRUE(fs::exists(out / "before_after.png"));
+  options.trials = 6;
+  EXPECT_EQ(bench.run(options), 0);
+  EXPECT_FALSE(fs::exists(out / "clouds/base"));
+  EXPECT_FALSE(fs::exists(out / "clouds/far/scene1.ply"));
+  EXPECT_FALSE(fs::exists(out / "before_after.png"));
+  EXPECT_EQ(read_whole_file(note), "mine");
+}
+
+TEST(ResultFolder, HasNoCloudsOfAVariantThatIsNoMore) {
+  json experiment = agreeing();
+  const Bench bench(experiment);
+  RunOptions options = with_clouds(bench, 6);
+  experiment["variants"].clear();
+  bench.folder().write("x.json", experiment.dump());
+  options.clouds = true;
+  EXPECT_EQ(bench.run(options), 0);
+  EXPECT_TRUE(fs::exists(bench.folder().path() / "out/clouds/base/scene1.ply"));
+  EXPECT_FALSE(fs::exists(bench.folder().path() / "out/clouds/far"));
+}
+
+TEST(ResultFolder, SaysThatThereAreNoClouds) {
+  const Bench bench(agreeing());
+  RunOptions options = bench.options("out");
+  options.trials = 1;
+  options.clouds = true;
+  std::ostringstream out, progress;
+  EXPECT_EQ(run_command(options, test::fake_catalogue(), out, progress), 3);
+  EXPECT_EQ(progress.str(),
+            "croon: --clouds: there are no clouds to write: no trials of a sensor agree\n");
+  EXPECT_FALSE(fs::exists(bench.folder().path() / "out/clouds"));
 }
 
 TEST(ResultFolder, RepairsAHugeListOfWallTimesByItsEnd) {

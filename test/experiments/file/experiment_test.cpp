@@ -242,7 +242,12 @@ TEST_F(Extends, RefusesCyclesAndMissingFiles) {
   EXPECT_EQ(faults_of("c.json").size(), 1U);
   EXPECT_EQ(faults_of("c.json").front(),
             "c.json: /extends: expected an experiment file, found none at " +
-                (folder_.path() / "none.json").string());
+                (folder_.path() / "none.json").string() + "; known: a.json, b.json, c.json");
+  folder_.write("c.json", R"({"extends": "bb.json"})");
+  EXPECT_EQ(faults_of("c.json").front(),
+            "c.json: /extends: expected an experiment file, found none at " +
+                (folder_.path() / "bb.json").string() + "; did you mean \"" +
+                (folder_.path() / "b.json").string() + "\"?");
   ASSERT_EQ(::mkfifo((folder_.path() / "pipe.json").c_str(), 0600), 0);
   folder_.write("p.json", R"({"extends": "pipe.json"})");
   EXPECT_EQ(

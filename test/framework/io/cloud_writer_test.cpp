@@ -134,6 +134,43 @@ TEST(ChannelNames, AreThoseThatStagesAskFor) {
   EXPECT_EQ(channels_of("a a"), (Names{"a"}));
 }
 
+TEST(ChannelNames, OfAnyCloudAreReadAsTheyWereOrRefused) {
+  const TempFolder folder;
+  const std::vector<std::string> names = {"time", "t",         "timestamp", "time_stamp",
+                                          "i",    "intensity", "_",         "ring"};
+  PointCloud empty;
+  empty.points = {{1, 2, 3}};
+  for (unsigned chosen = 0; chosen < 1U << names.size(); ++chosen) {
+    PointCloud cloud = empty;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if ((chosen >> i & 1U) != 0) cloud.channels.push_back({names[i], {}, 1, "1234"});
+    }
+    for (const char* file : {"a.pcd", "a.ply"}) {
+      const auto path = folder.path() / file;
+      const std::string fault = input_error(
+          [&] { path.extension() == ".pcd" ? write_pcd(path, cloud) : write_ply(path, cloud); });
+      if (fault.empty()) {
+        EXPECT_EQ(names_of(read_point_cloud(path)), names_of(cloud));
+      }
+      // One alone that stages know is written.
+      if (chosen == 1U || chosen == 1U << 5U || chosen == 1U << 7U) {
+        EXPECT_EQ(fault, "");
+      }
+    }
+  }
+  const auto fault_of = [&](const std::string& name) {
+    PointCloud cloud = empty;
+    cloud.channels.push_back({name, {}, 1, "1234"});
+    return input_error([&] { write_pcd(folder.path() / "a.pcd", cloud); });
+  };
+  for (const char* name : {"t", "timestamp", "time_stamp"}) {
+    EXPECT_NE(fault_of(name).find(std::string("\"") + name + "\", which is read as \"time\""),
+              std::string::npos);
+  }
+  EXPECT_NE(fault_of("i").find("which is read as \"intensity\""), std::string::npos);
+  EXPECT_NE(fault_of("_").find("padding"), std::string::npos);
+}
+
 TEST(ChannelNames, KittiHasIntensity) {
   const TempFolder folder;
   const float numbers[8] = {1, 2, 3, 0.25F, 4, 5, 6, 0.75F};
