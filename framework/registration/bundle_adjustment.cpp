@@ -127,9 +127,9 @@ const params::Table<BundleOptions>& bundle_table() {
                        "Planes that fit worse than so many standard deviations lose weight."),
         params::numbers(
             "start_std", &O::start_std, {1e-9, 1e9},
-            "The standard deviation of how far a start is expected to be off: the first "
-            "number in degrees, about each axis; the second in metres, along each "
-            "axis. They keep sensors from moving where no plane holds them."),
+            "The standard deviations of how far a start is expected to be off: the first in "
+            "degrees, about each axis; the second in metres, along each axis. They "
+            "keep sensors from moving where no plane holds them."),
         params::number(
             "start_weight", &O::start_weight, {0.0, 1.0},
             "The weight of what steps before know of poses and velocities, by covariances: "

@@ -172,9 +172,8 @@ const params::Table<JointOptions>& joint_table() {
                         "Points that are farther apart do not correspond; one pass for each."),
         params::numbers(
             "velocity_std", &JointOptions::velocity_std, {1e-9, 1e6},
-            "The standard deviation of a velocity about zero before any point is seen: the "
-            "first number in m/s, along each axis; the second in rad/s, about each "
-            "axis."),
+            "The standard deviations of a velocity about zero before any point is seen: the "
+            "first in m/s, along each axis; the second in rad/s, about each axis."),
         params::number("clock_offset_std_s", &JointOptions::clock_offset_std_s, {0.0, 1e6},
                        "The same of the sensors' clocks against the target's; at 0 they agree."),
         params::integer("max_iterations", &JointOptions::max_iterations, {1, 10000},
