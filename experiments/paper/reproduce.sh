@@ -12,9 +12,9 @@ results=${RESULTS:-results/paper}
 page=docs/reproduction.md
 
 folders=()
-# run_experiment NAME: with code 3 some trial failed, a result like others, or its files could not be read just then; a
-# second run runs the latter alone.
-run_experiment() {
+# run NAME: with code 3 some trial failed, a result like others, or its files could not be read just then; a second run
+# runs the latter alone.
+run() {
   local code=3
   for _ in 1 2; do
     if [[ $code != 3 ]]; then break; fi
@@ -22,6 +22,11 @@ run_experiment() {
     "$croon" run "experiments/paper/$1.json" --data "$data" --out "$results/$1" || code=$?
   done
   if [[ $code != 0 && $code != 3 ]]; then exit "$code"; fi
+}
+
+# run_experiment NAME: one whose numbers the page compares with the paper's.
+run_experiment() {
+  run "$1"
   folders+=("$results/$1")
 }
 
@@ -33,7 +38,7 @@ if [[ -d $data/opencalib/carla ]]; then run_experiment carla_samples; fi
 
 noises=()
 for noise in none real_still real; do
-  "$croon" run "experiments/paper/noise_$noise.json" --out "$results/noise_$noise" || [[ $? == 3 ]]
+  run "noise_$noise"
   noises+=("$results/noise_$noise")
 done
 

@@ -59,12 +59,6 @@ std::string what_must_stay(const OutputFile& file, const std::vector<fs::path>& 
   return is_experiment(path) ? "an experiment" : named_by_experiments(file);
 }
 
-/// Whether `path` is a file, and no link, with these bytes.
-bool has_bytes(const fs::path& path, const std::string& bytes) {
-  std::error_code error;
-  return file_begins_with(path, bytes) && fs::file_size(path, error) == bytes.size();
-}
-
 }  // namespace
 
 void refuse_to_replace(const std::vector<OutputFile>& files, const std::vector<fs::path>& inputs) {
@@ -88,7 +82,7 @@ void write_output_files(const std::vector<OutputFile>& files) {
     std::error_code error;
     if (!fs::exists(fs::symlink_status(file.path, error))) {
       missing.push_back(&file);
-    } else if (!has_bytes(file.path, file.bytes)) {
+    } else if (!file_has(file.path, file.bytes)) {
       throw InputError("", "--out",
                        "expected a new file, found " + file.path.string() +
                            ", which is there; delete it first, or write to another");

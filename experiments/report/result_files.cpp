@@ -240,8 +240,7 @@ void delete_clouds(const fs::path& folder) {
 /// Whether the file `path` has these bytes, or is missing if there are none.
 bool is_unchanged(const fs::path& path, const Bytes& bytes) {
   std::error_code error;
-  if (!bytes) return !fs::exists(fs::symlink_status(path, error));
-  return file_begins_with(path, *bytes) && fs::file_size(path, error) == bytes->size();
+  return bytes ? file_has(path, *bytes) : !fs::exists(fs::symlink_status(path, error));
 }
 
 /// The cells of a line of a CSV file, as they are written.

@@ -132,6 +132,11 @@ bool file_begins_with(const fs::path& path, std::string_view bytes) {
   return begin == bytes;
 }
 
+bool file_has(const fs::path& path, std::string_view bytes) {
+  std::error_code error;
+  return file_begins_with(path, bytes) && fs::file_size(path, error) == bytes.size();
+}
+
 void write_whole_file(const fs::path& path, std::string_view bytes) {
   std::error_code ignored;
   // Renaming onto a device or a pipe would replace it by a file.

@@ -29,6 +29,9 @@ std::optional<std::string> read_file_if_there(const std::filesystem::path& path)
 /// Whether `path` is a file, and no link, that begins with `bytes`. False if it cannot be read.
 bool file_begins_with(const std::filesystem::path& path, std::string_view bytes);
 
+/// Whether `path` is a file, and no link, with these bytes and no others.
+bool file_has(const std::filesystem::path& path, std::string_view bytes);
+
 /// Makes `bytes` the content of the file `path`: writes a file beside it and renames it, so that a
 /// reader sees the old content or the new one, never a part. Throws InputError if it cannot be
 /// written. The file beside it, `PATH.croon-part0`, stays if the process is killed; the next call

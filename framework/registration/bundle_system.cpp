@@ -79,16 +79,17 @@ void BundleSystem::find_planes(int stride) {
   for (std::size_t k = 1; k < state_.poses.size(); ++k) free_sensors_.push_back(k);
   planes_of_sensors_ = counted_planes();
   while (!free_sensors_.empty()) {
+    // The one with the fewest first: others may share planes with it alone.
+    const auto fewest = std::min_element(free_sensors_.begin(), free_sensors_.end(),
+                                         [&](std::size_t a, std::size_t b) {
+                                           return planes_of_sensors_[a] < planes_of_sensors_[b];
+                                         });
+    if (planes_of_sensors_[*fewest] >= options_.min_planes) break;
+    leave_out(*fewest);
+    free_sensors_.erase(fewest);
     const std::vector<int> planes = counted_planes();
     planes_of_sensors_[0] = planes[0];
     for (const std::size_t k : free_sensors_) planes_of_sensors_[k] = planes[k];
-    // The one with the fewest first: others may share planes with it alone.
-    const auto fewest =
-        std::min_element(free_sensors_.begin(), free_sensors_.end(),
-                         [&](std::size_t a, std::size_t b) { return planes[a] < planes[b]; });
-    if (planes[*fewest] >= options_.min_planes) break;
-    leave_out(*fewest);
-    free_sensors_.erase(fewest);
   }
 }
 

@@ -76,21 +76,13 @@ Observability word_of(double std_ratio) {
   return std_ratio > kWeak ? Observability::weak : Observability::determined;
 }
 
-/// The words of a pose by its standard deviations; of degrees of freedom that follow another one
-/// (leading_dofs), with that one held.
+/// The words of a pose by its standard deviations.
 DofWords words_of(const Matrix6d& covariance, const Vector6d& start_std) {
-  DofWords words;
-  const auto judge = [&](std::size_t dof, const Matrix6d& of_free) {
-    const auto i = static_cast<Eigen::Index>(dof);
-    words[dof] = word_of(std::sqrt(of_free(i, i)) / start_std(i));
-  };
-  for (std::size_t dof = 0; dof < words.size(); ++dof) judge(dof, covariance);
-  const std::array<bool, 6> leads = leading_dofs(words, covariance);
-  const Matrix6d of_others = guarded_inverse<6>(with_held(guarded_inverse<6>(covariance), leads));
-  for (std::size_t dof = 0; dof < words.size(); ++dof) {
-    if (words[dof] != Observability::determined && !leads[dof]) judge(dof, of_others);
-  }
-  return words;
+  return judged_dofs(covariance, guarded_inverse<6>(covariance),
+                     [&](std::size_t dof, const Matrix6d& of_free) {
+                       const auto i = static_cast<Eigen::Index>(dof);
+                       return word_of(std::sqrt(of_free(i, i)) / start_std(i));
+                     });
 }
 
 /// What all scenes say of the poses, the velocities following them.

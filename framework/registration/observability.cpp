@@ -1,39 +1,11 @@
 #include "framework/registration/observability.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "framework/geometry/guarded_inverse.hpp"
 
 namespace croon {
 namespace {
 
-/// What held_dofs compares.
-struct Evidence {
-  const Matrix6d& information;
-  const Matrix6d& noise;
-  double weak_ratio;
-  double unobservable_ratio;
-};
-
-/// With the degrees of freedom free of which `covariance` is that of the information about any pose
-/// and the evidence.
-HeldDof judged(const Evidence& evidence, const Matrix6d& covariance, std::size_t dof) {
-  const auto i = static_cast<Eigen::Index>(dof);
-  HeldDof held;
-  held.motion = covariance.col(i) / covariance(i, i);
-  const double found = held.motion.dot(evidence.information * held.motion);
-  const double pretended = held.motion.dot(evidence.noise * held.motion);
-  if (found > evidence.weak_ratio * pretended) {
-    held.word = Observability::determined;
-  } else if (found > evidence.unobservable_ratio * pretended) {
-    held.word = Observability::weak;
-  }
-  return held;
-}
-
-}  // namespace
-
+/// Which degrees of freedom lead, see judged_dofs.
 std::array<bool, 6> leading_dofs(const DofWords& words, const Matrix6d& covariance) {
   constexpr double kFollows = 4.0;
   const Vector6d scale = unknown_variances().cwiseSqrt().cwiseInverse();
@@ -47,6 +19,7 @@ std::array<bool, 6> leading_dofs(const DofWords& words, const Matrix6d& covarian
   return leads;
 }
 
+/// `information` with the degrees of freedom `held` known: they are independent of the others.
 Matrix6d with_held(const Matrix6d& information, const std::array<bool, 6>& held) {
   Matrix6d result = information;
   for (std::size_t dof = 0; dof < held.size(); ++dof) {
@@ -59,23 +32,38 @@ Matrix6d with_held(const Matrix6d& information, const std::array<bool, 6>& held)
   return result;
 }
 
+}  // namespace
+
+DofWords judged_dofs(const Matrix6d& covariance, const Matrix6d& information,
+                     const JudgeDof& judge) {
+  DofWords words;
+  for (std::size_t dof = 0; dof < words.size(); ++dof) words[dof] = judge(dof, covariance);
+  const std::array<bool, 6> leads = leading_dofs(words, covariance);
+  const Matrix6d of_others = guarded_inverse<6>(with_held(information, leads));
+  for (std::size_t dof = 0; dof < words.size(); ++dof) {
+    const bool follows = words[dof] != Observability::determined && !leads[dof];
+    if (follows) words[dof] = judge(dof, of_others);
+  }
+  return words;
+}
+
 std::array<HeldDof, 6> held_dofs(const Matrix6d& information, const Matrix6d& noise,
                                  const Matrix6d& prior, double weak_ratio,
                                  double unobservable_ratio) {
-  const Evidence evidence = {information, noise, weak_ratio, unobservable_ratio};
-  const Matrix6d covariance = guarded_inverse<6>(information + prior);
   std::array<HeldDof, 6> held;
-  DofWords words;
-  for (std::size_t dof = 0; dof < held.size(); ++dof) {
-    held[dof] = judged(evidence, covariance, dof);
-    words[dof] = held[dof].word;
-  }
-  const std::array<bool, 6> leads = leading_dofs(words, covariance);
-  const Matrix6d of_others = guarded_inverse<6>(with_held(information + prior, leads));
-  for (std::size_t dof = 0; dof < held.size(); ++dof) {
-    if (words[dof] == Observability::determined || leads[dof]) continue;
-    held[dof] = judged(evidence, of_others, dof);
-  }
+  const auto judge = [&](std::size_t dof, const Matrix6d& covariance) {
+    const auto i = static_cast<Eigen::Index>(dof);
+    Vector6d& motion = held[dof].motion;
+    motion = covariance.col(i) / covariance(i, i);
+    const double found = motion.dot(information * motion);
+    const double pretended = motion.dot(noise * motion);
+    if (found > weak_ratio * pretended) return Observability::determined;
+    return found > unobservable_ratio * pretended ? Observability::weak
+                                                  : Observability::unobservable;
+  };
+  const Matrix6d all = information + prior;
+  const DofWords words = judged_dofs(guarded_inverse<6>(all), all, judge);
+  for (std::size_t dof = 0; dof < held.size(); ++dof) held[dof].word = words[dof];
   return held;
 }
 
