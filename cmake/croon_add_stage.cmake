@@ -5,6 +5,10 @@
 # option turned its library off), the stage is left out and the configuration prints a line.
 # It sees the headers of framework, of what it needs, and of the folder that adds it.
 #
+# In a unity build a source includes one stage of every kind, because most of the time of compiling a stage goes into headers.
+# Stages of one kind use one name for many things, so they cannot be one source. A stage that needs a target is alone: its
+# options, or the target itself, must not reach others.
+#
 # The same in this tree and after find_package(croon); there, croon_add_program makes the program.
 function(croon_add_stage kind name)
   cmake_parse_arguments(PARSE_ARGV 2 stage "" "SOURCE" "NEEDS")
@@ -18,7 +22,20 @@ function(croon_add_stage kind name)
     set(stage_SOURCE "${kind}/${name}.cpp")
   endif()
   set(library croon_stage_${kind}_${name})
-  add_library(${library} OBJECT "${stage_SOURCE}")
+  if(CMAKE_UNITY_BUILD AND NOT stage_NEEDS)
+    get_property(number DIRECTORY PROPERTY croon_stages_of_${kind})
+    math(EXPR number "0${number} + 1")
+    set_property(DIRECTORY PROPERTY croon_stages_of_${kind} ${number})
+    get_filename_component(folder "${CMAKE_CURRENT_SOURCE_DIR}" NAME)
+    set(library croon_${folder}_${number})
+  endif()
+  if(TARGET ${library})
+    target_sources(${library} PRIVATE "${stage_SOURCE}")
+  else()
+    add_library(${library} OBJECT "${stage_SOURCE}")
+    set_target_properties(${library} PROPERTIES UNITY_BUILD_BATCH_SIZE 0)
+    set_property(GLOBAL APPEND PROPERTY CROON_STAGE_LIBRARIES ${library})
+  endif()
   # For the header of a kind of stage that comes with the folder.
   target_include_directories(${library} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}")
   target_link_libraries(${library} PRIVATE croon::framework ${stage_NEEDS})
@@ -29,9 +46,6 @@ function(croon_add_stage kind name)
     target_compile_options(${library} PRIVATE -ffp-contract=off)
   endif()
   set_property(GLOBAL APPEND PROPERTY CROON_STAGES "${kind}/${name}")
-  get_filename_component(source "${stage_SOURCE}" ABSOLUTE)
-  set_property(GLOBAL APPEND PROPERTY CROON_STAGE_SOURCES "${source}")
-  set_property(GLOBAL APPEND PROPERTY CROON_STAGE_LIBRARIES ${library})
   set_property(GLOBAL APPEND PROPERTY CROON_STAGE_NEEDS ${stage_NEEDS})
 endfunction()
 

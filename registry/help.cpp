@@ -96,6 +96,13 @@ std::string markdown(const Selection& selection, const StageList& stages) {
 
 }  // namespace
 
+HelpFormat help_format(const std::string& name) {
+  if (name == "text") return HelpFormat::text;
+  if (name == "json") return HelpFormat::json;
+  if (name == "markdown") return HelpFormat::markdown;
+  throw InputError("", "format", "expected text, json or markdown, found \"" + name + "\"");
+}
+
 std::string stages_help(const Catalogue& catalogue, const std::string& which, HelpFormat format) {
   const Selection selection = selection_from(catalogue, which);
   const StageList stages = selected(catalogue, selection);

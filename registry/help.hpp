@@ -9,6 +9,9 @@ namespace croon {
 /// The formats of the help on stages.
 enum class HelpFormat { text, json, markdown };
 
+/// The format "text", "json" or "markdown". Throws InputError at "format" for another name.
+HelpFormat help_format(const std::string& name);
+
 /// The help on the stages of `catalogue` that `which` names: all of them (""), those of a kind
 /// ("icp"), or one with its parameters ("icp/icpn"). Ends with a newline. Throws InputError with
 /// the nearest name if there is no such kind or stage. `croon stages` prints this; the Markdown

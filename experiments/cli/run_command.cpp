@@ -19,6 +19,17 @@ std::string text_of_plan(const CheckedRun& run, const Work& work, const RunOptio
   return plan_text(counts, options.colours);
 }
 
+/// Writes the clouds of `--clouds`, adds what could not be written to `complaints`, and says if
+/// there is nothing to write.
+std::string write_clouds(const CheckedRun& run, const Summary& summary,
+                         const std::filesystem::path& folder,
+                         std::vector<std::string>& complaints) {
+  const FusedClouds fused = write_fused_clouds(run.experiment, run.scenes, summary, folder);
+  complaints.insert(complaints.end(), fused.complaints.begin(), fused.complaints.end());
+  if (fused.is_any || !fused.complaints.empty()) return "";
+  return "There are no clouds to write: no trials of a sensor agree.\n";
+}
+
 /// Draws the picture of `--png` and says what it shows.
 std::string draw_picture(const CheckedRun& run, const Summary& summary,
                          const std::filesystem::path& path) {
@@ -42,13 +53,10 @@ int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostr
   }
   const OutputFolder folder(run.out);
   auto [results, complaints] = run_in_folder(run, std::move(header), folder, how, progress_out);
+  std::string clouds, picture;
   if (options.clouds) {
-    for (const std::string& complaint :
-         write_fused_clouds(run.experiment, run.scenes, results.summary, folder.file(kClouds))) {
-      complaints.push_back(complaint);
-    }
+    clouds = write_clouds(run, results.summary, folder.file(kClouds), complaints);
   }
-  std::string picture;
   try {
     if (options.png) picture = draw_picture(run, results.summary, folder.file(kPicture));
   } catch (const UnavailableFile& error) {
@@ -58,7 +66,7 @@ int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostr
     progress_out << "croon: " << printable(complaint) << "\n";
   out << result_text(results, options.colours) << "Results are in " << printable(run.out.string())
       << "\n"
-      << picture;
+      << clouds << picture;
   return complaints.empty() && !has_failed_trials(results) ? 0 : 3;
 }
 

@@ -158,14 +158,7 @@ void register_class(const py::dict& stage) {
 }
 
 std::string help(const std::string& which, const std::string& format) {
-  const std::vector<std::string> known = {"text", "json", "markdown"};
-  if (std::find(known.begin(), known.end(), format) == known.end()) {
-    throw InputError("", "format", "expected text, json or markdown, found " + in_quotes(format));
-  }
-  return stages_help(*catalogue(), which,
-                     format == "json"       ? HelpFormat::json
-                     : format == "markdown" ? HelpFormat::markdown
-                                            : HelpFormat::text);
+  return stages_help(*catalogue(), which, help_format(format));
 }
 
 }  // namespace

@@ -136,11 +136,10 @@ std::string draw_before_after(const Experiment& experiment, const std::vector<Sc
   return "";
 }
 
-std::vector<std::string> write_fused_clouds(const Experiment& experiment,
-                                            const std::vector<Scene>& scenes,
-                                            const Summary& summary, const fs::path& folder) {
-  std::vector<std::string> complaints;
-  bool is_any = false;
+FusedClouds write_fused_clouds(const Experiment& experiment, const std::vector<Scene>& scenes,
+                               const Summary& summary, const fs::path& folder) {
+  FusedClouds fused;
+  std::vector<std::string>& complaints = fused.complaints;
   for (const Scene& scene : shown_scenes(scenes)) {
     Points reference;
     std::vector<Points> points;
@@ -159,7 +158,7 @@ std::vector<std::string> write_fused_clouds(const Experiment& experiment,
         if (poses[i]) clouds.push_back({scene.sensors[i].sensor, points[i], *poses[i]});
       }
       if (clouds.size() == 1) continue;
-      is_any = true;
+      fused.is_any = true;
       const fs::path name = short_path(variant.name) / short_path(scene.name);
       const fs::path stem = folder / name;
       make_folder_below(folder.parent_path(), folder.filename() / name.parent_path());
@@ -174,10 +173,7 @@ std::vector<std::string> write_fused_clouds(const Experiment& experiment,
       }
     }
   }
-  if (!is_any && complaints.empty()) {
-    complaints.emplace_back("--clouds: there are no clouds to write: no trials of a sensor agree");
-  }
-  return complaints;
+  return fused;
 }
 
 }  // namespace croon::experiments

@@ -67,4 +67,12 @@ Twist velocity_in(const RigidTransform& T_a_b, const Twist& velocity_b) {
   return {angular, T_a_b.rotation * velocity_b.linear_mps + T_a_b.translation.cross(angular)};
 }
 
+Matrix6d adjoint(const RigidTransform& T_a_b) {
+  Matrix6d columns;
+  for (int i = 0; i < 6; ++i) {
+    columns.col(i) = vector_of(velocity_in(T_a_b, stepped(Twist{}, Vector6d::Unit(i))));
+  }
+  return columns;
+}
+
 }  // namespace croon

@@ -29,4 +29,7 @@ RigidTransform motion_over(const Twist& velocity, double time_s);
 /// adjoint of `T_a_b`.
 Twist velocity_in(const RigidTransform& T_a_b, const Twist& velocity_b);
 
+/// The same as a matrix, in the order of `vector_of`.
+Matrix6d adjoint(const RigidTransform& T_a_b);
+
 }  // namespace croon

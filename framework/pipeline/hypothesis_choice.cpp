@@ -48,7 +48,7 @@ std::vector<Hypothesis> judged(const std::vector<Hypothesis>& poses, const Estim
     try {
       const RigidTransform T =
           choice.icp->align(*target->thinned, *sample, pose.T_target_source).T_target_source;
-      refined.push_back({T, pose_evidence(*target, *source, T, {}).score()});
+      refined.push_back({T, pose_evidence(*target, *source, T).score()});
     } catch (const StageError&) {
       continue;  // Too few points correspond.
     }
@@ -91,9 +91,13 @@ void sort_by_score(std::vector<Hypothesis>& poses) {
                    [](const auto& a, const auto& b) { return a.score > b.score; });
 }
 
+void require_points(const Cloud& cloud, const char* whose) {
+  if (cloud.empty()) throw StageError(std::string("the ") + whose + " cloud is empty");
+}
+
 std::shared_ptr<const SensorView> view_of(const Cloud& cloud, const HypothesisChoice& choice,
                                           const char* whose) {
-  if (cloud.empty()) throw StageError(std::string("the ") + whose + " cloud is empty");
+  require_points(cloud, whose);
   return shared_view(cloud, choice.thinning);
 }
 

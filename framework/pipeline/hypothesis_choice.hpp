@@ -33,8 +33,11 @@ const params::Table<HypothesisChoice>& hypothesis_choice_table();
 /// Poses by score, best first; of equals the first remains the first.
 void sort_by_score(std::vector<Hypothesis>& poses);
 
-/// What a cloud's poses are judged by (see shared_view), made once. Throws StageError if the cloud
-/// is empty; `whose` names it.
+/// Throws StageError if the cloud is empty; `whose` names it.
+void require_points(const Cloud& cloud, const char* whose);
+
+/// What a cloud's poses are judged by (see shared_view), made once. Throws StageError as
+/// require_points does.
 std::shared_ptr<const SensorView> view_of(const Cloud& cloud, const HypothesisChoice& choice,
                                           const char* whose);
 

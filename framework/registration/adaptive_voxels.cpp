@@ -107,7 +107,8 @@ class PatchSearch {
       view.timed.add(own, weight * time_s);
       view.timed_twice.add(own, weight * time_s * time_s);
     }
-    const double noise_m = std::max(rms_m, options_.noise_m);
+    constexpr double kLeastNoise_m = 0.005;  // Of a point across its plane.
+    const double noise_m = std::max(rms_m, kLeastNoise_m);
     PlanePatch patch;
     for (std::size_t k = 0; k < clouds_.size(); ++k) {
       const PlanePatch::View& view = views[k];

@@ -14,11 +14,10 @@ struct VoxelOptions {
   double max_thickness_ratio = 0.1;
   int min_points = 10;
   int min_sensor_points = 3;
-  double noise_m = 0.005;          ///< The least standard deviation of a point across its plane.
   double surface_error_m = 0.003;  ///< What a surface is off a plane, however many points it has.
 };
 
-/// The rows of VoxelOptions that users set.
+/// The rows of VoxelOptions.
 const params::Table<VoxelOptions>& voxel_table();
 
 /// One cloud of a scene and whose it is.

@@ -160,14 +160,12 @@ std::vector<JointTerm> terms_of(const JointScene::Source& source, const StillTar
 
 /// Which points of a scan belong to things of a vehicle's size; none if it has no ground.
 std::shared_ptr<const std::vector<bool>> vehicles_of(const Cloud& cloud) {
-  constexpr std::size_t kForTheGround = 5000;
+  constexpr int kForTheGround = 5000;
   return cloud.once<std::vector<bool>>("vehicles", [&] {
     const Points& points = cloud.points();
-    Points some;
-    const std::size_t stride = points.size() / kForTheGround + 1;
-    for (std::size_t i = 0; i < points.size(); i += stride) some.push_back(points[i]);
     Rng rng = cloud.rng("vehicles");
-    const auto grounds = ground_candidates(some, GroundCandidateOptions{}, rng);
+    const auto grounds =
+        ground_candidates(evenly_spaced(points, kForTheGround), GroundCandidateOptions{}, rng);
     return std::make_shared<std::vector<bool>>(
         grounds.empty() ? std::vector<bool>(points.size(), false)
                         : is_vehicle_sized(points, grounds.front().plane, VehicleSize{}));
@@ -257,7 +255,7 @@ PairEquations pair_equations(const JointScene::Source& source, const StillTarget
 }
 
 PairAgreement pair_agreement(const JointScene::Source& source, const StillTarget& target,
-                             const JointView& view, const std::optional<Eigen::Vector3d>& axis) {
+                             const JointView& view) {
   JointOptions every_patch = view.options;
   every_patch.patch_kernel_m = 0.0;
   const std::vector<JointTerm> terms =
@@ -265,12 +263,20 @@ PairAgreement pair_agreement(const JointScene::Source& source, const StillTarget
   PairAgreement agreement;
   for (const JointTerm& term : terms) {
     const double widths = term.residual_m / view.options.kernel_width_m;
-    const double facing = axis ? std::abs(axis->dot(term.normal())) : 1.0;
-    agreement.by_cell[cell_of(term)] +=
-        facing * term.weight * (1.0 / (1.0 + widths * widths) - 0.5);
+    agreement.points.push_back(
+        {cell_of(term), term.normal(), term.weight * (1.0 / (1.0 + widths * widths) - 0.5)});
     agreement.later_s += term.later_s / static_cast<double>(terms.size());
   }
   return agreement;
+}
+
+std::map<JointCell, double> PairAgreement::by_cell(
+    const std::optional<Eigen::Vector3d>& axis) const {
+  std::map<JointCell, double> sums;
+  for (const Point& point : points) {
+    sums[point.cell] += (axis ? std::abs(axis->dot(point.normal)) : 1.0) * point.agreeing;
+  }
+  return sums;
 }
 
 std::map<JointCell, CellEquations> cell_equations(const JointScene::Source& source,
@@ -284,6 +290,7 @@ std::map<JointCell, CellEquations> cell_equations(const JointScene::Source& sour
     const double w = term.weight * kernel.weight(square);
     sums.hessian += (w * curvature_share(kernel.weight(square))) * (term.J * term.J.transpose());
     sums.gradient += (w * term.residual_m) * term.J;
+    ++sums.correspondences;
   }
   return cells;
 }

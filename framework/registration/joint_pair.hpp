@@ -97,25 +97,33 @@ using JointCell = LeafKey;
 /// The edge of a cube. A car is in few of them.
 inline constexpr double kJointCell_m = 6.0;
 
-/// How well one pair of clouds fits.
+/// How well one pair of clouds fits, by the points that correspond.
 struct PairAgreement {
-  /// The weights of the points that correspond, each times `1 / (1 + r^2 / width^2) - 1/2` for its
-  /// residual r, by cubes: a point that is farther than the kernel's width from the surface speaks
-  /// against the pose. With an axis also times `|n . axis|` for the normal n of the surface: what
-  /// does not face along it cannot tell poses along it apart. No patch has lost weight.
-  std::map<JointCell, double> by_cell;
+  struct Point {
+    JointCell cell;
+    Eigen::Vector3d normal;  ///< Of the target's surface.
+    /// The weight times `1 / (1 + r^2 / width^2) - 1/2` for the residual r: a point that is farther
+    /// than the kernel's width from the surface speaks against the pose. No patch has lost weight.
+    double agreeing = 0.0;
+  };
+  std::vector<Point> points;
   double later_s = 0.0;  ///< So much later than the target the sensor measures, in the mean.
+
+  /// The sums by cubes. With an axis a point counts by `|n . axis|` for the normal n of its
+  /// surface: what does not face along it cannot tell poses along it apart.
+  std::map<JointCell, double> by_cell(
+      const std::optional<Eigen::Vector3d>& axis = std::nullopt) const;
 };
 
 PairAgreement pair_agreement(const JointScene::Source& source, const StillTarget& target,
-                             const JointView& view,
-                             const std::optional<Eigen::Vector3d>& axis = std::nullopt);
+                             const JointView& view);
 
 /// What the correspondences in one cube add to the cost's gradient and Hessian, which has the
 /// curvature of the robust kernel.
 struct CellEquations {
   PairMatrix hessian = PairMatrix::Zero();
   PairVector gradient = PairVector::Zero();
+  int correspondences = 0;
 };
 
 /// The same correspondences, by cubes. Throws StageError for points beyond them.

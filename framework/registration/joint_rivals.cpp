@@ -9,18 +9,27 @@
 namespace croon {
 namespace {
 
-using Agreement = std::map<JointCell, double>;
-
-/// Where the points of a scene agree in `state`, of all sensors.
-Agreement agreement_of(const JointScene& scene, const JointState& state,
-                       const JointOptions& options, const std::optional<Eigen::Vector3d>& axis) {
+/// How well each source of a scene fits in `state`.
+std::vector<PairAgreement> agreements_in(const JointScene& scene, const JointState& state,
+                                         const JointOptions& options) {
   const Twist& velocity = state.velocities.front();
   const StillTarget target(scene, velocity, options);
-  Agreement agreement;
+  std::vector<PairAgreement> pairs;
   for (const JointScene::Source& source : scene.sources) {
-    const PairAgreement pair =
-        pair_agreement(source, target, last_view(state, velocity, options), axis);
-    for (const auto& [cell, agreeing] : pair.by_cell) agreement[cell] += agreeing;
+    pairs.push_back(pair_agreement(source, target, last_view(state, velocity, options)));
+  }
+  return pairs;
+}
+
+using Agreement = std::map<JointCell, double>;
+
+/// The sums over all sources that take part.
+Agreement sum_by_cell(const std::vector<PairAgreement>& pairs,
+                      const std::optional<Eigen::Vector3d>& axis) {
+  Agreement agreement;
+  for (const PairAgreement& pair : pairs) {
+    if (pair.points.size() < kLeastJointCorrespondences) continue;
+    for (const auto& [cell, agreeing] : pair.by_cell(axis)) agreement[cell] += agreeing;
   }
   return agreement;
 }
@@ -70,11 +79,10 @@ std::vector<JointState> other_speeds(const JointScene& scene, const JointState& 
                                      const std::vector<double>& speeds_mps,
                                      const JointOptions& options) {
   const Twist& velocity = state.velocities.front();
-  const StillTarget target(scene, velocity, options);
   std::vector<double> later_s(state.T_target_sensor.size(), 0.0);
-  for (const JointScene::Source& source : scene.sources) {
-    later_s[source.sensor] =
-        pair_agreement(source, target, last_view(state, velocity, options)).later_s;
+  const std::vector<PairAgreement> pairs = agreements_in(scene, state, options);
+  for (std::size_t j = 0; j < pairs.size(); ++j) {
+    later_s[scene.sources[j].sensor] = pairs[j].later_s;
   }
   std::vector<JointState> others;
   for (const double speed_mps : speeds_mps) {
@@ -95,6 +103,7 @@ std::vector<std::optional<double>> leads_over_rivals(const JointScene& scene,
                                                      std::vector<JointState> starts,
                                                      const JointOptions& options,
                                                      const JointOptions& coarse_options) {
+  const std::vector<PairAgreement> own = agreements_in(scene, state, options);
   std::vector<JointState> seen = {state};
   std::vector<std::optional<double>> least(scene.sources.size());
   for (JointState& start : starts) {
@@ -106,8 +115,8 @@ std::vector<std::optional<double>> leads_over_rivals(const JointScene& scene,
     const JointState fine = register_jointly({scene}, near, options).state;
     if (!is_rival(fine, state)) continue;
     const std::optional<Eigen::Vector3d> axis = axis_between(state, fine);
-    const double lead = lead_of(agreement_of(scene, state, options, axis),
-                                agreement_of(scene, fine, options, axis));
+    const double lead =
+        lead_of(sum_by_cell(own, axis), sum_by_cell(agreements_in(scene, fine, options), axis));
     for (std::size_t j = 0; j < least.size(); ++j) {
       if (!is_elsewhere(fine, state, scene.sources[j].sensor)) continue;
       least[j] = std::min(lead, least[j].value_or(lead));

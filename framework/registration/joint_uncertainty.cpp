@@ -10,6 +10,12 @@ namespace {
 
 using Cells = std::map<JointCell, CellEquations>;
 
+int correspondences_in(const Cells& cells) {
+  int sum = 0;
+  for (const auto& [place, sums] : cells) sum += sums.correspondences;
+  return sum;
+}
+
 /// A linear system whose solution is a step of the velocity.
 struct VelocityEquations {
   Matrix6d information;
@@ -43,6 +49,7 @@ Matrix6d velocity_covariance(const StillTarget& target, const JointState& state,
   std::map<JointCell, std::vector<CellEquations>> cells;
   for (std::size_t j = 0; j < scene.sources.size(); ++j) {
     const Cells of_source = cell_equations(scene.sources[j], target, view);
+    if (correspondences_in(of_source) < kLeastJointCorrespondences) continue;
     for (const auto& [place, sums] : of_source) {
       all[j].hessian += sums.hessian;
       std::vector<CellEquations>& cell = cells[place];

@@ -21,6 +21,11 @@ std::size_t index(Row row, int columns, int column) {
          static_cast<std::size_t>(column);
 }
 
+/// The layer of a point, a whole number: below 0 or above the last if the map does not have it.
+double layer_of(const Eigen::Vector3d& point, const LayeredMapOptions& options) {
+  return std::floor((point.z() - options.min_height_m) / options.cell_m);
+}
+
 /// The centres of the cells above the ground that hold points of the source, without duplicates; at
 /// most `max_cells` of them, evenly spaced.
 std::vector<Eigen::Vector3d> cell_centres(const Points& levelled,
@@ -28,7 +33,7 @@ std::vector<Eigen::Vector3d> cell_centres(const Points& levelled,
   std::set<std::tuple<int, int, int>> cells;
   for (const Eigen::Vector3f& p : levelled) {
     const Eigen::Vector3d point = p.cast<double>();
-    const double layer = std::floor((point.z() - options.min_height_m) / options.cell_m);
+    const double layer = layer_of(point, options);
     if (!(layer >= 0.0 && layer < options.layers)) continue;
     if (!(point.head<2>().norm() <= options.radius_m)) continue;
     cells.emplace(static_cast<int>(layer), static_cast<int>(std::floor(point.x() / options.cell_m)),
@@ -98,10 +103,10 @@ LayeredMap::LayeredMap(const Points& levelled, const LayeredMapOptions& options)
       cells_(index(index(options.layers, side_, 0), side_, 0) + index(1, stride_, 0)) {
   const int middle = side_ / 2;
   for (const Eigen::Vector3f& p : levelled) {
-    const Eigen::Vector3d cell = p.cast<double>() / options.cell_m;
-    const double layer = std::floor(cell.z() - options.min_height_m / options.cell_m);
-    const double row = std::floor(cell.y()) + middle;
-    const double column = std::floor(cell.x()) + middle;
+    const Eigen::Vector3d point = p.cast<double>();
+    const double layer = layer_of(point, options);
+    const double row = std::floor(point.y() / options.cell_m) + middle;
+    const double column = std::floor(point.x() / options.cell_m) + middle;
     if (!(layer >= 0.0 && layer < options.layers)) continue;
     if (!(row >= 0.0 && row < side_ && column >= 0.0 && column < side_)) continue;
     spread(static_cast<int>(layer), static_cast<int>(row), static_cast<int>(column), kFull);

@@ -139,9 +139,7 @@ double least_eigenvalue(const Eigen::Matrix3d& scatter) {
 }
 
 Matrix6d velocity_at(const Eigen::Vector3d& origin) {
-  Matrix6d map = Matrix6d::Identity();
-  map.bottomLeftCorner<3, 3>() = -cross_matrix(origin);
-  return map;
+  return adjoint({Eigen::Matrix3d::Identity(), -origin});
 }
 
 double plane_cost_value(const PlanePatch& patch, const RigState& state) {

@@ -8,21 +8,27 @@
 namespace croon {
 namespace {
 
+// When points agree, and when they contradict.
+constexpr double kMaxDistance_m = 0.5;       // To the nearest point of the other cloud.
+constexpr double kMaxPlaneDistance_m = 0.1;  // To the plane through it.
+constexpr double kMaxNormalAngle_deg = 30.0;
+constexpr double kRangeMargin_m = 0.4;  // Ranges agree that differ by at most this.
+constexpr double kRangeRatio = 0.02;    // So do those that differ by at most this share of them.
+
 bool is_visible(Sight sight) { return sight != Sight::unseen && sight != Sight::hidden; }
 
 std::vector<Sight> one_way(const SensorView& target, const SensorView& source,
-                           const RigidTransform& T, const EvidenceOptions& options) {
+                           const RigidTransform& T) {
   const KdTree& tree = target.thinned->kd_tree();
   const Normals& target_normals = target.thinned->normals(target.normal_neighbours);
   const Normals& source_normals = source.thinned->normals(source.normal_neighbours);
-  const double min_cosine = std::cos(rad_from_deg(options.max_normal_angle_deg));
+  const double min_cosine = std::cos(rad_from_deg(kMaxNormalAngle_deg));
   const auto agrees = [&](int index, const Eigen::Vector3d& point) {
-    const Neighbour nearest =
-        tree.nearest(point.cast<float>(), static_cast<float>(options.max_distance_m));
+    const Neighbour nearest = tree.nearest(point.cast<float>(), static_cast<float>(kMaxDistance_m));
     if (!nearest) return false;
     const Eigen::Vector3d normal = target_normals.at(nearest.index).normal.cast<double>();
     const Eigen::Vector3d offset = point - target.thinned->points()[nearest.index].cast<double>();
-    if (std::abs(normal.dot(offset)) > options.max_plane_distance_m) return false;
+    if (std::abs(normal.dot(offset)) > kMaxPlaneDistance_m) return false;
     const Eigen::Vector3d other = T.rotation * source_normals.at(index).normal.cast<double>();
     return std::abs(normal.dot(other)) >= min_cosine;
   };
@@ -31,7 +37,7 @@ std::vector<Sight> one_way(const SensorView& target, const SensorView& source,
     const auto seen = target.image.at(point);
     if (!seen) return Sight::unseen;
     const double range_m = point.norm();
-    const double margin_m = std::max(options.range_margin_m, options.range_ratio * range_m);
+    const double margin_m = std::max(kRangeMargin_m, kRangeRatio * range_m);
     if (range_m > seen->farthest_m + margin_m) return Sight::hidden;
     if (range_m < seen->nearest_m - margin_m) return Sight::violates;
     return agrees(index, point) ? Sight::agrees : Sight::disagrees;
@@ -99,9 +105,9 @@ std::optional<double> lead_over(const PoseEvidence& evidence, const PoseEvidence
 }
 
 PoseEvidence pose_evidence(const SensorView& target, const SensorView& source,
-                           const RigidTransform& T_target_source, const EvidenceOptions& options) {
-  return {one_way(target, source, T_target_source, options),
-          one_way(source, target, T_target_source.inverse(), options)};
+                           const RigidTransform& T_target_source) {
+  return {one_way(target, source, T_target_source),
+          one_way(source, target, T_target_source.inverse())};
 }
 
 }  // namespace croon

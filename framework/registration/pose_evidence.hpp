@@ -9,15 +9,6 @@
 
 namespace croon {
 
-/// When points agree, and when they contradict.
-struct EvidenceOptions {
-  double max_distance_m = 0.5;        ///< To the nearest point of the other cloud.
-  double max_plane_distance_m = 0.1;  ///< To the plane through it.
-  double max_normal_angle_deg = 30.0;
-  double range_margin_m = 0.4;  ///< Ranges agree that differ by at most this.
-  double range_ratio = 0.02;    ///< So do those that differ by at most this share of them.
-};
-
 /// What a point of one cloud is to the other sensor at a pose.
 enum class Sight : std::uint8_t {
   unseen,     ///< In a direction without a return.
@@ -43,7 +34,7 @@ struct PoseEvidence {
 
 /// How well two views agree at the pose `T_target_source`.
 PoseEvidence pose_evidence(const SensorView& target, const SensorView& source,
-                           const RigidTransform& T_target_source, const EvidenceOptions& options);
+                           const RigidTransform& T_target_source);
 
 /// By how many standard deviations the evidence for a pose is better than for `other`, a pose of
 /// the same two views: of the points that are visible at both poses a agree at the first alone and

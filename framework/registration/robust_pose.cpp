@@ -42,8 +42,10 @@ double surrogate_weight(double squared_residual, double squared_bound, double mu
   return std::sqrt(squared_bound / squared_residual * mu * (mu + 1.0)) - mu;
 }
 
-}  // namespace
-
+/// The rotation R with the least truncated squares of `target[i] - R source[i]` (lengths in m; the
+/// square of a residual beyond `bound_m` counts as that of the bound), by graduated non-convexity
+/// (Yang, Antonante, Tzoumas and Carlone, RA-L 2020) around the closed form of Horn and Arun
+/// (weighted singular value decomposition).
 Eigen::Matrix3d robust_rotation(const Vectors& target, const Vectors& source, double bound_m) {
   constexpr double kGrowth = 1.4;  // Of the control, per round (Yang et al. 2020).
   constexpr int kMaxRounds = 100;
@@ -67,6 +69,8 @@ Eigen::Matrix3d robust_rotation(const Vectors& target, const Vectors& source, do
   }
   return R;
 }
+
+}  // namespace
 
 double most_voted(std::vector<double> values, double bound) {
   std::sort(values.begin(), values.end());

@@ -278,7 +278,7 @@ StageEntry joint_registration() {
       "joint_registration",
       "Sees the whole rig: registers all sensors together with the velocity of each scene, and "
       "removes the distortion of the scans by it.",
-      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 10);
+      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 11);
 }
 
 }  // namespace croon::stages::step

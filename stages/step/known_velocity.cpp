@@ -75,15 +75,6 @@ Eigen::Vector3d vector_from(const std::vector<double>& list) {
   return Eigen::Vector3d(list.data());
 }
 
-/// The matrix that takes velocities of the frame b to those of a: the adjoint of `T_a_b`.
-Matrix6d adjoint(const RigidTransform& T_a_b) {
-  Matrix6d columns;
-  for (int i = 0; i < 6; ++i) {
-    columns.col(i) = vector_of(velocity_in(T_a_b, stepped(Twist(), Vector6d(Vector6d::Unit(i)))));
-  }
-  return columns;
-}
-
 class KnownVelocityStep final : public GivenMotionStep {
  public:
   explicit KnownVelocityStep(Params params) : params_(std::move(params)) {

@@ -78,7 +78,7 @@ class Verdict final : public Step {
     const auto target = shared_view(*estimate.target, params_.thinning);
     const auto source = shared_view(*estimate.source, params_.thinning);
     const RigidTransform T = estimate.T_target_source;
-    const PoseEvidence evidence = pose_evidence(*target, *source, T, {});
+    const PoseEvidence evidence = pose_evidence(*target, *source, T);
     constexpr double kContact_m = 0.3;
     const std::vector<HeldDirection> held = held_directions(*target, *source, T, kContact_m);
     const Halves halves = halves_of(*target, *source, T, held);
@@ -187,7 +187,7 @@ class Verdict final : public Step {
       if (++refined > kRefined) break;
       const RigidTransform T = refined_pose(other.T_target_source, target, points);
       if (agree(T, estimate.T_target_source, kSameHypothesis)) continue;
-      const PoseEvidence its = pose_evidence(target, source, T, {});
+      const PoseEvidence its = pose_evidence(target, source, T);
       if (its.violation_ratio() > params_.max_violation_ratio) continue;
       const std::optional<double> lead = lead_over(evidence, its);
       if (lead) least = std::min(*lead, least.value_or(*lead));

@@ -27,11 +27,11 @@ TEST(PoseEvidence, IsBestAtTheTruth) {
         test::street_pair(rng, i, test::random_pose(rng, 1.0), 20000, 12000, 0.01);
     const SensorView target = view_of(pair.target, 1);
     const SensorView source = view_of(pair.source, 2);
-    const PoseEvidence truth = pose_evidence(target, source, pair.T_target_source, {});
+    const PoseEvidence truth = pose_evidence(target, source, pair.T_target_source);
     EXPECT_GT(truth.overlap_ratio(), 0.4) << "street " << i;
     for (int k = 0; k < 10; ++k) {
       const RigidTransform off = test::pose_near(rng, pair.T_target_source, 20.0, 2.0);
-      EXPECT_LT(pose_evidence(target, source, off, {}).score(), truth.score()) << "street " << i;
+      EXPECT_LT(pose_evidence(target, source, off).score(), truth.score()) << "street " << i;
     }
   }
 }
@@ -46,7 +46,7 @@ TEST(PoseEvidence, KnowsPointsInFreeSpace) {
     wall.emplace_back(10.0F, y, z);
     if (i < 2000) board.emplace_back(5.0F, 0.2F * y, 0.2F * z);
   }
-  const PoseEvidence evidence = pose_evidence(view_of(wall, 1), view_of(board, 2), {}, {});
+  const PoseEvidence evidence = pose_evidence(view_of(wall, 1), view_of(board, 2), {});
   const auto count = [](const std::vector<Sight>& sights, Sight sight) {
     return std::count(sights.begin(), sights.end(), sight);
   };
@@ -63,7 +63,7 @@ TEST(PoseEvidence, HasEachPointOfTheSamplesOnce) {
       test::street_pair(rng, 3, test::random_pose(rng, 1.0), 8000, 5000, 0.01);
   const SensorView target = view_of(pair.target, 1);
   const SensorView source = view_of(pair.source, 2);
-  const PoseEvidence evidence = pose_evidence(target, source, test::random_pose(rng, 3.0), {});
+  const PoseEvidence evidence = pose_evidence(target, source, test::random_pose(rng, 3.0));
   EXPECT_EQ(evidence.source.size(), source.sample.size());
   EXPECT_EQ(evidence.target.size(), target.sample.size());
 }
@@ -118,11 +118,11 @@ TEST(PoseEvidence, HasNoLeadWhereHalfATurnLooksTheSame) {
     const SensorView source = view_of(room_from(rng, at, 20000), 2, 30);
     const RigidTransform turned = {rotation_exp(kPi * Eigen::Vector3d::UnitZ()), -at};
     const RigidTransform off = {Eigen::Matrix3d::Identity(), at + Eigen::Vector3d(0.3, 0.3, 0.0)};
-    const PoseEvidence right = pose_evidence(target, source, {Eigen::Matrix3d::Identity(), at}, {});
-    const double lead = lead_over(right, pose_evidence(target, source, turned, {})).value();
+    const PoseEvidence right = pose_evidence(target, source, {Eigen::Matrix3d::Identity(), at});
+    const double lead = lead_over(right, pose_evidence(target, source, turned)).value();
     EXPECT_LT(std::abs(lead), 4.0) << "room " << i;
     square_sum += lead * lead;
-    EXPECT_GT(lead_over(right, pose_evidence(target, source, off, {})).value(), 10.0) << i;
+    EXPECT_GT(lead_over(right, pose_evidence(target, source, off)).value(), 10.0) << i;
   }
   // Points side by side err together, so it is a little more than one.
   EXPECT_LT(std::sqrt(square_sum / kRooms), 2.0);

@@ -100,10 +100,9 @@ double agreement_at(double off_m, const std::optional<Eigen::Vector3d>& axis = s
   const StillTarget target(scene, Twist{}, options);
   const JointState state = sensor_at(off_m);
   double sum = 0.0;
-  for (const auto& [cell, agreeing] :
-       pair_agreement(scene.sources[0], target, last_view(state, Twist{}, options), axis).by_cell) {
-    sum += agreeing;
-  }
+  const PairAgreement pair =
+      pair_agreement(scene.sources[0], target, last_view(state, Twist{}, options));
+  for (const auto& [cell, agreeing] : pair.by_cell(axis)) sum += agreeing;
   return sum;
 }
 
