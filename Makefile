@@ -68,8 +68,9 @@ RUN_TESTS = for program in $(addprefix build/$(1)/bin/test_,$(or $(4),*)); do pr
     GTEST_SHARD_INDEX=$$1 "$$0" --gtest_brief=1 --gtest_filter="$(3)" || exit 255'
 
 # Long under a sanitizer, from ten seconds to minutes: tests of a stage that shorter ones run too, simulated statistics, LaTeX,
-# kills, comparisons of threads, which have a sanitizer of their own, and a comparison with brute force.
-LONG_WHEN_SANITIZED = *CoversTheTr*:*KeepsItsLevel*:*WhereTrialsOfASceneAreAlike*:*ExportedLatex*:*AtEachChange*:JointRegistration.SaysHowWell*:JointRegistration.FindsThePosesAndTheVelocity*:*FindsTheOffsetOfAClock*:JointRegistration.EstimatesWhatRemains*:JointRegistration.FailsTheSensor*:JointRegistration.RejectsAScene*:JointRegistration.KnowsTheVelocity*:BundleAdjustment.ManyScenes*:JointRegistration.MovesOneTarget*:JointRegistration.LeavesTheCloudsOf*:FeatureAlignment.FindsThe*:*TurnedAnyhow*:*UpsideDown*:*DoesNotDependOnTheStart*:*SameOnOneThreadAndOnFour/step_*:BundleAdjustment.AnErrorOfTheSpeed*:BundleAdjustment.WhatIsNotKnownOfTheVelocity*:BundleAdjustment.FindsOnePose*:JointRegistration.ASensorThatTheVelocity*:LayeredMap.FindsYaw*:SimulatedScene.EveryPointLies*
+# kills, comparisons of threads, which have a sanitizer of their own, a comparison with brute force, and a test of hostile
+# stores, which the fuzz target of stores has too.
+LONG_WHEN_SANITIZED = CraftedStore.IsRefusedInOneLine*:*CoversTheTr*:*KeepsItsLevel*:*WhereTrialsOfASceneAreAlike*:*ExportedLatex*:*AtEachChange*:JointRegistration.SaysHowWell*:JointRegistration.FindsThePosesAndTheVelocity*:*FindsTheOffsetOfAClock*:JointRegistration.EstimatesWhatRemains*:JointRegistration.FailsTheSensor*:JointRegistration.RejectsAScene*:JointRegistration.KnowsTheVelocity*:BundleAdjustment.ManyScenes*:JointRegistration.MovesOneTarget*:JointRegistration.LeavesTheCloudsOf*:FeatureAlignment.FindsThe*:*TurnedAnyhow*:*UpsideDown*:*DoesNotDependOnTheStart*:*SameOnOneThreadAndOnFour/step_*:BundleAdjustment.AnErrorOfTheSpeed*:BundleAdjustment.WhatIsNotKnownOfTheVelocity*:BundleAdjustment.FindsOnePose*:JointRegistration.ASensorThatTheVelocity*:LayeredMap.FindsYaw*:SimulatedScene.EveryPointLies*
 SANITIZED_TESTS ?=
 sanitize: sanitizer_packages
 	cmake --preset sanitized
