@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/base/error.hpp"
+#include "framework/io/text_scan.hpp"
 #include "registry/help_parts.hpp"
 
 namespace croon {
@@ -100,7 +101,7 @@ HelpFormat help_format(const std::string& name) {
   if (name == "text") return HelpFormat::text;
   if (name == "json") return HelpFormat::json;
   if (name == "markdown") return HelpFormat::markdown;
-  throw InputError("", "format", "expected text, json or markdown, found \"" + name + "\"");
+  throw InputError("", "format", "expected text, json or markdown, found " + in_quotes(name));
 }
 
 std::string stages_help(const Catalogue& catalogue, const std::string& which, HelpFormat format) {

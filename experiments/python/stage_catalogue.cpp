@@ -9,7 +9,6 @@
 #include "experiments/python/estimates.hpp"
 #include "experiments/python/stage_adapters.hpp"
 #include "experiments/python/stage_parameters.hpp"
-#include "framework/io/text_scan.hpp"
 #include "framework/params/group.hpp"
 #include "registry/help.hpp"
 #include "registry/registry.hpp"

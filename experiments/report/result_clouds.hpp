@@ -21,13 +21,15 @@ namespace croon::experiments {
 std::string draw_before_after(const Experiment& experiment, const std::vector<Scene>& scenes,
                               const Summary& summary, const std::filesystem::path& path);
 
-/// Writes, for each variant and scene, the clouds of the rig in the reference's frame, each sensor
-/// at its agreed pose if it has a result in the scene: `folder/<variant>/<scene>.ply`, coloured by
-/// sensor, and `<scene>.vdb`, the leaves of 0.05 m that they occupy.
+/// What write_fused_clouds came to.
 struct FusedClouds {
   std::vector<std::string> complaints;  ///< What could not be written and why, a line each.
   bool is_any = false;                  ///< False if no trials agree, so that there is none.
 };
+
+/// Writes, for each variant and scene, the clouds of the rig in the reference's frame, each sensor
+/// at its agreed pose if it has a result in the scene: `folder/<variant>/<scene>.ply`, coloured by
+/// sensor, and `<scene>.vdb`, the leaves of 0.05 m that they occupy.
 FusedClouds write_fused_clouds(const Experiment& experiment, const std::vector<Scene>& scenes,
                                const Summary& summary, const std::filesystem::path& folder);
 
