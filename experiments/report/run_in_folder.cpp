@@ -157,9 +157,9 @@ FolderResults run_in_folder(const CheckedRun& run, StoreHeader header, const Out
   std::set<std::string> damage;
   if (has_lost_trials(run, work.plan, folder.file(kTimings))) {
     progress_out << "croon: " << printable(folder.store().string())
-                 << ": trials that were stored are not in it: its log "
+                 << ": trials that were stored are not in it: it is lost, or its log "
                  << printable(folder.store().filename().string())
-                 << "-wal, which an interrupted run leaves beside it, is lost; they run again\n";
+                 << "-wal, which an interrupted run leaves beside it; they run again\n";
   }
   if (work.plan.trials > 0 || !is_same(work.stored, work.header)) {
     Progress progress(progress_out, how.progress, work.plan.trials + work.done);

@@ -15,6 +15,7 @@
 #include "experiments/run/scene_groups.hpp"
 #include "experiments/run/starts.hpp"
 #include "experiments/run/trial_end.hpp"
+#include "framework/base/text.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/pipeline/calibrate.hpp"
 
@@ -145,6 +146,16 @@ Trial trial_at_start(const Run& run, const LoadedGroup& loaded, const Unit& unit
   return trial;
 }
 
+/// In how many scenes of a group the sensor failed, and why in the first of them; empty if in none.
+std::string lost_scenes(const std::vector<const RigMember*>& members) {
+  const auto failed = [](const RigMember* member) { return !member->result.failure.empty(); };
+  const auto first = std::find_if(members.begin(), members.end(), failed);
+  if (first == members.end()) return "";
+  return std::to_string(std::count_if(first, members.end(), failed)) + " of " +
+         counted(members.size(), "scene") + " failed, in " + (*first)->scene + ": " +
+         (*first)->result.failure;
+}
+
 /// What the members of `rig` that are the sensor with the index `sensor` come to. A reason says in
 /// which scene of a group.
 PipelineResult result_of(const Scene& group, const Rig& rig,
@@ -154,7 +165,10 @@ PipelineResult result_of(const Scene& group, const Rig& rig,
     if (sensors[i] == sensor) members.push_back(&rig[i]);
   }
   PipelineResult result = result_of_sensor(members);
-  if (!group.parts.empty() && !result.failure.empty()) {
+  if (group.parts.empty()) return result;
+  if (result.failure.empty()) {
+    result.remark = lost_scenes(members);
+  } else {
     result.failure = "in all scenes; in " + members.front()->scene + ": " + result.failure;
   }
   return result;

@@ -64,6 +64,9 @@ TrialRecord record_of(const TrialId& id, const PipelineResult& result, const Sen
   record.reason = result.failure;
   record.steps = result.records;
   if (result.failure.empty()) finish(record, result.estimate, scan, bounds);
+  if (!result.remark.empty()) {
+    record.reason += (record.reason.empty() ? "" : "; ") + result.remark;
+  }
   return record;
 }
 

@@ -133,10 +133,6 @@ bool agree(const RigidTransform& a, const RigidTransform& b, const PoseBounds& b
          rotation_angle(a.rotation * b.rotation.transpose()) <= bounds.rotation_rad;
 }
 
-Eigen::Matrix3d mean_rotation(const std::vector<RigidTransform>& poses) {
-  return mean_pose(poses).rotation;
-}
-
 RigidTransform mean_pose(const std::vector<RigidTransform>& poses) {
   require_poses(poses);
   return mean_of_ordered(poses_of(in_fixed_order(poses)));

@@ -18,13 +18,10 @@ struct PoseBounds {
 /// it.
 bool agree(const RigidTransform& a, const RigidTransform& b, const PoseBounds& bounds);
 
-/// The mean rotation: the unit quaternion with the largest `q^T (sum q_i q_i^T) q` (Markley et al.
-/// 2007). Neither the order nor the signs of quaternions matter; commutes with a turn from the left
-/// or the right. Throws std::logic_error if `poses` is empty.
-Eigen::Matrix3d mean_rotation(const std::vector<RigidTransform>& poses);
-
-/// The mean rotation with the arithmetic mean of the translations; commutes with a motion from the
-/// left. Throws std::logic_error if `poses` is empty.
+/// The mean rotation, the unit quaternion with the largest `q^T (sum q_i q_i^T) q` (Markley et al.
+/// 2007), with the arithmetic mean of the translations. Neither the order of the poses nor the
+/// signs of quaternions matter. The rotation commutes with a turn from the left or the right, the
+/// pose with a motion from the left. Throws std::logic_error if `poses` is empty.
 RigidTransform mean_pose(const std::vector<RigidTransform>& poses);
 
 /// A pose and the inverse of its covariance, see PoseCovariance; zero if nothing is known of it.

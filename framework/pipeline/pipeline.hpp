@@ -31,6 +31,7 @@ struct PipelineResult {
   Estimate estimate;    ///< Of the last step that did not fail.
   std::string failure;  ///< Empty, or the step that failed and the reason.
   std::vector<StepRecord> records;
+  std::string remark = {};  ///< Empty, or what else is to be known of the result.
 };
 
 /// The state before the first step.

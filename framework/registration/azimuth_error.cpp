@@ -317,12 +317,11 @@ Eigen::Vector3d without_error(const Eigen::Vector3d& point, const AzimuthError& 
   return {c * point.x() + s * point.y(), c * point.y() - s * point.x(), point.z()};
 }
 
-std::shared_ptr<const Cloud> without_error(const Cloud& cloud, const AzimuthError& error) {
-  PointCloud corrected = cloud.with_channels();
-  for (Eigen::Vector3f& point : corrected.points) {
+PointCloud without_error(PointCloud cloud, const AzimuthError& error) {
+  for (Eigen::Vector3f& point : cloud.points) {
     point = without_error(point.cast<double>(), error).cast<float>();
   }
-  return cloud.derived(std::move(corrected), "without_azimuth_error");
+  return cloud;
 }
 
 const params::Table<AzimuthOptions>& azimuth_table() {

@@ -28,7 +28,7 @@ struct AzimuthError {
 Eigen::Vector3d without_error(const Eigen::Vector3d& point, const AzimuthError& error);
 
 /// `cloud` with its points without the error; its channels stay.
-std::shared_ptr<const Cloud> without_error(const Cloud& cloud, const AzimuthError& error);
+PointCloud without_error(PointCloud cloud, const AzimuthError& error);
 
 /// One scene in which a sensor's azimuths are compared with a target's surfaces.
 struct AzimuthView {

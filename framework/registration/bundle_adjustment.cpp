@@ -7,6 +7,7 @@
 #include "framework/registration/bundle_observability.hpp"
 #include "framework/registration/bundle_system.hpp"
 #include "framework/registration/bundle_uncertainty.hpp"
+#include "framework/registration/clock_offset.hpp"
 
 namespace croon {
 namespace {
@@ -162,6 +163,7 @@ const params::Table<BundleOptions>& bundle_table() {
     rows.inherit(voxel_table());
     rows.require([](const O& o) { return o.start_std.size() == 2; },
                  "start_std must have two numbers, degrees and metres");
+    rows.require([](const O& o) { return is_clock_std(o.clock_offset_std_s); }, kClockStdIs);
     return rows;
   }();
   return table;

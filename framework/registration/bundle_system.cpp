@@ -171,6 +171,8 @@ BundleCost BundleSystem::with_offsets(const BundleCost& cost, std::size_t scene)
     if (has_velocity) follow.block<6, 6>(6 * a, 7 * sensors) = offset_s * along;
   }
   if (has_velocity) follow.bottomRightCorner<6, 6>().setIdentity();
+  // The second derivatives of exp(xi d) T are left out, as in Gauss-Newton: with offsets the
+  // Hessian is not exact.
   return {cost.value, follow.transpose() * cost.gradient,
           follow.transpose() * cost.hessian * follow};
 }

@@ -181,6 +181,11 @@ Matrix6d velocity_information(const JointScene& scene, const JointOptions& optio
     const Matrix6d least = Vector6d::Constant(kLeastStd * kLeastStd).asDiagonal();
     return width_m * width_m * guarded_inverse<6>(*scene.velocity_covariance + least);
   }
+  return unknown_velocity_information(options);
+}
+
+Matrix6d unknown_velocity_information(const JointOptions& options) {
+  const double width_m = options.kernel_width_m;
   Vector6d shares;
   shares << Eigen::Vector3d::Constant(width_m / options.velocity_std[1]),
       Eigen::Vector3d::Constant(width_m / options.velocity_std[0]);

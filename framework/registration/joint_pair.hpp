@@ -68,6 +68,9 @@ using PairMatrix = Eigen::Matrix<double, kPairUnknowns, kPairUnknowns>;
 /// be below 0.1 mm/s and 0.1 mrad/s.
 Matrix6d velocity_information(const JointScene& scene, const JointOptions& options);
 
+/// The same if no step before has given a velocity.
+Matrix6d unknown_velocity_information(const JointOptions& options);
+
 /// Where the points of a scene are compared, and which of them correspond.
 struct JointView {
   const JointState& state;

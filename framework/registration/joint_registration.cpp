@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "framework/base/threads.hpp"
+#include "framework/registration/clock_offset.hpp"
 #include "framework/registration/joint_pair.hpp"
 
 namespace croon {
@@ -208,6 +209,8 @@ const params::Table<JointOptions>& joint_table() {
                  "max_distances_m must have a number");
     rows.require([](const JointOptions& o) { return o.velocity_std.size() == 2; },
                  "velocity_std must have two numbers, m/s and rad/s");
+    rows.require([](const JointOptions& o) { return is_clock_std(o.clock_offset_std_s); },
+                 kClockStdIs);
     return rows;
   }();
   return table;

@@ -30,6 +30,8 @@ struct JointScene {
   /// Of the velocity, which is expected to be zero, before any point is seen: about the axes in
   /// rad/s, along them in m/s. Without it JointOptions::velocity_std.
   std::optional<Matrix6d> velocity_covariance;
+  Twist removed =
+      {};  ///< The velocity that a step before has removed; the unknown one is added to it.
 };
 
 /// The unknowns of a joint registration.
@@ -61,10 +63,11 @@ const params::Table<JointOptions>& joint_table();
 /// The result of a joint registration.
 struct JointRegistration {
   JointState state;
-  double rmse_m = 0.0;  ///< Root of the weighted mean of the squared residuals, of all pairs.
+  /// Root of the weighted mean of the squared residuals, of all pairs, before the last step.
+  double rmse_m = 0.0;
   int iterations = 0;
   bool converged = false;
-  std::vector<std::vector<int>> correspondences;  ///< Of each scene's sources.
+  std::vector<std::vector<int>> correspondences;  ///< Of each scene's sources, before it too.
 };
 
 /// A source with fewer correspondences does not take part in an iteration.

@@ -78,7 +78,8 @@ std::vector<JointState> other_speeds(const JointScene& scene, const JointState& 
                                      const Eigen::Vector3d& axis,
                                      const std::vector<double>& speeds_mps,
                                      const JointOptions& options) {
-  const Twist& velocity = state.velocities.front();
+  const double speed_now_mps =
+      (scene.removed.linear_mps + state.velocities.front().linear_mps).dot(axis);
   std::vector<double> later_s(state.T_target_sensor.size(), 0.0);
   const std::vector<PairAgreement> pairs = agreements_in(scene, state, options);
   for (std::size_t j = 0; j < pairs.size(); ++j) {
@@ -86,7 +87,7 @@ std::vector<JointState> other_speeds(const JointScene& scene, const JointState& 
   }
   std::vector<JointState> others;
   for (const double speed_mps : speeds_mps) {
-    const Eigen::Vector3d change_mps = (speed_mps - velocity.linear_mps.dot(axis)) * axis;
+    const Eigen::Vector3d change_mps = (speed_mps - speed_now_mps) * axis;
     JointState other = state;
     other.velocities.front().linear_mps += change_mps;
     for (std::size_t k = 0; k < later_s.size(); ++k) {

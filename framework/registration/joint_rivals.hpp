@@ -7,8 +7,9 @@
 namespace croon {
 
 /// Other starts for the registration of one scene than `state`: its speed along `axis` (a unit
-/// vector in the target's frame) is each of `speeds_mps`. The sensors move by what the rig travels
-/// between the target's scan and theirs, so the clouds stay about where they met.
+/// vector in the target's frame), with what a step before has removed, is each of `speeds_mps`. The
+/// sensors move by what the rig travels between the target's scan and theirs, so the clouds stay
+/// about where they met.
 std::vector<JointState> other_speeds(const JointScene& scene, const JointState& state,
                                      const Eigen::Vector3d& axis,
                                      const std::vector<double>& speeds_mps,

@@ -71,7 +71,10 @@ Matrix6d velocity_covariance(const StillTarget& target, const JointState& state,
     const Vector6d step = guarded_inverse<6>(information) * gradient;
     covariance += step * step.transpose();
   }
-  return covariance;
+  // No velocity is less known than one of which nothing was seen.
+  const double width_m = options.kernel_width_m;
+  const Matrix6d of_unknown = unknown_velocity_information(options) / (width_m * width_m);
+  return guarded_inverse<6>(guarded_inverse<6>(covariance) + of_unknown);
 }
 
 std::vector<double> shift_std_m(const StillTarget& target, const Matrix6d& covariance,

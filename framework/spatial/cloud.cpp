@@ -17,4 +17,9 @@ std::shared_ptr<const Cloud> Cloud::derived(PointCloud cloud, const std::string&
       new Cloud(std::move(cloud), key_.with(purpose), log_, prefix_ + purpose + "/"));
 }
 
+std::shared_ptr<const Cloud> Cloud::derived_in_trial(PointCloud cloud,
+                                                     const std::string& purpose) const {
+  return std::shared_ptr<const Cloud>(new Cloud(std::move(cloud), key_.with(purpose), nullptr, ""));
+}
+
 }  // namespace croon

@@ -51,13 +51,19 @@ class Cloud {
   /// Its timings go to the same log.
   std::shared_ptr<const Cloud> derived(PointCloud cloud, const std::string& purpose) const;
 
+  /// The same, of one trial alone, as it depends on a pose or a velocity of the trial. What is
+  /// computed on it is in no log: it is work of the step that asks for it.
+  std::shared_ptr<const Cloud> derived_in_trial(PointCloud cloud, const std::string& purpose) const;
+
   /// The generator for a computation on this cloud alone; the same for every trial. `purpose` names
   /// the stage and not its parameters, so that variants of a stage draw the same numbers and a new
   /// parameter changes no draw.
   Rng rng(const std::string& purpose) const { return Rng(key_.with(purpose)); }
 
   /// What has been made once so far, for this cloud and those derived from it.
-  std::vector<OnceTiming> timings() const { return log_->timings(); }
+  std::vector<OnceTiming> timings() const {
+    return log_ ? log_->timings() : std::vector<OnceTiming>();
+  }
 
  private:
   Cloud(PointCloud cloud, const StreamKey& key, std::shared_ptr<OnceLog> log, std::string prefix)
@@ -69,8 +75,8 @@ class Cloud {
 
   PointCloud cloud_;
   StreamKey key_;
-  std::shared_ptr<OnceLog> log_;
-  std::string prefix_;  ///< The purpose of this cloud in the log: "ground/ransac/".
+  std::shared_ptr<OnceLog> log_;  ///< Null for a cloud of one trial.
+  std::string prefix_;            ///< The purpose of this cloud in the log: "ground/ransac/".
   OnceTable once_;
 };
 

@@ -23,11 +23,10 @@ Points deskewed(const Points& points, const std::vector<double>& times_s, const 
   return moved;
 }
 
-std::shared_ptr<const Cloud> deskewed(const Cloud& cloud, const std::vector<double>& times_s,
-                                      const Twist& velocity, double reference_s) {
-  PointCloud moved = cloud.with_channels();
-  moved.points = deskewed(moved.points, times_s, velocity, reference_s);
-  return cloud.derived(std::move(moved), "still");
+PointCloud deskewed(PointCloud cloud, const std::vector<double>& times_s, const Twist& velocity,
+                    double reference_s) {
+  cloud.points = deskewed(cloud.points, times_s, velocity, reference_s);
+  return cloud;
 }
 
 TimeSpan span_of(const std::vector<double>& times_s) {

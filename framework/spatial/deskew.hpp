@@ -1,11 +1,9 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "framework/geometry/point_cloud.hpp"
 #include "framework/geometry/twist.hpp"
-#include "framework/spatial/cloud.hpp"
 
 namespace croon {
 
@@ -17,8 +15,8 @@ Points deskewed(const Points& points, const std::vector<double>& times_s, const 
                 double reference_s);
 
 /// `cloud` with these points; its channels stay.
-std::shared_ptr<const Cloud> deskewed(const Cloud& cloud, const std::vector<double>& times_s,
-                                      const Twist& velocity, double reference_s);
+PointCloud deskewed(PointCloud cloud, const std::vector<double>& times_s, const Twist& velocity,
+                    double reference_s);
 
 /// The first and the last of `times_s`, which must not be empty.
 struct TimeSpan {

@@ -46,10 +46,10 @@ std::any OnceTable::get_any(const std::string& what, const std::string& paramete
     } catch (...) {
       entry->error = std::current_exception();
     }
-    log_->add({prefix_ + what, now_s() - start - (shared_work_s - spent_before)});
+    if (log_) log_->add({prefix_ + what, now_s() - start - (shared_work_s - spent_before)});
   });
   // All of the wall time was shared work, that inside nested calls too.
-  shared_work_s = spent_before + (now_s() - start);
+  if (log_) shared_work_s = spent_before + (now_s() - start);
   if (entry->error) std::rethrow_exception(entry->error);
   return entry->value;
 }

@@ -37,7 +37,8 @@ double seconds_spent_on_shared_work();
 /// every later call.
 class OnceTable {
  public:
-  /// Writes each computation to `log`, its name with `prefix` in front.
+  /// Writes each computation to `log`, its name with `prefix` in front. If `log` is null, the
+  /// values are not shared between trials, and the time counts as the asking step's own.
   OnceTable(std::shared_ptr<OnceLog> log, std::string prefix)
       : log_(std::move(log)), prefix_(std::move(prefix)) {}
 

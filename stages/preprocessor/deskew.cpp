@@ -53,10 +53,7 @@ class Deskew final : public Preprocessor {
   PointCloud apply(const PointCloud& cloud) const override {
     if (cloud.empty()) return cloud;
     const std::vector<double> times = times_s(cloud);
-    const double reference_s = reference_time_s(times);
-    PointCloud moved = cloud;
-    moved.points = deskewed(cloud.points, times, velocity_, reference_s);
-    return moved;
+    return deskewed(cloud, times, velocity_, reference_time_s(times));
   }
 
  private:

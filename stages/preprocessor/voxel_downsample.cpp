@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <unordered_map>
@@ -26,6 +27,7 @@ const params::Table<Params>& table() {
 /// The points of one leaf.
 struct LeafSum {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double time_sum = 0.0;  ///< Of the differences to the first point, in units of the channel.
   std::uint64_t points = 0;
 };
 
@@ -49,6 +51,7 @@ class VoxelDownsample final : public Preprocessor {
     std::vector<LeafSum> leaves;  // In the order of their first points in the cloud.
     std::vector<std::size_t> first_points;
     const std::vector<std::uint32_t> measured = measured_points(cloud);
+    const Channel* const time = find_channel(cloud, kTime);
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       const Eigen::Vector3d point = cloud.points[i].cast<double>();
       const auto [entry, is_new] =
@@ -60,6 +63,8 @@ class VoxelDownsample final : public Preprocessor {
       LeafSum& leaf = leaves[entry->second];
       leaf.sum += measured[i] * point;
       leaf.points += measured[i];
+      if (time == nullptr) continue;
+      leaf.time_sum += measured[i] * (time->value(i) - time->value(first_points[entry->second]));
     }
     PointCloud thinned = selected(cloud, first_points);
     std::vector<std::uint32_t> counts(leaves.size());
@@ -69,10 +74,28 @@ class VoxelDownsample final : public Preprocessor {
       thinned.points[i] = (leaves[i].sum / static_cast<double>(leaves[i].points)).cast<float>();
     }
     set_channel(thinned, make_channel(kMeanOf, counts));
+    if (time != nullptr) set_channel(thinned, mean_times(*time, leaves, first_points));
     return thinned;
   }
 
  private:
+  /// When the mean of each leaf was measured: a mean of points that a motion moves is where a point
+  /// of the mean time would be.
+  static Channel mean_times(const Channel& time, const std::vector<LeafSum>& leaves,
+                            const std::vector<std::size_t>& first_points) {
+    Channel means = {time.name, time.type, 1, {}};
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      const double first = time.value(first_points[i]);
+      double mean = first + leaves[i].time_sum / static_cast<double>(leaves[i].points);
+      if (time.type.kind != ScalarKind::floating) mean = std::round(mean);
+      // Integers of 64 bits are more exact than double.
+      if (mean == first || !append_scalar(means.bytes, time.type, mean)) {
+        means.bytes.append(time.bytes, first_points[i] * time.bytes_per_point(), time.type.size);
+      }
+    }
+    return means;
+  }
+
   LeafGrid grid_;
 };
 
@@ -81,9 +104,10 @@ class VoxelDownsample final : public Preprocessor {
 StageEntry voxel_downsample() {
   return stage_entry<VoxelDownsample>(
       "voxel_downsample",
-      "Replaces the points of each leaf by their mean, with the channels of the first of them, in "
-      "the order of the cloud. The channel mean_of says how many there were.",
-      "croon", table(), 2);
+      "Replaces the points of each leaf by their mean, at the mean of their times and with the "
+      "other channels of the first of them, in the order of the cloud. The channel mean_of says "
+      "how many there were.",
+      "croon", table(), 3);
 }
 
 }  // namespace croon::stages::preprocessor

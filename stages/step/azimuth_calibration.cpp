@@ -13,6 +13,8 @@
 namespace croon::stages::step {
 namespace {
 
+constexpr const char* kWithoutError = "without_azimuth_error";
+
 /// An azimuth error in the units of users.
 struct KnownError {
   double offset_deg = 0.0;
@@ -97,21 +99,19 @@ class AzimuthCalibrationStep final : public RigStep {
     Estimate& estimate = one.estimate;
     const auto of_target = known_.find(one.target);
     if (of_target != known_.end()) {
-      const AzimuthError error = of_target->second.error();
-      // The target is the same for all sensors and trials of the scene.
-      estimate.take_clouds(
-          estimate.target->once<Cloud>("without_azimuth_error", of_target->second.key(),
-                                       [&] { return without_error(*estimate.target, error); }),
-          estimate.source);
+      estimate.take_clouds(corrected(*estimate.target, of_target->second), estimate.source);
     }
     const auto of_source = known_.find(one.source);
     if (of_source == known_.end()) return;
-    correct(of_source->second.error(), estimate);
+    estimate.take_clouds(estimate.target, corrected(*estimate.source, of_source->second));
+    estimate.information.reset();
   }
 
-  static void correct(const AzimuthError& error, Estimate& estimate) {
-    estimate.take_clouds(estimate.target, without_error(*estimate.source, error));
-    estimate.information.reset();
+  /// The same for all sensors and trials of the scene.
+  static std::shared_ptr<const Cloud> corrected(const Cloud& cloud, const KnownError& known) {
+    return cloud.once<Cloud>(kWithoutError, known.key(), [&] {
+      return cloud.derived(without_error(cloud.with_channels(), known.error()), kWithoutError);
+    });
   }
 
   void calibrate(const std::vector<RigEstimate*>& estimates) const {
@@ -138,7 +138,11 @@ class AzimuthCalibrationStep final : public RigStep {
   void give(const AzimuthCalibration& found, const RigidTransform& T, Estimate& estimate) const {
     const bool is_corrected = found.significance() >= params_.min_significance;
     if (is_corrected) {
-      correct(found.error, estimate);
+      const Cloud& source = *estimate.source;
+      estimate.take_clouds(estimate.target,
+                           source.derived_in_trial(
+                               without_error(source.with_channels(), found.error), kWithoutError));
+      estimate.information.reset();
       estimate.T_target_source = T;
       estimate.covariance.reset();
     }

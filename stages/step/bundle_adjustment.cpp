@@ -228,7 +228,8 @@ class BundleAdjustmentStep final : public RigStep {
       const DofWords held = better_words(result.plane_words[sensor], rig.start_words[sensor]);
       estimate.covariance->dofs = worse_words(estimate.covariance->dofs, held);
     } else {
-      estimate.covariance->matrix = guarded_inverse<6>(start.information);
+      // One pose has one covariance, though each scene had its own.
+      estimate.covariance = {guarded_inverse<6>(start.information), rig.start_words[sensor]};
     }
     const std::optional<Twist>& change = result.velocities[scene];
     const double speed_change_mps = change ? change->linear_mps.norm() : 0.0;
@@ -263,7 +264,7 @@ StageEntry bundle_adjustment() {
       "bundle_adjustment",
       "Sees the whole rig: gives each sensor, in all scenes of a trial, the pose at which what all "
       "sensors see lies best on common planes. Rejected poses take no part.",
-      "Liu and Zhang, BALM, RA-L 2021; Liu, Yuan and Zhang, MLCC, T-IM 2022", table(), 10);
+      "Liu and Zhang, BALM, RA-L 2021; Liu, Yuan and Zhang, MLCC, T-IM 2022", table(), 11);
 }
 
 }  // namespace croon::stages::step

@@ -73,7 +73,7 @@ class ConsensusStep final : public RigStep {
   /// Gives all estimates of a sensor the pose that they agree on.
   void agree_on_pose(const OfSensor& estimates) const {
     const OfSensor votes = voters(estimates);
-    RigidTransform pose = consensus_of(votes);
+    RigidTransform pose = consensus_pose(poses_of(votes), bounds_);
     const OfSensor agreeing = near(votes, pose);
     const double ratio =
         static_cast<double>(agreeing.size()) / static_cast<double>(estimates.front()->scenes);
@@ -93,6 +93,9 @@ class ConsensusStep final : public RigStep {
       for (const RigEstimate* const one : agreeing) {
         covariance->dofs = better_words(covariance->dofs, one->estimate.covariance->dofs);
       }
+    } else if (agreeing.size() > 1) {
+      // Those near the mean need not be those near the first guess, which it is the mean of.
+      pose = mean_pose(poses_of(agreeing));
     }
     const std::optional<std::string> rejection = verdict(estimates, votes, agreeing.size(), ratio);
     for (RigEstimate* const one : estimates) {
@@ -105,10 +108,10 @@ class ConsensusStep final : public RigStep {
     }
   }
 
-  RigidTransform consensus_of(const OfSensor& votes) const {
+  static std::vector<RigidTransform> poses_of(const OfSensor& estimates) {
     std::vector<RigidTransform> poses;
-    for (const RigEstimate* const vote : votes) poses.push_back(vote->estimate.T_target_source);
-    return consensus_pose(poses, bounds_);
+    for (const RigEstimate* const one : estimates) poses.push_back(one->estimate.T_target_source);
+    return poses;
   }
 
   /// The votes within the bounds of `pose`.
@@ -174,7 +177,7 @@ StageEntry consensus() {
       "consensus",
       "Sees the whole rig: gives each sensor, in all scenes of a trial, the pose that most of its "
       "scenes agree on.",
-      "the mean is that of Markley et al., Averaging Quaternions, JGCD 2007", table(), 2);
+      "the mean is that of Markley et al., Averaging Quaternions, JGCD 2007", table(), 3);
 }
 
 }  // namespace croon::stages::step

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "framework/base/error.hpp"
+#include "framework/base/threads.hpp"
 #include "framework/geometry/pose_mean.hpp"
 #include "framework/params/choice.hpp"
 #include "framework/pipeline/shared_view.hpp"
@@ -86,7 +87,9 @@ class JointRegistrationStep final : public RigStep {
       const std::string scene = params_.poses == Poses::common ? "" : one.scene;
       groups[{scene, one.target}].push_back(&one);
     }
-    for (const auto& [name, estimates] : groups) register_group(estimates);
+    std::vector<std::vector<RigEstimate*>> apart;
+    for (auto& [name, estimates] : groups) apart.push_back(std::move(estimates));
+    for_each_in_parallel(apart.size(), [&](std::size_t i) { register_group(apart[i]); });
   }
 
  private:
@@ -117,7 +120,8 @@ class JointRegistrationStep final : public RigStep {
   std::vector<std::optional<double>> leads_of(const JointScene& scene, const JointScene& coarse,
                                               const JointState& state, const SceneMotion& motion,
                                               const std::optional<JointState>& every_patch) const {
-    const Eigen::Vector3d axis = axis_of_motion(motion, state.velocities.front());
+    const Eigen::Vector3d axis =
+        axis_of_motion(motion, stepped(scene.removed, vector_of(state.velocities.front())));
     std::vector<JointState> starts =
         other_speeds(scene, state, axis, params_.other_speeds_mps, params_);
     if (every_patch) starts.push_back(*every_patch);
@@ -180,6 +184,7 @@ class JointRegistrationStep final : public RigStep {
     require_near(scene.sources.front().scan.times_s, scene.reference_s);
     scene.is_moving = params_.motion && has_times(*estimate.target) && has_times(*estimate.source);
     // A velocity that was given is removed already: what remains of it is its error.
+    if (const Twist* const removed = estimate.extras.find(kMotion)) scene.removed = *removed;
     if (const Matrix6d* const error = estimate.extras.find(kMotionCovariance)) {
       scene.velocity_covariance = *error;
       scene.is_moving = scene.is_moving && !error->isZero(0.0);
@@ -223,23 +228,28 @@ class JointRegistrationStep final : public RigStep {
       const RigidTransform& T = result.state.T_target_sensor[source.sensor];
       const double offset_s = result.state.clock_offsets_s[source.sensor];
       estimate.T_target_source = T;
-      estimate.diagnostics = diagnostics_of(result, motion, j, offset_s);
+      estimate.information.reset();
       // With common poses other scenes tell what a scene's velocity is.
       const std::string rejection =
           params_.poses == Poses::common ? "" : motion.rejection(j, params_);
       if (!rejection.empty()) estimate.rejection = with_reason(estimate.rejection, rejection);
       give_motion(estimate.extras, scene.is_moving, motion);
-      if (!motion.is_moving) continue;
-      if (!target) target = still(scene.target, motion.velocity, scene.reference_s);
-      estimate.take_clouds(target, still(source.scan, velocity_in(T.inverse(), motion.velocity),
-                                         scene.reference_s - offset_s));
+      estimate.diagnostics = diagnostics_of(result, estimate.extras, motion, j, offset_s);
+      if (!motion.is_moving && offset_s == 0.0) continue;
+      if (!target) {
+        target = motion.is_moving ? in_trial(scene.target, motion.velocity, scene.reference_s, 0.0)
+                                  : estimate.target;
+      }
+      estimate.take_clouds(target, in_trial(source.scan, velocity_in(T.inverse(), motion.velocity),
+                                            scene.reference_s, offset_s));
     }
   }
 
-  std::vector<Diagnostic> diagnostics_of(const JointRegistration& result, const SceneMotion& motion,
-                                         std::size_t source, double clock_offset_s) const {
-    std::vector<Diagnostic> diagnostics = velocity_diagnostics(motion.velocity);
-    const std::vector<Diagnostic> stds = velocity_std_diagnostics(motion.covariance);
+  std::vector<Diagnostic> diagnostics_of(const JointRegistration& result, const Extras& extras,
+                                         const SceneMotion& motion, std::size_t source,
+                                         double clock_offset_s) const {
+    std::vector<Diagnostic> diagnostics = velocity_diagnostics(extras.get(kMotion));
+    const std::vector<Diagnostic> stds = velocity_std_diagnostics(extras.get(kMotionCovariance));
     diagnostics.insert(diagnostics.end(), stds.begin(), stds.end());
     diagnostics.insert(diagnostics.end(), {{"speed_std_mps", motion.speed_std_mps()},
                                            {"speed_shift_std_m", motion.shift_std_m[source]},
@@ -263,9 +273,17 @@ class JointRegistrationStep final : public RigStep {
     extras.put(kMotionCovariance, motion.covariance);
   }
 
-  static std::shared_ptr<const Cloud> still(const TimedScan& scan, const Twist& velocity,
-                                            double reference_s) {
-    return deskewed(*scan.cloud, scan.times_s, velocity, reference_s);
+  /// A scan of a rig that stands still, with times by the target's clock.
+  static std::shared_ptr<const Cloud> in_trial(const TimedScan& scan, const Twist& velocity,
+                                               double reference_s, double clock_offset_s) {
+    PointCloud still =
+        deskewed(scan.cloud->with_channels(), scan.times_s, velocity, reference_s - clock_offset_s);
+    if (clock_offset_s != 0.0 && has_times(*scan.cloud)) {
+      std::vector<double> times = scan.times_s;
+      for (double& time_s : times) time_s += clock_offset_s;
+      set_channel(still, make_channel(kTime, times));
+    }
+    return scan.cloud->derived_in_trial(std::move(still), "still");
   }
 
   Params params_;
@@ -278,7 +296,7 @@ StageEntry joint_registration() {
       "joint_registration",
       "Sees the whole rig: registers all sensors together with the velocity of each scene, and "
       "removes the distortion of the scans by it.",
-      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 11);
+      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 12);
 }
 
 }  // namespace croon::stages::step

@@ -147,21 +147,24 @@ class KnownVelocityStep final : public GivenMotionStep {
     std::shared_ptr<const Cloud> target = estimate.target->once<Cloud>(
         "known_velocity",
         params::value_json(std::vector<double>(numbers.data(), numbers.data() + numbers.size())),
-        [&] { return still(*estimate.target, velocity, reference_s); });
+        [&] {
+          return estimate.target->derived(still(*estimate.target, velocity, reference_s), "still");
+        });
     const RigidTransform T_sensor_reference = estimate.T_target_source.inverse();
     estimate.take_clouds(
         std::move(target),
-        still(*estimate.source, velocity_in(T_sensor_reference, velocity), reference_s));
+        estimate.source->derived_in_trial(
+            still(*estimate.source, velocity_in(T_sensor_reference, velocity), reference_s),
+            "still"));
     estimate.extras.put(kMotion, velocity);
     estimate.extras.put(kMotionCovariance, covariance_of(motion));
     estimate.diagnostics = velocity_diagnostics(velocity);
   }
 
-  static std::shared_ptr<const Cloud> still(const Cloud& cloud, const Twist& velocity,
-                                            double reference_s) {
+  static PointCloud still(const Cloud& cloud, const Twist& velocity, double reference_s) {
     const std::vector<double> times = times_s(cloud.with_channels());
     require_near(times, reference_s);
-    return deskewed(cloud, times, velocity, reference_s);
+    return deskewed(cloud.with_channels(), times, velocity, reference_s);
   }
 
   Params params_;

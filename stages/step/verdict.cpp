@@ -139,12 +139,13 @@ class Verdict final : public Step {
   }
 
   /// The points of the sample whose number has the remainder `half` by `halves`.
-  static Cloud part(const SensorView& view, std::size_t half, std::size_t halves) {
+  static std::shared_ptr<const Cloud> part(const SensorView& view, std::size_t half,
+                                           std::size_t halves) {
     Points points;
     for (std::size_t i = half; i < view.sample.size(); i += halves) {
       points.push_back(view.thinned->points()[view.sample[i]]);
     }
-    return Cloud(PointCloud(std::move(points)), StreamKey(0));
+    return view.thinned->derived_in_trial(std::move(points), "half");
   }
 
   /// Two halves of the points, started on either side of the pose in its loosest directions.
@@ -152,15 +153,15 @@ class Verdict final : public Step {
                    const std::vector<HeldDirection>& held) const {
     constexpr double kNever = 1e3;
     Halves worst;
-    const Cloud first = part(source, 0, 2);
-    const Cloud second = part(source, 1, 2);
+    const auto first = part(source, 0, 2);
+    const auto second = part(source, 1, 2);
     for (int i = 0; i < params_.slides && i < static_cast<int>(held.size()); ++i) {
       const Vector6d slide = params_.slide_m * held[static_cast<std::size_t>(i)].motion;
       try {
         const RigidTransform a =
-            params_.icp->align(*target.thinned, first, moved(T, slide)).T_target_source;
+            params_.icp->align(*target.thinned, *first, moved(T, slide)).T_target_source;
         const RigidTransform b =
-            params_.icp->align(*target.thinned, second, moved(T, -slide)).T_target_source;
+            params_.icp->align(*target.thinned, *second, moved(T, -slide)).T_target_source;
         for (const PoseError& apart : {pose_error(a, b), pose_error(a, T), pose_error(b, T)}) {
           worst.rotation_rad = std::max(worst.rotation_rad, apart.rotation_rad);
           worst.translation_m = std::max(worst.translation_m, apart.translation_m);
@@ -179,13 +180,13 @@ class Verdict final : public Step {
     constexpr std::size_t kRefined = 3;
     const std::vector<Hypothesis>* const others = estimate.extras.find(kHypotheses);
     if (others == nullptr) return std::nullopt;
-    const Cloud points = part(source, 0, 2);
+    const auto points = part(source, 0, 2);
     std::optional<double> least;
     std::size_t refined = 0;
     for (const Hypothesis& other : *others) {
       if (agree(other.T_target_source, estimate.T_target_source, kSameHypothesis)) continue;
       if (++refined > kRefined) break;
-      const RigidTransform T = refined_pose(other.T_target_source, target, points);
+      const RigidTransform T = refined_pose(other.T_target_source, target, *points);
       if (agree(T, estimate.T_target_source, kSameHypothesis)) continue;
       const PoseEvidence its = pose_evidence(target, source, T);
       if (its.violation_ratio() > params_.max_violation_ratio) continue;

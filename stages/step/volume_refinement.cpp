@@ -55,7 +55,7 @@ std::shared_ptr<const Cloud> overlapping(const SelectedClouds& clouds,
       kept.push_back(p);
   }
   if (kept.empty()) throw StageError("the two clouds share no cube of overlap_cube_m");
-  return clouds.source->derived(std::move(kept), "overlap");
+  return clouds.source->derived_in_trial(std::move(kept), "overlap");
 }
 
 class VolumeRefinement final : public Step {

@@ -16,6 +16,7 @@ namespace croon::experiments {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// An experiment with the given scenes of one rig, in groups of `size`.
 Experiment in_groups(int scenes, int size, const std::string& members = "",
@@ -182,6 +183,23 @@ TEST(Rigs, ASceneThatDefeatsAStepDoesNotEndTheTrial) {
       EXPECT_EQ(record.steps[1].diagnostics.front().second, 2.0);
     }
   }
+}
+
+TEST(Rigs, AReasonSaysWhichScenesAreLost) {
+  // In one of two scenes the cloud of one sensor is damaged.
+  int with_a_reason = 0;
+  for (const TrialRecord& record :
+       run(in_groups(2, 2, "", R"(, "one_rig": true, "unreadable": 0, "unreadable_scene": 0)"))) {
+    EXPECT_NE(record.status, Status::failed);
+    if (record.id.sensor != "s1") {
+      EXPECT_THAT(record.reason, Not(HasSubstr("failed")));
+      continue;
+    }
+    EXPECT_THAT(record.reason, HasSubstr("1 of 2 scenes failed, in scene"));
+    EXPECT_THAT(record.reason, HasSubstr("the cloud of s1: byte 7"));
+    ++with_a_reason;
+  }
+  EXPECT_GT(with_a_reason, 0);
 }
 
 TEST(Rigs, ADamagedCloudIsSaid) {

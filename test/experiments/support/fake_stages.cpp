@@ -21,6 +21,7 @@ struct FakeDatasetParams {
   bool truth = true;
   int points = 50;
   int unreadable = -1;
+  int unreadable_scene = -1;
   bool kinds = false;
   bool one_rig = false;
   std::vector<std::string> channels = {};
@@ -55,7 +56,8 @@ class FakeDataset final : public Dataset {
     if (params_.truth) scan.truth = random_pose(rng, 2.0);
     // The reference has all that a sensor may lack.
     scan.channels = index == -2 ? std::vector<std::string>{"ring", "time"} : params_.channels;
-    const bool is_readable = index != params_.unreadable;
+    const bool is_readable = index != params_.unreadable ||
+                             (params_.unreadable_scene >= 0 && scene != params_.unreadable_scene);
     scan.load = [seed, is_readable, count = params_.points] {
       if (!is_readable) throw InputError("/data/fake.pcd", "byte 7", "expected points");
       Rng points = test_rng(seed);
@@ -233,6 +235,8 @@ Catalogue fake_catalogue() {
        boolean("truth", &FakeDatasetParams::truth, "Whether there is truth."),
        integer("points", &FakeDatasetParams::points, {0, 1e6}, "Points per cloud."),
        integer("unreadable", &FakeDatasetParams::unreadable, {-2, 10}, "The unreadable cloud."),
+       integer("unreadable_scene", &FakeDatasetParams::unreadable_scene, {-1, 100},
+               "The only scene in which it is; -1 for all."),
        boolean("kinds", &FakeDatasetParams::kinds, "Whether scenes have kinds."),
        boolean("one_rig", &FakeDatasetParams::one_rig, "Whether poses are the same in all scenes."),
        texts("channels", &FakeDatasetParams::channels, "The channels of the sensors' clouds.")}));

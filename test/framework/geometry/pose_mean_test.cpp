@@ -78,10 +78,10 @@ TEST(MeanPose, RotationCommutesWithATurnFromTheRight) {
   Rng rng = test::test_rng();
   for (int i = 0; i < 200; ++i) {
     std::vector<RigidTransform> poses = poses_near(rng, test::random_pose(rng, 3.0), 20);
-    const Eigen::Matrix3d mean = mean_rotation(poses);
+    const Eigen::Matrix3d mean = mean_pose(poses).rotation;
     const Eigen::Matrix3d R = test::random_pose(rng, 3.0).rotation;
     for (RigidTransform& pose : poses) pose.rotation = pose.rotation * R;
-    EXPECT_LT(rotation_angle(mean_rotation(poses).transpose() * (mean * R)), 1e-12);
+    EXPECT_LT(rotation_angle(mean_pose(poses).rotation.transpose() * (mean * R)), 1e-12);
   }
 }
 
@@ -98,7 +98,7 @@ TEST(MeanPose, HasTheSameBitsInAnyOrder) {
 
 TEST(MeanPose, OfNothingIsAMistakeOfOurs) {
   EXPECT_THROW(mean_pose({}), std::logic_error);
-  EXPECT_THROW(mean_rotation({}), std::logic_error);
+  EXPECT_THROW(mean_pose({}), std::logic_error);
   EXPECT_THROW(consensus_pose({}, kBounds), std::logic_error);
 }
 

@@ -65,6 +65,21 @@ TEST(Cloud, TimesNestedWorkOnceAndDerivedCloudsToo) {
   EXPECT_NEAR(timings[0].seconds + timings[1].seconds, spent, 1e-3);
 }
 
+TEST(Cloud, CloudsOfOneTrialDoNoSharedWork) {
+  const Cloud cloud({}, StreamKey(1));
+  const auto part = cloud.derived_in_trial({}, "part");
+  const double before = seconds_spent_on_shared_work();
+  part->once<int>("slow", [] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return std::make_shared<const int>(1);
+  });
+  part->derived({}, "of part")->kd_tree();
+  EXPECT_EQ(seconds_spent_on_shared_work(), before);
+  EXPECT_TRUE(cloud.timings().empty());
+  EXPECT_TRUE(part->timings().empty());
+  EXPECT_EQ(part->rng("x").bits(), cloud.derived({}, "part")->rng("x").bits());
+}
+
 TEST(Cloud, DerivedCloudsDrawFromStreamsOfTheirOwn) {
   const Cloud cloud({}, StreamKey(1));
   const std::uint64_t own = cloud.rng("x").bits();

@@ -70,6 +70,45 @@ TEST(VoxelDownsample, SaysOfHowManyPointsEachIsTheMean) {
   EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0.0), 2000.0);
 }
 
+TEST(VoxelDownsample, TakesTheMeanOfTheTimesInTheirType) {
+  Rng rng = test::test_rng();
+  PointCloud cloud = test::random_cloud(rng, 2000, 5.0);
+  const Eigen::Vector3f velocity_mps(12.0F, -3.0F, 0.5F);
+  std::vector<double> times_of_rays;
+  std::vector<std::uint64_t> in_ns;
+  constexpr std::uint64_t kNow_ns = 1'700'000'000'000'000'000;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const auto ns = static_cast<std::uint64_t>(rng.uniform(0.0, 1e8));
+    in_ns.push_back(kNow_ns + ns);
+    times_of_rays.push_back(1e-9 * static_cast<double>(ns));
+  }
+  cloud.channels = {make_channel(kTime, times_of_rays)};
+  const PointCloud thinned = downsample(1.0)->apply(cloud);
+  const std::vector<double> times = times_s(thinned);
+  // Thinned and then moved is the mean of what is moved: the filter has no delay.
+  std::map<LeafKey, std::pair<Eigen::Vector3d, int>> moved;
+  const LeafGrid grid(1.0);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    auto& [sum, count] = moved[leaf_of(grid, cloud.points[i])];
+    if (count++ == 0) sum.setZero();
+    sum += (cloud.points[i] + static_cast<float>(times_of_rays[i]) * velocity_mps).cast<double>();
+  }
+  for (std::size_t i = 0; i < thinned.size(); ++i) {
+    const auto& [sum, count] = moved.at(leaf_of(grid, thinned.points[i]));
+    const Eigen::Vector3f after = thinned.points[i] + static_cast<float>(times[i]) * velocity_mps;
+    EXPECT_LT((after.cast<double>() - sum / count).norm(), 1e-5);
+  }
+  cloud.channels = {make_channel(kTime, in_ns)};
+  const PointCloud of_integers = downsample(1.0)->apply(cloud);
+  EXPECT_TRUE(find_channel(of_integers, kTime)->type == scalar_type_of<std::uint64_t>());
+  for (std::size_t i = 0; i < thinned.size(); ++i) {
+    const double ns = find_channel(of_integers, kTime)->value(i) - static_cast<double>(kNow_ns);
+    EXPECT_NEAR(1e-9 * ns, times[i], 1e-6);
+  }
+  // A mean of one point has its time to the last bit.
+  EXPECT_EQ(find_channel(downsample(1e-3)->apply(cloud), kTime)->bytes, cloud.channels[0].bytes);
+}
+
 /// How far off `y_m` the planes are that two sensors with these clouds see, in the mean, metres.
 double mean_plane_error_m(const PointCloud& cloud, double y_m) {
   const Cloud one(cloud, StreamKey(1)), other(cloud, StreamKey(2));

@@ -181,7 +181,7 @@ TEST(BundleAdjustment, ThreadsDoNotChangeABit) {
 
 TEST(BundleAdjustment, ASensorIsHeldByOthersThanTheReference) {
   StandingRig rig = standing_rig(1);
-  // The reference keeps what is more than 15 m away; the others see 20 m far.
+  // The reference keeps nothing near behind it, where the sensor at the back looks.
   PointCloud far;
   for (const Eigen::Vector3f& point : rig.estimates.front().estimate.target->points()) {
     if (point.norm() > 15.0F || point.x() > 0.0F) far.points.push_back(point);
@@ -412,6 +412,29 @@ TEST(BundleAdjustment, TooFewPlanesLeaveAPoseThatIsKnown) {
   EXPECT_EQ(kept.T_target_source.rotation, estimate.T_target_source.rotation);
   EXPECT_EQ(kept.T_target_source.translation, estimate.T_target_source.translation);
   EXPECT_LT((kept.covariance->matrix - estimate.covariance->matrix).norm(), 1e-12);
+}
+
+TEST(BundleAdjustment, APoseThatKeepsItsStartHasOneWordInAllScenes) {
+  Rng rng = test::test_rng();
+  std::vector<RigEstimate> rig;
+  const RigidTransform pose = test::random_pose(rng, 1.0);
+  for (const char* const scene : {"1", "2"}) {
+    rig.push_back({scene, "top", "left", without_planes(rng)});
+    Estimate& estimate = rig.back().estimate;
+    estimate.T_target_source = pose;
+    estimate.covariance = PoseCovariance{1e-4 * Matrix6d::Identity(), {}};
+    estimate.covariance->dofs.fill(Observability::weak);
+  }
+  rig.front().estimate.covariance->dofs.front() = Observability::determined;
+  rig.back().estimate.covariance->dofs.back() = Observability::determined;
+  adjust_bundle(rig);
+  for (const RigEstimate& one : rig) {
+    ASSERT_EQ(one.failure, "");
+    const DofWords& words = one.estimate.covariance->dofs;
+    EXPECT_EQ(words.front(), Observability::determined) << one.scene;
+    EXPECT_EQ(words.back(), Observability::determined) << one.scene;
+    EXPECT_EQ(words[1], Observability::weak) << one.scene;
+  }
 }
 
 }  // namespace

@@ -104,8 +104,22 @@ TEST(JointDeskew, AddsTheOffsetOfAClockToItsTimes) {
   for (DrivenStreet& street : streets) {
     street.one.estimate.T_target_source = streets.front().one.estimate.T_target_source;
   }
+  const std::vector<DrivenStreet> before = streets;
   adjust_streets(streets, R"(, "poses": "common", "clock_offset_std_s": 0.1)");
   for (const DrivenStreet& street : streets) expect_street_at_rest(street);
+  // The clouds have the times of the target's clock, also where the rig stands.
+  for (std::size_t i = 0; i < streets.size(); ++i) {
+    const Estimate& estimate = streets[i].one.estimate;
+    const double offset_s = test::diagnostic(estimate, "clock_offset_s");
+    EXPECT_NEAR(offset_s, 0.03, 0.002);
+    const std::vector<double> late_s = times_s(before[i].one.estimate.source->with_channels());
+    const std::vector<double> on_time_s = times_s(estimate.source->with_channels());
+    for (std::size_t k = 0; k < late_s.size(); ++k) {
+      ASSERT_NEAR(on_time_s[k], late_s[k] + offset_s, 1e-12);
+    }
+    EXPECT_EQ(times_s(estimate.target->with_channels()),
+              times_s(before[i].one.estimate.target->with_channels()));
+  }
 }
 
 }  // namespace

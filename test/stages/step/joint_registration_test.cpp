@@ -208,6 +208,7 @@ TEST(JointRegistration, EstimatesWhatRemainsOfAVelocityThatIsKnown) {
   for (const RigEstimate& one : rig.estimates) {
     const Twist& found = one.estimate.extras.get(kMotion);
     EXPECT_LT((found.linear_mps - rig.velocities[one.scene].linear_mps).norm(), 0.8) << one.scene;
+    EXPECT_EQ(test::diagnostic(one.estimate, "vx_mps"), found.linear_mps.x());
   }
 }
 
