@@ -94,7 +94,7 @@ class ConsensusStep final : public RigStep {
         covariance->dofs = better_words(covariance->dofs, one->estimate.covariance->dofs);
       }
     } else if (agreeing.size() > 1) {
-      // Those near the mean need not be those near the first guess, which it is the mean of.
+      // consensus_pose is the mean of the poses near a medoid; those near that mean may be others.
       pose = mean_pose(poses_of(agreeing));
     }
     const std::optional<std::string> rejection = verdict(estimates, votes, agreeing.size(), ratio);

@@ -273,7 +273,7 @@ class JointRegistrationStep final : public RigStep {
     extras.put(kMotionCovariance, motion.covariance);
   }
 
-  /// A scan of a rig that stands still, with times by the target's clock.
+  /// The scan as a rig at rest would have measured it, with the times of the target's clock.
   static std::shared_ptr<const Cloud> in_trial(const TimedScan& scan, const Twist& velocity,
                                                double reference_s, double clock_offset_s) {
     PointCloud still =
