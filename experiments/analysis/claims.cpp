@@ -76,17 +76,20 @@ std::optional<double> found(const Claim& claim, const Rows& rows, const TrialSum
 
 /// Sets the trials and scenes that the number of a claim is over.
 void set_counts(ClaimResult& result, const Rows& rows, const TrialSummary& all) {
-  const bool is_over_all = is_share(result.claim.statistic);
   const bool is_over_usable = !is_spread(result.claim) && result.claim.over == Over::usable;
-  const auto trials_of = [&](const TrialSummary& summary) {
-    if (is_over_all) return summary.outcomes.trials;
-    return is_over_usable ? summary.usable : summary.counted;
+  const auto trials_of = [&](const SceneSummary& scene) {
+    if (result.claim.statistic == "agreement") return scene.agreement.trials;
+    if (is_share(result.claim.statistic)) return scene.outcomes.trials;
+    // One trial has no spread.
+    if (result.claim.statistic == kWithinSceneStd && scene.counted < 2) return 0;
+    return is_over_usable ? scene.usable : scene.counted;
   };
   std::set<std::string> scenes;
   for (const SceneSummary* scene : scenes_of(rows)) {
-    if (trials_of(*scene) > 0) scenes.insert(scene->scene);
+    if (!is_judged_as(all, *scene) || trials_of(*scene) == 0) continue;
+    scenes.insert(scene->scene);
+    result.trials += trials_of(*scene);
   }
-  result.trials = trials_of(all);
   result.scenes = static_cast<int>(scenes.size());
 }
 

@@ -42,8 +42,9 @@ TrialResult result_of(const TrialRecord& record, const SceneSummary& scene,
   return {measures_of(error), is_success ? 1.0 : 0.0};
 }
 
-/// The trials of `rows`, which are of one variant, that the base has too. `base` are all rows of
-/// the base: scenes are numbered as they come in them.
+/// The trials of `rows`, which are of one variant, that the base has too; where a sensor or a scene
+/// has truth, those of others do not count. `base` are all rows of the base: scenes are numbered as
+/// they come in them.
 PairedTrials paired(const Rows& base, const Rows& rows, const RecordGroups& groups,
                     const PoseBounds& bounds) {
   std::map<std::string, std::size_t> numbers;
@@ -55,8 +56,10 @@ PairedTrials paired(const Rows& base, const Rows& rows, const RecordGroups& grou
     }
   }
   PairedTrials pairs;
+  const TrialSummary all = pooled_counts(scenes_of(rows));
   for (const SummaryRow* row : rows) {
     for (const SceneSummary& scene : row->scenes) {
+      if (!is_judged_as(all, scene)) continue;
       const auto& base_records = groups.of(base.front()->variant, row->sensor, scene.scene);
       for (const TrialRecord* record : groups.of(row->variant, row->sensor, scene.scene)) {
         const TrialRecord* const other = find_trial(base_records, record->id.trial);

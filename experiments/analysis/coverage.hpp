@@ -51,7 +51,7 @@ std::string name_of_dof(const CoverageRow& row);
 double half_width_of(double level);
 
 /// `error^T covariance^-1 error`, over the directions in which the covariance is not zero; infinite
-/// if the error has a part in one in which it is.
+/// if the error is not zero in a degree of freedom whose variance is.
 double normalised_squared_error(const Vector6d& error, const Matrix6d& covariance);
 
 /// The coverage of the covariances of `records`, whose summary is `summary`.

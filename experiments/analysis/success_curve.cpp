@@ -79,6 +79,7 @@ std::vector<CurveRow> curves_of(const Rows& rows, const std::string& sensor,
   for (std::vector<SceneCounts>& count : counts) count.resize(thresholds.size());
   for (const SummaryRow* row : rows) {
     for (const SceneSummary& scene : row->scenes) {
+      if (lacks_truth(scene)) continue;
       const SceneRecords& records = groups.of(row->variant, row->sensor, scene.scene);
       const CountsWithin within = counts_within(records, thresholds);
       for (std::size_t of = 0; of < kCurves.size(); ++of) {

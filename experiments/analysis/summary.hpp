@@ -115,7 +115,7 @@ struct LoopClosure {
   int scenes_closed = 0;          ///< Whose loop over their consensus poses is closed.
 };
 
-/// A reason why trials ended as `rejected` or `failed`, and their number.
+/// A reason of trials (TrialRecord::reason), and their number.
 struct ReasonCount {
   std::string variant;
   Status status = Status::failed;

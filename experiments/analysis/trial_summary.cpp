@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 #include "framework/base/angles.hpp"
@@ -39,30 +40,16 @@ Agreeing agreeing_with(const RigidTransform& pose, const SceneRecords& records,
           root_mean_square(translations)};
 }
 
-/// The covariance of the pose that trials of one scene agree on.
-std::optional<PoseCovariance> covariance_near(const RigidTransform& pose,
-                                              const SceneRecords& records,
-                                              const PoseBounds& bounds) {
-  std::vector<PoseCovariance> near;
-  for (const TrialRecord* record : records) {
-    if (!is_near(*record, pose, bounds).value_or(false)) continue;
-    if (!record->covariance) return std::nullopt;
-    near.push_back(*record->covariance);
+/// The covariances at `members`; std::nullopt if one of them is not known.
+std::optional<std::vector<PoseCovariance>> all_of(
+    const std::vector<std::optional<PoseCovariance>>& covariances,
+    const std::vector<std::size_t>& members) {
+  std::vector<PoseCovariance> all;
+  for (const std::size_t i : members) {
+    if (!covariances[i]) return std::nullopt;
+    all.push_back(*covariances[i]);
   }
-  return near.empty() ? std::nullopt : std::optional(mean_covariance(near));
-}
-
-/// The covariance of the pose that scenes agree on.
-std::optional<PoseCovariance> covariance_near(const RigidTransform& pose,
-                                              const std::vector<SceneSummary>& scenes,
-                                              const PoseBounds& bounds) {
-  std::vector<PoseCovariance> near;
-  for (const SceneSummary& scene : scenes) {
-    if (!scene.consensus || !agree(*scene.consensus, pose, bounds)) continue;
-    if (!scene.covariance) return std::nullopt;
-    near.push_back(*scene.covariance);
-  }
-  return near.empty() ? std::nullopt : std::optional(covariance_of_mean(near));
+  return all;
 }
 
 /// The outcomes of a scene and the pose that its trials agree on: all that does not need the other
@@ -71,17 +58,24 @@ SceneSummary without_deviations(const SceneRecords& records, const PoseBounds& b
   SceneSummary scene;
   scene.scene = records.front()->id.scene;
   std::vector<RigidTransform> poses;
+  std::vector<std::optional<PoseCovariance>> covariances;
   for (const TrialRecord* record : records) {
     ++scene.outcomes.trials;
     ++(scene.outcomes.*kByStatus.at(static_cast<std::size_t>(record->status)));
-    if (record->error) scene.deviations_from = DeviationsFrom::truth;
-    if (const RigidTransform* pose = usable_pose(*record)) poses.push_back(*pose);
+    if (record->T_reference_sensor) {
+      const auto from = record->error ? DeviationsFrom::truth : DeviationsFrom::consensus;
+      scene.deviations_from = std::min(scene.deviations_from, from);
+    }
+    if (const RigidTransform* pose = usable_pose(*record)) {
+      poses.push_back(*pose);
+      covariances.push_back(record->covariance);
+    }
   }
   if (poses.empty()) return scene;
-  scene.deviations_from = std::min(scene.deviations_from, DeviationsFrom::consensus);
   scene.consensus = consensus_pose(poses, bounds);
   scene.agreeing = agreeing_with(*scene.consensus, records, bounds, records.size() == 1);
-  scene.covariance = covariance_near(*scene.consensus, records, bounds);
+  const auto members = all_of(covariances, consensus_members(poses, bounds));
+  if (members) scene.covariance = mean_covariance(*members);
   return scene;
 }
 
@@ -122,7 +116,7 @@ void add_deviations(SceneSummary& scene, const SceneRecords& records,
 void set_within_scene_std(SummaryRow& row) {
   std::array<std::vector<double>, kDofs> squares;
   for (const SceneSummary& scene : row.scenes) {
-    if (scene.counted < 2) continue;
+    if (scene.counted < 2 || !is_judged_as(row, scene)) continue;
     row.within_scene_freedom += scene.counted - 1;
     for (std::size_t k = 0; k < kDofs; ++k) {
       const double std = standard_deviation(values_of(scene.spread, k));
@@ -140,7 +134,7 @@ void set_within_scene_std(SummaryRow& row) {
 void set_across_scenes_std(SummaryRow& row) {
   std::vector<Measures> centres;
   for (const SceneSummary& scene : row.scenes) {
-    if (!scene.statistics) continue;
+    if (!scene.statistics || !is_judged_as(row, scene)) continue;
     Measures& centre = centres.emplace_back();
     if (row.deviations_from == DeviationsFrom::consensus) {
       centre = measures_of(pose_error(*scene.consensus, *row.consensus));
@@ -168,6 +162,7 @@ std::vector<Measures> joined(const std::vector<const SceneSummary*>& scenes,
 void set_consensus(SummaryRow& row, const std::vector<SceneRecords>& scenes,
                    const PoseBounds& bounds) {
   std::vector<RigidTransform> consensus;
+  std::vector<std::optional<PoseCovariance>> covariances;
   std::vector<double> votes;
   SceneRecords all, of_agreeing_scenes;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -175,6 +170,7 @@ void set_consensus(SummaryRow& row, const std::vector<SceneRecords>& scenes,
     all.insert(all.end(), scenes[i].begin(), scenes[i].end());
     if (!scene.consensus) continue;
     consensus.push_back(*scene.consensus);
+    covariances.push_back(scene.covariance);
     votes.push_back(std::max(1, scene.agreeing.count));
     if (scene.agreeing.count == 0) continue;
     of_agreeing_scenes.insert(of_agreeing_scenes.end(), scenes[i].begin(), scenes[i].end());
@@ -187,7 +183,8 @@ void set_consensus(SummaryRow& row, const std::vector<SceneRecords>& scenes,
   if (agreeing_with(*row.consensus, of_agreeing_scenes, bounds, is_alone).count > 0) {
     row.agreeing = agreeing_with(*row.consensus, all, bounds, is_alone);
   }
-  row.covariance = covariance_near(*row.consensus, row.scenes, bounds);
+  const auto members = all_of(covariances, consensus_members(consensus, bounds, votes));
+  if (members) row.covariance = covariance_of_mean(*members);
 }
 
 }  // namespace
@@ -253,15 +250,18 @@ TrialSummary pooled_counts(const std::vector<const SceneSummary*>& scenes) {
   SceneCounts successes, agreements;
   std::set<std::string> names;
   for (const SceneSummary* scene : scenes) {
-    names.insert(scene->scene);
     sum.deviations_from = std::min(sum.deviations_from, scene->deviations_from);
+  }
+  for (const SceneSummary* scene : scenes) {
+    names.insert(scene->scene);
     sum.outcomes.trials += scene->outcomes.trials;
     for (const auto count : kByStatus) sum.outcomes.*count += scene->outcomes.*count;
-    successes.add(scene->scene, scene->outcomes.success, scene->outcomes.trials);
     // One trial alone has none to agree with.
     if (scene->outcomes.trials > 1) {
       agreements.add(scene->scene, scene->agreeing.count, scene->outcomes.trials);
     }
+    if (!is_judged_as(sum, *scene)) continue;
+    successes.add(scene->scene, scene->outcomes.success, scene->outcomes.trials);
     sum.counted += static_cast<int>(scene->deviations.size());
     sum.usable += static_cast<int>(scene->usable_deviations.size());
   }
@@ -279,9 +279,12 @@ TrialSummary pooled(const std::vector<const SceneSummary*>& scenes) {
     sum.usable_statistics = scenes.front()->usable_statistics;
     return sum;
   }
-  if (sum.counted > 0) sum.statistics = statistics_of(joined(scenes, &SceneSummary::deviations));
+  std::vector<const SceneSummary*> judged;
+  std::copy_if(scenes.begin(), scenes.end(), std::back_inserter(judged),
+               [&](const SceneSummary* scene) { return is_judged_as(sum, *scene); });
+  if (sum.counted > 0) sum.statistics = statistics_of(joined(judged, &SceneSummary::deviations));
   if (sum.usable > sum.counted) {
-    sum.usable_statistics = statistics_of(joined(scenes, &SceneSummary::usable_deviations));
+    sum.usable_statistics = statistics_of(joined(judged, &SceneSummary::usable_deviations));
   } else {
     // All usable trials count.
     sum.usable_statistics = sum.statistics;
@@ -306,6 +309,7 @@ bool have_truth(const Rows& rows) {
 Share successful_frames(const Rows& rows) {
   std::map<std::string, bool> succeeds;
   for (const SceneSummary* scene : scenes_of(rows)) {
+    if (lacks_truth(*scene)) continue;
     const bool all = scene->outcomes.success == scene->outcomes.trials;
     bool& frame = succeeds.emplace(scene->scene, true).first->second;
     frame = frame && all;
@@ -349,7 +353,7 @@ SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds
   if (without_truth) from = std::min(from, DeviationsFrom::consensus);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     SceneSummary& scene = row.scenes[i];
-    scene.deviations_from = from;
+    if (from != DeviationsFrom::truth || !lacks_truth(scene)) scene.deviations_from = from;
     add_deviations(scene, scenes[i], row.consensus, bounds);
     static_cast<TrialSummary&>(scene) = pooled({&scene});
   }

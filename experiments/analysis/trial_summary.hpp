@@ -92,7 +92,9 @@ struct TrialSummary {
   DeviationsFrom deviations_from = DeviationsFrom::none;  ///< Truth if one sensor has it.
   int scene_count = 0;                                    ///< Scenes that the trials are of.
   Outcomes outcomes;
-  Share success;    ///< Trials with status `success`; means nothing without truth.
+  /// Trials with status `success`, of those that are judged (is_judged_as); means nothing without
+  /// truth.
+  Share success;
   Share agreement;  ///< Trials that `agrees` is true for, of those of scenes with several trials.
   int counted = 0;  ///< Trials that `statistics` are over.
   std::optional<StatisticsTable> statistics;
@@ -160,6 +162,12 @@ const Share& main_share(const TrialSummary& summary);
 /// Whether success is not known, because deviations are from a consensus.
 inline bool lacks_truth(const TrialSummary& summary) {
   return summary.deviations_from == DeviationsFrom::consensus;
+}
+
+/// Whether the trials of `part` count in the success and the statistics of `all`, of which it is a
+/// part: where others have truth, those without do not.
+inline bool is_judged_as(const TrialSummary& all, const TrialSummary& part) {
+  return all.deviations_from != DeviationsFrom::truth || !lacks_truth(part);
 }
 
 /// Whether the deviations of all rows are errors.

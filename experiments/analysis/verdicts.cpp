@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "experiments/run/trial_end.hpp"
@@ -40,10 +41,17 @@ void add(VerdictRow& row, const TrialRecord& record, const SuccessBounds& bounds
   }
 }
 
-/// Whether the truth of the trial's sensor is known; that of a trial without a pose is not asked
-/// for.
-bool is_judged(const TrialRecord& record) {
-  return record.error || record.status == Status::failed;
+/// The sensors and scenes of which the truth is not known.
+using WithoutTruth = std::set<std::pair<std::string, std::string>>;
+
+WithoutTruth without_truth(const Summary& summary) {
+  WithoutTruth without;
+  for (const SummaryRow& row : summary.rows) {
+    for (const SceneSummary& scene : row.scenes) {
+      if (lacks_truth(scene)) without.insert({row.sensor, scene.scene});
+    }
+  }
+  return without;
 }
 
 }  // namespace
@@ -54,9 +62,12 @@ Verdicts verdicts_of(const std::vector<TrialRecord>& records, const Summary& sum
       records.begin(), records.end(),
       [](const TrialRecord& record) { return record.status == Status::rejected && record.error; });
   if (!has_rejected) return verdicts;
+  const WithoutTruth without = without_truth(summary);
   std::map<std::pair<std::string, std::string>, VerdictRow> rows;
   for (const TrialRecord& record : records) {
-    if (!is_judged(record)) continue;
+    // A trial without a pose has no error, with truth or without.
+    const bool is_judged = record.error || record.status == Status::failed;
+    if (!is_judged || without.count({record.id.sensor, record.id.scene}) > 0) continue;
     add(rows[{record.id.variant, record.id.sensor}], record, summary.bounds, verdicts.thresholds);
   }
   for (const std::string& variant : variants_of(summary)) {

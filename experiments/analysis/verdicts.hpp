@@ -37,6 +37,12 @@ struct Verdicts {
                                  ///< with truth was rejected.
 };
 
+/// Whether there are verdicts over thresholds: not if no trial was rejected, nor with a success
+/// bound of zero.
+inline bool has_curve(const Verdicts& verdicts) {
+  return !verdicts.rows.empty() && !verdicts.thresholds.empty();
+}
+
 /// The verdicts on `records`, whose summary is `summary`.
 Verdicts verdicts_of(const std::vector<TrialRecord>& records, const Summary& summary);
 

@@ -68,7 +68,7 @@ struct Part {
 
 /// The header of all the folders, whose stores are added to `parts`. The differences of each from
 /// the first are faults. If the experiment grew between the folders, the header with the most
-/// planned trials is the latest one.
+/// trials of a sensor and scene, and then of all, is the latest one.
 StoreHeader header_of_all(const std::vector<fs::path>& folders, bool same_build,
                           std::vector<Part>& parts) {
   std::vector<Fault> faults;
@@ -80,7 +80,11 @@ StoreHeader header_of_all(const std::vector<fs::path>& folders, bool same_build,
       if (header.provenance.empty()) header = other;
       if (same_build) refuse_other_builds(store_path(folder).string(), header, other, kMergeRemedy);
       refuse_differences(store_path(folder).string(), header, other, kMergeRemedy);
-      const bool is_later = planned_trials(other.manifest) > planned_trials(header.manifest);
+      // Trials beyond StoreHeader::trials are in no report, so their number comes first.
+      const auto size = [](const StoreHeader& of) {
+        return std::pair(of.trials, planned_trials(of.manifest));
+      };
+      const bool is_later = size(other) > size(header);
       header = is_later ? united(other, header) : united(header, other);
     });
   }

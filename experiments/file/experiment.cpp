@@ -164,6 +164,12 @@ Experiment parse_experiment(const std::string& text, const fs::path& path,
   return experiment;
 }
 
+std::string place_of(const Experiment& experiment, const Variant& variant, const NamedStep& step) {
+  const std::string place = "the step \"" + step.name + "\"";
+  return experiment.variants.size() > 1 ? place + " of the variant \"" + variant.name + "\""
+                                        : place;
+}
+
 std::string experiment_json(const Experiment& experiment) {
   std::string variants;
   for (const Variant& variant : experiment.variants) {

@@ -76,6 +76,10 @@ Experiment load_experiment(const std::filesystem::path& path, const Catalogue& c
 Experiment parse_experiment(const std::string& text, const std::filesystem::path& path,
                             const Catalogue& catalogue);
 
+/// Where `step` is, for faults: `the step "refine" of the variant "one plane"`, or the step alone
+/// if there is one variant.
+std::string place_of(const Experiment& experiment, const Variant& variant, const NamedStep& step);
+
 /// Canonical JSON of the experiment: every key with its default, claims expanded, each variant with
 /// its whole pipeline.
 std::string experiment_json(const Experiment& experiment);

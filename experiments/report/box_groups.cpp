@@ -53,6 +53,7 @@ std::vector<BoxGroup> box_groups(const Summary& summary, BoxOf of) {
     const std::size_t sensor = index_of(sensors, row.sensor);
     boxes.resize(sensors.size());
     for (const SceneSummary& scene : row.scenes) {
+      if (!is_judged_as(row, scene)) continue;
       BoxSeries& box = boxes[sensor][index_of(labels, label_of(row, scene, of))];
       box.deviations.insert(box.deviations.end(), scene.deviations.begin(), scene.deviations.end());
       box.trials += scene.outcomes.trials;

@@ -77,7 +77,7 @@ const std::vector<Figure>& figures() {
        "a dataset with truth"},
       {"verdicts",
        [](const Results& results, const FigureOptions& options) -> std::optional<Drawing> {
-         if (results.verdicts.rows.empty()) return std::nullopt;
+         if (!has_curve(results.verdicts)) return std::nullopt;
          return verdict_chart(results.verdicts, results.summary.bounds, options);
        },
        "a step that rejects trials, and a dataset with truth"}};

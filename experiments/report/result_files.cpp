@@ -76,10 +76,12 @@ const std::vector<ResultFile>& result_files() {
          return svg_bytes(success_curve_chart(r.summary.curve));
        }},
       {"verdicts.csv",
-       [](const R& r) { return if_any(r.verdicts.rows, verdicts_csv, r.verdicts); }},
+       [](const R& r) {
+         return has_curve(r.verdicts) ? Bytes(verdicts_csv(r.verdicts)) : std::nullopt;
+       }},
       {"verdicts.svg",
        [](const R& r) -> Bytes {
-         if (r.verdicts.rows.empty()) return std::nullopt;
+         if (!has_curve(r.verdicts)) return std::nullopt;
          return svg_bytes(verdict_chart(r.verdicts, r.summary.bounds));
        }},
       {"covariance.csv",
@@ -345,8 +347,14 @@ bool is_result_of_run(const fs::path& path) {
 OutputFolder::OutputFolder(const fs::path& path) : path_(writable(path)), lock_(path_) {}
 
 void OutputFolder::clear() const {
-  for (const fs::path& path : paths_in(path_)) delete_path(path);
   delete_clouds(file(kClouds));
+  // The manifest last: where it is, the other files are croon's (is_result_of_run), also after a
+  // kill in between.
+  const fs::path manifest = file(kManifest);
+  for (const fs::path& path : paths_in(path_)) {
+    if (path != manifest) delete_path(path);
+  }
+  delete_path(manifest);
 }
 
 void OutputFolder::write_reports(const Results& results, const std::string& manifest) const {

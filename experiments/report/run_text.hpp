@@ -14,7 +14,7 @@ namespace croon::experiments {
 /// How `croon run` shows a summary.
 struct TableStyle {
   bool colours = false;         ///< Only if the output is a terminal.
-  std::size_t max_reasons = 5;  ///< Reasons for failures that are shown, the most frequent first.
+  std::size_t max_reasons = 5;  ///< Reasons of trials that are shown, the most frequent first.
   std::size_t max_scenes = 12;  ///< Rows of the table per scene; the worst are kept.
 };
 
@@ -24,7 +24,7 @@ std::string result_text(const Results& results, bool colours);
 
 /// The tables of a summary, in UTF-8, within 120 columns for names of ordinary length: success and
 /// mean ± std per DOF of every variant and sensor, every variant against the first, loops, success
-/// per kind of scene and per scene, reasons for failures. Ends with a newline.
+/// per kind of scene and per scene, reasons of trials. Ends with a newline.
 std::string summary_text(const Summary& summary, const TableStyle& style = {});
 
 /// Right and wrong poses against accepted and rejected ones, per variant and sensor, at the bounds

@@ -92,9 +92,7 @@ void resolve_step(Experiment& experiment, Variant& variant, NamedStep& named, Ta
   const params::Slot<Step> kept = named.step;
   const auto* const step = dynamic_cast<const GivenMotionStep*>(&*kept);
   if (step == nullptr) return;
-  const std::string of_variant =
-      experiment.variants.size() > 1 ? " of the variant \"" + variant.name + "\"" : "";
-  const Fault at = {experiment.file, "the step \"" + named.name + "\"" + of_variant, ""};
+  const Fault at = {experiment.file, place_of(experiment, variant, named), ""};
   const GivenMotionStep::File file = step->file();
   if (file.name.empty()) return;
   const std::filesystem::path path =

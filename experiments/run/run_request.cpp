@@ -4,14 +4,18 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <set>
+#include <utility>
 
 #include "experiments/file/experiment.hpp"
 #include "experiments/run/channel_check.hpp"
 #include "experiments/run/given_poses.hpp"
 #include "experiments/run/given_velocities.hpp"
+#include "experiments/run/scene_groups.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
 #include "framework/base/error.hpp"
+#include "framework/io/text_scan.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -27,6 +31,37 @@ void check_claimed_sensors(const Experiment& experiment, const std::vector<std::
     faults.push_back({claim.sensor_file, claim.sensor_pointer,
                       "expected a sensor of the dataset, found \"" + sensor + "\"" +
                           name_hint(sensor, sensors)});
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+/// Throws InputError if a parameter of a step is of a sensor that no scene has: it would do
+/// nothing.
+void check_sensors_of_steps(const Experiment& experiment, const std::vector<Scene>& scenes,
+                            const Selection& selection) {
+  std::vector<std::string> sensors;
+  std::set<std::string> known;
+  const auto add = [&](const std::string& sensor) {
+    if (known.insert(sensor).second) sensors.push_back(sensor);
+  };
+  for (const Scene* const scene : parts_of(scenes)) {
+    add(scene->reference.sensor);
+    for (const SensorScan& scan : scene->sensors) {
+      if (!is_pair(scan)) add(scan.sensor);
+    }
+  }
+  std::vector<Fault> faults;
+  std::set<std::pair<std::string, std::string>> said;  // Most variants share their steps.
+  for (const std::size_t index : selection.variants) {
+    const Variant& variant = experiment.variants[index];
+    for (const NamedStep& step : variant.pipeline) {
+      for (const std::string& sensor : step.step.flow().named_sensors) {
+        if (known.count(sensor) > 0 || !said.emplace(step.name, sensor).second) continue;
+        faults.push_back({experiment.file, place_of(experiment, variant, step),
+                          "expected a sensor of the dataset, found " + in_quotes(sensor) +
+                              name_hint(sensor, sensors)});
+      }
+    }
   }
   if (!faults.empty()) throw InputError(std::move(faults));
 }
@@ -59,6 +94,8 @@ CheckedRun check_run(const RunRequest& request, const Catalogue& catalogue) {
       check_plan_size(run.experiment, run.scenes, run.selection);
     });
     collect_faults(faults, [&] { check_channels(run.experiment, run.scenes, run.selection); });
+    collect_faults(faults,
+                   [&] { check_sensors_of_steps(run.experiment, run.scenes, run.selection); });
     collect_faults(faults, [&] { resolve_poses(run.experiment, run.scenes, run.data_root); });
     collect_faults(faults, [&] { resolve_velocities(run.experiment, run.scenes, run.data_root); });
     collect_faults(faults,

@@ -60,13 +60,6 @@ void require_one_rig(const Experiment& experiment, const Scene& group, const Sen
 
 /// Adds the sensors of `scene` that the group does not have.
 void add_sensors(const Experiment& experiment, Scene& group, const Scene& scene) {
-  if (scene.reference.sensor != group.reference.sensor) {
-    throw InputError(experiment.file, "/scenes_per_trial",
-                     "expected one reference in all scenes of a trial, found " +
-                         in_quotes(scene.reference.sensor) + " in scene " + in_quotes(scene.name) +
-                         " and " + in_quotes(group.reference.sensor) + " in " +
-                         in_quotes(group.parts.front().name));
-  }
   for (const SensorScan& scan : scene.sensors) {
     const auto is_it = [&](const SensorScan& known) { return known.sensor == scan.sensor; };
     const auto known = std::find_if(group.sensors.begin(), group.sensors.end(), is_it);

@@ -89,6 +89,18 @@ void check_names_for_pairs(const std::vector<Scene>& scenes, const std::string& 
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
+/// Throws InputError if the scenes have different references: their poses are in different frames.
+void require_one_reference(const Experiment& experiment, const std::vector<Scene>& scenes) {
+  for (const Scene& scene : scenes) {
+    const std::string& first = scenes.front().reference.sensor;
+    if (scene.reference.sensor == first) continue;
+    throw InputError(experiment.file, "/dataset",
+                     "expected one reference in all scenes, found " + in_quotes(first) +
+                         " in scene " + in_quotes(scenes.front().name) + " and " +
+                         in_quotes(scene.reference.sensor) + " in " + in_quotes(scene.name));
+  }
+}
+
 }  // namespace
 
 void check_names(const std::vector<Scene>& scenes, const std::string& file) {
@@ -135,6 +147,7 @@ std::vector<Scene> dataset_scenes(const Experiment& experiment,
 
 std::vector<Scene> scenes_of(const Experiment& experiment, const std::filesystem::path& data_root) {
   std::vector<Scene> scenes = dataset_scenes(experiment, data_root);
+  require_one_reference(experiment, scenes);
   if (experiment.loops) {
     check_names_for_pairs(scenes, experiment.file);
     for (Scene& scene : scenes) {

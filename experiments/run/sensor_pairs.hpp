@@ -33,11 +33,11 @@ SensorPair named_pair(const std::string& name, const std::string& target);
 std::vector<Scene> dataset_scenes(const Experiment& experiment,
                                   const std::filesystem::path& data_root);
 
-/// The scenes of the experiment's dataset. If the experiment has `loops`, each pair of a scene's
-/// sensors is appended as another sensor: the later one is calibrated to the earlier one, with the
-/// poses T_target_source = T_reference_target^-1 T_reference_source. Scenes are then `grouped`.
-/// Throws InputError as dataset_scenes and `grouped`, and if the name of a sensor could be that of
-/// a pair.
+/// The scenes of the experiment's dataset, which have one reference. If the experiment has `loops`,
+/// each pair of a scene's sensors is appended as another sensor: the later one is calibrated to the
+/// earlier one, with the poses T_target_source = T_reference_target^-1 T_reference_source. Scenes
+/// are then `grouped`. Throws InputError as dataset_scenes and `grouped`, and if the name of a
+/// sensor could be that of a pair.
 std::vector<Scene> scenes_of(const Experiment& experiment, const std::filesystem::path& data_root);
 
 /// Throws InputError if the name of a scene or a sensor cannot stand in tables, figures and paths:

@@ -45,7 +45,9 @@ inline const char* status_name(Status status) {
 struct TrialRecord {
   TrialId id;
   Status status = Status::failed;
-  std::string reason;                                ///< Why it is rejected or failed; else empty.
+  /// Why it is rejected or failed; of an accepted one, in which of its scenes a step failed and
+  /// why.
+  std::string reason;
   std::optional<PoseError> error;                    ///< If there is truth and the trial finished.
   std::optional<RigidTransform> T_reference_sensor;  ///< If it finished.
   std::optional<PoseCovariance> covariance;          ///< Of that pose, if a step has estimated it.

@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <tuple>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 #include "experiments/file/start_rule.hpp"
@@ -71,10 +70,16 @@ std::string taken(Provenance& meta, const std::string& name) {
 }
 
 void add_missing(std::vector<StoredName>& to, const std::vector<StoredName>& from) {
-  std::unordered_set<std::string> names;
-  for (const StoredName& stored : to) names.insert(stored.name);
+  std::unordered_map<std::string, std::size_t> places;
+  for (std::size_t i = 0; i < to.size(); ++i) places.emplace(to[i].name, i);
   for (const StoredName& stored : from) {
-    if (names.insert(stored.name).second) to.push_back(stored);
+    const auto [place, is_new] = places.emplace(stored.name, to.size());
+    if (is_new) {
+      to.push_back(stored);
+    } else if (stored.is_current) {
+      // Whatever the order of folders, what is current in one of them is current.
+      to[place->second].is_current = true;
+    }
   }
 }
 

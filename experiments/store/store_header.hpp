@@ -29,7 +29,7 @@ struct StoreHeader {
   Provenance provenance;
   bool is_earlier = false;  ///< Of format 2, without versions: it is read, but nothing is added.
   params::StageVersions versions;  ///< Of the stages that decided the trials; see versions_of.
-  std::vector<Build> builds;       ///< That contributed trials.
+  std::vector<Build> builds;       ///< That wrote to it.
   std::string manifest;  ///< JSON of manifest.json, without "host" and what the builds say.
   int trials = 0;  ///< Per variant, scene and sensor. Trials with larger numbers are not current.
   std::vector<StoredName> variants;  ///< In report order, with the JSON of their pipelines.

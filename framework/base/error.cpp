@@ -91,9 +91,28 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
   return best;
 }
 
+namespace {
+
+/// The one name of `known` that begins with `name`, as "voxel_size_m" does with "voxel"; empty if
+/// there is none, there are more, or `name` is shorter than a word.
+std::string completed_name(const std::string& name, const std::vector<std::string>& known) {
+  constexpr std::size_t kShortestWord = 3;
+  std::string found;
+  if (name.size() < kShortestWord) return found;
+  for (const std::string& candidate : known) {
+    if (candidate.compare(0, name.size(), name) != 0) continue;
+    if (!found.empty()) return "";
+    found = candidate;
+  }
+  return found;
+}
+
+}  // namespace
+
 std::string name_hint(const std::string& name, const std::vector<std::string>& known) {
   if (known.empty()) return "";
-  const std::string near = nearest_name(name, known);
+  std::string near = nearest_name(name, known);
+  if (near.empty()) near = completed_name(name, known);
   if (!near.empty()) return "; did you mean \"" + near + "\"?";
   std::string list;
   for (const std::string& candidate : known) list += (list.empty() ? "" : ", ") + candidate;

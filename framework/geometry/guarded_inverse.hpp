@@ -11,8 +11,8 @@ Eigen::Matrix<double, N, N> symmetric(const Eigen::Matrix<double, N, N>& matrix)
   return 0.5 * (matrix + matrix.transpose());
 }
 
-/// The inverse of a symmetric matrix; of directions that it does not make positive, that of 1e-6 of
-/// its diagonal. It does not depend on the units of the unknowns.
+/// The inverse of a symmetric matrix, whose eigenvalues are taken to be at least 1e-6 after its
+/// diagonal is scaled to 1. It does not depend on the units of the unknowns.
 template <int N>
 Eigen::Matrix<double, N, N> guarded_inverse(const Eigen::Matrix<double, N, N>& matrix) {
   using Matrix = Eigen::Matrix<double, N, N>;

@@ -125,6 +125,12 @@ RigidTransform mean_of_ordered(const std::vector<RigidTransform>& poses) {
           {mean(coordinates[0]), mean(coordinates[1]), mean(coordinates[2])}};
 }
 
+/// The pose with the most others near it.
+RigidTransform centre_of(const std::vector<Vote>& ordered, const PoseBounds& bounds) {
+  const std::vector<Vote> sample = sample_of(ordered);
+  return sample[medoid(sample, bounds)].pose;
+}
+
 }  // namespace
 
 bool agree(const RigidTransform& a, const RigidTransform& b, const PoseBounds& bounds) {
@@ -166,14 +172,27 @@ RigidTransform consensus_pose(const std::vector<RigidTransform>& poses, const Po
   const std::vector<Vote> ordered = in_fixed_order(poses, weights);
   // The mean of one pose would differ from it in the last digits.
   if (ordered.size() == 1) return ordered.front().pose;
-  const std::vector<Vote> sample = sample_of(ordered);
-  const RigidTransform centre = sample[medoid(sample, bounds)].pose;
+  const RigidTransform centre = centre_of(ordered, bounds);
   std::vector<RigidTransform> near;
   for (const Vote& vote : ordered) {
     if (agree(vote.pose, centre, bounds)) near.push_back(vote.pose);
   }
   // Rounding may put a pose a hair off itself, and bounds may be zero.
   return near.empty() ? centre : mean_of_ordered(near);
+}
+
+std::vector<std::size_t> consensus_members(const std::vector<RigidTransform>& poses,
+                                           const PoseBounds& bounds,
+                                           const std::vector<double>& weights) {
+  require_poses(poses);
+  const RigidTransform centre = centre_of(in_fixed_order(poses, weights), bounds);
+  std::vector<std::size_t> members;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const bool is_centre =
+        poses[i].rotation == centre.rotation && poses[i].translation == centre.translation;
+    if (is_centre || agree(poses[i], centre, bounds)) members.push_back(i);
+  }
+  return members;
 }
 
 RigidTransform common_start(const std::vector<RigidTransform>& poses) {

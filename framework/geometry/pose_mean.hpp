@@ -48,6 +48,11 @@ InformedPose informed_mean(const std::vector<InformedPose>& poses);
 RigidTransform consensus_pose(const std::vector<RigidTransform>& poses, const PoseBounds& bounds,
                               const std::vector<double>& weights = {});
 
+/// The poses that `consensus_pose` is the mean of, as indices into `poses`, ascending.
+std::vector<std::size_t> consensus_members(const std::vector<RigidTransform>& poses,
+                                           const PoseBounds& bounds,
+                                           const std::vector<double>& weights = {});
+
 /// Poses of one sensor in several scenes that are farther apart went astray.
 inline constexpr PoseBounds kNearStart = {0.05, 0.5};
 

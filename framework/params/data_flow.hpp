@@ -20,6 +20,8 @@ struct DataFlow {
   std::set<std::string> source_channels;  ///< Of the sensor's cloud.
   std::vector<ExtraDoc> takes;
   std::vector<ExtraDoc> gives;
+  /// The sensors whose names are in the stage's parameters; help does not show them.
+  std::set<std::string> named_sensors = {};
 
   /// Adds all that `other` needs and provides.
   void add(const DataFlow& other) {
@@ -27,6 +29,7 @@ struct DataFlow {
     source_channels.insert(other.source_channels.begin(), other.source_channels.end());
     takes.insert(takes.end(), other.takes.begin(), other.takes.end());
     gives.insert(gives.end(), other.gives.begin(), other.gives.end());
+    named_sensors.insert(other.named_sensors.begin(), other.named_sensors.end());
   }
 };
 

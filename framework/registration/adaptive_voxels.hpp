@@ -42,11 +42,12 @@ struct SensorCloud {
 /// views have the sums by which a further velocity moves them.
 ///
 /// The points of a view weigh together `1 / (s^2 / n + e^2)` for n points with the variance s^2
-/// off the plane and the error e of the surface, so that the cost is in units of its own noise, and
-/// a wall with a thousand points does not outvote ten with a hundred. Among them a point counts
-/// as often as its channel `mean_of` says. A voxel filter cuts a noisy wall along the borders of
-/// its leaves: if each leaf counted once, the few points beyond a border would count as much as the
-/// many before it, and the wall would move towards the border.
+/// off the plane, of all sensors together and at least (5 mm)^2, and the error e of the surface, so
+/// that the cost is in units of its own noise, and a wall with a thousand points does not outvote
+/// ten with a hundred. Among them a point counts as often as its channel `mean_of` says. A voxel
+/// filter cuts a noisy wall along the borders of its leaves: if each leaf counted once, the few
+/// points beyond a border would count as much as the many before it, and the wall would move
+/// towards the border.
 std::vector<PlanePatch> plane_patches(const std::vector<SensorCloud>& clouds, const RigState& state,
                                       int stride, const VoxelOptions& options);
 

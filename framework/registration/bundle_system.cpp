@@ -1,7 +1,7 @@
 #include "framework/registration/bundle_system.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <iterator>
 
 #include "framework/base/angles.hpp"
 #include "framework/base/threads.hpp"
@@ -69,46 +69,40 @@ BundleSystem::BundleSystem(const std::vector<BundleScene>& scenes,
 }
 
 void BundleSystem::find_planes(int stride) {
-  planes_.resize(scenes_.size());
   planes_velocities_ = state_.velocities;
-  for_each_in_parallel(scenes_.size(), [&](std::size_t s) {
-    planes_[s] = plane_patches(scenes_[s].clouds, {poses_in(state_, s), state_.velocities[s]},
-                               stride, options_);
-  });
   free_sensors_.clear();
   for (std::size_t k = 1; k < state_.poses.size(); ++k) free_sensors_.push_back(k);
-  planes_of_sensors_ = counted_planes();
-  while (!free_sensors_.empty()) {
-    // The one with the fewest first: others may share planes with it alone.
-    const auto fewest = std::min_element(free_sensors_.begin(), free_sensors_.end(),
-                                         [&](std::size_t a, std::size_t b) {
-                                           return planes_of_sensors_[a] < planes_of_sensors_[b];
-                                         });
-    if (planes_of_sensors_[*fewest] >= options_.min_planes) break;
-    leave_out(*fewest);
-    free_sensors_.erase(fewest);
+  planes_of_sensors_.assign(state_.poses.size(), 0);
+  for (;;) {
+    search_planes(stride);
     const std::vector<int> planes = counted_planes();
     planes_of_sensors_[0] = planes[0];
     for (const std::size_t k : free_sensors_) planes_of_sensors_[k] = planes[k];
+    // The one with the fewest first: others may share planes with it alone.
+    const auto fewest =
+        std::min_element(free_sensors_.begin(), free_sensors_.end(),
+                         [&](std::size_t a, std::size_t b) { return planes[a] < planes[b]; });
+    if (fewest == free_sensors_.end() || planes[*fewest] >= options_.min_planes) return;
+    // Its points have spoilt planes of the others, so these are looked for again.
+    state_.poses[*fewest] = start_[*fewest].pose;
+    state_.clock_offsets_s[*fewest] = 0.0;
+    free_sensors_.erase(fewest);
   }
 }
 
-void BundleSystem::leave_out(std::size_t sensor) {
-  state_.poses[sensor] = start_[sensor].pose;
-  state_.clock_offsets_s[sensor] = 0.0;
-  for (std::vector<PlanePatch>& of_scene : planes_) {
-    std::vector<PlanePatch> others;
-    for (PlanePatch& patch : of_scene) {
-      const auto view = std::find_if(patch.views.begin(), patch.views.end(),
-                                     [&](const auto& one) { return one.sensor == sensor; });
-      if (view != patch.views.end()) {
-        patch.own_cost -= least_eigenvalue(view->sums.scatter());
-        patch.views.erase(view);
-      }
-      if (patch.views.size() > 1) others.push_back(std::move(patch));
-    }
-    of_scene = std::move(others);
-  }
+void BundleSystem::search_planes(int stride) {
+  planes_.resize(scenes_.size());
+  const auto takes_part = [&](const SensorCloud& cloud) {
+    return cloud.sensor == 0 ||
+           std::binary_search(free_sensors_.begin(), free_sensors_.end(), cloud.sensor);
+  };
+  for_each_in_parallel(scenes_.size(), [&](std::size_t s) {
+    std::vector<SensorCloud> clouds;
+    std::copy_if(scenes_[s].clouds.begin(), scenes_[s].clouds.end(), std::back_inserter(clouds),
+                 takes_part);
+    planes_[s] =
+        plane_patches(clouds, {poses_in(state_, s), state_.velocities[s]}, stride, options_);
+  });
 }
 
 std::size_t BundleSystem::number_of_planes() const {

@@ -89,7 +89,8 @@ class BundleSystem {
   BundleCost with_offsets(const BundleCost& cost, std::size_t scene) const;
   double start_value(const BundleState& state) const;
   std::vector<int> counted_planes() const;
-  void leave_out(std::size_t sensor);
+  /// The planes that the first sensor and the free ones share at the present state.
+  void search_planes(int stride);
 
   const std::vector<BundleScene>& scenes_;
   const std::vector<InformedPose>& start_;

@@ -54,9 +54,9 @@ std::vector<ClusterStep> steps_by_cluster(const BundleSystem& system, std::size_
   return steps;
 }
 
-/// The step of all poses if the velocity of a scene were off by `error_mps` along itself and stayed
-/// so; zero in a scene that stands still or whose velocity is no unknown. `hessian` is that of the
-/// poses, with all velocities following; `cost` and `reduced_cost` are those of the scene.
+/// The step of all poses if the velocity of a scene were off by `error_mps` along itself, at most
+/// by all of it, and stayed so; zero in a scene whose velocity is no unknown. `hessian` is that of
+/// the poses, with all velocities following; `cost` and `reduced_cost` are those of the scene.
 Eigen::VectorXd step_for_velocity_error(const Twist& velocity, const BundleCost& cost,
                                         const ReducedCost& reduced_cost,
                                         const Eigen::MatrixXd& hessian, double error_mps) {
@@ -67,7 +67,7 @@ Eigen::VectorXd step_for_velocity_error(const Twist& velocity, const BundleCost&
       hessian - reduced_cost.hessian + cost.hessian.topLeftCorner(size, size);
   return -guarded_inverse<Eigen::Dynamic>(held) *
          cost.hessian.block(0, cost.hessian.cols() - 3, size, 3) *
-         (error_mps * velocity.linear_mps.normalized());
+         (std::min(error_mps, velocity.linear_mps.norm()) * velocity.linear_mps.normalized());
 }
 
 Observability word_of(double std_ratio) {

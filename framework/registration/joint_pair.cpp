@@ -99,8 +99,10 @@ class TermMaker {
       : scan_(source.scan),
         target_(target),
         velocity_(view.velocity),
-        pose_(view.state.T_target_sensor[source.sensor]),
+        whole_velocity_(stepped(target.scene().removed, vector_of(view.velocity))),
         clock_offset_s_(view.state.clock_offsets_s[source.sensor]),
+        pose_(motion_over(target.scene().removed, clock_offset_s_) *
+              view.state.T_target_sensor[source.sensor]),
         normals_(source.scan.cloud->normals(view.options.normal_neighbours)),
         min_cosine_(std::cos(rad_from_deg(view.options.max_normal_angle_deg))),
         max_distance_m_(view.max_distance_m) {}
@@ -126,7 +128,8 @@ class TermMaker {
     term.point = p;
     // The derivatives of exp(xi t) at small xi t: a scan turns by a few degrees at most.
     term.J << (motion.rotation * turned).cross(n), n, source_s * q.cross(n) - target_s * p.cross(n),
-        term.later_s * n, n.dot(velocity_.angular_radps.cross(q) + velocity_.linear_mps);
+        term.later_s * n,
+        n.dot(whole_velocity_.angular_radps.cross(q) + whole_velocity_.linear_mps);
     return true;
   }
 
@@ -134,8 +137,11 @@ class TermMaker {
   const TimedScan& scan_;
   const StillTarget& target_;
   const Twist& velocity_;
-  const RigidTransform& pose_;
+  Twist whole_velocity_;  ///< With what a step before has removed.
   double clock_offset_s_;
+  /// Of the sensor, moved by what a step before has not removed, because it took the sensor's
+  /// clock for right.
+  RigidTransform pose_;
   const Normals& normals_;
   double min_cosine_;
   double max_distance_m_;

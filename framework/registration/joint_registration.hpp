@@ -30,8 +30,8 @@ struct JointScene {
   /// Of the velocity, which is expected to be zero, before any point is seen: about the axes in
   /// rad/s, along them in m/s. Without it JointOptions::velocity_std.
   std::optional<Matrix6d> velocity_covariance;
-  Twist removed =
-      {};  ///< The velocity that a step before has removed; the unknown one is added to it.
+  /// The velocity that a step before has removed; the unknown one is added to it.
+  Twist removed = {};
 };
 
 /// The unknowns of a joint registration.
@@ -77,8 +77,10 @@ inline constexpr int kLeastJointCorrespondences = 30;
 /// for each scene that moves. A point s of a sensor that was measured at time t has the residual
 /// `n . (exp(xi (t + d)) T s - exp(xi t') p)` for the nearest point p of the target, which was
 /// measured at t' and has the normal n (point to plane, Chen & Medioni 1992, with the constant
-/// velocity xi of Zhang & Singh 2014 and the clock's offset d). Gauss-Newton with a robust kernel;
-/// all unknowns are solved for together. A sensor that does not take part keeps its start.
+/// velocity xi of Zhang & Singh 2014 and the clock's offset d). Where a step before has removed the
+/// velocity xi_0 by the sensor's own clock, `exp(xi_0 d) T` stands in place of T. Gauss-Newton with
+/// a robust kernel; all unknowns are solved for together. A sensor that does not take part keeps
+/// its start.
 ///
 /// One scene cannot tell a clock's offset from a shift of its sensor along the velocity; scenes of
 /// different velocities with common poses can.

@@ -9,6 +9,7 @@ namespace croon {
 /// over cubes of space (see pose_uncertainty), with the poses of the sensors free. What moves by
 /// itself is in a few cubes, and its speed is not that of the car: where such cubes decide, leaving
 /// one out changes the velocity. The scene is judged by itself, also where others share its poses.
+/// No velocity is less known than one of which no point was seen (JointOptions::velocity_std).
 Matrix6d velocity_covariance(const StillTarget& target, const JointState& state,
                              const JointOptions& options);
 

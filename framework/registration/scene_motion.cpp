@@ -41,10 +41,12 @@ const params::Table<MotionOptions>& motion_table() {
   return table;
 }
 
-double SceneMotion::speed_std_mps() const { return std::sqrt(covariance(3, 3) + covariance(4, 4)); }
+double speed_std_mps(const Matrix6d& covariance) {
+  return std::sqrt(covariance(3, 3) + covariance(4, 4));
+}
 
 bool SceneMotion::is_in_doubt(const MotionOptions& options) const {
-  return speed_std_mps() > options.certain_speed_std_mps;
+  return speed_std_mps(covariance) > options.certain_speed_std_mps;
 }
 
 std::string SceneMotion::rejection(std::size_t source, const MotionOptions& options) const {
@@ -52,7 +54,8 @@ std::string SceneMotion::rejection(std::size_t source, const MotionOptions& opti
   const double least = is_held ? std::min(options.min_speed_lead, 0.0) : options.min_speed_lead;
   const std::optional<double>& lead = leads.at(source);
   if (!lead || *lead >= least) return "";
-  return "the standard deviation of the speed, m/s, is " + fixed_number(speed_std_mps(), 3) +
+  return "the standard deviation of the speed, m/s, is " +
+         fixed_number(speed_std_mps(covariance), 3) +
          ", and the lead over another speed, in standard deviations, is " + fixed_number(*lead, 2) +
          ", below " + fixed_number(least, 2);
 }

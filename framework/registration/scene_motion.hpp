@@ -21,6 +21,10 @@ struct MotionOptions {
 /// The rows of MotionOptions.
 const params::Table<MotionOptions>& motion_table();
 
+/// The standard deviation of the velocity along x and y of the target, from the velocity's
+/// covariance (about the axes in rad/s, along them in m/s).
+double speed_std_mps(const Matrix6d& covariance);
+
 /// What is known of the motion of a scene.
 struct SceneMotion {
   Twist velocity;  ///< Of the target, in its own frame; zero if the scene stands still.
@@ -32,8 +36,6 @@ struct SceneMotion {
   std::vector<std::optional<double>> leads;
   std::vector<double> shift_std_m;  ///< What is not known of it moves each source by so much.
 
-  /// Of the velocity along x and y of the target.
-  double speed_std_mps() const;
   /// Whether the speed has to be compared with others.
   bool is_in_doubt(const MotionOptions& options) const;
   /// Why the pose of a source cannot be relied on, in words and numbers; empty if it can.

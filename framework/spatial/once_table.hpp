@@ -28,8 +28,9 @@ class OnceLog {
   std::vector<OnceTiming> timings_;
 };
 
-/// The seconds that this thread has spent so far inside OnceTable::get: computing shared values or
-/// waiting for them. A step's own time is its wall time minus the growth of this number.
+/// The seconds that this thread has spent so far inside OnceTable::get of tables with a log:
+/// computing shared values or waiting for them. A step's own time is its wall time minus the growth
+/// of this number.
 double seconds_spent_on_shared_work();
 
 /// A cache of values that depend on a cloud alone, each computed on first use. Thread-safe: one

@@ -74,14 +74,21 @@ class AzimuthCalibrationStep final : public RigStep {
   explicit AzimuthCalibrationStep(const Params& params)
       : params_(params), known_(params.known.begin(), params.known.end()) {}
 
+  static params::DataFlow data_flow(const Params& params) {
+    params::DataFlow flow;
+    for (const auto& [sensor, error] : params.known) flow.named_sensors.insert(sensor);
+    return flow;
+  }
+
   void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
     // A sensor's error is its own, but it is found against the surfaces of one target.
     std::map<std::pair<std::string, std::string>, std::vector<RigEstimate*>> unknown;
     for (RigEstimate& one : rig) {
-      if (one.estimate.rejection) continue;
       try {
-        require_usable_clouds(one.estimate);
+        if (!one.estimate.rejection) require_usable_clouds(one.estimate);
+        // Of rejected poses too: all sensors of a scene share the reference's cloud.
         correct_known(one);
+        if (one.estimate.rejection) continue;
         if (known_.count(one.source) == 0) unknown[{one.target, one.source}].push_back(&one);
       } catch (const StageError& error) {
         one.failure = error.what();
@@ -100,6 +107,7 @@ class AzimuthCalibrationStep final : public RigStep {
     const auto of_target = known_.find(one.target);
     if (of_target != known_.end()) {
       estimate.take_clouds(corrected(*estimate.target, of_target->second), estimate.source);
+      estimate.information.reset();
     }
     const auto of_source = known_.find(one.source);
     if (of_source == known_.end()) return;
@@ -178,7 +186,7 @@ StageEntry azimuth_calibration() {
       "Sees the whole rig: estimates what each sensor's azimuths are off by, one smooth error in "
       "all scenes of a trial, and corrects its clouds; or corrects them by errors that are known. "
       "Rejected poses take no part.",
-      "Lichti, ISPRS J. 2007; Muhammad and Lacroix, IROS 2010", table(), 2);
+      "Lichti, ISPRS J. 2007; Muhammad and Lacroix, IROS 2010", table(), 3);
 }
 
 }  // namespace croon::stages::step

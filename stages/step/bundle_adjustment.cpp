@@ -65,6 +65,10 @@ class BundleAdjustmentStep final : public RigStep {
       if (one.estimate.rejection) continue;
       try {
         require_usable_clouds(one.estimate);
+        const RigidTransform& T = one.estimate.T_target_source;
+        if (!T.rotation.allFinite() || !T.translation.allFinite()) {
+          throw StageError("its pose is not finite");
+        }
         references[one.target].push_back(&one);
       } catch (const StageError& error) {
         one.failure = error.what();
@@ -102,8 +106,9 @@ class BundleAdjustmentStep final : public RigStep {
     bundle.start.emplace_back();
     bundle.start_words.push_back(all_of(Observability::determined));
     for (const std::vector<const Estimate*>& of_sensor : starts) {
-      bundle.start.push_back(start_of(of_sensor));
-      bundle.start_words.push_back(start_words_of(of_sensor));
+      const RigidTransform centre = centre_of(of_sensor);
+      bundle.start.push_back(start_of(of_sensor, centre));
+      bundle.start_words.push_back(start_words_of(of_sensor, centre));
     }
     return bundle;
   }
@@ -124,11 +129,13 @@ class BundleAdjustmentStep final : public RigStep {
     return span_of(times_s(target.with_channels())).middle_s();
   }
 
-  /// The best of each degree of freedom of a sensor's estimates, one per scene.
-  static DofWords start_words_of(const std::vector<const Estimate*>& estimates) {
+  /// The best of each degree of freedom of a sensor's estimates, one per scene, near `centre`.
+  static DofWords start_words_of(const std::vector<const Estimate*>& estimates,
+                                 const RigidTransform& centre) {
     DofWords words = all_of(Observability::unobservable);
     for (const Estimate* const one : estimates) {
-      if (one->covariance) words = better_words(words, one->covariance->dofs);
+      if (!one->covariance || !agree(one->T_target_source, centre, kNearStart)) continue;
+      words = better_words(words, one->covariance->dofs);
     }
     return words;
   }
@@ -142,11 +149,16 @@ class BundleAdjustmentStep final : public RigStep {
     for (double& time : times) time -= zero_s;
   }
 
-  /// The start of a sensor that has these estimates, one per scene.
-  static InformedPose start_of(const std::vector<const Estimate*>& estimates) {
+  /// Where most of a sensor's estimates are, one per scene.
+  static RigidTransform centre_of(const std::vector<const Estimate*>& estimates) {
     std::vector<RigidTransform> poses;
     for (const Estimate* const one : estimates) poses.push_back(one->T_target_source);
-    const RigidTransform centre = common_start(poses);
+    return common_start(poses);
+  }
+
+  /// The start of a sensor: the mean of its estimates near `centre`.
+  static InformedPose start_of(const std::vector<const Estimate*>& estimates,
+                               const RigidTransform& centre) {
     std::vector<InformedPose> known;
     for (const Estimate* const one : estimates) {
       if (!one->covariance) return {centre, Matrix6d::Zero()};
@@ -225,7 +237,9 @@ class BundleAdjustmentStep final : public RigStep {
     if (is_adjusted) {
       estimate.covariance = result.covariances[sensor];
       // Planes or registrations must hold it, and well enough.
-      const DofWords held = better_words(result.plane_words[sensor], rig.start_words[sensor]);
+      const bool start_counts = params_.start_weight > 0.0 && !start.information.isZero(0.0);
+      DofWords held = result.plane_words[sensor];
+      if (start_counts) held = better_words(held, rig.start_words[sensor]);
       estimate.covariance->dofs = worse_words(estimate.covariance->dofs, held);
     } else {
       // One pose has one covariance, though each scene had its own.
@@ -233,7 +247,8 @@ class BundleAdjustmentStep final : public RigStep {
     }
     const std::optional<Twist>& change = result.velocities[scene];
     const double speed_change_mps = change ? change->linear_mps.norm() : 0.0;
-    estimate.diagnostics = {{"scenes", static_cast<double>(result.velocities.size())},
+    const auto scenes = std::count(rig.sensors.begin(), rig.sensors.end(), sensor);
+    estimate.diagnostics = {{"scenes", static_cast<double>(scenes)},
                             {"planes", static_cast<double>(result.planes[sensor])},
                             {"moved_deg", deg_from_rad(moved.rotation_rad)},
                             {"moved_m", moved.translation_m},
@@ -264,7 +279,7 @@ StageEntry bundle_adjustment() {
       "bundle_adjustment",
       "Sees the whole rig: gives each sensor, in all scenes of a trial, the pose at which what all "
       "sensors see lies best on common planes. Rejected poses take no part.",
-      "Liu and Zhang, BALM, RA-L 2021; Liu, Yuan and Zhang, MLCC, T-IM 2022", table(), 11);
+      "Liu and Zhang, BALM, RA-L 2021; Liu, Yuan and Zhang, MLCC, T-IM 2022", table(), 12);
 }
 
 }  // namespace croon::stages::step

@@ -89,7 +89,15 @@ class JointRegistrationStep final : public RigStep {
     }
     std::vector<std::vector<RigEstimate*>> apart;
     for (auto& [name, estimates] : groups) apart.push_back(std::move(estimates));
-    for_each_in_parallel(apart.size(), [&](std::size_t i) { register_group(apart[i]); });
+    for_each_in_parallel(apart.size(), [&](std::size_t i) {
+      try {
+        register_group(apart[i]);
+      } catch (const StageError& error) {
+        for (RigEstimate* const one : apart[i]) {
+          if (one->failure.empty()) one->failure = error.what();
+        }
+      }
+    });
   }
 
  private:
@@ -151,8 +159,8 @@ class JointRegistrationStep final : public RigStep {
         JointScene scene = scene_of(*one);
         const std::size_t s = index_of(scene_names, one->scene);
         if (s == group.scenes.size()) {
-          group.scenes.push_back(
-              {scene.target, {}, scene.reference_s, scene.is_moving, scene.velocity_covariance});
+          group.scenes.push_back(scene);
+          group.scenes.back().sources.clear();
           group.estimates.emplace_back();
           group.state.velocities.emplace_back();
         }
@@ -237,11 +245,12 @@ class JointRegistrationStep final : public RigStep {
       estimate.diagnostics = diagnostics_of(result, estimate.extras, motion, j, offset_s);
       if (!motion.is_moving && offset_s == 0.0) continue;
       if (!target) {
-        target = motion.is_moving ? in_trial(scene.target, motion.velocity, scene.reference_s, 0.0)
+        target = motion.is_moving ? in_trial(scene.target, motion.velocity, scene.reference_s)
                                   : estimate.target;
       }
+      const RigidTransform late = motion_over(velocity_in(T.inverse(), scene.removed), offset_s);
       estimate.take_clouds(target, in_trial(source.scan, velocity_in(T.inverse(), motion.velocity),
-                                            scene.reference_s, offset_s));
+                                            scene.reference_s, offset_s, late));
     }
   }
 
@@ -251,11 +260,12 @@ class JointRegistrationStep final : public RigStep {
     std::vector<Diagnostic> diagnostics = velocity_diagnostics(extras.get(kMotion));
     const std::vector<Diagnostic> stds = velocity_std_diagnostics(extras.get(kMotionCovariance));
     diagnostics.insert(diagnostics.end(), stds.begin(), stds.end());
-    diagnostics.insert(diagnostics.end(), {{"speed_std_mps", motion.speed_std_mps()},
-                                           {"speed_shift_std_m", motion.shift_std_m[source]},
-                                           {"rmse_m", result.rmse_m},
-                                           {"iterations", static_cast<double>(result.iterations)},
-                                           {"converged", result.converged ? 1.0 : 0.0}});
+    diagnostics.insert(diagnostics.end(),
+                       {{"speed_std_mps", speed_std_mps(extras.get(kMotionCovariance))},
+                        {"speed_shift_std_m", motion.shift_std_m[source]},
+                        {"rmse_m", result.rmse_m},
+                        {"iterations", static_cast<double>(result.iterations)},
+                        {"converged", result.converged ? 1.0 : 0.0}});
     if (params_.clock_offset_std_s > 0.0) {
       diagnostics.emplace_back("clock_offset_s", clock_offset_s);
     }
@@ -273,11 +283,17 @@ class JointRegistrationStep final : public RigStep {
     extras.put(kMotionCovariance, motion.covariance);
   }
 
-  /// The scan as a rig at rest would have measured it, with the times of the target's clock.
+  /// The scan as a rig at rest would have measured it, with the times of the target's clock. By the
+  /// motion `late` a step before has removed too little, which took the sensor's clock for right.
   static std::shared_ptr<const Cloud> in_trial(const TimedScan& scan, const Twist& velocity,
-                                               double reference_s, double clock_offset_s) {
+                                               double reference_s, double clock_offset_s = 0.0,
+                                               const RigidTransform& late = RigidTransform()) {
+    PointCloud cloud = scan.cloud->with_channels();
+    if (clock_offset_s != 0.0) {
+      for (Eigen::Vector3f& p : cloud.points) p = (late * p.cast<double>().eval()).cast<float>();
+    }
     PointCloud still =
-        deskewed(scan.cloud->with_channels(), scan.times_s, velocity, reference_s - clock_offset_s);
+        deskewed(std::move(cloud), scan.times_s, velocity, reference_s - clock_offset_s);
     if (clock_offset_s != 0.0 && has_times(*scan.cloud)) {
       std::vector<double> times = scan.times_s;
       for (double& time_s : times) time_s += clock_offset_s;
@@ -296,7 +312,7 @@ StageEntry joint_registration() {
       "joint_registration",
       "Sees the whole rig: registers all sensors together with the velocity of each scene, and "
       "removes the distortion of the scans by it.",
-      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 12);
+      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 13);
 }
 
 }  // namespace croon::stages::step

@@ -94,5 +94,39 @@ TEST_F(RigRun, GroupsOfAnotherSizeDoNotGoIntoOneStore) {
   EXPECT_THAT(single.text, HasSubstr("scenes_per_trial"));
 }
 
+TEST_F(RigRun, AKnownErrorOfNoSensorIsRefused) {
+  const std::string file = folder_.write("known.json", R"({
+    "name": "known", "dataset": {"type": "simulated", "rig": "croon_three", "scenes": 1},
+    "pipeline": [{"step": "azimuth_calibration", "known": {"lift": {"offset_deg": 0.1},
+                                                           "top": {"offset_deg": 0.1}}}]})");
+  const Answer answer = croon("run \"" + file + "\" --out \"" + out().string() + "\" --quiet");
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_EQ(answer.text, "croon: " + file +
+                             ": the step \"azimuth_calibration\": expected a sensor of the "
+                             "dataset, found \"lift\"; did you mean \"left\"?\n");
+  EXPECT_FALSE(std::filesystem::exists(out()));
+}
+
+TEST_F(RigRun, ScenesOfDifferentReferencesAreRefused) {
+  const std::string point =
+      "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n"
+      "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1\nDATA ascii\n1 2 3\n";
+  for (const char* const sensor : {"top", "left"}) {
+    folder_.write("data/rig/s1/" + std::string(sensor) + ".pcd", point);
+  }
+  folder_.write("data/rig/s1/lidar_cloud_path.txt",
+                "device_id: 0\npath: rig/s1/top.pcd\ndevice_id: 1\npath: rig/s1/left.pcd\n");
+  folder_.write("data/rig/s2/lidar_cloud_path.txt",
+                "device_id: 0\npath: rig/s1/left.pcd\ndevice_id: 1\npath: rig/s1/top.pcd\n");
+  const std::string file = folder_.write("two.json", R"({
+    "name": "two", "dataset": {"type": "opencalib", "path": "rig"},
+    "pipeline": [{"step": "identity"}]})");
+  const Answer answer = croon("run \"" + file + "\" --data \"" + folder_.path().string() +
+                              "/data\" --out \"" + out().string() + "\" --quiet");
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_THAT(answer.text, HasSubstr("two.json: /dataset: expected one reference in all scenes, "
+                                     "found \"top\" in scene \"s1\" and \"left\" in \"s2\""));
+}
+
 }  // namespace
 }  // namespace croon::experiments

@@ -336,6 +336,7 @@ TEST(Claims, OfFewTrialsOrScenesIsNoVerdict) {
     EXPECT_EQ(verdict(statistic, 6, 2), Verdict::not_enough) << statistic;
     EXPECT_EQ(verdict(statistic, 6, 10), Verdict::in) << statistic;
   }
+  EXPECT_EQ(verdict("within_scene_std", 60, 1), Verdict::not_measured);
   EXPECT_EQ(verdict("within_scene_std", 2, 10), Verdict::not_enough);
   EXPECT_EQ(verdict("within_scene_std", 2, 40), Verdict::in);
 }

@@ -71,6 +71,37 @@ TEST(Summary, FindsTheBiasAndTheSpreadThatWerePutIn) {
   }
 }
 
+TEST(Summary, WhereSomeHaveTruthTheOthersAreNotJudged) {
+  Rng rng = test_rng();
+  const RigidTransform pose = random_pose(rng, 3.0);
+  std::vector<TrialRecord> records;
+  for (int scene = 0; scene < 8; ++scene) {
+    const std::string name = std::to_string(scene);
+    const TrialId left = {"base", name, "left", 0};
+    // Truth of left in half of the scenes, of right in none.
+    const Vector6d offset = test::random_offset(rng, 0.1, 0.02);
+    records.push_back(scene < 4 ? test::finished(left, Status::success, pose, offset)
+                                : test::finished_without_truth(left, pose));
+    records.push_back(test::finished_without_truth({"base", name, "right", 0}, pose));
+  }
+  records.push_back(test::unfinished({"base", "0", "right", 1}, Status::failed, "no ground"));
+  ReportOrder order;
+  order.without_truth = {"right"};
+  const Summary summary = summarise(records, kBounds, order);
+  const TrialSummary all = pooled(scenes_of(rows_of(summary, "base")));
+  for (const TrialSummary& judged : {TrialSummary(summary.rows[0]), all}) {
+    EXPECT_EQ(judged.deviations_from, DeviationsFrom::truth);
+    EXPECT_EQ(judged.success.count, 4);
+    EXPECT_EQ(judged.success.trials, 4);
+    EXPECT_EQ(judged.counted, 4);
+    EXPECT_EQ(judged.usable, 4);
+  }
+  EXPECT_EQ(all.outcomes.trials, 17);
+  EXPECT_TRUE(lacks_truth(summary.rows[1]));
+  EXPECT_EQ(summary.curve.rows.back().shares[12].trials, 4);
+  EXPECT_EQ(summary.curve.rows.back().shares[12].count, 4);
+}
+
 TEST(Summary, DoesNotDependOnTheOrderOfTheRecords) {
   Rng rng = test_rng();
   const auto records = test::few_records();

@@ -97,6 +97,23 @@ TEST(Verdicts, OfChosenTrialsCountTheseAlone) {
   EXPECT_EQ(left.verdicts.rows.back().at_bounds.trials(), 8);
 }
 
+TEST(Verdicts, WithABoundOfZeroAreATableAndNoCurve) {
+  const std::vector<TrialRecord> records = some_records();
+  const Verdicts verdicts = verdicts_of(records, summarise(records, {0.0, 0.1}, {}));
+  EXPECT_FALSE(verdicts.rows.empty());
+  EXPECT_FALSE(has_curve(verdicts));
+  EXPECT_TRUE(has_curve(verdicts_on(records)));
+}
+
+TEST(Verdicts, DoNotCountFailuresOfASensorWithoutTruth) {
+  std::vector<TrialRecord> records = some_records();
+  records.push_back(test::unfinished({"base", "0", "back", 0}, Status::failed, "no ground"));
+  ReportOrder order;
+  order.without_truth = {"back"};
+  const Verdicts verdicts = verdicts_of(records, summarise(records, kBounds, order));
+  EXPECT_EQ(verdicts.rows.back().at_bounds.trials(), 9);
+}
+
 TEST(Verdicts, AreThereOnlyWhereTheProgramGaveOne) {
   std::vector<TrialRecord> records = some_records();
   const auto is_rejected = [](const TrialRecord& one) { return one.status == Status::rejected; };

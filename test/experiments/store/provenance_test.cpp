@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/file/experiment.hpp"
+#include "experiments/store/store_header.hpp"
 #include "test/experiments/support/fake_stages.hpp"
 #include "test/support/temp_folder.hpp"
 
@@ -24,6 +25,16 @@ TEST(Provenance, CloudsThatAreInNoFileAreNoInputs) {
   const auto manifest =
       nlohmann::json::parse(manifest_json(experiment, scenes, inputs, provenance));
   EXPECT_EQ(manifest["inputs"], nlohmann::json::array());
+}
+
+TEST(StoreHeader, WhatIsCurrentInOneFolderIsCurrentInTheMerge) {
+  StoreHeader left, right;
+  left.variants = {{"base", "", true}, {"far", "", false}, {"near", "", true}};
+  right.variants = {{"base", "", true}, {"far", "", true}};
+  for (const StoreHeader& merged : {united(left, right), united(right, left)}) {
+    ASSERT_EQ(merged.variants.size(), 3U);
+    for (const StoredName& variant : merged.variants) EXPECT_TRUE(variant.is_current);
+  }
 }
 
 }  // namespace

@@ -28,5 +28,12 @@ TEST(NearestName, KnowsWhenNothingIsNear) {
   EXPECT_EQ(name_hint("ransak", {}), "");
 }
 
+TEST(NearestName, CompletesAWord) {
+  const std::vector<std::string> keys = {"voxel_size_m", "min_range_m", "min_points_per_voxel"};
+  EXPECT_EQ(name_hint("voxel", keys), "; did you mean \"voxel_size_m\"?");
+  EXPECT_EQ(name_hint("min", keys).rfind("; known: ", 0), 0U) << "two begin with it";
+  EXPECT_EQ(name_hint("v", keys).rfind("; known: ", 0), 0U) << "shorter than a word";
+}
+
 }  // namespace
 }  // namespace croon

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <stdexcept>
 
 #include "framework/base/angles.hpp"
@@ -98,7 +99,6 @@ TEST(MeanPose, HasTheSameBitsInAnyOrder) {
 
 TEST(MeanPose, OfNothingIsAMistakeOfOurs) {
   EXPECT_THROW(mean_pose({}), std::logic_error);
-  EXPECT_THROW(mean_pose({}), std::logic_error);
   EXPECT_THROW(consensus_pose({}, kBounds), std::logic_error);
 }
 
@@ -110,6 +110,23 @@ TEST(ConsensusPose, IsTheMeanWhereAllAgree) {
     for (int k = 0; k < 30; ++k) poses.push_back(test::pose_near(rng, centre, 0.1, 0.02));
     expect_near(consensus_pose(poses, kBounds), mean_pose(poses), 1e-12);
   }
+}
+
+TEST(ConsensusPose, IsTheMeanOfItsMembers) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 100; ++i) {
+    const auto poses = poses_with_outliers(rng, 12, 8);
+    std::vector<RigidTransform> members;
+    for (const std::size_t k : consensus_members(poses, kBounds)) members.push_back(poses[k]);
+    expect_near(consensus_pose(poses, kBounds), mean_pose(members), 1e-12);
+  }
+  // Also those that are beyond the bounds of the mean, as the first is here.
+  std::vector<RigidTransform> line(5);
+  for (std::size_t k = 0; k < 5; ++k) {
+    line[k].translation.x() = std::array{-0.95, 0.0, 0.0, 0.95, 0.95}[k] * kBounds.translation_m;
+  }
+  EXPECT_EQ(consensus_members(line, kBounds).size(), 5U);
+  EXPECT_EQ(consensus_members({line[3]}, kBounds), std::vector<std::size_t>{0});
 }
 
 TEST(ConsensusPose, IgnoresHoweverManyThatAgreeWithNobody) {

@@ -68,7 +68,7 @@ TEST(BundleSystem, HasTheGradientOfItsValueByPosesClocksAndVelocities) {
   system.find_planes(1);
   ASSERT_EQ(system.free_sensors().size(), 1U);
   Eigen::VectorXd off = Eigen::VectorXd::Zero(19);
-  for (Eigen::Index i = 0; i < 7; ++i) off(i) = rng.uniform(-0.002, 0.002);
+  for (Eigen::Index i = 0; i < off.size(); ++i) off(i) = rng.uniform(-0.002, 0.002);
   system.set_state(stepped(system.state(), off));
 
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(19);
@@ -131,8 +131,12 @@ TEST(BundleSystem, LeavesOutASensorThatSharesTooFewPlanes) {
   EXPECT_LT(with.planes_of_sensors()[2], options.min_planes);
   EXPECT_EQ(with.state().poses[2].translation, off.pose.translation);
   for (std::size_t s = 0; s < with.planes().size(); ++s) {
-    for (const PlanePatch& patch : with.planes()[s]) {
+    // The others are where they would be without it.
+    ASSERT_EQ(with.planes()[s].size(), without.planes()[s].size());
+    for (std::size_t i = 0; i < with.planes()[s].size(); ++i) {
+      const PlanePatch &patch = with.planes()[s][i], &alone = without.planes()[s][i];
       ASSERT_EQ(patch.views.size(), 2U);
+      EXPECT_EQ(patch.own_cost, alone.own_cost);
       for (const PlanePatch::View& view : patch.views) EXPECT_NE(view.sensor, 2U);
     }
   }

@@ -222,7 +222,7 @@ TEST(SceneMotion, RejectsWhatIsNotCertainAndHasNoLead) {
   motion.leads.resize(2);
   motion.covariance(3, 3) = 0.03 * 0.03;
   motion.covariance(4, 4) = 0.04 * 0.04;
-  EXPECT_DOUBLE_EQ(motion.speed_std_mps(), 0.05);
+  EXPECT_DOUBLE_EQ(speed_std_mps(motion.covariance), 0.05);
   EXPECT_FALSE(motion.is_in_doubt(options));
   motion.covariance(3, 3) = 0.04;
   EXPECT_TRUE(motion.is_in_doubt(options));

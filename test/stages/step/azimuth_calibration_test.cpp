@@ -145,6 +145,18 @@ TEST(AzimuthCalibration, CorrectsWhatIsKnown) {
   }
 }
 
+TEST(AzimuthCalibration, CorrectsWhatIsKnownOfRejectedPosesToo) {
+  std::vector<RigEstimate> rig = two_streets(kError, some_pose());
+  rig.resize(1, rig.front());
+  rig.push_back(rig.front());
+  rig.back().source = "right";
+  rig.front().estimate.rejection = "no";
+  calibrate(rig, R"(, "estimate": false, "known": {"top": {"sine_deg": 0.5}})");
+  // All sensors of a scene share the reference's cloud.
+  EXPECT_EQ(rig.front().estimate.target, rig.back().estimate.target);
+  EXPECT_EQ(rig.front().estimate.rejection, "no");
+}
+
 TEST(AzimuthCalibration, FailsAloneWhereTooFewPointsCorrespond) {
   std::vector<RigEstimate> rig = two_streets({}, some_pose());
   rig.front().source = "right";

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "framework/geometry/dof.hpp"
 #include "framework/stage/rig_step.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"
+#include "test/support/street_estimate.hpp"
 
 namespace croon {
 namespace {
@@ -123,6 +125,30 @@ TEST(Consensus, RejectedPosesHaveNoVoteBesideAcceptedOnes) {
   for (RigEstimate& one : rig) one.estimate.rejection = "verdict: no overlap";
   adjust(rig);
   for (const RigEstimate& one : rig) EXPECT_EQ(one.estimate.rejection, "verdict: no overlap");
+}
+
+TEST(Consensus, IsTheMeanOfExactlyThePosesThatAgree) {
+  Rng rng = test::test_rng(6);
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<RigEstimate> rig = near_estimates(rng, "left", {}, 7);
+    std::vector<double> x_m;
+    for (RigEstimate& one : rig) {
+      x_m.push_back(rng.uniform(-0.15, 0.15));
+      one.estimate.T_target_source = {};
+      one.estimate.T_target_source.translation.x() = x_m.back();
+    }
+    adjust(rig);
+    const Estimate& found = rig.front().estimate;
+    const auto agreeing = std::llround(7.0 * test::diagnostic(found, "agreeing_ratio"));
+    // Along a line they are neighbours.
+    std::sort(x_m.begin(), x_m.end());
+    double nearest_m = 1.0;
+    for (auto first = x_m.begin(); x_m.end() - first >= agreeing; ++first) {
+      const double mean_m = std::accumulate(first, first + agreeing, 0.0) / agreeing;
+      nearest_m = std::min(nearest_m, std::abs(mean_m - found.T_target_source.translation.x()));
+    }
+    EXPECT_LT(nearest_m, 1e-12) << trial;
+  }
 }
 
 TEST(Consensus, ByCovarianceFollowsTheScenesThatKnowBest) {

@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "framework/base/angles.hpp"
 #include "framework/spatial/deskew.hpp"
+#include "framework/stage/given_motions.hpp"
 #include "framework/stage/rig_step.hpp"
 #include "test/support/driven_scan.hpp"
 #include "test/support/random_geometry.hpp"
@@ -58,13 +60,17 @@ DrivenStreet driven_street(std::uint64_t scene_seed, const Twist& velocity, doub
 /// 12 m/s move a point by up to 0.6 m during half a scan.
 Twist fast() { return {{0.01, -0.02, 0.3}, {12.0, -0.5, 0.1}}; }
 
-void adjust_streets(std::vector<DrivenStreet>& streets, const std::string& parameters) {
+void adjust_streets(std::vector<DrivenStreet>& streets, const Step& step) {
   std::vector<RigEstimate> rig;
   for (const DrivenStreet& street : streets) rig.push_back(street.one);
   Rng rng = test::test_rng();
-  const auto step = test::stage<Step>(R"({"step": "joint_registration")" + parameters + "}");
-  dynamic_cast<const RigStep&>(*step).adjust(rig, rng);
+  dynamic_cast<const RigStep&>(step).adjust(rig, rng);
   for (std::size_t i = 0; i < rig.size(); ++i) streets[i].one = rig[i];
+}
+
+void adjust_streets(std::vector<DrivenStreet>& streets, const std::string& parameters) {
+  adjust_streets(streets,
+                 *test::stage<Step>(R"({"step": "joint_registration")" + parameters + "}"));
 }
 
 /// How many points are not within `tolerance_m` of where they should be.
@@ -94,16 +100,23 @@ TEST(JointDeskew, PutsWhatADrivingRigMeasuredWhereItWas) {
   expect_street_at_rest(street);
 }
 
-TEST(JointDeskew, AddsTheOffsetOfAClockToItsTimes) {
-  // Streets of different velocities tell the offset from a shift of the sensor along the way.
-  const Twist slow = {{0.0, 0.0, -0.1}, {4.0, 0.2, 0.0}};
+Twist slow() { return {{0.0, 0.0, -0.1}, {4.0, 0.2, 0.0}}; }
+
+/// Streets of different velocities, which tell the offset of a clock from a shift of the sensor
+/// along the way. All begin at one pose.
+std::vector<DrivenStreet> streets_of_a_late_clock(double late_s) {
   std::vector<DrivenStreet> streets;
-  streets.push_back(driven_street(1, fast(), 0.03));
-  streets.push_back(driven_street(2, slow, 0.03));
-  streets.push_back(driven_street(3, {}, 0.03));
+  streets.push_back(driven_street(1, fast(), late_s));
+  streets.push_back(driven_street(2, slow(), late_s));
+  streets.push_back(driven_street(3, {}, late_s));
   for (DrivenStreet& street : streets) {
     street.one.estimate.T_target_source = streets.front().one.estimate.T_target_source;
   }
+  return streets;
+}
+
+TEST(JointDeskew, AddsTheOffsetOfAClockToItsTimes) {
+  std::vector<DrivenStreet> streets = streets_of_a_late_clock(0.03);
   const std::vector<DrivenStreet> before = streets;
   adjust_streets(streets, R"(, "poses": "common", "clock_offset_std_s": 0.1)");
   for (const DrivenStreet& street : streets) expect_street_at_rest(street);
@@ -119,6 +132,26 @@ TEST(JointDeskew, AddsTheOffsetOfAClockToItsTimes) {
     }
     EXPECT_EQ(times_s(estimate.target->with_channels()),
               times_s(before[i].one.estimate.target->with_channels()));
+  }
+}
+
+TEST(JointDeskew, FindsTheOffsetOfAClockByWhichAKnownVelocityWasRemoved) {
+  for (const double std : {0.0, 0.1}) {
+    SCOPED_TRACE(std);
+    std::vector<DrivenStreet> streets = streets_of_a_late_clock(0.03);
+    GivenMotions motions;
+    for (const auto& [scene, velocity] :
+         std::map<std::string, Twist>{{"1", fast()}, {"2", slow()}, {"3", {}}}) {
+      motions[scene] = {velocity, Vector6d::Constant(std)};
+      if (std == 0.0) motions[scene].stds.reset();
+    }
+    const auto known = test::stage<Step>(R"({"step": "known_velocity", "file": "v.csv"})");
+    adjust_streets(streets, *dynamic_cast<const GivenMotionStep&>(*known).with(motions));
+    adjust_streets(streets, R"(, "poses": "common", "clock_offset_std_s": 0.1)");
+    for (const DrivenStreet& street : streets) {
+      expect_street_at_rest(street);
+      EXPECT_NEAR(test::diagnostic(street.one.estimate, "clock_offset_s"), 0.03, 0.002);
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "framework/base/angles.hpp"
+#include "framework/base/threads.hpp"
 #include "framework/simulation/rig.hpp"
 #include "framework/simulation/sensor_model.hpp"
 #include "framework/simulation/simulated_scene.hpp"
@@ -152,6 +153,33 @@ TEST(JointRegistration, ACloudThatDefeatsItFailsAlone) {
   }
 }
 
+TEST(JointRegistration, ASceneThatDefeatsItFailsAloneWithAnyThreads) {
+  const DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(3));
+  std::vector<std::vector<RigEstimate>> adjusted;
+  for (const int jobs : {1, 3}) {
+    adjusted.push_back(rig.estimates);
+    // No step refuses a point at 60 km, but leaves of 0.1 mm do not reach it.
+    Estimate& stray = adjusted.back().front().estimate;
+    PointCloud cloud = stray.source->with_channels();
+    cloud.points.front().x() = 6e4F;
+    stray.source = std::make_shared<const Cloud>(std::move(cloud), StreamKey(1));
+    on_threads(jobs, [&] {
+      adjust_jointly(adjusted.back(),
+                     R"(, "thinning": {"type": "voxel_downsample", "leaf_size_m": 1e-4})");
+    });
+  }
+  for (std::size_t i = 0; i < rig.estimates.size(); ++i) {
+    const RigEstimate& one = adjusted[0][i];
+    EXPECT_EQ(one.failure.empty(), one.scene != rig.estimates.front().scene) << one.failure;
+    EXPECT_FALSE(one.estimate.information);
+    EXPECT_EQ(one.failure, adjusted[1][i].failure);
+    EXPECT_EQ(one.estimate.T_target_source.rotation,
+              adjusted[1][i].estimate.T_target_source.rotation);
+    EXPECT_EQ(one.estimate.T_target_source.translation,
+              adjusted[1][i].estimate.T_target_source.translation);
+  }
+}
+
 TEST(JointRegistration, ASensorThatTheVelocityHardlyMovesNeedsNoLead) {
   DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
   adjust_jointly(
@@ -198,6 +226,7 @@ TEST(JointRegistration, LeavesAVelocityThatIsKnown) {
               vector_of(before[i].estimate.extras.get(kMotion)));
     EXPECT_EQ(estimate.extras.get(kMotionCovariance),
               before[i].estimate.extras.get(kMotionCovariance));
+    EXPECT_NEAR(test::diagnostic(estimate, "speed_std_mps"), std::hypot(0.1, 0.1), 1e-9);
   }
 }
 
@@ -237,6 +266,26 @@ TEST(JointRegistration, KnowsTheVelocityBetterWithOneThatIsGiven) {
   };
   EXPECT_LT(std_mps(rig), std_mps(alone));
   EXPECT_GT(std_mps(rig), 0.0);
+}
+
+TEST(JointRegistration, ComparesWithOtherSpeedsOfTheCarAndNotOfWhatRemains) {
+  // A start at the speed that was found leads to the same state; one at another speed stays where
+  // it is if only points within 0.1 m correspond, and no lead over that is enough.
+  const auto is_rejected_beside = [](double speed_mps) {
+    DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
+    for (RigEstimate& one : rig.estimates) one.estimate.T_target_source = rig.truth[one.source];
+    remove_known_velocity(rig, 0.0, 30.0);
+    adjust_jointly(rig.estimates,
+                   R"(, "certain_speed_std_mps": 0, "certain_shift_m": 0, "min_speed_lead": 1000,
+                       "patch_kernel_m": 0, "coarse_distances_m": [0.1], "max_distances_m": [0.1],
+                       "other_speeds_mps": [)" +
+                       std::to_string(speed_mps) + "]");
+    return rig.estimates.front().estimate.rejection.has_value();
+  };
+  const DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
+  const Eigen::Vector3d velocity_mps = rig.velocities.begin()->second.linear_mps;
+  EXPECT_FALSE(is_rejected_beside(velocity_mps.head<2>().norm()));
+  EXPECT_TRUE(is_rejected_beside(-30.0));
 }
 
 TEST(JointRegistration, LeavesAVelocityThatIsCertain) {
