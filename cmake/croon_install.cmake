@@ -33,10 +33,14 @@ if(CROON_BUILD_TOOLS)
   install(TARGETS croon)
   install(TARGETS croon_openvdb_module LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/croon")
   install(FILES experiments/store/version.hpp DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/croon/experiments/store")
-  install(FILES "${CMAKE_BINARY_DIR}/experiments/store/version.cpp.in"
-    "${CMAKE_BINARY_DIR}/experiments/store/croon_commit.cmake" DESTINATION "${package_folder}")
-  install(DIRECTORY experiments/paper experiments/ablations DESTINATION "${CMAKE_INSTALL_DATADIR}/croon/experiments"
-    FILES_MATCHING PATTERN "*.json")
+  install(FILES "${PROJECT_BINARY_DIR}/experiments/store/version.cpp.in"
+    "${PROJECT_BINARY_DIR}/experiments/store/croon_commit.cmake" DESTINATION "${package_folder}")
+  # They extend each other.
+  install(FILES experiments/best.json experiments/demo.json experiments/driving.json experiments/rig.json
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/croon/experiments")
+  install(DIRECTORY experiments/paper experiments/ablations experiments/judging experiments/tuning
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/croon/experiments"
+    FILES_MATCHING PATTERN "*.json" PATTERN "*.csv")
 endif()
 
 set(CROON_HAS_PROGRAM ${CROON_BUILD_TOOLS})

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "experiments/file/experiment.hpp"
 #include "experiments/report/output_files.hpp"
@@ -139,6 +140,29 @@ void make_folder(const std::filesystem::path& folder) {
   }
 }
 
+/// Makes the folder of the output, and in the end removes what it made and nothing was written to.
+class OutputFolders {
+ public:
+  explicit OutputFolders(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    for (auto part = std::filesystem::absolute(folder);
+         !std::filesystem::exists(part, ignored) && part.has_relative_path();
+         part = part.parent_path()) {
+      made_.push_back(part);
+    }
+    make_folder(folder);
+  }
+  ~OutputFolders() {
+    std::error_code ignored;
+    for (const std::filesystem::path& folder : made_) std::filesystem::remove(folder, ignored);
+  }
+  OutputFolders(const OutputFolders&) = delete;
+  OutputFolders& operator=(const OutputFolders&) = delete;
+
+ private:
+  std::vector<std::filesystem::path> made_;  ///< The innermost first.
+};
+
 }  // namespace
 
 int describe_command(const DescribeOptions& options, const Catalogue& catalogue,
@@ -147,9 +171,10 @@ int describe_command(const DescribeOptions& options, const Catalogue& catalogue,
   const Sheet sheet = sheet_called(options.width, options.format, kTwoColumns);
   refuse_repeats(options.experiments, "experiment");
   const std::vector<NamedScene> scenes = scenes_of(options, catalogue);
+  std::optional<OutputFolders> folders;
   if (!options.out.empty()) {
     // Before the clouds are looked at, which takes long.
-    make_folder(options.out);
+    folders.emplace(options.out);
     refuse_to_replace(files_in(options.out, {}, writer, sheet));
   }
   const params::Slot<GroundExtractor> extractor = extractor_of(catalogue);

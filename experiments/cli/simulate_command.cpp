@@ -199,8 +199,15 @@ std::vector<OutputFile> copies_of_given_files(const Experiment& experiment,
                                          kVelocities, kStarts, kRecipe};
   std::vector<OutputFile> copies;
   for (const std::string& name : given_files(experiment)) {
+    if (fs::path(name).is_absolute() || fs::path(name).lexically_normal() != name) {
+      throw InputError(experiment.file, "",
+                       "expected a path below the experiment's folder, without \".\" and \"..\", "
+                       "of a file that is copied, found " +
+                           in_quotes(name));
+    }
     // Else those of the dataset are meant.
-    if (name == kVelocities && !fs::exists(beside / name)) continue;
+    const bool is_there = fs::exists(data_root({}) / name) || fs::exists(beside / name);
+    if (name == kVelocities && !is_there) continue;
     if (written.count(name) > 0) {
       throw InputError(experiment.file, "",
                        "expected another name for a file that a variant reads than one that is "

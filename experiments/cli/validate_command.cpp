@@ -73,6 +73,9 @@ int validate_command(const std::vector<fs::path>& paths, const Catalogue& catalo
     } catch (const InputError& error) {
       print_faults(error, err);
       code = 2;
+    } catch (const fs::filesystem_error& error) {
+      print_faults(InputError(file.string(), "", error.code().message()), err);
+      code = 2;
     }
   }
   return code;

@@ -79,6 +79,12 @@ const Table<Claim>& claim_table() {
         optional(params::text("why", &P::why, "Why ours may differ.")),
     };
     rows.rule({"statistic", kShares, true, {"measure"}, {}});
+    rows.rule({"statistic",
+               {kShares.front(), kShares.at(1), kShares.at(2), kWithinSceneStd, kAcrossScenesStd},
+               false,
+               {},
+               {"over"},
+               "no choice of trials for a share or a spread"});
     return rows.rule(
         {"statistic", kShares, false, {}, {"measure"}, "no measure of a share of the trials"});
   }();
@@ -101,7 +107,13 @@ Table<TableBand> band_table() {
       optional(params::numbers("half_width", &P::half_width, {0.0, 1e9},
                                "Half of the width of the band of each measure.")),
   };
-  table.rule({"rule", {"around_zero"}, false, {"half_width"}, {"samples"}, "no \"samples\" here"});
+  table.rule({"rule",
+              {"around_zero"},
+              false,
+              {"half_width"},
+              {"samples", "decimals"},
+              "neither \"samples\" nor \"decimals\" here"});
+  table.rule({"rule", {"around_zero"}, true, {}, {"half_width"}, "no half width of another rule"});
   return table;
 }
 

@@ -75,7 +75,15 @@ MergedFile read_extended(const json& own, const fs::path& path, const std::vecto
     throw InputError(std::move(faults));
   };
   const std::string key = std::string("/") + kExtends;
-  if (std::find(chain.begin(), chain.end(), fs::weakly_canonical(extended)) != chain.end()) {
+  std::error_code error;
+  const fs::path canonical = fs::weakly_canonical(extended, error);
+  const bool is_file = !error && fs::is_regular_file(extended, error);
+  // A name that is too long, a loop of links.
+  if (error && error != std::errc::no_such_file_or_directory) {
+    refuse(path.string(), key,
+           "expected an experiment file, found " + extended.string() + ": " + error.message());
+  }
+  if (std::find(chain.begin(), chain.end(), canonical) != chain.end()) {
     refuse(path.string(), key,
            "expected another file, found " + extended.string() + ", which extends this one");
   }
@@ -83,7 +91,7 @@ MergedFile read_extended(const json& own, const fs::path& path, const std::vecto
     refuse(path.string(), key,
            "expected at most " + std::to_string(kMostFiles) + " files that extend each other");
   }
-  if (!fs::is_regular_file(extended)) {
+  if (!is_file) {
     refuse(path.string(), key,
            "expected an experiment file, found " + found_instead_of_file(extended) + " at " +
                extended.string() + missing_path_hint("", extended));
@@ -101,7 +109,8 @@ MergedFile read_merged(const std::string& text, const fs::path& path, std::vecto
   const ExperimentFile file = {path.filename().string(), sha256_of_text(text)};
   const json own = params::parse_json(text, path.string(), faults);
   if (!own.is_object()) return {own, {}, {file}};
-  chain.push_back(fs::weakly_canonical(path));
+  std::error_code ignored;  // The file has been read.
+  chain.push_back(fs::weakly_canonical(path, ignored));
   MergedFile merged = read_extended(own, path, chain, faults);
   json renamed = with_present_names(own, path.string(), faults, merged.origins);
   renamed.erase(kExtends);
@@ -159,6 +168,8 @@ Experiment parse_experiment(const std::string& text, const fs::path& path,
   }
   if (!faults.empty()) throw InputError(without_repeats(faults));
   experiment.file = path.string();
+  const auto starts = merged.origins.find("starts");
+  experiment.starts_file = starts == merged.origins.end() ? experiment.file : starts->second.file;
   experiment.files = merged.files;
   experiment.merged = merged.keys.dump();
   return experiment;

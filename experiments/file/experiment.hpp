@@ -54,6 +54,7 @@ struct Experiment {
   std::string description;  ///< The question it answers; may be empty.
   params::Slot<Dataset> dataset;
   StartRule starts;
+  std::string starts_file = {};  ///< In which they are written: the file, or one that it extends.
   std::uint64_t seed = 1;
   SuccessBounds success;
   int scenes_per_trial = 1;  ///< See `grouped`.

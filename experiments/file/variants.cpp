@@ -219,18 +219,22 @@ void multiply_out(const NamedPipeline& point, const std::vector<GridAxis>& axes,
     return;
   }
   bool fits = false;
+  std::vector<std::pair<const GridPoint*, std::string>> refused;
   for (const GridPoint& value : axes[axis].points) {
     NamedPipeline next = point;
-    if (!replace_value(next.pipeline, axes[axis].path, value.value, catalogue).empty()) continue;
+    const std::string why = replace_value(next.pipeline, axes[axis].path, value.value, catalogue);
+    if (!why.empty()) {
+      refused.emplace_back(&value, why);
+      continue;
+    }
     fits = true;
     next.name += "/" + value.label;
     multiply_out(next, axes, axis + 1, catalogue, is_used, out);
   }
-  if (fits) {
-    is_used[axis] = true;
-  } else {
-    multiply_out(point, axes, axis + 1, catalogue, is_used, out);
-  }
+  if (!fits) return multiply_out(point, axes, axis + 1, catalogue, is_used, out);
+  is_used[axis] = true;
+  // The path is there, so each of these is wrong by itself.
+  for (const auto& [value, why] : refused) value->value.fault(why);
 }
 
 std::vector<NamedPipeline> apply_grid(const std::vector<NamedPipeline>& pipelines, const Node& grid,

@@ -102,13 +102,24 @@ void set_observability(Estimate& estimate, const py::object& words) {
   }
 }
 
+/// The text of a str; nothing of None. `rejection = False` is a mistake, and no text.
+std::optional<std::string> reason_from(const py::object& reason, const char* attribute) {
+  if (reason.is_none()) return std::nullopt;
+  if (!py::isinstance<py::str>(reason) || py::len(reason) == 0) {
+    throw InputError(
+        "", attribute,
+        "expected None or a reason, found " +
+            (py::isinstance<py::str>(reason) ? std::string("an empty str") : type_words(reason)));
+  }
+  return text_of(reason);
+}
+
 void set_rejection(Estimate& estimate, const py::object& reason) {
-  estimate.rejection.reset();
-  if (!reason.is_none()) estimate.rejection = text_of(reason);
+  estimate.rejection = reason_from(reason, "rejection");
 }
 
 void set_failure(RigEstimate& estimate, const py::object& reason) {
-  estimate.failure = reason.is_none() ? "" : text_of(reason);
+  estimate.failure = reason_from(reason, "failure").value_or("");
 }
 
 py::object trial_object(const Estimate& estimate) {

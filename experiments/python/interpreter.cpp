@@ -79,13 +79,15 @@ void throw_from_python(py::error_already_set& error) {
   const py::object type = error.type();
   const bool is_stage_error = type.is(py::module_::import("croon._errors").attr("StageError"));
   const std::string name = text_of(type.attr("__name__"));
-  const std::string message = text_of(error.value());
+  const std::string text = text_of(error.value());
+  std::string message = text;
+  if (!is_stage_error) message = text.empty() ? name : name + ": " + text;
   if (innermost_cause != nullptr) {
     if (error.trace()) PyException_SetTraceback(error.value().ptr(), error.trace().ptr());
     innermost_cause->exception = ObjectRef(error.value());
+    innermost_cause->message = message;
   }
-  if (is_stage_error) throw StageError(message);
-  throw StageError(message.empty() ? name : name + ": " + message);
+  throw StageError(message);
 }
 
 std::string text_of(const py::handle& object) {

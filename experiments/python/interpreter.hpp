@@ -66,6 +66,7 @@ class CauseOfFailure {
   CauseOfFailure& operator=(const CauseOfFailure&) = delete;
 
   ObjectRef exception;
+  std::string message;  ///< Of the StageError that it became, which C++ may have handled since.
 
  private:
   CauseOfFailure* outer_;

@@ -10,11 +10,15 @@
 namespace croon::python {
 namespace {
 
-/// Raises croon.StageError; its cause is the exception of Python that it came from, if so.
-[[noreturn]] void raise_failure(const std::string& failure, const ObjectRef& cause) {
+/// Raises croon.StageError; its cause is the exception of Python that it came from, if so: then the
+/// failure ends with what that said.
+[[noreturn]] void raise_failure(const std::string& failure, const CauseOfFailure& cause) {
   const py::object type = py::module_::import("croon._errors").attr("StageError");
   const py::object error = type(failure);
-  if (cause) PyException_SetCause(error.ptr(), cause.get().release().ptr());
+  const std::string& said = cause.message;
+  const bool is_cause = cause.exception && failure.size() >= said.size() &&
+                        failure.compare(failure.size() - said.size(), said.size(), said) == 0;
+  if (is_cause) PyException_SetCause(error.ptr(), cause.exception.get().release().ptr());
   PyErr_SetObject(type.ptr(), error.ptr());
   throw py::error_already_set();
 }
@@ -55,7 +59,7 @@ class SharedPipeline {
       result = calibrate(pipeline_, std::move(target_cloud), std::move(source_cloud), start,
                          {seed, scene, reference, sensor, trial});
     }
-    if (!result.failure.empty()) raise_failure(result.failure, cause.exception);
+    if (!result.failure.empty()) raise_failure(result.failure, cause);
     const Estimate& estimate = result.estimate;
     return py::make_tuple(
         array_from(estimate.T_target_source), object_from(estimate.information),

@@ -130,7 +130,7 @@ void check_centres(const Experiment& experiment, const std::vector<Scene>& scene
   }
   std::vector<Fault> faults;
   for (const auto& [sensor, poses] : missing) {
-    faults.push_back({experiment.file, "/starts/around",
+    faults.push_back({experiment.starts_file, "/starts/around",
                       "sensor \"" + sensor + "\" has no " + params::word_of(kStartCentres, around) +
                           " pose to draw starts around in " + scene_list(poses.scenes) + "; " +
                           poses.instead});
@@ -239,18 +239,19 @@ void resolve_starts(Experiment& experiment, const std::vector<Scene>& scenes,
   StartRule& rule = experiment.starts;
   check_names(scenes);
   if (rule.file.empty()) return check_centres(experiment, scenes);
-  const std::filesystem::path path = found_input(
-      experiment, rule.file, data_root, {experiment.file, "/starts/file", ""}, "a file of starts");
+  const std::filesystem::path path =
+      found_input(experiment, rule.file, data_root, {experiment.starts_file, "/starts/file", ""},
+                  "a file of starts");
   rule.table = std::make_shared<const StartTable>(read_start_file(path, scenes));
   if (!rule.sha256.empty() && rule.sha256 != rule.table->sha256) {
     throw InputError(
-        experiment.file, "/starts/sha256",
+        experiment.starts_file, "/starts/sha256",
         "expected " + rule.sha256 + ", found " + rule.table->sha256 + " of " + path.string());
   }
   rule.sha256 = rule.table->sha256;
   if (rule.trials == 0) rule.trials = rule.table->trials;
   if (rule.trials > rule.table->trials) {
-    throw InputError(experiment.file, "/starts/trials",
+    throw InputError(experiment.starts_file, "/starts/trials",
                      "expected at most " + std::to_string(rule.table->trials) +
                          " trials, as many as " + path.string() + " has, found " +
                          std::to_string(rule.trials));

@@ -41,6 +41,14 @@ std::vector<std::string> check_pcd(std::string_view head, std::uint64_t file_byt
                                    const std::string& file) {
   const PcdHeader header = parse_pcd_header(head, file);
   check_pcd_size(header, head, file_bytes, file);
+  if (header.encoding == PcdEncoding::binary_compressed) {
+    // The file, what it expands to, and the points with their channels are in memory at one time.
+    const auto point_bytes = static_cast<double>(header.point_bytes);
+    const double points_bytes =
+        static_cast<double>(header.points) * (2.0 * point_bytes + sizeof(Eigen::Vector3f));
+    require_memory(static_cast<double>(file_bytes) + points_bytes, "to read this file",
+                   "make it smaller", {file, "", ""});
+  }
   return named(pcd_channel_names(header));
 }
 

@@ -117,9 +117,11 @@ void read_value(const Node& node, const ParameterDoc& doc, double& out) {
 
 void read_value(const Node& node, const ParameterDoc& doc, std::uint64_t& out) {
   const json& value = node.value();
-  if (value.is_number_unsigned() &&
-      in_range(static_cast<double>(value.get<std::uint64_t>()), doc.range)) {
-    out = value.get<std::uint64_t>();
+  // 1e3 too; its range ends where a double no longer holds every whole number.
+  const double number = value.is_number() ? value.get<double>() : 0.5;
+  if (std::floor(number) == number && number >= 0.0 && in_range(number, doc.range)) {
+    out = value.is_number_unsigned() ? value.get<std::uint64_t>()
+                                     : static_cast<std::uint64_t>(number);
   } else {
     node.expected(range_words("a whole number", doc.range));
   }
@@ -128,10 +130,12 @@ void read_value(const Node& node, const ParameterDoc& doc, std::uint64_t& out) {
 void read_value(const Node& node, const ParameterDoc& doc, std::array<double, 2>& out) {
   std::vector<double> ends;
   if (!node.is_array()) return;
+  const std::size_t faults_before = node.fault_count();
   for_each_element(node, [&](const Node& element) {
     ends.push_back(0.0);
     read_value(element, doc, ends.back());
   });
+  if (node.fault_count() > faults_before) return;
   if (ends.size() != 2 || ends[0] > ends[1]) {
     return node.expected("[low, high] with low at most high");
   }

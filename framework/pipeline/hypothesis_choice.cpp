@@ -44,10 +44,12 @@ std::vector<Hypothesis> judged(const std::vector<Hypothesis>& poses, const Estim
   const auto source = shared_view(*estimate.source, choice.thinning);
   const auto sample = refinement_sample(*estimate.source, choice);
   std::vector<Hypothesis> refined;
+  const PoseBounds bounds{rad_from_deg(choice.max_rotation_deg), choice.max_translation_m};
   for (const Hypothesis& pose : poses) {
     try {
       const RigidTransform T =
           choice.icp->align(*target->thinned, *sample, pose.T_target_source).T_target_source;
+      if (choice.use_start && !agree(T, estimate.T_target_source, bounds)) continue;
       refined.push_back({T, pose_evidence(*target, *source, T).score()});
     } catch (const StageError&) {
       continue;  // Too few points correspond.
@@ -103,16 +105,7 @@ std::shared_ptr<const SensorView> view_of(const Cloud& cloud, const HypothesisCh
 
 Estimate at_best(Estimate estimate, const std::vector<Hypothesis>& proposed,
                  const HypothesisChoice& choice) {
-  std::vector<Hypothesis> poses = judged(proposed, estimate, choice);
-  if (choice.use_start) {
-    const PoseBounds bounds{rad_from_deg(choice.max_rotation_deg), choice.max_translation_m};
-    const RigidTransform start = estimate.T_target_source;
-    poses.erase(std::remove_if(poses.begin(), poses.end(),
-                               [&](const Hypothesis& pose) {
-                                 return !agree(pose.T_target_source, start, bounds);
-                               }),
-                poses.end());
-  }
+  const std::vector<Hypothesis> poses = judged(proposed, estimate, choice);
   if (poses.empty()) throw StageError("no pose was found at which the clouds agree");
   estimate.T_target_source = poses.front().T_target_source;
   estimate.diagnostics = {{"score", poses.front().score},

@@ -17,6 +17,8 @@ bool consistent(const OrientedPairs& pairs, std::size_t i, std::size_t j,
   const double target_m = target.norm();
   const double source_m = source.norm();
   if (!(std::abs(target_m - source_m) <= options.tolerance_m)) return false;
+  // Cosines differ by two at most, but for rounding: normals do not count.
+  if (options.normal_tolerance >= 2.0) return true;
   const auto alike = [&](double a, double b) {
     return std::abs(a - b) <= options.normal_tolerance;
   };

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
+#include "framework/base/angles.hpp"
 #include "framework/registration/gauss_newton.hpp"
 #include "framework/registration/icp_options.hpp"
 #include "framework/registration/registration.hpp"
@@ -16,6 +18,12 @@ using Correspondences = std::vector<Correspondence>;
 /// Removes correspondences of one iteration, or changes their weights; the order must stay. It sees
 /// all of them at once, to keep for example the best 70 %, or one for each point of the target.
 using SelectCorrespondences = std::function<void(Correspondences&)>;
+
+/// The least cosine of two unit vectors that are at most `max_angle_deg` apart; below all cosines
+/// for 180 degrees, because the length of a vector of floats is not exactly one.
+inline double least_cosine(double max_angle_deg) {
+  return max_angle_deg < 180.0 ? std::cos(rad_from_deg(max_angle_deg)) : -2.0;
+}
 
 /// Which points correspond, in addition to being nearest within the current distance.
 struct CorrespondenceRule {

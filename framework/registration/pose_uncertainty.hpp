@@ -17,7 +17,7 @@ struct UncertaintyOptions {
   double kernel_width_m = 0.05;
   double surface_size_m = 8.0;  ///< Contacts of one direction in a cell of this edge are a surface.
   bool follows_contacts = true;  ///< Whether other points touch if the pose moves.
-  double scale = 0.92;           ///< Multiplies standard deviations; found on scenes with truth.
+  double scale = 0.92;           ///< Of the jackknife over surfaces; found on scenes with truth.
   double grazing_error_ratio = 0.075;  ///< Of the noise: the error that grazed surfaces share.
   /// The covariance of what is not known of the target's velocity during the scans: about its axes
   /// in rad/s, along them in m/s. If it is not zero, both clouds need the channel time, with a

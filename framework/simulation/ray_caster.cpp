@@ -19,31 +19,42 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A mesh with its vertices in the world at the two ends of the time window; `end` is empty if the
-/// mesh does not move, else `planes` is.
+/// A mesh with its vertices in the world at evenly spaced times through the window; they are there
+/// once, and its planes are, if it does not move.
 struct PlacedMesh {
   const Mesh* mesh = nullptr;
-  Points begin;
-  Points end;
+  std::vector<Points> steps;
   std::vector<Plane> planes;  ///< Of the triangles, in the world.
+
+  bool moves() const { return steps.size() > 1; }
 };
 
+/// Between two steps a vertex goes straight and evenly, where a body that turns goes on an arc: at
+/// 0.5 rad/s and 10 m/s the two are up to 6 mm apart.
 PlacedMesh placed(const Body& body, const Span& window_s) {
-  PlacedMesh result{
-      &body.mesh, transformed(body.mesh.vertices, body.pose_at(window_s.from)), {}, {}};
+  constexpr double kLongestStep_s = 0.1;
+  constexpr double kMostSteps = 128.0;  // Embree takes one more.
   const bool moves = body.motion.speed_mps != 0.0 || body.motion.yaw_rate_radps != 0.0;
-  if (moves && window_s.to > window_s.from) {
-    result.end = transformed(body.mesh.vertices, body.pose_at(window_s.to));
+  double steps = 0.0;
+  if (moves && window_s.length() > 0.0) {
+    steps = std::clamp(std::ceil(window_s.length() / kLongestStep_s - 1e-9), 1.0, kMostSteps);
+  }
+  PlacedMesh result{&body.mesh, {}, {}};
+  for (double k = 0.0; k <= steps; ++k) {
+    // The first and the last exactly at the ends of the window.
+    double time_s = window_s.from;
+    if (k > 0.0) time_s = k < steps ? window_s.from + k / steps * window_s.length() : window_s.to;
+    result.steps.push_back(transformed(body.mesh.vertices, body.pose_at(time_s)));
   }
   return result;
 }
 
 void attach(RTCScene scene, const PlacedMesh& placed) {
   RTCGeometry geometry = rtcNewGeometry(embree_device(), RTC_GEOMETRY_TYPE_TRIANGLE);
-  if (!placed.end.empty()) rtcSetGeometryTimeStepCount(geometry, 2);
-  set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, placed.begin);
-  if (!placed.end.empty()) {
-    set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, 1, RTC_FORMAT_FLOAT3, placed.end);
+  const auto steps = static_cast<unsigned int>(placed.steps.size());
+  if (placed.moves()) rtcSetGeometryTimeStepCount(geometry, steps);
+  for (unsigned int k = 0; k < steps; ++k) {
+    set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, k, RTC_FORMAT_FLOAT3, placed.steps[k]);
   }
   set_buffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, placed.mesh->triangles);
   rtcCommitGeometry(geometry);
@@ -53,9 +64,12 @@ void attach(RTCScene scene, const PlacedMesh& placed) {
 
 /// The vertex `index` of a mesh at `time_ratio` of the window.
 Vector3d vertex_at(const PlacedMesh& placed, std::uint32_t index, double time_ratio) {
-  const Vector3d begin = placed.begin[index].cast<double>();
-  if (placed.end.empty()) return begin;
-  return begin + time_ratio * (placed.end[index].cast<double>() - begin);
+  if (!placed.moves()) return placed.steps.front()[index].cast<double>();
+  const double at = time_ratio * static_cast<double>(placed.steps.size() - 1);
+  const std::size_t step = std::min(static_cast<std::size_t>(at), placed.steps.size() - 2);
+  const Vector3d begin = placed.steps[step][index].cast<double>();
+  const Vector3d end = placed.steps[step + 1][index].cast<double>();
+  return begin + (at - static_cast<double>(step)) * (end - begin);
 }
 
 /// The corners of a triangle of a mesh at `time_ratio` of the window.
@@ -158,7 +172,7 @@ struct Visited {
 class RayCaster::Embree {
  public:
   Embree(const World& world, const Span& window_s) : window_s_(window_s) {
-    add({&world.fixed, world.fixed.vertices, {}, {}});
+    add({&world.fixed, {world.fixed.vertices}, {}});
     for (const Body& body : world.bodies) add(placed(body, window_s));
     add(placed(world.car, window_s));
     scene_ = rtcNewScene(embree_device());
@@ -191,8 +205,8 @@ class RayCaster::Embree {
   /// Embree takes no empty buffers, so meshes without triangles are left out.
   void add(PlacedMesh mesh) {
     if (mesh.mesh->triangles.empty()) return;
-    if (mesh.end.empty()) mesh.planes = planes_of(mesh);
-    stands_still_ = stands_still_ && mesh.end.empty();
+    if (!mesh.moves()) mesh.planes = planes_of(mesh);
+    stands_still_ = stands_still_ && !mesh.moves();
     visited_.emplace_back(mesh.mesh->triangles.size());
     meshes_.push_back(std::move(mesh));
   }

@@ -78,11 +78,12 @@ Table<CarBody> body_table() {
   };
 }
 
-/// True if the reference is one of the sensors and its pose is zero.
+/// True if the reference is one of the sensors, its pose is zero, and so is the begin of its scan.
 bool has_reference(const Rig& rig) {
   return std::any_of(rig.sensors.begin(), rig.sensors.end(), [&](const auto& sensor) {
     const RigidTransform T = sensor.second.T_reference_sensor();
-    return sensor.first == rig.reference && T.rotation.isIdentity(0.0) && T.translation.isZero(0.0);
+    return sensor.first == rig.reference && sensor.second.time_offset_s == 0.0 &&
+           T.rotation.isIdentity(0.0) && T.translation.isZero(0.0);
   });
 }
 
@@ -97,7 +98,8 @@ Table<Rig> rig_table() {
       params::map("sensors", &Rig::sensors, mounting_table(), "a sensor's name",
                   "The sensors by name, the reference among them."),
   };
-  table.require(has_reference, "sensors must have the reference, with a pose of zeros");
+  table.require(has_reference,
+                "sensors must have the reference, with a pose and a time_offset_s of zeros");
   table.require([](const Rig& rig) { return rig.sensors.size() >= 2; },
                 "sensors must have the reference and another");
   return table;
@@ -163,10 +165,11 @@ const params::Table<Recipe>& recipe_table() {
                      {"real_still", real_still_noise()},
                      {"real", real_noise()}},
                     "What the sensors do wrong."),
-      params::optional(
-          number("speed_mps", &Recipe::speed_mps, {0.0, 100.0},
-                 "The speed of the car in each scene; without it each scene has its own. Matters "
-                 "with sweep_distortion.")),
+      params::optional(number(
+          "speed_mps", &Recipe::speed_mps, {0.0, 100.0},
+          "The speed of the car in each scene; without it each scene has its own, and only "
+          "for that is the way kept clear: a faster car may drive through what stands ahead. "
+          "Matters with sweep_distortion.")),
       integer("seed", &Recipe::seed, {0, std::numeric_limits<int>::max()},
               "Other scenes for another seed; the experiment's own seed moves starts alone."),
   };

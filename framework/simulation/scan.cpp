@@ -118,6 +118,7 @@ PointCloud scan(const RayCaster& world, const SensorModel& sensor, const Noise& 
       if (!hits[i].is_there() || is_lost(noise, hits[i], return_rng)) continue;
       double range_m = hits[i].range_m;
       if (noise.range_std_m > 0.0) range_m += noise.range_std_m * return_rng.normal();
+      if (range_m <= 0.0) continue;  // No sensor sees a point behind itself.
       result.points.push_back((range_m * firings[i].nominal_direction).cast<float>());
       intensity.push_back(
           static_cast<float>(std::round(255.0 * std::min(signal_ratio(hits[i]), 1.0))));

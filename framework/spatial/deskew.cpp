@@ -50,7 +50,15 @@ void require_near(const std::vector<double>& times_s, double reference_s) {
   constexpr double kLongestScan_s = 10.0;
   if (times_s.empty()) return;
   const TimeSpan span = span_of(times_s);
-  if (span.last_s - span.first_s <= kLongestScan_s) return;
+  const double length_s = span.last_s - span.first_s;
+  // Whole micro- or milliseconds that are taken for nanoseconds.
+  constexpr double kShortestScan_s = 5e-4;
+  constexpr std::size_t kPointsOfAScan = 1000;
+  if (length_s > 0.0 && length_s < kShortestScan_s && times_s.size() >= kPointsOfAScan) {
+    throw StageError("the scan lasts less than " + fixed_number(1e3 * kShortestScan_s, 1) +
+                     " ms: are its times in seconds, or in whole nanoseconds?");
+  }
+  if (length_s <= kLongestScan_s) return;
   throw StageError("the scan lasts longer than " + fixed_number(kLongestScan_s, 0) +
                    " s: are its times in seconds, or in whole nanoseconds?");
 }

@@ -123,8 +123,11 @@ bool LeafWindow::holds(const PointColumns& points, const RigidTransform& T_targe
       (T_target_source * points.centre).array() * grid_.leaves_per_m() -
       corner_.array().cast<double>() - 0.5 * kWidth;
   const Eigen::Array3d extent = (reach + rounding).array() * grid_.leaves_per_m() + 2.0;
+  // The window of a cloud at the end of the grid reaches beyond it.
+  const Eigen::Array3d from_zero = (T_target_source * points.centre).array() * grid_.leaves_per_m();
   // NaN is not less.
-  return (from_centre.abs() + extent < 0.5 * kWidth).all();
+  return (from_centre.abs() + extent < 0.5 * kWidth).all() &&
+         (from_zero.abs() + extent < LeafGrid::kMaxIndex).all();
 }
 
 void LeafWindow::compute_keys(const PointColumns& points, const RigidTransform& T_target_source,

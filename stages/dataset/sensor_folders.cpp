@@ -138,18 +138,23 @@ class SensorFolders final : public Dataset {
     std::vector<Scene> scenes;
     std::vector<Fault> faults;
     RigFilesAbove rig_files;
-    for (const std::string& frame : chosen_scenes(names_of(references), params_.scenes)) {
+    std::vector<std::string> frames = names_of(references);
+    // A cloud that no other sensor has is in no scene.
+    const auto is_alone = [&](const std::string& frame) {
+      return std::none_of(names.begin(), names.end(), [&](const std::string& name) {
+        return clouds.at(name).count(frame) > 0;
+      });
+    };
+    frames.erase(std::remove_if(frames.begin(), frames.end(), is_alone), frames.end());
+    for (const std::string& frame : chosen_scenes(std::move(frames), params_.scenes)) {
       const fs::path& file = references.at(frame);
       Scene scene;
       scene.name = rig.name = frame;
-      bool has_sensors = false;
       for (const std::string& name : names) {
         const auto found = clouds.at(name).find(frame);
         if (found == clouds.at(name).end()) continue;
-        has_sensors = true;
         collect_faults(faults, [&] { scene.sensors.push_back(scan_in_file(name, found->second)); });
       }
-      if (!has_sensors) continue;
       collect_faults(faults, [&] { scene.reference = scan_in_file(params_.reference, file); });
       collect_faults(faults, [&] { rig_files.complete(scene, rig); });
       scenes.push_back(std::move(scene));

@@ -60,7 +60,9 @@ const params::Table<Params>& table() {
               "the normal of the plane that plausible_plane finds."),
       }
           .inherit(region_table())
-          .inherit(ground_rule_table());
+          .inherit(ground_rule_table())
+          .require([](const Params& p) { return p.min_range_m <= p.max_range_m; },
+                   "min_range_m must not exceed max_range_m");
   return table;
 }
 

@@ -31,7 +31,9 @@ const params::Table<Params>& table() {
           params::integer("planes", &Params::planes, {1, 100},
                           "So many planes are taken from the cloud, the largest first."),
       }
-          .inherit(ground_rule_table());
+          .inherit(ground_rule_table())
+          .require([](const Params& p) { return p.min_height_m <= p.max_height_m; },
+                   "min_height_m must not exceed max_height_m");
   return table;
 }
 

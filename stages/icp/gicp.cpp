@@ -21,9 +21,9 @@ const params::Table<Params>& table() {
               "plane_variance_ratio", &Params::plane_variance_ratio, {1e-9, 1.0},
               "Variance across the surface over that along it, the epsilon of the paper."),
           params::number("direction_balance", &Params::direction_balance, {0.0, 1.0},
-                         "Correspondences on n surfaces of about one direction weigh n to the "
-                         "minus this: at 1 "
-                         "every direction weighs the same, at 0 every point, as in the paper."),
+                         "Each of n correspondences on surfaces of about one direction weighs n to "
+                         "the minus this: at 1 every direction weighs the same, at 0 every point, "
+                         "as in the paper."),
       }
           .inherit(icp_table());
   return table;

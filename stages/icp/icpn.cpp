@@ -35,7 +35,7 @@ class Icpn final : public Icp {
     CorrespondenceRule rule;
     rule.target_normals = params_.normal_neighbours;
     rule.source_normals = params_.normal_neighbours;
-    rule.min_normal_cosine = std::cos(rad_from_deg(params_.max_normal_angle_deg));
+    rule.min_normal_cosine = least_cosine(params_.max_normal_angle_deg);
     return iterate_icp(target, source, start, params_, rule, point_to_plane_linearisation());
   }
 
@@ -49,7 +49,7 @@ StageEntry icpn() {
   return stage_entry<Icpn>("icpn",
                            "Point-to-plane between points whose normals, each from 40 neighbours, "
                            "agree: the paper's ICP.",
-                           "CROON (arXiv 2203.03182), refinement", table());
+                           "CROON (arXiv 2203.03182), refinement", table(), 2);
 }
 
 }  // namespace croon::stages::icp

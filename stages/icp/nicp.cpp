@@ -77,7 +77,7 @@ class Nicp final : public Icp {
     CorrespondenceRule rule;
     rule.target_normals = params_.normal_neighbours;
     rule.source_normals = params_.normal_neighbours;
-    rule.min_normal_cosine = std::cos(rad_from_deg(params_.max_normal_angle_deg));
+    rule.min_normal_cosine = least_cosine(params_.max_normal_angle_deg);
     return iterate_icp(
         target, source, start, params_, rule,
         for_each_correspondence(
@@ -95,7 +95,8 @@ StageEntry nicp() {
   return stage_entry<Nicp>(
       "nicp",
       "Minimises the distances of the points and the differences of their normals together.",
-      "Serafin, Grisetti: NICP: Dense normal based point cloud registration, IROS 2015", table());
+      "Serafin, Grisetti: NICP: Dense normal based point cloud registration, IROS 2015", table(),
+      2);
 }
 
 }  // namespace croon::stages::icp

@@ -32,8 +32,10 @@ const params::Table<UncertaintyOptions>& option_table() {
                      "errors are not independent."),
       params::boolean("follows_contacts", &O::follows_contacts,
                       "Whether it is measured that other points touch if the pose moves."),
-      params::number("scale", &O::scale, {0.0, 1e6},
-                     "Multiplies the standard deviations; found on scenes with truth."),
+      params::number(
+          "scale", &O::scale, {0.0, 1e6},
+          "Multiplies the standard deviations by which surfaces differ, not those of grazing "
+          "and of motion; found on scenes with truth."),
       params::number("grazing_error_ratio", &O::grazing_error_ratio, {0.0, 1e3},
                      "Surfaces that a sensor sees more than 60 degrees off their normals share an "
                      "error of so many times the noise."),

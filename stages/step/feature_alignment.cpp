@@ -107,10 +107,11 @@ class FeatureAlignment final : public Step {
     const auto source = features_of(*estimate.source, "sensor");
     const auto matches = mutual_matches(*target, *source, params_);
     const OrientedPairs pairs = pairs_of(*target, *source, matches);
-    const std::vector<Hypothesis> poses = proposed(pairs);
-    estimate = at_best(std::move(estimate), poses, params_);
+    estimate = at_best(std::move(estimate), proposed(pairs), params_);
     estimate.diagnostics.emplace_back("matches", static_cast<double>(pairs.size()));
-    estimate.diagnostics.emplace_back("explained", poses.front().score);
+    std::vector<bool> is_explained(pairs.size(), false);
+    estimate.diagnostics.emplace_back("explained",
+                                      explained_by(estimate.T_target_source, pairs, is_explained));
     return estimate;
   }
 
@@ -203,7 +204,7 @@ StageEntry feature_alignment() {
       "correspondences that agree propose poses, overlap and free space choose between them.",
       "after TEASER++ (Yang et al., T-RO 2021) and KISS-Matcher (Lim et al., ICRA 2025); FPFH of "
       "Rusu et al., ICRA 2009",
-      table());
+      table(), 2);
 }
 
 }  // namespace croon::stages::step

@@ -132,7 +132,7 @@ StageEntry global_alignment() {
       "global_alignment",
       "Finds the pose without a start: planes of both clouds propose the ground, a correlation of "
       "maps from above over all yaws proposes poses, overlap and free space choose between them.",
-      "croon; correlation after Olson, Real-time correlative scan matching, 2009", table(), 2);
+      "croon; correlation after Olson, Real-time correlative scan matching, 2009", table(), 3);
 }
 
 }  // namespace croon::stages::step

@@ -18,7 +18,8 @@ const params::Table<Params>& table() {
       params::slot("icp", &Params::icp, R"({"type": "icpn"})", "Registers the two clouds."),
       params::choice("points", &Params::points, kPointsWords, "Which points are registered."),
       params::number("min_inlier_ratio", &Params::min_inlier_ratio, {0.0, 1.0},
-                     "The pose is rejected if fewer of the sensor's points have a correspondence."),
+                     "The pose is rejected if fewer of the sensor's points have a correspondence; "
+                     "those that `trimmed` leaves out have none."),
   };
   return table;
 }

@@ -46,8 +46,8 @@ const params::Table<Params>& table() {
                      "Largest share of these points that lie where the other sensor sees through."),
       params::number(
           "min_lead", &Params::min_lead, {-1e3, 1e3},
-          "Of the points that are visible at the pose and at another one that the search "
-          "found, at least so many standard deviations more agree at the pose."),
+          "Of the points that are visible at the pose and at any of the first three others "
+          "that the search found, at least so many standard deviations more agree at the pose."),
       params::number("min_strength", &Params::min_strength, {0.0, 1.0},
                      "In the direction that is held the least, at least this share of the points' "
                      "mean squared motion is off their surfaces."),
@@ -173,8 +173,8 @@ class Verdict final : public Step {
     return worst;
   }
 
-  /// The least lead over the poses that a global search found elsewhere, those that have the most
-  /// evidence and do not lie in free space; nothing if there is none.
+  /// The least lead over the poses that a global search found elsewhere: of the three with the most
+  /// evidence those that stay elsewhere and do not lie in free space; nothing if there is none.
   std::optional<double> least_lead(const PoseEvidence& evidence, const Estimate& estimate,
                                    const SensorView& target, const SensorView& source) const {
     constexpr std::size_t kRefined = 3;

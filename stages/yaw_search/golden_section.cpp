@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "framework/base/angles.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/yaw_search.hpp"
@@ -43,8 +45,10 @@ class GoldenSection final : public YawSearch {
                         on_grid.evaluations};
     const double tolerance_rad = rad_from_deg(params_.tolerance_deg);
     const double step_rad = rad_from_deg(params_.bracket_step_deg);
-    double low_rad = least.yaw_rad - step_rad;
-    double high_rad = least.yaw_rad + step_rad;
+    // All around there is no end; else the bracket stays inside of the range.
+    const double range_rad = rad_from_deg(params_.range_deg < 180.0 ? params_.range_deg : 360.0);
+    double low_rad = std::max(least.yaw_rad - step_rad, -range_rad);
+    double high_rad = std::min(least.yaw_rad + step_rad, range_rad);
     while (high_rad - low_rad > tolerance_rad) {
       const bool goes_up = high_rad - least.yaw_rad > least.yaw_rad - low_rad;
       double& far_rad = goes_up ? high_rad : low_rad;
@@ -73,7 +77,7 @@ StageEntry golden_section() {
   return stage_entry<GoldenSection>(
       "golden_section",
       "Brackets the minimum on a coarse grid, then narrows the bracket by the golden ratio.",
-      "Kiefer, Sequential minimax search for a maximum, 1953", table());
+      "Kiefer, Sequential minimax search for a maximum, 1953", table(), 2);
 }
 
 }  // namespace croon::stages::yaw_search

@@ -43,6 +43,7 @@ mv "$folder/prefix" "$folder/moved"
 sed 's/"ground_alignment"/"volume_refinement", "scorer": {"type": "openvdb_grid"}/' "$folder/two.json" >"$folder/openvdb.json"
 "$folder/moved/bin/croon" run "$folder/openvdb.json" --out "$folder/openvdb" --quiet >/dev/null || fail 'the program does not find OpenVDB'
 mv "$folder/moved" "$folder/prefix"
+"$croon" validate "$folder/prefix/share/croon/experiments" >/dev/null || fail 'an installed experiment cannot be read'
 "$croon" simulate "$folder/two.json" --out "$folder/scenes" --quiet >/dev/null
 answer=$("$calibrate" "$pipeline" "$folder/scenes/000000/top.pcd" "$folder/scenes/000000/left.pcd")
 # A rotation, a translation and a matrix of six by six.

@@ -33,6 +33,25 @@ TEST(DescribeCommand, TellsOfEveryCloudTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(read_whole_file(three + "/clouds.csv"), first);
 }
 
+TEST(DescribeCommand, LeavesNoFolderBehindIfACloudIsDamaged) {
+  const test::TempFolder folder;
+  const std::string header =
+      "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\n"
+      "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1\nDATA ascii\n";
+  folder.write("data/top/1.pcd", header + "1 2 3\n");
+  folder.write("data/left/1.pcd", header + "4 x 6\n");
+  const std::string file = folder
+                               .write("x.json", R"({"name": "x", "dataset":
+      {"type": "sensor_folders", "path": ".", "reference": "top"}, "pipeline": [{"step": "identity"}]})")
+                               .string();
+  const std::string out = (folder.path() / "new").string();
+  const Answer answer = croon("describe " + file + " --data " + (folder.path() / "data").string() +
+                              " --out " + out + "/inner");
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_NE(answer.text.find("left/1.pcd"), std::string::npos) << answer.text;
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 TEST(DescribeCommand, ReplacesWhatItWroteAndNoLink) {
   const test::TempFolder folder;
   const std::string file = folder.write("x.json", kTwoDatasets).string();

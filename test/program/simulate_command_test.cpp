@@ -140,10 +140,14 @@ TEST_F(SimulateCommand, WritesWhatTheExperimentReadsBesideIt) {
   EXPECT_EQ(read_whole_file(path("made/trials.csv")), read_whole_file(path("read/trials.csv")));
 
   folder_.write("truth.json", read_whole_file(path("first/velocities.csv")));
-  folder_.write("z.json", dataset + R"("starts": {"rotation_deg": 1, "trials": 1},
-      "pipeline": [{"step": "known_velocity", "file": "truth.json"}]})");
-  run("simulate " + path("z.json") + " --out " + path("other") + " --quiet", 2);
-  EXPECT_FALSE(fs::exists(path("other")));
+  for (const std::string& name : {std::string("truth.json"), std::string("./truth.json"),
+                                  std::string("given/../truth.json"), path("given/v.csv")}) {
+    folder_.write("z.json", dataset + R"("starts": {"rotation_deg": 1, "trials": 1},
+      "pipeline": [{"step": "known_velocity", "file": ")" +
+                                name + R"("}]})");
+    run("simulate " + path("z.json") + " --out " + path("other") + " --quiet", 2);
+    EXPECT_FALSE(fs::exists(path("other"))) << name;
+  }
 }
 
 TEST_F(SimulateCommand, WritesThroughNoLink) {

@@ -85,6 +85,14 @@ class Steps(TestCase):
         self.assertIn("which no step before it gives",
                       self.line_of(croon.InputError, croon.Pipeline, [{"step": "test_needs_note"}]))
 
+    def test_reject_with_a_reason_alone(self):
+        for wrong in (False, np.bool_(True), 0, ""):
+            def reject(estimate, rng):
+                estimate.rejection = wrong
+                return estimate
+
+            self.assertIn("expected None or a reason", self.line_of(croon.StageError, do, reject))
+
     def test_see_clouds_and_grounds(self):
         seen = []
 

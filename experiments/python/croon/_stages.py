@@ -171,6 +171,13 @@ class Extra(NamedTuple):
     """float, or object for anything else."""
 
 
+def words(several, what):
+    """The words of a list; a str is one word, not a list of its letters."""
+    if isinstance(several, str):
+        raise refusal(what, f"expected a list of words, found {several!r:.60}")
+    return tuple(word(one, what) for one in several)
+
+
 def _parameter(key, kind, default, help, range=(None, None), choices=()):
     what = f"the parameter {key!r}"
     if not word(help, what):
@@ -180,7 +187,7 @@ def _parameter(key, kind, default, help, range=(None, None), choices=()):
         ends = tuple(None if end is None or math.isinf(end) else float(end) for end in (low, high))
     except (TypeError, ValueError):
         raise refusal(what, f"expected a range (least, largest), found {range!r:.60}") from None
-    choices = tuple(word(choice, what) for choice in choices)
+    choices = words(choices, what)
     return Parameter(word(key, "key"), kind, text_of(default, what), ends, choices, help)
 
 
@@ -260,7 +267,7 @@ def stage(kind, name, *, summary, source="", parameters=(), version=1, channels=
         _core.register_stage({
             "kind": kind, "name": word(name, "name"), "summary": word(summary, "summary"),
             "source": word(source, "source") or cls.__module__, "version": whole(version, "version", 1, 2**31 - 1), "type": cls,
-            "parameters": parameters, "is_rig_step": base is RigStep, "channels": [word(channel, "channels") for channel in channels],
+            "parameters": parameters, "is_rig_step": base is RigStep, "channels": list(words(channels, "channels")),
             "takes": list(takes), "gives": list(gives),
         })
         return cls

@@ -238,6 +238,9 @@ TEST_F(Extends, RefusesCyclesAndMissingFiles) {
   EXPECT_EQ(faults_of("a.json").front(), "b.json: /extends: expected another file, found " +
                                              (folder_.path() / "a.json").string() +
                                              ", which extends this one");
+  folder_.write("c.json", R"({"extends": ")" + std::string(300, 'a') + R"("})");
+  ASSERT_EQ(faults_of("c.json").size(), 1U);
+  EXPECT_NE(faults_of("c.json").front().find(": File name too long"), std::string::npos);
   folder_.write("c.json", R"({"extends": "none.json"})");
   EXPECT_EQ(faults_of("c.json").size(), 1U);
   EXPECT_EQ(faults_of("c.json").front(),

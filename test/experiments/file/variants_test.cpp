@@ -179,6 +179,14 @@ TEST(Grid, LeavesOutAnAxisThatAPointOfAnotherLacks) {
             (Lines{"base/coarse/step_deg=1", "base/coarse/step_deg=0.5", "base/fine"}));
 }
 
+TEST(Grid, AValueThatIsRefusedWhereOthersFitIsAFault) {
+  const ReadVariants all = read_variants(R"("grid": {"behave": [
+      {"step": "behave"}, {"step": "behave", "name": "first"}]})");
+  ASSERT_EQ(all.faults.size(), 1U);
+  EXPECT_EQ(all.faults[0].rfind("/grid/behave/1", 0), 0U) << all.faults[0];
+  EXPECT_NE(all.faults[0].find("two steps are called"), std::string::npos) << all.faults[0];
+}
+
 TEST(Grid, TellsStagesOfATypeApart) {
   const ReadVariants all = read_variants(R"("grid": {"first.search": [
       {"type": "coarse"}, {"type": "coarse", "step_deg": 1}, {"type": "fine", "levels": 2}]})");

@@ -168,7 +168,7 @@ TEST(Starts, NeedTheirCentreInEveryScene) {
     scenes.push_back({name, {}, {}, {left, right}});
   scenes[4].sensors[0].truth = RigidTransform{};
   Experiment experiment;
-  experiment.file = "x.json";
+  experiment.starts_file = "x.json";
   try {
     resolve_starts(experiment, scenes, "");
     FAIL();

@@ -191,6 +191,24 @@ TEST(RayCaster, MeetsABodyWhereItIsAtTheRaysTime) {
   }
 }
 
+TEST(RayCaster, MeetsABodyThatTurnsThroughALongWindow) {
+  auto world = std::make_shared<World>();
+  Body body;
+  add_box(body.mesh, {-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0}, Material::metal);
+  body.motion = {10.0, 0.5};
+  world->bodies.push_back(body);
+  const RayCaster caster(world, {0.0, 2.0});
+  for (const double time_s : {0.0, 0.55, 1.0, 1.33, 2.0}) {
+    // From 5 m ahead of the body, towards it.
+    const RigidTransform pose = body.pose_at(time_s);
+    const Ray ray = {pose * Vector3d(5.0, 0.3, 1.0), pose.rotation * -Vector3d::UnitX(), time_s};
+    const Hit hit = caster.cast({ray}, 0.0, 100.0).front();
+    ASSERT_TRUE(hit.is_there());
+    EXPECT_NEAR(hit.range_m, 4.0, 0.007);
+    EXPECT_NEAR(hit.incidence_cos, 1.0, 1e-3);
+  }
+}
+
 TEST(RayCaster, MeetsNothingInAnEmptyWorld) {
   const RayCaster caster(std::make_shared<World>(), {});
   EXPECT_FALSE(caster.cast({Ray{}}, 0.0, 1000.0).front().is_there());

@@ -96,6 +96,8 @@ TEST_F(SensorFolders, HoldTheScenesThatAreNamed) {
   ASSERT_EQ(one.size(), 1U);
   EXPECT_EQ(one[0].name, "000002");
   EXPECT_EQ(scenes(R"(, "scenes": ["000002", "000001"])").at(0).name, "000001");
+  // A cloud of the reference alone is no scene.
+  EXPECT_THAT(error(R"(, "scenes": ["000002", "000003"])"), HasSubstr("found \"000003\""));
   EXPECT_THAT(
       error(R"(, "scenes": ["000002", "00002"])"),
       HasSubstr("/scenes/1: expected the name of a scene of the recording, found \"00002\"; "

@@ -68,6 +68,8 @@ TEST(Simulated, SaysWhatIsWrongAndWhere) {
       {R"("rig": {"sensors": {"top": {"model": "pandar64"}}})", "/rig: sensors must have"},
       {R"("rig": {"sensors": {"top": {"translation_m": [1, 0, 0]}, "a": {}}})",
        "/rig: sensors must have the reference"},
+      {R"("rig": {"sensors": {"top": {"time_offset_s": 0.05}, "a": {}}})",
+       "/rig: sensors must have the reference"},
       {R"("rig": {"sensors": {"top": {}, "a": {"translation_m": [0, 0]}}})",
        "/rig/sensors/a: translation_m must have three"},
       {R"("rig": {"sensors": {"top": {}, "a": {"model": "pandar"}}})", "/rig/sensors/a/model"}};

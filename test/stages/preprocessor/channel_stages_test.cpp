@@ -160,6 +160,19 @@ TEST(Deskew, RefusesAScanInMilliseconds) {
   EXPECT_EQ(error_in(20.0), "");  // A LiDAR without turns collected it.
 }
 
+TEST(Deskew, RefusesWholeMicrosecondsThatAreTakenForNanoseconds) {
+  PointCloud cloud = Points(1001, Eigen::Vector3f(1, 0, 0));
+  const auto error_in = [&](std::uint32_t units_per_ms) {
+    std::vector<std::uint32_t> times;
+    for (std::uint32_t i = 0; i <= 1000; ++i) times.push_back(i * units_per_ms / 10);
+    cloud.channels = {make_channel(kTime, times)};
+    return error_of(R"({"type": "deskew", "reference_time": "middle"})", cloud);
+  };
+  EXPECT_THAT(error_in(1000), HasSubstr("the scan lasts less than 0.5 ms: are its times"));
+  EXPECT_EQ(error_in(1000000), "");
+  EXPECT_EQ(error_in(0), "");  // All points at once.
+}
+
 TEST(Deskew, RefusesTimesThatAreOfNoScan) {
   PointCloud cloud = Points(1, Eigen::Vector3f(1, 0, 0));
   EXPECT_THAT(error_of(R"({"type": "deskew"})", cloud), HasSubstr("no channel \"time\""));
