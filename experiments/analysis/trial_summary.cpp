@@ -40,16 +40,21 @@ Agreeing agreeing_with(const RigidTransform& pose, const SceneRecords& records,
           root_mean_square(translations)};
 }
 
-/// The covariances at `members`; std::nullopt if one of them is not known.
-std::optional<std::vector<PoseCovariance>> all_of(
-    const std::vector<std::optional<PoseCovariance>>& covariances,
-    const std::vector<std::size_t>& members) {
-  std::vector<PoseCovariance> all;
-  for (const std::size_t i : members) {
+/// The covariances of the poses that agree on a consensus; std::nullopt if one of them is not
+/// known.
+std::optional<std::vector<PoseCovariance>> covariances_of_members(
+    const std::vector<RigidTransform>& poses,
+    const std::vector<std::optional<PoseCovariance>>& covariances, const PoseBounds& bounds,
+    const std::vector<double>& votes = {}) {
+  const auto is_known = [](const std::optional<PoseCovariance>& one) { return one.has_value(); };
+  // Which poses are members takes as long as the consensus.
+  if (std::none_of(covariances.begin(), covariances.end(), is_known)) return std::nullopt;
+  std::vector<PoseCovariance> members;
+  for (const std::size_t i : consensus_members(poses, bounds, votes)) {
     if (!covariances[i]) return std::nullopt;
-    all.push_back(*covariances[i]);
+    members.push_back(*covariances[i]);
   }
-  return all;
+  return members;
 }
 
 /// The outcomes of a scene and the pose that its trials agree on: all that does not need the other
@@ -74,7 +79,7 @@ SceneSummary without_deviations(const SceneRecords& records, const PoseBounds& b
   if (poses.empty()) return scene;
   scene.consensus = consensus_pose(poses, bounds);
   scene.agreeing = agreeing_with(*scene.consensus, records, bounds, records.size() == 1);
-  const auto members = all_of(covariances, consensus_members(poses, bounds));
+  const auto members = covariances_of_members(poses, covariances, bounds);
   if (members) scene.covariance = mean_covariance(*members);
   return scene;
 }
@@ -183,7 +188,7 @@ void set_consensus(SummaryRow& row, const std::vector<SceneRecords>& scenes,
   if (agreeing_with(*row.consensus, of_agreeing_scenes, bounds, is_alone).count > 0) {
     row.agreeing = agreeing_with(*row.consensus, all, bounds, is_alone);
   }
-  const auto members = all_of(covariances, consensus_members(consensus, bounds, votes));
+  const auto members = covariances_of_members(consensus, covariances, bounds, votes);
   if (members) row.covariance = covariance_of_mean(*members);
 }
 
