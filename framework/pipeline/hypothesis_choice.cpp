@@ -105,7 +105,7 @@ std::shared_ptr<const SensorView> view_of(const Cloud& cloud, const HypothesisCh
 
 Estimate at_best(Estimate estimate, const std::vector<Hypothesis>& proposed,
                  const HypothesisChoice& choice) {
-  const std::vector<Hypothesis> poses = judged(proposed, estimate, choice);
+  std::vector<Hypothesis> poses = judged(proposed, estimate, choice);
   if (poses.empty()) throw StageError("no pose was found at which the clouds agree");
   estimate.T_target_source = poses.front().T_target_source;
   estimate.diagnostics = {{"score", poses.front().score},
