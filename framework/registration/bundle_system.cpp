@@ -97,11 +97,16 @@ void BundleSystem::search_planes(int stride) {
            std::binary_search(free_sensors_.begin(), free_sensors_.end(), cloud.sensor);
   };
   for_each_in_parallel(scenes_.size(), [&](std::size_t s) {
+    const std::vector<SensorCloud>& all = scenes_[s].clouds;
+    const RigState state = {poses_in(state_, s), state_.velocities[s]};
+    // Mostly all do, and a cloud's times are not copied.
+    if (std::all_of(all.begin(), all.end(), takes_part)) {
+      planes_[s] = plane_patches(all, state, stride, options_);
+      return;
+    }
     std::vector<SensorCloud> clouds;
-    std::copy_if(scenes_[s].clouds.begin(), scenes_[s].clouds.end(), std::back_inserter(clouds),
-                 takes_part);
-    planes_[s] =
-        plane_patches(clouds, {poses_in(state_, s), state_.velocities[s]}, stride, options_);
+    std::copy_if(all.begin(), all.end(), std::back_inserter(clouds), takes_part);
+    planes_[s] = plane_patches(clouds, state, stride, options_);
   });
 }
 
