@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/geometry/pose_covariance.hpp"
+#include "framework/geometry/rigid_transform.hpp"
+#include "framework/geometry/twist.hpp"
+
+namespace croon {
+
+/// The estimate of one sensor's pose in one scene.
+struct SceneEstimate {
+  std::string scene;
+  /// T_reference_sensor; std::nullopt if a step failed.
+  std::optional<RigidTransform> T_reference_sensor;
+  std::optional<PoseCovariance> covariance;
+  std::string reason;  ///< Why the pose was rejected or the step failed; empty if accepted.
+};
+
+/// The result for one sensor: one pose from all scenes.
+struct CalibratedSensor {
+  std::string sensor;
+  bool is_accepted = false;
+  /// T_reference_sensor; of a rejected sensor the best guess, std::nullopt if there is none.
+  std::optional<RigidTransform> T_reference_sensor;
+  std::optional<PoseCovariance> covariance;  ///< See PoseCovariance for its frame and units.
+  std::vector<std::string> reasons;          ///< Why it was rejected, in words; else empty.
+  std::vector<std::string> advice;           ///< What would help; empty if accepted.
+  std::optional<RigidTransform> nominal;     ///< The given pose T_reference_sensor.
+  std::vector<SceneEstimate> scenes;         ///< By scene, in the order of the recording.
+};
+
+/// What one scene says about the rig's motion.
+struct SceneMotionEstimate {
+  std::string scene;
+  Twist velocity;  ///< Of the reference, in its own frame; zero if the rig stood.
+  Matrix6d covariance = Matrix6d::Zero();  ///< About the axes in rad/s, along them in m/s.
+};
+
+/// The reference's pose over the road, from its own ground plane.
+struct GroundPose {
+  double roll_rad = 0.0, pitch_rad = 0.0, height_m = 0.0;
+  double roll_std_rad = 0.0, pitch_std_rad = 0.0, height_std_m = 0.0;
+};
+
+/// A rig's calibration.
+struct CalibratedRig {
+  std::string reference;
+  std::vector<CalibratedSensor> sensors;  ///< In the order of the recording.
+  std::string composition;  ///< The pipeline that was used: "best", "driving", a file's name.
+  std::string composition_reason;     ///< Why it was chosen; empty if the caller named it.
+  std::vector<std::string> warnings;  ///< One sentence each.
+  std::vector<std::string> unused;    ///< Scenes and clouds that took no part, with the reason.
+  std::vector<SceneMotionEstimate> motion;  ///< Of the scenes in which a velocity was estimated.
+  std::optional<GroundPose> ground;         ///< If the reference sees the ground.
+};
+
+}  // namespace croon

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "framework/geometry/pose_covariance.hpp"
+#include "framework/geometry/rigid_transform.hpp"
+
+namespace croon {
+
+/// One sensor's pose as files of extrinsics hold it.
+struct ExtrinsicPose {
+  std::string sensor;  ///< The child frame.
+  RigidTransform T_parent_sensor;
+  bool is_accepted = true;
+  std::optional<PoseCovariance> covariance = {};
+};
+
+/// The poses of a rig's sensors in one parent frame.
+struct Extrinsics {
+  std::string parent;  ///< The reference sensor, or the vehicle frame ("base_link").
+  std::vector<ExtrinsicPose> poses;
+};
+
+/// A file that a format writes: its name and its content.
+struct ExtrinsicsFile {
+  std::string name;
+  std::string text;
+};
+
+/// The formats by name: ros2, ros2-yaml, urdf, autoware, apollo, kitti, nuscenes, kalibr,
+/// opencalib, matrix, csv. docs/calibrate.md has the conventions of each.
+std::vector<std::string> extrinsics_format_names();
+
+/// The poses as files of `format`. Rejected poses are left out unless `with_rejected`, and then
+/// marked where the format can hold a mark; `csv` always has all of them with their verdict.
+/// Throws InputError, with the nearest name, for an unknown format.
+std::vector<ExtrinsicsFile> write_extrinsics(const Extrinsics& extrinsics,
+                                             const std::string& format, bool with_rejected);
+
+/// Reads poses from a file in any of these formats or croon's own (extrinsics.json, nominal.json),
+/// recognised by its content. Throws InputError: unknown content, a matrix that is not a rotation,
+/// a quaternion without unit length, a missing value.
+Extrinsics read_extrinsics(const std::filesystem::path& file);
+
+/// The same poses in the frame `parent` whose pose in the new frame is `T_new_parent`.
+Extrinsics in_frame(const Extrinsics& extrinsics, const std::string& new_parent,
+                    const RigidTransform& T_new_parent);
+
+/// The poses `T_reference_sensor` of all sensors but the reference. If the parent is not
+/// `reference`, the file must have a pose of the reference, which is inverted and removed. Throws
+/// InputError (naming `file`) if it has none.
+Extrinsics in_frame_of_sensor(const Extrinsics& extrinsics, const std::string& reference,
+                              const std::string& file);
+
+}  // namespace croon
