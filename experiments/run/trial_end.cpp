@@ -17,8 +17,8 @@ bool is_near(const RigidTransform& T) {
 }
 
 /// Completes the record of a trial whose pipeline did not fail.
-void finish(TrialRecord& record, const Estimate& estimate, const SensorScan& scan,
-            const SuccessBounds& bounds) {
+void finish(TrialRecord& record, const Estimate& estimate,
+            const std::optional<RigidTransform>& truth, const SuccessBounds& bounds) {
   if (!is_finite(estimate.T_target_source)) {
     record.reason = "the pose is not finite";
     return;
@@ -38,7 +38,7 @@ void finish(TrialRecord& record, const Estimate& estimate, const SensorScan& sca
   }
   record.T_reference_sensor = estimate.T_target_source;
   record.covariance = estimate.covariance;
-  if (scan.truth) record.error = pose_error(estimate.T_target_source, *scan.truth);
+  if (truth) record.error = pose_error(estimate.T_target_source, *truth);
   record.status = Status::finished;
   if (record.error) {
     record.status = is_within(*record.error, bounds) ? Status::success : Status::inaccurate;
@@ -56,14 +56,14 @@ bool is_within(const PoseError& error, const SuccessBounds& bounds) {
          error.translation_m <= bounds.translation_m;
 }
 
-TrialRecord record_of(const TrialId& id, const PipelineResult& result, const SensorScan& scan,
-                      const SuccessBounds& bounds) {
+TrialRecord record_of(const TrialId& id, const PipelineResult& result,
+                      const std::optional<RigidTransform>& truth, const SuccessBounds& bounds) {
   TrialRecord record;
   record.id = id;
   record.status = Status::failed;
   record.reason = result.failure;
   record.steps = result.records;
-  if (result.failure.empty()) finish(record, result.estimate, scan, bounds);
+  if (result.failure.empty()) finish(record, result.estimate, truth, bounds);
   if (!result.remark.empty()) {
     record.reason += (record.reason.empty() ? "" : "; ") + result.remark;
   }
