@@ -130,6 +130,12 @@ std::vector<fs::path> files_of_recording(const fs::path& path) {
   throw InputError(path.string(), "", "expected a recording (.db3 or .mcap), found none");
 }
 
+std::string decompression_command(const fs::path& file) {
+  const bool is_lz4 = has_ending(lower_case_name(file), ".lz4");
+  return (is_lz4 ? "lz4 -d " : "zstd -d ") + file.filename().string() + (is_lz4 ? " " : " -o ") +
+         decompressed_path(file).filename().string();
+}
+
 void read_stored(const fs::path& file, StoredTopics& topics) {
   switch (storage_of(file)) {
     case Storage::mcap:
@@ -137,13 +143,10 @@ void read_stored(const fs::path& file, StoredTopics& topics) {
     case Storage::sqlite:
       return read_rosbag_sqlite(file, topics);
     case Storage::compressed:
-      throw InputError(
-          file.string(), "",
-          "is compressed as a whole; decompress it with " +
-              in_quotes((has_ending(lower_case_name(file), ".lz4") ? "lz4 -d " : "zstd -d ") +
-                        file.filename().string() + " -o " +
-                        decompressed_path(file).filename().string()) +
-              " and give the same path again, or the file that it writes");
+      throw InputError(file.string(), "",
+                       "is compressed as a whole; decompress it with " +
+                           in_quotes(decompression_command(file)) +
+                           " and give the same path again, or the file that it writes");
     case Storage::ros1:
       throw InputError(file.string(), "",
                        "is a recording of ROS 1; convert it with " +
@@ -155,24 +158,23 @@ void read_stored(const fs::path& file, StoredTopics& topics) {
   }
   throw InputError(file.string(), "",
                    "expected a recording (a folder of rosbag2, .db3 or .mcap), found " +
-                       found_instead_of_file(file));
+                       (is_file(file) ? "another file" : found_instead_of_file(file)));
 }
 
 /// What can be done with messages of another type that have points; empty if nothing.
 std::string advice_for_type(const std::string& type) {
   const auto has = [&](const char* word) { return type.find(word) != std::string::npos; };
   if (has("livox") && has("CustomMsg")) {
-    return "; " + type + " is of Livox's driver, which publishes PointCloud2 with xfer_format 0";
+    return "; Livox's driver publishes PointCloud2 instead with the parameter xfer_format 0; play "
+           "this recording through livox_to_pointcloud2 and record what that publishes";
   }
   for (const char* word : {"Packet", "VelodyneScan", "PandarScan", "RslidarScan", "UdpFrame"}) {
     if (!has(word)) continue;
-    return "; " + type + " has packets of a sensor: play the recording, run the sensor's driver " +
-           "on them and record the clouds that it publishes";
+    return "; play the packets of " + type +
+           " to the driver of the sensor and record the clouds that it publishes";
   }
-  return type.find("CompressedPointCloud2") == std::string::npos
-             ? ""
-             : "; " + type +
-                   " is compressed: republish it with point_cloud_transport and record that";
+  if (!has("CompressedPointCloud2")) return "";
+  return "; republish the clouds with point_cloud_transport and record them";
 }
 
 [[noreturn]] void fail_without_clouds(const fs::path& path, const StoredTopics& topics) {
