@@ -36,6 +36,7 @@ const Layers& layers() {
         "framework/params", "framework/stage"}},
       {"framework/recording",
        {"framework/base", "framework/geometry", "framework/io", "framework/stage"}},
+      {"framework/calibration", {"framework"}},
       {"stages", {"framework"}},
       {"registry", {"framework"}},
       {"experiments/file", {"framework", "registry"}},
