@@ -39,7 +39,7 @@ const Layers& layers() {
       {"framework/calibration",
        {"framework/base", "framework/geometry", "framework/spatial", "framework/registration",
         "framework/params", "framework/stage", "framework/pipeline", "framework/io",
-        "framework/picture"}},
+        "framework/picture", "framework/recording"}},
       {"stages", {"framework"}},
       {"registry", {"framework"}},
       {"experiments/file", {"framework", "registry"}},
