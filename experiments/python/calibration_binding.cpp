@@ -63,8 +63,18 @@ Poses poses_from(const py::dict& dict) {
   return poses;
 }
 
+/// The poses T_reference_sensor: with one of the reference, they are given in another frame.
+Poses in_reference(Poses poses, const std::string& reference) {
+  const auto own = poses.find(reference);
+  if (own == poses.end()) return poses;
+  const RigidTransform T_reference_given = own->second.inverse();
+  poses.erase(own);
+  for (auto& [sensor, pose] : poses) pose = T_reference_given * pose;
+  return poses;
+}
+
 CalibratedRig calibrated(const py::list& list, const py::dict& nominal, const py::dict& options) {
-  const Poses poses = poses_from(nominal);
+  const Poses poses = in_reference(poses_from(nominal), text_of(options["reference"]));
   std::vector<Scene> scenes;
   for (const py::handle item : list) scenes.push_back(scene_from(item, poses));
   CalibrationOptions how;
