@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs the package of croon in a bare system of the release that it was built on, and calibrates a simulated car there.
 # Usage: deb_test.sh [DEB], by default the file that CROON_DEB names. Needs root, debootstrap and the network, and ends with
-# 77 without them or without a package. The bare system is kept in
-# CROON_CHROOTS (default: croon_chroots in the folder of temporary files) and copied for each test.
+# 77 without them or without a package. The bare system is kept in CROON_CHROOTS (default: croon_chroots in the folder of
+# temporary files) and copied for each test.
 set -euo pipefail
 
 skip() { echo "deb_test: $*" >&2; exit 77; }

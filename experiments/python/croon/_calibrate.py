@@ -266,9 +266,9 @@ def _usable(scenes, reference, columns):
                 of_sensor = columns.get(name) if isinstance(columns, collections.abc.Mapping) else columns
                 entries.append((name, where, _array(scene[name], of_sensor, where)))
         if reference not in scene:
-            unused.append(f"scene {index}: no cloud of the reference {reference}")
+            unused.append(f"Scene {index}: no cloud of the reference {reference}.")
         elif len(entries) < 2:
-            unused.append(f"scene {index}: no cloud besides the reference's")
+            unused.append(f"Scene {index}: no cloud besides that of {reference}.")
         else:
             usable.append((str(index), entries))
     if not usable:
