@@ -79,6 +79,7 @@ CalibratedRig calibrated(const py::list& list, const py::dict& nominal, const py
   for (const py::handle item : list) scenes.push_back(scene_from(item, poses));
   CalibrationOptions how;
   how.pipeline = text_of(options["pipeline"]);
+  if (!options["text"].is_none()) how.pipeline_text = text_of(options["text"]);
   how.from_scratch = py::cast<bool>(options["from_scratch"]);
   how.seed = py::cast<std::uint64_t>(options["seed"]);
   how.jobs = py::cast<int>(options["jobs"]);

@@ -18,15 +18,14 @@ trap 'rm -rf "$folder"' EXIT
 mkdir "$folder/tree"
 tar -C "$source" --exclude=./build --exclude=./.git --exclude=./data --exclude=./results -cf - . | tar -C "$folder/tree" -xf -
 "$python" -m venv --system-site-packages "$folder/venv"
-pip_install() {
-  (cd "$folder/tree" && CROON_BUILD_DIR=$1 "$folder/venv/bin/pip" install --no-build-isolation --no-deps --no-index --quiet \
-    --disable-pip-version-check .) >"$folder/pip.log" 2>&1
-}
-if pip_install "$folder"; then fail 'a folder without a build is packaged'; fi
-grep -q 'expected a build with CROON_WITH_PYTHON=ON' "$folder/pip.log" || { cat "$folder/pip.log" >&2; fail 'the error is another'; }
-pip_install "$build" || { cat "$folder/pip.log" >&2; fail 'pip does not install the package'; }
+cd "$folder/tree"
+if CROON_BUILD_DIR=$folder "$python" setup.py --quiet build_ext >"$folder/log" 2>&1; then fail 'a folder without a build is packaged'; fi
+grep -q 'expected a build with CROON_WITH_PYTHON=ON' "$folder/log" || { cat "$folder/log" >&2; fail 'the error is another'; }
+CROON_BUILD_DIR=$build "$folder/venv/bin/pip" install --no-build-isolation --no-deps --no-index --disable-pip-version-check . \
+  >"$folder/log" 2>&1 || { cat "$folder/log" >&2; fail 'pip does not install the package'; }
 [[ -z $(find "$folder/tree" -maxdepth 1 -name '*.egg-info') ]] || fail 'pip leaves files in the tree'
-(cd "$folder" && env -u PYTHONPATH "$folder/venv/bin/python" -B - "$folder/venv") <<'END' || fail 'the package does not run'
+cd "$folder"
+env -u PYTHONPATH "$folder/venv/bin/python" -B - "$folder/venv" <<'END' || fail 'the package does not run'
 import importlib.metadata, pathlib, sys
 import croon
 folder = pathlib.Path(croon.__file__).parent
