@@ -147,7 +147,7 @@ bool add_unconstrained(const std::string& reason, ReasonsInWords& result) {
 std::string sentence_of(std::string text) {
   if (text.empty()) return text;
   text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-  if (text.back() != '.') text += '.';
+  if (text.back() != '.' && text.back() != '?') text += '.';
   return text;
 }
 
