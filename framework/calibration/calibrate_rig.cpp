@@ -63,6 +63,9 @@ void check_scenes(const std::vector<Scene>& scenes) {
 Composition chosen_composition(const CalibrationOptions& options,
                                const std::vector<SceneClouds>& scenes, const Catalogue& catalogue,
                                std::string& reason) {
+  if (!options.pipeline_text.empty()) {
+    return composition_in_text(options.pipeline_text, options.pipeline, catalogue);
+  }
   if (options.pipeline != "best") return composition_called(options.pipeline, catalogue);
   const std::string why_not = why_times_are_unusable(scenes);
   if (why_not.empty()) {

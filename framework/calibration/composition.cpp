@@ -96,6 +96,11 @@ Composition embedded_composition(const std::string& name, const Catalogue& catal
   return composition_in(embedded_pipelines().at(name), name, name, catalogue);
 }
 
+Composition composition_in_text(const std::string& text, const std::string& name,
+                                const Catalogue& catalogue) {
+  return composition_in(text, name, name, catalogue);
+}
+
 Composition composition_called(const std::string& pipeline, const Catalogue& catalogue) {
   const std::vector<std::string> names = recommended_pipeline_names();
   const bool is_recommended = std::find(names.begin(), names.end(), pipeline) != names.end();

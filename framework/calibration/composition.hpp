@@ -26,6 +26,11 @@ struct Composition {
 /// unknown name.
 Composition embedded_composition(const std::string& name, const Catalogue& catalogue);
 
+/// The composition in the JSON `text` of a pipeline, called `name`. Throws InputError if it is
+/// faulty.
+Composition composition_in_text(const std::string& text, const std::string& name,
+                                const Catalogue& catalogue);
+
 /// The composition called `pipeline`, a recommended name or else a file. Throws InputError for
 /// anything else, with the nearest name, and for a faulty file.
 Composition composition_called(const std::string& pipeline, const Catalogue& catalogue);

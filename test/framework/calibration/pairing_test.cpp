@@ -16,7 +16,6 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::SizeIs;
 using Clouds = std::vector<std::optional<std::size_t>>;
 
@@ -41,7 +40,7 @@ TEST(PairByTime, TakesTheNearestWithinTheGap) {
   EXPECT_THAT(clouds_of(pairing), ElementsAre(Clouds{0, 0, kNone}, Clouds{kNone, 1, 0},
                                               Clouds{1, 2, kNone}, Clouds{2, 3, kNone}));
   EXPECT_EQ(pairing.scenes[1].name, "0.100000");
-  EXPECT_THAT(pairing.unpaired, IsEmpty());
+  EXPECT_THAT(pairing.unpaired, SizeIs(0));
 }
 
 TEST(PairByTime, SaysPerSensorWhatRemained) {
@@ -57,9 +56,9 @@ TEST(PairByTime, SaysPerSensorWhatRemained) {
 }
 
 TEST(PairByTime, AcceptsSensorsWithoutClouds) {
-  EXPECT_THAT(pair_by_time({{"top", {}}, {"left", {1.0}}}, "top", 1.0).scenes, IsEmpty());
+  EXPECT_THAT(pair_by_time({{"top", {}}, {"left", {1.0}}}, "top", 1.0).scenes, SizeIs(0));
   const Pairing pairing = pair_by_time({{"top", {1.0}}, {"left", {}}}, "top", 1.0);
-  EXPECT_THAT(pairing.scenes, IsEmpty());
+  EXPECT_THAT(pairing.scenes, SizeIs(0));
   EXPECT_THAT(pairing.unpaired, SizeIs(1));
 }
 
