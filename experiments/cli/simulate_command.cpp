@@ -22,7 +22,7 @@
 #include "framework/io/opencalib_files.hpp"
 #include "framework/io/pcd_file.hpp"
 #include "framework/io/text_scan.hpp"
-#include "framework/picture/view.hpp"
+#include "framework/picture/cloud_view.hpp"
 #include "framework/stage/rig_files.hpp"
 #include "framework/stage/velocity_numbers.hpp"
 #include "framework/table/renderers.hpp"

@@ -11,7 +11,7 @@
 #include "framework/io/digest.hpp"
 #include "framework/io/ply_file.hpp"
 #include "framework/io/vdb_writer.hpp"
-#include "framework/picture/view.hpp"
+#include "framework/picture/cloud_view.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -49,7 +49,7 @@ Image drawn(const Experiment& experiment, const Scene& scene, const std::vector<
     before.push_back({scan.sensor, points, start_of(experiment, scene.name, scan, 0)});
     after.push_back({scan.sensor, points, *poses[i]});
   }
-  const View view = {20.0, 20.0, 0.05};
+  const CloudView view = {20.0, 20.0, 0.05};
   std::vector<std::string> sensors;
   for (const ColouredCloud& cloud : after) sensors.push_back(cloud.sensor);
   return with_legend({draw_view(before, view), draw_view(after, view)},

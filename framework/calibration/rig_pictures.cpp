@@ -11,7 +11,7 @@
 #include "framework/calibration/sensor_picture.hpp"
 #include "framework/io/pcd_file.hpp"
 #include "framework/io/ply_file.hpp"
-#include "framework/picture/view.hpp"
+#include "framework/picture/cloud_view.hpp"
 
 namespace croon {
 namespace {
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 /// The view of rig.png and what is above it.
 Image draw_rig(const std::string& reference, const Points& level_points,
                const std::vector<PosedCloud>& sensors, const LevelFrame& level) {
-  const View view = {20.0, 15.0, 0.03};
+  const CloudView view = {20.0, 15.0, 0.03};
   std::vector<ColouredCloud> clouds = {{reference, level_points, {}}};
   std::string rejected;
   for (const PosedCloud& sensor : sensors) {

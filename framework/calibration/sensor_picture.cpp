@@ -23,7 +23,7 @@ constexpr Colour kBothColour = {34, 34, 34};        // "bar"
 
 /// Draws both clouds on `canvas` from the pixel (left, up).
 void draw_panel(Image& canvas, int left, int up, const Points& reference, const Points& sensor,
-                const View& view) {
+                const CloudView& view) {
   const Image panel = view.image();
   enum : std::uint8_t { kReference = 1, kSensor = 2 };
   // A row and a column more than the panel, for dots of two by two pixels.
@@ -65,7 +65,7 @@ Column column_of(const SensorPicture& picture, const RigidTransform& T_reference
 }
 
 /// Marks the origin of a sensor if it is in the view.
-void mark_origin(Drawing& drawing, const View& view, const Eigen::Vector3d& origin_m, int left,
+void mark_origin(Drawing& drawing, const CloudView& view, const Eigen::Vector3d& origin_m, int left,
                  int up, const std::string& colour) {
   constexpr double kRadius = 4.0;
   const Eigen::Vector3i axes = view.axes();

@@ -63,7 +63,8 @@ Extent extent_of(const Points& points, int axis) {
 constexpr float kOwnBody_m = 2.5F;
 
 /// The position of the section along `axis` in which both clouds have the most points.
-double section_centre_m(const ShownPoints& shown, const View& top, int axis, double thickness_m) {
+double section_centre_m(const ShownPoints& shown, const CloudView& top, int axis,
+                        double thickness_m) {
   const auto counts_of = [&](const Points& points) {
     std::map<int, int> counts;
     for (const Eigen::Vector3f& point : points) {
@@ -86,9 +87,9 @@ double section_centre_m(const ShownPoints& shown, const View& top, int axis, dou
 }
 
 /// The section that looks from `from`, at the scale of `top`.
-Row section(const View& top, ViewFrom from, const ShownPoints& shown, bool has_ground) {
+Row section(const CloudView& top, ViewFrom from, const ShownPoints& shown, bool has_ground) {
   constexpr double kThickness_m = 1.0;
-  View view = top;
+  CloudView view = top;
   view.from = from;
   view.half_height_m = kSectionHeight_px * top.pixel_m / 2.0;
   view.half_depth_m = kThickness_m / 2.0;
@@ -163,7 +164,7 @@ std::array<Row, 3> rows_of(const ShownPoints& shown, bool has_ground) {
       evenly_spaced(shown.shared.size() >= kMinShared ? shown.shared : shown.sensor, kSampled);
   const Extent x = extent_of(sample, 0), y = extent_of(sample, 1);
   constexpr double kAspect = static_cast<double>(kPanelWidth_px) / kTopHeight_px;
-  View top;
+  CloudView top;
   top.half_width_m =
       std::clamp(std::max(x.half, y.half * kAspect), kMinHalfWidth_m, kMaxHalfWidth_m);
   top.half_height_m = top.half_width_m / kAspect;

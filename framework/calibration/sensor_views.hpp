@@ -5,7 +5,7 @@
 
 #include "framework/geometry/point_cloud.hpp"
 #include "framework/geometry/rigid_transform.hpp"
-#include "framework/picture/view.hpp"
+#include "framework/picture/cloud_view.hpp"
 
 namespace croon {
 
@@ -42,7 +42,7 @@ ShownPoints shown_points(const Points& reference, const Points& sensor,
 
 /// A row of the picture.
 struct Row {
-  View view;
+  CloudView view;
   std::string caption;
   bool shows_ground = true;
 };

@@ -1,4 +1,4 @@
-#include "framework/picture/view.hpp"
+#include "framework/picture/cloud_view.hpp"
 
 #include <cmath>
 
@@ -7,17 +7,17 @@
 
 namespace croon {
 
-Eigen::Vector3i View::axes() const {
+Eigen::Vector3i CloudView::axes() const {
   if (from == ViewFrom::top) return {0, 1, 2};
   return from == ViewFrom::front ? Eigen::Vector3i{1, 2, 0} : Eigen::Vector3i{0, 2, 1};
 }
 
-Image View::image() const {
+Image CloudView::image() const {
   return {static_cast<int>(std::lround(2.0 * half_width_m / pixel_m)),
           static_cast<int>(std::lround(2.0 * half_height_m / pixel_m))};
 }
 
-Image draw_view(const std::vector<ColouredCloud>& clouds, const View& view) {
+Image draw_view(const std::vector<ColouredCloud>& clouds, const CloudView& view) {
   Image image = view.image();
   for (std::size_t i = 0; i < clouds.size(); ++i) {
     const Colour colour = sensor_colour(i);

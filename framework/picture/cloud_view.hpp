@@ -16,7 +16,7 @@ namespace croon {
 enum class ViewFrom { top, front, side };
 
 /// The section of the reference's frame that a picture shows.
-struct View {
+struct CloudView {
   double half_width_m = 30.0;
   double half_height_m = 20.0;
   double pixel_m = 0.05;
@@ -34,7 +34,8 @@ struct View {
 /// Calls `mark(x, y)` with the pixel of each point in the view; `points` are in the frame of the
 /// view.
 template <class Mark>
-void for_each_pixel(const Points& points, const View& view, const Image& image, const Mark& mark) {
+void for_each_pixel(const Points& points, const CloudView& view, const Image& image,
+                    const Mark& mark) {
   const Eigen::Vector3i axes = view.axes();
   const auto left_m = static_cast<float>(view.centre_m(axes.x()) - view.half_width_m);
   const auto top_m = static_cast<float>(view.centre_m(axes.y()) + view.half_height_m);
@@ -55,7 +56,7 @@ void for_each_pixel(const Points& points, const View& view, const Image& image, 
 
 /// The clouds in the reference's frame, each in the colour of its index in `clouds`; later clouds
 /// are drawn over earlier ones.
-Image draw_view(const std::vector<ColouredCloud>& clouds, const View& view = {});
+Image draw_view(const std::vector<ColouredCloud>& clouds, const CloudView& view = {});
 
 /// The views side by side, each below its caption; below them a legend of the sensors, in the order
 /// of their clouds, and a bar of a round number of metres.
