@@ -22,13 +22,13 @@ struct Params : JointOptions, MotionOptions {
   Params() {
     max_distances_m = {1.0, 0.5, 0.3};
     points = 2000;
-    certain_speed_std_mps = 0.2;
   }
   params::Slot<Preprocessor> thinning;
   double period_s = 0.1;
   double max_travel_m = 0.15;
-  double max_turn_deg = 0.5;
+  double max_turn_deg = 0.8;
   double max_shift_m = 0.1;
+  double max_shift_std_m = 0.005;
 };
 
 const params::Table<Params>& table() {
@@ -48,6 +48,9 @@ const params::Table<Params>& table() {
           params::number("max_shift_m", &Params::max_shift_m, {0.0, 1e6},
                          "Maximum distance between the pose and that of a registration that "
                          "takes motion into account."),
+          params::number("max_shift_std_m", &Params::max_shift_std_m, {0.0, 1e6},
+                         "If velocity uncertainty shifts a sensor by more than this, the rig at "
+                         "rest is compared with other_speeds_mps."),
       }
           .inherit(joint_table())
           .inherit(motion_table());
@@ -99,7 +102,10 @@ class MotionCheck final : public RigStep {
     const double turn_deg = deg_from_rad(params_.period_s * velocity.angular_radps.norm());
     const bool is_moving =
         motion.is_moving && (travel_m > params_.max_travel_m || turn_deg > params_.max_turn_deg);
-    if (!is_moving && motion.is_in_doubt(params_)) motion.leads = leads_of(scene, state, motion);
+    const double shift_std_m =
+        *std::max_element(motion.shift_std_m.begin(), motion.shift_std_m.end());
+    if (!is_moving && shift_std_m > params_.max_shift_std_m)
+      motion.leads = leads_of(scene, state, motion);
     for (std::size_t j = 0; j < estimates.size(); ++j) {
       Estimate& estimate = estimates[j]->estimate;
       const double shift_m =
@@ -107,7 +113,8 @@ class MotionCheck final : public RigStep {
       estimate.diagnostics = {{"travel_m", travel_m},
                               {"turn_deg", turn_deg},
                               {"speed_std_mps", speed_std_mps(motion.covariance)},
-                              {"shift_m", shift_m}};
+                              {"shift_m", shift_m},
+                              {"shift_std_m", motion.shift_std_m[j]}};
       if (motion.leads[j]) estimate.diagnostics.emplace_back("speed_lead", *motion.leads[j]);
       std::string reason = motion.rejection(j, params_);
       if (is_moving) {
