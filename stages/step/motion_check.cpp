@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
@@ -26,7 +27,7 @@ struct Params : JointOptions, MotionOptions {
   params::Slot<Preprocessor> thinning;
   double period_s = 0.1;
   double max_travel_m = 0.15;
-  double max_turn_deg = 0.8;
+  double max_turn_deg = 1.0;
   double max_shift_m = 0.1;
   double max_shift_std_m = 0.005;
 };
@@ -41,10 +42,11 @@ const params::Table<Params>& table() {
                          "The assumed duration of one revolution. Only its product with the "
                          "velocity matters."),
           params::number("max_travel_m", &Params::max_travel_m, {0.0, 1e6},
-                         "Maximum distance that the rig may travel during one revolution. Poses "
-                         "move by up to half of it."),
+                         "Maximum distance that the rig may travel during one revolution, less "
+                         "three standard deviations. Poses move by up to half of it."),
           params::number("max_turn_deg", &Params::max_turn_deg, {0.0, 180.0},
-                         "Maximum angle that the rig may turn by during one revolution."),
+                         "Maximum angle that the rig may turn by during one revolution, less "
+                         "three standard deviations."),
           params::number("max_shift_m", &Params::max_shift_m, {0.0, 1e6},
                          "Maximum distance between the pose and that of a registration that "
                          "takes motion into account."),
@@ -55,6 +57,14 @@ const params::Table<Params>& table() {
           .inherit(joint_table())
           .inherit(motion_table());
   return table;
+}
+
+/// The length of `vector` less three standard deviations along it.
+double certain_length(const Eigen::Vector3d& vector, const Eigen::Matrix3d& covariance) {
+  const double length = vector.norm();
+  if (length == 0.0) return 0.0;
+  const Eigen::Vector3d direction = vector / length;
+  return length - 3.0 * std::sqrt(direction.dot(covariance * direction));
 }
 
 class MotionCheck final : public RigStep {
@@ -100,8 +110,7 @@ class MotionCheck final : public RigStep {
     const Twist& velocity = state.velocities.front();
     const double travel_m = params_.period_s * velocity.linear_mps.norm();
     const double turn_deg = deg_from_rad(params_.period_s * velocity.angular_radps.norm());
-    const bool is_moving =
-        motion.is_moving && (travel_m > params_.max_travel_m || turn_deg > params_.max_turn_deg);
+    const bool is_moving = motion.is_moving && is_too_fast(velocity, motion.covariance);
     const double shift_std_m =
         *std::max_element(motion.shift_std_m.begin(), motion.shift_std_m.end());
     if (!is_moving && shift_std_m > params_.max_shift_std_m)
@@ -129,6 +138,14 @@ class MotionCheck final : public RigStep {
       }
       if (!reason.empty()) estimate.rejection = with_reason(estimate.rejection, reason);
     }
+  }
+
+  bool is_too_fast(const Twist& velocity, const Matrix6d& covariance) const {
+    const double travel_m = params_.period_s * certain_length(velocity.linear_mps,
+                                                              covariance.bottomRightCorner<3, 3>());
+    const double turn_rad =
+        params_.period_s * certain_length(velocity.angular_radps, covariance.topLeftCorner<3, 3>());
+    return travel_m > params_.max_travel_m || deg_from_rad(turn_rad) > params_.max_turn_deg;
   }
 
   /// The clouds with the times of sweeps of one period that began together.
