@@ -16,6 +16,7 @@
 #include "framework/calibration/extrinsics.hpp"
 #include "framework/calibration/loaded_scene.hpp"
 #include "framework/calibration/recorded_scenes.hpp"
+#include "framework/calibration/rig_extrinsics.hpp"
 #include "framework/calibration/rig_pictures.hpp"
 #include "framework/io/text_scan.hpp"
 
@@ -25,6 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kRequestFile = "rig.json";
+constexpr const char* kJsonFile = "extrinsics.json";
 constexpr const char* kBaseFrame = "base_link";
 
 bool is_request_file(const std::string& input) { return fs::path(input).extension() == ".json"; }
@@ -189,19 +191,7 @@ CalibratedRig calibrated(const CalibrateOptions& options, const std::vector<Scen
   return calibrate_rig(scenes, how, catalogue);
 }
 
-/// The poses of the sensors that have one, in the frame of the reference.
-Extrinsics extrinsics_of(const CalibratedRig& rig) {
-  Extrinsics extrinsics;
-  extrinsics.parent = rig.reference;
-  for (const CalibratedSensor& sensor : rig.sensors) {
-    if (!sensor.T_reference_sensor) continue;
-    extrinsics.poses.push_back(
-        {sensor.sensor, *sensor.T_reference_sensor, sensor.is_accepted, sensor.covariance});
-  }
-  return extrinsics;
-}
-
-/// The same in the vehicle frame, with the reference as its first sensor.
+/// `extrinsics` in the vehicle frame, with the reference as the first sensor.
 Extrinsics in_base(const Extrinsics& extrinsics, const RigidTransform& T_base_reference) {
   Extrinsics in_base = in_frame(extrinsics, kBaseFrame, T_base_reference);
   in_base.poses.insert(in_base.poses.begin(), {extrinsics.parent, T_base_reference});
@@ -270,8 +260,9 @@ std::vector<std::string> write_files(const CalibrateOptions& options, const Cali
                       options.with_rejected));
   }
   if (!options.no_pictures) add(draw(root, rig, drawn, options.clouds));
+  write_whole_file(root / kJsonFile, rig_extrinsics_json(rig));
   write_whole_file(root / kRequestFile, rig_request_json(options, options.out));
-  add({kRequestFile});
+  add({kJsonFile, kRequestFile});
   folder.publish();
   return paths;
 }
