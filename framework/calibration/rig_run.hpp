@@ -22,11 +22,13 @@ struct CalibrationMember {
 /// How one sensor in one scene ended.
 struct MemberResult {
   Estimate estimate;
-  std::string failure;  ///< Empty, or why there is no pose.
+  std::string failure;  ///< Empty, or the step that failed and why.
   /// The pose from this scene alone and its covariance: as in `estimate`, unless a step has given
   /// the sensor one pose in all scenes.
   RigidTransform T_in_scene;
   std::optional<PoseCovariance> covariance_in_scene;
+  /// Whether a step has found a pose, be it before another one failed.
+  bool has_pose = false;
 
   bool is_accepted() const { return failure.empty() && !estimate.rejection; }
 };
