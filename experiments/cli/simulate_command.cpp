@@ -22,7 +22,7 @@
 #include "framework/io/opencalib_files.hpp"
 #include "framework/io/pcd_file.hpp"
 #include "framework/io/text_scan.hpp"
-#include "framework/picture/top_view.hpp"
+#include "framework/picture/view.hpp"
 #include "framework/stage/rig_files.hpp"
 #include "framework/stage/velocity_numbers.hpp"
 #include "framework/table/renderers.hpp"
@@ -141,7 +141,7 @@ void draw_scene(const Scene& scene, const fs::path& dataset) {
   }
   std::vector<Image> images;
   if (scene.draw) images.push_back(scene.draw());
-  images.push_back(top_view(clouds, {25.0, 15.0, 0.06}));
+  images.push_back(draw_view(clouds, {25.0, 15.0, 0.06}));
   constexpr int kGap_px = 8;
   write_png(dataset / (scene.name + ".png"), side_by_side(images, kGap_px));
 }

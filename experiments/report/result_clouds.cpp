@@ -11,7 +11,7 @@
 #include "framework/io/digest.hpp"
 #include "framework/io/ply_file.hpp"
 #include "framework/io/vdb_writer.hpp"
-#include "framework/picture/top_view.hpp"
+#include "framework/picture/view.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -49,11 +49,11 @@ Image drawn(const Experiment& experiment, const Scene& scene, const std::vector<
     before.push_back({scan.sensor, points, start_of(experiment, scene.name, scan, 0)});
     after.push_back({scan.sensor, points, *poses[i]});
   }
-  constexpr TopView kView = {20.0, 20.0, 0.05};
+  const View view = {20.0, 20.0, 0.05};
   std::vector<std::string> sensors;
   for (const ColouredCloud& cloud : after) sensors.push_back(cloud.sensor);
-  return with_legend({top_view(before, kView), top_view(after, kView)},
-                     {"before: the starts", "after: the results"}, sensors, kView.pixel_m);
+  return with_legend({draw_view(before, view), draw_view(after, view)},
+                     {"before: the starts", "after: the results"}, sensors, view.pixel_m);
 }
 
 /// The points of `scan`; none if they are damaged, which is the reason of its failed trials. Throws

@@ -3,11 +3,10 @@
 #include <algorithm>
 
 #include "framework/base/error.hpp"
+#include "framework/geometry/time_unit.hpp"
 
 namespace croon {
 namespace {
-
-constexpr double kSecondsPerNanosecond = 1e-9;
 
 const Channel& channel_of(const PointCloud& cloud, const std::string& name) {
   if (const Channel* channel = find_channel(cloud, name)) return *channel;
@@ -22,14 +21,14 @@ const Channel& channel_of(const PointCloud& cloud, const std::string& name) {
 }  // namespace
 
 bool LoadedCloud::add(const Eigen::Vector3d& point) {
-  const Eigen::Vector3f rounded = point.cast<float>();
+  const Eigen::Vector3f rounded = (point - origin_m).cast<float>();
   const bool is_finite = rounded.allFinite();
-  if (is_finite) {
-    points.push_back(rounded);
-  } else {
-    ++dropped_non_finite;
-  }
-  return is_finite;
+  // The second: a cloud that is written and read again is the same cloud.
+  const bool is_zero = is_finite && (point.cast<float>().isZero(0.0F) || rounded.isZero(0.0F));
+  if (is_finite && !is_zero) points.push_back(rounded);
+  if (!is_finite) ++dropped_non_finite;
+  if (is_zero) ++dropped_zero;
+  return is_finite && !is_zero;
 }
 
 const Channel* find_channel(const PointCloud& cloud, const std::string& name) {
@@ -48,8 +47,10 @@ std::vector<double> channel_values(const PointCloud& cloud, const std::string& n
 
 std::vector<double> times_s(const PointCloud& cloud) {
   std::vector<double> times = channel_values(cloud, kTime);
-  if (channel_of(cloud, kTime).type.kind != ScalarKind::floating) {
-    for (double& time : times) time *= kSecondsPerNanosecond;
+  const ScalarKind kind = channel_of(cloud, kTime).type.kind;
+  const double unit_s = seconds_of(unit_of_times(times, kind));
+  if (unit_s != 1.0) {
+    for (double& time : times) time *= unit_s;
   }
   return times;
 }

@@ -33,6 +33,8 @@ struct Channel {
 inline constexpr const char* kIntensity = "intensity";
 inline constexpr const char* kRing = "ring";
 inline constexpr const char* kTime = "time";
+/// Times relative to a packet of the sensor, of which the time of a point cannot be known.
+inline constexpr const char* kTimeInPacket = "time_in_packet";
 /// How many measured points a point of a thinned cloud is the mean of, at least one; without the
 /// channel, of one. plane_patches says what it is good for.
 inline constexpr const char* kMeanOf = "mean_of";
@@ -51,14 +53,21 @@ struct PointCloud {
   bool empty() const { return points.empty(); }
 };
 
-/// A cloud from a file: its finite points in the order of the file, and the number of points that
-/// were dropped because a coordinate is NaN, infinite or too large for a float.
+/// A cloud from a file: its measured points in the order of the file, and the number of points that
+/// were dropped.
 struct LoadedCloud : PointCloud {
+  /// Points with a coordinate that is NaN, infinite or too large for a float.
   std::size_t dropped_non_finite = 0;
+  /// Points at exactly zero, which drivers write for a ray without a return.
+  std::size_t dropped_zero = 0;
+  /// Subtracted from every point of the file before it became a float, metres: zero, unless the
+  /// coordinates are those of a map.
+  Eigen::Vector3d origin_m = Eigen::Vector3d::Zero();
+  std::vector<std::string> notes = {};  ///< What the user should know of the file; sentences.
   std::string sha256 = {};  ///< Of the bytes that the points come from; empty if there is no file.
 
-  /// Appends the point if it is finite as float; else counts it as dropped. Returns whether it was
-  /// appended.
+  /// Appends `point - origin_m` as float if it is a measured point: finite and not at zero. Else
+  /// counts it as dropped. Returns whether it was appended.
   bool add(const Eigen::Vector3d& point);
 };
 
@@ -78,8 +87,8 @@ const Channel* find_channel(const PointCloud& cloud, const std::string& name);
 /// channels that there are, if the cloud has none of this name.
 std::vector<double> channel_values(const PointCloud& cloud, const std::string& name);
 
-/// When each ray was fired, seconds, from the channel `time`. Floating numbers are seconds;
-/// integers are nanoseconds, as drivers write them. Throws StageError if there is no such channel.
+/// When each ray was fired, seconds, from the channel `time` in the unit that `unit_of_times`
+/// (framework/geometry/time_unit.hpp) finds. Throws StageError if there is no such channel.
 std::vector<double> times_s(const PointCloud& cloud);
 
 /// Gives the cloud this channel, in place of one of its name.

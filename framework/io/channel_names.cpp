@@ -1,6 +1,7 @@
 #include "framework/io/channel_names.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <set>
 #include <utility>
 
@@ -12,12 +13,16 @@ namespace {
 
 /// The fields that hold a channel of another name.
 const std::vector<std::pair<std::string, std::string>> kOtherNames = {
-    {"timestamp", kTime}, {"t", kTime}, {"time_stamp", kTime}, {"i", kIntensity}};
+    {"timestamp", kTime}, {"t", kTime},        {"time_stamp", kTime}, {"offset_time", kTime},
+    {"i", kIntensity},    {"laser_id", kRing}, {"time", kTime},       {"intensity", kIntensity},
+    {"ring", kRing}};
 
-/// The channel's name, or `field` itself.
+/// The channel's name, or `field` itself. Words are known in capitals too.
 std::string known_name(const std::string& field) {
+  std::string word = field;
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (const auto& [other, name] : kOtherNames) {
-    if (other == field) return name;
+    if (other == (other.size() > 1 ? word : field)) return name;
   }
   return field;
 }

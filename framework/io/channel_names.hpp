@@ -9,8 +9,9 @@
 namespace croon {
 
 /// The name of the channel in each of the fields of a file, in their order; empty for x, y, z, for
-/// padding ("_") and for a second field of one name. What drivers call "timestamp", "t" or "i" is
-/// the channel "time" or "intensity", unless another field is called so.
+/// padding ("_") and for a second field of one name. What drivers call "timestamp", "t",
+/// "offset_time", "i" or "laser_id" is the channel "time", "intensity" or "ring", unless another
+/// field is called so; words are known in capitals too.
 std::vector<std::string> channel_names(const std::vector<std::string>& fields);
 
 /// The field that the channel `name` of `cloud` is written to: "timestamp" for "time", as the

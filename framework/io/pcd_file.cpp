@@ -1,24 +1,16 @@
 #include "framework/io/pcd_file.hpp"
 
 #include <liblzf/lzf.h>
-#include <functional>
 #include <optional>
 #include <string>
 
 #include "framework/base/error.hpp"
+#include "framework/io/cloud_columns.hpp"
 #include "framework/io/pcd_header.hpp"
 #include "framework/io/text_scan.hpp"
 
 namespace croon {
 namespace {
-
-/// The bytes of all values of a field: those of the first point, and how far it is to the next.
-struct Column {
-  const char* first = nullptr;
-  std::size_t stride = 0;
-
-  const char* at(std::size_t i) const { return first + i * stride; }
-};
 
 /// A field that becomes a channel, and the channel so far.
 struct FieldChannel {
@@ -34,49 +26,50 @@ std::vector<FieldChannel> empty_channels(const PcdHeader& header) {
     const PcdField& field = header.fields[i];
     if (names[i].empty()) continue;
     channels.push_back({&field, {names[i], field.type, field.count, {}}});
-    channels.back().channel.bytes.reserve(header.points * field.count * field.type.size);
   }
   return channels;
 }
 
-LoadedCloud with_channels(LoadedCloud cloud, std::vector<FieldChannel> channels) {
-  for (FieldChannel& of : channels) cloud.channels.push_back(std::move(of.channel));
+LoadedCloud empty_cloud(const PcdHeader& header, const Eigen::Vector3d& origin_m) {
+  LoadedCloud cloud;
+  cloud.origin_m = origin_m;
+  if (!header.viewpoint.empty()) {
+    cloud.notes.push_back("The viewpoint " + in_quotes(header.viewpoint) +
+                          " is not applied: the points are used as they are stored.");
+  }
   return cloud;
 }
 
-/// The points of a binary body; `column` returns that of a field.
-LoadedCloud from_columns(const PcdHeader& header,
-                         const std::function<Column(const PcdField&)>& column) {
-  LoadedCloud cloud;
-  cloud.points.reserve(header.points);
-  std::vector<FieldChannel> channels = empty_channels(header);
-  std::array<Column, 3> xyz{};
-  for (std::size_t axis = 0; axis < 3; ++axis) xyz[axis] = column(header.fields[header.xyz[axis]]);
-  std::vector<Column> columns;
-  for (const FieldChannel& of : channels) columns.push_back(column(*of.field));
-  const auto coordinate = [&](std::size_t axis, std::size_t i) {
-    const ScalarType type = header.fields[header.xyz[axis]].type;
-    return decode_scalar(type, ByteOrder::little, xyz[axis].at(i));
+/// The points of a binary body; `first` returns the first number of a field, `stride` its distance
+/// to that of the next point.
+template <class First, class Stride>
+LoadedCloud from_fields(const PcdHeader& header, LoadedCloud cloud, const First& first,
+                        const Stride& stride) {
+  const auto column = [&](const PcdField& field, const std::string& name) {
+    return CloudColumn{name, field.type, field.count, first(field), stride(field)};
   };
-  for (std::size_t i = 0; i < header.points; ++i) {
-    if (!cloud.add({coordinate(0, i), coordinate(1, i), coordinate(2, i)})) continue;
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-      Channel& channel = channels[c].channel;
-      channel.bytes.append(columns[c].at(i), channel.bytes_per_point());
-    }
+  std::array<CloudColumn, 3> xyz;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    xyz[axis] = column(header.fields[header.xyz[axis]], "");
   }
-  return with_channels(std::move(cloud), std::move(channels));
+  const std::vector<std::string> names = pcd_channel_names(header);
+  std::vector<CloudColumn> channels;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!names[i].empty()) channels.push_back(column(header.fields[i], names[i]));
+  }
+  return from_columns(std::move(cloud), header.points, xyz, channels);
 }
 
 /// Point after point, and in each point field after field.
-LoadedCloud from_binary(const PcdHeader& header, std::string_view body) {
-  return from_columns(header, [&](const PcdField& field) {
-    return Column{body.data() + field.first_byte, header.point_bytes};
-  });
+LoadedCloud from_binary(const PcdHeader& header, LoadedCloud cloud, std::string_view body) {
+  return from_fields(
+      header, std::move(cloud),
+      [&](const PcdField& field) { return body.data() + field.first_byte; },
+      [&](const PcdField&) { return header.point_bytes; });
 }
 
 /// Field after field, and in each field point after point; all of it compressed by LZF.
-LoadedCloud from_compressed(const PcdHeader& header, std::string_view body,
+LoadedCloud from_compressed(const PcdHeader& header, LoadedCloud cloud, std::string_view body,
                             const std::string& file) {
   const PcdCompressedSizes sizes = pcd_compressed_sizes(body);
   std::string raw(sizes.uncompressed, '\0');
@@ -84,9 +77,10 @@ LoadedCloud from_compressed(const PcdHeader& header, std::string_view body,
       lzf_decompress(body.data() + kPcdSizesBytes, static_cast<unsigned int>(sizes.compressed),
                      raw.data(), static_cast<unsigned int>(raw.size()));
   if (found != raw.size()) throw InputError(file, "", "the compressed points are damaged");
-  return from_columns(header, [&](const PcdField& field) {
-    return Column{raw.data() + header.points * field.first_byte, field.count * field.type.size};
-  });
+  return from_fields(
+      header, std::move(cloud),
+      [&](const PcdField& field) { return raw.data() + header.points * field.first_byte; },
+      [](const PcdField& field) { return field.count * field.type.size; });
 }
 
 /// The words of the points of a text body.
@@ -99,8 +93,8 @@ class PointLines {
   bool next() {
     do {
       if (!reader_.next()) return false;
-    } while (trimmed(reader_.line()).empty());
-    words_ = words_of(reader_.line());
+      split_words(reader_.line(), words_);
+    } while (words_.empty());
     if (words_.size() == header_.point_words) return true;
     fail("expected " + std::to_string(header_.point_words) + " numbers, found " +
          std::to_string(words_.size()));
@@ -135,10 +129,13 @@ class PointLines {
   std::vector<std::string_view> words_;
 };
 
-LoadedCloud from_ascii(const PcdHeader& header, std::string_view body, const std::string& file) {
-  LoadedCloud cloud;
-  cloud.points.reserve(header.points);
+LoadedCloud from_ascii(const PcdHeader& header, LoadedCloud cloud, std::string_view body,
+                       const std::string& file) {
   std::vector<FieldChannel> channels = empty_channels(header);
+  cloud.points.reserve(header.points);
+  for (FieldChannel& of : channels) {
+    of.channel.bytes.reserve(header.points * of.channel.bytes_per_point());
+  }
   const std::string expected = "expected " + std::to_string(header.points) + " points, found ";
   PointLines lines(header, body, file);
   std::uint64_t points = 0;
@@ -148,19 +145,26 @@ LoadedCloud from_ascii(const PcdHeader& header, std::string_view body, const std
     for (FieldChannel& of : channels) lines.append(of.channel.bytes, *of.field);
   }
   if (points < header.points) throw InputError(file, "", expected + std::to_string(points));
-  return with_channels(std::move(cloud), std::move(channels));
+  for (FieldChannel& of : channels) cloud.channels.push_back(std::move(of.channel));
+  return cloud;
 }
 
 }  // namespace
 
-LoadedCloud parse_pcd(std::string_view bytes, const std::string& file) {
+LoadedCloud parse_pcd(std::string_view bytes, const std::string& file,
+                      const Eigen::Vector3d& origin_m) {
   const PcdHeader header = parse_pcd_header(bytes, file);
   check_pcd_size(header, bytes, bytes.size(), file);
   const std::string_view body = bytes.substr(header.body_offset);
-  if (header.encoding == PcdEncoding::ascii) return from_ascii(header, body, file);
-  if (header.points == 0) return with_channels({}, empty_channels(header));
-  return header.encoding == PcdEncoding::binary ? from_binary(header, body)
-                                                : from_compressed(header, body, file);
+  LoadedCloud cloud = empty_cloud(header, origin_m);
+  if (header.encoding == PcdEncoding::ascii) {
+    return from_ascii(header, std::move(cloud), body, file);
+  }
+  // Without points there need not be a compressed body.
+  if (header.encoding == PcdEncoding::binary || header.points == 0) {
+    return from_binary(header, std::move(cloud), body);
+  }
+  return from_compressed(header, std::move(cloud), body, file);
 }
 
 }  // namespace croon

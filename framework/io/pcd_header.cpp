@@ -146,19 +146,37 @@ void read_fields(const HeaderLines& header, PcdHeader& out) {
 void find_xyz(const HeaderLines& header, PcdHeader& out) {
   const std::string& place = header.at("FIELDS").place;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::string name(1, "xyz"[axis]);
-    int found = 0;
-    for (std::size_t i = 0; i < out.fields.size(); ++i) {
-      if (out.fields[i].name != name) continue;
-      out.xyz[axis] = i;
-      ++found;
+    std::size_t found = 0;
+    for (const std::string_view spelling : {"xyz", "XYZ"}) {
+      const std::string_view name = spelling.substr(axis, 1);
+      for (std::size_t i = 0; found < 2 && i < out.fields.size(); ++i) {
+        if (out.fields[i].name != name) continue;
+        out.xyz[axis] = i;
+        ++found;
+      }
+      if (found > 0) break;
     }
+    const std::string name(1, "xyz"[axis]);
     if (found == 0) header.fail(place, "the field " + name + " is missing");
-    if (found > 1) header.fail(place, "the field " + name + " stands here twice");
+    if (found > 1) header.fail(place, "duplicate field " + name);
     if (out.fields[out.xyz[axis]].count != 1) {
       header.fail(header.at("COUNT").place, "expected one number in the field " + name);
     }
   }
+}
+
+/// The words of VIEWPOINT if they are a pose other than the identity, 0 0 0 1 0 0 0; else empty.
+std::string viewpoint(const HeaderLines& header) {
+  const Entry* entry = header.find("VIEWPOINT");
+  constexpr std::size_t kNumbers = 7, kQuaternionW = 3;
+  if (entry == nullptr || entry->words.size() != kNumbers) return "";
+  std::string text;
+  bool is_identity = true;
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    text += (i == 0 ? "" : " ") + entry->words[i];
+    if (i != kQuaternionW) is_identity = is_identity && number_from(entry->words[i]) == 0.0;
+  }
+  return is_identity ? "" : text;
 }
 
 std::uint64_t point_count(const HeaderLines& header) {
@@ -167,6 +185,8 @@ std::uint64_t point_count(const HeaderLines& header) {
   const std::optional<std::uint64_t> points = header.number("POINTS");
   if (!width && !points) header.fail("", "the header has no line POINTS and no line WIDTH");
   if (!width) return *points;
+  // Some writers leave the size of the image at zero.
+  if (points && (*width == 0 || height == 0U)) return *points;
   const std::uint64_t rows = height.value_or(1);
   constexpr std::uint64_t kMost = std::numeric_limits<std::int64_t>::max();
   if (rows != 0 && *width > kMost / rows)
@@ -199,6 +219,7 @@ PcdHeader parse_pcd_header(std::string_view bytes, const std::string& file) {
   find_xyz(header, out);
   out.points = point_count(header);
   out.encoding = encoding(header);
+  out.viewpoint = viewpoint(header);
   out.body_offset = header.body_offset;
   out.lines = header.lines;
   return out;
@@ -208,6 +229,7 @@ std::vector<std::string> pcd_channel_names(const PcdHeader& header) {
   std::vector<std::string> fields;
   // Padding holds nothing, and neither does a field without numbers.
   for (const PcdField& field : header.fields) fields.push_back(field.count > 0 ? field.name : "_");
+  for (const std::size_t axis : header.xyz) fields[axis] = "_";
   return channel_names(fields);
 }
 

@@ -24,13 +24,14 @@ enum class PcdEncoding { ascii, binary, binary_compressed };
 /// The header of a PCD file (versions .5 to .7), checked to be complete and consistent.
 struct PcdHeader {
   std::vector<PcdField> fields;
-  std::array<std::size_t, 3> xyz{};  ///< Indices of the fields x, y, z.
+  std::array<std::size_t, 3> xyz{};  ///< Indices of the fields x, y, z, or X, Y, Z.
   std::uint64_t points = 0;
   std::uint64_t point_bytes = 0;
   std::uint64_t point_words = 0;
   PcdEncoding encoding = PcdEncoding::ascii;
   std::size_t body_offset = 0;  ///< Bytes before the points.
   int lines = 0;                ///< Lines before the points.
+  std::string viewpoint;        ///< The words of VIEWPOINT; empty if it is the identity.
 };
 
 /// Reads the header at the start of `bytes`; `file` is the name in errors. Throws InputError with

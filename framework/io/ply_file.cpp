@@ -93,7 +93,7 @@ class TextBody {
 };
 
 template <class Body>
-LoadedCloud read_vertices(const PlyHeader& header, Body body) {
+LoadedCloud read_vertices(const PlyHeader& header, Body body, const Eigen::Vector3d& origin_m) {
   std::vector<double> values;
   for (std::size_t e = 0; e < header.vertex; ++e) {
     const PlyElement& element = header.elements[e];
@@ -104,6 +104,7 @@ LoadedCloud read_vertices(const PlyHeader& header, Body body) {
   const PlyElement& vertex = header.elements[header.vertex];
   values.resize(vertex.properties.size());
   LoadedCloud cloud;
+  cloud.origin_m = origin_m;
   cloud.points.reserve(vertex.count);
   const std::vector<std::string> names = ply_channel_names(header);
   std::vector<std::size_t> properties;
@@ -127,13 +128,14 @@ LoadedCloud read_vertices(const PlyHeader& header, Body body) {
 
 }  // namespace
 
-LoadedCloud parse_ply(std::string_view bytes, const std::string& file) {
+LoadedCloud parse_ply(std::string_view bytes, const std::string& file,
+                      const Eigen::Vector3d& origin_m) {
   const PlyHeader header = parse_ply_header(bytes, file);
   check_ply_size(header, bytes.size(), file);
   const std::string_view body = bytes.substr(header.body_offset);
   return header.encoding == PlyEncoding::ascii
-             ? read_vertices(header, TextBody(header, body, file))
-             : read_vertices(header, BinaryBody(header, body, file));
+             ? read_vertices(header, TextBody(header, body, file), origin_m)
+             : read_vertices(header, BinaryBody(header, body, file), origin_m);
 }
 
 }  // namespace croon

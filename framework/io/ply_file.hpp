@@ -10,10 +10,12 @@
 
 namespace croon {
 
-/// The vertices of `bytes`, a PLY file (ascii or binary of either byte order; x, y, z of any type
-/// and in any order), with their other numbers as channels; lists and other elements are skipped.
-/// `file` is the name in errors. Throws InputError if the body contradicts the header.
-LoadedCloud parse_ply(std::string_view bytes, const std::string& file);
+/// The vertices of `bytes`, a PLY file (ascii or binary of either byte order; x, y, z or X, Y, Z of
+/// any type and in any order), with their other numbers as channels; lists and other elements are
+/// skipped. `file` is the name in errors, `origin_m` is subtracted. Throws InputError if the body
+/// contradicts the header.
+LoadedCloud parse_ply(std::string_view bytes, const std::string& file,
+                      const Eigen::Vector3d& origin_m = Eigen::Vector3d::Zero());
 
 /// How write_ply writes numbers.
 enum class PlyFormat { binary_little_endian, ascii };

@@ -14,12 +14,12 @@ const std::map<std::string, ScalarType, std::less<>>& scalar_types() {
   constexpr ScalarKind kFloating = ScalarKind::floating, kSigned = ScalarKind::signed_integer,
                        kUnsigned = ScalarKind::unsigned_integer;
   static const std::map<std::string, ScalarType, std::less<>> types = {
-      {"char", {kSigned, 1}},     {"int8", {kSigned, 1}},      {"uchar", {kUnsigned, 1}},
-      {"uint8", {kUnsigned, 1}},  {"short", {kSigned, 2}},     {"int16", {kSigned, 2}},
-      {"ushort", {kUnsigned, 2}}, {"uint16", {kUnsigned, 2}},  {"int", {kSigned, 4}},
-      {"int32", {kSigned, 4}},    {"uint", {kUnsigned, 4}},    {"uint32", {kUnsigned, 4}},
-      {"float", {kFloating, 4}},  {"float32", {kFloating, 4}}, {"double", {kFloating, 8}},
-      {"float64", {kFloating, 8}}};
+      {"char", {kSigned, 1}},     {"int8", {kSigned, 1}},     {"uchar", {kUnsigned, 1}},
+      {"uint8", {kUnsigned, 1}},  {"short", {kSigned, 2}},    {"int16", {kSigned, 2}},
+      {"ushort", {kUnsigned, 2}}, {"uint16", {kUnsigned, 2}}, {"int", {kSigned, 4}},
+      {"int32", {kSigned, 4}},    {"uint", {kUnsigned, 4}},   {"uint32", {kUnsigned, 4}},
+      {"bool", {kUnsigned, 1}},   {"float", {kFloating, 4}},  {"float32", {kFloating, 4}},
+      {"double", {kFloating, 8}}, {"float64", {kFloating, 8}}};
   return types;
 }
 
@@ -106,7 +106,8 @@ class HeaderParser {
     std::vector<PlyProperty>& properties = header_.elements.back().properties;
     for (const PlyProperty& other : properties) {
       const bool is_same = other.name == property.name && !other.list_count && !property.list_count;
-      const bool is_axis = property.name == "x" || property.name == "y" || property.name == "z";
+      const bool is_axis = property.name.size() == 1 &&
+                           std::string_view("xyzXYZ").find(property.name) != std::string::npos;
       if (is_same && is_axis) expected("each coordinate once");
     }
     properties.push_back(property);
@@ -118,18 +119,18 @@ class HeaderParser {
     const auto vertex = std::find_if(elements.begin(), elements.end(), is_vertex);
     if (vertex == elements.end()) throw InputError(file_, "", "the element vertex is missing");
     header_.vertex = static_cast<std::size_t>(vertex - elements.begin());
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto is_axis = [axis](const PlyProperty& property) {
-        return property.name == std::string(1, "xyz"[axis]) && !property.list_count;
-      };
-      const auto& properties = vertex->properties;
-      const auto found = std::find_if(properties.begin(), properties.end(), is_axis);
-      if (found == properties.end()) {
-        throw InputError(file_, "",
-                         std::string("the vertex property ") + "xyz"[axis] + " is missing");
+    for (std::size_t axis = 0; axis < 3; ++axis) header_.xyz[axis] = find_axis(*vertex, axis);
+  }
+
+  /// The index of the property x, y or z, or else X, Y or Z.
+  std::size_t find_axis(const PlyElement& vertex, std::size_t axis) const {
+    for (const char name : {"xyz"[axis], "XYZ"[axis]}) {
+      for (std::size_t i = 0; i < vertex.properties.size(); ++i) {
+        const PlyProperty& property = vertex.properties[i];
+        if (property.name == std::string(1, name) && !property.list_count) return i;
       }
-      header_.xyz[axis] = static_cast<std::size_t>(found - properties.begin());
     }
+    throw InputError(file_, "", std::string("the vertex property ") + "xyz"[axis] + " is missing");
   }
 
   const std::string& file_;
@@ -160,6 +161,7 @@ std::vector<std::string> ply_channel_names(const PlyHeader& header) {
   for (const PlyProperty& property : header.elements[header.vertex].properties) {
     fields.push_back(property.list_count ? "_" : property.name);
   }
+  for (const std::size_t axis : header.xyz) fields[axis] = "_";
   return channel_names(fields);
 }
 

@@ -33,7 +33,7 @@ struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::ascii;
   std::vector<PlyElement> elements;
   std::size_t vertex = 0;            ///< Index of the element "vertex".
-  std::array<std::size_t, 3> xyz{};  ///< Indices of its properties x, y, z.
+  std::array<std::size_t, 3> xyz{};  ///< Indices of its properties x, y, z, or X, Y, Z.
   std::size_t body_offset = 0;       ///< Bytes before the elements.
   int lines = 0;                     ///< Lines before the elements.
 };

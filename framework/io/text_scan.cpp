@@ -42,11 +42,24 @@ std::string_view next_word(std::string_view& rest) {
   return word;
 }
 
+void split_words(std::string_view line, std::vector<std::string_view>& words) {
+  words.clear();
+  const auto is_blank = [](char c) { return c == ' ' || (c >= '\t' && c <= '\r' && c != '\n'); };
+  const char* const end = line.data() + line.size();
+  for (const char* at = line.data(); at != end;) {
+    if (is_blank(*at)) {
+      ++at;
+      continue;
+    }
+    const char* const first = at;
+    while (at != end && !is_blank(*at)) ++at;
+    words.emplace_back(first, static_cast<std::size_t>(at - first));
+  }
+}
+
 std::vector<std::string_view> words_of(std::string_view line) {
   std::vector<std::string_view> words;
-  for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
-    words.push_back(word);
-  }
+  split_words(line, words);
   return words;
 }
 

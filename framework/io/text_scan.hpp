@@ -24,6 +24,8 @@ class LineReader {
   bool next();
   /// The line, without its end.
   std::string_view line() const { return line_; }
+  /// All lines.
+  std::string_view text() const { return text_; }
   /// Its number, from one.
   int number() const { return number_; }
   /// "line 7", for errors.
@@ -42,6 +44,8 @@ class LineReader {
 std::string_view trimmed(std::string_view text);
 /// Removes the next word from `rest` and returns it; empty if there is none.
 std::string_view next_word(std::string_view& rest);
+/// Makes `words` those of `line`; its memory is used again.
+void split_words(std::string_view line, std::vector<std::string_view>& words);
 /// The words of a line.
 std::vector<std::string_view> words_of(std::string_view line);
 

@@ -5,6 +5,7 @@
 
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
+#include "framework/geometry/time_unit.hpp"
 
 namespace croon {
 
@@ -42,25 +43,18 @@ void require_near(const std::vector<double>& times_s, double reference_s) {
       throw StageError("a point's time is not a finite number");
     }
     throw StageError("a point's time is more than " + fixed_number(kLongest_s, 0) +
-                     " s from the reference time: is it in seconds, or in whole nanoseconds, and "
-                     "is its zero the scan's (reference_time)?");
+                     " s from the reference time: is its zero that of the scan (reference_time)?");
   }
-  // A turn of a LiDAR lasts 0.05 to 0.2 s; what a LiDAR without turns collects lasts a few seconds.
-  // All of that is longer in milliseconds.
-  constexpr double kLongestScan_s = 10.0;
   if (times_s.empty()) return;
   const TimeSpan span = span_of(times_s);
   const double length_s = span.last_s - span.first_s;
-  // Whole micro- or milliseconds that are taken for nanoseconds.
-  constexpr double kShortestScan_s = 5e-4;
-  constexpr std::size_t kPointsOfAScan = 1000;
-  if (length_s > 0.0 && length_s < kShortestScan_s && times_s.size() >= kPointsOfAScan) {
-    throw StageError("the scan lasts less than " + fixed_number(1e3 * kShortestScan_s, 1) +
-                     " ms: are its times in seconds, or in whole nanoseconds?");
+  if (length_s > 0.0 && length_s < kMinScan_s && times_s.size() >= kMinPointsOfScan) {
+    throw StageError("the scan lasts less than " + fixed_number(1e3 * kMinScan_s, 1) +
+                     " ms: are its times those of a scan?");
   }
-  if (length_s <= kLongestScan_s) return;
-  throw StageError("the scan lasts longer than " + fixed_number(kLongestScan_s, 0) +
-                   " s: are its times in seconds, or in whole nanoseconds?");
+  if (length_s <= kMaxScan_s) return;
+  throw StageError("the scan lasts longer than " + fixed_number(kMaxScan_s, 0) +
+                   " s: are its times those of one scan?");
 }
 
 }  // namespace croon
