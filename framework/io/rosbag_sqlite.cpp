@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "framework/base/whole_file.hpp"
 #include "framework/io/stored_messages.hpp"
@@ -98,7 +100,12 @@ class RosbagDatabase {
       case SQLITE_IOERR:
         throw UnavailableFile(path_.string(), "", "cannot be read: " + words);
       default:
-        throw DamagedRecording(path_.string(), "", "the recording is damaged: " + words);
+        throw DamagedRecording(path_.string(), "",
+                               "the recording is damaged or not complete: " + words +
+                                   "; what can be saved of it is in " + in_quotes("saved.db3") +
+                                   " after " +
+                                   in_quotes("sqlite3 " + path_.filename().string() +
+                                             " .recover | sqlite3 saved.db3"));
     }
   }
 
