@@ -36,8 +36,8 @@ std::string sensor_text(const CheckedSensor& checked, bool colours) {
   std::string text = judgement_text(checked.judgement, colours) + "  " + printable(checked.sensor) +
                      ": " + checked.finding + "\n";
   if (checked.optimum) {
-    text += "  " + fixed_number(checked.distance, 1) +
-            " standard deviations from the optimum; by axis: " + deviations_text(checked) + "\n";
+    text += "  standard deviations from the optimum: " + fixed_number(checked.distance, 1) + ";  " +
+            deviations_text(checked) + "\n";
   }
   for (const std::string& reason : checked.reasons) text += "  why: " + printable(reason) + "\n";
   return text;
