@@ -129,7 +129,7 @@ class Clouds(TestCase):
                 ({"top": top, "left": [left]}, {}, "one cloud"),
                 ({"top": top, "left": wide}, {}, "columns="), ({"top": top, "left": wide}, {"columns": ("x", "y")}, "6 different"),
                 ({"top": top, "left": left.astype(int)}, {}, "left: expected an N×3 array"),
-                ({"top": top, "left": [[1, 2, 3]]}, {}, "one cloud"), ({"top": top, "left": 3}, {}, "found an int"),
+                ({"top": top, "left": [[1, 2, 3]]}, {}, "one cloud"), (both, {"columns": "xyz"}, "a list of names"), ({"top": top, "left": 3}, {}, "found an int"),
                 ({"top": top, "left": {"x": left[:, 0]}}, {}, "x, y and z"), ({"top": top, "left": "none.pcd"}, {}, "none.pcd"),
                 (both, {"reference": "topp"}, "top, left"), (both, {"pipeline": "bst"}, 'did you mean "best"?'),
                 (both, {"pipeline": [{"step": "ground_alignmen"}]}, 'did you mean "ground_alignment"?'),

@@ -10,7 +10,7 @@ import numpy
 
 from . import _core
 from ._clouds import read_cloud
-from ._json import path_of, refusal, text_and_name, whole, word
+from ._json import path_of, refusal, text_and_name, whole, with_article, word
 
 _DEFAULT_COLUMNS = {3: ("x", "y", "z"), 4: ("x", "y", "z", "intensity")}
 
@@ -230,10 +230,10 @@ def _scenes(clouds):
     elif isinstance(clouds, (list, tuple)):
         scenes = list(clouds)
     else:
-        raise refusal("clouds", f"expected a dict of clouds by sensor or a list of such dicts, found {_kind(clouds)}")
+        raise refusal("clouds", f"expected a dict of clouds by sensor or a list of such dicts, found {with_article(clouds)}")
     for index, scene in enumerate(scenes):
         if not isinstance(scene, collections.abc.Mapping):
-            raise refusal(f"clouds[{index}]", f"expected a dict of clouds by sensor, found {_kind(scene)}")
+            raise refusal(f"clouds[{index}]", f"expected a dict of clouds by sensor, found {with_article(scene)}")
         for name in scene:
             if not word(name, f"clouds[{index}]"):
                 raise refusal(f"clouds[{index}]", "expected the name of a sensor, found an empty string")
@@ -270,12 +270,14 @@ def _array(cloud, columns, where):
     if isinstance(cloud, collections.abc.Mapping):
         return _joined({name: numpy.asarray(values) for name, values in cloud.items()}, where)
     if not isinstance(cloud, numpy.ndarray):
-        raise refusal(where, f"expected a NumPy array, a dict of arrays, a Cloud or a path, found {_kind(cloud)}")
+        raise refusal(where, f"expected a NumPy array, a dict of arrays, a Cloud or a path, found {with_article(cloud)}")
     if cloud.dtype.names:
         return cloud.reshape(-1)
     if isinstance(cloud, numpy.ma.MaskedArray) or cloud.dtype.kind != "f" or cloud.ndim not in (2, 3):
         return cloud  # _core says what is wrong.
     rows = cloud.reshape(-1, cloud.shape[-1]) if cloud.ndim == 3 else cloud
+    if columns is not None and not isinstance(columns, (list, tuple)):
+        raise refusal("columns", f"expected a list of names, found {with_article(columns)}")
     names = _DEFAULT_COLUMNS.get(rows.shape[1]) if columns is None else [word(name, "columns") for name in columns]
     if names is None:
         raise refusal(where, f"expected columns=(\"x\", \"y\", \"z\", …) with the names of the {rows.shape[1]} columns, found none")
@@ -304,13 +306,8 @@ def _nominal(nominal, sensors):
     if nominal is None:
         return {}
     if not isinstance(nominal, collections.abc.Mapping):
-        raise refusal("nominal", f"expected a dict of 4×4 poses by sensor, found {_kind(nominal)}")
+        raise refusal("nominal", f"expected a dict of 4×4 poses by sensor, found {with_article(nominal)}")
     for name in nominal:
         if name not in sensors:
             raise refusal("nominal", f"expected poses of {', '.join(sensors)}, found one of {name!r:.60}")
     return dict(nominal)
-
-
-def _kind(value):
-    name = type(value).__name__
-    return ("an " if name[:1].lower() in "aeiou" else "a ") + name
