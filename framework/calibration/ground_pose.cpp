@@ -96,13 +96,20 @@ GroundCells ground_cells(const Points& points, const Plane& plane, double thresh
 std::size_t block_of(std::size_t i, std::size_t count) { return i * kBlocks / count; }
 
 /// The plane z = a x + b y + c through most of the cells: the road, and not the pavement.
-Eigen::Vector3d most_common_heights(const std::vector<Eigen::Vector3d>& cells, Rng& rng) {
+/// std::nullopt if they lie on one line.
+std::optional<Eigen::Vector3d> most_common_heights(const std::vector<Eigen::Vector3d>& cells,
+                                                   Rng& rng) {
   Points points;
   for (const Eigen::Vector3d& cell : cells) points.push_back(cell.cast<float>());
   PlaneRansacOptions options;
   options.threshold_m = 0.04;
-  const Plane plane = plane_ransac(points, options, rng);
-  return Eigen::Vector3d(-plane.normal.x(), -plane.normal.y(), -plane.offset_m) / plane.normal.z();
+  try {
+    const Plane plane = plane_ransac(points, options, rng);
+    return Eigen::Vector3d(-plane.normal.x(), -plane.normal.y(), -plane.offset_m) /
+           plane.normal.z();
+  } catch (const StageError&) {
+    return std::nullopt;
+  }
 }
 
 /// The plane from `abc` refitted to the cells but those of the block `without` (Tukey's biweight).
@@ -168,13 +175,14 @@ std::optional<SceneGround> ground_of_scene(const Points& points, Rng& rng) {
   const GroundCells cells = ground_cells(points, *plane, kThreshold_m);
   if (cells.points.size() < kMinCells) return std::nullopt;
   SceneGround ground;
-  const Eigen::Vector3d start = most_common_heights(cells.points, rng);
-  ground.value = pose_over(fitted_heights(cells.points, start, kBlocks), cells.R_level_sensor);
+  const std::optional<Eigen::Vector3d> start = most_common_heights(cells.points, rng);
+  if (!start) return std::nullopt;
+  ground.value = pose_over(fitted_heights(cells.points, *start, kBlocks), cells.R_level_sensor);
   // The jackknife: what each block of directions changes.
   ground.variance = one_sided_variance(cells.points);
   for (std::size_t block = 0; block < kBlocks; ++block) {
     Eigen::Vector3d change =
-        pose_over(fitted_heights(cells.points, start, block), cells.R_level_sensor) - ground.value;
+        pose_over(fitted_heights(cells.points, *start, block), cells.R_level_sensor) - ground.value;
     for (const int i : {0, 1}) change(i) = std::remainder(change(i), 2.0 * kPi);
     ground.variance += (kBlocks - 1.0) / kBlocks * change.cwiseAbs2();
   }
