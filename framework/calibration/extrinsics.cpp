@@ -44,7 +44,7 @@ const std::vector<ExtrinsicsFormat>& formats() {
   return table;
 }
 
-const ExtrinsicsFormat& format_of(const std::string& name) {
+const ExtrinsicsFormat& writable_format(const std::string& name) {
   for (const ExtrinsicsFormat& format : formats()) {
     if (format.name == name && format.write != nullptr) return format;
   }
@@ -106,7 +106,7 @@ std::vector<std::string> extrinsics_format_names() {
 
 std::vector<ExtrinsicsFile> write_extrinsics(const Extrinsics& extrinsics,
                                              const std::string& format, bool with_rejected) {
-  const ExtrinsicsFormat& row = format_of(format);
+  const ExtrinsicsFormat& row = writable_format(format);
   if (row.has_verdicts) return row.write(extrinsics);
   Extrinsics written = extrinsics;
   const auto is_left_out = [&](const ExtrinsicPose& pose) {

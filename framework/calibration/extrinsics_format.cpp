@@ -17,7 +17,7 @@ namespace {
 
 /// Files have rounded numbers: how far a matrix may be from a rotation, a quaternion from unit
 /// length.
-constexpr double kRounding = 1e-3;
+constexpr double kFileRounding = 1e-3;
 
 std::string in_small_letters(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -113,7 +113,7 @@ std::string file_stem(const std::string& name) {
 
 Eigen::Matrix3d checked_quaternion(const Eigen::Vector4d& xyzw, const FilePlace& place) {
   const double length = xyzw.norm();
-  if (!(std::abs(length - 1.0) <= kRounding)) {
+  if (!(std::abs(length - 1.0) <= kFileRounding)) {
     place.refuse("expected a quaternion of unit length, found one of length " +
                  shortest_number(length));
   }
@@ -123,7 +123,7 @@ Eigen::Matrix3d checked_quaternion(const Eigen::Vector4d& xyzw, const FilePlace&
 Eigen::Matrix3d checked_matrix(const Eigen::Matrix3d& matrix, const FilePlace& place) {
   const double rounding =
       (matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!matrix.allFinite() || !(rounding <= kRounding)) {
+  if (!matrix.allFinite() || !(rounding <= kFileRounding)) {
     place.refuse("expected a rotation, found a matrix whose R^T R differs from the identity by " +
                  fixed_number(rounding, 3));
   }
@@ -157,7 +157,7 @@ RigidTransform checked_pose(const std::vector<double>& rows, const FilePlace& pl
                  std::to_string(rows.size()));
   }
   using Row = Eigen::RowVector4d;
-  if (rows.size() == 16 && (Row(rows.data() + 12) - Row(0, 0, 0, 1)).norm() > kRounding) {
+  if (rows.size() == 16 && (Row(rows.data() + 12) - Row(0, 0, 0, 1)).norm() > kFileRounding) {
     place.refuse("expected 0 0 0 1 as the fourth row; is the matrix transposed?");
   }
   Eigen::Matrix<double, 3, 4> matrix;

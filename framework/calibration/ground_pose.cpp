@@ -1,5 +1,6 @@
 #include "framework/calibration/ground_pose.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +16,7 @@
 namespace croon {
 namespace {
 
-constexpr double kMaxRange_m = 15.0;
+constexpr double kMaxGroundRange_m = 15.0;
 constexpr double kCell_m = 1.0;
 constexpr int kMinCellPoints = 3;
 constexpr std::size_t kBlocks = 8;
@@ -40,24 +41,33 @@ std::optional<Plane> rough_ground(const Points& points, Rng& rng) {
   constexpr double kMinCosTilt = 0.5;
   const std::vector<GroundCandidate> candidates =
       ground_candidates(one_per_cube(points), GroundCandidateOptions{}, rng);
-  // A ceiling is the ground of a sensor that hangs upside down, if there is no other.
-  for (const double sign : {1.0, -1.0}) {
-    for (const GroundCandidate& candidate : candidates) {
-      if (sign * candidate.plane.normal.z() >= kMinCosTilt) return candidate.plane;
+  // The ceiling of a room is as good a plane as its floor: upright is more likely.
+  constexpr double kMaxGap = 0.15;
+  std::optional<Plane> upside_down;
+  double upside_down_score = 0.0;
+  for (const GroundCandidate& candidate : candidates) {
+    const double up = candidate.plane.normal.z();
+    if (std::abs(up) < kMinCosTilt) continue;
+    if (up > 0.0 && (!upside_down || candidate.score >= upside_down_score - kMaxGap)) {
+      return candidate.plane;
+    }
+    if (up < 0.0 && !upside_down) {
+      upside_down = candidate.plane;
+      upside_down_score = candidate.score;
     }
   }
-  return std::nullopt;
+  return upside_down;
 }
 
 /// The ground as heights over a rough plane: one point per square cell, ordered by direction.
-struct Cells {
+struct GroundCells {
   Eigen::Matrix3d R_level_sensor;  ///< z along the normal of the rough plane.
   std::vector<Eigen::Vector3d> points;
 };
 
 /// The means of the ground's points in each cell, in a frame whose z is the plane's normal.
-Cells ground_cells(const Points& points, const Plane& plane, double threshold_m) {
-  Cells cells;
+GroundCells ground_cells(const Points& points, const Plane& plane, double threshold_m) {
+  GroundCells cells;
   cells.R_level_sensor = rotation_between(plane.normal, Eigen::Vector3d::UnitZ());
   struct Sum {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -67,7 +77,7 @@ Cells ground_cells(const Points& points, const Plane& plane, double threshold_m)
   for (const Eigen::Vector3f& point : points) {
     const Eigen::Vector3d level = cells.R_level_sensor * point.cast<double>();
     if (std::abs(level.z() + plane.offset_m) > threshold_m) continue;
-    if (level.head<2>().norm() > kMaxRange_m) continue;
+    if (level.head<2>().norm() > kMaxGroundRange_m) continue;
     Sum& sum = sums[{std::lround(std::floor(level.x() / kCell_m)),
                      std::lround(std::floor(level.y() / kCell_m))}];
     sum.sum += level;
@@ -85,12 +95,28 @@ Cells ground_cells(const Points& points, const Plane& plane, double threshold_m)
 /// The block of neighbouring directions that cell `i` of `count` belongs to.
 std::size_t block_of(std::size_t i, std::size_t count) { return i * kBlocks / count; }
 
-/// The plane through the cells but those of the block `without`, in the level frame: z = a x + b y
-/// + c, without kerbs and wheels (Tukey's biweight).
-Eigen::Vector3d fitted_heights(const std::vector<Eigen::Vector3d>& cells, std::size_t without) {
+/// The plane z = a x + b y + c through most of the cells: the road, and not the pavement.
+/// std::nullopt if they lie on one line.
+std::optional<Eigen::Vector3d> most_common_heights(const std::vector<Eigen::Vector3d>& cells,
+                                                   Rng& rng) {
+  Points points;
+  for (const Eigen::Vector3d& cell : cells) points.push_back(cell.cast<float>());
+  PlaneRansacOptions options;
+  options.threshold_m = 0.04;
+  try {
+    const Plane plane = plane_ransac(points, options, rng);
+    return Eigen::Vector3d(-plane.normal.x(), -plane.normal.y(), -plane.offset_m) /
+           plane.normal.z();
+  } catch (const StageError&) {
+    return std::nullopt;
+  }
+}
+
+/// The plane from `abc` refitted to the cells but those of the block `without` (Tukey's biweight).
+Eigen::Vector3d fitted_heights(const std::vector<Eigen::Vector3d>& cells, Eigen::Vector3d abc,
+                               std::size_t without) {
   constexpr int kRounds = 10;
-  constexpr double kScale_m = 0.1;
-  Eigen::Vector3d abc = Eigen::Vector3d::Zero();
+  constexpr double kScale_m = 0.06;
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();
@@ -98,15 +124,28 @@ Eigen::Vector3d fitted_heights(const std::vector<Eigen::Vector3d>& cells, std::s
       if (block_of(i, cells.size()) == without) continue;
       const Eigen::Vector3d row(cells[i].x(), cells[i].y(), 1.0);
       const double residual = (cells[i].z() - row.dot(abc)) / kScale_m;
-      // The first round starts from the rough plane, whose height is not subtracted.
-      const double weight =
-          round == 0 ? 1.0 : std::pow(std::max(0.0, 1.0 - residual * residual), 2);
-      A += weight * row * row.transpose();
-      b += weight * cells[i].z() * row;
+      const double root = std::max(0.0, 1.0 - residual * residual);
+      A += root * root * row * row.transpose();
+      b += root * root * cells[i].z() * row;
     }
     abc = A.ldlt().solve(b);
   }
   return abc;
+}
+
+/// The variances of roll, pitch and height that no jackknife sees if the ground lies on one side of
+/// the sensor: there the road's crossfall, a pavement or a verge may be all of it.
+Eigen::Vector3d one_sided_variance(const std::vector<Eigen::Vector3d>& cells) {
+  constexpr double kTilt_rad = rad_from_deg(4.0);
+  Eigen::Vector2d directions = Eigen::Vector2d::Zero(), mean_m = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector3d& cell : cells) {
+    directions += cell.head<2>().normalized() / static_cast<double>(cells.size());
+    mean_m += cell.head<2>() / static_cast<double>(cells.size());
+  }
+  // 0 if the ground surrounds the sensor, 1 if it lies in one direction.
+  const double tilt_rad = kTilt_rad * directions.squaredNorm();
+  const Eigen::Vector3d deviations(tilt_rad, tilt_rad, tilt_rad * mean_m.norm());
+  return deviations.cwiseAbs2();
 }
 
 /// (roll, pitch, height) of the sensor over the plane `abc` of the level frame.
@@ -133,15 +172,17 @@ std::optional<SceneGround> ground_of_scene(const Points& points, Rng& rng) {
   std::optional<Plane> plane = rough_ground(points, rng);
   if (!plane) return std::nullopt;
   constexpr double kThreshold_m = 0.2;
-  const Cells cells = ground_cells(points, *plane, kThreshold_m);
+  const GroundCells cells = ground_cells(points, *plane, kThreshold_m);
   if (cells.points.size() < kMinCells) return std::nullopt;
   SceneGround ground;
-  ground.value = pose_over(fitted_heights(cells.points, kBlocks), cells.R_level_sensor);
+  const std::optional<Eigen::Vector3d> start = most_common_heights(cells.points, rng);
+  if (!start) return std::nullopt;
+  ground.value = pose_over(fitted_heights(cells.points, *start, kBlocks), cells.R_level_sensor);
   // The jackknife: what each block of directions changes.
-  ground.variance = Eigen::Vector3d::Zero();
+  ground.variance = one_sided_variance(cells.points);
   for (std::size_t block = 0; block < kBlocks; ++block) {
     Eigen::Vector3d change =
-        pose_over(fitted_heights(cells.points, block), cells.R_level_sensor) - ground.value;
+        pose_over(fitted_heights(cells.points, *start, block), cells.R_level_sensor) - ground.value;
     for (const int i : {0, 1}) change(i) = std::remainder(change(i), 2.0 * kPi);
     ground.variance += (kBlocks - 1.0) / kBlocks * change.cwiseAbs2();
   }
