@@ -5,13 +5,15 @@ CLANG_FORMAT ?= $(shell command -v clang-format-14 || echo clang-format)
 RUN_CLANG_TIDY ?= $(shell command -v run-clang-tidy-14 || echo run-clang-tidy)
 SOURCES = git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp'
 
-.PHONY: help packages sanitizer_packages release demo test benchmark docs format lint fuzz sanitize threads clean
+.PHONY: help packages sanitizer_packages release demo test benchmark docs package package-test format lint fuzz sanitize threads clean
 
 help:
 	@echo 'make demo       the paper on twelve simulated scenes, with a table and a picture'
 	@echo 'make test       build and run all tests'
 	@echo 'make benchmark  build and run the benchmarks'
 	@echo 'make docs       write docs/stages and docs/schema again'
+	@echo 'make package    a .deb for this release of Debian or Ubuntu, in build/package'
+	@echo 'make package-test  installs the .deb in a bare chroot and calibrates a simulated car there (root, network)'
 	@echo 'make format     clang-format all sources'
 	@echo 'make lint       clang-tidy over all sources but the tests'
 	@echo 'make fuzz       libFuzzer over every reader of files, FUZZ_SECONDS each (20)'
@@ -39,6 +41,18 @@ benchmark: packages
 
 docs: release
 	.ci/generate_docs build/release/bin/croon docs
+
+# dpkg-shlibdeps finds the packages of the libraries, in files that `file` tells from others.
+package: packages
+	.ci/install_packages dpkg-dev file
+	cmake --preset package
+	rm -f build/package/croon_*.deb
+	cmake --build --preset package --target package
+
+# Not a part of `make test`: it downloads a system.
+package-test: package
+	.ci/install_packages debootstrap
+	test/package/deb_test.sh build/package/croon_*.deb
 
 format:
 	$(SOURCES) | xargs $(CLANG_FORMAT) -i

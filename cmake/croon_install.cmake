@@ -1,5 +1,6 @@
 # The package: find_package(croon) gives croon::croon and what it consists of; the component `program` gives
-# croon_add_program, for which the package has the rest. docs/library.md shows both.
+# croon_add_program, for which the package has the rest. docs/library.md shows both. What is run, not compiled against, is in
+# the install component `runtime`, of which croon_package.cmake makes a .deb.
 include(CMakePackageConfigHelpers)
 
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/croon")
@@ -30,16 +31,17 @@ install(CODE "file(CREATE_LINK . \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAK
 if(CROON_BUILD_TOOLS)
   install_libraries(croonProgramTargets croon_simulation croon_experiment_file croon_run croon_store croon_analysis
     croon_report croon_cli croon_program)
-  install(TARGETS croon)
-  install(TARGETS croon_openvdb_module LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/croon")
+  install(TARGETS croon COMPONENT runtime)
+  install(TARGETS croon_openvdb_module LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/croon"
+    COMPONENT runtime)
   install(FILES experiments/store/version.hpp DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/croon/experiments/store")
   install(FILES "${PROJECT_BINARY_DIR}/experiments/store/version.cpp.in"
     "${PROJECT_BINARY_DIR}/experiments/store/croon_commit.cmake" DESTINATION "${package_folder}")
   # They extend each other.
   install(FILES experiments/best.json experiments/demo.json experiments/driving.json experiments/rig.json
-    DESTINATION "${CMAKE_INSTALL_DATADIR}/croon/experiments")
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/croon/experiments" COMPONENT runtime)
   install(DIRECTORY experiments/paper experiments/ablations experiments/judging experiments/tuning
-    DESTINATION "${CMAKE_INSTALL_DATADIR}/croon/experiments"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/croon/experiments" COMPONENT runtime
     FILES_MATCHING PATTERN "*.json" PATTERN "*.csv")
 endif()
 

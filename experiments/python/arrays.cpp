@@ -8,6 +8,7 @@
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
 #include "framework/geometry/rigid_transform.hpp"
+#include "framework/io/channel_names.hpp"
 #include "framework/io/text_scan.hpp"
 
 namespace croon::python {
@@ -168,9 +169,8 @@ py::array_t<double> matrix_array(const Eigen::Matrix<double, rows, columns>& mat
   return array;
 }
 
-}  // namespace
-
-PointCloud cloud_or_empty_from(const py::object& object, const std::string& what) {
+/// The cloud in an array, whose points need not be finite.
+PointCloud unchecked_cloud(const py::object& object, const std::string& what) {
   const py::array array = any_array(object, what, kCloudWords);
   PointCloud cloud;
   if (!array.dtype().attr("names").is_none()) {
@@ -183,8 +183,32 @@ PointCloud cloud_or_empty_from(const py::object& object, const std::string& what
     }
     copy_points(array, cloud.points);
   }
+  return cloud;
+}
+
+}  // namespace
+
+PointCloud cloud_or_empty_from(const py::object& object, const std::string& what) {
+  PointCloud cloud = unchecked_cloud(object, what);
   refuse_points_that_are_not_finite(cloud.points, what);
   return cloud;
+}
+
+LoadedCloud recorded_cloud_from(const py::object& object, const std::string& what) {
+  PointCloud cloud = unchecked_cloud(object, what);
+  LoadedCloud recorded;
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (recorded.add(cloud.points[i].cast<double>())) kept.push_back(i);
+  }
+  std::vector<std::string> fields;
+  for (const Channel& channel : cloud.channels) fields.push_back(channel.name);
+  const std::vector<std::string> names = channel_names(fields);
+  recorded.channels = selected(cloud, kept).channels;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!names[i].empty()) recorded.channels[i].name = names[i];
+  }
+  return recorded;
 }
 
 PointCloud cloud_from(const py::object& array, const std::string& what) {

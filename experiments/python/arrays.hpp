@@ -23,6 +23,11 @@ PointCloud cloud_from(const py::object& array, const std::string& what);
 /// The same, but the cloud may have no points.
 PointCloud cloud_or_empty_from(const py::object& array, const std::string& what);
 
+/// A cloud as a reader of files returns it: points that are not finite or exactly zero are dropped
+/// and counted, and a field that drivers call "t" or "timestamp" is the channel "time". May have no
+/// points. Throws InputError as `cloud_from`.
+LoadedCloud recorded_cloud_from(const py::object& array, const std::string& what);
+
 /// A structured array with x, y, z (float32) and the channels; a copy.
 py::array structured_array(const PointCloud& cloud);
 

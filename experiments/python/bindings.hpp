@@ -14,5 +14,6 @@ void bind_stages(pybind11::module_& module);
 void bind_pipelines(pybind11::module_& module);
 void bind_runs(pybind11::module_& module);
 void bind_datasets(pybind11::module_& module);
+void bind_calibration(pybind11::module_& module);
 
 }  // namespace croon::python

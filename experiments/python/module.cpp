@@ -13,6 +13,7 @@ PYBIND11_MODULE(_core, module) {
   bind_pipelines(module);
   bind_runs(module);
   bind_datasets(module);
+  bind_calibration(module);
   module.attr("version") = croon::experiments::croon_version();
   py::module_::import("atexit").attr("register")(py::cpp_function(end_python));
 }

@@ -1,12 +1,11 @@
 // Runs of experiments, and folders of results.
-#include <atomic>
-#include <future>
 #include <iostream>
 
 #include "experiments/file/start_rule.hpp"
 #include "experiments/python/arrays.hpp"
 #include "experiments/python/bindings.hpp"
 #include "experiments/python/interpreter.hpp"
+#include "experiments/python/interruptible.hpp"
 #include "experiments/python/result_arrays.hpp"
 #include "experiments/python/stage_catalogue.hpp"
 #include "experiments/report/result_tables.hpp"
@@ -19,37 +18,6 @@ namespace croon::python {
 namespace {
 
 using namespace experiments;  // NOLINT(google-build-using-namespace): this file is about them.
-
-/// Ends a run that was interrupted; the interpreter has the reason.
-struct Interrupted : std::exception {};
-
-/// Calls `work(check)` on a thread of its own while this one looks for signals, such as Ctrl-C:
-/// after one, `check` throws, and the exception of Python is raised when `work` has ended.
-template <class Work>
-void interruptible(const Work& work) {
-  std::atomic<bool> is_interrupted{false};
-  std::future<void> done = std::async(std::launch::async, [&] {
-    work([&] {
-      if (is_interrupted) throw Interrupted();
-    });
-  });
-  std::unique_ptr<py::error_already_set> reason;
-  {
-    const WithoutGil no_gil;
-    while (done.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
-      if (is_interrupted) continue;
-      const WithGil gil;
-      if (PyErr_CheckSignals() == 0) continue;
-      reason = std::make_unique<py::error_already_set>();
-      is_interrupted = true;
-    }
-  }
-  try {
-    done.get();
-  } catch (const Interrupted&) {
-  }
-  if (reason) throw py::error_already_set(*reason);
-}
 
 /// The folder and the complaints.
 py::tuple run(const RunRequest& request, const FolderRun& asked) {
@@ -100,11 +68,11 @@ py::list starts(const py::dict& options) {
   {
     const WithoutGil no_gil;
     const CheckedRun run = check_run(request, *stages);
-    for (const Scene& scene : run.scenes) {
-      for (const SensorScan& scan : scene.sensors) {
+    for (const SceneGroup& group : run.groups) {
+      for (const CalibratedPair& pair : group.pairs) {
         for (int trial = 0; trial < total_trials(run.experiment.starts); ++trial) {
-          starts.emplace_back(scene.name, scan.sensor, trial,
-                              start_of(run.experiment, scene.name, scan, trial));
+          starts.emplace_back(group.name, pair.name, trial,
+                              start_of(run.experiment, group.name, pair, trial));
         }
       }
     }

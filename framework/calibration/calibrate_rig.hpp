@@ -17,6 +17,8 @@ struct CalibrationOptions {
   /// "best" (corrects motion if the times of all clouds permit, else looks for motion that was not
   /// corrected), "driving" or "paper"; or the file of a pipeline.
   std::string pipeline = "best";
+  /// The JSON text of a pipeline, which messages call `pipeline`; if empty, that name counts.
+  std::string pipeline_text = {};
   /// Compare with the nominal poses, but do not start from them.
   bool from_scratch = false;
   std::uint64_t seed = 1;

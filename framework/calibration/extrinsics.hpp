@@ -16,6 +16,8 @@ struct ExtrinsicPose {
   RigidTransform T_parent_sensor;
   bool is_accepted = true;
   std::optional<PoseCovariance> covariance = {};
+  /// False for a rejected sensor without a best guess: only `csv` has a row for it.
+  bool has_pose = true;
 };
 
 /// The poses of a rig's sensors in one parent frame.

@@ -17,14 +17,16 @@ struct NamedCloud {
 
 /// What is suspicious about the clouds before anything is computed, one sentence each: two sensors
 /// with the same content, scenes that are copies of each other, a median range that looks like
-/// millimetres or centimetres, many points at exactly zero, scenes far apart in time.
+/// millimetres, centimetres or coordinates of a map, many points at exactly zero, few points, scans
+/// of one scene far apart in time.
 std::vector<std::string> warnings_about_clouds(const std::vector<NamedCloud>& clouds);
 
 /// The scenes whose clouds are all copies of an earlier scene's: they do not count as evidence.
 std::vector<std::string> copied_scenes(const std::vector<NamedCloud>& clouds);
 
 /// What is suspicious about the results: a pose at zero, two sensors at one pose, a pose far from
-/// nominal or near half a turn from it, two sensors that look swapped, one scene alone.
+/// nominal, near half a turn from it or near its inverse, two sensors that look swapped, one scene
+/// alone.
 std::vector<std::string> warnings_about_rig(const CalibratedRig& rig);
 
 }  // namespace croon

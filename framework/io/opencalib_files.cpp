@@ -13,6 +13,7 @@
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
 #include "framework/base/whole_file.hpp"
+#include "framework/geometry/exact_rpy.hpp"
 #include "framework/geometry/length_bound.hpp"
 #include "framework/io/text_scan.hpp"
 
@@ -28,9 +29,19 @@ constexpr const char* kPoseKey = "(Roll,Pitch,Yaw,tx,ty,tz)";
 struct Record {
   int device_id = 0;
   std::string value;
-  std::string place;   ///< Of the value.
-  std::string option;  ///< The value of the optional line; empty if there is none.
+  std::string place;    ///< Of the value.
+  std::string option;   ///< The value of the optional line; empty if there is none.
+  std::string comment;  ///< Behind the device's number.
 };
+
+/// Removes a comment, `# ...`, from the end of `text` and returns what it says.
+std::string take_comment(std::string& text) {
+  const std::size_t sign = text.find('#');
+  if (sign == std::string::npos) return "";
+  const std::string comment(trimmed(std::string_view(text).substr(sign + 1)));
+  text = std::string(trimmed(std::string_view(text).substr(0, sign)));
+  return comment;
+}
 
 /// A key as it is compared: without blanks, in small letters.
 std::string plain_key(std::string_view text) {
@@ -109,9 +120,10 @@ class RecordReader {
   /// Ends the record that has begun, if any.
   void close_record() {
     if (device_ && value_) {
+      const std::string comment = take_comment(device_->text);
       const std::optional<std::uint64_t> id = count_from(device_->text);
       if (id && *id <= std::numeric_limits<int>::max()) {
-        add({static_cast<int>(*id), value_->text, value_->place, option_});
+        add({static_cast<int>(*id), value_->text, value_->place, option_, comment});
       } else {
         fault(device_->place, "expected a device's number, found " + in_quotes(device_->text));
       }
@@ -157,9 +169,10 @@ std::optional<RigidTransform> pose_of(std::string text) {
 }
 
 /// The two lines of a record.
-std::string record_text(int device_id, const char* key, const std::string& value) {
-  return std::string(kDeviceKey) + ": " + std::to_string(device_id) + "\n" + key + ": " + value +
-         "\n";
+std::string record_text(int device_id, const char* key, const std::string& value,
+                        const std::string& comment = "") {
+  return std::string(kDeviceKey) + ": " + std::to_string(device_id) +
+         (comment.empty() ? "" : "  # " + comment) + "\n" + key + ": " + value + "\n";
 }
 
 /// The records by device; throws what was wrong.
@@ -188,7 +201,8 @@ std::vector<ListedCloud> read_cloud_list(const std::filesystem::path& file) {
 std::vector<ListedPose> read_pose_list(const std::filesystem::path& file) {
   RecordReader reader(file, kPoseKey);
   std::vector<ListedPose> poses;
-  for (const Record& record : reader.read()) {
+  for (Record record : reader.read()) {
+    const std::string note = take_comment(record.value);
     const std::optional<RigidTransform> pose = pose_of(record.value);
     if (!pose) {
       reader.fault(record.place, "expected six numbers, found " + in_quotes(record.value));
@@ -197,7 +211,8 @@ std::vector<ListedPose> read_pose_list(const std::filesystem::path& file) {
                                      fixed_number(kLargestCoordinate_m, 0) + " m, found " +
                                      in_quotes(record.value));
     }
-    poses.push_back({record.device_id, pose.value_or(RigidTransform{}), record.place});
+    poses.push_back(
+        {record.device_id, pose.value_or(RigidTransform{}), record.place, record.comment, note});
   }
   return sorted(std::move(poses), reader);
 }
@@ -224,13 +239,14 @@ std::string pose_list_text(const std::vector<ListedPose>& poses) {
   std::string text;
   for (const ListedPose& pose : poses) {
     const RigidTransform& T = pose.T_reference_sensor;
-    const Eigen::Vector3d rpy_deg = rpy_from_rotation(T.rotation) / rad_from_deg(1.0);
+    const Eigen::Vector3d rpy_deg = exact_rpy(T.rotation) / rad_from_deg(1.0);
     std::ostringstream value;
     value.imbue(std::locale::classic());
     value << std::setprecision(std::numeric_limits<double>::max_digits10);
     for (int i = 0; i < 3; ++i) value << rpy_deg(i) << ' ';
     for (int i = 0; i < 3; ++i) value << T.translation(i) << (i < 2 ? " " : "");
-    text += record_text(pose.device_id, kPoseKey, value.str());
+    if (!pose.note.empty()) value << "  # " << pose.note;
+    text += record_text(pose.device_id, kPoseKey, value.str(), pose.sensor);
   }
   return text;
 }

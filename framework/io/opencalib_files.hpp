@@ -25,6 +25,8 @@ struct ListedPose {
   int device_id = 0;
   RigidTransform T_reference_sensor;
   std::string place;
+  std::string sensor = {};  ///< From a comment behind the device's number; empty without one.
+  std::string note = {};    ///< From a comment behind the pose.
 };
 
 /// Reads pairs of lines `device_id: 1` and `path: FILE`, in either order, and after the first of
@@ -33,7 +35,8 @@ struct ListedPose {
 std::vector<ListedCloud> read_cloud_list(const std::filesystem::path& file);
 
 /// The same for `device_id: 1` and `(Roll,Pitch,Yaw,tx,ty,tz): R P Y X Y Z`, degrees and metres,
-/// `R = Rz(yaw) Ry(pitch) Rx(roll)`.
+/// `R = Rz(yaw) Ry(pitch) Rx(roll)`. Either line may end in a comment, `# NAME`: the authors'
+/// program reads the numbers only.
 std::vector<ListedPose> read_pose_list(const std::filesystem::path& file);
 
 /// The bytes of such files. Places are not written, and names of sensors only if they are not those

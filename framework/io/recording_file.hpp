@@ -24,12 +24,17 @@ struct CloudTopic {
   std::vector<RecordedCloud> clouds;  ///< In order of time.
 };
 
-/// Whether the path is a rosbag2 recording: a .db3 or .mcap file, or a folder with metadata.yaml.
+/// Whether the path looks like a recording: a file that begins like MCAP or a bag of ROS 1 or is
+/// called .db3, .mcap, .bag (or the first two with .zstd, .zst or .lz4), or a folder with
+/// such files or the metadata.yaml of a rosbag2. read_recording says of each how it can be read.
 bool is_recording(const std::filesystem::path& path);
 
 /// The topics with point clouds, sorted by name. Reads headers and indices; clouds are read on
-/// demand and the file must stay. Throws InputError: not a recording, a damaged one, no point
-/// clouds (naming the types that it has), ROS 1 bags (naming the way to convert them).
-std::vector<CloudTopic> read_recording(const std::filesystem::path& path);
+/// demand and the file must stay. If a file ends too early or is damaged behind clouds that can be
+/// read, these are returned, with a sentence in `notices`; if that is null, it is an error. Throws
+/// InputError: not a recording, a damaged one, no point clouds (naming the types that it has), ROS
+/// 1 bags and compressed files (naming the way to convert them).
+std::vector<CloudTopic> read_recording(const std::filesystem::path& path,
+                                       std::vector<std::string>* notices = nullptr);
 
 }  // namespace croon

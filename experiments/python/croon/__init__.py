@@ -5,6 +5,7 @@ arrays; ``T_target_source`` maps a point of the source to the target's frame. Le
 name says otherwise.
 """
 
+from ._calibrate import CalibratedSensor, Calibration, GroundPose, SceneEstimate, SceneMotion, calibrate, pipelines
 from ._clouds import read_cloud, write_cloud, xyz
 from ._core import Cloud, Estimate, RigEstimate, Rng
 from ._core import version as __version__
@@ -17,9 +18,10 @@ from ._stages import (Extra, GroundExtractor, GroundSplit, Icp, Parameter, PoseS
                       stage, text)
 
 __all__ = [
-    "Cloud", "Estimate", "Extra", "Fault", "GroundExtractor", "GroundSplit", "Icp", "InputError", "Parameter",
-    "Pipeline", "PoseSearch", "Preprocessor", "Registration", "Result", "Results", "RigEstimate", "RigStep",
-    "Rng", "Scene", "StageError", "Step",
-    "Trial", "VolumeScorer", "YawSearch", "boolean", "choice", "extra", "help_on", "integer", "load", "number",
-    "numbers", "read_cloud", "run", "scenes", "simulate", "stage", "starts", "text", "write_cloud", "xyz",
+    "CalibratedSensor", "Calibration", "Cloud", "Estimate", "Extra", "Fault", "GroundExtractor", "GroundPose",
+    "GroundSplit", "Icp", "InputError", "Parameter", "Pipeline", "PoseSearch", "Preprocessor", "Registration",
+    "Result", "Results", "RigEstimate", "RigStep", "Rng", "Scene", "SceneEstimate", "SceneMotion", "StageError",
+    "Step", "Trial", "VolumeScorer", "YawSearch", "boolean", "calibrate", "choice", "extra", "help_on", "integer",
+    "load", "number", "numbers", "pipelines", "read_cloud", "run", "scenes", "simulate", "stage", "starts", "text",
+    "write_cloud", "xyz",
 ]

@@ -1,3 +1,4 @@
+import pathlib
 from os import PathLike
 from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Type, TypeVar, Union
 
@@ -28,6 +29,90 @@ class StageError(RuntimeError): ...
 def read_cloud(path: _Path) -> _Array: ...
 def write_cloud(path: _Path, cloud: _ArrayLike, encoding: str = "binary") -> None: ...
 def xyz(cloud: _Array) -> _Array: ...
+
+_Cloud = Union[_Array, "Cloud", Mapping[str, _ArrayLike], _Path]
+_Clouds = Union[Mapping[str, _Cloud], Mapping[str, Sequence[Optional[_Cloud]]], Sequence[Mapping[str, _Cloud]]]
+
+class SceneEstimate:
+    scene: str
+    pose: Optional[_Array]
+    covariance: Optional[_Array]
+    observability: Optional[Dict[str, str]]
+    reason: str
+
+class CalibratedSensor:
+    sensor: str
+    accepted: bool
+    pose: Optional[_Array]
+    covariance: Optional[_Array]
+    observability: Optional[Dict[str, str]]
+    reasons: List[str]
+    advice: List[str]
+    nominal: Optional[_Array]
+    scenes: List[SceneEstimate]
+
+class GroundPose(NamedTuple):
+    roll_rad: float
+    pitch_rad: float
+    height_m: float
+    roll_std_rad: float
+    pitch_std_rad: float
+    height_std_m: float
+
+class SceneMotion(NamedTuple):
+    scene: str
+    velocity: _Array
+    covariance: _Array
+
+class Calibration:
+    @property
+    def reference(self) -> str: ...
+    @property
+    def sensors(self) -> Dict[str, CalibratedSensor]: ...
+    @property
+    def accepted(self) -> bool: ...
+    @property
+    def composition(self) -> str: ...
+    @property
+    def composition_reason(self) -> str: ...
+    @property
+    def warnings(self) -> List[str]: ...
+    @property
+    def unused(self) -> List[str]: ...
+    @property
+    def motion(self) -> List[SceneMotion]: ...
+    @property
+    def ground(self) -> Optional[GroundPose]: ...
+    def to_format(
+        self,
+        format: str,
+        *,
+        with_rejected: bool = False,
+        base: Optional[_ArrayLike] = None,
+        base_name: str = "base_link",
+    ) -> Dict[str, str]: ...
+    def save(
+        self,
+        folder: _Path,
+        formats: Union[str, Sequence[str]] = ("csv",),
+        *,
+        with_rejected: bool = False,
+        base: Optional[_ArrayLike] = None,
+        base_name: str = "base_link",
+    ) -> List[pathlib.Path]: ...
+
+def calibrate(
+    clouds: _Clouds,
+    *,
+    reference: str = "",
+    nominal: Optional[Mapping[str, _ArrayLike]] = None,
+    pipeline: _Json = "best",
+    from_scratch: bool = False,
+    columns: Union[None, Sequence[str], Mapping[str, Sequence[str]]] = None,
+    seed: int = 1,
+    jobs: int = 0,
+) -> Calibration: ...
+def pipelines() -> List[str]: ...
 
 class Scene:
     @property

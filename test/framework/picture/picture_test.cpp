@@ -4,7 +4,7 @@
 #include <set>
 
 #include "framework/base/whole_file.hpp"
-#include "framework/picture/top_view.hpp"
+#include "framework/picture/cloud_view.hpp"
 #include "test/support/temp_folder.hpp"
 
 namespace croon::test {
@@ -14,11 +14,11 @@ bool is(const Colour& a, const Colour& b) {
   return a.red == b.red && a.green == b.green && a.blue == b.blue;
 }
 
-TEST(TopView, DrawsEachPointWhereItIsInTheReferencesFrame) {
+TEST(CloudView, DrawsEachPointWhereItIsInTheReferencesFrame) {
   RigidTransform T;
   T.translation = {1.0, 0.0, 0.0};
-  const TopView view = {4.0, 2.0, 1.0};
-  const Image image = top_view(
+  const CloudView view = {4.0, 2.0, 1.0};
+  const Image image = draw_view(
       {{"top", {{-3.5F, 1.5F, 0.0F}}, {}}, {"left", {{0.5F, -1.5F, 9.0F}, {50.0F, 0.0F, 0.0F}}, T}},
       view);
   ASSERT_EQ(image.width(), 8);
@@ -40,7 +40,7 @@ TEST(Image, StandsBesideOthersWithAGap) {
   EXPECT_TRUE(is(whole.at(5, 3), {4, 5, 6}));
 }
 
-TEST(TopView, HasALegendAndABarOfARoundLength) {
+TEST(CloudView, HasALegendAndABarOfARoundLength) {
   EXPECT_EQ(scale_bar_m(40.0), 10.0);
   EXPECT_EQ(scale_bar_m(60.0), 10.0);
   EXPECT_EQ(scale_bar_m(8.0), 2.0);

@@ -1,4 +1,4 @@
-#include "framework/picture/top_view.hpp"
+#include "framework/picture/cloud_view.hpp"
 
 #include <cmath>
 
@@ -6,25 +6,23 @@
 #include "framework/picture/writers.hpp"
 
 namespace croon {
-namespace {
 
-void draw(Image& image, const Points& points, const TopView& view, Colour colour) {
-  for (const Eigen::Vector3f& point : points) {
-    const double right = (static_cast<double>(point.x()) + view.half_width_m) / view.pixel_m;
-    const double down = (view.half_height_m - static_cast<double>(point.y())) / view.pixel_m;
-    if (right < 0.0 || down < 0.0 || right >= image.width() || down >= image.height()) continue;
-    image.at(static_cast<int>(right), static_cast<int>(down)) = colour;
-  }
+Eigen::Vector3i CloudView::axes() const {
+  if (from == ViewFrom::top) return {0, 1, 2};
+  return from == ViewFrom::front ? Eigen::Vector3i{1, 2, 0} : Eigen::Vector3i{0, 2, 1};
 }
 
-}  // namespace
+Image CloudView::image() const {
+  return {static_cast<int>(std::lround(2.0 * half_width_m / pixel_m)),
+          static_cast<int>(std::lround(2.0 * half_height_m / pixel_m))};
+}
 
-Image top_view(const std::vector<ColouredCloud>& clouds, const TopView& view) {
-  Image image(static_cast<int>(std::lround(2.0 * view.half_width_m / view.pixel_m)),
-              static_cast<int>(std::lround(2.0 * view.half_height_m / view.pixel_m)));
+Image draw_view(const std::vector<ColouredCloud>& clouds, const CloudView& view) {
+  Image image = view.image();
   for (std::size_t i = 0; i < clouds.size(); ++i) {
-    draw(image, transformed(clouds[i].points, clouds[i].T_reference_sensor), view,
-         sensor_colour(i));
+    const Colour colour = sensor_colour(i);
+    for_each_pixel(transformed(clouds[i].points, clouds[i].T_reference_sensor), view, image,
+                   [&](int x, int y) { image.at(x, y) = colour; });
   }
   return image;
 }

@@ -1,0 +1,207 @@
+#include "experiments/cli/calibrate_command.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <mutex>
+
+#include "experiments/cli/requested_calibration.hpp"
+#include "experiments/report/calibration_text.hpp"
+#include "experiments/report/staged_folder.hpp"
+#include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
+#include "framework/base/whole_file.hpp"
+#include "framework/calibration/extrinsics.hpp"
+#include "framework/calibration/loaded_scene.hpp"
+#include "framework/calibration/rig_extrinsics.hpp"
+#include "framework/calibration/rig_pictures.hpp"
+#include "framework/io/text_scan.hpp"
+
+namespace croon::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kRequestFile = "rig.json";
+constexpr const char* kJsonFile = "extrinsics.json";
+constexpr const char* kBaseFrame = "base_link";
+
+/// The pose "x,y,z,roll,pitch,yaw"; std::nullopt if `text` is not six numbers.
+std::optional<RigidTransform> pose_in(const std::string& text) {
+  std::vector<double> numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string word(trimmed(std::string_view(text).substr(begin, end - begin)));
+    const std::optional<double> number = number_from(word);
+    if (!number || !std::isfinite(*number)) return std::nullopt;
+    numbers.push_back(*number);
+    begin = end + 1;
+  }
+  if (numbers.size() != 6) return std::nullopt;
+  const Eigen::Vector3d rpy_deg(numbers[3], numbers[4], numbers[5]);
+  return RigidTransform{rotation_from_rpy(rpy_deg * rad_from_deg(1.0)),
+                        {numbers[0], numbers[1], numbers[2]}};
+}
+
+/// The pose of the reference in the vehicle frame that `base` has.
+RigidTransform base_pose(const std::string& base, const std::string& reference) {
+  if (const std::optional<RigidTransform> pose = pose_in(base)) return *pose;
+  if (base.find(',') != std::string::npos) {
+    throw InputError("", "--base",
+                     "expected a file or six numbers x,y,z,roll,pitch,yaw in metres and degrees, "
+                     "found " +
+                         in_quotes(base));
+  }
+  const Extrinsics poses = read_extrinsics(base);
+  std::vector<std::string> known;
+  for (const ExtrinsicPose& pose : poses.poses) {
+    if (pose.sensor == reference) return pose.T_parent_sensor;
+    known.push_back(pose.sensor);
+  }
+  throw InputError(base, "",
+                   "expected the pose of the reference " + in_quotes(reference) +
+                       ", which the file does not have" + name_hint(reference, known));
+}
+
+/// Throws InputError for a format that does not exist.
+void check_formats(const std::vector<std::string>& formats) {
+  std::vector<std::string> known = extrinsics_format_names();
+  known.emplace_back("json");
+  for (const std::string& format : formats) {
+    if (std::find(known.begin(), known.end(), format) != known.end()) continue;
+    throw InputError("", "--format",
+                     "unknown format " + in_quotes(format) + name_hint(format, known));
+  }
+}
+
+/// The scene that is drawn: the first of those with the most sensors.
+Scene& drawn_scene(std::vector<Scene>& scenes) {
+  return *std::max_element(scenes.begin(), scenes.end(), [](const Scene& a, const Scene& b) {
+    return a.sensors.size() < b.sensors.size();
+  });
+}
+
+/// Lets `scan` read its cloud once and keep it for further calls.
+void keep_cloud(SensorScan& scan) {
+  struct Kept {
+    std::once_flag once;
+    LoadedCloud cloud;
+  };
+  scan.load = [load = scan.load, kept = std::make_shared<Kept>()] {
+    std::call_once(kept->once, [&] { kept->cloud = load(); });
+    return kept->cloud;
+  };
+}
+
+void keep_clouds(Scene& scene) {
+  keep_cloud(scene.reference);
+  for (SensorScan& scan : scene.sensors) keep_cloud(scan);
+}
+
+#include "framework/calibration/rig_extrinsics.hpp"
+Extrinsics in_base(const Extrinsics& extrinsics, const RigidTransform& T_base_reference) {
+  Extrinsics in_base = in_frame(extrinsics, kBaseFrame, T_base_reference);
+  in_base.poses.insert(in_base.poses.begin(), {extrinsics.parent, T_base_reference});
+  return in_base;
+}
+
+/// Writes the formats to `folder`; returns the paths below `root`.
+std::vector<std::string> write_formats(const fs::path& root, const fs::path& folder,
+                                       const Extrinsics& extrinsics,
+                                       const std::vector<std::string>& formats,
+                                       bool with_rejected) {
+  std::vector<std::string> paths;
+  for (const std::string& format : formats) {
+    if (format == "json") continue;
+    for (const ExtrinsicsFile& file : write_extrinsics(extrinsics, format, with_rejected)) {
+      const fs::path path = folder / file.name;
+      if (path.has_parent_path()) make_folder_below(root, path.parent_path());
+      write_whole_file(root / path, file.text);
+      paths.push_back(path.string());
+    }
+  }
+  return paths;
+}
+
+/// Draws one scene; returns the paths below `root`. A cloud that cannot be read is not drawn.
+std::vector<std::string> draw(const fs::path& root, const CalibratedRig& rig, const Scene& scene,
+                              bool with_clouds) {
+  const ReadScan reference = read_scan(scene.reference);
+  if (!reference.is_usable()) return {};
+  std::vector<ReadScan> scans;
+  std::vector<PosedCloud> posed;
+  for (const SensorScan& scan : scene.sensors) scans.push_back(read_scan(scan));
+  for (const CalibratedSensor& sensor : rig.sensors) {
+    const std::size_t i = index_of(scene, sensor.sensor);
+    if (i == scans.size() || !scans[i].is_usable()) continue;
+    posed.push_back({sensor.sensor, &scans[i].cloud.points, sensor.nominal,
+                     sensor.T_reference_sensor, sensor.is_accepted});
+  }
+  return write_rig_pictures(root, rig.reference, reference.cloud.points, posed, with_clouds);
+}
+
+/// The formats without repeats, csv first.
+std::vector<std::string> all_formats(const std::vector<std::string>& formats) {
+  std::vector<std::string> all = {"csv"};
+  for (const std::string& format : formats) {
+    if (std::find(all.begin(), all.end(), format) == all.end()) all.push_back(format);
+  }
+  return all;
+}
+
+/// Writes all files and returns their paths below the folder.
+std::vector<std::string> write_files(const CalibrateOptions& options, const CalibratedRig& rig,
+                                     const Scene& drawn,
+                                     const std::optional<RigidTransform>& T_base_reference,
+                                     StagedFolder& folder) {
+  const fs::path& root = folder.make_staging();
+  const std::vector<std::string> formats = all_formats(options.formats);
+  const Extrinsics extrinsics = extrinsics_of(rig);
+  std::vector<std::string> paths =
+      write_formats(root, "", extrinsics, formats, options.with_rejected);
+  const auto add = [&](const std::vector<std::string>& more) {
+    paths.insert(paths.end(), more.begin(), more.end());
+  };
+  if (T_base_reference) {
+    add(write_formats(root, kBaseFrame, in_base(extrinsics, *T_base_reference), formats,
+                      options.with_rejected));
+  }
+  if (!options.no_pictures) add(draw(root, rig, drawn, options.clouds));
+  write_whole_file(root / kJsonFile, rig_extrinsics_json(rig));
+  write_whole_file(root / kRequestFile, rig_request_json(options, options.out));
+  add({kJsonFile, kRequestFile});
+  folder.publish();
+  return paths;
+}
+
+}  // namespace
+
+int calibrate_command(const CalibrateOptions& given, const Catalogue& catalogue, std::ostream& out,
+                      std::ostream& err) {
+  const CalibrateOptions options = with_file(given);
+  check_formats(options.formats);
+  RecordedScenes recorded = scenes_of(options);
+  const std::vector<std::string> about_nominal = set_nominal(recorded.scenes, options.nominal);
+  std::optional<RigidTransform> T_base_reference;
+  if (!options.base.empty()) {
+    T_base_reference = base_pose(options.base, recorded.scenes.front().reference.sensor);
+  }
+  StagedFolder folder(options.out, kRequestFile);
+  Scene& drawn = drawn_scene(recorded.scenes);
+  if (!options.no_pictures) keep_clouds(drawn);
+  CalibratedRig rig = calibrate_with_progress(options, recorded.scenes, catalogue, err);
+  rig.unused.insert(rig.unused.begin(), recorded.unused.begin(), recorded.unused.end());
+  rig.warnings.insert(rig.warnings.begin(), about_nominal.begin(), about_nominal.end());
+  const std::vector<std::string> paths = write_files(options, rig, drawn, T_base_reference, folder);
+  out << calibration_text(rig, options.colours) << "\nfiles in " << printable(options.out.string())
+      << ":";
+  for (const std::string& path : paths) out << " " << printable(path);
+  out << "\n";
+  const bool is_any_rejected =
+      std::any_of(rig.sensors.begin(), rig.sensors.end(),
+                  [](const CalibratedSensor& sensor) { return !sensor.is_accepted; });
+  return is_any_rejected ? 3 : 0;
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "framework/stage/catalogue.hpp"
+
+namespace croon::experiments {
+
+/// What is calibrated, from the command line or from a file (`rig.json`). What is not given is
+/// empty.
+struct RigRequest {
+  std::vector<std::string> inputs;  ///< See recorded_scenes.
+  std::string reference;            ///< Empty: the first sensor.
+  std::string nominal;              ///< A file of extrinsics.
+  bool from_scratch = false;        ///< Only compare with the nominal poses.
+  std::string base;                 ///< The reference's pose in the vehicle frame, or its file.
+  std::optional<double> max_time_gap_s;
+  std::optional<int> max_scenes;
+  std::string pipeline;
+  std::optional<std::uint64_t> seed;
+};
+
+/// Reads a rig.json: an object with the keys of RigRequest. Relative paths in it are relative to
+/// its folder. Throws InputError with every fault.
+RigRequest read_rig_request(const std::filesystem::path& file);
+
+/// The text of a rig.json in `folder` that asks for the same calibration.
+std::string rig_request_json(const RigRequest& request, const std::filesystem::path& folder);
+
+struct CalibrateOptions : RigRequest {
+  std::filesystem::path out = "results/calibration";
+  std::vector<std::string> formats;  ///< Beside csv and json.
+  bool with_rejected = false;        ///< Rejected poses too, marked.
+  bool clouds = false;               ///< Write the clouds in the reference's frame.
+  bool no_pictures = false;
+  bool quiet = false;
+  bool colours = false;
+  int jobs = 0;  ///< 0: all cores.
+};
+
+/// Calibrates the rig, prints the result and writes it to `options.out`; progress goes to `err`.
+/// Returns 3 if a sensor is rejected. Throws InputError, before anything is written, if the request
+/// is wrong.
+int calibrate_command(const CalibrateOptions& options, const Catalogue& catalogue,
+                      std::ostream& out, std::ostream& err);
+
+}  // namespace croon::experiments

@@ -1,0 +1,205 @@
+// Rigs that are calibrated from clouds in memory.
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "experiments/python/arrays.hpp"
+#include "experiments/python/bindings.hpp"
+#include "experiments/python/estimates.hpp"
+#include "experiments/python/interpreter.hpp"
+#include "experiments/python/interruptible.hpp"
+#include "experiments/python/stage_catalogue.hpp"
+#include "experiments/report/calibration_text.hpp"
+#include "framework/calibration/calibrate_rig.hpp"
+#include "framework/calibration/extrinsics.hpp"
+
+namespace croon::python {
+namespace {
+
+using Poses = std::map<std::string, RigidTransform>;
+
+/// The scan of one sensor whose cloud is in memory.
+SensorScan scan_of(const std::string& sensor, LoadedCloud cloud, const Poses& nominal) {
+  SensorScan scan;
+  scan.sensor = sensor;
+  std::vector<std::string> channels;
+  for (const Channel& channel : cloud.channels) channels.push_back(channel.name);
+  scan.channels = std::move(channels);
+  const auto pose = nominal.find(sensor);
+  if (pose != nominal.end()) scan.nominal = pose->second;
+  const auto shared = std::make_shared<const LoadedCloud>(std::move(cloud));
+  scan.load = [shared] { return *shared; };
+  return scan;
+}
+
+/// One scene of the Python list: its name, and tuples (sensor, words for errors, array), the
+/// reference first.
+Scene scene_from(const py::handle& item, const Poses& nominal) {
+  const auto parts = py::cast<py::tuple>(item);
+  Scene scene;
+  scene.name = text_of(parts[0]);
+  bool is_reference = true;
+  for (const py::handle entry : parts[1]) {
+    const auto cloud = py::cast<py::tuple>(entry);
+    SensorScan scan =
+        scan_of(text_of(cloud[0]), recorded_cloud_from(cloud[2], text_of(cloud[1])), nominal);
+    if (is_reference) {
+      scene.reference = std::move(scan);
+    } else {
+      scene.sensors.push_back(std::move(scan));
+    }
+    is_reference = false;
+  }
+  return scene;
+}
+
+Poses poses_from(const py::dict& dict) {
+  Poses poses;
+  for (const auto& [name, pose] : dict) {
+    const std::string sensor = text_of(name);
+    poses[sensor] =
+        pose_from(py::reinterpret_borrow<py::object>(pose), "nominal[\"" + sensor + "\"]");
+  }
+  return poses;
+}
+
+/// The poses T_reference_sensor: with one of the reference, they are given in another frame.
+Poses in_reference(Poses poses, const std::string& reference) {
+  const auto own = poses.find(reference);
+  if (own == poses.end()) return poses;
+  const RigidTransform T_reference_given = own->second.inverse();
+  poses.erase(own);
+  for (auto& [sensor, pose] : poses) pose = T_reference_given * pose;
+  return poses;
+}
+
+CalibratedRig calibrated(const py::list& list, const py::dict& nominal, const py::dict& options) {
+  const Poses poses = in_reference(poses_from(nominal), text_of(options["reference"]));
+  std::vector<Scene> scenes;
+  for (const py::handle item : list) scenes.push_back(scene_from(item, poses));
+  CalibrationOptions how;
+  how.pipeline = text_of(options["pipeline"]);
+  if (!options["text"].is_none()) how.pipeline_text = text_of(options["text"]);
+  how.from_scratch = py::cast<bool>(options["from_scratch"]);
+  how.seed = py::cast<std::uint64_t>(options["seed"]);
+  how.jobs = py::cast<int>(options["jobs"]);
+  std::vector<std::string> unused;
+  for (const py::handle sentence : options["unused"]) unused.push_back(text_of(sentence));
+  const std::shared_ptr<const Catalogue> stages = catalogue();
+  CalibratedRig rig;
+  interruptible([&](const std::function<void()>& check) {
+    how.on_progress = [&](const std::string&, double) { check(); };
+    rig = calibrate_rig(scenes, how, *stages);
+    check();
+    rig.unused.insert(rig.unused.begin(), unused.begin(), unused.end());
+  });
+  return rig;
+}
+
+py::list list_of(const std::vector<std::string>& texts) {
+  py::list list;
+  for (const std::string& text : texts) list.append(text);
+  return list;
+}
+
+py::object pose_or_none(const std::optional<RigidTransform>& pose) {
+  return pose ? py::object(array_from(*pose)) : py::none();
+}
+
+py::object matrix_or_none(const std::optional<PoseCovariance>& covariance) {
+  return covariance ? py::object(array_from(covariance->matrix)) : py::none();
+}
+
+/// scene, pose, covariance, observability, reason.
+py::list scene_estimates(const std::vector<SceneEstimate>& estimates) {
+  py::list list;
+  for (const SceneEstimate& estimate : estimates) {
+    list.append(py::make_tuple(estimate.scene, pose_or_none(estimate.T_reference_sensor),
+                               matrix_or_none(estimate.covariance), words_from(estimate.covariance),
+                               estimate.reason));
+  }
+  return list;
+}
+
+/// Per sensor the fields of croon.CalibratedSensor, in its order.
+py::list sensors(const CalibratedRig& rig) {
+  py::list list;
+  for (const CalibratedSensor& sensor : rig.sensors) {
+    list.append(py::make_tuple(
+        sensor.sensor, sensor.is_accepted, pose_or_none(sensor.T_reference_sensor),
+        matrix_or_none(sensor.covariance), words_from(sensor.covariance), list_of(sensor.reasons),
+        list_of(sensor.advice), pose_or_none(sensor.nominal), scene_estimates(sensor.scenes)));
+  }
+  return list;
+}
+
+/// Per scene its name, the velocity (six numbers) and its covariance.
+py::list motion(const CalibratedRig& rig) {
+  py::list list;
+  for (const SceneMotionEstimate& scene : rig.motion) {
+    const Vector6d velocity = vector_of(scene.velocity);
+    py::array_t<double> array(6);
+    std::copy(velocity.data(), velocity.data() + 6, array.mutable_data());
+    list.append(py::make_tuple(scene.scene, array, array_from(scene.covariance)));
+  }
+  return list;
+}
+
+py::object ground(const CalibratedRig& rig) {
+  if (!rig.ground) return py::none();
+  const GroundPose& pose = *rig.ground;
+  return py::make_tuple(pose.roll_rad, pose.pitch_rad, pose.height_m, pose.roll_std_rad,
+                        pose.pitch_std_rad, pose.height_std_m);
+}
+
+/// In the frame of the reference; a sensor without a best guess has no pose.
+Extrinsics extrinsics_of(const CalibratedRig& rig) {
+  Extrinsics extrinsics;
+  extrinsics.parent = rig.reference;
+  for (const CalibratedSensor& sensor : rig.sensors) {
+    extrinsics.poses.push_back({sensor.sensor, sensor.T_reference_sensor.value_or(RigidTransform()),
+                                sensor.is_accepted, sensor.covariance,
+                                sensor.T_reference_sensor.has_value()});
+  }
+  return extrinsics;
+}
+
+/// The text by file name; if `T_parent_reference` is not None, in the frame `parent`, with the
+/// reference as its first sensor.
+py::dict files(const CalibratedRig& rig, const std::string& format, bool with_rejected,
+               const std::string& parent, const py::object& T_parent_reference) {
+  Extrinsics extrinsics = extrinsics_of(rig);
+  if (!T_parent_reference.is_none()) {
+    const RigidTransform pose = pose_from(T_parent_reference, "base");
+    extrinsics = in_frame(extrinsics, parent, pose);
+    extrinsics.poses.insert(extrinsics.poses.begin(), {rig.reference, pose});
+  }
+  py::dict texts;
+  for (const ExtrinsicsFile& file : write_extrinsics(extrinsics, format, with_rejected)) {
+    texts[py::str(file.name)] = py::str(file.text);
+  }
+  return texts;
+}
+
+}  // namespace
+
+void bind_calibration(py::module_& module) {
+  using R = CalibratedRig;
+  py::class_<R>(module, "CalibratedRig")
+      .def_readonly("reference", &R::reference)
+      .def_readonly("composition", &R::composition)
+      .def_readonly("composition_reason", &R::composition_reason)
+      .def("warnings", [](const R& rig) { return list_of(rig.warnings); })
+      .def("unused", [](const R& rig) { return list_of(rig.unused); })
+      .def("sensors", sensors)
+      .def("motion", motion)
+      .def("ground", ground)
+      .def("files", files)
+      .def("text", [](const R& rig) { return experiments::calibration_text(rig, false); });
+  module.def("calibrate_rig", calibrated);
+  module.def("pipelines", [] { return list_of(recommended_pipeline_names()); });
+  module.def("pipeline_text", recommended_pipeline_text);
+}
+
+}  // namespace croon::python

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace croon::experiments {
+
+/// A folder of results whose files appear all at once: they are written to a folder beside it and
+/// moved when all are complete.
+class StagedFolder {
+ public:
+  /// Throws InputError if `folder` cannot be used: it is a file, or it has files but not `marker`,
+  /// which earlier results have.
+  StagedFolder(std::filesystem::path folder, const std::string& marker);
+  /// Removes what was not published.
+  ~StagedFolder();
+  StagedFolder(const StagedFolder&) = delete;
+  StagedFolder& operator=(const StagedFolder&) = delete;
+
+  /// Makes the folder that files are written to. Throws InputError if it cannot be made.
+  const std::filesystem::path& make_staging();
+
+  /// Moves all files to the folder, over files of the same names. Throws InputError if one cannot
+  /// be moved.
+  void publish();
+
+ private:
+  std::filesystem::path folder_;
+  std::filesystem::path staging_;
+};
+
+}  // namespace croon::experiments

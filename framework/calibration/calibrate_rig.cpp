@@ -1,0 +1,321 @@
+#include "framework/calibration/calibrate_rig.hpp"
+
+#include <tbb/info.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
+#include "framework/base/threads.hpp"
+#include "framework/calibration/composition.hpp"
+#include "framework/calibration/ground_pose.hpp"
+#include "framework/calibration/rig_run.hpp"
+#include "framework/calibration/scene_clouds.hpp"
+#include "framework/calibration/sensor_result.hpp"
+#include "framework/calibration/warnings.hpp"
+#include "framework/stage/motion.hpp"
+
+namespace croon {
+namespace {
+
+/// Reading takes about this share of the time.
+constexpr double kReadingShare = 0.2;
+
+/// One sensor in one scene: its member of the rig, or why it is none.
+struct Part {
+  std::string scene, sensor;
+  std::size_t member = 0;  ///< If `why_not` is empty.
+  std::string why_not;
+};
+
+/// What is calibrated together.
+struct RigInput {
+  std::vector<CalibrationMember> members;
+  std::vector<Part> parts;  ///< By scene and then by sensor.
+};
+
+/// The names of the sensors in the order of the recording.
+std::vector<std::string> sensor_names(const std::vector<Scene>& scenes) {
+  std::vector<std::string> names;
+  for (const Scene& scene : scenes) {
+    for (const SensorScan& scan : scene.sensors) {
+      if (std::find(names.begin(), names.end(), scan.sensor) == names.end()) {
+        names.push_back(scan.sensor);
+      }
+    }
+  }
+  return names;
+}
+
+/// Throws InputError if the scenes are not of one rig.
+void check_scenes(const std::vector<Scene>& scenes) {
+  if (scenes.empty()) throw InputError("", "", "expected at least one scene, found none");
+  for (const Scene& scene : scenes) {
+    if (scene.reference.sensor == scenes.front().reference.sensor) continue;
+    throw InputError("", "scene " + scene.name,
+                     "expected the reference \"" + scenes.front().reference.sensor +
+                         "\" in all scenes, found \"" + scene.reference.sensor + "\"");
+  }
+}
+
+/// The composition that `options` name. "best" depends on whether the clouds have usable times.
+Composition chosen_composition(const CalibrationOptions& options,
+                               const std::vector<SceneClouds>& scenes, const Catalogue& catalogue,
+                               std::string& reason) {
+  if (!options.pipeline_text.empty()) {
+    return composition_in_text(options.pipeline_text, options.pipeline, catalogue);
+  }
+  if (options.pipeline != "best") return composition_called(options.pipeline, catalogue);
+  const std::string why_not = why_times_are_unusable(scenes);
+  if (why_not.empty()) {
+    reason = "the times of all clouds are usable, so the vehicle's motion is estimated";
+    return embedded_composition("driving", catalogue);
+  }
+  reason = why_not + ", so motion is not corrected; scenes in which it moves poses are rejected";
+  return embedded_composition("standing", catalogue);
+}
+
+/// The clouds for the steps of `composition`; takes them from `scenes`.
+RigInput rig_input(std::vector<SceneClouds>& scenes, const Composition& composition,
+                   std::uint64_t seed, std::vector<std::string>& unused) {
+  std::set<std::string> channels = composition.target_channels;
+  channels.insert(composition.source_channels.begin(), composition.source_channels.end());
+  RigInput input;
+  for (SceneClouds& clouds : scenes) {
+    const Scene& scene = *clouds.scene;
+    std::vector<std::string> why_not(scene.sensors.size(), clouds.why_unused);
+    for (std::size_t i = 0; i < scene.sensors.size() && clouds.why_unused.empty(); ++i) {
+      const ReadScan& scan = clouds.sensors[i];
+      if (!scan.is_usable()) {
+        why_not[i] = scan.unavailable ? scan.unavailable->line() : scan.failure;
+        continue;
+      }
+      why_not[i] = why_not_for(composition, clouds, i);
+      if (!why_not[i].empty()) unused.push_back("Scene " + scene.name + ": " + why_not[i] + ".");
+    }
+    std::shared_ptr<const Cloud> target;
+    for (std::size_t i = 0; i < scene.sensors.size(); ++i) {
+      const SensorScan& scan = scene.sensors[i];
+      input.parts.push_back({scene.name, scan.sensor, input.members.size(), why_not[i]});
+      if (!why_not[i].empty()) continue;
+      const auto cloud = [&](ReadScan& read, const std::string& sensor) {
+        return loaded_scan(std::move(read), scene.name, sensor, seed, channels).cloud;
+      };
+      if (!target) target = cloud(clouds.reference, scene.reference.sensor);
+      input.members.push_back({scene.name, scene.reference.sensor, scan.sensor, target,
+                               cloud(clouds.sensors[i], scan.sensor), scan.nominal});
+    }
+  }
+  return input;
+}
+
+/// The sensors by name.
+std::vector<CalibratedSensor> sensor_results(const RigInput& input,
+                                             const std::vector<MemberResult>& results,
+                                             const std::vector<std::string>& names) {
+  std::vector<CalibratedSensor> sensors;
+  for (const std::string& name : names) {
+    std::vector<SceneResult> scenes;
+    for (const Part& part : input.parts) {
+      if (part.sensor != name) continue;
+      const MemberResult* const result = part.why_not.empty() ? &results[part.member] : nullptr;
+      scenes.push_back({part.scene, result, part.why_not});
+    }
+    sensors.push_back(sensor_result(name, scenes));
+  }
+  return sensors;
+}
+
+std::size_t accepted_of(const std::vector<CalibratedSensor>& sensors) {
+  return static_cast<std::size_t>(
+      std::count_if(sensors.begin(), sensors.end(),
+                    [](const CalibratedSensor& sensor) { return sensor.is_accepted; }));
+}
+
+/// The sensors' results, and those in single scenes.
+struct Outcome {
+  std::vector<CalibratedSensor> sensors;
+  std::vector<MemberResult> members;
+};
+
+/// Calibrates from the starts of the members; sensors that are rejected near their nominal poses
+/// are tried again from nothing.
+Outcome outcome_of(const Composition& composition, RigInput input,
+                   const std::vector<std::string>& names, std::uint64_t seed,
+                   const StepProgress& progress) {
+  Outcome outcome;
+  outcome.members = run_rig(composition, input.members, seed, progress);
+  outcome.sensors = sensor_results(input, outcome.members, names);
+  bool is_any_changed = false;
+  for (const CalibratedSensor& sensor : outcome.sensors) {
+    if (sensor.is_accepted) continue;
+    for (CalibrationMember& member : input.members) {
+      if (member.sensor != sensor.sensor || !member.start) continue;
+      member.start.reset();
+      is_any_changed = true;
+    }
+  }
+  if (!is_any_changed) return outcome;
+  Outcome again;
+  again.members = run_rig(composition, input.members, seed, progress);
+  again.sensors = sensor_results(input, again.members, names);
+  return accepted_of(again.sensors) > accepted_of(outcome.sensors) ? again : outcome;
+}
+
+/// Of a rig with usable times, the sensors that are rejected because the speed is not certain
+/// enough may be accepted if motion, whatever it is, does not move their poses. Returns their
+/// names.
+std::string accept_at_rest(Outcome& outcome, const RigInput& input,
+                           const std::vector<std::string>& names, const CalibrationOptions& options,
+                           const Catalogue& catalogue, const StepProgress& progress) {
+  if (accepted_of(outcome.sensors) == outcome.sensors.size()) return "";
+  const Composition composition = embedded_composition("standing", catalogue);
+  const Outcome at_rest = outcome_of(composition, input, names, options.seed, progress);
+  std::string accepted;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (outcome.sensors[i].is_accepted || !at_rest.sensors[i].is_accepted) continue;
+    outcome.sensors[i] = at_rest.sensors[i];
+    accepted += (accepted.empty() ? "" : ", ") + names[i];
+  }
+  return accepted;
+}
+
+/// The pose of the reference over the road, and the heading of the rig.
+void set_ground(CalibratedRig& rig, const RigInput& input, std::uint64_t seed) {
+  std::vector<const Points*> references;
+  for (const CalibrationMember& member : input.members) {
+    const Points* const points = &member.target->points();
+    if (references.empty() || references.back() != points) references.push_back(points);
+  }
+  Rng rng(StreamKey(seed).with("ground"));
+  rig.ground = ground_pose(references, rng);
+  rig.heading = heading_of_travel(rig.motion, rig.ground);
+}
+
+/// The scenes in which no sensor has a pose, because a step failed.
+void add_failed_scenes(const RigInput& input, const std::vector<MemberResult>& results,
+                       std::vector<std::string>& unused) {
+  for (std::size_t begin = 0; begin < input.members.size();) {
+    const std::string& scene = input.members[begin].scene;
+    std::size_t end = begin;
+    bool is_any_usable = false;
+    for (; end < input.members.size() && input.members[end].scene == scene; ++end) {
+      is_any_usable = is_any_usable || results[end].failure.empty();
+    }
+    if (!is_any_usable) {
+      unused.push_back("Scene " + scene + ": no sensor has a pose; " + results[begin].failure +
+                       ".");
+    }
+    begin = end;
+  }
+}
+
+/// The velocity that steps estimated in each scene.
+std::vector<SceneMotionEstimate> motion_of(const RigInput& input,
+                                           const std::vector<MemberResult>& results) {
+  std::vector<SceneMotionEstimate> motion;
+  for (std::size_t i = 0; i < input.members.size(); ++i) {
+    const Extras& extras = results[i].estimate.extras;
+    const Twist* const velocity = extras.find(kMotion);
+    if (velocity == nullptr || !results[i].failure.empty()) continue;
+    if (!motion.empty() && motion.back().scene == input.members[i].scene) continue;
+    motion.push_back({input.members[i].scene, *velocity});
+    const Matrix6d* const covariance = extras.find(kMotionCovariance);
+    if (covariance != nullptr) motion.back().covariance = *covariance;
+  }
+  return motion;
+}
+
+void set_nominal(std::vector<CalibratedSensor>& sensors, const std::vector<Scene>& scenes) {
+  for (CalibratedSensor& sensor : sensors) {
+    for (const Scene& scene : scenes) {
+      const std::size_t i = index_of(scene, sensor.sensor);
+      if (i < scene.sensors.size() && !sensor.nominal) sensor.nominal = scene.sensors[i].nominal;
+    }
+  }
+}
+
+/// Throws InputError, with the reasons, if nothing can be calibrated.
+void require_members(const RigInput& input, const std::vector<std::string>& unused) {
+  if (!input.members.empty()) return;
+  std::vector<Fault> faults = {
+      {"", "", "expected a scene with usable clouds of the reference and of another sensor"}};
+  for (const std::string& reason : unused) faults.push_back({"", "", reason});
+  throw InputError(std::move(faults));
+}
+
+/// The notes on single clouds; those that a sensor has in several scenes once.
+std::vector<std::string> notes_on(const std::vector<NamedCloud>& clouds) {
+  std::vector<std::string> notes;
+  for (const NamedCloud& named : clouds) {
+    for (const std::string& note : named.cloud->notes) {
+      const std::string line = named.sensor + ": " + note;
+      if (std::find(notes.begin(), notes.end(), line) == notes.end()) notes.push_back(line);
+    }
+  }
+  return notes;
+}
+
+CalibratedRig calibrated(const std::vector<Scene>& scenes, const CalibrationOptions& options,
+                         const Catalogue& catalogue) {
+  const auto progress = [&](const std::string& what, double done) {
+    if (options.on_progress) options.on_progress(what, done);
+  };
+  CalibratedRig rig;
+  rig.reference = scenes.front().reference.sensor;
+  std::size_t read = 0;
+  std::vector<SceneClouds> clouds = read_scenes(scenes, [&](const std::string& scene) {
+    const double share = static_cast<double>(++read) / static_cast<double>(scenes.size());
+    progress("reading " + scene, kReadingShare * share);
+  });
+  rig.unused = set_aside_unusable(clouds);
+  rig.warnings = notes_on(named_clouds(clouds));
+  const std::vector<std::string> about_clouds = warnings_about_clouds(named_clouds(clouds));
+  rig.warnings.insert(rig.warnings.end(), about_clouds.begin(), about_clouds.end());
+  const Composition composition =
+      chosen_composition(options, clouds, catalogue, rig.composition_reason);
+  rig.composition = composition.name;
+  RigInput input = rig_input(clouds, composition, options.seed, rig.unused);
+  require_members(input, rig.unused);
+  if (options.from_scratch) {
+    for (CalibrationMember& member : input.members) member.start.reset();
+  }
+  const std::vector<std::string> names = sensor_names(scenes);
+  const auto step_progress = [&](const std::string& step, double done) {
+    progress(step, kReadingShare + (1.0 - kReadingShare) * done);
+  };
+  Outcome outcome = outcome_of(composition, input, names, options.seed, step_progress);
+  if (options.pipeline == "best" && composition.name == "driving") {
+    const std::string at_rest =
+        accept_at_rest(outcome, input, names, options, catalogue, step_progress);
+    if (!at_rest.empty()) {
+      rig.composition_reason += "; accepted without its correction, by \"standing\": " + at_rest;
+    }
+  }
+  add_failed_scenes(input, outcome.members, rig.unused);
+  rig.motion = motion_of(input, outcome.members);
+  rig.sensors = std::move(outcome.sensors);
+  set_nominal(rig.sensors, scenes);
+  set_ground(rig, input, options.seed);
+  const std::vector<std::string> about_rig = warnings_about_rig(rig);
+  rig.warnings.insert(rig.warnings.end(), about_rig.begin(), about_rig.end());
+  progress("done", 1.0);
+  return rig;
+}
+
+}  // namespace
+
+CalibratedRig calibrate_rig(const std::vector<Scene>& scenes, const CalibrationOptions& options,
+                            const Catalogue& catalogue) {
+  check_scenes(scenes);
+  // A pipeline that does not exist is refused before clouds are read.
+  composition_called(options.pipeline, catalogue);
+  std::optional<CalibratedRig> rig;
+  on_threads(options.jobs > 0 ? options.jobs : tbb::info::default_concurrency(),
+             [&] { rig = calibrated(scenes, options, catalogue); });
+  return std::move(*rig);
+}
+
+}  // namespace croon

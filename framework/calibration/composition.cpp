@@ -1,0 +1,115 @@
+#include "framework/calibration/composition.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "framework/base/error.hpp"
+#include "framework/calibration/calibrate_rig.hpp"
+#include "framework/params/json_file.hpp"
+#include "framework/pipeline/calibrate.hpp"
+
+namespace croon {
+namespace {
+
+using nlohmann::json;
+
+/// How far a pose may be from a nominal pose that a search starts from.
+constexpr double kMaxNominalRotation_deg = 30.0;
+constexpr double kMaxNominalTranslation_m = 1.0;
+
+/// The list of steps in `document`, or null.
+json* steps_of(json& document) {
+  json* steps = &document;
+  if (document.is_object() && document.contains("pipeline")) steps = &document.at("pipeline");
+  return steps->is_array() ? steps : nullptr;
+}
+
+bool has_step(const json& steps, const std::string& type) {
+  return std::any_of(steps.begin(), steps.end(), [&](const json& step) {
+    return step.is_object() && step.contains("step") && step.at("step") == type;
+  });
+}
+
+/// A pose that no step has verified is not accepted, so a pipeline without a verdict gets one.
+void append_missing_steps(json& steps) {
+  for (const char* const type : {"verdict", "covariance"}) {
+    if (!has_step(steps, type)) steps.push_back({{"step", type}});
+  }
+}
+
+bool has_use_start(const json& step, const Catalogue& catalogue) {
+  if (!step.is_object() || !step.contains("step") || !step.at("step").is_string()) return false;
+  const StageEntry* const entry = catalogue.find(Step::kKind, step.at("step").get<std::string>());
+  if (entry == nullptr) return false;
+  return std::any_of(entry->parameters.begin(), entry->parameters.end(),
+                     [](const params::ParameterDoc& doc) { return doc.key == "use_start"; });
+}
+
+/// The steps whose searches drop poses that are far from the start. What a file chooses itself
+/// stays.
+void stay_near_start(json& steps, const Catalogue& catalogue) {
+  for (json& step : steps) {
+    if (!has_use_start(step, catalogue) || step.contains("use_start")) continue;
+    step["use_start"] = true;
+    step.emplace("max_rotation_deg", kMaxNominalRotation_deg);
+    step.emplace("max_translation_m", kMaxNominalTranslation_m);
+  }
+}
+
+Composition composition_in(const std::string& text, const std::string& name,
+                           const std::string& file, const Catalogue& catalogue) {
+  Composition composition;
+  composition.name = name;
+  json document = params::parse_json(text, file);
+  json* const steps = steps_of(document);
+  if (steps == nullptr && document.is_object() && document.contains("extends")) {
+    throw InputError(file, "", "expected a list of steps as \"pipeline\", found \"extends\" alone");
+  }
+  // A text without steps is parsed for its fault.
+  if (steps == nullptr || steps->empty()) parse_pipeline(text, file, catalogue);
+  append_missing_steps(*steps);
+  composition.from_nothing = parse_pipeline(document.dump(), file, catalogue);
+  stay_near_start(*steps, catalogue);
+  composition.near_nominal = parse_pipeline(document.dump(), file, catalogue);
+  for (const NamedStep& step : composition.from_nothing) {
+    const params::DataFlow& flow = step.step.flow();
+    composition.target_channels.insert(flow.target_channels.begin(), flow.target_channels.end());
+    composition.source_channels.insert(flow.source_channels.begin(), flow.source_channels.end());
+  }
+  return composition;
+}
+
+}  // namespace
+
+std::vector<std::string> recommended_pipeline_names() { return {"best", "driving", "paper"}; }
+
+const std::string& recommended_pipeline_text(const std::string& name) {
+  const std::vector<std::string> names = recommended_pipeline_names();
+  if (std::find(names.begin(), names.end(), name) != names.end()) {
+    return embedded_pipelines().at(name);
+  }
+  throw InputError("", "", "unknown pipeline \"" + name + "\"" + name_hint(name, names));
+}
+
+Composition embedded_composition(const std::string& name, const Catalogue& catalogue) {
+  return composition_in(embedded_pipelines().at(name), name, name, catalogue);
+}
+
+Composition composition_in_text(const std::string& text, const std::string& name,
+                                const Catalogue& catalogue) {
+  return composition_in(text, name, name, catalogue);
+}
+
+Composition composition_called(const std::string& pipeline, const Catalogue& catalogue) {
+  const std::vector<std::string> names = recommended_pipeline_names();
+  const bool is_recommended = std::find(names.begin(), names.end(), pipeline) != names.end();
+  if (is_recommended) return embedded_composition(pipeline, catalogue);
+  const std::filesystem::path file = pipeline;
+  const bool is_path = file.has_parent_path() || file.extension() == ".json";
+  if (!is_path && !std::filesystem::exists(file)) recommended_pipeline_text(pipeline);
+  return composition_in(params::read_json_text(file), file.filename().string(), pipeline,
+                        catalogue);
+}
+
+}  // namespace croon

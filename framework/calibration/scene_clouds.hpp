@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "framework/calibration/composition.hpp"
+#include "framework/calibration/loaded_scene.hpp"
+#include "framework/calibration/warnings.hpp"
+
+namespace croon {
+
+/// The clouds of one scene as their files have them.
+struct SceneClouds {
+  const Scene* scene = nullptr;
+  ReadScan reference;
+  std::vector<ReadScan> sensors;  ///< As Scene::sensors.
+  std::string why_unused = {};    ///< Why no cloud of the scene takes part; empty if some do.
+};
+
+/// Reads the clouds of all scenes in parallel. `scenes` must outlive the result; `on_read` is
+/// called once per scene, by one thread at a time.
+std::vector<SceneClouds> read_scenes(const std::vector<Scene>& scenes,
+                                     const std::function<void(const std::string& scene)>& on_read);
+
+/// Notes in SceneClouds::why_unused which scenes cannot be used: without a usable cloud of the
+/// reference or of another sensor, and copies of earlier scenes. Returns the reasons for which
+/// scenes and single clouds take no part, one sentence each.
+std::vector<std::string> set_aside_unusable(std::vector<SceneClouds>& scenes);
+
+/// The usable clouds of the scenes that take part, for warnings.
+std::vector<NamedCloud> named_clouds(const std::vector<SceneClouds>& scenes);
+
+/// Why the times of the usable clouds cannot be used to correct motion, for the first scene in
+/// which they cannot: "the cloud of left in scene 0001 has no times"; empty if they can.
+std::string why_times_are_unusable(const std::vector<SceneClouds>& scenes);
+
+/// Why `composition` cannot use the cloud of a sensor in its scene, of which it needs channels;
+/// empty if it can. `sensor` is an index in Scene::sensors.
+std::string why_not_for(const Composition& composition, const SceneClouds& scene,
+                        std::size_t sensor);
+
+}  // namespace croon
