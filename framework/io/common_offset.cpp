@@ -64,7 +64,7 @@ void note_common_offset(LoadedCloud& cloud) {
 void check_unit_of_times(LoadedCloud& cloud) {
   const auto is_time = [](const Channel& channel) { return channel.name == kTime; };
   const auto time = std::find_if(cloud.channels.begin(), cloud.channels.end(), is_time);
-  if (time == cloud.channels.end() || cloud.empty() || time->count == 0) return;
+  if (time == cloud.channels.end() || cloud.empty() || time->count != 1) return;
   const std::vector<double> times = channel_values(cloud, kTime);
   const ScalarKind kind = time->type.kind;
   if (restart_in_packets(times, kind)) {
@@ -76,6 +76,8 @@ void check_unit_of_times(LoadedCloud& cloud) {
   }
   const TimeUnit unit = unit_of_times(times, kind);
   if (unit == convention_of(kind)) return;
+  // A part of the points does not show the unit.
+  set_channel(cloud, make_channel(kTime, times_s(cloud)));
   cloud.notes.push_back(std::string("The times are taken for ") + name_of(unit) + ".");
 }
 
