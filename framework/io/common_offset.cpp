@@ -11,6 +11,8 @@ namespace {
 
 /// Coordinates beyond it are those of a map.
 constexpr double kMaxRange_m = 10e3;
+/// Beyond it they are damaged: the Earth has a radius of 6400 km.
+constexpr double kMaxMap_m = 1e8;
 
 /// Whether all coordinates were floats before the offset was subtracted.
 bool were_floats(const LoadedCloud& cloud, Eigen::Index axis) {
@@ -38,7 +40,7 @@ Eigen::Vector3d common_offset_m(const Points& points) {
     const auto median_m = static_cast<double>(*middle);
     constexpr double kKilometre_m = 1000.0;
     // Half of the points far in front and half far behind have nothing in common.
-    if (std::abs(median_m) > kMaxRange_m) {
+    if (std::abs(median_m) > kMaxRange_m && std::abs(median_m) < kMaxMap_m) {
       offset_m(axis) = kKilometre_m * std::round(median_m / kKilometre_m);
     }
   }
