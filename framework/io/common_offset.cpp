@@ -11,6 +11,8 @@ namespace {
 
 /// Coordinates beyond it are those of a map.
 constexpr double kMaxRange_m = 10e3;
+/// Beyond it they are damaged: the Earth has a radius of 6400 km.
+constexpr double kMaxMap_m = 1e8;
 
 /// Whether all coordinates were floats before the offset was subtracted.
 bool were_floats(const LoadedCloud& cloud, Eigen::Index axis) {
@@ -38,7 +40,7 @@ Eigen::Vector3d common_offset_m(const Points& points) {
     const auto median_m = static_cast<double>(*middle);
     constexpr double kKilometre_m = 1000.0;
     // Half of the points far in front and half far behind have nothing in common.
-    if (std::abs(median_m) > kMaxRange_m) {
+    if (std::abs(median_m) > kMaxRange_m && std::abs(median_m) < kMaxMap_m) {
       offset_m(axis) = kKilometre_m * std::round(median_m / kKilometre_m);
     }
   }
@@ -64,7 +66,7 @@ void note_common_offset(LoadedCloud& cloud) {
 void check_unit_of_times(LoadedCloud& cloud) {
   const auto is_time = [](const Channel& channel) { return channel.name == kTime; };
   const auto time = std::find_if(cloud.channels.begin(), cloud.channels.end(), is_time);
-  if (time == cloud.channels.end() || cloud.empty() || time->count == 0) return;
+  if (time == cloud.channels.end() || cloud.empty() || time->count != 1) return;
   const std::vector<double> times = channel_values(cloud, kTime);
   const ScalarKind kind = time->type.kind;
   if (restart_in_packets(times, kind)) {
@@ -76,6 +78,8 @@ void check_unit_of_times(LoadedCloud& cloud) {
   }
   const TimeUnit unit = unit_of_times(times, kind);
   if (unit == convention_of(kind)) return;
+  // A part of the points does not show the unit.
+  set_channel(cloud, make_channel(kTime, times_s(cloud)));
   cloud.notes.push_back(std::string("The times are taken for ") + name_of(unit) + ".");
 }
 

@@ -26,9 +26,10 @@ LoadedCloud without_common_offset(const Read& read) {
   return cloud;
 }
 
-/// Renames the channel `time` of `cloud` to `time_in_packet` if its times start again in every
-/// packet, so that nothing uses them, and adds a note; or a note with their unit if it is not that
-/// of the convention (see `unit_of_times`). The points must be in the order of the sensor.
+/// Makes the channel `time` of `cloud` one that any part of the points can be understood by, and
+/// adds a note: seconds in double precision if its unit is not that of the convention (see
+/// `unit_of_times`); renamed to `time_in_packet`, so that nothing uses it, if its times start again
+/// in every packet. The points must be in the order of the sensor.
 void check_unit_of_times(LoadedCloud& cloud);
 
 }  // namespace croon

@@ -191,7 +191,7 @@ TEST_F(AvailableClouds, ThatAreDamagedAreAResultWithTheirPath) {
   EXPECT_EQ(run("out").code, 3);
   EXPECT_EQ(count_of(trials("out"), "failed"), 6U);
   const std::string summary = read_whole_file(folder_.path() / "out/summary.json");
-  EXPECT_NE(summary.find("the cloud of left: expected records of 16 bytes (x, y, z, intensity), "
+  EXPECT_NE(summary.find("the cloud of left: expected rows of 4 or 5 floats (x, y, z, intensity, "
                          "found 4 bytes, in b_left.bin"),
             std::string::npos)
       << summary;

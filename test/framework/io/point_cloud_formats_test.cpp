@@ -292,8 +292,9 @@ TEST(TimesOfAFile, ThatStartAgainInEveryPacketAreNotUsed) {
   for (std::uint32_t i = 0; i < 2000; ++i) microseconds.push_back(50 * i);
   cloud.channels = {make_channel(kTime, microseconds)};
   write_pcd(folder.path() / "a.pcd", cloud);
-  EXPECT_THAT(read_point_cloud(folder.path() / "a.pcd").notes,
-              ElementsAre("The times are taken for microseconds."));
+  const LoadedCloud in_seconds = read_point_cloud(folder.path() / "a.pcd");
+  EXPECT_THAT(in_seconds.notes, ElementsAre("The times are taken for microseconds."));
+  EXPECT_NEAR(times_s(selected(in_seconds, {1999})).front(), 1999 * 50e-6, 1e-12);
 }
 
 }  // namespace

@@ -7,7 +7,8 @@
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace croon;
   const std::optional<LoadedCloud> cloud = fuzz::read_cloud_input("input.npy", data, size);
-  if (!cloud) return 0;
+  // Without its offset a cloud of a few odd points may have another one.
+  if (!cloud || !cloud->origin_m.isZero(0.0)) return 0;
   const std::filesystem::path again = fuzz::write_input("again.pcd", data, 0);
   // A header may name a field by what is no word.
   if (!fuzz::is_taken([&] { write_pcd(again, *cloud); })) return 0;

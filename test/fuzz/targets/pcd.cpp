@@ -6,7 +6,8 @@
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace croon;
   const std::optional<LoadedCloud> cloud = fuzz::read_cloud_input("input.pcd", data, size);
-  if (!cloud) return 0;
+  // Without its offset a cloud of a few odd points may have another one.
+  if (!cloud || !cloud->origin_m.isZero(0.0)) return 0;
   const std::filesystem::path again = fuzz::write_input("again.pcd", data, 0);
   for (const PcdEncoding encoding :
        {PcdEncoding::ascii, PcdEncoding::binary, PcdEncoding::binary_compressed}) {

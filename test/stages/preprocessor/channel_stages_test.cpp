@@ -156,8 +156,12 @@ TEST(Deskew, AcceptsTimesOfAnyUnitInWhichAScanHasItsLength) {
   for (const double length : {0.0, 0.1, 2.0, 100.0, 1e5, 1e8}) {
     EXPECT_EQ(error_of_scan(length), "") << length;
   }
-  EXPECT_THAT(error_of_scan(1e11), HasSubstr("the scan lasts longer than 10 s"));
+  EXPECT_THAT(error_of_scan(1e11), HasSubstr("from the reference time"));
   EXPECT_THAT(error_of_scan(1e-5), HasSubstr("the scan lasts less than 0.5 ms"));
+  cloud = Points(2, Eigen::Vector3f(1, 0, 0));
+  cloud.channels = {make_channel(kTime, std::vector<std::int64_t>{0, 15000000000})};
+  EXPECT_THAT(error_of(R"({"type": "deskew", "reference_time": "middle"})", cloud),
+              HasSubstr("the scan lasts longer than 10 s"));
 }
 
 TEST(Deskew, RefusesTimesThatAreOfNoScan) {
