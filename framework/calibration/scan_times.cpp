@@ -122,9 +122,9 @@ TimeCheck check_times(const PointCloud& cloud) {
 
 std::string why_not_one_clock(const std::vector<std::string>& names,
                               const std::vector<const PointCloud*>& clouds) {
-  // Scans that are paired by time are at most half a revolution apart; the rest is for sensors that
-  // measure in a part of it.
-  constexpr double kMaxApart = 0.6;
+  // One scene cannot tell a clock offset from a shift along the road. Scans of free-running sensors
+  // that are paired by time are up to half a revolution apart, those of synchronised ones less.
+  constexpr double kMaxApart = 0.45;
   if (clouds.empty()) return "";
   const TimeSpan reference = span_of(times_s(*clouds.front()));
   for (std::size_t i = 1; i < clouds.size(); ++i) {
@@ -140,7 +140,7 @@ std::string why_not_one_clock(const std::vector<std::string>& names,
     }
     return "the scan of " + names.at(i) + " is " + milliseconds(std::abs(later_s)) +
            (later_s > 0.0 ? " later" : " earlier") + " than that of " + names.front() +
-           ", more than half a scan of " + milliseconds(scan_s) +
+           ", too much for scans of " + milliseconds(scan_s) +
            ": their clocks differ, or the clouds are not of one moment";
   }
   return "";

@@ -7,6 +7,7 @@
 #include "framework/stage/rig_step.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/stages.hpp"
+#include "test/support/street_estimate.hpp"
 
 namespace croon {
 namespace {
