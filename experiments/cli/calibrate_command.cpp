@@ -5,17 +5,15 @@
 #include <memory>
 #include <mutex>
 
+#include "experiments/cli/requested_calibration.hpp"
 #include "experiments/report/calibration_text.hpp"
 #include "experiments/report/staged_folder.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
-#include "framework/base/progress.hpp"
 #include "framework/base/text.hpp"
 #include "framework/base/whole_file.hpp"
-#include "framework/calibration/calibrate_rig.hpp"
 #include "framework/calibration/extrinsics.hpp"
 #include "framework/calibration/loaded_scene.hpp"
-#include "framework/calibration/recorded_scenes.hpp"
 #include "framework/calibration/rig_extrinsics.hpp"
 #include "framework/calibration/rig_pictures.hpp"
 #include "framework/io/text_scan.hpp"
@@ -28,77 +26,6 @@ namespace fs = std::filesystem;
 constexpr const char* kRequestFile = "rig.json";
 constexpr const char* kJsonFile = "extrinsics.json";
 constexpr const char* kBaseFrame = "base_link";
-
-bool is_request_file(const std::string& input) { return fs::path(input).extension() == ".json"; }
-
-/// The request with what a rig.json says, where the command line says nothing.
-CalibrateOptions with_file(const CalibrateOptions& options) {
-  const bool has_file = std::any_of(options.inputs.begin(), options.inputs.end(), is_request_file);
-  if (!has_file) return options;
-  if (options.inputs.size() > 1) {
-    throw InputError(options.inputs.back(), "",
-                     "expected one file that describes a calibration, without further inputs");
-  }
-  const RigRequest file = read_rig_request(options.inputs.front());
-  CalibrateOptions all = options;
-  all.inputs = file.inputs;
-  if (all.reference.empty()) all.reference = file.reference;
-  if (all.nominal.empty()) all.nominal = file.nominal;
-  all.from_scratch = options.from_scratch || file.from_scratch;
-  if (all.base.empty()) all.base = file.base;
-  if (!all.max_time_gap_s) all.max_time_gap_s = file.max_time_gap_s;
-  if (!all.max_scenes) all.max_scenes = file.max_scenes;
-  if (all.pipeline.empty()) all.pipeline = file.pipeline;
-  if (!all.seed) all.seed = file.seed;
-  return all;
-}
-
-RecordedScenes scenes_of(const CalibrateOptions& options) {
-  RecordingOptions recording;
-  recording.reference = options.reference;
-  if (options.max_time_gap_s) recording.max_time_gap_s = *options.max_time_gap_s;
-  if (options.max_scenes) recording.max_scenes = *options.max_scenes;
-  return recorded_scenes(options.inputs, recording);
-}
-
-std::vector<std::string> sensor_names(const std::vector<Scene>& scenes) {
-  std::vector<std::string> names;
-  for (const Scene& scene : scenes) {
-    for (const SensorScan& scan : scene.sensors) {
-      if (std::find(names.begin(), names.end(), scan.sensor) == names.end()) {
-        names.push_back(scan.sensor);
-      }
-    }
-  }
-  return names;
-}
-
-/// Gives the scans the poses in the file `nominal`. Returns a sentence for each sensor without one.
-/// Throws InputError if no sensor has one.
-std::vector<std::string> set_nominal(std::vector<Scene>& scenes, const std::string& nominal) {
-  std::vector<std::string> missing;
-  if (nominal.empty()) return missing;
-  const std::string& reference = scenes.front().reference.sensor;
-  const Extrinsics poses = in_frame_of_sensor(read_extrinsics(nominal), reference, nominal);
-  std::vector<std::string> known;
-  for (const ExtrinsicPose& pose : poses.poses) known.push_back(pose.sensor);
-  const std::vector<std::string> names = sensor_names(scenes);
-  for (const std::string& name : names) {
-    const auto pose = std::find_if(poses.poses.begin(), poses.poses.end(),
-                                   [&](const ExtrinsicPose& one) { return one.sensor == name; });
-    if (pose == poses.poses.end()) {
-      missing.push_back("has no pose of the sensor " + in_quotes(name) + name_hint(name, known));
-      continue;
-    }
-    for (Scene& scene : scenes) {
-      const std::size_t i = index_of(scene, name);
-      if (i < scene.sensors.size()) scene.sensors[i].nominal = pose->T_parent_sensor;
-    }
-  }
-  if (missing.size() == names.size()) throw InputError(nominal, "", missing.front());
-  for (std::string& line : missing) line = "The file " + in_quotes(nominal) + " " + line + ".";
-  return missing;
-}
 
 /// The pose "x,y,z,roll,pitch,yaw"; std::nullopt if `text` is not six numbers.
 std::optional<RigidTransform> pose_in(const std::string& text) {
@@ -172,26 +99,7 @@ void keep_clouds(Scene& scene) {
   for (SensorScan& scan : scene.sensors) keep_cloud(scan);
 }
 
-CalibratedRig calibrated(const CalibrateOptions& options, const std::vector<Scene>& scenes,
-                         const Catalogue& catalogue, std::ostream& err) {
-  constexpr std::size_t kPercent = 100;
-  Progress progress(err, progress_style_of_stderr(options.quiet), kPercent);
-  std::size_t shown = 0;
-  CalibrationOptions how;
-  if (!options.pipeline.empty()) how.pipeline = options.pipeline;
-  how.from_scratch = options.from_scratch;
-  how.seed = options.seed.value_or(how.seed);
-  how.jobs = options.jobs;
-  how.on_progress = [&](const std::string& what, double done) {
-    const auto percent = static_cast<std::size_t>(std::clamp(done, 0.0, 1.0) * kPercent);
-    progress.set_scene(what);
-    if (percent > shown) progress.advance(percent - shown);
-    shown = std::max(shown, percent);
-  };
-  return calibrate_rig(scenes, how, catalogue);
-}
-
-/// `extrinsics` in the vehicle frame, with the reference as the first sensor.
+#include "framework/calibration/rig_extrinsics.hpp"
 Extrinsics in_base(const Extrinsics& extrinsics, const RigidTransform& T_base_reference) {
   Extrinsics in_base = in_frame(extrinsics, kBaseFrame, T_base_reference);
   in_base.poses.insert(in_base.poses.begin(), {extrinsics.parent, T_base_reference});
@@ -282,7 +190,7 @@ int calibrate_command(const CalibrateOptions& given, const Catalogue& catalogue,
   StagedFolder folder(options.out, kRequestFile);
   Scene& drawn = drawn_scene(recorded.scenes);
   if (!options.no_pictures) keep_clouds(drawn);
-  CalibratedRig rig = calibrated(options, recorded.scenes, catalogue, err);
+  CalibratedRig rig = calibrate_with_progress(options, recorded.scenes, catalogue, err);
   rig.unused.insert(rig.unused.begin(), recorded.unused.begin(), recorded.unused.end());
   rig.warnings.insert(rig.warnings.begin(), about_nominal.begin(), about_nominal.end());
   const std::vector<std::string> paths = write_files(options, rig, drawn, T_base_reference, folder);

@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "experiments/cli/calibrate_command.hpp"
+#include "experiments/cli/check_command.hpp"
 #include "experiments/cli/commands.hpp"
 #include "experiments/file/start_rule.hpp"
 #include "experiments/report/export.hpp"
@@ -43,6 +44,7 @@ class Program {
     app_.set_version_flag("--version", std::string("croon ") + croon_version());
     app_.allow_extras();
     add_calibrate();
+    add_check();
     add_run();
     add_merge();
     add_export();
@@ -140,22 +142,12 @@ class Program {
              "A file or folder of clouds per sensor, PATH or NAME=PATH; a recording (.mcap, .db3) "
              "and its topics; or a rig.json.")
         ->required();
-    add_text(calibrate, "--reference", o.reference, "The sensor whose frame it is; default first.",
-             "a sensor");
     add_path(calibrate, "--nominal", o.nominal, "Poses to start from and to compare with.");
     calibrate.add_flag("--from-scratch", o.from_scratch, "Only compare with the nominal poses.");
     add_text(calibrate, "--base", o.base,
              "The reference's pose in the vehicle frame: x,y,z,roll,pitch,yaw in m and degrees, or "
              "a file of extrinsics; then files are written for base_link too.",
              "a pose or a path");
-    add_number(calibrate, "--max-time-gap", o.max_time_gap_s, 0.0, 3600.0,
-               "Clouds of one scene are at most this far apart, s; default 0.05.");
-    add_number(calibrate, "--max-scenes", o.max_scenes, 1, 1000,
-               "Of more scenes, use this many, evenly spaced; default 10.");
-    add_text(calibrate, "--pipeline", o.pipeline, "best (default), driving, paper, or a file.",
-             "a pipeline");
-    add_number(calibrate, "--seed", o.seed, std::uint64_t{0}, std::uint64_t{1} << 53U,
-               "Names the random numbers; default 1.");
     add_path(calibrate, "--out", o.out, "Folder to write to; default results/calibration.");
     add_text(calibrate, "--format", o.formats,
              "Further formats of extrinsics, separated by commas: " + extrinsics_formats() + ".",
@@ -164,8 +156,35 @@ class Program {
     calibrate.add_flag("--with-rejected", o.with_rejected, "Write rejected poses too, marked.");
     calibrate.add_flag("--clouds", o.clouds, "Write the clouds in the reference's frame.");
     calibrate.add_flag("--no-pictures", o.no_pictures, "Do not draw.");
-    calibrate.add_flag("--quiet", o.quiet, "Do not show progress.");
-    add_jobs(calibrate, o.jobs);
+    add_rig_options(calibrate, o);
+  }
+
+  void add_check() {
+    CalibrateOptions& o = check_;
+    CLI::App& check = add("check", "Check given extrinsics: right, wrong or undecidable.", [this] {
+      check_.colours = ::isatty(STDOUT_FILENO) != 0;
+      return check_command(check_, registry(), std::cout, std::cerr);
+    });
+    add_path(check, "EXTRINSICS", o.nominal, "The poses, in any format that --nominal accepts.")
+        ->required();
+    add_path(check, "INPUT", o.inputs, "Clouds, as of calibrate.")->required();
+    add_rig_options(check, o);
+  }
+
+  /// The options of the commands that calibrate.
+  static void add_rig_options(CLI::App& command, CalibrateOptions& o) {
+    add_text(command, "--reference", o.reference, "The sensor whose frame it is; default first.",
+             "a sensor");
+    add_number(command, "--max-time-gap", o.max_time_gap_s, 0.0, 3600.0,
+               "Clouds of one scene are at most this far apart, s; default 0.05.");
+    add_number(command, "--max-scenes", o.max_scenes, 1, 1000,
+               "Of more scenes, use this many, evenly spaced; default 10.");
+    add_text(command, "--pipeline", o.pipeline, "best (default), driving, paper, or a file.",
+             "a pipeline");
+    add_number(command, "--seed", o.seed, std::uint64_t{0}, std::uint64_t{1} << 53U,
+               "Names the random numbers; default 1.");
+    command.add_flag("--quiet", o.quiet, "Do not show progress.");
+    add_jobs(command, o.jobs);
   }
 
   /// "ros2, urdf, ...".
@@ -361,7 +380,7 @@ class Program {
 
   CLI::App app_;
   std::map<const CLI::App*, Action> actions_;
-  CalibrateOptions calibrate_;
+  CalibrateOptions calibrate_, check_;
   RunOptions run_;
   MergeOptions merge_;
   ExportOptions export_;

@@ -37,12 +37,12 @@ void set_optimum(CheckedSensor& checked, const CalibratedSensor& calibrated) {
       std::sqrt(std::max(0.0, checked.difference.dot(covariance.ldlt().solve(checked.difference))));
 }
 
-/// "+0.42°", "-52 mm".
+/// "+0.42°", "-52.0 mm".
 std::string length_text(int dof, double value) {
   const std::string sign = value < 0.0 ? "-" : "+";
   return is_rotation(static_cast<Dof>(dof))
              ? sign + fixed_number(std::abs(deg_from_rad(value)), 2) + "°"
-             : sign + fixed_number(std::abs(1e3 * value), 0) + " mm";
+             : sign + fixed_number(std::abs(1e3 * value), 1) + " mm";
 }
 
 double in_deviations(const CheckedSensor& checked, int dof) {
@@ -110,7 +110,7 @@ void judge(CheckedSensor& checked) {
                       " of the optimum";
   } else {
     checked.judgement = PoseJudgement::right;
-    checked.finding = "within " + distance_text(checked) + " of the optimum; at most, " +
+    checked.finding = "within " + distance_text(checked) + " of the optimum; most of all, " +
                       dof_text(checked, by_deviations(checked).front());
   }
 }

@@ -28,18 +28,6 @@ Rig rig_at_start(const std::vector<CalibrationMember>& members, std::uint64_t se
   return rig;
 }
 
-/// Why the pose of an estimate is not usable; empty if it is.
-std::string why_unusable(const Estimate& estimate) {
-  const RigidTransform& T = estimate.T_target_source;
-  if (!T.rotation.allFinite() || !T.translation.allFinite()) return "the pose is not finite";
-  if (T.translation.cwiseAbs().maxCoeff() > kLargestDistance_m) return "the pose is too far away";
-  if (!is_rotation_matrix(T.rotation)) return "the pose has no rotation";
-  if (estimate.covariance && !is_covariance(estimate.covariance->matrix)) {
-    return "the covariance is not symmetric, finite and positive semi-definite";
-  }
-  return "";
-}
-
 /// Whether a step has given this sensor the same pose in more than one scene.
 bool has_common_pose(const Rig& rig, std::size_t index) {
   const RigidTransform& T = rig[index].result.estimate.T_target_source;
@@ -86,6 +74,21 @@ std::vector<MemberResult> results_of(const std::vector<CalibrationMember>& membe
 }
 
 }  // namespace
+
+std::string why_unusable(const Estimate& estimate) {
+  const RigidTransform& T = estimate.T_target_source;
+  if (!T.rotation.allFinite() || !T.translation.allFinite()) return "the pose is not finite";
+  if (T.translation.cwiseAbs().maxCoeff() > kLargestDistance_m) {
+    return "the pose is farther away than " + fixed_number(kLargestDistance_m, 0) + " m";
+  }
+  if (!is_rotation_matrix(T.rotation)) {
+    return "the pose has no rotation: the columns of its matrix are not orthonormal";
+  }
+  if (estimate.covariance && !is_covariance(estimate.covariance->matrix)) {
+    return "the covariance is none: it is not symmetric, finite and positive semi-definite";
+  }
+  return "";
+}
 
 std::vector<MemberResult> run_rig(const Composition& composition,
                                   const std::vector<CalibrationMember>& members, std::uint64_t seed,

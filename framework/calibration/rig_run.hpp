@@ -36,6 +36,9 @@ struct MemberResult {
 /// Called with the name of the next step and the share of the steps that is done.
 using StepProgress = std::function<void(const std::string& step, double done)>;
 
+/// Why the pose of `estimate` or its covariance cannot be used; empty if they can.
+std::string why_unusable(const Estimate& estimate);
+
 /// Takes the members through the steps of `composition`, all as one rig; those without a start
 /// through Composition::from_nothing. A pose that is not usable (not finite, no rotation) is a
 /// failure. The same bits for any number of threads.

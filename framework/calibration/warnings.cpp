@@ -193,7 +193,8 @@ void warn_of_points(const NamedCloud& of, SensorWarnings& warnings) {
   Points points;
   std::copy_if(cloud.points.begin(), cloud.points.end(), std::back_inserter(points),
                [](const Eigen::Vector3f& point) { return !point.isZero(0.0F); });
-  const double count = static_cast<double>(cloud.size() + cloud.dropped_non_finite);
+  const double count =
+      static_cast<double>(cloud.size() + cloud.dropped_non_finite + cloud.dropped_zero);
   const double share = count > 0.0 ? 1.0 - static_cast<double>(points.size()) / count : 0.0;
   if (share > kMaxUnmeasured) {
     warnings.add(of, "zeros",

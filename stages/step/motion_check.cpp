@@ -29,7 +29,7 @@ struct Params : JointOptions, MotionOptions {
   double max_travel_m = 0.15;
   double max_turn_deg = 1.0;
   double max_shift_m = 0.1;
-  double max_shift_std_m = 0.005;
+  double max_shift_std_m = 0.01;
 };
 
 const params::Table<Params>& table() {

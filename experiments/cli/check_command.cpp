@@ -1,0 +1,83 @@
+#include "experiments/cli/check_command.hpp"
+
+#include <algorithm>
+
+#include "experiments/cli/requested_calibration.hpp"
+#include "framework/base/text.hpp"
+#include "framework/calibration/check_rig.hpp"
+
+namespace croon::experiments {
+namespace {
+
+/// "RIGHT      ", with a colour if there are colours.
+std::string judgement_text(PoseJudgement judgement, bool colours) {
+  constexpr std::size_t kColumns = 11;
+  std::string word;
+  for (const char c : std::string(name_of(judgement))) word += static_cast<char>(c - 'a' + 'A');
+  const std::string text = left_aligned(word, kColumns);
+  if (!colours) return text;
+  const char* const colour = judgement == PoseJudgement::right   ? "\033[32m"
+                             : judgement == PoseJudgement::wrong ? "\033[31m"
+                                                                 : "\033[33m";
+  return colour + text + "\033[0m";
+}
+
+/// The difference along each degree of freedom in standard deviations: "roll 0.3  pitch 1.2 ...".
+std::string deviations_text(const CheckedSensor& checked) {
+  std::string text;
+  for (int i = 0; i < 6; ++i) {
+    text += (text.empty() ? "" : "  ") + kDofNames.at(static_cast<std::size_t>(i)) + " " +
+            fixed_number(checked.difference(i) / checked.deviations(i), 1);
+  }
+  return text;
+}
+
+std::string sensor_text(const CheckedSensor& checked, bool colours) {
+  std::string text = judgement_text(checked.judgement, colours) + "  " + printable(checked.sensor) +
+                     ": " + checked.finding + "\n";
+  if (checked.optimum) {
+    text += "  standard deviations from the optimum: " + fixed_number(checked.distance, 1) + ";  " +
+            deviations_text(checked) + "\n";
+  }
+  for (const std::string& reason : checked.reasons) text += "  why: " + printable(reason) + "\n";
+  return text;
+}
+
+/// Whether a sensor has a pose, and none from the calibration from nothing.
+bool needs_second_look(const CalibratedRig& rig) {
+  return std::any_of(rig.sensors.begin(), rig.sensors.end(), [](const CalibratedSensor& sensor) {
+    return !sensor.is_accepted && sensor.nominal.has_value();
+  });
+}
+
+}  // namespace
+
+int check_command(const CalibrateOptions& given, const Catalogue& catalogue, std::ostream& out,
+                  std::ostream& err) {
+  CalibrateOptions options = with_file(given);
+  RecordedScenes recorded = scenes_of(options);
+  const std::vector<std::string> about_poses = set_nominal(recorded.scenes, options.nominal);
+  options.from_scratch = true;
+  const CalibratedRig from_nothing =
+      calibrate_with_progress(options, recorded.scenes, catalogue, err);
+  std::optional<CalibratedRig> near_given;
+  if (needs_second_look(from_nothing)) {
+    options.from_scratch = false;
+    near_given = calibrate_with_progress(options, recorded.scenes, catalogue, err);
+  }
+  const std::vector<CheckedSensor> sensors = check_rig(from_nothing, near_given);
+  for (const CheckedSensor& sensor : sensors) out << sensor_text(sensor, options.colours);
+  const auto list = [&](const char* title, const std::vector<std::string>& lines) {
+    for (const std::string& line : lines) out << title << " " << printable(line) << "\n";
+  };
+  list("warning:", about_poses);
+  list("warning:", from_nothing.warnings);
+  list("not used:", recorded.unused);
+  list("not used:", from_nothing.unused);
+  const bool is_all_right = std::all_of(
+      sensors.begin(), sensors.end(),
+      [](const CheckedSensor& sensor) { return sensor.judgement == PoseJudgement::right; });
+  return is_all_right ? 0 : 3;
+}
+
+}  // namespace croon::experiments

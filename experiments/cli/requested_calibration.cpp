@@ -1,0 +1,108 @@
+#include "experiments/cli/requested_calibration.hpp"
+
+#include <algorithm>
+
+#include "framework/base/error.hpp"
+#include "framework/base/progress.hpp"
+#include "framework/base/text.hpp"
+#include "framework/calibration/calibrate_rig.hpp"
+#include "framework/calibration/extrinsics.hpp"
+#include "framework/calibration/loaded_scene.hpp"
+#include "framework/io/text_scan.hpp"
+
+namespace croon::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_request_file(const std::string& input) { return fs::path(input).extension() == ".json"; }
+
+std::vector<std::string> sensor_names(const std::vector<Scene>& scenes) {
+  std::vector<std::string> names;
+  for (const Scene& scene : scenes) {
+    for (const SensorScan& scan : scene.sensors) {
+      if (std::find(names.begin(), names.end(), scan.sensor) == names.end()) {
+        names.push_back(scan.sensor);
+      }
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
+CalibrateOptions with_file(const CalibrateOptions& options) {
+  const bool has_file = std::any_of(options.inputs.begin(), options.inputs.end(), is_request_file);
+  if (!has_file) return options;
+  if (options.inputs.size() > 1) {
+    throw InputError(options.inputs.back(), "",
+                     "expected one file that describes a calibration, without further inputs");
+  }
+  const RigRequest file = read_rig_request(options.inputs.front());
+  CalibrateOptions all = options;
+  all.inputs = file.inputs;
+  if (all.reference.empty()) all.reference = file.reference;
+  if (all.nominal.empty()) all.nominal = file.nominal;
+  all.from_scratch = options.from_scratch || file.from_scratch;
+  if (all.base.empty()) all.base = file.base;
+  if (!all.max_time_gap_s) all.max_time_gap_s = file.max_time_gap_s;
+  if (!all.max_scenes) all.max_scenes = file.max_scenes;
+  if (all.pipeline.empty()) all.pipeline = file.pipeline;
+  if (!all.seed) all.seed = file.seed;
+  return all;
+}
+
+RecordedScenes scenes_of(const RigRequest& request) {
+  RecordingOptions recording;
+  recording.reference = request.reference;
+  if (request.max_time_gap_s) recording.max_time_gap_s = *request.max_time_gap_s;
+  if (request.max_scenes) recording.max_scenes = *request.max_scenes;
+  return recorded_scenes(request.inputs, recording);
+}
+
+std::vector<std::string> set_nominal(std::vector<Scene>& scenes, const std::string& nominal) {
+  std::vector<std::string> missing;
+  if (nominal.empty()) return missing;
+  const std::string& reference = scenes.front().reference.sensor;
+  const Extrinsics poses = in_frame_of_sensor(read_extrinsics(nominal), reference, nominal);
+  std::vector<std::string> known;
+  for (const ExtrinsicPose& pose : poses.poses) known.push_back(pose.sensor);
+  const std::vector<std::string> names = sensor_names(scenes);
+  for (const std::string& name : names) {
+    const auto pose = std::find_if(poses.poses.begin(), poses.poses.end(),
+                                   [&](const ExtrinsicPose& one) { return one.sensor == name; });
+    if (pose == poses.poses.end()) {
+      missing.push_back("has no pose of the sensor " + in_quotes(name) + name_hint(name, known));
+      continue;
+    }
+    for (Scene& scene : scenes) {
+      const std::size_t i = index_of(scene, name);
+      if (i < scene.sensors.size()) scene.sensors[i].nominal = pose->T_parent_sensor;
+    }
+  }
+  if (missing.size() == names.size()) throw InputError(nominal, "", missing.front());
+  for (std::string& line : missing) line = "The file " + in_quotes(nominal) + " " + line + ".";
+  return missing;
+}
+
+CalibratedRig calibrate_with_progress(const CalibrateOptions& options,
+                                      const std::vector<Scene>& scenes, const Catalogue& catalogue,
+                                      std::ostream& err) {
+  constexpr std::size_t kPercent = 100;
+  Progress progress(err, progress_style_of_stderr(options.quiet), kPercent);
+  std::size_t shown = 0;
+  CalibrationOptions how;
+  if (!options.pipeline.empty()) how.pipeline = options.pipeline;
+  how.from_scratch = options.from_scratch;
+  how.seed = options.seed.value_or(how.seed);
+  how.jobs = options.jobs;
+  how.on_progress = [&](const std::string& what, double done) {
+    const auto percent = static_cast<std::size_t>(std::clamp(done, 0.0, 1.0) * kPercent);
+    progress.set_scene(what);
+    if (percent > shown) progress.advance(percent - shown);
+    shown = std::max(shown, percent);
+  };
+  return calibrate_rig(scenes, how, catalogue);
+}
+
+}  // namespace croon::experiments
