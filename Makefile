@@ -8,7 +8,7 @@ SOURCES = git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp'
 .PHONY: help packages sanitizer_packages release demo test benchmark docs package package-test format lint fuzz sanitize threads clean
 
 help:
-	@echo 'make demo       the paper on twelve simulated scenes, with a table and a picture'
+	@echo 'make demo       the paper on twelve simulated scenes, and the calibration of a simulated car'
 	@echo 'make test       build and run all tests'
 	@echo 'make benchmark  build and run the benchmarks'
 	@echo 'make docs       write docs/stages and docs/schema again'
@@ -29,6 +29,11 @@ release: packages
 
 demo: release
 	build/release/bin/croon run experiments/demo.json --out results/demo --fresh --png
+	rm -rf results/demo_car
+	build/release/bin/croon simulate experiments/demo_car.json --out results/demo_car --quiet
+	build/release/bin/croon calibrate results/demo_car/000000/top.pcd results/demo_car/000000/front.pcd \
+	  results/demo_car/000000/back.pcd results/demo_car/000000/left.pcd results/demo_car/000000/right.pcd \
+	  --nominal results/demo_car/truth.json --from-scratch --out results/demo_car/calibration
 
 test: packages
 	$(call PRESET_BUILD,test)
