@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdint>
 #include <set>
 
+#include "framework/base/angles.hpp"
 #include "framework/base/text.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/base/whole_file.hpp"
@@ -109,6 +111,19 @@ std::string safe_name(const std::string& name) {
 }
 
 }  // namespace
+
+std::string picture_note(const CalibratedSensor& sensor) {
+  if (!sensor.is_accepted) return sensor.reasons.empty() ? "" : sensor.reasons.front();
+  if (!sensor.covariance) return "";
+  std::string text = "standard deviations:";
+  for (int i = 0; i < 6; ++i) {
+    const double std = std::sqrt(sensor.covariance->matrix(i, i));
+    text += (i == 0 ? " " : ", ") + kDofNames.at(static_cast<std::size_t>(i)) + " " +
+            (is_rotation(static_cast<Dof>(i)) ? fixed_number(deg_from_rad(std), 3) + "°"
+                                              : fixed_number(1e3 * std, 1) + " mm");
+  }
+  return text;
+}
 
 std::vector<std::string> file_names(const std::vector<std::string>& names,
                                     const std::vector<std::string>& taken) {
