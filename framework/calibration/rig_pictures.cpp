@@ -115,14 +115,16 @@ std::string safe_name(const std::string& name) {
 std::string picture_note(const CalibratedSensor& sensor) {
   if (!sensor.is_accepted) return sensor.reasons.empty() ? "" : sensor.reasons.front();
   if (!sensor.covariance) return "";
-  std::string text = "standard deviations:";
-  for (int i = 0; i < 6; ++i) {
-    const double std = std::sqrt(sensor.covariance->matrix(i, i));
-    text += (i == 0 ? " " : ", ") + kDofNames.at(static_cast<std::size_t>(i)) + " " +
-            (is_rotation(static_cast<Dof>(i)) ? fixed_number(deg_from_rad(std), 3) + "°"
-                                              : fixed_number(1e3 * std, 1) + " mm");
-  }
-  return text;
+  const auto stds = [&](int first, double scale, int decimals) {
+    std::string text;
+    for (int i = first; i < first + 3; ++i) {
+      text += (i == first ? "" : ", ") +
+              fixed_number(scale * std::sqrt(sensor.covariance->matrix(i, i)), decimals);
+    }
+    return text;
+  };
+  return "std: roll, pitch, yaw " + stds(0, deg_from_rad(1.0), 3) + "°; x, y, z " +
+         stds(3, 1e3, 1) + " mm";
 }
 
 std::vector<std::string> file_names(const std::vector<std::string>& names,
