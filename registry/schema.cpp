@@ -91,7 +91,7 @@ ordered_json rule_schema(const params::KeyRule& rule) {
 /// The object of a group, or each object of a map or a list.
 ordered_json object_schema(const ParameterDoc& parameter) {
   ordered_json schema = croon::object_schema(parameter.members, parameter.rules);
-  if (parameter.choices.empty()) return schema;
+  if (parameter.preset_json.empty()) return schema;
   schema["properties"][params::kLikeKey] = {{"enum", parameter.choices},
                                             {"description", "The preset to begin with."}};
   if (schema.contains("required")) {

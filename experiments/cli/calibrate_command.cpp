@@ -14,6 +14,7 @@
 #include "framework/base/whole_file.hpp"
 #include "framework/calibration/extrinsics.hpp"
 #include "framework/calibration/loaded_scene.hpp"
+#include "framework/calibration/rig_extrinsics.hpp"
 #include "framework/calibration/rig_pictures.hpp"
 #include "framework/io/text_scan.hpp"
 
@@ -23,6 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kRequestFile = "rig.json";
+constexpr const char* kJsonFile = "extrinsics.json";
 constexpr const char* kBaseFrame = "base_link";
 
 /// The pose "x,y,z,roll,pitch,yaw"; std::nullopt if `text` is not six numbers.
@@ -97,19 +99,7 @@ void keep_clouds(Scene& scene) {
   for (SensorScan& scan : scene.sensors) keep_cloud(scan);
 }
 
-/// The poses of the sensors that have one, in the frame of the reference.
-Extrinsics extrinsics_of(const CalibratedRig& rig) {
-  Extrinsics extrinsics;
-  extrinsics.parent = rig.reference;
-  for (const CalibratedSensor& sensor : rig.sensors) {
-    if (!sensor.T_reference_sensor) continue;
-    extrinsics.poses.push_back(
-        {sensor.sensor, *sensor.T_reference_sensor, sensor.is_accepted, sensor.covariance});
-  }
-  return extrinsics;
-}
-
-/// The same in the vehicle frame, with the reference as its first sensor.
+#include "framework/calibration/rig_extrinsics.hpp"
 Extrinsics in_base(const Extrinsics& extrinsics, const RigidTransform& T_base_reference) {
   Extrinsics in_base = in_frame(extrinsics, kBaseFrame, T_base_reference);
   in_base.poses.insert(in_base.poses.begin(), {extrinsics.parent, T_base_reference});
@@ -178,8 +168,9 @@ std::vector<std::string> write_files(const CalibrateOptions& options, const Cali
                       options.with_rejected));
   }
   if (!options.no_pictures) add(draw(root, rig, drawn, options.clouds));
+  write_whole_file(root / kJsonFile, rig_extrinsics_json(rig));
   write_whole_file(root / kRequestFile, rig_request_json(options, options.out));
-  add({kRequestFile});
+  add({kJsonFile, kRequestFile});
   folder.publish();
   return paths;
 }

@@ -119,7 +119,7 @@ int starts_command(const StartsOptions& options, const Catalogue& catalogue, std
 std::set<std::string> given_files(const Experiment& experiment);
 
 /// The content of that file. Call `resolve_starts` before.
-std::string starts_csv(const Experiment& experiment, const std::vector<Scene>& scenes);
+std::string starts_csv(const Experiment& experiment, const std::vector<SceneGroup>& groups);
 
 /// Checks experiment files; a folder stands for every *.json below it. The data need not be there.
 /// Writes `FILE: ok`, or all faults to `err`. Returns 2 if a file has faults or a folder cannot be

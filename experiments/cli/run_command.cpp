@@ -24,7 +24,7 @@ std::string text_of_plan(const CheckedRun& run, const Work& work, const RunOptio
 std::string write_clouds(const CheckedRun& run, const Summary& summary,
                          const std::filesystem::path& folder,
                          std::vector<std::string>& complaints) {
-  const FusedClouds fused = write_fused_clouds(run.experiment, run.scenes, summary, folder);
+  const FusedClouds fused = write_fused_clouds(run.experiment, run.groups, summary, folder);
   complaints.insert(complaints.end(), fused.complaints.begin(), fused.complaints.end());
   if (fused.is_any || !fused.complaints.empty()) return "";
   return "There are no clouds to write: no trials of a sensor agree.\n";
@@ -33,7 +33,7 @@ std::string write_clouds(const CheckedRun& run, const Summary& summary,
 /// Draws the picture of `--png` and says what it shows.
 std::string draw_picture(const CheckedRun& run, const Summary& summary,
                          const std::filesystem::path& path) {
-  const std::string scene = draw_before_after(run.experiment, run.scenes, summary, path);
+  const std::string scene = draw_before_after(run.experiment, run.groups, summary, path);
   if (scene.empty()) return "There is no scene to draw: none has all its sensors.\n";
   return "Scene " + scene + " from above, before (left) and after (right), is in " +
          printable(path.string()) + "\n";

@@ -87,11 +87,11 @@ std::string velocities_csv(const std::vector<VelocityRow>& rows) {
 /// The name under which the trials of each scene start: that of its group, if it is in one.
 using TrialScenes = std::map<std::string, std::string>;
 
-TrialScenes trial_scenes(const std::vector<Scene>& scenes, const std::vector<Scene>& started) {
+TrialScenes trial_scenes(const std::vector<Scene>& scenes, const std::vector<SceneGroup>& started) {
   TrialScenes names;
   for (const Scene& scene : scenes) names[scene.name] = scene.name;
-  for (const Scene& group : started) {
-    for (const Scene* const part : parts_of(group)) names[part->name] = group.name;
+  for (const SceneGroup& group : started) {
+    for (const Scene& scene : group.scenes) names[scene.name] = group.name;
   }
   return names;
 }
@@ -99,10 +99,10 @@ TrialScenes trial_scenes(const std::vector<Scene>& scenes, const std::vector<Sce
 /// The start of trial 0. A file of starts has none for a scene that fills no group, which gets the
 /// truth.
 RigidTransform first_start(const Experiment& experiment, const std::string& trial_scene,
-                           const SensorScan& scan) {
+                           const CalibratedPair& pair) {
   const auto& table = experiment.starts.table;
-  if (table && table->starts.count({trial_scene, scan.sensor}) == 0) return *scan.truth;
-  return start_of(experiment, trial_scene, scan, 0);
+  if (table && table->starts.count({trial_scene, pair.name}) == 0) return *pair.truth;
+  return start_of(experiment, trial_scene, pair, 0);
 }
 
 /// Writes the folder of `scene` below `dataset`: a PCD per sensor, `initial_extrinsic.txt` with the
@@ -120,7 +120,8 @@ void write_scene(const Experiment& experiment, const Scene& scene, const std::st
     const int device_id = static_cast<int>(clouds.size());
     write_pcd(dataset / cloud_path(scene, scan), scan.load());
     clouds.push_back({device_id, cloud_path(scene, scan), "", scan.sensor});
-    starts.push_back({device_id, first_start(experiment, trial_scene, scan), ""});
+    starts.push_back(
+        {device_id, first_start(experiment, trial_scene, to_reference(scene, scan)), ""});
   }
   write_whole_file(folder / "initial_extrinsic.txt", pose_list_text(starts));
   write_whole_file(folder / "velocities.json", velocities_json(scene));
@@ -146,25 +147,24 @@ void draw_scene(const Scene& scene, const fs::path& dataset) {
   write_png(dataset / (scene.name + ".png"), side_by_side(images, kGap_px));
 }
 
-std::vector<Scene> scenes_to_write(Experiment& experiment) {
+std::vector<SceneGroup> groups_to_write(Experiment& experiment) {
   const fs::path data = data_root({});
-  std::vector<Scene> scenes = scenes_of(experiment, data);
-  for (const Scene& scene : scenes) {
-    if (scene.reference.file.empty()) continue;
+  std::vector<SceneGroup> groups = scene_groups(experiment, data);
+  for (const SceneGroup& group : groups) {
+    if (group.scenes.front().reference.file.empty()) continue;
     throw InputError(experiment.file, "/dataset/type",
                      "expected a dataset that is simulated, found \"" + experiment.dataset.name() +
                          "\", whose clouds are files already");
   }
-  resolve_starts(experiment, scenes, data);
-  return scenes;
+  resolve_starts(experiment, groups, data);
+  return groups;
 }
 
 /// What decides the bytes of the dataset.
 std::string recipe_json(const Experiment& experiment) {
   nlohmann::ordered_json json = {
       {"dataset", nlohmann::ordered_json::parse(experiment.dataset.resolved())},
-      {"starts", nlohmann::ordered_json::parse(
-                     "{" + start_table().members_json(experiment.starts, {"trials"}) + "}")},
+      {"starts", nlohmann::ordered_json::parse(starts_json(experiment.starts, {"trials"}))},
       {"seed", experiment.seed}};
   if (experiment.scenes_per_trial > 1) json["scenes_per_trial"] = experiment.scenes_per_trial;
   return json.dump(2) + "\n";
@@ -277,7 +277,7 @@ std::vector<VelocityRow> write_scenes(const SimulateOptions& options, const Expe
 int simulate_command(const SimulateOptions& options, const Catalogue& catalogue, std::ostream& out,
                      std::ostream& progress_out) {
   Experiment experiment = load_experiment(options.experiment, catalogue);
-  const std::vector<Scene> started = scenes_to_write(experiment);
+  const std::vector<SceneGroup> started = groups_to_write(experiment);
   // Those that fill no group too: without them, the written dataset would have other groups.
   const std::vector<Scene> scenes = dataset_scenes(experiment, fs::path());
   const std::vector<OutputFile> copies = copies_of_given_files(experiment, options.out);

@@ -2,7 +2,6 @@
 
 #include "experiments/file/experiment.hpp"
 #include "experiments/report/output_files.hpp"
-#include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
 #include "framework/base/memory.hpp"
 #include "framework/base/text.hpp"
@@ -37,13 +36,13 @@ Columns<StartRow> start_columns() {
 }
 
 /// Throws InputError, with an estimate, if the list of starts does not fit into memory.
-void check_list_size(const Experiment& experiment, const std::vector<Scene>& scenes) {
+void check_list_size(const Experiment& experiment, const std::vector<SceneGroup>& groups) {
   // A row, and its text.
   constexpr double kBytesPerStart = sizeof(StartRow) + 400.0;
   double starts = 0.0;
-  for (const Scene& scene : scenes) {
+  for (const SceneGroup& group : groups) {
     starts += static_cast<double>(total_trials(experiment.starts)) *
-              static_cast<double>(scene.sensors.size());
+              static_cast<double>(group.pairs.size());
   }
   require_memory(kBytesPerStart * starts, "a list of " + fixed_number(starts, 0) + " starts",
                  "ask for fewer --trials", {experiment.file, "", ""});
@@ -79,14 +78,14 @@ std::set<std::string> given_files(const Experiment& experiment) {
   return names;
 }
 
-std::string starts_csv(const Experiment& experiment, const std::vector<Scene>& scenes) {
-  check_list_size(experiment, scenes);
+std::string starts_csv(const Experiment& experiment, const std::vector<SceneGroup>& groups) {
+  check_list_size(experiment, groups);
   std::vector<StartRow> rows;
-  for (const Scene& scene : scenes) {
-    for (const SensorScan& scan : scene.sensors) {
+  for (const SceneGroup& group : groups) {
+    for (const CalibratedPair& pair : group.pairs) {
       for (int trial = 0; trial < total_trials(experiment.starts); ++trial) {
         rows.push_back(
-            {scene.name, scan.sensor, trial, start_of(experiment, scene.name, scan, trial)});
+            {group.name, pair.name, trial, start_of(experiment, group.name, pair, trial)});
       }
     }
   }
@@ -95,11 +94,16 @@ std::string starts_csv(const Experiment& experiment, const std::vector<Scene>& s
 
 int starts_command(const StartsOptions& options, const Catalogue& catalogue, std::ostream& out) {
   Experiment experiment = load_experiment(options.experiment, catalogue);
+  if (experiment.starts.is_none) {
+    throw InputError(experiment.starts_file, "/starts",
+                     "expected starts that are drawn or listed, found \"none\": each trial starts "
+                     "at the identity");
+  }
   set_trials(experiment.starts, options.trials);
   const std::filesystem::path root = data_root(options.data);
-  const std::vector<Scene> scenes = scenes_of(experiment, root);
-  resolve_starts(experiment, scenes, root);
-  const std::string bytes = starts_csv(experiment, scenes);
+  const std::vector<SceneGroup> groups = scene_groups(experiment, root);
+  resolve_starts(experiment, groups, root);
+  const std::string bytes = starts_csv(experiment, groups);
   if (options.out.empty()) {
     out << bytes;
   } else {

@@ -1,5 +1,7 @@
 #include "experiments/file/experiment_keys.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace croon::experiments {
 namespace {
 
@@ -49,6 +51,26 @@ Table<VariantKeys> variant_table() {
   };
 }
 
+/// An object that start_table reads, or kNoStarts.
+params::Parameter<Experiment> starts_row() {
+  params::Parameter<Experiment> row = params::group(
+      "starts", &Experiment::starts, start_table(), {},
+      "How starts are drawn: a pose (R, t) moved to (R_d R, t + d); or a file of them; or "
+      "\"none\": "
+      "one trial of each scene and sensor, from the identity, for methods that need no initial "
+      "guess.");
+  row.doc.choices = {kNoStarts};
+  row.read = [read = row.read](Experiment& experiment, const params::Node& node,
+                               const params::StageBuilder& builder) {
+    if (node.has_members()) return read(experiment, node, builder);
+    if (node.value() != kNoStarts) return node.expected("an object or \"none\"");
+    experiment.starts.is_none = true;
+    experiment.starts.trials = 1;
+  };
+  row.json = [](const Experiment& experiment) { return starts_json(experiment.starts); };
+  return row;
+}
+
 }  // namespace
 
 const Table<Experiment>& kept_table() {
@@ -58,9 +80,7 @@ const Table<Experiment>& kept_table() {
                    "The experiment's name; its results go to results/NAME."),
       params::free_text("description", &P::description, "The question it answers."),
       params::required_slot("dataset", &P::dataset, "The scenes, the sensors and their clouds."),
-      params::group("starts", &P::starts, start_table(), {},
-                    "How starts are drawn: a pose (R, t) moved to (R_d R, t + d); or a file of "
-                    "them."),
+      starts_row(),
       params::integer("seed", &P::seed, "Every start is drawn from (seed, scene, sensor, trial)."),
       params::group("success", &P::success, success_table(), {},
                     "How near the truth a trial must end to count as a success."),

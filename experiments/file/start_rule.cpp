@@ -66,6 +66,11 @@ int level_count(const StartRule& rule) { return rule.sweep ? rule.sweep->levels 
 
 /// Why the rule has too many trials; empty if it has not.
 std::string excess_text(const StartRule& rule) {
+  if (rule.is_none && rule.trials > 1) {
+    return "expected 1, because trials without an initial guess (\"starts\": \"none\") do not "
+           "differ, found " +
+           std::to_string(rule.trials);
+  }
   const int levels = level_count(rule);
   if (rule.trials <= kMaxTrials / levels) return "";
   const std::string per_level =
@@ -124,6 +129,11 @@ const params::Table<StartRule>& start_table() {
   return table;
 }
 
+std::string starts_json(const StartRule& rule, const std::vector<std::string>& without) {
+  if (rule.is_none) return params::value_json(std::string(kNoStarts));
+  return "{" + start_table().members_json(rule, without) + "}";
+}
+
 int total_trials(const StartRule& rule) { return rule.trials * level_count(rule); }
 
 void set_trials(StartRule& rule, int trials) {
@@ -137,7 +147,7 @@ void set_trials(StartRule& rule, int trials) {
 std::string deciding_starts_json(const StartRule& rule) {
   StartRule nameless = rule;
   if (!rule.file.empty()) nameless.file = "*";
-  return "{" + start_table().members_json(nameless, {"trials"}) + "}";
+  return starts_json(nameless, {"trials"});
 }
 
 }  // namespace croon::experiments

@@ -53,7 +53,7 @@ struct StartTable {
 
 /// Where starts come from. They are drawn: the pose (R, t) moved to (R_d R, t + d) with
 /// R_d = Rz Ry Rx of three uniform draws and d of three more, in reference axes. Or a file lists
-/// them.
+/// them. Or there are none: each trial starts at the identity.
 struct StartRule {
   StartCentre around = StartCentre::truth;
   /// Half ranges of roll, pitch and yaw of R_d; all three 180 is uniform on SO(3).
@@ -65,10 +65,17 @@ struct StartRule {
   std::string file = {};                         ///< Of starts that are not drawn; else empty.
   std::string sha256 = {};                       ///< That the file must have; empty for any.
   std::shared_ptr<const StartTable> table = {};  ///< The file's content, once it is read.
+  bool is_none = false;                          ///< No initial guess; then there is one trial.
 };
+
+/// The word in the place of the object "starts" if trials have no initial guess.
+inline constexpr const char* kNoStarts = "none";
 
 /// The keys of "starts".
 const params::Table<StartRule>& start_table();
+
+/// Canonical JSON of the rule, without the keys of `without`.
+std::string starts_json(const StartRule& rule, const std::vector<std::string>& without = {});
 
 /// The number of trials per variant, scene and sensor: over all levels of a sweep.
 int total_trials(const StartRule& rule);

@@ -199,11 +199,7 @@ LoadedCloud recorded_cloud_from(const py::object& object, const std::string& wha
   LoadedCloud recorded;
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (cloud.points[i].isZero(0.0F)) {
-      ++recorded.dropped_non_finite;
-    } else if (recorded.add(cloud.points[i].cast<double>())) {
-      kept.push_back(i);
-    }
+    if (recorded.add(cloud.points[i].cast<double>())) kept.push_back(i);
   }
   std::vector<std::string> fields;
   for (const Channel& channel : cloud.channels) fields.push_back(channel.name);

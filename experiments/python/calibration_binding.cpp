@@ -10,6 +10,7 @@
 #include "experiments/python/interpreter.hpp"
 #include "experiments/python/interruptible.hpp"
 #include "experiments/python/stage_catalogue.hpp"
+#include "experiments/report/calibration_text.hpp"
 #include "framework/calibration/calibrate_rig.hpp"
 #include "framework/calibration/extrinsics.hpp"
 
@@ -83,12 +84,15 @@ CalibratedRig calibrated(const py::list& list, const py::dict& nominal, const py
   how.from_scratch = py::cast<bool>(options["from_scratch"]);
   how.seed = py::cast<std::uint64_t>(options["seed"]);
   how.jobs = py::cast<int>(options["jobs"]);
+  std::vector<std::string> unused;
+  for (const py::handle sentence : options["unused"]) unused.push_back(text_of(sentence));
   const std::shared_ptr<const Catalogue> stages = catalogue();
   CalibratedRig rig;
   interruptible([&](const std::function<void()>& check) {
     how.on_progress = [&](const std::string&, double) { check(); };
     rig = calibrate_rig(scenes, how, *stages);
     check();
+    rig.unused.insert(rig.unused.begin(), unused.begin(), unused.end());
   });
   return rig;
 }
@@ -149,23 +153,27 @@ py::object ground(const CalibratedRig& rig) {
                         pose.pitch_std_rad, pose.height_std_m);
 }
 
+/// In the frame of the reference; a sensor without a best guess has no pose.
 Extrinsics extrinsics_of(const CalibratedRig& rig) {
   Extrinsics extrinsics;
   extrinsics.parent = rig.reference;
   for (const CalibratedSensor& sensor : rig.sensors) {
-    if (!sensor.T_reference_sensor) continue;
-    extrinsics.poses.push_back(
-        {sensor.sensor, *sensor.T_reference_sensor, sensor.is_accepted, sensor.covariance});
+    extrinsics.poses.push_back({sensor.sensor, sensor.T_reference_sensor.value_or(RigidTransform()),
+                                sensor.is_accepted, sensor.covariance,
+                                sensor.T_reference_sensor.has_value()});
   }
   return extrinsics;
 }
 
-/// The text by file name; in the frame `parent` if `T_parent_reference` is not None.
+/// The text by file name; if `T_parent_reference` is not None, in the frame `parent`, with the
+/// reference as its first sensor.
 py::dict files(const CalibratedRig& rig, const std::string& format, bool with_rejected,
                const std::string& parent, const py::object& T_parent_reference) {
   Extrinsics extrinsics = extrinsics_of(rig);
   if (!T_parent_reference.is_none()) {
-    extrinsics = in_frame(extrinsics, parent, pose_from(T_parent_reference, "base"));
+    const RigidTransform pose = pose_from(T_parent_reference, "base");
+    extrinsics = in_frame(extrinsics, parent, pose);
+    extrinsics.poses.insert(extrinsics.poses.begin(), {rig.reference, pose});
   }
   py::dict texts;
   for (const ExtrinsicsFile& file : write_extrinsics(extrinsics, format, with_rejected)) {
@@ -187,7 +195,8 @@ void bind_calibration(py::module_& module) {
       .def("sensors", sensors)
       .def("motion", motion)
       .def("ground", ground)
-      .def("files", files);
+      .def("files", files)
+      .def("text", [](const R& rig) { return experiments::calibration_text(rig, false); });
   module.def("calibrate_rig", calibrated);
   module.def("pipelines", [] { return list_of(recommended_pipeline_names()); });
   module.def("pipeline_text", recommended_pipeline_text);

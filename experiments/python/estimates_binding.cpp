@@ -3,6 +3,7 @@
 #include "experiments/python/arrays.hpp"
 #include "experiments/python/bindings.hpp"
 #include "experiments/python/estimates.hpp"
+#include "experiments/run/trial_record.hpp"
 #include "framework/stage/rig_step.hpp"
 
 namespace croon::python {
@@ -123,10 +124,10 @@ void set_failure(RigEstimate& estimate, const py::object& reason) {
 }
 
 py::object trial_object(const Estimate& estimate) {
-  if (!estimate.trial) return py::none();
-  const TrialName& trial = *estimate.trial;
+  const experiments::TrialId* const trial = estimate.extras.find(experiments::kTrialId);
+  if (trial == nullptr) return py::none();
   return py::module_::import("croon._stages")
-      .attr("Trial")(trial.scene, trial.sensor, trial.number);
+      .attr("Trial")(trial->scene, trial->sensor, trial->trial);
 }
 
 }  // namespace
@@ -145,7 +146,7 @@ Estimate estimate_from(const py::object& result, Estimate given) {
   if (result.is_none()) {
     throw InputError("", "advance", "expected an estimate or a 4×4 pose, found None");
   }
-  given.T_target_source = pose_from(result, "advance");
+  given.set_pose(pose_from(result, "advance"));
   return given;
 }
 
@@ -165,8 +166,10 @@ void bind_estimates(py::module_& module) {
           "The sensor's cloud, preprocessed so far.")
       .def_property(
           "pose", [](const E& e) { return array_from(e.T_target_source); },
-          [](E& e, const py::object& pose) { e.T_target_source = pose_from(pose, "pose"); },
-          "The pose T_target_source, 4×4, float64: a copy. Assign the changed one.")
+          [](E& e, const py::object& pose) { e.set_pose(pose_from(pose, "pose")); },
+          "The pose T_target_source, 4×4, float64: a copy. Assign the changed one: its "
+          "information\n"
+          "and its covariance are then None, until they are assigned too.")
       .def_property(
           "information", [](const E& e) { return object_from(e.information); }, set_information,
           "The information matrix that this step computed, 6×6: roll, pitch, yaw (rad), x, y, z "
@@ -174,8 +177,7 @@ void bind_estimates(py::module_& module) {
           "None if it computes none.")
       .def_property("covariance", covariance_object, set_covariance,
                     "The covariance of the pose, 6×6: roll, pitch, yaw (rad), x, y, z (m) in the\n"
-                    "target's frame; None if no step has estimated it. A step that moves the pose\n"
-                    "assigns a new one, or there is none.")
+                    "target's frame; None if no step has estimated it. Assign it after the pose.")
       .def_property(
           "observability", [](const E& e) { return words_from(e.covariance); }, set_observability,
           "How well the data hold each degree of freedom, by its name: determined, weak or\n"

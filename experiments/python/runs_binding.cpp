@@ -68,11 +68,11 @@ py::list starts(const py::dict& options) {
   {
     const WithoutGil no_gil;
     const CheckedRun run = check_run(request, *stages);
-    for (const Scene& scene : run.scenes) {
-      for (const SensorScan& scan : scene.sensors) {
+    for (const SceneGroup& group : run.groups) {
+      for (const CalibratedPair& pair : group.pairs) {
         for (int trial = 0; trial < total_trials(run.experiment.starts); ++trial) {
-          starts.emplace_back(scene.name, scan.sensor, trial,
-                              start_of(run.experiment, scene.name, scan, trial));
+          starts.emplace_back(group.name, pair.name, trial,
+                              start_of(run.experiment, group.name, pair, trial));
         }
       }
     }

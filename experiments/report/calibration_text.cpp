@@ -151,6 +151,12 @@ std::string ground_text(const GroundPose& ground) {
          " m of the reference over the road\n";
 }
 
+std::string heading_text(const HeadingOfTravel& heading) {
+  return "heading: yaw " + fixed_number(deg_from_rad(heading.yaw_rad), 2) + " +- " +
+         fixed_number(deg_from_rad(heading.yaw_std_rad), 2) +
+         " deg, the direction of travel in the frame of the reference\n";
+}
+
 }  // namespace
 
 std::string calibration_text(const CalibratedRig& rig, bool colours) {
@@ -162,6 +168,7 @@ std::string calibration_text(const CalibratedRig& rig, bool colours) {
   }
   text += motions_text(rig.motion);
   if (rig.ground) text += ground_text(*rig.ground);
+  if (rig.heading) text += heading_text(*rig.heading);
   return text + list_text("warning:", rig.warnings) + list_text("not used:", rig.unused);
 }
 

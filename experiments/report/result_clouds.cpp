@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
@@ -20,15 +19,20 @@ namespace fs = std::filesystem;
 
 using Pose = std::optional<RigidTransform>;
 
-/// The pose that all scenes agree on, of each sensor of `scene`; std::nullopt for a sensor without
-/// a usable pose in this scene, whose cloud may not be readable, or if no two trials agree.
-std::vector<Pose> agreed_poses(const Summary& summary, const Variant& variant, const Scene& scene) {
+/// The scene of `group` that is shown under the group's name: clouds of several scenes are not of
+/// one place.
+const Scene& shown(const SceneGroup& group) { return group.scenes.front(); }
+
+/// The pose that all scenes agree on, of each sensor of the shown scene; std::nullopt for a sensor
+/// without a usable pose in this group, whose cloud may not be readable, or if no two trials agree.
+std::vector<Pose> agreed_poses(const Summary& summary, const Variant& variant,
+                               const SceneGroup& group) {
   std::vector<Pose> poses;
-  for (const SensorScan& scan : scene.sensors) {
+  for (const SensorScan& scan : shown(group).sensors) {
     Pose& pose = poses.emplace_back();
     for (const SummaryRow* row : rows_of(summary, variant.name, scan.sensor)) {
       const auto is_it = [&](const SceneSummary& of) {
-        return of.scene == scene.name && of.consensus;
+        return of.scene == group.name && of.consensus;
       };
       const RigidTransform* const agreed = agreed_consensus(*row);
       if (agreed != nullptr && std::any_of(row->scenes.begin(), row->scenes.end(), is_it)) {
@@ -39,14 +43,16 @@ std::vector<Pose> agreed_poses(const Summary& summary, const Variant& variant, c
   return poses;
 }
 
-/// The picture of a scene whose sensors are at `poses`.
-Image drawn(const Experiment& experiment, const Scene& scene, const std::vector<Pose>& poses) {
+/// The picture of the shown scene, whose sensors are at `poses`.
+Image drawn(const Experiment& experiment, const SceneGroup& group, const std::vector<Pose>& poses) {
+  const Scene& scene = shown(group);
   std::vector<ColouredCloud> before = {{scene.reference.sensor, scene.reference.load().points, {}}};
   std::vector<ColouredCloud> after = before;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const SensorScan& scan = scene.sensors[i];
     const Points points = scan.load().points;
-    before.push_back({scan.sensor, points, start_of(experiment, scene.name, scan, 0)});
+    before.push_back(
+        {scan.sensor, points, start_of(experiment, group.name, to_reference(scene, scan), 0)});
     after.push_back({scan.sensor, points, *poses[i]});
   }
   const CloudView view = {20.0, 20.0, 0.05};
@@ -66,18 +72,6 @@ Points points_of(const SensorScan& scan) {
   } catch (const InputError&) {
     return {};
   }
-}
-
-/// The scenes without pairs of sensors; of a group the first one, under the name of the group:
-/// clouds of several scenes are not of one place.
-std::vector<Scene> shown_scenes(const std::vector<Scene>& scenes) {
-  std::vector<Scene> shown;
-  for (Scene& scene : without_pairs(scenes)) {
-    const std::string name = scene.name;
-    shown.push_back(scene.parts.empty() ? std::move(scene) : std::move(scene.parts.front()));
-    shown.back().name = name;
-  }
-  return shown;
 }
 
 /// The path `name`; a part that is too long for the name of a file is its beginning and a digest.
@@ -116,14 +110,14 @@ void write_clouds(const std::vector<ColouredCloud>& clouds, const fs::path& stem
 
 }  // namespace
 
-std::string draw_before_after(const Experiment& experiment, const std::vector<Scene>& scenes,
+std::string draw_before_after(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                               const Summary& summary, const fs::path& path) {
-  for (const Scene& scene : shown_scenes(scenes)) {
-    const std::vector<Pose> poses = agreed_poses(summary, experiment.variants.front(), scene);
+  for (const SceneGroup& group : groups) {
+    const std::vector<Pose> poses = agreed_poses(summary, experiment.variants.front(), group);
     if (std::count(poses.begin(), poses.end(), std::nullopt) > 0) continue;
     std::optional<Image> image;
     try {
-      image = drawn(experiment, scene, poses);
+      image = drawn(experiment, group, poses);
     } catch (const UnavailableFile&) {
       throw;
     } catch (const InputError&) {
@@ -131,35 +125,36 @@ std::string draw_before_after(const Experiment& experiment, const std::vector<Sc
                  // damaged.
     }
     write_png(path, *image);
-    return scene.name;
+    return group.name;
   }
   return "";
 }
 
-FusedClouds write_fused_clouds(const Experiment& experiment, const std::vector<Scene>& scenes,
+FusedClouds write_fused_clouds(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                                const Summary& summary, const fs::path& folder) {
   FusedClouds fused;
   std::vector<std::string>& complaints = fused.complaints;
-  for (const Scene& scene : shown_scenes(scenes)) {
+  for (const SceneGroup& group : groups) {
+    const Scene& scene = shown(group);
     Points reference;
     std::vector<Points> points;
     try {
       reference = points_of(scene.reference);
       for (const SensorScan& scan : scene.sensors) points.push_back(points_of(scan));
     } catch (const UnavailableFile& error) {
-      complaints.push_back(error.faults().front().line() + "; the clouds of scene " + scene.name +
+      complaints.push_back(error.faults().front().line() + "; the clouds of scene " + group.name +
                            " are not written");
       continue;
     }
     for (const Variant& variant : experiment.variants) {
-      const std::vector<Pose> poses = agreed_poses(summary, variant, scene);
+      const std::vector<Pose> poses = agreed_poses(summary, variant, group);
       std::vector<ColouredCloud> clouds = {{scene.reference.sensor, reference, {}}};
       for (std::size_t i = 0; i < poses.size(); ++i) {
         if (poses[i]) clouds.push_back({scene.sensors[i].sensor, points[i], *poses[i]});
       }
       if (clouds.size() == 1) continue;
       fused.is_any = true;
-      const fs::path name = short_path(variant.name) / short_path(scene.name);
+      const fs::path name = short_path(variant.name) / short_path(group.name);
       const fs::path stem = folder / name;
       make_folder_below(folder.parent_path(), folder.filename() / name.parent_path());
       try {

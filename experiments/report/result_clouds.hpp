@@ -6,7 +6,7 @@
 
 #include "experiments/analysis/summary.hpp"
 #include "experiments/file/experiment.hpp"
-#include "framework/stage/dataset.hpp"
+#include "experiments/run/scene_groups.hpp"
 
 namespace croon::experiments {
 
@@ -18,7 +18,7 @@ namespace croon::experiments {
 /// sensors have a result. Returns its name, or "" if there is none; then no picture is
 /// written. Throws InputError if the file cannot be written, and UnavailableFile if a cloud is not
 /// that of the run any more.
-std::string draw_before_after(const Experiment& experiment, const std::vector<Scene>& scenes,
+std::string draw_before_after(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                               const Summary& summary, const std::filesystem::path& path);
 
 /// What write_fused_clouds came to.
@@ -30,7 +30,7 @@ struct FusedClouds {
 /// Writes, for each variant and scene, the clouds of the rig in the reference's frame, each sensor
 /// at its agreed pose if it has a result in the scene: `folder/<variant>/<scene>.ply`, coloured by
 /// sensor, and `<scene>.vdb`, the leaves of 0.05 m that they occupy.
-FusedClouds write_fused_clouds(const Experiment& experiment, const std::vector<Scene>& scenes,
+FusedClouds write_fused_clouds(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                                const Summary& summary, const std::filesystem::path& folder);
 
 }  // namespace croon::experiments

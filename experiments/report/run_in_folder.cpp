@@ -45,12 +45,12 @@ bool has_damage(const CheckedRun& run, const Scene& scene) {
 /// other scenes, so that no stored trial says it: each run has to.
 std::set<std::string> damage_in_groups(const CheckedRun& run) {
   std::set<std::size_t> asked;
-  for (const PlannedStart& start : plan_trials(run.experiment, run.scenes, run.selection).starts) {
-    if (!run.scenes[start.scene].parts.empty()) asked.insert(start.scene);
+  for (const PlannedStart& start : plan_trials(run.experiment, run.groups, run.selection).starts) {
+    if (run.groups[start.scene].scenes.size() > 1) asked.insert(start.scene);
   }
   std::set<std::string> damage;
   for (const std::size_t group : asked) {
-    for (const Scene& scene : run.scenes[group].parts) {
+    for (const Scene& scene : run.groups[group].scenes) {
       if (!has_damage(run, scene)) continue;
       std::set<std::string> sensors;
       for (const SensorScan& scan : scene.sensors) sensors.insert(scan.sensor);
@@ -96,7 +96,7 @@ std::vector<std::string> fill_store(const CheckedRun& run, const OutputFolder& f
   };
   const std::vector<Plan> plans = how.no_share ? one_by_one(work.plan) : std::vector{work.plan};
   for (const Plan& plan : plans) {
-    run_trials(run.experiment, run.scenes, plan, run.jobs, listener);
+    run_trials(run.experiment, run.groups, plan, run.jobs, listener);
   }
   writer.finish();
   progress.finish();
@@ -110,11 +110,11 @@ bool has_lost_trials(const CheckedRun& run, const Plan& plan,
   const std::set<std::string> timed = last_timed_trials(timings);
   if (timed.empty()) return false;
   return std::any_of(plan.starts.begin(), plan.starts.end(), [&](const PlannedStart& start) {
-    const Scene& scene = run.scenes[start.scene];
+    const SceneGroup& group = run.groups[start.scene];
     const std::vector<std::size_t>& variants = plan.variants[start.variants];
     return std::any_of(variants.begin(), variants.end(), [&](std::size_t variant) {
-      return timed.count(timed_trial({run.experiment.variants[variant].name, scene.name,
-                                      scene.sensors[start.sensor].sensor, start.trial})) > 0;
+      return timed.count(timed_trial({run.experiment.variants[variant].name, group.name,
+                                      group.pairs[start.sensor].name, start.trial})) > 0;
     });
   });
 }
@@ -123,13 +123,13 @@ bool has_lost_trials(const CheckedRun& run, const Plan& plan,
 
 StoreHeader header_of(CheckedRun& run) {
   begin_this_build();
-  const std::vector<InputFile> inputs = record_inputs(run.scenes, run.data_root, run.jobs);
+  const std::vector<InputFile> inputs = record_inputs(run.groups, run.data_root, run.jobs);
   for (const InputFile& input : inputs) {
     if (input.points.value_or(0) == 0) run.damaged_files.insert(input.file);
   }
-  const Provenance provenance = provenance_of(run.experiment, run.scenes, inputs);
-  return header_of(run.experiment, run.scenes, provenance,
-                   manifest_json(run.experiment, run.scenes, inputs, provenance));
+  const Provenance provenance = provenance_of(run.experiment, run.groups, inputs);
+  return header_of(run.experiment, run.groups, provenance,
+                   manifest_json(run.experiment, run.groups, inputs, provenance));
 }
 
 Work work_of(const CheckedRun& run, StoreHeader header, const FolderRun& how) {
@@ -138,13 +138,13 @@ Work work_of(const CheckedRun& run, StoreHeader header, const FolderRun& how) {
   if (how.same_build) refuse_other_builds(path.string(), stored, header, kFreshRemedy);
   const std::vector<TrialIndex> done =
       how.fresh ? std::vector<TrialIndex>() : stored_trials(path, stored, header);
-  Work work{{}, {}, plan_trials(run.experiment, run.scenes, run.selection, done)};
+  Work work{{}, {}, plan_trials(run.experiment, run.groups, run.selection, done)};
   // A build that adds no trial has no part in the results.
   if (work.plan.trials == 0 && !stored.builds.empty()) header.builds.clear();
   work.header = continued(stored, std::move(header));
   work.stored = std::move(stored);
   if (done.empty()) return work;
-  const Plan all = plan_trials(run.experiment, run.scenes, run.selection);
+  const Plan all = plan_trials(run.experiment, run.groups, run.selection);
   work.done = all.trials - work.plan.trials;
   return work;
 }

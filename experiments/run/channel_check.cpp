@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "experiments/run/scene_groups.hpp"
-#include "experiments/run/sensor_pairs.hpp"
 #include "framework/base/error.hpp"
 
 namespace croon::experiments {
@@ -77,13 +75,17 @@ class Lacking {
   std::map<std::pair<std::string, std::string>, Entry> entries_;
 };
 
-/// The sensors that others are calibrated to.
-std::set<std::string> targets_of_pairs(const Scene& scene) {
-  std::set<std::string> targets;
-  for (const SensorScan& scan : scene.sensors) {
-    if (is_pair(scan)) targets.insert(scan.target);
+/// Notes what the clouds of `group` lack. With pairs of sensors the cloud of one is also a target:
+/// of all but the last sensor of a scene.
+void look_at(const SceneGroup& group, bool loops, const NeedsOfClouds& needs, Lacking& lacking) {
+  Needs both = needs.source;
+  both.insert(needs.target.begin(), needs.target.end());
+  for (const Scene& scene : group.scenes) {
+    lacking.look_at(scene.reference, needs.target);
+    for (const SensorScan& scan : scene.sensors) {
+      lacking.look_at(scan, loops && &scan != &scene.sensors.back() ? both : needs.source);
+    }
   }
-  return targets;
 }
 
 }  // namespace
@@ -100,21 +102,11 @@ std::set<std::string> needed_channels(const Experiment& experiment) {
   return names;
 }
 
-void check_channels(const Experiment& experiment, const std::vector<Scene>& scenes,
+void check_channels(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                     const Selection& selection) {
   const NeedsOfClouds needs = needs_of(experiment, selection);
   Lacking lacking(experiment.file);
-  for (const Scene* const scene : parts_of(scenes)) {
-    lacking.look_at(scene->reference, needs.target);
-    const std::set<std::string> targets = targets_of_pairs(*scene);
-    for (const SensorScan& scan : scene->sensors) {
-      // The clouds of a pair are those of its two sensors.
-      if (is_pair(scan)) continue;
-      Needs all = needs.source;
-      if (targets.count(scan.sensor) > 0) all.insert(needs.target.begin(), needs.target.end());
-      lacking.look_at(scan, all);
-    }
-  }
+  for (const SceneGroup& group : groups) look_at(group, experiment.loops, needs, lacking);
   std::vector<Fault> faults = lacking.faults();
   if (!faults.empty()) throw InputError(std::move(faults));
 }

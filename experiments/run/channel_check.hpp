@@ -14,7 +14,7 @@ std::set<std::string> needed_channels(const Experiment& experiment);
 /// Throws InputError if a cloud lacks a channel that a step of the variants of `selection` needs: a
 /// fault for each sensor and channel, with the first file that lacks it. A cloud whose channels are
 /// not known before it is read passes; the step then fails.
-void check_channels(const Experiment& experiment, const std::vector<Scene>& scenes,
+void check_channels(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                     const Selection& selection);
 
 }  // namespace croon::experiments

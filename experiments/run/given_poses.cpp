@@ -1,11 +1,11 @@
 #include "experiments/run/given_poses.hpp"
 
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <tuple>
 
 #include "experiments/run/pose_file.hpp"
+#include "experiments/run/trial_record.hpp"
 #include "framework/base/error.hpp"
 #include "framework/io/text_scan.hpp"
 
@@ -21,12 +21,11 @@ class GivenPoses final : public Step {
   explicit GivenPoses(PoseTable poses) : poses_(std::move(poses)) {}
 
   Estimate advance(Estimate estimate, Rng&) const override {
-    if (!estimate.trial) throw std::logic_error("given poses belong to named trials");
-    const TrialName& trial = *estimate.trial;
-    for (const int number : {trial.number, -1}) {
+    const TrialId& trial = estimate.extras.get(kTrialId);
+    for (const int number : {trial.trial, -1}) {
       const auto found = poses_.find({trial.scene, trial.sensor, number});
       if (found == poses_.end()) continue;
-      estimate.T_target_source = found->second;
+      estimate.set_pose(found->second);
       return estimate;
     }
     throw StageError("the file has no pose for this trial");
@@ -68,9 +67,9 @@ void add_step(Variant& variant, const PosesStep& poses) {
 
 }  // namespace
 
-void resolve_poses(Experiment& experiment, const std::vector<Scene>& scenes,
+void resolve_poses(Experiment& experiment, const std::vector<SceneGroup>& groups,
                    const std::filesystem::path& data_root) {
-  const DatasetNames names(scenes);
+  const DatasetNames names(groups);
   std::vector<Fault> faults;
   std::map<std::filesystem::path, PosesStep> steps;  // Of the files that were read.
   for (Variant& variant : experiment.variants) {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "experiments/file/experiment.hpp"
+#include "experiments/run/scene_groups.hpp"
 
 namespace croon::experiments {
 
@@ -11,7 +11,7 @@ namespace croon::experiments {
 /// "poses", which takes the pose of the trial from the file; the trial fails if the file has none.
 /// The step's parameter is the digest of the file. The files are added to Experiment::files. Throws
 /// InputError with the faults of all files.
-void resolve_poses(Experiment& experiment, const std::vector<Scene>& scenes,
+void resolve_poses(Experiment& experiment, const std::vector<SceneGroup>& groups,
                    const std::filesystem::path& data_root);
 
 }  // namespace croon::experiments

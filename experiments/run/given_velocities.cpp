@@ -4,8 +4,6 @@
 #include <set>
 
 #include "experiments/run/given_csv.hpp"
-#include "experiments/run/scene_groups.hpp"
-#include "experiments/run/sensor_pairs.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
 #include "framework/io/text_scan.hpp"
@@ -79,7 +77,7 @@ void hand_over(Variant& variant, NamedStep& named, const GivenMotionStep& step,
 
 std::vector<std::string> names_of(const std::vector<Scene>& scenes) {
   std::vector<std::string> names;
-  for (const Scene* const scene : parts_of(scenes)) names.push_back(scene->name);
+  for (const Scene& scene : scenes) names.push_back(scene.name);
   return names;
 }
 
@@ -87,7 +85,7 @@ std::vector<std::string> names_of(const std::vector<Scene>& scenes) {
 using Tables = std::map<std::filesystem::path, VelocityTable>;
 
 void resolve_step(Experiment& experiment, Variant& variant, NamedStep& named, Tables& tables,
-                  const std::vector<Scene>& scenes, const std::filesystem::path& data_root) {
+                  const std::vector<SceneGroup>& groups, const std::filesystem::path& data_root) {
   // Keeps the step while its successor is made.
   const params::Slot<Step> kept = named.step;
   const auto* const step = dynamic_cast<const GivenMotionStep*>(&*kept);
@@ -98,8 +96,12 @@ void resolve_step(Experiment& experiment, Variant& variant, NamedStep& named, Ta
   const std::filesystem::path path =
       found_input(experiment, file.name, data_root, at, "a file of velocities");
   if (tables.count(path) == 0) {
+    std::vector<std::string> needed;
+    for (const SceneGroup& group : groups) {
+      for (std::string& name : names_of(group.scenes)) needed.push_back(std::move(name));
+    }
     tables[path] =
-        read_velocity_file(path, names_of(dataset_scenes(experiment, data_root)), names_of(scenes));
+        read_velocity_file(path, names_of(dataset_scenes(experiment, data_root)), needed);
     experiment.files.push_back({file.name, tables[path].sha256});
   }
   const VelocityTable& table = tables[path];
@@ -151,14 +153,14 @@ VelocityTable read_velocity_file(const std::filesystem::path& path,
   return table;
 }
 
-void resolve_velocities(Experiment& experiment, const std::vector<Scene>& scenes,
+void resolve_velocities(Experiment& experiment, const std::vector<SceneGroup>& groups,
                         const std::filesystem::path& data_root) {
   Tables tables;
   std::vector<Fault> faults;
   for (Variant& variant : experiment.variants) {
     for (NamedStep& named : variant.pipeline) {
       collect_faults(faults,
-                     [&] { resolve_step(experiment, variant, named, tables, scenes, data_root); });
+                     [&] { resolve_step(experiment, variant, named, tables, groups, data_root); });
     }
   }
   if (!faults.empty()) throw InputError(without_repeats(faults));

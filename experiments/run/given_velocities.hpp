@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/file/experiment.hpp"
+#include "experiments/run/scene_groups.hpp"
 #include "framework/stage/given_motions.hpp"
 
 namespace croon::experiments {
@@ -31,7 +31,7 @@ VelocityTable read_velocity_file(const std::filesystem::path& path,
 /// Reads the files of velocities that steps of `experiment` name, and hands their content to the
 /// steps. The digest of the file becomes a parameter of the step; the files are added to
 /// Experiment::files. Throws InputError with the faults of all files.
-void resolve_velocities(Experiment& experiment, const std::vector<Scene>& scenes,
+void resolve_velocities(Experiment& experiment, const std::vector<SceneGroup>& groups,
                         const std::filesystem::path& data_root);
 
 }  // namespace croon::experiments

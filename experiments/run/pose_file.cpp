@@ -54,10 +54,10 @@ PoseLine read_line(const CsvLine& csv) {
 
 }  // namespace
 
-DatasetNames::DatasetNames(const std::vector<Scene>& scenes) {
-  for (const Scene& scene : scenes) {
-    scenes_.push_back(scene.name);
-    for (const SensorScan& scan : scene.sensors) sensors_[scene.name].push_back(scan.sensor);
+DatasetNames::DatasetNames(const std::vector<SceneGroup>& groups) {
+  for (const SceneGroup& group : groups) {
+    scenes_.push_back(group.name);
+    for (const SensorPair& pair : group.pairs) sensors_[group.name].push_back(pair.name);
   }
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/file/experiment.hpp"
 #include "experiments/run/given_csv.hpp"
+#include "experiments/run/scene_groups.hpp"
 
 namespace croon::experiments {
 
@@ -25,10 +25,10 @@ struct PoseLine {
   Start pose;
 };
 
-/// The scenes of a dataset and their sensors by name.
+/// The scenes or groups of a dataset and what is calibrated in them, by name.
 class DatasetNames {
  public:
-  explicit DatasetNames(const std::vector<Scene>& scenes);
+  explicit DatasetNames(const std::vector<SceneGroup>& groups);
 
   /// Whether the dataset has the scene, and the scene the sensor.
   bool has(const std::string& scene, const std::string& sensor) const;

@@ -11,8 +11,6 @@
 #include "experiments/run/channel_check.hpp"
 #include "experiments/run/given_poses.hpp"
 #include "experiments/run/given_velocities.hpp"
-#include "experiments/run/scene_groups.hpp"
-#include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/starts.hpp"
 #include "framework/base/error.hpp"
 #include "framework/io/text_scan.hpp"
@@ -37,17 +35,17 @@ void check_claimed_sensors(const Experiment& experiment, const std::vector<std::
 
 /// Throws InputError if a parameter of a step is of a sensor that no scene has: it would do
 /// nothing.
-void check_sensors_of_steps(const Experiment& experiment, const std::vector<Scene>& scenes,
+void check_sensors_of_steps(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                             const Selection& selection) {
   std::vector<std::string> sensors;
   std::set<std::string> known;
   const auto add = [&](const std::string& sensor) {
     if (known.insert(sensor).second) sensors.push_back(sensor);
   };
-  for (const Scene* const scene : parts_of(scenes)) {
-    add(scene->reference.sensor);
-    for (const SensorScan& scan : scene->sensors) {
-      if (!is_pair(scan)) add(scan.sensor);
+  for (const SceneGroup& group : groups) {
+    for (const Scene& scene : group.scenes) {
+      add(scene.reference.sensor);
+      for (const SensorScan& scan : scene.sensors) add(scan.sensor);
     }
   }
   std::vector<Fault> faults;
@@ -87,19 +85,19 @@ CheckedRun check_run(const RunRequest& request, const Catalogue& catalogue) {
     if (!request.shard.empty()) run.selection.shard = read_shard(request.shard);
   });
   collect_faults(faults, [&] {
-    run.scenes = scenes_of(run.experiment, run.data_root);
+    run.groups = scene_groups(run.experiment, run.data_root);
     // Each says what is wrong whatever the others find.
     collect_faults(faults, [&] {
-      resolve_starts(run.experiment, run.scenes, run.data_root);
-      check_plan_size(run.experiment, run.scenes, run.selection);
+      resolve_starts(run.experiment, run.groups, run.data_root);
+      check_plan_size(run.experiment, run.groups, run.selection);
     });
-    collect_faults(faults, [&] { check_channels(run.experiment, run.scenes, run.selection); });
+    collect_faults(faults, [&] { check_channels(run.experiment, run.groups, run.selection); });
     collect_faults(faults,
-                   [&] { check_sensors_of_steps(run.experiment, run.scenes, run.selection); });
-    collect_faults(faults, [&] { resolve_poses(run.experiment, run.scenes, run.data_root); });
-    collect_faults(faults, [&] { resolve_velocities(run.experiment, run.scenes, run.data_root); });
+                   [&] { check_sensors_of_steps(run.experiment, run.groups, run.selection); });
+    collect_faults(faults, [&] { resolve_poses(run.experiment, run.groups, run.data_root); });
+    collect_faults(faults, [&] { resolve_velocities(run.experiment, run.groups, run.data_root); });
     collect_faults(faults,
-                   [&] { check_claimed_sensors(run.experiment, sensor_names(run.scenes)); });
+                   [&] { check_claimed_sensors(run.experiment, sensor_names(run.groups)); });
   });
   if (!faults.empty()) throw InputError(std::move(faults));
   run.out = request.out;

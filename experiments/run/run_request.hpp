@@ -31,7 +31,7 @@ struct CheckedRun {
   Experiment experiment;
   Selection selection;
   std::filesystem::path data_root;
-  std::vector<Scene> scenes;
+  std::vector<SceneGroup> groups;
   std::filesystem::path out;
   int jobs = 1;
   std::set<std::string> damaged_files = {};  ///< Of clouds; known when all have been read once.

@@ -32,16 +32,16 @@ struct ScenePlan {
 /// rig, else a single one.
 using Unit = std::vector<const PlannedStart*>;
 
-/// A scene or a group of scenes with its clouds.
+/// A group of scenes with its clouds.
 struct LoadedGroup {
-  const Scene* group = nullptr;
+  const SceneGroup* group = nullptr;
   std::vector<LoadedScene> scenes;
 };
 
 /// What all scenes of a run have in common.
 struct Run {
   const Experiment& experiment;
-  const std::vector<Scene>& scenes;
+  const std::vector<SceneGroup>& groups;
   const Plan& plan;
   std::vector<PipelineTree> trees;  ///< By PlannedStart::variants.
   std::set<std::string> channels;   ///< That a step of a variant needs.
@@ -79,26 +79,27 @@ std::vector<Unit> units_of(const ScenePlan& plan, bool sees_rig) {
   return units;
 }
 
-/// The names of the sensors whose poses are estimated in the trials of `plan`: with a step that
-/// sees the rig also those whose results are known, because the others may depend on them.
-std::set<std::string> estimated_sensors(const Scene& group, const ScenePlan& plan, bool sees_rig) {
+/// The names of the sensors whose clouds the trials of `plan` need: with a step that sees the rig
+/// also those whose results are known, because the others may depend on them.
+std::set<std::string> needed_sensors(const SceneGroup& group, const ScenePlan& plan,
+                                     bool sees_rig) {
   std::set<std::string> names;
+  const auto add = [&](const SensorPair& pair) { names.insert({pair.source, pair.target}); };
   for (const PlannedStart* planned = plan.begin; planned != plan.end; ++planned) {
-    names.insert(group.sensors[planned->sensor].sensor);
+    add(group.pairs[planned->sensor]);
   }
-  if (!sees_rig) return names;
-  for (const SensorScan& scan : group.sensors) names.insert(scan.sensor);
+  if (sees_rig) std::for_each(group.pairs.begin(), group.pairs.end(), add);
   return names;
 }
 
 LoadedGroup load_group(const Run& run, const ScenePlan& plan) {
   LoadedGroup loaded;
-  loaded.group = &run.scenes[plan.begin->scene];
-  const std::set<std::string> sensors = estimated_sensors(*loaded.group, plan, run.sees_rig);
-  const std::vector<const Scene*> parts = parts_of(*loaded.group);
-  loaded.scenes.resize(parts.size());
-  for_each_in_parallel(parts.size(), [&](std::size_t i) {
-    loaded.scenes[i] = load_scene(*parts[i], sensors, run.experiment.seed, run.channels);
+  loaded.group = &run.groups[plan.begin->scene];
+  const std::set<std::string> sensors = needed_sensors(*loaded.group, plan, run.sees_rig);
+  const std::vector<Scene>& scenes = loaded.group->scenes;
+  loaded.scenes.resize(scenes.size());
+  for_each_in_parallel(scenes.size(), [&](std::size_t i) {
+    loaded.scenes[i] = load_scene(scenes[i], sensors, run.experiment.seed, run.channels);
   });
   return loaded;
 }
@@ -106,41 +107,39 @@ LoadedGroup load_group(const Run& run, const ScenePlan& plan) {
 /// The sensors of one trial in all scenes of its group, from one start for each sensor.
 struct Trial {
   Rig rig;
-  std::vector<std::size_t> sensors;  ///< Of the members of the rig, as indices in Scene::sensors.
-  bool is_available = true;          ///< Whether all clouds can be read now.
+  std::vector<std::size_t> pairs;  ///< Of the members of the rig, as indices in SceneGroup::pairs.
+  bool is_available = true;        ///< Whether all clouds can be read now.
 };
 
-/// Adds the sensor with the index `sensor` in one scene of the group.
-void add_member(Trial& trial, const Run& run, const Scene& group, std::size_t sensor,
+/// Adds the pair with the index `index` in one scene of the group, if the scene has it.
+void add_member(Trial& trial, const Run& run, const SceneGroup& group, std::size_t index,
                 const LoadedScene& loaded, int number) {
-  const SensorScan& scan = group.sensors[sensor];
-  const Scene& scene = *loaded.scene;
-  const std::size_t index = index_of(scene, scan.sensor);
-  if (index == scene.sensors.size()) return;
-  const CloudPair clouds = cloud_pair(loaded, index);
-  if (clouds.target_scan->unavailable || clouds.source_scan->unavailable) {
+  const CalibratedPair& pair = group.pairs[index];
+  const std::optional<CloudPair> clouds = cloud_pair(loaded, pair);
+  if (!clouds) return;
+  if (clouds->target->unavailable || clouds->source->unavailable) {
     trial.is_available = false;
     return;
   }
+  const Scene& scene = *loaded.scene;
   const StreamKey key =
-      trial_stream({run.experiment.seed, scene.name, group.reference.sensor, scan.sensor, number});
-  PipelineResult result = at_start(clouds.target_scan->cloud, clouds.source_scan->cloud,
-                                   start_of(run.experiment, group.name, scan, number));
-  const std::string& of_target = clouds.target_scan->failure;
-  result.failure = of_target.empty() ? clouds.source_scan->failure : of_target;
-  result.estimate.trial =
-      std::make_shared<const TrialName>(TrialName{group.name, scan.sensor, number});
-  trial.rig.push_back({scene.name, clouds.target, clouds.source, key, std::move(result)});
-  trial.sensors.push_back(sensor);
+      trial_stream({run.experiment.seed, scene.name, scene.reference.sensor, pair.name, number});
+  PipelineResult result = at_start(clouds->target->cloud, clouds->source->cloud,
+                                   start_of(run.experiment, group.name, pair, number));
+  const std::string& of_target = clouds->target->failure;
+  result.failure = of_target.empty() ? clouds->source->failure : of_target;
+  result.estimate.extras.put(kTrialId, {"", group.name, pair.name, number});
+  trial.rig.push_back({scene.name, pair.target, pair.source, key, std::move(result)});
+  trial.pairs.push_back(index);
 }
 
 Trial trial_at_start(const Run& run, const LoadedGroup& loaded, const Unit& unit) {
-  const Scene& group = *loaded.group;
+  const SceneGroup& group = *loaded.group;
   Trial trial;
   for (const LoadedScene& scene : loaded.scenes) {
-    for (std::size_t sensor = 0; sensor < group.sensors.size(); ++sensor) {
-      if (!run.sees_rig && sensor != unit.front()->sensor) continue;
-      add_member(trial, run, group, sensor, scene, unit.front()->trial);
+    for (std::size_t pair = 0; pair < group.pairs.size(); ++pair) {
+      if (!run.sees_rig && pair != unit.front()->sensor) continue;
+      add_member(trial, run, group, pair, scene, unit.front()->trial);
     }
   }
   return trial;
@@ -156,16 +155,16 @@ std::string lost_scenes(const std::vector<const RigMember*>& members) {
          (*first)->result.failure;
 }
 
-/// What the members of `rig` that are the sensor with the index `sensor` come to. A reason says in
-/// which scene of a group.
-PipelineResult result_of(const Scene& group, const Rig& rig,
-                         const std::vector<std::size_t>& sensors, std::size_t sensor) {
+/// What the members of `rig` come to that are the pair with the index `pair` of `pairs`. A reason
+/// says in which of several scenes.
+PipelineResult result_of(const SceneGroup& group, const Rig& rig,
+                         const std::vector<std::size_t>& pairs, std::size_t pair) {
   std::vector<const RigMember*> members;
   for (std::size_t i = 0; i < rig.size(); ++i) {
-    if (sensors[i] == sensor) members.push_back(&rig[i]);
+    if (pairs[i] == pair) members.push_back(&rig[i]);
   }
   PipelineResult result = result_of_sensor(members);
-  if (group.parts.empty()) return result;
+  if (group.scenes.size() == 1) return result;
   if (result.failure.empty()) {
     result.remark = lost_scenes(members);
   } else {
@@ -189,15 +188,15 @@ void run_unit(const Run& run, const LoadedGroup& loaded, const Unit& unit,
               const std::function<void(const TrialRecord&)>& at_end) {
   Trial trial = trial_at_start(run, loaded, unit);
   if (!trial.is_available) return;
-  const Scene& group = *loaded.group;
+  const SceneGroup& group = *loaded.group;
   const int number = unit.front()->trial;
   const auto record_variant = [&](std::size_t variant, const Rig& rig) {
     for (const PlannedStart* const planned : unit) {
       const std::vector<std::size_t>& list = run.plan.variants[planned->variants];
       if (std::find(list.begin(), list.end(), variant) == list.end()) continue;
-      const SensorScan& scan = group.sensors[planned->sensor];
-      at_end(record_of({run.experiment.variants[variant].name, group.name, scan.sensor, number},
-                       result_of(group, rig, trial.sensors, planned->sensor), scan,
+      const CalibratedPair& pair = group.pairs[planned->sensor];
+      at_end(record_of({run.experiment.variants[variant].name, group.name, pair.name, number},
+                       result_of(group, rig, trial.pairs, planned->sensor), pair.truth,
                        run.experiment.success));
     }
   };
@@ -221,7 +220,7 @@ std::vector<TimingRow> timings_of(const TrialRecord& record) {
 }
 
 void run_scene(const Run& run, const ScenePlan& plan, SerialListener& notify) {
-  const std::string& name = run.scenes[plan.begin->scene].name;
+  const std::string& name = run.groups[plan.begin->scene].name;
   notify([&](const RunListener& listener) { listener.on_scene(name); });
   const LoadedGroup loaded = load_group(run, plan);
   for (const LoadedScene& scene : loaded.scenes) {
@@ -229,7 +228,7 @@ void run_scene(const Run& run, const ScenePlan& plan, SerialListener& notify) {
       notify([&](const RunListener& listener) { listener.on_unavailable(fault); });
     }
   }
-  if (!loaded.group->parts.empty()) {
+  if (loaded.scenes.size() > 1) {
     for (const LoadedScene& scene : loaded.scenes) {
       for (const std::string& reason : damaged_clouds(scene)) {
         notify([&](const RunListener& listener) { listener.on_damaged(reason); });
@@ -288,10 +287,10 @@ bool sees_rig(const Experiment& experiment, const Plan& plan) {
 
 }  // namespace
 
-void run_trials(const Experiment& experiment, const std::vector<Scene>& scenes, const Plan& plan,
-                int jobs, const RunListener& listener) {
+void run_trials(const Experiment& experiment, const std::vector<SceneGroup>& groups,
+                const Plan& plan, int jobs, const RunListener& listener) {
   SerialListener notify(listener);
-  Run run{experiment, scenes, plan, {}, needed_channels(experiment), sees_rig(experiment, plan)};
+  Run run{experiment, groups, plan, {}, needed_channels(experiment), sees_rig(experiment, plan)};
   for (const std::vector<std::size_t>& variants : plan.variants) {
     run.trees.push_back(pipeline_tree(experiment, variants));
   }

@@ -32,7 +32,7 @@ struct RunListener {
 /// available. If a cloud is damaged or empty, or if a stage cannot go on, trials are `failed`;
 /// trials whose cloud is not available now (UnavailableFile) are left out; a std::logic_error ends
 /// the run.
-void run_trials(const Experiment& experiment, const std::vector<Scene>& scenes, const Plan& plan,
-                int jobs, const RunListener& listener);
+void run_trials(const Experiment& experiment, const std::vector<SceneGroup>& groups,
+                const Plan& plan, int jobs, const RunListener& listener);
 
 }  // namespace croon::experiments

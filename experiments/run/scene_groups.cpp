@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "framework/base/error.hpp"
@@ -45,76 +46,141 @@ bool is_same(const std::optional<RigidTransform>& a, const std::optional<RigidTr
          (a->translation - b->translation).cwiseAbs().maxCoeff() <= kSamePose;
 }
 
-/// Throws InputError unless the two scans of one sensor have the poses of one rig.
-void require_one_rig(const Experiment& experiment, const Scene& group, const SensorScan& known,
-                     const Scene& scene, const SensorScan& scan) {
-  for (const auto& [pose, what] :
-       {std::pair(&SensorScan::truth, "true"), std::pair(&SensorScan::nominal, "nominal")}) {
-    if (is_same(known.*pose, scan.*pose)) continue;
-    throw InputError(experiment.file, "/scenes_per_trial",
-                     std::string("expected one rig in all scenes of a trial, found another ") +
-                         what + " pose of sensor " + in_quotes(scan.sensor) + " in scene " +
-                         in_quotes(scene.name) + " than in " + in_quotes(group.parts.front().name));
+std::optional<RigidTransform> between(const std::optional<RigidTransform>& T_reference_target,
+                                      const std::optional<RigidTransform>& T_reference_source) {
+  if (!T_reference_target || !T_reference_source) return std::nullopt;
+  return T_reference_target->inverse() * *T_reference_source;
+}
+
+/// What is calibrated in one scene: each sensor to the reference and, with `loops`, to those before
+/// it.
+std::vector<CalibratedPair> pairs_of(const Scene& scene, bool loops) {
+  const std::vector<SensorScan>& scans = scene.sensors;
+  std::vector<CalibratedPair> pairs;
+  for (const SensorScan& scan : scans) pairs.push_back(to_reference(scene, scan));
+  if (!loops) return pairs;
+  for (auto target = scans.begin(); target != scans.end(); ++target) {
+    for (auto source = target + 1; source != scans.end(); ++source) {
+      pairs.push_back(
+          {sensor_pair(source->sensor, target->sensor), between(target->truth, source->truth),
+           between(target->nominal, source->nominal), between(target->initial, source->initial)});
+    }
+  }
+  return pairs;
+}
+
+/// Throws InputError if the sensors of `scene` and their pairs are more than a store may have.
+void check_number_of_pairs(const Scene& scene, const std::string& file) {
+  const std::size_t sensors = scene.sensors.size();
+  const std::size_t with_pairs = sensors + sensors * (sensors - 1) / 2;
+  if (sensors == 0 || with_pairs <= kMostVariants) return;
+  throw InputError(file, "/loops",
+                   "expected at most " + std::to_string(kMostVariants) +
+                       " sensors and pairs of them, found " + std::to_string(with_pairs) +
+                       " in scene " + in_quotes(scene.name));
+}
+
+/// Throws InputError if the name of a sensor could be that of a pair, or part of one.
+void check_names_for_pairs(const std::vector<Scene>& scenes, const std::string& file) {
+  std::vector<Fault> faults;
+  std::set<std::string> checked;
+  for (const Scene& scene : scenes) {
+    for (const SensorScan& scan : scene.sensors) {
+      if (scan.sensor.find(kBetweenSensors) == std::string::npos) continue;
+      if (!checked.insert(scan.sensor).second) continue;
+      faults.push_back({file, "/loops",
+                        std::string("expected sensors without \"") + kBetweenSensors +
+                            "\" in their names, which is that of pairs of sensors, found " +
+                            in_quotes(scan.sensor)});
+    }
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+/// Throws InputError if the scenes have different references: their poses are in different frames.
+void require_one_reference(const Experiment& experiment, const std::vector<Scene>& scenes) {
+  for (const Scene& scene : scenes) {
+    const std::string& first = scenes.front().reference.sensor;
+    if (scene.reference.sensor == first) continue;
+    throw InputError(experiment.file, "/dataset",
+                     "expected one reference in all scenes, found " + in_quotes(first) +
+                         " in scene " + in_quotes(scenes.front().name) + " and " +
+                         in_quotes(scene.reference.sensor) + " in " + in_quotes(scene.name));
   }
 }
 
-/// Adds the sensors of `scene` that the group does not have.
-void add_sensors(const Experiment& experiment, Scene& group, const Scene& scene) {
-  for (const SensorScan& scan : scene.sensors) {
-    const auto is_it = [&](const SensorScan& known) { return known.sensor == scan.sensor; };
-    const auto known = std::find_if(group.sensors.begin(), group.sensors.end(), is_it);
-    if (known == group.sensors.end()) {
-      group.sensors.push_back(scan);
+/// Throws InputError unless `pair` of `scene` has the poses that the first scene gave it: `known`.
+void require_one_rig(const Experiment& experiment, const SceneGroup& group,
+                     const CalibratedPair& known, const Scene& scene, const CalibratedPair& pair) {
+  for (const auto& [pose, what] : {std::pair(&CalibratedPair::truth, "true"),
+                                   std::pair(&CalibratedPair::nominal, "nominal")}) {
+    if (is_same(known.*pose, pair.*pose)) continue;
+    throw InputError(experiment.file, "/scenes_per_trial",
+                     std::string("expected one rig in all scenes of a trial, found another ") +
+                         what + " pose of sensor " + in_quotes(pair.name) + " in scene " +
+                         in_quotes(scene.name) + " than in " +
+                         in_quotes(group.scenes.front().name));
+  }
+}
+
+/// Adds what `scene` has and the group has not.
+void add_pairs(const Experiment& experiment, SceneGroup& group, const Scene& scene) {
+  for (CalibratedPair& pair : pairs_of(scene, experiment.loops)) {
+    const auto is_it = [&](const CalibratedPair& known) { return known.name == pair.name; };
+    const auto known = std::find_if(group.pairs.begin(), group.pairs.end(), is_it);
+    if (known == group.pairs.end()) {
+      group.pairs.push_back(std::move(pair));
     } else {
-      require_one_rig(experiment, group, *known, scene, scan);
+      require_one_rig(experiment, group, *known, scene, pair);
     }
   }
 }
 
-Scene group_of(const Experiment& experiment, std::vector<Scene> parts) {
-  Scene group = parts.front();
-  group.name += "+" + std::to_string(parts.size() - 1);
-  group.parts = std::move(parts);
-  for (const Scene& scene : group.parts) {
-    add_sensors(experiment, group, scene);
-    if (scene.kind != group.kind) group.kind = "mixed";
+SceneGroup group_of(const Experiment& experiment, std::vector<Scene> scenes) {
+  const Scene& first = scenes.front();
+  SceneGroup group{first.name, first.kind, {}, pairs_of(first, experiment.loops)};
+  group.scenes = std::move(scenes);
+  const std::size_t others = group.scenes.size() - 1;
+  if (others > 0) group.name += "+" + std::to_string(others);
+  for (std::size_t i = 1; i <= others; ++i) {
+    add_pairs(experiment, group, group.scenes[i]);
+    if (group.scenes[i].kind != group.kind) group.kind = "mixed";
   }
   return group;
 }
 
 }  // namespace
 
-std::vector<Scene> grouped(const Experiment& experiment, std::vector<Scene> scenes) {
+CalibratedPair to_reference(const Scene& scene, const SensorScan& scan) {
+  return {
+      {scan.sensor, scan.sensor, scene.reference.sensor}, scan.truth, scan.nominal, scan.initial};
+}
+
+std::vector<SceneGroup> scene_groups(const Experiment& experiment, std::vector<Scene> scenes) {
+  require_one_reference(experiment, scenes);
+  if (experiment.loops) {
+    check_names_for_pairs(scenes, experiment.file);
+    for (const Scene& scene : scenes) check_number_of_pairs(scene, experiment.file);
+  }
   const auto size = static_cast<std::size_t>(experiment.scenes_per_trial);
-  if (size == 1) return scenes;
-  if (scenes.size() < size) {
+  if (size > 1 && scenes.size() < size) {
     throw InputError(experiment.file, "/scenes_per_trial",
                      "expected at most the number of scenes, " + std::to_string(scenes.size()) +
                          ", found " + std::to_string(size));
   }
-  std::vector<Scene> groups;
+  std::vector<SceneGroup> groups;
   for (const std::vector<std::size_t>& indices :
        drawn_groups(scenes.size(), size, experiment.seed)) {
-    std::vector<Scene> parts;
-    for (const std::size_t index : indices) parts.push_back(std::move(scenes[index]));
-    groups.push_back(group_of(experiment, std::move(parts)));
+    std::vector<Scene> members;
+    for (const std::size_t index : indices) members.push_back(std::move(scenes[index]));
+    groups.push_back(group_of(experiment, std::move(members)));
   }
   return groups;
 }
 
-std::vector<const Scene*> parts_of(const Scene& scene) {
-  if (scene.parts.empty()) return {&scene};
-  std::vector<const Scene*> parts;
-  for (const Scene& part : scene.parts) parts.push_back(&part);
-  return parts;
-}
-
-std::vector<const Scene*> parts_of(const std::vector<Scene>& scenes) {
-  std::vector<const Scene*> parts;
-  for (const Scene& scene : scenes) {
-    for (const Scene* const part : parts_of(scene)) parts.push_back(part);
-  }
-  return parts;
+std::vector<SceneGroup> scene_groups(const Experiment& experiment,
+                                     const std::filesystem::path& data_root) {
+  return scene_groups(experiment, dataset_scenes(experiment, data_root));
 }
 
 }  // namespace croon::experiments

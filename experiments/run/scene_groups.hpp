@@ -1,27 +1,47 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/file/experiment.hpp"
+#include "experiments/run/sensor_pairs.hpp"
 
 namespace croon::experiments {
 
-/// The scenes that trials calibrate from: `scenes` themselves if `scenes_per_trial` of the
-/// experiment is 1. Else groups of so many of them, drawn from the experiment's seed and the number
-/// of scenes alone, in the order of their first scenes. A group stands where a scene does (see
-/// Scene::parts). No two groups share a scene, so their trials are independent; scenes that fill no
-/// group are left out. The sensors of a group are those of all its scenes. The name of a group is
-/// that of its first scene and the number of the others: "000003+4". The initial poses of
-/// recordings may differ between scenes: a trial starts near that of the first. Throws InputError
-/// if there are fewer scenes than a group has, or if the reference, or the true or nominal pose of
-/// a sensor, differs between the scenes of a group, which then have no common rig.
-std::vector<Scene> grouped(const Experiment& experiment, std::vector<Scene> scenes);
+/// What a trial calibrates: a sensor to the reference, under the sensor's name, or a sensor to
+/// another one; with the poses T_target_source that are known.
+struct CalibratedPair : SensorPair {
+  std::optional<RigidTransform> truth, nominal, initial;
+};
 
-/// The scenes of all groups one by one; `scenes` if they are no groups.
-std::vector<const Scene*> parts_of(const std::vector<Scene>& scenes);
+/// The scenes from which a trial calibrates one rig.
+struct SceneGroup {
+  /// The name of the only scene; of several the first one's and the number of others, "000003+4".
+  std::string name;
+  std::string kind;           ///< That of all scenes, else "mixed".
+  std::vector<Scene> scenes;  ///< In the order of the dataset; at least one.
+  /// All that some scene has, with the poses of the first one that has it.
+  std::vector<CalibratedPair> pairs;
+};
 
-/// The scenes of a group; the scene itself if it is none.
-std::vector<const Scene*> parts_of(const Scene& scene);
+/// `scan` of `scene`, calibrated to the reference.
+CalibratedPair to_reference(const Scene& scene, const SensorScan& scan);
+
+/// The scenes of the experiment's dataset, which have one reference, in groups of
+/// `scenes_per_trial`: drawn from the experiment's seed and the number of scenes alone, in the
+/// order of their first scenes. No two groups share a scene, so their trials are independent;
+/// scenes that fill no group are left out. If the experiment has `loops`, each sensor of a scene is
+/// also calibrated to those before it: T_target_source = T_reference_target^-1 T_reference_source.
+/// The initial poses of recordings may differ between the scenes of a group: a trial starts near
+/// that of the first. Throws InputError as dataset_scenes; if there are fewer scenes than a group
+/// has; if the reference differs between scenes, or the true or nominal pose of a sensor within a
+/// group, which then has no common rig; and if the name of a sensor could be that of a pair.
+std::vector<SceneGroup> scene_groups(const Experiment& experiment,
+                                     const std::filesystem::path& data_root);
+
+/// The same of the scenes of a dataset that were read before.
+std::vector<SceneGroup> scene_groups(const Experiment& experiment, std::vector<Scene> scenes);
 
 }  // namespace croon::experiments

@@ -1,52 +1,13 @@
 #include "experiments/run/sensor_pairs.hpp"
 
-#include <algorithm>
 #include <set>
 
-#include "experiments/run/scene_groups.hpp"
 #include "framework/base/error.hpp"
 #include "framework/io/text_scan.hpp"
 #include "framework/recording/recording.hpp"
 
 namespace croon::experiments {
 namespace {
-
-std::optional<RigidTransform> between(const std::optional<RigidTransform>& T_reference_target,
-                                      const std::optional<RigidTransform>& T_reference_source) {
-  if (!T_reference_target || !T_reference_source) return std::nullopt;
-  return T_reference_target->inverse() * *T_reference_source;
-}
-
-SensorScan pair_scan(const SensorScan& source, const SensorScan& target) {
-  SensorScan pair = source;
-  pair.sensor = sensor_pair(source.sensor, target.sensor).name;
-  pair.source = source.sensor;
-  pair.target = target.sensor;
-  pair.truth = between(target.truth, source.truth);
-  pair.nominal = between(target.nominal, source.nominal);
-  pair.initial = between(target.initial, source.initial);
-  return pair;
-}
-
-void add_pairs(Scene& scene) {
-  const std::vector<SensorScan> sensors = scene.sensors;
-  for (std::size_t target = 0; target < sensors.size(); ++target) {
-    for (std::size_t source = target + 1; source < sensors.size(); ++source) {
-      scene.sensors.push_back(pair_scan(sensors[source], sensors[target]));
-    }
-  }
-}
-
-/// Throws InputError if the sensors of `scene` and their pairs are more than a store may have.
-void check_number_of_pairs(const Scene& scene, const std::string& file) {
-  const std::size_t sensors = scene.sensors.size();
-  const std::size_t with_pairs = sensors + sensors * (sensors - 1) / 2;
-  if (sensors == 0 || with_pairs <= kMostVariants) return;
-  throw InputError(file, "/loops",
-                   "expected at most " + std::to_string(kMostVariants) +
-                       " sensors and pairs of them, found " + std::to_string(with_pairs) +
-                       " in scene " + in_quotes(scene.name));
-}
 
 void check_name(const std::string& what, const std::string& name, const std::string& file,
                 std::vector<Fault>& faults) {
@@ -72,35 +33,6 @@ void check_meanings(const Scene& scene, const std::string& file, std::vector<Fau
   }
 }
 
-/// Throws InputError if the name of a sensor could be that of a pair, or part of one.
-void check_names_for_pairs(const std::vector<Scene>& scenes, const std::string& file) {
-  std::vector<Fault> faults;
-  std::set<std::string> checked;
-  for (const Scene& scene : scenes) {
-    for (const SensorScan& scan : scene.sensors) {
-      if (scan.sensor.find(kBetweenSensors) == std::string::npos) continue;
-      if (!checked.insert(scan.sensor).second) continue;
-      faults.push_back({file, "/loops",
-                        std::string("expected sensors without \"") + kBetweenSensors +
-                            "\" in their names, which is that of pairs of sensors, found " +
-                            in_quotes(scan.sensor)});
-    }
-  }
-  if (!faults.empty()) throw InputError(std::move(faults));
-}
-
-/// Throws InputError if the scenes have different references: their poses are in different frames.
-void require_one_reference(const Experiment& experiment, const std::vector<Scene>& scenes) {
-  for (const Scene& scene : scenes) {
-    const std::string& first = scenes.front().reference.sensor;
-    if (scene.reference.sensor == first) continue;
-    throw InputError(experiment.file, "/dataset",
-                     "expected one reference in all scenes, found " + in_quotes(first) +
-                         " in scene " + in_quotes(scenes.front().name) + " and " +
-                         in_quotes(scene.reference.sensor) + " in " + in_quotes(scene.name));
-  }
-}
-
 }  // namespace
 
 void check_names(const std::vector<Scene>& scenes, const std::string& file) {
@@ -117,8 +49,6 @@ void check_names(const std::vector<Scene>& scenes, const std::string& file) {
   }
   if (!faults.empty()) throw InputError(without_repeats(faults));
 }
-
-bool is_pair(const SensorScan& scan) { return !scan.target.empty(); }
 
 SensorPair sensor_pair(const std::string& source, const std::string& target) {
   return {source + kBetweenSensors + target, source, target};
@@ -143,29 +73,6 @@ std::vector<Scene> dataset_scenes(const Experiment& experiment,
     }
     throw InputError(std::move(faults));
   }
-}
-
-std::vector<Scene> scenes_of(const Experiment& experiment, const std::filesystem::path& data_root) {
-  std::vector<Scene> scenes = dataset_scenes(experiment, data_root);
-  require_one_reference(experiment, scenes);
-  if (experiment.loops) {
-    check_names_for_pairs(scenes, experiment.file);
-    for (Scene& scene : scenes) {
-      check_number_of_pairs(scene, experiment.file);
-      add_pairs(scene);
-    }
-  }
-  return grouped(experiment, std::move(scenes));
-}
-
-std::vector<Scene> without_pairs(std::vector<Scene> scenes) {
-  for (Scene& scene : scenes) {
-    // In a group, sensors that its first scene lacks stand behind pairs.
-    std::vector<SensorScan>& scans = scene.sensors;
-    scans.erase(std::remove_if(scans.begin(), scans.end(), is_pair), scans.end());
-    scene.parts = without_pairs(std::move(scene.parts));
-  }
-  return scenes;
 }
 
 }  // namespace croon::experiments

@@ -18,27 +18,17 @@ struct SensorPair {
   std::string target;  ///< "front", in whose frame.
 };
 
-/// Whether `scan` is a pair of sensors and not a sensor of the dataset.
-bool is_pair(const SensorScan& scan);
-
 /// The pair of the two sensors.
 SensorPair sensor_pair(const std::string& source, const std::string& target);
 
 /// The pair whose name is `name` and whose target is `target`.
 SensorPair named_pair(const std::string& name, const std::string& target);
 
-/// The scenes of the experiment's dataset without pairs. Throws InputError as Dataset::scenes and
-/// check_names; a fault of the dataset without a file, at a pointer of its parameters, is one of
-/// the experiment's file at /dataset.
+/// The scenes of the experiment's dataset. Throws InputError as Dataset::scenes and check_names; a
+/// fault of the dataset without a file, at a pointer of its parameters, is one of the experiment's
+/// file at /dataset.
 std::vector<Scene> dataset_scenes(const Experiment& experiment,
                                   const std::filesystem::path& data_root);
-
-/// The scenes of the experiment's dataset, which have one reference. If the experiment has `loops`,
-/// each pair of a scene's sensors is appended as another sensor: the later one is calibrated to the
-/// earlier one, with the poses T_target_source = T_reference_target^-1 T_reference_source. Scenes
-/// are then `grouped`. Throws InputError as dataset_scenes and `grouped`, and if the name of a
-/// sensor could be that of a pair.
-std::vector<Scene> scenes_of(const Experiment& experiment, const std::filesystem::path& data_root);
 
 /// Throws InputError if the name of a scene or a sensor cannot stand in tables, figures and paths:
 /// it must be UTF-8 without control characters, and not begin with a sign or a dot. Spreadsheets
@@ -46,8 +36,5 @@ std::vector<Scene> scenes_of(const Experiment& experiment, const std::filesystem
 /// name, or a sensor the name "all", which stands for all of them. `file` is named if a scan has no
 /// file.
 void check_names(const std::vector<Scene>& scenes, const std::string& file);
-
-/// The scenes without pairs of sensors, as the dataset has them.
-std::vector<Scene> without_pairs(std::vector<Scene> scenes);
 
 }  // namespace croon::experiments

@@ -36,15 +36,16 @@ Eigen::Vector3d uniform_direction(Rng& rng) {
   return {radius * std::cos(angle), radius * std::sin(angle), height};
 }
 
-/// Which centres `scan` has, for the message.
-std::string centres_of(const SensorScan& scan) {
+/// Which centres `pair` has, for the message.
+std::string centres_of(const CalibratedPair& pair) {
   std::string known;
   for (const auto& [word, centre] : kStartCentres) {
-    if (!centre_pose(centre, scan)) continue;
+    if (!centre_pose(centre, pair)) continue;
     known += (known.empty() ? "\"" : ", \"") + word + "\"";
   }
   return known.empty() ? "it has none at all: truth.json or nominal.json gives the poses of a "
-                         "recording by the names of the sensors"
+                         "recording by the names of the sensors, and \"starts\": \"none\" needs no "
+                         "pose"
                        : "it has " + known;
 }
 
@@ -83,26 +84,27 @@ struct MisspeltPose {
 
 /// Throws InputError, with a line per name, if poses have a name like that of a sensor without one:
 /// its errors would be measured against nothing, without a word.
-void check_names(const std::vector<Scene>& scenes) {
+void check_names(const std::vector<SceneGroup>& groups) {
   std::set<std::string> sensors;
-  for (const Scene& scene : scenes) {
-    for (const SensorScan& scan : scene.sensors) sensors.insert(scan.sensor);
+  for (const SceneGroup& group : groups) {
+    for (const SensorPair& pair : group.pairs) sensors.insert(pair.name);
   }
   std::map<std::pair<std::string, std::string>, MisspeltPose> found;  // By file and name.
-  for (const Scene& scene : scenes) {
-    for (const SensorScan& scan : scene.sensors) {
+  for (const SceneGroup& group : groups) {
+    const Scene& first = group.scenes.front();
+    for (const CalibratedPair& pair : group.pairs) {
       const auto look = [&](bool has_pose, const std::vector<UnusedPose>& unused,
                             const std::string& kind) {
         if (has_pose) return;
-        const UnusedPose* const pose = misspelt(scan.sensor, unused);
+        const UnusedPose* const pose = misspelt(pair.name, unused);
         if (pose == nullptr || sensors.count(pose->sensor) > 0) return;
         MisspeltPose& of_name = found[{pose->file, pose->sensor}];
-        of_name.sensor = scan.sensor;
+        of_name.sensor = pair.name;
         of_name.kind = kind;
-        of_name.scenes.push_back(scene.name);
+        of_name.scenes.push_back(group.name);
       };
-      look(scan.truth.has_value(), scene.unused_truth, "true");
-      look(scan.nominal.has_value(), scene.unused_nominal, "nominal");
+      look(pair.truth.has_value(), first.unused_truth, "true");
+      look(pair.nominal.has_value(), first.unused_nominal, "nominal");
     }
   }
   std::vector<Fault> faults;
@@ -117,15 +119,15 @@ void check_names(const std::vector<Scene>& scenes) {
 }
 
 /// Throws InputError, with a line per sensor, if a scene has no pose to draw starts around.
-void check_centres(const Experiment& experiment, const std::vector<Scene>& scenes) {
+void check_centres(const Experiment& experiment, const std::vector<SceneGroup>& groups) {
   const StartCentre around = experiment.starts.around;
   std::map<std::string, MissingPose> missing;
-  for (const Scene& scene : scenes) {
-    for (const SensorScan& scan : scene.sensors) {
-      if (centre_pose(around, scan)) continue;
-      MissingPose& of_sensor = missing[scan.sensor];
-      of_sensor.scenes.push_back(scene.name);
-      of_sensor.instead = centres_of(scan);
+  for (const SceneGroup& group : groups) {
+    for (const CalibratedPair& pair : group.pairs) {
+      if (centre_pose(around, pair)) continue;
+      MissingPose& of_sensor = missing[pair.name];
+      of_sensor.scenes.push_back(group.name);
+      of_sensor.instead = centres_of(pair);
     }
   }
   std::vector<Fault> faults;
@@ -141,9 +143,9 @@ void check_centres(const Experiment& experiment, const std::vector<Scene>& scene
 /// Collects the lines of a file, in any order.
 class StartLines {
  public:
-  explicit StartLines(const std::vector<Scene>& scenes) {
-    for (const Scene& scene : scenes) {
-      for (const SensorScan& scan : scene.sensors) starts_[{scene.name, scan.sensor}];
+  explicit StartLines(const std::vector<SceneGroup>& groups) {
+    for (const SceneGroup& group : groups) {
+      for (const SensorPair& pair : group.pairs) starts_[{group.name, pair.name}];
     }
   }
 
@@ -183,10 +185,10 @@ class StartLines {
 
 }  // namespace
 
-const std::optional<RigidTransform>& centre_pose(StartCentre around, const SensorScan& scan) {
-  if (around == StartCentre::nominal) return scan.nominal;
-  if (around == StartCentre::initial) return scan.initial;
-  return scan.truth;
+const std::optional<RigidTransform>& centre_pose(StartCentre around, const CalibratedPair& pair) {
+  if (around == StartCentre::nominal) return pair.nominal;
+  if (around == StartCentre::initial) return pair.initial;
+  return pair.truth;
 }
 
 Start draw_start(const StartRule& rule, const RigidTransform& centre, std::uint64_t seed,
@@ -224,25 +226,27 @@ Start draw_start(const StartRule& rule, const RigidTransform& centre, std::uint6
   return {unit_quaternion(start.rotation), start.translation};
 }
 
-Start start_of(const Experiment& experiment, const std::string& scene, const SensorScan& scan,
+Start start_of(const Experiment& experiment, const std::string& scene, const CalibratedPair& pair,
                int trial) {
   const StartRule& rule = experiment.starts;
+  if (rule.is_none) return {};
   if (rule.table) {
-    return rule.table->starts.at({scene, scan.sensor}).at(static_cast<std::size_t>(trial));
+    return rule.table->starts.at({scene, pair.name}).at(static_cast<std::size_t>(trial));
   }
-  return draw_start(rule, centre_pose(rule.around, scan).value(), experiment.seed, scene,
-                    scan.sensor, trial);
+  return draw_start(rule, centre_pose(rule.around, pair).value(), experiment.seed, scene, pair.name,
+                    trial);
 }
 
-void resolve_starts(Experiment& experiment, const std::vector<Scene>& scenes,
+void resolve_starts(Experiment& experiment, const std::vector<SceneGroup>& groups,
                     const std::filesystem::path& data_root) {
   StartRule& rule = experiment.starts;
-  check_names(scenes);
-  if (rule.file.empty()) return check_centres(experiment, scenes);
+  check_names(groups);
+  if (rule.is_none) return;
+  if (rule.file.empty()) return check_centres(experiment, groups);
   const std::filesystem::path path =
       found_input(experiment, rule.file, data_root, {experiment.starts_file, "/starts/file", ""},
                   "a file of starts");
-  rule.table = std::make_shared<const StartTable>(read_start_file(path, scenes));
+  rule.table = std::make_shared<const StartTable>(read_start_file(path, groups));
   if (!rule.sha256.empty() && rule.sha256 != rule.table->sha256) {
     throw InputError(
         experiment.starts_file, "/starts/sha256",
@@ -258,10 +262,11 @@ void resolve_starts(Experiment& experiment, const std::vector<Scene>& scenes,
   }
 }
 
-StartTable read_start_file(const std::filesystem::path& path, const std::vector<Scene>& scenes) {
+StartTable read_start_file(const std::filesystem::path& path,
+                           const std::vector<SceneGroup>& groups) {
   const std::string file = path.string();
-  StartLines lines(scenes);
-  const std::string sha256 = read_pose_file(path, {kStartHeader}, DatasetNames(scenes),
+  StartLines lines(groups);
+  const std::string sha256 = read_pose_file(path, {kStartHeader}, DatasetNames(groups),
                                             [&](const PoseLine& line) { lines.add(line); });
   std::vector<Fault> faults;
   StartTable table = lines.table(file, faults);

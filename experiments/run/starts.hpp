@@ -11,8 +11,8 @@
 
 namespace croon::experiments {
 
-/// The pose of `scan` that starts are drawn around, if it is known.
-const std::optional<RigidTransform>& centre_pose(StartCentre around, const SensorScan& scan);
+/// The pose of `pair` that starts are drawn around, if it is known.
+const std::optional<RigidTransform>& centre_pose(StartCentre around, const CalibratedPair& pair);
 
 /// A start `T_reference_sensor` of one trial: `centre` = (R, t) moved to (R_d R, t + d) by draws
 /// within `rule`'s ranges (see StartRule). A rotation range of 180 deg is uniform on SO(3):
@@ -22,18 +22,20 @@ const std::optional<RigidTransform>& centre_pose(StartCentre around, const Senso
 Start draw_start(const StartRule& rule, const RigidTransform& centre, std::uint64_t seed,
                  const std::string& scene, const std::string& sensor, int trial);
 
-/// The start of one trial: drawn, or from the file that `resolve_starts` read.
-Start start_of(const Experiment& experiment, const std::string& scene, const SensorScan& scan,
+/// The start of one trial of the group `scene`: drawn, from the file that `resolve_starts` read, or
+/// the identity if the experiment has none.
+Start start_of(const Experiment& experiment, const std::string& scene, const CalibratedPair& pair,
                int trial);
 
 /// Prepares `experiment` for `start_of`: reads its file of starts, or checks that every scene has
-/// the pose that starts are drawn around. For where a file is looked for see `found_input`. Throws
-/// InputError.
-void resolve_starts(Experiment& experiment, const std::vector<Scene>& scenes,
+/// the pose that starts are drawn around, if they are. For where a file is looked for see
+/// `found_input`. Throws InputError.
+void resolve_starts(Experiment& experiment, const std::vector<SceneGroup>& groups,
                     const std::filesystem::path& data_root);
 
-/// Reads the starts in the file `path`: for every sensor of `scenes` trials 0 to n - 1, in any
+/// Reads the starts in the file `path`: for every sensor of `groups` trials 0 to n - 1, in any
 /// order. Strict: throws one InputError with the first faults of the file.
-StartTable read_start_file(const std::filesystem::path& path, const std::vector<Scene>& scenes);
+StartTable read_start_file(const std::filesystem::path& path,
+                           const std::vector<SceneGroup>& groups);
 
 }  // namespace croon::experiments

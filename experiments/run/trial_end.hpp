@@ -8,10 +8,10 @@ namespace croon::experiments {
 /// Whether a pose with this error is right.
 bool is_within(const PoseError& error, const SuccessBounds& bounds);
 
-/// The record of the trial `id` that ended with `result`, judged by the truth of `scan` and
-/// `bounds`. A pose that is not finite, too far away for its error to be, or no rotation, is a
-/// failure, and so is one with a covariance that is none.
-TrialRecord record_of(const TrialId& id, const PipelineResult& result, const SensorScan& scan,
-                      const SuccessBounds& bounds);
+/// The record of the trial `id` that ended with `result`, judged by `truth` and `bounds`. A pose
+/// that is not finite, too far away for its error to be, or no rotation, is a failure, and so is
+/// one with a covariance that is none.
+TrialRecord record_of(const TrialId& id, const PipelineResult& result,
+                      const std::optional<RigidTransform>& truth, const SuccessBounds& bounds);
 
 }  // namespace croon::experiments

@@ -121,27 +121,27 @@ std::vector<std::size_t> select_variants(const Experiment& experiment,
   return selected;
 }
 
-std::vector<std::string> sensor_names(const std::vector<Scene>& scenes) {
+std::vector<std::string> sensor_names(const std::vector<SceneGroup>& groups) {
   std::vector<std::string> names;
   std::unordered_set<std::string> known;
-  for (const Scene& scene : scenes) {
-    for (const SensorScan& scan : scene.sensors) {
-      if (known.insert(scan.sensor).second) names.push_back(scan.sensor);
+  for (const SceneGroup& group : groups) {
+    for (const SensorPair& pair : group.pairs) {
+      if (known.insert(pair.name).second) names.push_back(pair.name);
     }
   }
   return names;
 }
 
-void check_plan_size(const Experiment& experiment, const std::vector<Scene>& scenes,
+void check_plan_size(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                      const Selection& selection) {
   // Results are in memory when they are summarised: a record has about a kilobyte with its steps.
   constexpr double kRecordBytes = 1000.0;
   double starts = 0.0;
-  for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
+  for (std::size_t scene = 0; scene < groups.size(); ++scene) {
     const TrialRange trials =
-        trials_of(selection.shard, scene, scenes.size(), total_trials(experiment.starts));
+        trials_of(selection.shard, scene, groups.size(), total_trials(experiment.starts));
     starts += static_cast<double>(trials.end - trials.begin) *
-              static_cast<double>(scenes[scene].sensors.size());
+              static_cast<double>(groups[scene].pairs.size());
   }
   const double trials = starts * static_cast<double>(selection.variants.size());
   require_memory(starts * sizeof(PlannedStart) + trials * kRecordBytes,
@@ -150,15 +150,15 @@ void check_plan_size(const Experiment& experiment, const std::vector<Scene>& sce
                  {experiment.file, "", ""});
 }
 
-Plan plan_trials(const Experiment& experiment, const std::vector<Scene>& scenes,
+Plan plan_trials(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                  const Selection& selection, const std::vector<TrialIndex>& done) {
   Plan plan;
-  const std::vector<std::string> names = sensor_names(scenes);
-  for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
+  const std::vector<std::string> names = sensor_names(groups);
+  for (std::size_t scene = 0; scene < groups.size(); ++scene) {
     const TrialRange trials =
-        trials_of(selection.shard, scene, scenes.size(), total_trials(experiment.starts));
-    for (std::size_t sensor = 0; sensor < scenes[scene].sensors.size(); ++sensor) {
-      const std::string& name = scenes[scene].sensors[sensor].sensor;
+        trials_of(selection.shard, scene, groups.size(), total_trials(experiment.starts));
+    for (std::size_t sensor = 0; sensor < groups[scene].pairs.size(); ++sensor) {
+      const std::string& name = groups[scene].pairs[sensor].name;
       const auto index = std::find(names.begin(), names.end(), name) - names.begin();
       add_starts(plan, {scene, sensor, 0, 0}, static_cast<std::size_t>(index), trials,
                  selection.variants, done);

@@ -4,15 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "experiments/file/experiment.hpp"
+#include "experiments/run/scene_groups.hpp"
 #include "experiments/run/trial_record.hpp"
 
 namespace croon::experiments {
 
 /// One start, and the variants that are to run from it.
 struct PlannedStart {
-  std::size_t scene = 0;   ///< Index in the list of scenes.
-  std::size_t sensor = 0;  ///< Index in Scene::sensors.
+  std::size_t scene = 0;   ///< Index in the list of groups.
+  std::size_t sensor = 0;  ///< Index in SceneGroup::pairs.
   int trial = 0;
   std::size_t variants = 0;  ///< Index in Plan::variants.
 };
@@ -47,15 +47,15 @@ std::vector<std::size_t> select_variants(const Experiment& experiment,
                                          const std::vector<std::string>& names);
 
 /// Throws InputError, with an estimate, if the trials of `selection` do not fit into memory.
-void check_plan_size(const Experiment& experiment, const std::vector<Scene>& scenes,
+void check_plan_size(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                      const Selection& selection);
 
 /// The trials of `selection` that are not in `done`, which is sorted. Its indices are those in
-/// Experiment::variants, `scenes` and sensor_names(scenes).
-Plan plan_trials(const Experiment& experiment, const std::vector<Scene>& scenes,
+/// Experiment::variants, `groups` and sensor_names(groups).
+Plan plan_trials(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                  const Selection& selection, const std::vector<TrialIndex>& done = {});
 
-/// The sensors of all scenes, each once, in the order of their first scene.
-std::vector<std::string> sensor_names(const std::vector<Scene>& scenes);
+/// The names of the pairs of all groups, each once, in the order of their first group.
+std::vector<std::string> sensor_names(const std::vector<SceneGroup>& groups);
 
 }  // namespace croon::experiments

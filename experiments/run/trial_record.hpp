@@ -20,6 +20,10 @@ struct TrialId {
   int trial = 0;
 };
 
+/// Which trial an estimate belongs to; of no variant. For steps that take results from a file: what
+/// a step computes must not depend on it.
+inline constexpr Extra<TrialId> kTrialId{"trial id", "which trial it is"};
+
 /// A trial by the indices of its variant, scene and sensor in an experiment, and its number.
 /// Reports are in this order.
 using TrialIndex = std::tuple<std::size_t, std::size_t, std::size_t, int>;

@@ -7,7 +7,6 @@
 #include <set>
 #include <utility>
 
-#include "experiments/run/scene_groups.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/base/whole_file.hpp"
@@ -30,15 +29,17 @@ std::string relative_path(const std::string& file, const fs::path& data_root) {
 }
 
 /// The scans that are read from files, each file once.
-std::vector<const SensorScan*> scans_with_files(const std::vector<Scene>& scenes) {
+std::vector<const SensorScan*> scans_with_files(const std::vector<SceneGroup>& groups) {
   std::vector<const SensorScan*> scans;
   std::set<std::string> files = {""};
   const auto add = [&](const SensorScan& scan) {
     if (files.insert(scan.file).second) scans.push_back(&scan);
   };
-  for (const Scene* const scene : parts_of(scenes)) {
-    add(scene->reference);
-    for (const SensorScan& scan : scene->sensors) add(scan);
+  for (const SceneGroup& group : groups) {
+    for (const Scene& scene : group.scenes) {
+      add(scene.reference);
+      for (const SensorScan& scan : scene.sensors) add(scan);
+    }
   }
   return scans;
 }
@@ -127,9 +128,9 @@ std::function<LoadedCloud()> held_to(const InputFile& input, const SensorScan& s
 
 }  // namespace
 
-std::vector<InputFile> record_inputs(std::vector<Scene>& scenes, const fs::path& data_root,
+std::vector<InputFile> record_inputs(std::vector<SceneGroup>& groups, const fs::path& data_root,
                                      int jobs) {
-  const std::vector<const SensorScan*> scans = scans_with_files(scenes);
+  const std::vector<const SensorScan*> scans = scans_with_files(groups);
   std::vector<InputFile> inputs(scans.size());
   const auto kept = std::make_shared<KeptClouds>();
   on_threads(jobs, [&] {
@@ -144,13 +145,11 @@ std::vector<InputFile> record_inputs(std::vector<Scene>& scenes, const fs::path&
     // Another scan of the file may load it in another way.
     scan.load = held_to(inputs[i], scan, &scan == scans[i] ? kept : nullptr);
   };
-  const auto hold_all = [&](Scene& scene) {
-    hold(scene.reference);
-    for (SensorScan& scan : scene.sensors) hold(scan);
-  };
-  for (Scene& scene : scenes) {
-    hold_all(scene);
-    for (Scene& part : scene.parts) hold_all(part);
+  for (SceneGroup& group : groups) {
+    for (Scene& scene : group.scenes) {
+      hold(scene.reference);
+      for (SensorScan& scan : scene.sensors) hold(scan);
+    }
   }
   return inputs;
 }

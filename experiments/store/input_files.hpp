@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/stage/dataset.hpp"
+#include "experiments/run/scene_groups.hpp"
 
 namespace croon::experiments {
 
@@ -20,11 +20,11 @@ struct InputFile {
   std::string file;  ///< The path as the dataset gives it; in no manifest.
 };
 
-/// The files of the clouds of `scenes`, in order, each once; read on `jobs` threads. After that the
+/// The files of the clouds of `groups`, in order, each once; read on `jobs` threads. After that the
 /// scans are held to these bytes: SensorScan::load throws UnavailableFile if it reads others.
 /// Clouds of up to 64 MB in all are kept, so that the first load of these reads no file again.
 /// Throws UnavailableFile if a file cannot be read.
-std::vector<InputFile> record_inputs(std::vector<Scene>& scenes,
+std::vector<InputFile> record_inputs(std::vector<SceneGroup>& groups,
                                      const std::filesystem::path& data_root, int jobs);
 
 }  // namespace croon::experiments

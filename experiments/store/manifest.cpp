@@ -12,8 +12,6 @@
 #include <thread>
 
 #include "experiments/file/experiment.hpp"
-#include "experiments/run/scene_groups.hpp"
-#include "experiments/run/sensor_pairs.hpp"
 #include "experiments/run/trial_plan.hpp"
 #include "experiments/store/bounded_json.hpp"
 #include "framework/base/error.hpp"
@@ -66,9 +64,9 @@ std::string pipelines_text(const Experiment& experiment) {
   return text;
 }
 
-std::size_t planned_trials(const Experiment& experiment, const std::vector<Scene>& scenes) {
+std::size_t planned_trials(const Experiment& experiment, const std::vector<SceneGroup>& groups) {
   std::size_t sensors = 0;
-  for (const Scene& scene : scenes) sensors += scene.sensors.size();
+  for (const SceneGroup& group : groups) sensors += group.pairs.size();
   return sensors * static_cast<std::size_t>(total_trials(experiment.starts)) *
          experiment.variants.size();
 }
@@ -121,17 +119,19 @@ std::string pose_text(const std::optional<RigidTransform>& T) {
 }
 
 /// The digests of the files by path, and one digest of the rig's poses.
-std::string deciding_inputs_json(const std::vector<Scene>& scenes,
+std::string deciding_inputs_json(const std::vector<SceneGroup>& groups,
                                  const std::vector<InputFile>& inputs) {
   nlohmann::json json = {{"files", nlohmann::json::object()}};
   for (const InputFile& input : inputs) json["files"][input.path] = input.sha256;
   std::string poses;
-  for (const Scene* const scene : parts_of(scenes)) {
-    poses += scene->name + "\n" + scene->reference.sensor + "\n";
-    for (const SensorScan& scan : scene->sensors) {
-      if (is_pair(scan)) continue;  // Its poses follow from its sensors'.
-      poses += scan.sensor + "\n" + pose_text(scan.truth) + "\n" + pose_text(scan.nominal) + "\n" +
-               pose_text(scan.initial) + "\n";
+  for (const SceneGroup& group : groups) {
+    for (const Scene& scene : group.scenes) {
+      poses += scene.name + "\n" + scene.reference.sensor + "\n";
+      // The poses of pairs of sensors follow from these.
+      for (const SensorScan& scan : scene.sensors) {
+        poses += scan.sensor + "\n" + pose_text(scan.truth) + "\n" + pose_text(scan.nominal) +
+                 "\n" + pose_text(scan.initial) + "\n";
+      }
     }
   }
   json["poses"] = sha256_of_text(poses);
@@ -140,23 +140,23 @@ std::string deciding_inputs_json(const std::vector<Scene>& scenes,
 }
 
 /// The names of the scenes of each group.
-Json groups_json(const std::vector<Scene>& groups) {
+Json groups_json(const std::vector<SceneGroup>& groups) {
   Json json = Json::object();
-  for (const Scene& group : groups) {
-    for (const Scene& scene : group.parts) json[group.name].push_back(scene.name);
+  for (const SceneGroup& group : groups) {
+    for (const Scene& scene : group.scenes) json[group.name].push_back(scene.name);
   }
   return json;
 }
 
 /// The sensors of which no scene has the truth.
-std::vector<std::string> without_truth(const std::vector<Scene>& scenes) {
+std::vector<std::string> without_truth(const std::vector<SceneGroup>& groups) {
   std::set<std::string> with_truth;
-  for (const Scene& scene : scenes) {
-    for (const SensorScan& scan : scene.sensors) {
-      if (scan.truth) with_truth.insert(scan.sensor);
+  for (const SceneGroup& group : groups) {
+    for (const CalibratedPair& pair : group.pairs) {
+      if (pair.truth) with_truth.insert(pair.name);
     }
   }
-  std::vector<std::string> sensors = sensor_names(scenes);
+  std::vector<std::string> sensors = sensor_names(groups);
   const auto has_truth = [&](const std::string& sensor) { return with_truth.count(sensor) > 0; };
   sensors.erase(std::remove_if(sensors.begin(), sensors.end(), has_truth), sensors.end());
   return sensors;
@@ -164,17 +164,17 @@ std::vector<std::string> without_truth(const std::vector<Scene>& scenes) {
 
 }  // namespace
 
-std::string manifest_json(const Experiment& experiment, const std::vector<Scene>& scenes,
+std::string manifest_json(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                           const std::vector<InputFile>& inputs, const Provenance& provenance) {
   Json manifest;
   manifest["experiment"] = Json::parse(experiment_json(experiment));
   manifest["experiment_files"] = files_json(experiment.files);
-  if (experiment.scenes_per_trial > 1) manifest["groups"] = groups_json(scenes);
+  if (experiment.scenes_per_trial > 1) manifest["groups"] = groups_json(groups);
   manifest["inputs"] = listed_inputs(inputs);
   manifest["provenance"] = {{"inputs", sha256_of_text(provenance.at("inputs"))},
                             {"pipelines", sha256_of_text(pipelines_text(experiment))}};
-  manifest["planned"] = planned_trials(experiment, scenes);
-  const std::vector<std::string> sensors = without_truth(scenes);
+  manifest["planned"] = planned_trials(experiment, groups);
+  const std::vector<std::string> sensors = without_truth(groups);
   if (!sensors.empty()) manifest[kWithoutTruth] = sensors;
   return text_of(manifest);
 }
@@ -252,10 +252,10 @@ std::string merged_manifest(const std::string& manifest, const std::string& host
   return text_of(json);
 }
 
-Provenance provenance_of(const Experiment& experiment, const std::vector<Scene>& scenes,
+Provenance provenance_of(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                          const std::vector<InputFile>& inputs) {
   Provenance provenance = {{"dataset", experiment.dataset.resolved()},
-                           {"inputs", deciding_inputs_json(scenes, inputs)},
+                           {"inputs", deciding_inputs_json(groups, inputs)},
                            {"seed", std::to_string(experiment.seed)},
                            {"starts", deciding_starts_json(experiment.starts)},
                            {"success", success_json(experiment.success)}};
@@ -266,7 +266,7 @@ Provenance provenance_of(const Experiment& experiment, const std::vector<Scene>&
   return provenance;
 }
 
-StoreHeader header_of(const Experiment& experiment, const std::vector<Scene>& scenes,
+StoreHeader header_of(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                       const Provenance& provenance, const std::string& manifest) {
   StoreHeader header;
   header.provenance = provenance;
@@ -277,14 +277,12 @@ StoreHeader header_of(const Experiment& experiment, const std::vector<Scene>& sc
   for (const Variant& variant : experiment.variants) {
     header.variants.push_back({variant.name, variant.resolved});
   }
-  for (const Scene& scene : scenes) header.scenes.push_back({scene.name, scene.kind});
+  for (const SceneGroup& group : groups) header.scenes.push_back({group.name, group.kind});
   std::map<std::string, std::string> targets;
-  for (const Scene& scene : scenes) {
-    for (const SensorScan& scan : scene.sensors) {
-      targets.emplace(scan.sensor, is_pair(scan) ? scan.target : scene.reference.sensor);
-    }
+  for (const SceneGroup& group : groups) {
+    for (const SensorPair& pair : group.pairs) targets.emplace(pair.name, pair.target);
   }
-  for (const std::string& sensor : sensor_names(scenes)) {
+  for (const std::string& sensor : sensor_names(groups)) {
     header.sensors.push_back({sensor, targets.at(sensor)});
   }
   return header;

@@ -14,11 +14,11 @@ namespace croon::experiments {
 /// Everything that decides the result of a trial except its pipeline: dataset, inputs (files and
 /// the rig's poses), starts (but not their number), seed and success bounds. Versions of stages are
 /// beside it, see versions_of.
-Provenance provenance_of(const Experiment& experiment, const std::vector<Scene>& scenes,
+Provenance provenance_of(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                          const std::vector<InputFile>& inputs);
 
 /// The header of the store of a run of this build; `manifest` comes from manifest_json.
-StoreHeader header_of(const Experiment& experiment, const std::vector<Scene>& scenes,
+StoreHeader header_of(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                       const Provenance& provenance, const std::string& manifest);
 
 /// JSON of what was run: the experiment with every default, the files that it was read from,
@@ -26,7 +26,7 @@ StoreHeader header_of(const Experiment& experiment, const std::vector<Scene>& sc
 /// `sensors_without_truth`, if there are any.
 /// `provenance` has the digests of everything that decides results, also of the rig's poses. What
 /// the builds say is added by manifest_with_builds.
-std::string manifest_json(const Experiment& experiment, const std::vector<Scene>& scenes,
+std::string manifest_json(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                           const std::vector<InputFile>& inputs, const Provenance& provenance);
 
 /// The number of trials of the experiment of a manifest, and that of each of its variants. Throw

@@ -10,6 +10,7 @@
 #include "framework/base/text.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/calibration/composition.hpp"
+#include "framework/calibration/ground_pose.hpp"
 #include "framework/calibration/rig_run.hpp"
 #include "framework/calibration/scene_clouds.hpp"
 #include "framework/calibration/sensor_result.hpp"
@@ -72,8 +73,8 @@ Composition chosen_composition(const CalibrationOptions& options,
     reason = "the times of all clouds are usable, so the vehicle's motion is estimated";
     return embedded_composition("driving", catalogue);
   }
-  reason = why_not + ", so motion is not corrected";
-  return embedded_composition("best", catalogue);
+  reason = why_not + ", so motion is not corrected; scenes in which it moves poses are rejected";
+  return embedded_composition("standing", catalogue);
 }
 
 /// The clouds for the steps of `composition`; takes them from `scenes`.
@@ -163,6 +164,36 @@ Outcome outcome_of(const Composition& composition, RigInput input,
   return accepted_of(again.sensors) > accepted_of(outcome.sensors) ? again : outcome;
 }
 
+/// Of a rig with usable times, the sensors that are rejected because the speed is not certain
+/// enough may be accepted if motion, whatever it is, does not move their poses. Returns their
+/// names.
+std::string accept_at_rest(Outcome& outcome, const RigInput& input,
+                           const std::vector<std::string>& names, const CalibrationOptions& options,
+                           const Catalogue& catalogue, const StepProgress& progress) {
+  if (accepted_of(outcome.sensors) == outcome.sensors.size()) return "";
+  const Composition composition = embedded_composition("standing", catalogue);
+  const Outcome at_rest = outcome_of(composition, input, names, options.seed, progress);
+  std::string accepted;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (outcome.sensors[i].is_accepted || !at_rest.sensors[i].is_accepted) continue;
+    outcome.sensors[i] = at_rest.sensors[i];
+    accepted += (accepted.empty() ? "" : ", ") + names[i];
+  }
+  return accepted;
+}
+
+/// The pose of the reference over the road, and the heading of the rig.
+void set_ground(CalibratedRig& rig, const RigInput& input, std::uint64_t seed) {
+  std::vector<const Points*> references;
+  for (const CalibrationMember& member : input.members) {
+    const Points* const points = &member.target->points();
+    if (references.empty() || references.back() != points) references.push_back(points);
+  }
+  Rng rng(StreamKey(seed).with("ground"));
+  rig.ground = ground_pose(references, rng);
+  rig.heading = heading_of_travel(rig.motion, rig.ground);
+}
+
 /// The scenes in which no sensor has a pose, because a step failed.
 void add_failed_scenes(const RigInput& input, const std::vector<MemberResult>& results,
                        std::vector<std::string>& unused) {
@@ -215,6 +246,18 @@ void require_members(const RigInput& input, const std::vector<std::string>& unus
   throw InputError(std::move(faults));
 }
 
+/// The notes on single clouds; those that a sensor has in several scenes once.
+std::vector<std::string> notes_on(const std::vector<NamedCloud>& clouds) {
+  std::vector<std::string> notes;
+  for (const NamedCloud& named : clouds) {
+    for (const std::string& note : named.cloud->notes) {
+      const std::string line = named.sensor + ": " + note;
+      if (std::find(notes.begin(), notes.end(), line) == notes.end()) notes.push_back(line);
+    }
+  }
+  return notes;
+}
+
 CalibratedRig calibrated(const std::vector<Scene>& scenes, const CalibrationOptions& options,
                          const Catalogue& catalogue) {
   const auto progress = [&](const std::string& what, double done) {
@@ -228,7 +271,9 @@ CalibratedRig calibrated(const std::vector<Scene>& scenes, const CalibrationOpti
     progress("reading " + scene, kReadingShare * share);
   });
   rig.unused = set_aside_unusable(clouds);
-  rig.warnings = warnings_about_clouds(named_clouds(clouds));
+  rig.warnings = notes_on(named_clouds(clouds));
+  const std::vector<std::string> about_clouds = warnings_about_clouds(named_clouds(clouds));
+  rig.warnings.insert(rig.warnings.end(), about_clouds.begin(), about_clouds.end());
   const Composition composition =
       chosen_composition(options, clouds, catalogue, rig.composition_reason);
   rig.composition = composition.name;
@@ -237,14 +282,23 @@ CalibratedRig calibrated(const std::vector<Scene>& scenes, const CalibrationOpti
   if (options.from_scratch) {
     for (CalibrationMember& member : input.members) member.start.reset();
   }
-  Outcome outcome = outcome_of(composition, input, sensor_names(scenes), options.seed,
-                               [&](const std::string& step, double done) {
-                                 progress(step, kReadingShare + (1.0 - kReadingShare) * done);
-                               });
+  const std::vector<std::string> names = sensor_names(scenes);
+  const auto step_progress = [&](const std::string& step, double done) {
+    progress(step, kReadingShare + (1.0 - kReadingShare) * done);
+  };
+  Outcome outcome = outcome_of(composition, input, names, options.seed, step_progress);
+  if (options.pipeline == "best" && composition.name == "driving") {
+    const std::string at_rest =
+        accept_at_rest(outcome, input, names, options, catalogue, step_progress);
+    if (!at_rest.empty()) {
+      rig.composition_reason += "; accepted without its correction, by \"standing\": " + at_rest;
+    }
+  }
   add_failed_scenes(input, outcome.members, rig.unused);
   rig.motion = motion_of(input, outcome.members);
   rig.sensors = std::move(outcome.sensors);
   set_nominal(rig.sensors, scenes);
+  set_ground(rig, input, options.seed);
   const std::vector<std::string> about_rig = warnings_about_rig(rig);
   rig.warnings.insert(rig.warnings.end(), about_rig.begin(), about_rig.end());
   progress("done", 1.0);

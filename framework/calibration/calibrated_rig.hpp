@@ -40,10 +40,21 @@ struct SceneMotionEstimate {
   Matrix6d covariance = Matrix6d::Zero();  ///< About the axes in rad/s, along them in m/s.
 };
 
-/// The reference's pose over the road, from its own ground plane.
+/// The reference's pose over the road, from its own ground plane. T_road_reference has the rotation
+/// Ry(pitch) Rx(roll), no yaw, and the translation (0, 0, height): z of the road's frame points up,
+/// its origin is on the road below the reference.
 struct GroundPose {
   double roll_rad = 0.0, pitch_rad = 0.0, height_m = 0.0;
   double roll_std_rad = 0.0, pitch_std_rad = 0.0, height_std_m = 0.0;
+};
+
+/// Where the rig drives, seen from its reference: straight ahead of a vehicle.
+struct HeadingOfTravel {
+  /// Yaw of the direction of travel in the levelled frame of the reference (GroundPose; without one
+  /// the reference's own frame): the yaw of the reference in the vehicle frame is its negative.
+  double yaw_rad = 0.0;
+  double yaw_std_rad = 0.0;
+  std::size_t scenes = 0;  ///< Number of scenes that it was computed from.
 };
 
 /// A rig's calibration.
@@ -56,6 +67,7 @@ struct CalibratedRig {
   std::vector<std::string> unused;    ///< Scenes and clouds that took no part, with the reason.
   std::vector<SceneMotionEstimate> motion;  ///< Of the scenes in which a velocity was estimated.
   std::optional<GroundPose> ground;         ///< If the reference sees the ground.
+  std::optional<HeadingOfTravel> heading = {};  ///< If the rig drives straight in a scene.
 };
 
 }  // namespace croon

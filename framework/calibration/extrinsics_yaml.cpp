@@ -277,8 +277,9 @@ std::vector<FrameLink> read_kalibr(const ExtrinsicsSource& source) {
   return links;
 }
 
-/// Whether one of `keys` occurs in `text` as a word before a colon.
+/// Whether one of `keys` occurs in `text` as a word before a colon, and the text is not JSON.
 bool has_yaml_key(const std::string& text, const std::vector<std::string>& keys) {
+  if (text.front() == '{' || text.front() == '[') return false;
   for (const std::string& key : keys) {
     for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) {
       const bool is_begin =

@@ -68,19 +68,16 @@ LoadedScan loaded_scan(ReadScan read, const std::string& scene, const std::strin
   return loaded;
 }
 
-LoadedScene load_scene(const Scene& scene, const std::vector<bool>& is_needed, std::uint64_t seed,
+LoadedScene load_scene(const Scene& scene, const std::set<std::string>& sensors, std::uint64_t seed,
                        const std::set<std::string>& channels) {
-  LoadedScene loaded;
-  loaded.scene = &scene;
-  loaded.sensors.resize(scene.sensors.size());
-  for_each_in_parallel(scene.sensors.size() + 1, [&](std::size_t i) {
-    const bool is_reference = i == scene.sensors.size();
-    if (!is_reference && !is_needed[i]) return;
-    const SensorScan& scan = is_reference ? scene.reference : scene.sensors[i];
-    LoadedScan& to = is_reference ? loaded.reference : loaded.sensors[i];
+  LoadedScene loaded{&scene, std::vector<LoadedScan>(scene.sensors.size() + 1)};
+  for_each_in_parallel(loaded.scans.size(), [&](std::size_t i) {
+    const SensorScan& scan = scan_at(scene, i);
+    if (i > 0 && sensors.count(scan.sensor) == 0) return;
     // Isolated as trials are, so that the time of reading is its own.
-    tbb::this_task_arena::isolate(
-        [&] { to = loaded_scan(read_scan(scan), scene.name, scan.sensor, seed, channels); });
+    tbb::this_task_arena::isolate([&] {
+      loaded.scans[i] = loaded_scan(read_scan(scan), scene.name, scan.sensor, seed, channels);
+    });
   });
   return loaded;
 }
@@ -91,10 +88,13 @@ std::size_t index_of(const Scene& scene, const std::string& sensor) {
   return static_cast<std::size_t>(found - scene.sensors.begin());
 }
 
+const SensorScan& scan_at(const Scene& scene, std::size_t i) {
+  return i == 0 ? scene.reference : scene.sensors[i - 1];
+}
+
 std::vector<Fault> unavailable_clouds(const LoadedScene& loaded) {
   std::vector<Fault> faults;
-  if (loaded.reference.unavailable) faults.push_back(*loaded.reference.unavailable);
-  for (const LoadedScan& scan : loaded.sensors) {
+  for (const LoadedScan& scan : loaded.scans) {
     if (scan.unavailable) faults.push_back(*scan.unavailable);
   }
   return faults;
@@ -102,12 +102,10 @@ std::vector<Fault> unavailable_clouds(const LoadedScene& loaded) {
 
 std::vector<std::string> damaged_clouds(const LoadedScene& loaded) {
   std::vector<std::string> reasons;
-  const auto add = [&](const LoadedScan& scan) {
-    if (!scan.failure.empty())
-      reasons.push_back("scene " + loaded.scene->name + ": " + scan.failure);
-  };
-  add(loaded.reference);
-  for (const LoadedScan& scan : loaded.sensors) add(scan);
+  for (const LoadedScan& scan : loaded.scans) {
+    if (scan.failure.empty()) continue;
+    reasons.push_back("scene " + loaded.scene->name + ": " + scan.failure);
+  }
   return reasons;
 }
 

@@ -34,11 +34,11 @@ struct LoadedScan {
   double reading_s = 0.0;
 };
 
-/// The clouds of a scene. Those that were not asked for are empty.
+/// The clouds of a scene: of the reference and then, in the order of Scene::sensors, of the others.
+/// Those that were not asked for are empty.
 struct LoadedScene {
   const Scene* scene = nullptr;
-  LoadedScan reference;
-  std::vector<LoadedScan> sensors;  ///< As Scene::sensors.
+  std::vector<LoadedScan> scans;
 };
 
 /// The scan `read` of `sensor` with only the channels `channels`. The random streams of its cloud
@@ -46,13 +46,16 @@ struct LoadedScene {
 LoadedScan loaded_scan(ReadScan read, const std::string& scene, const std::string& sensor,
                        std::uint64_t seed, const std::set<std::string>& channels);
 
-/// Reads the clouds, in parallel, of the reference of `scene` and of the sensors that `is_needed`
-/// names by their index in Scene::sensors. `scene` must outlive the result.
-LoadedScene load_scene(const Scene& scene, const std::vector<bool>& is_needed, std::uint64_t seed,
+/// Reads the clouds of the reference of `scene` and of those of its sensors that are in `sensors`,
+/// in parallel. `scene` must outlive the result.
+LoadedScene load_scene(const Scene& scene, const std::set<std::string>& sensors, std::uint64_t seed,
                        const std::set<std::string>& channels);
 
 /// The index of `sensor` in Scene::sensors; their number if the scene does not have it.
 std::size_t index_of(const Scene& scene, const std::string& sensor);
+
+/// The scan with the index `i` in LoadedScene::scans.
+const SensorScan& scan_at(const Scene& scene, std::size_t i);
 
 /// The reasons for which clouds of the scene cannot be read now.
 std::vector<Fault> unavailable_clouds(const LoadedScene& loaded);

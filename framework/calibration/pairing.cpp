@@ -1,7 +1,6 @@
 #include "framework/calibration/pairing.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -123,9 +122,15 @@ std::size_t add_scenes(Pairing& pairing, const std::vector<std::string>& names,
   return lonely;
 }
 
+/// The name without its suffix, which may be ".pcd.bin".
+std::string stem_of(const std::filesystem::path& file) {
+  const std::filesystem::path stem = file.stem();
+  return (stem.extension() == ".pcd" ? stem.stem() : stem).string();
+}
+
 std::vector<std::string> stems_of(const SensorFiles& sensor) {
   std::vector<std::string> stems;
-  for (const std::filesystem::path& file : sensor.files) stems.push_back(file.stem().string());
+  for (const std::filesystem::path& file : sensor.files) stems.push_back(stem_of(file));
   return stems;
 }
 
@@ -133,7 +138,7 @@ std::vector<std::string> stems_of(const SensorFiles& sensor) {
 std::map<std::string, std::size_t> files_by_stem(const SensorFiles& sensor) {
   std::map<std::string, std::size_t> by_stem;
   for (std::size_t i = 0; i < sensor.files.size(); ++i) {
-    const auto [at, is_new] = by_stem.emplace(sensor.files[i].stem().string(), i);
+    const auto [at, is_new] = by_stem.emplace(stem_of(sensor.files[i]), i);
     if (is_new) continue;
     throw InputError(sensor.folder.string(), "",
                      "expected one file per scene, found " +
@@ -176,7 +181,7 @@ std::optional<Pairing> paired_by_times_in_names(const std::vector<SensorFiles>& 
     for (std::size_t s = 0; s < sensors.size(); ++s) {
       if (scene.clouds[s]) scene.clouds[s] = orders[s][*scene.clouds[s]];
     }
-    scene.name = sensors[r].files[*scene.clouds[r]].stem().string();
+    scene.name = stem_of(sensors[r].files[*scene.clouds[r]]);
   }
   return pairing;
 }
@@ -261,9 +266,7 @@ Pairing pair_by_name(const std::vector<SensorFiles>& sensors, const std::string&
   }
   const auto is_single = [](const SensorFiles& sensor) { return sensor.files.size() == 1; };
   if (std::all_of(sensors.begin(), sensors.end(), is_single)) {
-    return {{{sensors[reference_index].files[0].stem().string(), Indices(sensors.size(), 0)}},
-            {},
-            false};
+    return {{{stem_of(sensors[reference_index].files[0]), Indices(sensors.size(), 0)}}, {}, false};
   }
   if (std::optional<Pairing> by_time =
           paired_by_times_in_names(sensors, reference, max_time_gap_s)) {
@@ -273,11 +276,19 @@ Pairing pair_by_name(const std::vector<SensorFiles>& sensors, const std::string&
 }
 
 std::optional<double> stamp_in_name(const std::string& stem) {
-  const auto is_of_number = [](unsigned char c) { return std::isdigit(c) != 0 || c == '.'; };
-  if (stem.empty() || !std::all_of(stem.begin(), stem.end(), is_of_number)) return std::nullopt;
-  const std::optional<double> number = number_from(stem);
+  constexpr const char* kDigits = "0123456789";
+  std::size_t begin = stem.find_last_not_of("0123456789.") + 1;
+  begin = std::min(stem.find_first_not_of('.', begin), stem.size());
+  std::string word = stem.substr(begin);
+  // Seconds and nanoseconds: "1700000000_250000000".
+  constexpr std::size_t kSecondsDigits = 10, kNanosecondsDigits = 9;
+  if (word.size() == kNanosecondsDigits && begin > kSecondsDigits) {
+    const std::string seconds = stem.substr(begin - 1 - kSecondsDigits, kSecondsDigits);
+    if (seconds.find_first_not_of(kDigits) == std::string::npos) word = seconds + "." + word;
+  }
+  const std::optional<double> number = number_from(word);
   if (!number) return std::nullopt;
-  const bool is_whole = stem.find('.') == std::string::npos;
+  const bool is_whole = word.find('.') == std::string::npos;
   // From 2001 on; a unit has three digits more than the one before it.
   for (const double unit_s : {1.0, 1e-3, 1e-6, 1e-9}) {
     if (*number * unit_s < 1e9 || *number * unit_s >= 1e10) continue;

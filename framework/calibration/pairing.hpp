@@ -49,8 +49,9 @@ Pairing pair_by_time(const std::vector<SensorStamps>& sensors, const std::string
 Pairing pair_by_name(const std::vector<SensorFiles>& sensors, const std::string& reference,
                      double max_time_gap_s);
 
-/// The time that a file name without suffix spells, in seconds since 1970: a number whose magnitude
-/// shows that it is in s (fractions allowed), ms, us or ns; std::nullopt if it is none.
+/// The time at the end of a file name without suffix, in seconds since 1970: a number whose
+/// magnitude shows that it is in s (fractions allowed), ms, us or ns, or seconds and nine digits of
+/// nanoseconds with a sign between them; std::nullopt if there is none.
 std::optional<double> stamp_in_name(const std::string& stem);
 
 }  // namespace croon

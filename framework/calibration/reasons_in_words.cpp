@@ -52,6 +52,13 @@ constexpr Translation kTranslations[] = {
      "The speed during the scan is uncertain, by {1} m/s, and another speed explains the clouds "
      "nearly as well.",
      kSlower},
+    {"motion during the scans explains the clouds better",
+     "The vehicle moved while it scanned, by {1} m and {2} degrees per revolution, and without "
+     "usable times this cannot be corrected.",
+     kStand},
+    {"motion during the scans cannot be excluded",
+     "It cannot be excluded that the vehicle moved while it scanned, which would move the pose.",
+     kStand},
     {"the planes of all sensors would move it",
      "It contradicts the other sensors: the planes that all of them see would move it by {1} "
      "degrees and {2} m.",
@@ -147,7 +154,7 @@ bool add_unconstrained(const std::string& reason, ReasonsInWords& result) {
 std::string sentence_of(std::string text) {
   if (text.empty()) return text;
   text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-  if (text.back() != '.') text += '.';
+  if (text.back() != '.' && text.back() != '?') text += '.';
   return text;
 }
 

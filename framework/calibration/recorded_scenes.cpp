@@ -265,7 +265,7 @@ std::vector<Input> chosen_topics(const std::vector<CloudTopic>& topics,
 /// The topics of a rosbag2.
 Recording recording_of_bag(const std::string& bag, const std::vector<Input>& inputs) {
   Recording recording;
-  const std::vector<CloudTopic> topics = read_recording(bag);
+  const std::vector<CloudTopic> topics = read_recording(bag, &recording.unused);
   const std::vector<Input> chosen = chosen_topics(topics, inputs, bag);
   std::vector<std::string> names;
   for (const Input& input : chosen) names.push_back(input.name);
@@ -380,7 +380,8 @@ RecordedScenes recorded_scenes(const std::vector<std::string>& words,
                         ? pair_by_name(recording.files, name, options.max_time_gap_s)
                         : pair_by_time(recording.stamps, name, options.max_time_gap_s);
   RecordedScenes result;
-  result.unused = std::move(pairing.unpaired);
+  result.unused = recording.unused;
+  result.unused.insert(result.unused.end(), pairing.unpaired.begin(), pairing.unpaired.end());
   if (pairing.scenes.empty()) {
     std::vector<Fault> faults = {{inputs.front().path, "",
                                   "expected clouds of " + in_quotes(name) +

@@ -17,14 +17,6 @@ bool sees_rig(const NamedStep& named) {
   return dynamic_cast<const RigStep*>(&*named.step) != nullptr;
 }
 
-/// The index of the last step that sees the rig; the number of steps if there is none.
-std::size_t last_rig_step(const Pipeline& pipeline) {
-  for (std::size_t i = pipeline.size(); i-- > 0;) {
-    if (sees_rig(pipeline[i])) return i;
-  }
-  return pipeline.size();
-}
-
 Rig rig_at_start(const std::vector<CalibrationMember>& members, std::uint64_t seed) {
   Rig rig;
   for (const CalibrationMember& member : members) {
@@ -36,25 +28,13 @@ Rig rig_at_start(const std::vector<CalibrationMember>& members, std::uint64_t se
   return rig;
 }
 
-/// Why the pose of an estimate is not usable; empty if it is.
-std::string why_unusable(const Estimate& estimate) {
-  const RigidTransform& T = estimate.T_target_source;
-  if (!T.rotation.allFinite() || !T.translation.allFinite()) return "the pose is not finite";
-  if (T.translation.cwiseAbs().maxCoeff() > kLargestDistance_m) return "the pose is too far away";
-  if (!is_rotation_matrix(T.rotation)) return "the pose has no rotation";
-  if (estimate.covariance && !is_covariance(estimate.covariance->matrix)) {
-    return "the covariance is not symmetric, finite and positive semi-definite";
-  }
-  return "";
-}
-
 /// Whether a step has given this sensor the same pose in more than one scene.
 bool has_common_pose(const Rig& rig, std::size_t index) {
   const RigidTransform& T = rig[index].result.estimate.T_target_source;
   for (std::size_t i = 0; i < rig.size(); ++i) {
     const Estimate& other = rig[i].result.estimate;
     if (i == index || rig[i].source != rig[index].source) continue;
-    if (!rig[i].result.failure.empty() || other.rejection) continue;
+    if (!rig[i].result.failure.empty()) continue;
     if (other.T_target_source.rotation == T.rotation &&
         other.T_target_source.translation == T.translation) {
       return true;
@@ -63,36 +43,68 @@ bool has_common_pose(const Rig& rig, std::size_t index) {
   return false;
 }
 
-std::vector<MemberResult> results_of(Rig rig, const std::vector<Estimate>& before) {
+bool has_any_common_pose(const Rig& rig) {
+  for (std::size_t i = 0; i < rig.size(); ++i) {
+    const PipelineResult& result = rig[i].result;
+    const bool is_live = result.failure.empty() && !result.estimate.rejection;
+    if (is_live && has_common_pose(rig, i)) return true;
+  }
+  return false;
+}
+
+/// `before_common` are the estimates before a step gave sensors one pose in all scenes; empty if
+/// none did.
+std::vector<MemberResult> results_of(const std::vector<CalibrationMember>& members, const Rig& rig,
+                                     const std::vector<Estimate>& before_common) {
   std::vector<MemberResult> results;
   for (std::size_t i = 0; i < rig.size(); ++i) {
     const PipelineResult& end = rig[i].result;
-    const bool is_common = !before.empty() && has_common_pose(rig, i);
-    const Estimate& in_scene = is_common ? before[i] : end.estimate;
-    results.push_back({end.estimate, end.failure, in_scene.T_target_source, in_scene.covariance});
-    if (end.failure.empty()) results.back().failure = why_unusable(end.estimate);
+    const bool is_common = !before_common.empty() && has_common_pose(rig, i);
+    const Estimate& in_scene = is_common ? before_common[i] : end.estimate;
+    MemberResult result{end.estimate, end.failure, in_scene.T_target_source, in_scene.covariance};
+    const std::string why_not = why_unusable(end.estimate);
+    if (result.failure.empty()) result.failure = why_not;
+    const RigidTransform start = members[i].start.value_or(RigidTransform());
+    const bool is_moved = result.T_in_scene.rotation != start.rotation ||
+                          result.T_in_scene.translation != start.translation;
+    result.has_pose = why_not.empty() && (end.failure.empty() || is_moved);
+    results.push_back(std::move(result));
   }
   return results;
 }
 
 }  // namespace
 
+std::string why_unusable(const Estimate& estimate) {
+  const RigidTransform& T = estimate.T_target_source;
+  if (!T.rotation.allFinite() || !T.translation.allFinite()) return "the pose is not finite";
+  if (T.translation.cwiseAbs().maxCoeff() > kLargestDistance_m) {
+    return "the pose is farther away than " + fixed_number(kLargestDistance_m, 0) + " m";
+  }
+  if (!is_rotation_matrix(T.rotation)) {
+    return "the pose has no rotation: the columns of its matrix are not orthonormal";
+  }
+  if (estimate.covariance && !is_covariance(estimate.covariance->matrix)) {
+    return "the covariance is none: it is not symmetric, finite and positive semi-definite";
+  }
+  return "";
+}
+
 std::vector<MemberResult> run_rig(const Composition& composition,
                                   const std::vector<CalibrationMember>& members, std::uint64_t seed,
                                   const StepProgress& progress) {
   Rig rig = rig_at_start(members, seed);
   const StreamKey key = StreamKey(seed).with("rig").with("calibration").with(std::uint64_t{0});
-  const std::size_t last = last_rig_step(composition.from_nothing);
-  std::vector<Estimate> before;
+  std::vector<Estimate> before_common;
   for (std::size_t s = 0; s < composition.from_nothing.size(); ++s) {
     const NamedStep& step = composition.from_nothing[s];
     progress(step.name,
              static_cast<double>(s) / static_cast<double>(composition.from_nothing.size()));
-    if (s == last) {
-      for (const RigMember& member : rig) before.push_back(member.result.estimate);
-    }
     if (sees_rig(step)) {
+      std::vector<Estimate> before;
+      for (const RigMember& member : rig) before.push_back(member.result.estimate);
       advance(rig, step, key);
+      if (before_common.empty() && has_any_common_pose(rig)) before_common = std::move(before);
       continue;
     }
     for_each_in_parallel(rig.size(), [&](std::size_t i) {
@@ -100,7 +112,7 @@ std::vector<MemberResult> run_rig(const Composition& composition,
       tbb::this_task_arena::isolate([&] { advance(rig[i].result, own, rig[i].key); });
     });
   }
-  return results_of(std::move(rig), before);
+  return results_of(members, rig, before_common);
 }
 
 }  // namespace croon

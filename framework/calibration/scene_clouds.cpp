@@ -126,7 +126,8 @@ std::string why_times_are_unusable(const std::vector<SceneClouds>& scenes) {
   for (const SceneClouds& scene : scenes) {
     if (!scene.why_unused.empty()) continue;
     const std::string why_not = why_no_times(scene);
-    if (!why_not.empty()) return "in scene " + scene.scene->name + ", " + why_not;
+    if (why_not.empty()) continue;
+    return scenes.size() == 1 ? why_not : "in scene " + scene.scene->name + ", " + why_not;
   }
   return "";
 }

@@ -31,7 +31,7 @@ SceneEstimate scene_estimate(const SceneResult& scene) {
     return estimate;
   }
   const MemberResult& result = *scene.result;
-  if (result.failure.empty()) {
+  if (result.has_pose) {
     estimate.T_reference_sensor = result.T_in_scene;
     estimate.covariance = result.covariance_in_scene;
   }
@@ -115,12 +115,13 @@ std::string disagreement(const std::vector<SceneResult>& scenes) {
   return text;
 }
 
-/// Of the rejected poses the one that is nearest to where most of them are; null if there is none.
+/// Of the poses that were not accepted the one that is nearest to where most of them are; null if
+/// there is none.
 const MemberResult* best_guess(const std::vector<SceneResult>& scenes) {
   std::vector<const MemberResult*> results;
   std::vector<RigidTransform> poses;
   for (const SceneResult& scene : scenes) {
-    if (scene.result == nullptr || !scene.result->failure.empty()) continue;
+    if (scene.result == nullptr || !scene.result->has_pose) continue;
     results.push_back(scene.result);
     poses.push_back(scene.result->T_in_scene);
   }

@@ -11,7 +11,7 @@
 namespace croon {
 namespace {
 
-constexpr std::size_t kBlockBytes = 1 << 20;
+constexpr std::size_t kMinBlockBytes = 1 << 20;
 
 [[noreturn]] void fail(const Fault& place, const std::string& reason) {
   throw InputError(place.file, place.where, "the compressed bytes are damaged: " + reason);
@@ -27,8 +27,8 @@ std::string expanded(std::uint64_t max_bytes, const Fault& place, const Expand& 
     const std::size_t begin = bytes.size();
     require_memory(2.0 * static_cast<double>(begin), "to expand the compressed bytes",
                    "use a recording with smaller chunks", place);
-    bytes.resize(begin + kBlockBytes);
-    std::size_t size = kBlockBytes;
+    std::size_t size = std::max(begin, kMinBlockBytes);
+    bytes.resize(begin + size);
     has_more = expand(bytes.data() + begin, size);
     bytes.resize(begin + size);
     if (bytes.size() > max_bytes) {

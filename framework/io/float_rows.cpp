@@ -89,7 +89,7 @@ class Sample {
     constexpr double kMaxRange_m = 1000.0;
     std::size_t rows = 0, outside = 0;
     for (std::size_t row = 0; row + columns <= values_.size(); row += columns, ++rows) {
-      const auto is_outside = [](double value) { return !(std::abs(value) <= kMaxRange_m); };
+      const auto is_outside = [](double value) { return std::abs(value) > kMaxRange_m; };
       if (std::any_of(&values_[row], &values_[row] + 3, is_outside)) ++outside;
     }
     return rows == 0 ? 0.0 : static_cast<double>(outside) / static_cast<double>(rows);
@@ -124,7 +124,9 @@ std::map<std::size_t, double> evidence_of(const Sample& sample, std::uint64_t fl
     if (floats % columns == 0) evidence[columns] = sample.evidence(columns);
   }
   for (const std::size_t columns : {6U, 8U}) {
-    if (evidence.count(columns) == 0) continue;
+    // The halves of a few rows differ by chance.
+    constexpr std::size_t kMinRows = 20;
+    if (evidence.count(columns) == 0 || floats < kMinRows * columns) continue;
     evidence.erase(sample.has_other_second_half(columns) ? columns / 2 : columns);
   }
   // Those that are published; of a few points the content says little.

@@ -118,7 +118,7 @@ class HeaderReader {
   }
 
   void read_plain(Dtype type, const std::vector<std::uint64_t>& shape, bool is_fortran) {
-    constexpr std::uint64_t kMinColumns = 3, kMaxColumns = 64;
+    constexpr std::uint64_t kMinColumns = 3, kMaxColumns = 16;
     std::string found;
     for (const std::uint64_t length : shape) {
       found += (found.empty() ? "" : "×") + std::to_string(length);

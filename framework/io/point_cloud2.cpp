@@ -8,6 +8,7 @@
 
 #include "framework/io/cdr.hpp"
 #include "framework/io/channel_names.hpp"
+#include "framework/io/common_offset.hpp"
 #include "framework/io/digest.hpp"
 #include "framework/io/point_times.hpp"
 #include "framework/io/text_scan.hpp"
@@ -146,8 +147,10 @@ void append_numbers(std::string& bytes, const CloudField& field, ByteOrder order
   }
 }
 
-LoadedCloud cloud_of(const CloudMessage& message, const CdrReader& reader) {
+LoadedCloud cloud_of(const CloudMessage& message, const CdrReader& reader,
+                     const Eigen::Vector3d& origin_m) {
   LoadedCloud cloud;
+  cloud.origin_m = origin_m;
   std::array<const CloudField*, 3> xyz{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     xyz[axis] = &coordinate_field(message, std::string(1, "xyz"[axis]), reader);
@@ -199,7 +202,10 @@ std::optional<MessageHeader> read_message_header(std::string_view head) {
 
 LoadedCloud read_point_cloud2(std::string_view message, double stamp_s, const Fault& place) {
   CdrReader reader(message, place);
-  LoadedCloud cloud = cloud_of(read_cloud_message(reader), reader);
+  const CloudMessage stored = read_cloud_message(reader);
+  LoadedCloud cloud = without_common_offset(
+      [&](const Eigen::Vector3d& origin_m) { return cloud_of(stored, reader, origin_m); });
+  check_unit_of_times(cloud);
   convert_times(cloud, stamp_s);
   cloud.sha256 = sha256_of_text(message);
   return cloud;

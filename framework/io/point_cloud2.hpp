@@ -22,8 +22,8 @@ std::optional<MessageHeader> read_message_header(std::string_view head);
 /// The cloud in a message sensor_msgs/msg/PointCloud2 in CDR: coordinates and channels of any of
 /// its eight datatypes, in either byte order, with padding, organized or not. Points are dropped
 /// and counted as in LoadedCloud::add. The channel `time` is in seconds on the clock of `stamp_s`,
-/// the stamp of the message (see time_rule). `place` is that of errors. Throws InputError if the
-/// message is damaged or has no x, y, z.
+/// the stamp of the message (see time_offset_s). `place` is that of errors. Throws InputError if
+/// the message is damaged or has no x, y, z.
 LoadedCloud read_point_cloud2(std::string_view message, double stamp_s, const Fault& place);
 
 }  // namespace croon

@@ -64,6 +64,7 @@ fs::path decompressed_path(const fs::path& path) { return path.parent_path() / p
 std::optional<std::vector<std::string>> files_in_metadata(const fs::path& folder) {
   constexpr std::size_t kMaxBytes = 16 << 20;
   std::ifstream stream(folder / "metadata.yaml", std::ios::binary);
+  if (!stream) return std::nullopt;
   std::string text(kMaxBytes, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(stream.gcount()));

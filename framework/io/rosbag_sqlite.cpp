@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
+#include <limits>
 #include <map>
 #include <memory>
+#include <utility>
 
+#include "framework/base/scalar_type.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/io/stored_messages.hpp"
 #include "framework/io/text_scan.hpp"
@@ -32,6 +36,23 @@ std::string read_only_uri(const fs::path& path) {
   return uri + (has_bytes("-wal") || has_bytes("-journal") ? "?mode=ro" : "?immutable=1");
 }
 
+/// Whether the file has fewer pages than its header declares
+/// (https://www.sqlite.org/fileformat.html, 1.3).
+bool is_cut(const fs::path& path) {
+  std::string head(100, '\0');
+  std::ifstream(path, std::ios::binary)
+      .read(head.data(), static_cast<std::streamsize>(head.size()));
+  const auto number = [&](std::size_t at, std::size_t size) {
+    const ScalarType type{ScalarKind::unsigned_integer, size};
+    return decode_scalar(type, ByteOrder::big, head.data() + at);
+  };
+  const double page_bytes = number(16, 2) == 1 ? 65536 : number(16, 2);
+  const bool is_declared = number(24, 4) == number(92, 4);
+  std::error_code error;
+  const auto file_bytes = static_cast<double>(fs::file_size(path, error));
+  return is_declared && !error && file_bytes < page_bytes * number(28, 4);
+}
+
 /// The file of a rosbag2, open for reading.
 class RosbagDatabase {
  public:
@@ -48,6 +69,8 @@ class RosbagDatabase {
     if (code != SQLITE_OK) fail();
     int ignored = 0;
     sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, &ignored);
+    // Or SQLite would read nothing of a file that is shorter than its header declares.
+    sqlite3_db_config(database, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, &ignored);
     for_each("PRAGMA cell_size_check = ON", [](sqlite3_stmt*) {});
   }
 
@@ -98,7 +121,8 @@ class RosbagDatabase {
       case SQLITE_IOERR:
         throw UnavailableFile(path_.string(), "", "cannot be read: " + words);
       default:
-        throw DamagedRecording(path_.string(), "", "the recording is damaged: " + words);
+        throw DamagedRecording(path_.string(), "",
+                               "the recording is damaged or not complete: " + words);
     }
   }
 
@@ -147,6 +171,10 @@ void read_rosbag_sqlite(const fs::path& file, StoredTopics& topics) {
                       }
                       names[sqlite3_column_int64(row, 0)] = name;
                     });
+  // Of a file that is cut, the end of the last messages is missing.
+  const bool has_cut = is_cut(file);
+  const std::size_t checked_bytes =
+      has_cut ? std::numeric_limits<std::size_t>::max() : kMessageHeadBytes;
   database.for_each("SELECT rowid, topic_id, timestamp FROM messages", [&](sqlite3_stmt* row) {
     const auto name = names.find(sqlite3_column_int64(row, 1));
     if (name == names.end()) return;
@@ -154,13 +182,18 @@ void read_rosbag_sqlite(const fs::path& file, StoredTopics& topics) {
     StoredMessage message;
     message.log_time_s = static_cast<double>(sqlite3_column_int64(row, 2)) * 1e-9;
     // Not by substr(), for which SQLite would read all of the message.
-    message.head = database.read_message(id, kMessageHeadBytes);
+    message.head = database.read_message(id, checked_bytes).substr(0, kMessageHeadBytes);
     message.read = [file, id] {
       return RosbagDatabase(file).read_message(id, std::numeric_limits<std::size_t>::max());
     };
     message.file = file;
     topics.cloud_topic(name->second).messages.push_back(std::move(message));
   });
+  if (has_cut) {
+    throw DamagedRecording(file.string(), "",
+                           "the recording is damaged or not complete: it is shorter than its "
+                           "header declares");
+  }
 }
 
 }  // namespace croon

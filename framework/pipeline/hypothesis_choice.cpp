@@ -107,7 +107,7 @@ Estimate at_best(Estimate estimate, const std::vector<Hypothesis>& proposed,
                  const HypothesisChoice& choice) {
   std::vector<Hypothesis> poses = judged(proposed, estimate, choice);
   if (poses.empty()) throw StageError("no pose was found at which the clouds agree");
-  estimate.T_target_source = poses.front().T_target_source;
+  estimate.set_pose(poses.front().T_target_source);
   estimate.diagnostics = {{"score", poses.front().score},
                           {"hypotheses", static_cast<double>(poses.size())}};
   if (poses.size() > 1) estimate.diagnostics.emplace_back("next_score", poses[1].score);

@@ -18,14 +18,6 @@ PipelineResult at_start(std::shared_ptr<const Cloud> target, std::shared_ptr<con
   return result;
 }
 
-void drop_stale_covariance(Estimate& after, const RigidTransform& T_before,
-                           const std::optional<PoseCovariance>& covariance_before) {
-  if (!after.covariance || !covariance_before) return;
-  const RigidTransform& T = after.T_target_source;
-  const bool is_moved = T.rotation != T_before.rotation || T.translation != T_before.translation;
-  if (is_moved && after.covariance->matrix == covariance_before->matrix) after.covariance.reset();
-}
-
 void advance(PipelineResult& result, const NamedStep& named, const StreamKey& key) {
   if (!result.failure.empty()) return;
   const auto& [name, step] = named;
@@ -36,8 +28,6 @@ void advance(PipelineResult& result, const NamedStep& named, const StreamKey& ke
   const std::optional<Matrix6d> information = std::exchange(before.information, std::nullopt);
   before.diagnostics.clear();
   result.estimate = before;
-  const RigidTransform T_before = before.T_target_source;
-  const std::optional<PoseCovariance> covariance_before = before.covariance;
   try {
     result.estimate = step->advance(std::move(before), rng);
   } catch (const StageError& error) {
@@ -46,7 +36,6 @@ void advance(PipelineResult& result, const NamedStep& named, const StreamKey& ke
   Estimate& after = result.estimate;
   result.records.push_back({name, time.seconds(), after.diagnostics, after.information});
   if (!after.information) after.information = information;
-  drop_stale_covariance(after, T_before, covariance_before);
   if (after.rejection) {
     after.rejection = with_reason(rejection, name + ": " + *after.rejection);
   } else {

@@ -38,10 +38,6 @@ struct PipelineResult {
 PipelineResult at_start(std::shared_ptr<const Cloud> target, std::shared_ptr<const Cloud> source,
                         const RigidTransform& start);
 
-/// Takes the covariance from an estimate whose pose a step has moved without giving it another.
-void drop_stale_covariance(Estimate& after, const RigidTransform& T_before,
-                           const std::optional<PoseCovariance>& covariance_before);
-
 /// Takes `result` one step further; does nothing if an earlier step failed. Each step draws from a
 /// stream of its own, named by `key` and its name, so one step's draws do not move another's and a
 /// step that is removed moves none. A StageError ends the trial and becomes its `failure`; any

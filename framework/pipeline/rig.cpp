@@ -56,7 +56,6 @@ void fail_if_not_finite(RigMember& member, const std::string& step, const Rig& r
 void take(RigMember& member, const std::string& name, RigEstimate&& adjusted, double seconds) {
   Estimate before = std::exchange(member.result.estimate, std::move(adjusted.estimate));
   Estimate& after = member.result.estimate;
-  drop_stale_covariance(after, before.T_target_source, before.covariance);
   const bool is_computed = after.information && after.information != before.information;
   member.result.records.push_back(
       {name, seconds, after.diagnostics, is_computed ? after.information : std::nullopt});

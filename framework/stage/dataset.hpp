@@ -27,9 +27,6 @@ struct SensorScan {
   /// The sensor's true velocity during the scan, constant and in its own frame; empty if it is not
   /// known.
   std::function<Twist()> velocity = {};
-  /// Datasets leave these empty. If one sensor is calibrated to another, the names of the two: the
-  /// points are those of `source`, the poses are `T_target_source`.
-  std::string source = {}, target = {};
 };
 
 /// A pose in a file of poses whose sensor the scene does not have: not recorded, or misspelt.
@@ -48,9 +45,6 @@ struct Scene {
   std::vector<UnusedPose> unused_truth = {}, unused_nominal = {};
   /// Draws the scene from behind and above the car; empty if the dataset cannot draw.
   std::function<Image()> draw = {};
-  /// Datasets leave this empty. For a group of scenes from which a trial calibrates one rig: the
-  /// scenes; name and kind are the group's, the rest is of the first scene that has it.
-  std::vector<Scene> parts = {};
 };
 
 /// The scenes of a rig.

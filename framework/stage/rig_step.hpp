@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,8 +32,8 @@ class RigStep : public Step {
   /// Throws StageError if the data defeat it for all estimates.
   virtual void adjust(std::vector<RigEstimate>& rig, Rng& rng) const = 0;
 
-  /// `adjust` for a rig of one estimate, whose scene and sensor have the names of its trial, if it
-  /// has any; the target's name is empty. Throws StageError if `adjust` does or sets a failure.
+  /// `adjust` for a rig of one estimate, whose names are empty. Throws StageError if `adjust` does
+  /// or sets a failure.
   Estimate advance(Estimate estimate, Rng& rng) const final;
 };
 
@@ -38,5 +41,21 @@ class RigStep : public Step {
 /// off than kLargestCoordinate_m. Steps that put all clouds into one problem call it for each
 /// estimate, so that a cloud that would defeat them fails alone.
 void require_usable_clouds(const Estimate& estimate);
+
+/// Estimates of a rig that a step treats together, in the order of the rig.
+using RigGroup = std::vector<RigEstimate*>;
+
+/// The names that the estimates of a group share: {target, source} for those of one sensor.
+using RigKey = std::array<std::string, 2>;
+
+/// The estimates of `rig` in groups of equal `key_of`, by ascending key. An estimate without a key
+/// is in no group, nor is one for which `key_of` throws StageError, which becomes its failure.
+std::vector<RigGroup> rig_groups(std::vector<RigEstimate>& rig,
+                                 const std::function<std::optional<RigKey>(RigEstimate&)>& key_of);
+
+/// Calls `use` for each group, in parallel. A StageError becomes the failure of the estimates of
+/// the group that have none.
+void for_each_group(const std::vector<RigGroup>& groups,
+                    const std::function<void(const RigGroup&)>& use);
 
 }  // namespace croon

@@ -27,13 +27,6 @@ inline constexpr Extra<PoseCovariance> kCovariance{"covariance", "the covariance
 /// A number that a step reports of its work: ("inlier_ratio", 0.83).
 using Diagnostic = std::pair<std::string, double>;
 
-/// Which trial of an experiment is calibrated.
-struct TrialName {
-  std::string scene;
-  std::string sensor;
-  int number = 0;
-};
-
 /// The estimate of one sensor's pose, passed from step to step of a pipeline.
 struct Estimate {
   std::shared_ptr<const Cloud> target;  ///< The reference's cloud, preprocessed so far.
@@ -42,15 +35,22 @@ struct Estimate {
   std::shared_ptr<const GroundSplit> target_ground;  ///< Null until a step has found it.
   std::shared_ptr<const GroundSplit> source_ground;  ///< Null until a step has found it.
   std::optional<Matrix6d> information;               ///< See Registration::information.
-  /// Of T_target_source, if a step has estimated it. A later step that moves the pose has to give
-  /// it a covariance anew, or it has none.
+  /// Of T_target_source, if a step has estimated it.
   std::optional<PoseCovariance> covariance = std::nullopt;
   std::optional<std::string> rejection;  ///< Why the pose must not be trusted, if so.
   std::vector<Diagnostic> diagnostics;   ///< What the last step reports of its work.
   Extras extras;                         ///< What steps put here for later ones.
-  /// Null outside an experiment. For steps that take results from a file; what a step computes must
-  /// not depend on it.
-  std::shared_ptr<const TrialName> trial = nullptr;
+
+  /// Moves the pose to `T`. The information and the covariance of another pose go: a step sets
+  /// those of the new pose afterwards.
+  void set_pose(const RigidTransform& T) {
+    const bool is_moved =
+        T.rotation != T_target_source.rotation || T.translation != T_target_source.translation;
+    T_target_source = T;
+    if (!is_moved) return;
+    information.reset();
+    covariance.reset();
+  }
 
   /// Goes on with other clouds. The grounds that were found are those of the clouds before.
   void take_clouds(std::shared_ptr<const Cloud> new_target,

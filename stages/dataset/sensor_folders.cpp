@@ -75,7 +75,7 @@ void refuse_dangling(const fs::directory_entry& entry) {
 Clouds clouds_in(const SceneLocation& folder) {
   Clouds clouds;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder.folder)) {
-    if (!has_point_cloud_suffix(entry.path())) continue;
+    if (!looks_like_point_cloud(entry.path())) continue;
     refuse_dangling(entry);
     if (!entry.is_regular_file()) {
       throw InputError(entry.path().string(), "",
@@ -105,7 +105,7 @@ std::vector<std::string> other_folders(const fs::path& rig, const std::string& r
     if (!entry.is_directory() || entry.path().filename() == reference) continue;
     const fs::directory_iterator files(entry.path());
     if (std::any_of(fs::begin(files), fs::end(files), [](const fs::directory_entry& file) {
-          return has_point_cloud_suffix(file.path());
+          return looks_like_point_cloud(file.path());
         })) {
       names.push_back(entry.path().filename().string());
     }

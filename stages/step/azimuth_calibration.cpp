@@ -4,7 +4,6 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
-#include "framework/base/threads.hpp"
 #include "framework/params/group.hpp"
 #include "framework/registration/azimuth_error.hpp"
 #include "framework/stage/rig_step.hpp"
@@ -82,22 +81,16 @@ class AzimuthCalibrationStep final : public RigStep {
 
   void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
     // A sensor's error is its own, but it is found against the surfaces of one target.
-    std::map<std::pair<std::string, std::string>, std::vector<RigEstimate*>> unknown;
-    for (RigEstimate& one : rig) {
-      try {
-        if (!one.estimate.rejection) require_usable_clouds(one.estimate);
-        // Of rejected poses too: all sensors of a scene share the reference's cloud.
-        correct_known(one);
-        if (one.estimate.rejection) continue;
-        if (known_.count(one.source) == 0) unknown[{one.target, one.source}].push_back(&one);
-      } catch (const StageError& error) {
-        one.failure = error.what();
-      }
-    }
+    const auto unknown = [&](RigEstimate& one) -> std::optional<RigKey> {
+      if (!one.estimate.rejection) require_usable_clouds(one.estimate);
+      // Of rejected poses too: all sensors of a scene share the reference's cloud.
+      correct_known(one);
+      if (one.estimate.rejection || known_.count(one.source) > 0) return std::nullopt;
+      return RigKey{one.target, one.source};
+    };
+    const std::vector<RigGroup> sensors = rig_groups(rig, unknown);
     if (!params_.estimate) return;
-    std::vector<std::vector<RigEstimate*>> sensors;
-    for (auto& [names, estimates] : unknown) sensors.push_back(std::move(estimates));
-    for_each_in_parallel(sensors.size(), [&](std::size_t i) { calibrate(sensors[i]); });
+    for_each_group(sensors, [&](const RigGroup& estimates) { calibrate(estimates); });
   }
 
  private:
@@ -122,24 +115,20 @@ class AzimuthCalibrationStep final : public RigStep {
     });
   }
 
-  void calibrate(const std::vector<RigEstimate*>& estimates) const {
+  void calibrate(const RigGroup& estimates) const {
     std::vector<AzimuthView> views;
     for (const RigEstimate* const one : estimates) {
       const Estimate& estimate = one->estimate;
       views.push_back({&*estimate.target, &*estimate.source, estimate.T_target_source});
     }
-    try {
-      const AzimuthCalibration found = calibrate_azimuth(views, params_);
-      for (std::size_t v = 0; v < views.size(); ++v) {
-        const int correspondences = found.correspondences[v];
-        if (correspondences < kFewestAzimuthCorrespondences) {
-          estimates[v]->failure = "only " + std::to_string(correspondences) + " points correspond";
-          continue;
-        }
-        give(found, found.T_target_source[v], estimates[v]->estimate);
+    const AzimuthCalibration found = calibrate_azimuth(views, params_);
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      const int correspondences = found.correspondences[v];
+      if (correspondences < kFewestAzimuthCorrespondences) {
+        estimates[v]->failure = "only " + std::to_string(correspondences) + " points correspond";
+        continue;
       }
-    } catch (const StageError& error) {
-      for (RigEstimate* const one : estimates) one->failure = error.what();
+      give(found, found.T_target_source[v], estimates[v]->estimate);
     }
   }
 
@@ -150,9 +139,7 @@ class AzimuthCalibrationStep final : public RigStep {
       estimate.take_clouds(estimate.target,
                            source.derived_in_trial(
                                without_error(source.with_channels(), found.error), kWithoutError));
-      estimate.information.reset();
-      estimate.T_target_source = T;
-      estimate.covariance.reset();
+      estimate.set_pose(T);
     }
     const int correspondences =
         std::accumulate(found.correspondences.begin(), found.correspondences.end(), 0);

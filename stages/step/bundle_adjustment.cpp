@@ -60,25 +60,22 @@ class BundleAdjustmentStep final : public RigStep {
   static params::DataFlow data_flow(const Params&) { return gives(kCovariance); }
 
   void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
-    std::map<std::string, std::vector<RigEstimate*>> references;
-    for (RigEstimate& one : rig) {
-      if (one.estimate.rejection) continue;
-      try {
-        require_usable_clouds(one.estimate);
-        const RigidTransform& T = one.estimate.T_target_source;
-        if (!T.rotation.allFinite() || !T.translation.allFinite()) {
-          throw StageError("its pose is not finite");
-        }
-        references[one.target].push_back(&one);
-      } catch (const StageError& error) {
-        one.failure = error.what();
-      }
-    }
-    for (const auto& [name, estimates] : references) adjust_rig(estimates);
+    for (const RigGroup& estimates : rig_groups(rig, usable_target)) adjust_rig(estimates);
   }
 
  private:
-  static RigBundle rig_bundle(const std::vector<RigEstimate*>& estimates) {
+  /// The target of an estimate that takes part. Throws StageError if it cannot.
+  static std::optional<RigKey> usable_target(const RigEstimate& one) {
+    if (one.estimate.rejection) return std::nullopt;
+    require_usable_clouds(one.estimate);
+    const RigidTransform& T = one.estimate.T_target_source;
+    if (!T.rotation.allFinite() || !T.translation.allFinite()) {
+      throw StageError("its pose is not finite");
+    }
+    return RigKey{one.target};
+  }
+
+  static RigBundle rig_bundle(const RigGroup& estimates) {
     RigBundle bundle;
     std::map<std::string, std::size_t> scenes, sensors;
     std::vector<double> zeros_s;  // By scene: the zero of its times, so that they are small.
@@ -168,13 +165,13 @@ class BundleAdjustmentStep final : public RigStep {
     return known.empty() ? InformedPose{centre, Matrix6d::Zero()} : informed_mean(known);
   }
 
-  void adjust_rig(const std::vector<RigEstimate*>& estimates) const {
+  void adjust_rig(const RigGroup& estimates) const {
     if (estimates.empty()) return;
     const RigBundle rig = rig_bundle(estimates);
     const Bundle result = adjust_bundle(rig.scenes, rig.start, params_);
     if (const std::optional<Far> far = farthest(rig, result)) {
       // It may have moved others that are right.
-      std::vector<RigEstimate*> others;
+      RigGroup others;
       for (std::size_t i = 0; i < estimates.size(); ++i) {
         if (rig.sensors[i] != far->sensor) {
           others.push_back(estimates[i]);
@@ -232,8 +229,7 @@ class BundleAdjustmentStep final : public RigStep {
     }
     Estimate& estimate = one.estimate;
     const PoseError moved = pose_error(result.poses[sensor], estimate.T_target_source);
-    estimate.T_target_source = result.poses[sensor];
-    estimate.information.reset();
+    estimate.set_pose(result.poses[sensor]);
     if (is_adjusted) {
       estimate.covariance = result.covariances[sensor];
       // Planes or registrations must hold it, and well enough.

@@ -1,6 +1,3 @@
-#include <map>
-#include <utility>
-
 #include "framework/base/angles.hpp"
 #include "framework/base/text.hpp"
 #include "framework/geometry/guarded_inverse.hpp"
@@ -39,12 +36,9 @@ const params::Table<Params>& table() {
   return table;
 }
 
-/// The estimates of one sensor.
-using OfSensor = std::vector<RigEstimate*>;
-
 /// The estimates that vote: those that no step has rejected, or all if there are no others.
-OfSensor voters(const OfSensor& estimates) {
-  OfSensor accepted;
+RigGroup voters(const RigGroup& estimates) {
+  RigGroup accepted;
   for (RigEstimate* const one : estimates) {
     if (!one->estimate.rejection) accepted.push_back(one);
   }
@@ -64,17 +58,16 @@ class ConsensusStep final : public RigStep {
   }
 
   void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
-    std::map<std::pair<std::string, std::string>, OfSensor> sensors;
-    for (RigEstimate& one : rig) sensors[{one.target, one.source}].push_back(&one);
-    for (const auto& [names, estimates] : sensors) agree_on_pose(estimates);
+    const auto sensor = [](const RigEstimate& one) { return RigKey{one.target, one.source}; };
+    for (const RigGroup& estimates : rig_groups(rig, sensor)) agree_on_pose(estimates);
   }
 
  private:
   /// Gives all estimates of a sensor the pose that they agree on.
-  void agree_on_pose(const OfSensor& estimates) const {
-    const OfSensor votes = voters(estimates);
+  void agree_on_pose(const RigGroup& estimates) const {
+    const RigGroup votes = voters(estimates);
     RigidTransform pose = consensus_pose(poses_of(votes), bounds_);
-    const OfSensor agreeing = near(votes, pose);
+    const RigGroup agreeing = near(votes, pose);
     const double ratio =
         static_cast<double>(agreeing.size()) / static_cast<double>(estimates.front()->scenes);
     const std::optional<Matrix6d> information = joint_information(agreeing);
@@ -99,7 +92,7 @@ class ConsensusStep final : public RigStep {
     }
     const std::optional<std::string> rejection = verdict(estimates, votes, agreeing.size(), ratio);
     for (RigEstimate* const one : estimates) {
-      one->estimate.T_target_source = pose;
+      one->estimate.set_pose(pose);
       one->estimate.information = information;
       one->estimate.covariance = covariance;
       one->estimate.rejection = rejection;
@@ -108,15 +101,15 @@ class ConsensusStep final : public RigStep {
     }
   }
 
-  static std::vector<RigidTransform> poses_of(const OfSensor& estimates) {
+  static std::vector<RigidTransform> poses_of(const RigGroup& estimates) {
     std::vector<RigidTransform> poses;
     for (const RigEstimate* const one : estimates) poses.push_back(one->estimate.T_target_source);
     return poses;
   }
 
   /// The votes within the bounds of `pose`.
-  OfSensor near(const OfSensor& votes, const RigidTransform& pose) const {
-    OfSensor agreeing;
+  RigGroup near(const RigGroup& votes, const RigidTransform& pose) const {
+    RigGroup agreeing;
     for (RigEstimate* const vote : votes) {
       if (agree(vote->estimate.T_target_source, pose, bounds_)) agreeing.push_back(vote);
     }
@@ -124,7 +117,7 @@ class ConsensusStep final : public RigStep {
   }
 
   /// The mean of the poses of these scenes, each of which has a covariance, weighed by it.
-  static InformedPose weighted_mean(const OfSensor& agreeing) {
+  static InformedPose weighted_mean(const RigGroup& agreeing) {
     std::vector<InformedPose> known;
     for (const RigEstimate* const one : agreeing) {
       known.push_back(informed(one->estimate.T_target_source, one->estimate.covariance->matrix));
@@ -134,7 +127,7 @@ class ConsensusStep final : public RigStep {
 
   /// Scenes are independent observations of one pose, so their information adds; std::nullopt if
   /// one of them has none.
-  static std::optional<Matrix6d> joint_information(const OfSensor& agreeing) {
+  static std::optional<Matrix6d> joint_information(const RigGroup& agreeing) {
     if (agreeing.empty()) return std::nullopt;
     Matrix6d sum = Matrix6d::Zero();
     for (const RigEstimate* const one : agreeing) {
@@ -146,7 +139,7 @@ class ConsensusStep final : public RigStep {
 
   /// The pose is the mean of the poses of these scenes, whose errors are independent; std::nullopt
   /// if one of them has no covariance.
-  static std::optional<PoseCovariance> joint_covariance(const OfSensor& agreeing) {
+  static std::optional<PoseCovariance> joint_covariance(const RigGroup& agreeing) {
     std::vector<PoseCovariance> covariances;
     for (const RigEstimate* const one : agreeing) {
       if (!one->estimate.covariance) return std::nullopt;
@@ -157,7 +150,7 @@ class ConsensusStep final : public RigStep {
   }
 
   /// Why the pose must not be trusted, if so.
-  std::optional<std::string> verdict(const OfSensor& estimates, const OfSensor& votes,
+  std::optional<std::string> verdict(const RigGroup& estimates, const RigGroup& votes,
                                      std::size_t agreeing, double ratio) const {
     if (votes.front()->estimate.rejection) return votes.front()->estimate.rejection;
     if (ratio >= params_.min_agreeing_ratio) return std::nullopt;

@@ -51,8 +51,8 @@ class GroundAlignment final : public Step {
   Estimate advance(Estimate estimate, Rng&) const override {
     estimate.target_ground = split(*estimate.target, "reference");
     estimate.source_ground = split(*estimate.source, "sensor");
-    estimate.T_target_source = aligned(estimate.T_target_source, estimate.target_ground->plane,
-                                       estimate.source_ground->plane);
+    estimate.set_pose(aligned(estimate.T_target_source, estimate.target_ground->plane,
+                              estimate.source_ground->plane));
     estimate.diagnostics = {{"target_ground_offset_m", estimate.target_ground->plane.offset_m},
                             {"source_ground_offset_m", estimate.source_ground->plane.offset_m}};
     return estimate;

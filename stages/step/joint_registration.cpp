@@ -1,10 +1,8 @@
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <utility>
 
 #include "framework/base/error.hpp"
-#include "framework/base/threads.hpp"
 #include "framework/geometry/pose_mean.hpp"
 #include "framework/params/choice.hpp"
 #include "framework/pipeline/shared_view.hpp"
@@ -56,7 +54,7 @@ const params::Table<Params>& table() {
 struct Group {
   std::vector<JointScene> scenes;
   /// Of each scene, in the order of its sources.
-  std::vector<std::vector<RigEstimate*>> estimates;
+  std::vector<RigGroup> estimates;
   std::vector<std::string> sensors;
   JointState state;
 };
@@ -82,26 +80,14 @@ class JointRegistrationStep final : public RigStep {
   }
 
   void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
-    std::map<std::pair<std::string, std::string>, std::vector<RigEstimate*>> groups;
-    for (RigEstimate& one : rig) {
-      const std::string scene = params_.poses == Poses::common ? "" : one.scene;
-      groups[{scene, one.target}].push_back(&one);
-    }
-    std::vector<std::vector<RigEstimate*>> apart;
-    for (auto& [name, estimates] : groups) apart.push_back(std::move(estimates));
-    for_each_in_parallel(apart.size(), [&](std::size_t i) {
-      try {
-        register_group(apart[i]);
-      } catch (const StageError& error) {
-        for (RigEstimate* const one : apart[i]) {
-          if (one->failure.empty()) one->failure = error.what();
-        }
-      }
-    });
+    const auto key_of = [&](const RigEstimate& one) {
+      return RigKey{params_.poses == Poses::common ? "" : one.scene, one.target};
+    };
+    for_each_group(rig_groups(rig, key_of), [&](const RigGroup& group) { register_group(group); });
   }
 
  private:
-  void register_group(const std::vector<RigEstimate*>& estimates) const {
+  void register_group(const RigGroup& estimates) const {
     const Group group = group_of(estimates);
     if (group.scenes.empty()) return;
     const std::vector<JointScene> coarse = thinned(group.scenes);
@@ -150,7 +136,7 @@ class JointRegistrationStep final : public RigStep {
   }
 
   /// The estimates that can take part; the others fail.
-  Group group_of(const std::vector<RigEstimate*>& estimates) const {
+  Group group_of(const RigGroup& estimates) const {
     Group group;
     std::vector<std::string> scene_names;
     std::vector<std::vector<RigidTransform>> starts;
@@ -235,8 +221,7 @@ class JointRegistrationStep final : public RigStep {
       Estimate& estimate = one.estimate;
       const RigidTransform& T = result.state.T_target_sensor[source.sensor];
       const double offset_s = result.state.clock_offsets_s[source.sensor];
-      estimate.T_target_source = T;
-      estimate.information.reset();
+      estimate.set_pose(T);
       // With common poses other scenes tell what a scene's velocity is.
       const std::string rejection =
           params_.poses == Poses::common ? "" : motion.rejection(j, params_);

@@ -30,7 +30,7 @@ class PlanarAlignment final : public Step {
   Estimate advance(Estimate estimate, Rng&) const override {
     const NearestDistanceCost cost = nearest_cost(estimate, params_);
     const PoseMinimum minimum = params_.search->minimise(cost, estimate.T_target_source);
-    estimate.T_target_source = minimum.pose;
+    estimate.set_pose(minimum.pose);
     estimate.diagnostics = {{"cost_m2", minimum.cost},
                             {"evaluations", static_cast<double>(minimum.evaluations)}};
     return estimate;

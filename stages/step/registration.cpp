@@ -32,7 +32,7 @@ class RegistrationStep final : public Step {
     const SelectedClouds clouds = selected_clouds(estimate, params_.points);
     const Registration result =
         params_.icp->align(*clouds.target, *clouds.source, estimate.T_target_source);
-    estimate.T_target_source = result.T_target_source;
+    estimate.set_pose(result.T_target_source);
     estimate.information = result.information;
     if (result.inlier_ratio < params_.min_inlier_ratio) {
       estimate.rejection = "inlier ratio " + fixed_number(result.inlier_ratio, 6) + " is below " +

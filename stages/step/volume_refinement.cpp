@@ -71,7 +71,7 @@ class VolumeRefinement final : public Step {
     const double before_m3 = volume(estimate.T_target_source).m3;
     const PoseMinimum minimum =
         params_.search->minimise(volume_cost(volume), estimate.T_target_source);
-    estimate.T_target_source = minimum.pose;
+    estimate.set_pose(minimum.pose);
     estimate.diagnostics = {{"volume_before_m3", before_m3},
                             {"volume_m3", minimum.cost},
                             {"evaluations", static_cast<double>(minimum.evaluations)}};

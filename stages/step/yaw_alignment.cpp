@@ -31,7 +31,7 @@ class YawAlignment final : public Step {
         {[&](double yaw_rad) { return cost(yaw_rad); },
          [&](double yaw_rad, double enough) { return cost.below(yaw_rad, enough); },
          [&](double yaw_rad) { return cost.glance(yaw_rad); }});
-    estimate.T_target_source = cost.turned(minimum.yaw_rad);
+    estimate.set_pose(cost.turned(minimum.yaw_rad));
     estimate.diagnostics = {{"cost_m2", minimum.cost},
                             {"evaluations", static_cast<double>(minimum.evaluations)}};
     return estimate;

@@ -46,6 +46,17 @@ TEST_F(StartsCommand, WritesAnyRotation) {
   expect_same_trials(R"({"rotation_deg": 180, "trials": 6})");
 }
 
+TEST_F(StartsCommand, RefusesAnExperimentWithoutStarts) {
+  folder_.write("x.json", experiment_with(R"("none")"));
+  run("validate " + path("x.json"));
+  const Answer answer = croon("starts " + path("x.json"));
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_NE(answer.text.find("x.json: /starts: expected starts that are drawn or listed, found "
+                             "\"none\": each trial starts at the identity"),
+            std::string::npos)
+      << answer.text;
+}
+
 TEST_F(StartsCommand, IsReadBelowTheDataRootFirst) {
   folder_.write("x.json", experiment_with(R"({"trials": 1})"));
   folder_.write("read.json", experiment_with(R"({"file": "starts.csv"})"));

@@ -48,7 +48,7 @@ class Rig(TestCase):
             self.assertEqual((sensor.covariance.shape, sensor.nominal, sensor.reasons), ((6, 6), None, []))
             self.assertEqual(set(sensor.observability), {"roll", "pitch", "yaw", "x", "y", "z"})
             self.assertEqual([scene.scene for scene in sensor.scenes], ["0", "1"])
-        self.assertTrue(str(calibration).startswith("left: accepted\n  x "), str(calibration))
+        self.assertRegex(str(calibration), "ACCEPTED +left")
         self.assertIn("left accepted, right accepted", repr(calibration))
         self.assertIn(calibration.composition, croon.pipelines())
 
@@ -115,7 +115,6 @@ class Clouds(TestCase):
         found = croon.calibrate(clouds, nominal=vehicle, pipeline=STEPS).sensors["left"]
         self.assertTrue(np.allclose(found.nominal, scene.truth["left"], atol=1e-12))
         self.assertTrue(np.allclose(found.pose, expected.pose, atol=1e-6))
-        self.assertIn("from nominal: 0.0", str(found))
 
     def test_that_are_wrong_are_refused_in_one_line(self):
         scene, = scenes(noise="none")
@@ -130,7 +129,7 @@ class Clouds(TestCase):
                 ({"top": top, "left": [left]}, {}, "one cloud"),
                 ({"top": top, "left": wide}, {}, "columns="), ({"top": top, "left": wide}, {"columns": ("x", "y")}, "6 different"),
                 ({"top": top, "left": left.astype(int)}, {}, "left: expected an N×3 array"),
-                ({"top": top, "left": [[1, 2, 3]]}, {}, "one cloud"), ({"top": top, "left": 3}, {}, "found an int"),
+                ({"top": top, "left": [[1, 2, 3]]}, {}, "one cloud"), (both, {"columns": "xyz"}, "a list of names"), ({"top": top, "left": 3}, {}, "found an int"),
                 ({"top": top, "left": {"x": left[:, 0]}}, {}, "x, y and z"), ({"top": top, "left": "none.pcd"}, {}, "none.pcd"),
                 (both, {"reference": "topp"}, "top, left"), (both, {"pipeline": "bst"}, 'did you mean "best"?'),
                 (both, {"pipeline": [{"step": "ground_alignmen"}]}, 'did you mean "ground_alignment"?'),

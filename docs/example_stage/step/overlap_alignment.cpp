@@ -73,7 +73,8 @@ class OverlapAlignment final : public Step {
       }
     }
     if (most == 0) throw StageError("the two clouds share no cell at any shift within range_m");
-    estimate.T_target_source.translation += shift_m;
+    const RigidTransform& T = estimate.T_target_source;
+    estimate.set_pose({T.rotation, T.translation + shift_m});
     const double overlap_ratio = static_cast<double>(most) / source.size();
     estimate.extras.put(kOverlap, overlap_ratio);
     estimate.diagnostics = {{"overlap_ratio", overlap_ratio}, {"shift_m", shift_m.norm()}};

@@ -10,9 +10,8 @@ import numpy
 
 from . import _core
 from ._clouds import read_cloud
-from ._json import path_of, refusal, text_and_name, whole, word
+from ._json import path_of, refusal, text_and_name, whole, with_article, word
 
-_DOFS = ("roll", "pitch", "yaw", "x", "y", "z")
 _DEFAULT_COLUMNS = {3: ("x", "y", "z"), 4: ("x", "y", "z", "intensity")}
 
 
@@ -56,14 +55,6 @@ class CalibratedSensor:
     scenes: List[SceneEstimate]
     """The estimates in each scene, in the order of the scenes."""
 
-    def __str__(self):
-        verdict = "accepted" if self.accepted else "; ".join(["rejected", *self.reasons])
-        lines = [f"{self.sensor}: {verdict}"]
-        if self.pose is not None:
-            lines += _pose_lines(self)
-        lines += [f"  advice: {advice}" for advice in self.advice]
-        return "\n".join(lines)
-
     def __repr__(self):
         return f"<croon.CalibratedSensor {self.sensor}: {'accepted' if self.accepted else 'rejected'}>"
 
@@ -92,9 +83,8 @@ class SceneMotion(NamedTuple):
 class Calibration:
     """A rig's calibration, as `calibrate` returns it. ``print`` shows the verdicts first."""
 
-    def __init__(self, rig, unused=()):
+    def __init__(self, rig):
         self._rig = rig
-        self._unused = list(unused)
         self._sensors = {
             fields[0]: CalibratedSensor(*fields[:-1], [SceneEstimate(*scene) for scene in fields[-1]])
             for fields in rig.sensors()}
@@ -132,7 +122,7 @@ class Calibration:
     @property
     def unused(self):
         """The scenes and clouds that were not used, each with the reason."""
-        return self._unused + self._rig.unused()
+        return self._rig.unused()
 
     @property
     def motion(self):
@@ -151,12 +141,12 @@ class Calibration:
         `format` is one of those of ``croon calibrate --format``: "ros2", "urdf", "autoware", "kalibr", "csv" and others.
         Rejected sensors are left out unless `with_rejected`, and then marked where the format can hold a mark; "csv"
         always has them, with their verdict. `base` is the reference's pose in the vehicle frame `base_name`, 4×4: the
-        poses are then in that frame. Raises InputError.
+        poses are then in that frame, and the reference is one of the sensors. Raises InputError.
         """
         return self._rig.files(word(format, "format"), bool(with_rejected), word(base_name, "base_name"), base)
 
     def save(self, folder, formats=("csv",), *, with_rejected=False, base=None, base_name="base_link"):
-        """Writes the files of `formats` and ``report.txt``, which is ``str()`` of this object, to `folder`.
+        """Writes the files of `formats` and ``report.txt``, which has ``str()`` of this object, to `folder`.
 
         The folder is created if it does not exist. The arguments are those of `to_format`. Returns the paths of the
         files. Raises InputError before anything is written for a wrong argument, and OSError if a file cannot be written.
@@ -165,18 +155,13 @@ class Calibration:
         texts = {"report.txt": f"{self}\n"}
         for format in [formats] if isinstance(formats, str) else formats:
             texts.update(self.to_format(format, with_rejected=with_rejected, base=base, base_name=base_name))
-        folder.mkdir(parents=True, exist_ok=True)
         for name, text in texts.items():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / name).write_text(text, encoding="utf-8")
         return [folder / name for name in texts]
 
     def __str__(self):
-        lines = [str(sensor) for sensor in self.sensors.values()]
-        lines.append(f"reference: {self.reference}; pipeline: {self.composition}"
-                     + (f" ({self.composition_reason})" if self.composition_reason else ""))
-        lines += [f"warning: {warning}" for warning in self.warnings]
-        lines += [f"not used: {unused}" for unused in self.unused]
-        return "\n".join(lines)
+        return self._rig.text().rstrip()
 
     def __repr__(self):
         verdicts = ", ".join(f"{name} {'accepted' if sensor.accepted else 'rejected'}"
@@ -219,10 +204,10 @@ def calibrate(clouds, *, reference="", nominal=None, pipeline="best", from_scrat
     text, name = (None, pipeline) if isinstance(pipeline, str) and pipeline in pipelines() else text_and_name(
         pipeline, "pipeline")
     rig = _core.calibrate_rig(usable, _nominal(nominal, sensors), {
-        "reference": reference,
+        "reference": reference, "unused": unused,
         "pipeline": name, "text": text, "from_scratch": bool(from_scratch), "seed": whole(seed, "seed", 0, 2**64 - 1),
         "jobs": whole(jobs, "jobs", 0, _core.MOST_JOBS)})
-    return Calibration(rig, unused)
+    return Calibration(rig)
 
 
 def pipelines():
@@ -245,10 +230,10 @@ def _scenes(clouds):
     elif isinstance(clouds, (list, tuple)):
         scenes = list(clouds)
     else:
-        raise refusal("clouds", f"expected a dict of clouds by sensor or a list of such dicts, found {_kind(clouds)}")
+        raise refusal("clouds", f"expected a dict of clouds by sensor or a list of such dicts, found {with_article(clouds)}")
     for index, scene in enumerate(scenes):
         if not isinstance(scene, collections.abc.Mapping):
-            raise refusal(f"clouds[{index}]", f"expected a dict of clouds by sensor, found {_kind(scene)}")
+            raise refusal(f"clouds[{index}]", f"expected a dict of clouds by sensor, found {with_article(scene)}")
         for name in scene:
             if not word(name, f"clouds[{index}]"):
                 raise refusal(f"clouds[{index}]", "expected the name of a sensor, found an empty string")
@@ -285,12 +270,14 @@ def _array(cloud, columns, where):
     if isinstance(cloud, collections.abc.Mapping):
         return _joined({name: numpy.asarray(values) for name, values in cloud.items()}, where)
     if not isinstance(cloud, numpy.ndarray):
-        raise refusal(where, f"expected a NumPy array, a dict of arrays, a Cloud or a path, found {_kind(cloud)}")
+        raise refusal(where, f"expected a NumPy array, a dict of arrays, a Cloud or a path, found {with_article(cloud)}")
     if cloud.dtype.names:
         return cloud.reshape(-1)
     if isinstance(cloud, numpy.ma.MaskedArray) or cloud.dtype.kind != "f" or cloud.ndim not in (2, 3):
         return cloud  # _core says what is wrong.
     rows = cloud.reshape(-1, cloud.shape[-1]) if cloud.ndim == 3 else cloud
+    if columns is not None and not isinstance(columns, (list, tuple)):
+        raise refusal("columns", f"expected a list of names, found {with_article(columns)}")
     names = _DEFAULT_COLUMNS.get(rows.shape[1]) if columns is None else [word(name, "columns") for name in columns]
     if names is None:
         raise refusal(where, f"expected columns=(\"x\", \"y\", \"z\", …) with the names of the {rows.shape[1]} columns, found none")
@@ -319,48 +306,8 @@ def _nominal(nominal, sensors):
     if nominal is None:
         return {}
     if not isinstance(nominal, collections.abc.Mapping):
-        raise refusal("nominal", f"expected a dict of 4×4 poses by sensor, found {_kind(nominal)}")
+        raise refusal("nominal", f"expected a dict of 4×4 poses by sensor, found {with_article(nominal)}")
     for name in nominal:
         if name not in sensors:
             raise refusal("nominal", f"expected poses of {', '.join(sensors)}, found one of {name!r:.60}")
     return dict(nominal)
-
-
-def _pose_lines(sensor):
-    """The pose and its standard deviations for people."""
-    deviations = None if sensor.covariance is None else numpy.sqrt(numpy.diag(sensor.covariance))
-    degrees = numpy.degrees(_angles_rad(sensor.pose[:3, :3]))
-    rotation = ", ".join(
-        f"{dof} {degrees[i]:.3f}" + ("" if deviations is None else f" ± {numpy.degrees(deviations[i]):.3f}")
-        for i, dof in enumerate(_DOFS[:3]))
-    translation = ", ".join(
-        f"{dof} {sensor.pose[i, 3]:.4f}" + ("" if deviations is None else f" ± {deviations[3 + i]:.4f}")
-        for i, dof in enumerate(_DOFS[3:]))
-    guess = "" if sensor.accepted else "best guess: "
-    lines = [f"  {guess}{translation} m", f"  {guess}{rotation} deg"]
-    if sensor.observability is not None:
-        poor = [f"{dof} is {how}" for dof, how in sensor.observability.items() if how != "determined"]
-        lines += [f"  {', '.join(poor)}"] if poor else []
-    if sensor.nominal is not None:
-        angle = numpy.degrees(_angle_rad(sensor.pose[:3, :3] @ sensor.nominal[:3, :3].T))
-        distance = numpy.linalg.norm(sensor.pose[:3, 3] - sensor.nominal[:3, 3])
-        lines.append(f"  from nominal: {angle:.3f} deg, {distance:.4f} m")
-    return lines
-
-
-def _angles_rad(rotation):
-    """roll, pitch, yaw of R = Rz(yaw) Ry(pitch) Rx(roll)."""
-    pitch = numpy.arctan2(-rotation[2, 0], numpy.hypot(rotation[0, 0], rotation[1, 0]))
-    return numpy.array([numpy.arctan2(rotation[2, 1], rotation[2, 2]), pitch,
-                        numpy.arctan2(rotation[1, 0], rotation[0, 0])])
-
-
-def _angle_rad(rotation):
-    """The angle of a rotation matrix."""
-    axis = [rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0], rotation[1, 0] - rotation[0, 1]]
-    return numpy.arctan2(numpy.linalg.norm(axis), numpy.trace(rotation) - 1)
-
-
-def _kind(value):
-    name = type(value).__name__
-    return ("an " if name[:1].lower() in "aeiou" else "a ") + name

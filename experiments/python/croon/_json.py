@@ -36,7 +36,7 @@ def text_and_name(value, name):
         return word(value, name), name
     if isinstance(value, (str, os.PathLike)):
         return None, path_of(value, name)
-    raise refusal(name, f"expected a dict, JSON text or a path, found {_with_article(value)}")
+    raise refusal(name, f"expected a dict, JSON text or a path, found {with_article(value)}")
 
 
 def path_of(value, name):
@@ -64,7 +64,7 @@ def whole(value, name, low, high):
 def word(value, name):
     """The text `value`."""
     if not isinstance(value, str):
-        raise refusal(name, f"expected a string, found {_with_article(value)}")
+        raise refusal(name, f"expected a string, found {with_article(value)}")
     if not _is_utf8(value):
         raise refusal(name, f"expected text that UTF-8 has, found {value!r:.60}")
     return value
@@ -83,6 +83,7 @@ def _is_utf8(text):
     return True
 
 
-def _with_article(value):
+def with_article(value):
+    """The type of `value` for messages: "a list", "an int"."""
     name = type(value).__name__
     return ("an " if name[:1].lower() in "aeiou" else "a ") + name

@@ -212,15 +212,15 @@ TEST_F(AvailableClouds, OfGroupsThatAreDamagedAreToldByEachRun) {
 }
 
 TEST_F(AvailableClouds, AreReadOnceToBeRecorded) {
-  std::vector<Scene> scenes =
-      load_experiment(folder_.path() / "x.json", catalogue()).dataset->scenes("");
+  std::vector<SceneGroup> groups =
+      scene_groups(load_experiment(folder_.path() / "x.json", catalogue()), "");
   int loads = 0;
-  auto& load = scenes[1].sensors[0].load;
+  auto& load = groups[1].scenes[0].sensors[0].load;
   load = [&loads, original = load] {
     ++loads;
     return original();
   };
-  const std::vector<InputFile> inputs = record_inputs(scenes, folder_.path(), 1);
+  const std::vector<InputFile> inputs = record_inputs(groups, folder_.path(), 1);
   ASSERT_EQ(inputs.size(), 4U);
   EXPECT_EQ(inputs[3].path, "b_left.bin");
   EXPECT_EQ(inputs[3].points, 40U);

@@ -1,5 +1,6 @@
 #include "experiments/file/experiment.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -301,6 +302,24 @@ TEST(ExperimentJson, IsReadAsItWasWritten) {
   EXPECT_EQ(success_json(read.success), success_json(written.success));
   EXPECT_EQ(deciding_starts_json(read.starts), deciding_starts_json(written.starts));
   EXPECT_EQ(read.dataset.resolved(), json::parse(written.dataset.resolved()).dump());
+}
+
+TEST(ExperimentJson, MayHaveNoStarts) {
+  json experiment = minimal();
+  experiment["starts"] = "none";
+  Experiment written = load(experiment);
+  EXPECT_EQ(total_trials(written.starts), 1);
+  EXPECT_EQ(json::parse(experiment_json(written))["starts"], "none");
+  EXPECT_EQ(deciding_starts_json(written.starts), "\"none\"");
+  EXPECT_TRUE(read_experiment_json(experiment_json(written), "store").starts.is_none);
+  EXPECT_NO_THROW(set_trials(written.starts, 1));
+  EXPECT_THAT(test::input_error([&] { set_trials(written.starts, 2); }),
+              ::testing::StartsWith("--trials: expected 1, because trials without"));
+  for (const json& wrong : {json("no"), json(3)}) {
+    experiment["starts"] = wrong;
+    EXPECT_EQ(faults_of(experiment),
+              Lines{"/starts: expected an object or \"none\", found " + wrong.dump()});
+  }
 }
 
 /// As version 0.1.0 wrote it before "claims" had its name.

@@ -230,6 +230,8 @@ TEST_F(SchemaAndLoader, AgreeOnKeysThatBelongTogether) {
       {"/starts", {{"file", "a.csv"}, {"trials", 3}, {"sha256", "12"}}, true},
       {"/starts", {{"file", "a.csv"}, {"around", "truth"}}, false},
       {"/starts", {{"sha256", "12"}}, false},
+      {"/starts", "none", true},
+      {"/starts", "some", false},
       {"/claims", json::array({claim, table}), true},
       {"/expect", json::array({claim}), true},
       {"/claims/0", with(claim, "measure", nullptr), false},

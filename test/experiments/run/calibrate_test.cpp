@@ -31,14 +31,15 @@ TEST(Calibrate, GivesTheBitsOfARun) {
   int compared = 0;
   RunListener listener;
   listener.on_trial = [&](const TrialRecord& record, const std::vector<TimingRow>&) {
-    for (const Scene& scene : run.scenes) {
-      if (scene.name != record.id.scene) continue;
+    for (const SceneGroup& group : run.groups) {
+      if (group.name != record.id.scene) continue;
+      const Scene& scene = group.scenes.front();
       for (const SensorScan& scan : scene.sensors) {
         if (scan.sensor != record.id.sensor) continue;
-        const PipelineResult result =
-            calibrate(pipeline, scene.reference.load(), scan.load(),
-                      start_of(run.experiment, scene.name, scan, record.id.trial),
-                      {7, scene.name, scene.reference.sensor, scan.sensor, record.id.trial});
+        const PipelineResult result = calibrate(
+            pipeline, scene.reference.load(), scan.load(),
+            start_of(run.experiment, scene.name, to_reference(scene, scan), record.id.trial),
+            {7, scene.name, scene.reference.sensor, scan.sensor, record.id.trial});
         EXPECT_EQ(result.estimate.T_target_source.translation,
                   record.T_reference_sensor->translation);
         EXPECT_EQ(result.estimate.T_target_source.rotation, record.T_reference_sensor->rotation);
@@ -46,7 +47,7 @@ TEST(Calibrate, GivesTheBitsOfARun) {
       }
     }
   };
-  run_trials(run.experiment, run.scenes, plan_trials(run.experiment, run.scenes, run.selection), 1,
+  run_trials(run.experiment, run.groups, plan_trials(run.experiment, run.groups, run.selection), 1,
              listener);
   EXPECT_EQ(compared, 2 * 2 * 2);
 }

@@ -51,12 +51,12 @@ TEST(Extras, AStepReadsWhatAnEarlierOnePut) {
   int records = 0;
   listener.on_trial = [&](const TrialRecord& record, const std::vector<TimingRow>&) {
     ++records;
-    const auto scan = run.scenes.front().sensors.front();
+    const CalibratedPair& pair = run.groups.front().pairs.front();
     ASSERT_TRUE(record.T_reference_sensor);
-    if (record.id.scene != run.scenes.front().name || record.id.sensor != scan.sensor) return;
-    EXPECT_NEAR(record.T_reference_sensor->translation.x(), scan.truth->translation.x() + 2.0, 0.2);
+    if (record.id.scene != run.groups.front().name || record.id.sensor != pair.name) return;
+    EXPECT_NEAR(record.T_reference_sensor->translation.x(), pair.truth->translation.x() + 2.0, 0.2);
   };
-  run_trials(run.experiment, run.scenes, plan_trials(run.experiment, run.scenes, run.selection), 1,
+  run_trials(run.experiment, run.groups, plan_trials(run.experiment, run.groups, run.selection), 1,
              listener);
   EXPECT_GT(records, 0);
 }

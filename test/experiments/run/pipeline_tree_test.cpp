@@ -134,7 +134,7 @@ TEST(StepCounts, AreThoseOfTheTree) {
   const Experiment experiment = with_variants(R"([
       {"name": "other end", "replace": {"behave.how": "reject"}},
       {"name": "other middle", "replace": {"second.size_m": 3}}])");
-  const std::vector<Scene> scenes = experiment.dataset->scenes("");
+  const std::vector<SceneGroup> scenes = scene_groups(experiment, "");
   const Plan plan = plan_trials(experiment, scenes, {all_variants(experiment), {}});
   const std::size_t starts = plan.starts.size();
   EXPECT_EQ(plan.trials, 3 * starts);

@@ -45,7 +45,7 @@ Experiment experiment_of(const json& description) {
 }
 
 /// Runs all trials.
-void run_all(const Experiment& experiment, const std::vector<Scene>& scenes, int jobs,
+void run_all(const Experiment& experiment, const std::vector<SceneGroup>& scenes, int jobs,
              const RunListener& listener) {
   const Selection selection{select_variants(experiment, {}), {}};
   run_trials(experiment, scenes, plan_trials(experiment, scenes, selection), jobs, listener);
@@ -53,7 +53,7 @@ void run_all(const Experiment& experiment, const std::vector<Scene>& scenes, int
 
 Ran run(const json& description, int jobs = 2) {
   const Experiment experiment = experiment_of(description);
-  const std::vector<Scene> scenes = experiment.dataset->scenes("");
+  const std::vector<SceneGroup> scenes = scene_groups(experiment, "");
   Ran ran;
   RunListener listener;
   const auto add_timings = [&](const std::vector<TimingRow>& rows) {
@@ -123,7 +123,7 @@ TEST(Runner, HoldsFewScenesAndTellsOneThingAtATime) {
   json description = drifting_apart(1);
   description["dataset"]["scenes"] = 80;
   const Experiment experiment = experiment_of(description);
-  const std::vector<Scene> scenes = experiment.dataset->scenes("");
+  const std::vector<SceneGroup> scenes = scene_groups(experiment, "");
   for (const int jobs : {1, 2, 5}) {
     std::vector<std::string> begun;
     std::size_t ended = 0, most_at_a_time = 0;
@@ -196,7 +196,7 @@ json branching() {
 
 TEST(Runner, SharedStepsComeToTheBitsOfStepsOfTheirOwn) {
   const Experiment experiment = experiment_of(branching());
-  const std::vector<Scene> scenes = experiment.dataset->scenes("");
+  const std::vector<SceneGroup> scenes = scene_groups(experiment, "");
   const std::vector<TrialRecord> shared = run(branching()).records;
   std::vector<TrialRecord> alone;
   RunListener listener;
@@ -280,8 +280,8 @@ TEST(Runner, ABugInOneSceneLeavesNoScanHalfDone) {
   json description = drifting_apart(2);
   description["dataset"]["scenes"] = 50;
   const Experiment experiment = experiment_of(description);
-  std::vector<Scene> scenes = experiment.dataset->scenes("");
-  scenes[9].sensors[0].load = []() -> LoadedCloud { throw std::logic_error("a bug"); };
+  std::vector<SceneGroup> scenes = scene_groups(experiment, "");
+  scenes[9].scenes[0].sensors[0].load = []() -> LoadedCloud { throw std::logic_error("a bug"); };
   std::vector<TrialRecord> records;
   RunListener listener;
   listener.on_scene = [](const std::string&) {};
@@ -318,6 +318,20 @@ TEST(Runner, WithoutTruthATrialIsFinished) {
     EXPECT_EQ(record.status, Status::finished);
     EXPECT_FALSE(record.error.has_value());
     EXPECT_TRUE(record.T_reference_sensor.has_value());
+  }
+}
+
+TEST(Runner, WithoutAnInitialGuessATrialStartsAtTheIdentity) {
+  json experiment = drifting_apart();
+  experiment["dataset"]["truth"] = false;
+  experiment["starts"] = "none";
+  experiment["pipeline"] = json::parse(R"([{"step": "behave"}])");
+  const std::vector<TrialRecord> records = run(experiment).records;
+  EXPECT_EQ(records.size(), 2U * 2U);
+  for (const TrialRecord& record : records) {
+    EXPECT_EQ(record.status, Status::finished);
+    EXPECT_EQ(record.T_reference_sensor->rotation, Eigen::Matrix3d::Identity());
+    EXPECT_EQ(record.T_reference_sensor->translation, Eigen::Vector3d::Zero());
   }
 }
 

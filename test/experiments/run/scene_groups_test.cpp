@@ -8,7 +8,6 @@
 #include <set>
 
 #include "experiments/run/runner.hpp"
-#include "experiments/run/sensor_pairs.hpp"
 #include "test/experiments/support/fake_stages.hpp"
 #include "test/support/temp_folder.hpp"
 
@@ -33,17 +32,17 @@ Experiment in_groups(int scenes, int size, const std::string& members = "",
 }
 
 /// The scenes of each group by name.
-std::vector<std::vector<std::string>> members_of(const std::vector<Scene>& groups) {
+std::vector<std::vector<std::string>> members_of(const std::vector<SceneGroup>& groups) {
   std::vector<std::vector<std::string>> members;
-  for (const Scene& group : groups) {
+  for (const SceneGroup& group : groups) {
     members.emplace_back();
-    for (const Scene* const scene : parts_of(group)) members.back().push_back(scene->name);
+    for (const Scene& scene : group.scenes) members.back().push_back(scene.name);
   }
   return members;
 }
 
 TEST(SceneGroups, ShareNoSceneAndLeaveOutTheRest) {
-  const std::vector<Scene> groups = scenes_of(in_groups(17, 5), "");
+  const std::vector<SceneGroup> groups = scene_groups(in_groups(17, 5), "");
   ASSERT_EQ(groups.size(), 3U);
   std::set<std::string> seen;
   for (const std::vector<std::string>& group : members_of(groups)) {
@@ -58,20 +57,20 @@ TEST(SceneGroups, HaveTheNameOfTheFirstSceneInTheOrderOfTheDataset) {
   std::map<std::string, std::size_t> index;
   for (const Scene& scene : dataset_scenes(experiment, "")) index.emplace(scene.name, index.size());
   std::size_t last = 0;
-  for (const Scene& group : scenes_of(experiment, "")) {
-    EXPECT_EQ(group.name, group.parts.front().name + "+3");
+  for (const SceneGroup& group : scene_groups(experiment, "")) {
+    EXPECT_EQ(group.name, group.scenes.front().name + "+3");
     const auto before = [&](const Scene& a, const Scene& b) {
       return index[a.name] < index[b.name];
     };
-    EXPECT_TRUE(std::is_sorted(group.parts.begin(), group.parts.end(), before));
-    EXPECT_GE(index[group.parts.front().name], last);
-    last = index[group.parts.front().name];
+    EXPECT_TRUE(std::is_sorted(group.scenes.begin(), group.scenes.end(), before));
+    EXPECT_GE(index[group.scenes.front().name], last);
+    last = index[group.scenes.front().name];
   }
 }
 
 TEST(SceneGroups, AreDrawnFromTheSeedAlone) {
   const auto groups = [](const std::string& members) {
-    return members_of(scenes_of(in_groups(20, 5, members), ""));
+    return members_of(scene_groups(in_groups(20, 5, members), ""));
   };
   EXPECT_EQ(groups(""), groups(R"(, "loops": true)"));
   EXPECT_EQ(groups(""), groups(R"(, "seed": 1)"));
@@ -84,7 +83,7 @@ TEST(SceneGroups, EachSceneIsAsOftenWithEachOther) {
   constexpr int kSeeds = 1000;
   for (int seed = 1; seed <= kSeeds; ++seed) {
     const Experiment experiment = in_groups(6, 2, R"(, "seed": )" + std::to_string(seed));
-    ++with_first[scenes_of(experiment, "").front().parts.back().name];
+    ++with_first[scene_groups(experiment, "").front().scenes.back().name];
   }
   EXPECT_EQ(with_first.size(), 5U);
   // Five standard deviations of a binomial share.
@@ -92,35 +91,37 @@ TEST(SceneGroups, EachSceneIsAsOftenWithEachOther) {
 }
 
 TEST(SceneGroups, OneSceneEachIsAsItWas) {
-  const std::vector<Scene> scenes = scenes_of(in_groups(3, 1), "");
-  ASSERT_EQ(scenes.size(), 3U);
-  EXPECT_TRUE(scenes.front().parts.empty());
-  EXPECT_EQ(parts_of(scenes).size(), 3U);
+  const std::vector<SceneGroup> groups = scene_groups(in_groups(3, 1), "");
+  ASSERT_EQ(groups.size(), 3U);
+  for (const SceneGroup& group : groups) {
+    ASSERT_EQ(group.scenes.size(), 1U);
+    EXPECT_EQ(group.name, group.scenes.front().name);
+  }
 }
 
 TEST(SceneGroups, OfSeveralKindsAreMixed) {
-  for (const Scene& group :
-       scenes_of(in_groups(4, 4, "", R"(, "one_rig": true, "kinds": true)"), "")) {
+  for (const SceneGroup& group :
+       scene_groups(in_groups(4, 4, "", R"(, "one_rig": true, "kinds": true)"), "")) {
     EXPECT_EQ(group.kind, "mixed");
   }
 }
 
 TEST(SceneGroups, AreRefusedWithoutACommonRigOrEnoughScenes) {
-  EXPECT_THAT(test::input_error([] { scenes_of(in_groups(4, 5), ""); }),
+  EXPECT_THAT(test::input_error([] { scene_groups(in_groups(4, 5), ""); }),
               HasSubstr("/scenes_per_trial: expected at most the number of scenes, 4, found 5"));
-  EXPECT_THAT(test::input_error([] { scenes_of(in_groups(4, 2, "", ""), ""); }),
+  EXPECT_THAT(test::input_error([] { scene_groups(in_groups(4, 2, "", ""), ""); }),
               HasSubstr("/scenes_per_trial: expected one rig in all scenes of a trial, found "
                         "another true pose of sensor \"s1\" in scene"));
   EXPECT_THAT(test::input_error([] { in_groups(4, 0); }), HasSubstr("/scenes_per_trial"));
 }
 
 std::vector<TrialRecord> run(const Experiment& experiment, const Plan* only = nullptr) {
-  const std::vector<Scene> scenes = scenes_of(experiment, "");
+  const std::vector<SceneGroup> groups = scene_groups(experiment, "");
   std::vector<TrialRecord> records;
   RunListener listener;
   listener.on_trial = [&](const TrialRecord& record, const auto&) { records.push_back(record); };
-  const Plan all = plan_trials(experiment, scenes, {select_variants(experiment, {}), {}});
-  run_trials(experiment, scenes, only == nullptr ? all : *only, 2, listener);
+  const Plan all = plan_trials(experiment, groups, {select_variants(experiment, {}), {}});
+  run_trials(experiment, groups, only == nullptr ? all : *only, 2, listener);
   return records;
 }
 
@@ -156,7 +157,7 @@ TEST(Rigs, WorkWithOneSceneToo) {
 TEST(Rigs, APartOfATrialIsTheSameWhenTheRestIsThere) {
   const Experiment experiment = in_groups(6, 3);
   const std::vector<TrialRecord> all = run(experiment);
-  Plan one = plan_trials(experiment, scenes_of(experiment, ""), {{0}, {}});
+  Plan one = plan_trials(experiment, scene_groups(experiment, ""), {{0}, {}});
   one.starts.erase(one.starts.begin() + 1, one.starts.end());
   const std::vector<TrialRecord> alone = run(experiment, &one);
   ASSERT_EQ(alone.size(), 1U);
@@ -204,12 +205,12 @@ TEST(Rigs, AReasonSaysWhichScenesAreLost) {
 
 TEST(Rigs, ADamagedCloudIsSaid) {
   const Experiment experiment = in_groups(4, 2, "", R"(, "one_rig": true, "unreadable": 0)");
-  const std::vector<Scene> scenes = scenes_of(experiment, "");
+  const std::vector<SceneGroup> groups = scene_groups(experiment, "");
   std::vector<std::string> reasons;
   RunListener listener;
   listener.on_damaged = [&](const std::string& reason) { reasons.push_back(reason); };
-  run_trials(experiment, scenes,
-             plan_trials(experiment, scenes, {select_variants(experiment, {}), {}}), 2, listener);
+  run_trials(experiment, groups,
+             plan_trials(experiment, groups, {select_variants(experiment, {}), {}}), 2, listener);
   ASSERT_EQ(reasons.size(), 4U);
   EXPECT_THAT(reasons.front(), HasSubstr(": the cloud of s1: byte 7"));
 }

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "experiments/file/experiment.hpp"
+#include "experiments/run/scene_groups.hpp"
 #include "framework/geometry/dof.hpp"
 #include "test/experiments/support/fake_stages.hpp"
 #include "test/support/temp_folder.hpp"
@@ -20,61 +20,40 @@ Experiment with_loops(const std::string& loops, int sensors = 3) {
 }
 
 TEST(SensorPairs, AreThereWhereLoopsAreAskedFor) {
-  EXPECT_EQ(scenes_of(with_loops(""), "").front().sensors.size(), 3U);
-  EXPECT_EQ(scenes_of(with_loops(R"("loops": false,)"), "").front().sensors.size(), 3U);
-  const std::vector<SensorScan> sensors =
-      scenes_of(with_loops(R"("loops": true,)"), "").front().sensors;
-  ASSERT_EQ(sensors.size(), 6U);
+  EXPECT_EQ(scene_groups(with_loops(""), "").front().pairs.size(), 3U);
+  EXPECT_EQ(scene_groups(with_loops(R"("loops": false,)"), "").front().pairs.size(), 3U);
+  const SceneGroup group = scene_groups(with_loops(R"("loops": true,)"), "").front();
+  ASSERT_EQ(group.scenes.size(), 1U);
+  EXPECT_EQ(group.scenes.front().sensors.size(), 3U);
   std::vector<std::string> names;
-  for (const SensorScan& scan : sensors) names.push_back(scan.sensor);
-  EXPECT_EQ(names, (std::vector<std::string>{"s2", "s1", "s0", "s1>s2", "s0>s2", "s0>s1"}));
-  EXPECT_FALSE(is_pair(sensors[2]));
-  EXPECT_TRUE(is_pair(sensors[3]));
+  for (const SensorPair& pair : group.pairs) {
+    names.push_back(pair.name + " of " + pair.source + " in " + pair.target);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"s2 of s2 in top", "s1 of s1 in top",
+                                             "s0 of s0 in top", "s1>s2 of s1 in s2",
+                                             "s0>s2 of s0 in s2", "s0>s1 of s0 in s1"}));
 }
 
 TEST(SensorPairs, AreNoMoreThanAStoreMayHave) {
   const auto error = [](int sensors) {
     const std::string line =
-        test::input_error([&] { scenes_of(with_loops(R"("loops": true,)", sensors), ""); });
+        test::input_error([&] { scene_groups(with_loops(R"("loops": true,)", sensors), ""); });
     return line.substr(line.find(": ") + 2);
   };
-  EXPECT_NO_THROW(scenes_of(with_loops(R"("loops": true,)", 140), ""));
+  EXPECT_NO_THROW(scene_groups(with_loops(R"("loops": true,)", 140), ""));
   EXPECT_EQ(error(141).substr(0, 78),
             "/loops: expected at most 10000 sensors and pairs of them, found 10011 in scene");
-  EXPECT_NO_THROW(scenes_of(with_loops("", 141), ""));
+  EXPECT_NO_THROW(scene_groups(with_loops("", 141), ""));
 }
 
 TEST(SensorPairs, HaveTheRelativePose) {
-  for (const Scene& scene : scenes_of(with_loops(R"("loops": true,)"), "")) {
-    const auto truth = [&](std::size_t i) { return *scene.sensors[i].truth; };
+  for (const SceneGroup& group : scene_groups(with_loops(R"("loops": true,)"), "")) {
+    const auto truth = [&](std::size_t i) { return *group.pairs[i].truth; };
     // T_reference_s2 T_s2_s0 = T_reference_s0.
     const PoseError error = pose_error(truth(0) * truth(4), truth(2));
     EXPECT_LT(error.rotation_rad, 1e-12);
     EXPECT_LT(error.translation_m, 1e-12);
   }
-}
-
-TEST(SensorPairs, GoAgain) {
-  const Experiment experiment = with_loops(R"("loops": true,)");
-  for (const Scene& scene : without_pairs(scenes_of(experiment, ""))) {
-    EXPECT_EQ(scene.sensors.size(), 3U);
-  }
-  for (const Scene& scene : without_pairs(scenes_of(with_loops(""), ""))) {
-    EXPECT_EQ(scene.sensors.size(), 3U);
-  }
-}
-
-TEST(SensorPairs, GoFromGroupsWhoseScenesHaveOtherSensorsToo) {
-  Scene group;
-  group.name = "a+1";
-  for (const char* name : {"left", "right>left", "zed"}) group.sensors.emplace_back().sensor = name;
-  group.sensors[1].source = "right";
-  group.sensors[1].target = "left";
-  group.parts = {group, group};
-  const Scene without = without_pairs({group}).front();
-  ASSERT_EQ(without.sensors.size(), 2U);
-  EXPECT_EQ(without.sensors[1].sensor, "zed");
-  EXPECT_EQ(without.parts.front().sensors.size(), 2U);
 }
 
 std::vector<Scene> scenes_with(const std::vector<std::string>& sensors) {

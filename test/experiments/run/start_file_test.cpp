@@ -10,14 +10,14 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-std::vector<Scene> scenes_of(const std::vector<std::string>& names,
-                             const std::vector<std::string>& sensors) {
-  std::vector<Scene> scenes;
+std::vector<SceneGroup> scenes_of(const std::vector<std::string>& names,
+                                  const std::vector<std::string>& sensors) {
+  std::vector<SceneGroup> scenes;
   for (const std::string& name : names) {
-    Scene scene;
-    scene.name = name;
-    for (const std::string& sensor : sensors) scene.sensors.push_back({sensor, "", {}, {}, {}, {}});
-    scenes.push_back(scene);
+    scenes.push_back({name, "", {{}}, {}});
+    for (const std::string& sensor : sensors) {
+      scenes.back().pairs.push_back({{sensor, sensor, "top"}, {}, {}, {}});
+    }
   }
   return scenes;
 }
@@ -28,14 +28,14 @@ std::string file_of(const Lines& lines) {
   return bytes;
 }
 
-StartTable read(const std::string& bytes, const std::vector<Scene>& scenes) {
+StartTable read(const std::string& bytes, const std::vector<SceneGroup>& scenes) {
   const test::TempFolder folder;
   return read_start_file(folder.write("starts.csv", bytes), scenes);
 }
 
 /// Faults as "where: message".
 Lines start_faults(const std::string& bytes,
-                   const std::vector<Scene>& scenes = scenes_of({"a"}, {"left"})) {
+                   const std::vector<SceneGroup>& scenes = scenes_of({"a"}, {"left"})) {
   Lines lines;
   try {
     read(bytes, scenes);
@@ -129,7 +129,7 @@ TEST(StartFile, WantsItsHeader) {
 
 TEST(StartFile, WantsEachTrialOnceAndNoneLeftOut) {
   const std::string tail = ",1,2,3,0,0,0,1";
-  const std::vector<Scene> scenes = scenes_of({"a", "b"}, {"left"});
+  const std::vector<SceneGroup> scenes = scenes_of({"a", "b"}, {"left"});
   EXPECT_EQ(
       start_faults(file_of({"a,left,0" + tail, "b,left,0" + tail, "a,left,0" + tail}), scenes),
       Lines{"line 4: expected each trial once, found trial 0 of sensor \"left\" in scene "

@@ -161,16 +161,16 @@ TEST(Starts, StayWithinTheRangeOfEachAxis) {
 }
 
 TEST(Starts, NeedTheirCentreInEveryScene) {
-  SensorScan left{"left", "", {}, {}, RigidTransform{}, {}};
-  SensorScan right{"right", "", {}, RigidTransform{}, {}, {}};
-  std::vector<Scene> scenes;
+  const CalibratedPair left = {{"left", "left", "top"}, {}, RigidTransform{}, {}};
+  const CalibratedPair right = {{"right", "right", "top"}, RigidTransform{}, {}, {}};
+  std::vector<SceneGroup> groups;
   for (const char* name : {"a", "b", "c", "d", "e"})
-    scenes.push_back({name, {}, {}, {left, right}});
-  scenes[4].sensors[0].truth = RigidTransform{};
+    groups.push_back({name, "", {{}}, {left, right}});
+  groups[4].pairs[0].truth = RigidTransform{};
   Experiment experiment;
   experiment.starts_file = "x.json";
   try {
-    resolve_starts(experiment, scenes, "");
+    resolve_starts(experiment, groups, "");
     FAIL();
   } catch (const InputError& error) {
     ASSERT_EQ(error.faults().size(), 1U);
@@ -180,10 +180,24 @@ TEST(Starts, NeedTheirCentreInEveryScene) {
   }
   experiment.starts.around = StartCentre::initial;
   try {
-    resolve_starts(experiment, scenes, "");
+    resolve_starts(experiment, groups, "");
     FAIL();
   } catch (const InputError& error) {
     EXPECT_EQ(error.faults().size(), 2U);
+  }
+  experiment.starts.is_none = true;
+  EXPECT_NO_THROW(resolve_starts(experiment, groups, ""));
+  EXPECT_TRUE(is_same(start_of(experiment, "a", right, 0), RigidTransform{}));
+}
+
+TEST(Starts, OfDataWithoutPosesAreSaidToBeNone) {
+  Experiment experiment;
+  try {
+    resolve_starts(experiment, {{"a", "", {{}}, {{{"left", "left", "top"}, {}, {}, {}}}}}, "");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(error.faults()[0].message.find("\"starts\": \"none\" needs no pose"),
+              std::string::npos);
   }
 }
 

@@ -18,12 +18,10 @@ Experiment experiment_with(const std::vector<std::string>& variants, int trials)
   return experiment;
 }
 
-std::vector<Scene> two_scenes() {
-  const auto scan = [](const std::string& sensor) {
-    return SensorScan{sensor, "", {}, {}, {}, {}};
-  };
-  return {{"z", "", scan("top"), {scan("right"), scan("left")}},
-          {"a", "", scan("top"), {scan("left")}}};
+std::vector<SceneGroup> two_scenes() {
+  const CalibratedPair left = {{"left", "left", "top"}, {}, {}, {}};
+  const CalibratedPair right = {{"right", "right", "top"}, {}, {}, {}};
+  return {{"z", "", {{}}, {right, left}}, {"a", "", {{}}, {left}}};
 }
 
 TEST(Shard, ReadsKOfN) {
@@ -37,11 +35,11 @@ TEST(Shard, ReadsKOfN) {
 
 /// The trials of `plan` by (variant, scene, sensor of all scenes, trial); fails where one is there
 /// twice.
-std::set<TrialIndex> places(const Plan& plan, const std::vector<Scene>& scenes) {
+std::set<TrialIndex> places(const Plan& plan, const std::vector<SceneGroup>& scenes) {
   const std::vector<std::string> names = sensor_names(scenes);
   std::set<TrialIndex> found;
   for (const PlannedStart& start : plan.starts) {
-    const std::string& name = scenes[start.scene].sensors[start.sensor].sensor;
+    const std::string& name = scenes[start.scene].pairs[start.sensor].name;
     const auto sensor = std::find(names.begin(), names.end(), name) - names.begin();
     for (const std::size_t variant : plan.variants[start.variants]) {
       const TrialIndex place = {variant, start.scene, static_cast<std::size_t>(sensor),

@@ -18,7 +18,7 @@ TEST(Provenance, CloudsThatAreInNoFileAreNoInputs) {
       "x.json",
       R"({"name": "x", "dataset": {"type": "fake"}, "starts": {}, "pipeline": [{"step": "drift"}]})");
   const Experiment experiment = load_experiment(path, test::fake_catalogue());
-  std::vector<Scene> scenes = experiment.dataset->scenes("");
+  std::vector<SceneGroup> scenes = scene_groups(experiment, "");
   const std::vector<InputFile> inputs = record_inputs(scenes, "/no/such/folder", 2);
   EXPECT_TRUE(inputs.empty());
   const Provenance provenance = provenance_of(experiment, scenes, inputs);

@@ -86,7 +86,7 @@ TEST(PairByTime, UsesEachCloudOnceAndNoneBeyondTheGap) {
 
 TEST(PairByName, JoinsEqualStems) {
   const Pairing pairing = pair_by_name({files_of("top", {"000.pcd", "001.pcd", "002.pcd"}),
-                                        files_of("left", {"001.ply", "002.ply", "003.ply"})},
+                                        files_of("left", {"001.ply", "002.pcd.bin", "003.ply"})},
                                        "top", 0.05);
   EXPECT_FALSE(pairing.is_by_time);
   EXPECT_THAT(clouds_of(pairing), ElementsAre(Clouds{1, 0}, Clouds{2, 1}));
@@ -132,15 +132,19 @@ TEST(PairByName, RefusesNamesThatSayNothing) {
 }
 
 TEST(StampInName, GoesByTheMagnitude) {
-  const std::vector<std::string> names = {"1700000000", "1700000000.25", "1700000000250",
-                                          "1700000000250000", "1700000000250000000"};
+  const std::vector<std::string> names = {
+      "1700000000",          "1700000000.25",
+      "1700000000250",       "1700000000250000",
+      "1700000000250000000", "1700000000_250000000",
+      "top_1700000000.25",   "n1-2018-07__LIDAR_TOP__1700000000250000"};
   for (const std::string& name : names) {
     const std::optional<double> stamp_s = stamp_in_name(name);
     ASSERT_TRUE(stamp_s.has_value()) << name;
     EXPECT_NEAR(*stamp_s, name == "1700000000" ? 1.7e9 : 1.7e9 + 0.25, 1e-6) << name;
   }
-  for (const char* name : {"", "000123", "12345", "1e9", "-1700000000", "17000000000", "a",
-                           "1700000000.0.1", "1700000000250.5", "nan", "99999999999999999999"}) {
+  for (const char* name :
+       {"", "000123", "12345", "1e9", "cloud_12", "2018-07-24", "1700000000_25", "17000000000", "a",
+        "1700000000.0.1", "1700000000250.5", "nan", "99999999999999999999"}) {
     EXPECT_EQ(stamp_in_name(name), std::nullopt) << name;
   }
 }

@@ -96,6 +96,27 @@ TEST(PcdFile, DropsAndCountsWhatIsNotFinite) {
   }
 }
 
+TEST(PcdFile, AcceptsCapitalsAndAnImageOfNoSize) {
+  const test::TempFolder folder;
+  const std::string header =
+      "VERSION 0.7\nFIELDS X Y Z INTENSITY\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n"
+      "WIDTH 0\nHEIGHT 0\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA ascii\n";
+  const auto path = folder.write("a.pcd", header + "1 2 3 4\n5 6 7 8\n");
+  EXPECT_EQ(check_point_cloud_file(path), std::vector<std::string>{kIntensity});
+  const LoadedCloud cloud = read_point_cloud(path);
+  EXPECT_EQ(cloud.points, (Points{{1, 2, 3}, {5, 6, 7}}));
+  EXPECT_EQ(channel_values(cloud, kIntensity), (std::vector{4.0, 8.0}));
+  EXPECT_TRUE(cloud.notes.empty());
+}
+
+TEST(PcdFile, MentionsAViewpointOtherThanTheIdentity) {
+  const test::TempFolder folder;
+  const Points cloud = {{1, 2, 3}};
+  EXPECT_THAT(read_point_cloud(folder.write("a.pcd", test::pcd_bytes({}, cloud))).notes,
+              ::testing::ElementsAre("The viewpoint \"1 2 3 0 1 0 0\" is not applied: the points "
+                                     "are used as they are stored."));
+}
+
 TEST(PcdFile, SaysWhichLineOfTextIsWrong) {
   const test::TempFolder folder;
   PcdSpec spec;
@@ -134,7 +155,7 @@ TEST(PcdFile, SaysWhatIsWrongWithAHeader) {
       {"FIELDS", "", "no line FIELDS"},
       {"FIELDS", "FIELDS x y\n", "line 4: expected SIZE of 2 fields, found 3"},
       {"FIELDS", "FIELDS x y intensity\n", "line 3: the field z is missing"},
-      {"FIELDS", "FIELDS x y x\n", "the field x stands here twice"},
+      {"FIELDS", "FIELDS x y x\n", "duplicate field x"},
       {"FIELDS", "FIELDS x y z\nFIELDS x y z\n", "line 4: the header has a second line FIELDS"},
       {"TYPE", "TYPE F F\n", "line 5: expected TYPE of 3 fields, found 2"},
       {"TYPE", "TYPE F F Q\n", "found \"Q\" of 4"},

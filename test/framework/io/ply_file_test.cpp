@@ -62,6 +62,26 @@ TEST(PlyFile, ReadsWindowsHeaders) {
             (Points{{1, 2, 3}}));
 }
 
+TEST(PlyFile, HasBoolProperties) {
+  const test::TempFolder folder;
+  const std::string header =
+      "element vertex 2\nproperty float X\nproperty float Y\nproperty float Z\n"
+      "property bool is_noise\nend_header\n";
+  std::string binary = "ply\nformat binary_little_endian 1.0\n" + header;
+  for (const double x : {1.0, 2.0}) {
+    for (const double value : {x, 5.0, 6.0}) {
+      binary += test::scalar_bytes('F', 4, value, ByteOrder::little);
+    }
+    binary += x == 1.0 ? '\1' : '\0';
+  }
+  for (const std::string& bytes :
+       {binary, "ply\nformat ascii 1.0\n" + header + "1 5 6 1\n2 5 6 0\n"}) {
+    const LoadedCloud cloud = read_point_cloud(folder.write("a.ply", bytes));
+    EXPECT_EQ(cloud.points, (Points{{1, 5, 6}, {2, 5, 6}}));
+    EXPECT_EQ(channel_values(cloud, "is_noise"), (std::vector{1.0, 0.0}));
+  }
+}
+
 TEST(PlyFile, ReadsWhatWasWritten) {
   Rng rng = test::test_rng();
   const test::TempFolder folder;

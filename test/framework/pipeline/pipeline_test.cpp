@@ -21,7 +21,9 @@ class Move final : public Step {
   Estimate advance(Estimate estimate, Rng& rng) const override {
     if (fails_) throw StageError("nothing to move");
     const double draw = rng.uniform();
-    estimate.T_target_source.translation.x() += draw;
+    RigidTransform T = estimate.T_target_source;
+    T.translation.x() += draw;
+    estimate.set_pose(T);
     estimate.diagnostics = {{"draw", draw}};
     return estimate;
   }
@@ -75,6 +77,15 @@ TEST(RunPipeline, ACovarianceIsOfThePoseThatItWasEstimatedFor) {
   EXPECT_EQ(kept->matrix(3, 3), 4.0);
   EXPECT_FALSE(run({judge("a", 4.0), move("b")}).estimate.covariance);
   EXPECT_TRUE(run({judge("a", 4.0), move("b"), judge("c", 4.0)}).estimate.covariance);
+  // A pose that is set to what it was keeps them.
+  Estimate estimate;
+  estimate.information = Matrix6d::Identity();
+  estimate.covariance = PoseCovariance{Matrix6d::Identity(), {}};
+  estimate.set_pose(RigidTransform{});
+  EXPECT_TRUE(estimate.information && estimate.covariance);
+  estimate.set_pose({Eigen::Matrix3d::Identity(), {0.0, 0.0, 1e-300}});
+  EXPECT_EQ(estimate.T_target_source.translation.z(), 1e-300);
+  EXPECT_FALSE(estimate.information || estimate.covariance);
 }
 
 /// Rejects the pose for `reason`, if it has one.

@@ -5,13 +5,13 @@
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace croon;
-  static const std::vector<Scene> scenes = [] {
-    std::vector<Scene> both(2);
+  static const std::vector<experiments::SceneGroup> scenes = [] {
+    std::vector<experiments::SceneGroup> both(2);
     for (std::size_t i = 0; i < both.size(); ++i) {
       both[i].name = i == 0 ? "000000" : "000001";
-      both[i].sensors.resize(2);
-      both[i].sensors[0].sensor = "left";
-      both[i].sensors[1].sensor = "right";
+      both[i].pairs.resize(2);
+      both[i].pairs[0].name = "left";
+      both[i].pairs[1].name = "right";
     }
     return both;
   }();

@@ -1,0 +1,278 @@
+#include "framework/calibration/ground_pose.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
+#include "framework/geometry/plane.hpp"
+#include "framework/spatial/evenly_spaced.hpp"
+#include "framework/spatial/ground_candidates.hpp"
+
+namespace croon {
+namespace {
+
+constexpr double kMaxRange_m = 15.0;
+constexpr double kCell_m = 1.0;
+constexpr int kMinCellPoints = 3;
+constexpr std::size_t kBlocks = 8;
+constexpr std::size_t kMinCells = 40;
+
+/// One point per cube, so that a number of points is an area.
+Points one_per_cube(const Points& points) {
+  constexpr double kCube_m = 0.25;
+  constexpr int kMaxPoints = 60000;
+  std::set<std::array<long, 3>> taken;
+  Points thinned;
+  for (const Eigen::Vector3f& point : evenly_spaced(points, kMaxPoints)) {
+    std::array<long, 3> cube{};
+    for (int i = 0; i < 3; ++i) cube.at(i) = std::lround(std::floor(point(i) / kCube_m));
+    if (taken.insert(cube).second) thinned.push_back(point);
+  }
+  return thinned;
+}
+
+/// The ground's plane, its normal towards the sensor; std::nullopt if there is none.
+std::optional<Plane> rough_ground(const Points& points, Rng& rng) {
+  constexpr double kMinCosTilt = 0.5;
+  const std::vector<GroundCandidate> candidates =
+      ground_candidates(one_per_cube(points), GroundCandidateOptions{}, rng);
+  // A ceiling is the ground of a sensor that hangs upside down, if there is no other.
+  for (const double sign : {1.0, -1.0}) {
+    for (const GroundCandidate& candidate : candidates) {
+      if (sign * candidate.plane.normal.z() >= kMinCosTilt) return candidate.plane;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The ground as heights over a rough plane: one point per square cell, ordered by direction.
+struct Cells {
+  Eigen::Matrix3d R_level_sensor;  ///< z along the normal of the rough plane.
+  std::vector<Eigen::Vector3d> points;
+};
+
+/// The means of the ground's points in each cell, in a frame whose z is the plane's normal.
+Cells ground_cells(const Points& points, const Plane& plane, double threshold_m) {
+  Cells cells;
+  cells.R_level_sensor = rotation_between(plane.normal, Eigen::Vector3d::UnitZ());
+  struct Sum {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    int count = 0;
+  };
+  std::map<std::pair<long, long>, Sum> sums;
+  for (const Eigen::Vector3f& point : points) {
+    const Eigen::Vector3d level = cells.R_level_sensor * point.cast<double>();
+    if (std::abs(level.z() + plane.offset_m) > threshold_m) continue;
+    if (level.head<2>().norm() > kMaxRange_m) continue;
+    Sum& sum = sums[{std::lround(std::floor(level.x() / kCell_m)),
+                     std::lround(std::floor(level.y() / kCell_m))}];
+    sum.sum += level;
+    ++sum.count;
+  }
+  for (const auto& [cell, sum] : sums) {
+    if (sum.count >= kMinCellPoints) cells.points.push_back(sum.sum / sum.count);
+  }
+  std::stable_sort(cells.points.begin(), cells.points.end(), [](const auto& a, const auto& b) {
+    return std::atan2(a.y(), a.x()) < std::atan2(b.y(), b.x());
+  });
+  return cells;
+}
+
+/// The block of neighbouring directions that cell `i` of `count` belongs to.
+std::size_t block_of(std::size_t i, std::size_t count) { return i * kBlocks / count; }
+
+/// The plane through the cells but those of the block `without`, in the level frame: z = a x + b y
+/// + c, without kerbs and wheels (Tukey's biweight).
+Eigen::Vector3d fitted_heights(const std::vector<Eigen::Vector3d>& cells, std::size_t without) {
+  constexpr int kRounds = 10;
+  constexpr double kScale_m = 0.1;
+  Eigen::Vector3d abc = Eigen::Vector3d::Zero();
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d b = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (block_of(i, cells.size()) == without) continue;
+      const Eigen::Vector3d row(cells[i].x(), cells[i].y(), 1.0);
+      const double residual = (cells[i].z() - row.dot(abc)) / kScale_m;
+      // The first round starts from the rough plane, whose height is not subtracted.
+      const double weight =
+          round == 0 ? 1.0 : std::pow(std::max(0.0, 1.0 - residual * residual), 2);
+      A += weight * row * row.transpose();
+      b += weight * cells[i].z() * row;
+    }
+    abc = A.ldlt().solve(b);
+  }
+  return abc;
+}
+
+/// (roll, pitch, height) of the sensor over the plane `abc` of the level frame.
+Eigen::Vector3d pose_over(const Eigen::Vector3d& abc, const Eigen::Matrix3d& R_level_sensor) {
+  const double length = std::sqrt(1.0 + abc.head<2>().squaredNorm());
+  const Eigen::Vector3d normal =
+      R_level_sensor.transpose() * Eigen::Vector3d(-abc.x(), -abc.y(), 1.0) / length;
+  return {std::atan2(normal.y(), normal.z()),
+          std::atan2(-normal.x(), std::hypot(normal.y(), normal.z())), -abc.z() / length};
+}
+
+/// `angle_rad` as its nearest copy to `near_rad`.
+double unwrapped(double angle_rad, double near_rad) {
+  return near_rad + std::remainder(angle_rad - near_rad, 2.0 * kPi);
+}
+
+/// An estimate of roll, pitch and height with its variances.
+struct SceneGround {
+  Eigen::Vector3d value;
+  Eigen::Vector3d variance;
+};
+
+std::optional<SceneGround> ground_of_scene(const Points& points, Rng& rng) {
+  std::optional<Plane> plane = rough_ground(points, rng);
+  if (!plane) return std::nullopt;
+  constexpr double kThreshold_m = 0.2;
+  const Cells cells = ground_cells(points, *plane, kThreshold_m);
+  if (cells.points.size() < kMinCells) return std::nullopt;
+  SceneGround ground;
+  ground.value = pose_over(fitted_heights(cells.points, kBlocks), cells.R_level_sensor);
+  // The jackknife: what each block of directions changes.
+  ground.variance = Eigen::Vector3d::Zero();
+  for (std::size_t block = 0; block < kBlocks; ++block) {
+    Eigen::Vector3d change =
+        pose_over(fitted_heights(cells.points, block), cells.R_level_sensor) - ground.value;
+    for (const int i : {0, 1}) change(i) = std::remainder(change(i), 2.0 * kPi);
+    ground.variance += (kBlocks - 1.0) / kBlocks * change.cwiseAbs2();
+  }
+  if (!ground.value.allFinite() || !ground.variance.allFinite()) return std::nullopt;
+  return ground;
+}
+
+/// A mean and its variance.
+struct Combined {
+  double value;
+  double variance;
+};
+
+/// The mean of estimates that differ by more than their variances (DerSimonian and Laird 1986).
+Combined combined(const std::vector<double>& values, const std::vector<double>& variances) {
+  const auto weighted = [&](double between) {
+    Combined mean{0.0, 0.0};
+    double weights = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double weight = 1.0 / (variances[i] + between);
+      weights += weight;
+      mean.value += weight * values[i];
+    }
+    return Combined{mean.value / weights, 1.0 / weights};
+  };
+  const Combined fixed = weighted(0.0);
+  double q = 0.0, weights = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double weight = 1.0 / variances[i];
+    q += weight * std::pow(values[i] - fixed.value, 2);
+    weights += weight;
+    squares += weight * weight;
+  }
+  const double excess = q - static_cast<double>(values.size() - 1);
+  if (values.size() < 2 || excess <= 0.0) return fixed;
+  return weighted(excess / (weights - squares / weights));
+}
+
+/// One of the three numbers over all scenes.
+Combined combined(const std::vector<SceneGround>& scenes, int of, bool is_angle) {
+  constexpr double kMinVariance = 1e-12;
+  std::vector<double> values, variances;
+  for (const SceneGround& scene : scenes) {
+    const double value = scene.value(of);
+    values.push_back(is_angle ? unwrapped(value, scenes.front().value(of)) : value);
+    variances.push_back(std::max(scene.variance(of), kMinVariance));
+  }
+  Combined result = combined(values, variances);
+  if (is_angle) result.value = std::remainder(result.value, 2.0 * kPi);
+  return result;
+}
+
+/// The direction of travel in one scene.
+struct SceneHeading {
+  double yaw_rad;
+  double variance;
+};
+
+std::optional<SceneHeading> heading_of_scene(const SceneMotionEstimate& motion,
+                                             const Eigen::Matrix3d& R_road_reference) {
+  constexpr double kMinSpeed_mps = 1.0;
+  // The reference is seldom farther than this from the axle that does not slip sideways.
+  constexpr double kLever_m = 2.0;
+  constexpr double kMaxSlip_rad = rad_from_deg(2.0);
+  // Camber and side wind: how much a car's heading differs from where it goes.
+  constexpr double kScene_rad = rad_from_deg(0.2);
+  const Eigen::Vector3d v = R_road_reference * motion.velocity.linear_mps;
+  const double speed_mps = v.head<2>().norm();
+  const Eigen::Vector3d turn = R_road_reference * motion.velocity.angular_radps;
+  if (!(speed_mps >= kMinSpeed_mps)) return std::nullopt;
+  const double slip_rad = std::abs(turn.z()) * kLever_m / speed_mps;
+  if (!(slip_rad <= kMaxSlip_rad)) return std::nullopt;
+  const Eigen::Vector3d across =
+      R_road_reference.transpose() * Eigen::Vector3d(-v.y(), v.x(), 0.0) / (speed_mps * speed_mps);
+  const Eigen::Matrix3d covariance = motion.covariance.bottomRightCorner<3, 3>();
+  const double variance = across.dot(covariance * across);
+  constexpr double kMaxStd_rad = rad_from_deg(10.0);
+  if (!(variance >= 0.0) || variance > kMaxStd_rad * kMaxStd_rad) return std::nullopt;
+  return SceneHeading{std::atan2(v.y(), v.x()),
+                      variance + slip_rad * slip_rad + kScene_rad * kScene_rad};
+}
+
+}  // namespace
+
+std::optional<GroundPose> ground_pose(const std::vector<const Points*>& scenes, Rng& rng) {
+  std::vector<SceneGround> grounds;
+  for (const Points* points : scenes) {
+    if (auto ground = ground_of_scene(*points, rng)) grounds.push_back(*ground);
+  }
+  if (grounds.empty()) return std::nullopt;
+  const Combined roll = combined(grounds, 0, true);
+  const Combined pitch = combined(grounds, 1, true);
+  const Combined height = combined(grounds, 2, false);
+  return GroundPose{roll.value,
+                    pitch.value,
+                    height.value,
+                    std::sqrt(roll.variance),
+                    std::sqrt(pitch.variance),
+                    std::sqrt(height.variance)};
+}
+
+RigidTransform T_road_reference(const GroundPose& ground) {
+  return {rotation_from_rpy({ground.roll_rad, ground.pitch_rad, 0.0}), {0.0, 0.0, ground.height_m}};
+}
+
+std::optional<HeadingOfTravel> heading_of_travel(const std::vector<SceneMotionEstimate>& motion,
+                                                 const std::optional<GroundPose>& ground) {
+  const Eigen::Matrix3d R_road_reference =
+      ground ? T_road_reference(*ground).rotation : Eigen::Matrix3d::Identity();
+  std::vector<SceneHeading> headings;
+  for (const SceneMotionEstimate& scene : motion) {
+    if (auto heading = heading_of_scene(scene, R_road_reference)) headings.push_back(*heading);
+  }
+  if (headings.empty()) return std::nullopt;
+  const auto is_forward = [&](const SceneHeading& heading, double yaw_rad) {
+    return std::cos(heading.yaw_rad - yaw_rad) > 0.0;
+  };
+  const auto forwards = std::count_if(headings.begin(), headings.end(), [&](const auto& heading) {
+    return is_forward(heading, headings.front().yaw_rad);
+  });
+  double ahead_rad = headings.front().yaw_rad;
+  if (2 * forwards < static_cast<long>(headings.size())) ahead_rad += kPi;
+  std::vector<double> values, variances;
+  for (const SceneHeading& heading : headings) {
+    const double backwards_rad = is_forward(heading, ahead_rad) ? 0.0 : kPi;
+    values.push_back(unwrapped(heading.yaw_rad + backwards_rad, ahead_rad));
+    variances.push_back(heading.variance);
+  }
+  const Combined yaw = combined(values, variances);
+  return HeadingOfTravel{std::remainder(yaw.value, 2.0 * kPi), std::sqrt(yaw.variance),
+                         headings.size()};
+}
+
+}  // namespace croon

@@ -1,0 +1,149 @@
+#include "framework/calibration/scan_times.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "framework/base/text.hpp"
+#include "framework/spatial/deskew.hpp"
+#include "framework/spatial/evenly_spaced.hpp"
+
+namespace croon {
+namespace {
+
+// A part of a revolution that a mounting leaves may be short; a packet of a LiDAR lasts 1 to 2 ms.
+constexpr double kMinScan_s = 5e-3;
+constexpr double kMaxScan_s = 1.0;
+
+/// The points by which times are judged, in the order of the cloud.
+struct Sample {
+  std::vector<double> times_s;
+  std::vector<Eigen::Vector3d> directions;  ///< Unit vectors from the sensor.
+};
+
+Sample sample_of(const PointCloud& cloud, const std::vector<double>& times) {
+  constexpr std::size_t kMaxPoints = 20000;
+  Sample sample;
+  const std::size_t count = std::min(cloud.size(), kMaxPoints);
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t i = evenly_spaced_index(n, cloud.size(), count);
+    const Eigen::Vector3d point = cloud.points[i].cast<double>();
+    const double range_m = point.norm();
+    if (range_m == 0.0) continue;
+    sample.times_s.push_back(times[i]);
+    sample.directions.emplace_back(point / range_m);
+  }
+  return sample;
+}
+
+/// The share, 0 to 1, of the variance of the directions that the times explain: points that were
+/// measured at about the same time lie in about the same direction. About 1/20 or less if the times
+/// have no relation to the directions.
+double explained_share(const Sample& sample) {
+  constexpr std::size_t kMaxBins = 200, kMinPointsPerBin = 20;
+  const std::size_t size = sample.times_s.size();
+  const std::size_t bins = std::min(kMaxBins, size / kMinPointsPerBin);
+  std::vector<std::size_t> order(size);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return sample.times_s[a] < sample.times_s[b];
+  });
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double within = static_cast<double>(size);
+  for (std::size_t b = 0; b < bins; ++b) {
+    const std::size_t first = b * size / bins, last = (b + 1) * size / bins;
+    Eigen::Vector3d of_bin = Eigen::Vector3d::Zero();
+    for (std::size_t k = first; k < last; ++k) of_bin += sample.directions[order[k]];
+    within -= of_bin.squaredNorm() / static_cast<double>(last - first);
+    sum += of_bin;
+  }
+  const auto count = static_cast<double>(size);
+  const double total = count - sum.squaredNorm() / count;
+  return total > 0.0 ? 1.0 - within / total : 0.0;
+}
+
+/// Whether the times decrease along the order of the points, or within each ring if the cloud has
+/// its points ring by ring. False if the points are in no order of time.
+bool decrease_along_the_cloud(const std::vector<double>& times_s) {
+  constexpr double kMaxRestarts = 0.05;
+  const TimeSpan span = span_of(times_s);
+  const double length_s = span.last_s - span.first_s;
+  double drift_s = 0.0, restarts = 0.0;
+  for (std::size_t i = 1; i < times_s.size(); ++i) {
+    const double step_s = times_s[i] - times_s[i - 1];
+    if (std::abs(step_s) > 0.5 * length_s) {
+      restarts += 1.0;
+    } else {
+      drift_s += step_s;
+    }
+  }
+  return restarts <= kMaxRestarts * static_cast<double>(times_s.size()) &&
+         drift_s < -0.5 * length_s;
+}
+
+std::string why_unusable(const PointCloud& cloud) {
+  const std::vector<double> times = times_s(cloud);
+  if (times.empty()) return "the cloud has no points";
+  const auto bad =
+      std::count_if(times.begin(), times.end(), [](double t) { return !std::isfinite(t); });
+  if (bad > 0) {
+    return std::to_string(bad) + " of " + std::to_string(times.size()) + " times are not finite";
+  }
+  const TimeSpan span = span_of(times);
+  const double length_s = span.last_s - span.first_s;
+  if (length_s == 0.0) return "all times are equal";
+  if (length_s < kMinScan_s || length_s > kMaxScan_s) {
+    return "the times span " + plain_number(length_s) + " s, and a scan lasts " +
+           plain_number(kMinScan_s) + " to " + plain_number(kMaxScan_s) +
+           " s: expected seconds, or whole nanoseconds, that do not restart within a scan";
+  }
+  constexpr std::size_t kMinPoints = 200;
+  constexpr double kMinExplained = 0.25;
+  const Sample sample = sample_of(cloud, times);
+  if (sample.times_s.size() < kMinPoints) return "the cloud has too few points to check its times";
+  if (explained_share(sample) < kMinExplained) {
+    return "the times have no relation to the directions in which the points lie";
+  }
+  if (decrease_along_the_cloud(sample.times_s)) {
+    return "the times decrease in the order of the points, as if they were reversed";
+  }
+  return "";
+}
+
+std::string milliseconds(double time_s) { return fixed_number(1e3 * time_s, 0) + " ms"; }
+
+}  // namespace
+
+TimeCheck check_times(const PointCloud& cloud) {
+  if (find_channel(cloud, kTime) == nullptr) return {false, false, "the cloud has no times"};
+  const std::string reason = why_unusable(cloud);
+  return {true, reason.empty(), reason};
+}
+
+std::string why_not_one_clock(const std::vector<std::string>& names,
+                              const std::vector<const PointCloud*>& clouds) {
+  // Scans that are paired by time are at most half a revolution apart; the rest is for sensors that
+  // measure in a part of it.
+  constexpr double kMaxApart = 0.6;
+  if (clouds.empty()) return "";
+  const TimeSpan reference = span_of(times_s(*clouds.front()));
+  for (std::size_t i = 1; i < clouds.size(); ++i) {
+    const TimeSpan span = span_of(times_s(*clouds[i]));
+    const double later_s = span.middle_s() - reference.middle_s();
+    const double scan_s =
+        std::max(span.last_s - span.first_s, reference.last_s - reference.first_s);
+    if (std::abs(later_s) <= kMaxApart * scan_s) continue;
+    const std::string sensors = names.at(i) + " and " + names.front();
+    if (std::abs(later_s) > kMaxScan_s) {
+      return "the clocks of " + sensors + " have different epochs: their scans are " +
+             plain_number(std::round(std::abs(later_s) * 10.0) / 10.0) + " s apart";
+    }
+    return "the scan of " + names.at(i) + " is " + milliseconds(std::abs(later_s)) +
+           (later_s > 0.0 ? " later" : " earlier") + " than that of " + names.front() +
+           ", more than half a scan of " + milliseconds(scan_s) +
+           ": their clocks differ, or the clouds are not of one moment";
+  }
+  return "";
+}
+
+}  // namespace croon

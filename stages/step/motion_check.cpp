@@ -1,0 +1,209 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
+#include "framework/base/threads.hpp"
+#include "framework/pipeline/shared_view.hpp"
+#include "framework/registration/joint_rivals.hpp"
+#include "framework/registration/scene_motion.hpp"
+#include "framework/registration/sweep_times.hpp"
+#include "framework/stage/reasons.hpp"
+#include "framework/stage/rig_step.hpp"
+#include "framework/stage/stage_entry.hpp"
+
+namespace croon::stages::step {
+namespace {
+
+struct Params : JointOptions, MotionOptions {
+  Params() {
+    max_distances_m = {1.0, 0.5, 0.3};
+    points = 2000;
+  }
+  params::Slot<Preprocessor> thinning;
+  double period_s = 0.1;
+  double max_travel_m = 0.15;
+  double max_turn_deg = 1.0;
+  double max_shift_m = 0.1;
+  double max_shift_std_m = 0.01;
+};
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table =
+      params::Table<Params>{
+          params::slot("thinning", &Params::thinning,
+                       R"({"type": "voxel_downsample", "leaf_size_m": 0.25})",
+                       "Thins the clouds that are registered."),
+          params::number("period_s", &Params::period_s, {1e-3, 10.0},
+                         "The assumed duration of one revolution. Only its product with the "
+                         "velocity matters."),
+          params::number("max_travel_m", &Params::max_travel_m, {0.0, 1e6},
+                         "Maximum distance that the rig may travel during one revolution, less "
+                         "three standard deviations. Poses move by up to half of it."),
+          params::number("max_turn_deg", &Params::max_turn_deg, {0.0, 180.0},
+                         "Maximum angle that the rig may turn by during one revolution, less "
+                         "three standard deviations."),
+          params::number("max_shift_m", &Params::max_shift_m, {0.0, 1e6},
+                         "Maximum distance between the pose and that of a registration that "
+                         "takes motion into account."),
+          params::number("max_shift_std_m", &Params::max_shift_std_m, {0.0, 1e6},
+                         "If velocity uncertainty shifts a sensor by more than this, the rig at "
+                         "rest is compared with other_speeds_mps."),
+      }
+          .inherit(joint_table())
+          .inherit(motion_table());
+  return table;
+}
+
+/// The length of `vector` less three standard deviations along it.
+double certain_length(const Eigen::Vector3d& vector, const Eigen::Matrix3d& covariance) {
+  const double length = vector.norm();
+  if (length == 0.0) return 0.0;
+  const Eigen::Vector3d direction = vector / length;
+  return length - 3.0 * std::sqrt(direction.dot(covariance * direction));
+}
+
+class MotionCheck final : public RigStep {
+ public:
+  explicit MotionCheck(Params params) : params_(std::move(params)) {}
+
+  static params::DataFlow data_flow(const Params& params) { return params.thinning.flow(); }
+
+  void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
+    std::map<std::pair<std::string, std::string>, std::vector<RigEstimate*>> by_scene;
+    for (RigEstimate& one : rig) {
+      try {
+        require_usable_clouds(one.estimate);
+        by_scene[{one.scene, one.target}].push_back(&one);
+      } catch (const StageError& error) {
+        one.failure = error.what();
+      }
+    }
+    std::vector<std::vector<RigEstimate*>> scenes;
+    for (auto& [name, estimates] : by_scene) scenes.push_back(std::move(estimates));
+    for_each_in_parallel(scenes.size(), [&](std::size_t i) { check(scenes[i]); });
+  }
+
+ private:
+  /// Rejects the poses of one scene if its clouds show motion. Sensors that were rejected take part
+  /// as well: motion is seen best where sensors look in the direction of travel.
+  void check(const std::vector<RigEstimate*>& estimates) const {
+    const bool is_any_accepted =
+        std::any_of(estimates.begin(), estimates.end(),
+                    [](const RigEstimate* one) { return !one->estimate.rejection; });
+    if (!is_any_accepted) return;
+    try {
+      reject_if_moving(estimates);
+    } catch (const StageError& error) {
+      for (RigEstimate* const one : estimates) one->failure = error.what();
+    }
+  }
+
+  void reject_if_moving(const std::vector<RigEstimate*>& estimates) const {
+    const JointScene scene = scene_of(estimates);
+    const JointState state = register_jointly({scene}, start_of(estimates), params_).state;
+    SceneMotion motion = motion_of(scene, 0, state, std::nullopt, params_, params_);
+    const Twist& velocity = state.velocities.front();
+    const double travel_m = params_.period_s * velocity.linear_mps.norm();
+    const double turn_deg = deg_from_rad(params_.period_s * velocity.angular_radps.norm());
+    const bool is_moving = motion.is_moving && is_too_fast(velocity, motion.covariance);
+    const double shift_std_m =
+        *std::max_element(motion.shift_std_m.begin(), motion.shift_std_m.end());
+    if (!is_moving && shift_std_m > params_.max_shift_std_m)
+      motion.leads = leads_of(scene, state, motion);
+    for (std::size_t j = 0; j < estimates.size(); ++j) {
+      Estimate& estimate = estimates[j]->estimate;
+      const double shift_m =
+          (state.T_target_sensor[j].translation - estimate.T_target_source.translation).norm();
+      estimate.diagnostics = {{"travel_m", travel_m},
+                              {"turn_deg", turn_deg},
+                              {"speed_std_mps", speed_std_mps(motion.covariance)},
+                              {"shift_m", shift_m},
+                              {"shift_std_m", motion.shift_std_m[j]}};
+      if (motion.leads[j]) estimate.diagnostics.emplace_back("speed_lead", *motion.leads[j]);
+      std::string reason = motion.rejection(j, params_);
+      if (is_moving) {
+        reason = "motion during the scans explains the clouds better than a rig at rest: " +
+                 fixed_number(travel_m, 2) + " m and " + fixed_number(turn_deg, 2) +
+                 " deg per revolution, and without usable times it cannot be corrected";
+      } else if (!reason.empty()) {
+        reason = "motion during the scans cannot be excluded: " + reason;
+      } else if (shift_m > params_.max_shift_m) {
+        reason = "a registration that takes motion into account moves the pose by " +
+                 fixed_number(shift_m, 2) + " m, above " + fixed_number(params_.max_shift_m, 2);
+      }
+      if (!reason.empty()) estimate.rejection = with_reason(estimate.rejection, reason);
+    }
+  }
+
+  bool is_too_fast(const Twist& velocity, const Matrix6d& covariance) const {
+    const double travel_m = params_.period_s * certain_length(velocity.linear_mps,
+                                                              covariance.bottomRightCorner<3, 3>());
+    const double turn_rad =
+        params_.period_s * certain_length(velocity.angular_radps, covariance.topLeftCorner<3, 3>());
+    return travel_m > params_.max_travel_m || deg_from_rad(turn_rad) > params_.max_turn_deg;
+  }
+
+  /// The clouds with the times of sweeps of one period that began together.
+  JointScene scene_of(const std::vector<RigEstimate*>& estimates) const {
+    JointScene scene;
+    scene.is_moving = true;
+    scene.reference_s = 0.5 * params_.period_s;
+    scene.target = swept(*estimates.front()->estimate.target);
+    for (std::size_t k = 0; k < estimates.size(); ++k) {
+      scene.sources.push_back({k, swept(*estimates[k]->estimate.source)});
+    }
+    return scene;
+  }
+
+  TimedScan swept(const Cloud& cloud) const {
+    const std::shared_ptr<const Cloud>& thinned = shared_view(cloud, params_.thinning)->thinned;
+    const Points& points = thinned->points();
+    return {thinned, sweep_times_s(points, sweep_of(points), params_.period_s)};
+  }
+
+  /// The rig at rest, with its poses.
+  static JointState start_of(const std::vector<RigEstimate*>& estimates) {
+    JointState start;
+    for (const RigEstimate* const one : estimates) {
+      start.T_target_sensor.push_back(one->estimate.T_target_source);
+    }
+    start.clock_offsets_s.assign(estimates.size(), 0.0);
+    start.velocities.emplace_back();
+    return start;
+  }
+
+  /// How far `state` is ahead of where other speeds lead each source.
+  std::vector<std::optional<double>> leads_of(const JointScene& scene, const JointState& state,
+                                              const SceneMotion& motion) const {
+    const Eigen::Vector3d axis = axis_of_motion(motion, state.velocities.front());
+    JointOptions near = params_, fine = params_;
+    fine.max_distances_m = {params_.max_distances_m.back()};
+    near.max_distances_m = params_.max_distances_m.size() > 1
+                               ? std::vector<double>{*(params_.max_distances_m.end() - 2)}
+                               : params_.max_distances_m;
+    return leads_over_rivals(scene, scene, state,
+                             other_speeds(scene, state, axis, params_.other_speeds_mps, params_),
+                             fine, near);
+  }
+
+  Params params_;
+};
+
+}  // namespace
+
+StageEntry motion_check() {
+  return stage_entry<MotionCheck>(
+      "motion_check",
+      "Sees the whole rig: rejects the poses of a scene if motion during its scans, which was not "
+      "corrected, explains the clouds better than a rig at rest, or cannot be excluded. It needs "
+      "no "
+      "times: the points are taken to be measured by sweeps that turn about each sensor's z axis.",
+      "croon", table(), 1);
+}
+
+}  // namespace croon::stages::step
