@@ -136,7 +136,7 @@ std::vector<std::string> draw(const fs::path& root, const CalibratedRig& rig, co
     const std::size_t i = index_of(scene, sensor.sensor);
     if (i == scans.size() || !scans[i].is_usable()) continue;
     posed.push_back({sensor.sensor, &scans[i].cloud.points, sensor.nominal,
-                     sensor.T_reference_sensor, sensor.is_accepted});
+                     sensor.T_reference_sensor, sensor.is_accepted, picture_note(sensor)});
   }
   return write_rig_pictures(root, rig.reference, reference.cloud.points, posed, with_clouds);
 }

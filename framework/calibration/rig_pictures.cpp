@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdint>
 #include <set>
 
+#include "framework/base/angles.hpp"
 #include "framework/base/text.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/base/whole_file.hpp"
@@ -109,6 +111,21 @@ std::string safe_name(const std::string& name) {
 }
 
 }  // namespace
+
+std::string picture_note(const CalibratedSensor& sensor) {
+  if (!sensor.is_accepted) return sensor.reasons.empty() ? "" : sensor.reasons.front();
+  if (!sensor.covariance) return "";
+  const auto stds = [&](int first, double scale, int decimals) {
+    std::string text;
+    for (int i = first; i < first + 3; ++i) {
+      text += (i == first ? "" : ", ") +
+              fixed_number(scale * std::sqrt(sensor.covariance->matrix(i, i)), decimals);
+    }
+    return text;
+  };
+  return "std: roll, pitch, yaw " + stds(0, deg_from_rad(1.0), 3) + "°; x, y, z " +
+         stds(3, 1e3, 1) + " mm";
+}
 
 std::vector<std::string> file_names(const std::vector<std::string>& names,
                                     const std::vector<std::string>& taken) {

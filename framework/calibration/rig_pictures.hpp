@@ -20,6 +20,10 @@ struct PosedCloud {
   std::string note = {};  ///< One line below the verdict: the deviations, the reason; may be empty.
 };
 
+/// The note for a calibrated sensor: its standard deviations, or the first reason for which it was
+/// rejected.
+std::string picture_note(const CalibratedSensor& sensor);
+
 /// Writes the pictures and the clouds of one scene to `folder`, which must exist, and returns the
 /// paths of what it wrote, relative to it: per sensor with a pose `<sensor>.png` (from above, and
 /// sections seen from the front and the side, of the reference and the sensor, before and after;

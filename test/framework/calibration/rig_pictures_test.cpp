@@ -23,6 +23,18 @@ TEST(FileNames, AreSafeAndDiffer) {
   EXPECT_LE(file_names({std::string(3000, 'a')}, {}).front().size(), 110U);
 }
 
+TEST(PictureNote, HasTheDeviationsOrTheReason) {
+  CalibratedSensor sensor;
+  sensor.is_accepted = true;
+  EXPECT_EQ(picture_note(sensor), "");
+  sensor.covariance.emplace().matrix(5, 5) = 0.002 * 0.002;
+  EXPECT_EQ(picture_note(sensor),
+            "std: roll, pitch, yaw 0.000, 0.000, 0.000°; x, y, z 0.0, 0.0, 2.0 mm");
+  sensor.is_accepted = false;
+  sensor.reasons = {"Too little agrees.", "More."};
+  EXPECT_EQ(picture_note(sensor), "Too little agrees.");
+}
+
 /// The number of pixels of a colour.
 long pixels_of(const Image& image, const Colour& colour) {
   return std::count_if(image.pixels().begin(), image.pixels().end(), [&](const Colour& pixel) {
