@@ -28,8 +28,8 @@ struct Params : JointOptions, MotionOptions {
   double period_s = 0.1;
   double max_travel_m = 0.15;
   double max_turn_deg = 1.0;
-  double max_shift_m = 0.1;
-  double max_shift_std_m = 0.01;
+  double max_shift_m = 0.05;
+  double max_shift_std_m = 0.005;
 };
 
 const params::Table<Params>& table() {
@@ -50,14 +50,19 @@ const params::Table<Params>& table() {
           params::number("max_shift_m", &Params::max_shift_m, {0.0, 1e6},
                          "Maximum distance between the pose and that of a registration that "
                          "takes motion into account."),
-          params::number("max_shift_std_m", &Params::max_shift_std_m, {0.0, 1e6},
-                         "If velocity uncertainty shifts a sensor by more than this, the rig at "
-                         "rest is compared with other_speeds_mps."),
+          params::number(
+              "max_shift_std_m", &Params::max_shift_std_m, {0.0, 1e6},
+              "If velocity uncertainty shifts a sensor by more than this, or the "
+              "rig travels by more than 0.03 m and three standard deviations, the registration is "
+              "compared with those from other_speeds_mps."),
       }
           .inherit(joint_table())
           .inherit(motion_table());
   return table;
 }
+
+/// A rig at rest may appear to travel by less during one revolution.
+constexpr double kMinDoubtfulTravel_m = 0.03;
 
 /// The length of `vector` less three standard deviations along it.
 double certain_length(const Eigen::Vector3d& vector, const Eigen::Matrix3d& covariance) {
