@@ -126,15 +126,16 @@ std::string sensor_text(const CalibratedSensor& sensor, const std::string& refer
 std::string motion_text(const SceneMotionEstimate& motion) {
   const Eigen::Vector3d& v = motion.velocity.linear_mps;
   const double turning_degps = deg_from_rad(motion.velocity.angular_radps.norm());
-  if (v.norm() == 0.0 && turning_degps == 0.0) return motion.scene + ": stands";
-  return motion.scene + ": " + fixed_number(v.norm(), 2) + " m/s, " +
-         fixed_number(turning_degps, 1) + " deg/s";
+  if (v.norm() == 0.0 && turning_degps == 0.0) return "stands";
+  return fixed_number(v.norm(), 2) + " m/s, " + fixed_number(turning_degps, 1) + " deg/s";
 }
 
 std::string motions_text(const std::vector<SceneMotionEstimate>& motions) {
   std::string text;
   for (const SceneMotionEstimate& motion : motions) {
-    text += (text.empty() ? "motion:  " : "; ") + printable(motion_text(motion));
+    text += text.empty() ? "motion:  " : "; ";
+    if (motions.size() > 1) text += printable(motion.scene) + ": ";
+    text += motion_text(motion);
   }
   return text.empty() ? "" : text + "\n";
 }
@@ -160,7 +161,11 @@ std::string heading_text(const HeadingOfTravel& heading) {
 }  // namespace
 
 std::string calibration_text(const CalibratedRig& rig, bool colours) {
-  std::string text = "pipeline: " + printable(rig.composition);
+  const auto accepted =
+      std::count_if(rig.sensors.begin(), rig.sensors.end(),
+                    [](const CalibratedSensor& sensor) { return sensor.is_accepted; });
+  std::string text = std::to_string(accepted) + " of " + counted(rig.sensors.size(), "sensor") +
+                     " accepted\npipeline: " + printable(rig.composition);
   if (!rig.composition_reason.empty()) text += "; " + printable(rig.composition_reason);
   text += "\n\n";
   for (const CalibratedSensor& sensor : rig.sensors) {

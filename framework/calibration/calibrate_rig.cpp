@@ -68,13 +68,15 @@ Composition chosen_composition(const CalibrationOptions& options,
     return composition_in_text(options.pipeline_text, options.pipeline, catalogue);
   }
   if (options.pipeline != "best") return composition_called(options.pipeline, catalogue);
-  const std::string why_not = why_times_are_unusable(scenes);
-  if (why_not.empty()) {
+  const TimesInDoubt doubt = times_in_doubt(scenes);
+  if (doubt.reason.empty()) {
     reason = "the times of all clouds are usable, so the vehicle's motion is estimated";
     return embedded_composition("driving", catalogue);
   }
-  reason = why_not + ", so motion is not corrected; scenes in which it moves poses are rejected";
-  return embedded_composition("standing", catalogue);
+  reason =
+      doubt.reason + ", so motion is not corrected; scenes in which it moves poses are rejected";
+  return doubt.are_clocks_apart ? unsynchronised_composition(catalogue)
+                                : embedded_composition("standing", catalogue);
 }
 
 /// The clouds for the steps of `composition`; takes them from `scenes`.

@@ -96,6 +96,16 @@ Composition embedded_composition(const std::string& name, const Catalogue& catal
   return composition_in(embedded_pipelines().at(name), name, name, catalogue);
 }
 
+Composition unsynchronised_composition(const Catalogue& catalogue) {
+  // A tenth of a walking pace at 10 Hz: scans that are a second apart differ by 0.2 m.
+  constexpr double kMaxTravel_m = 0.02;
+  json document = params::parse_json(embedded_pipelines().at("standing"), "standing");
+  for (json& step : *steps_of(document)) {
+    if (step.at("step") == "motion_check") step["max_travel_m"] = kMaxTravel_m;
+  }
+  return composition_in(document.dump(), "standing", "standing", catalogue);
+}
+
 Composition composition_in_text(const std::string& text, const std::string& name,
                                 const Catalogue& catalogue) {
   return composition_in(text, name, name, catalogue);

@@ -26,6 +26,10 @@ struct Composition {
 /// unknown name.
 Composition embedded_composition(const std::string& name, const Catalogue& catalogue);
 
+/// The composition "standing" for sensors whose clocks differ: their scans may be of different
+/// moments, so a rig that moves at all is rejected.
+Composition unsynchronised_composition(const Catalogue& catalogue);
+
 /// The composition in the JSON `text` of a pipeline, called `name`. Throws InputError if it is
 /// faulty.
 Composition composition_in_text(const std::string& text, const std::string& name,

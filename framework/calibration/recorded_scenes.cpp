@@ -39,6 +39,7 @@ struct Recording {
   std::vector<SensorClouds> sensors;
   std::vector<SensorFiles> files = {};    ///< For pair_by_name.
   std::vector<SensorStamps> stamps = {};  ///< For pair_by_time.
+  std::vector<PairedScene> paired = {};   ///< Of a recording whose folders are its scenes.
   std::vector<std::string> unused = {};
 };
 
@@ -57,11 +58,11 @@ void require_path(const std::string& path) {
   std::error_code error;
   if (!path.empty() && fs::exists(path, error)) return;
   const bool is_relative = fs::path(path).is_relative();
-  const fs::path folder = is_relative ? fs::path() : fs::path("/");
   throw InputError(
       path, "",
       "expected a cloud, a folder or a recording, found " + found_instead_of_file(path) +
-          missing_path_hint(folder, is_relative ? fs::path(path) : fs::path(path).relative_path()));
+          missing_path_hint(is_relative ? "" : "/",
+                            is_relative ? fs::path(path) : fs::path(path).relative_path()));
 }
 
 bool is_bag(const fs::path& path) {
@@ -75,15 +76,10 @@ std::string name_of_file(const fs::path& path) {
   return has_point_cloud_suffix(stem) ? stem.stem().string() : stem.string();
 }
 
-/// Of a path that may end in a slash.
-fs::path without_slash(const fs::path& path) {
-  return path.has_filename() ? path : path.parent_path();
-}
-
+/// The path may end in a slash.
 std::string name_of_folder(const fs::path& path) {
-  const std::string name = without_slash(path).filename().string();
-  const bool is_dots = name == "." || name == ".." || name.empty();
-  return is_dots ? fs::canonical(path).filename().string() : name;
+  const std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
+  return name == "." || name == ".." ? fs::canonical(path).filename().string() : name;
 }
 
 bool is_repeated(const std::vector<std::string>& names, std::size_t index) {
@@ -185,7 +181,60 @@ Recording recording_of_folders(const std::vector<Input>& inputs) {
   return recording;
 }
 
-/// The folder of a rig, with a folder per sensor.
+bool is_numbered(const std::string& name) {
+  return name.find_first_not_of("0123456789._-") == std::string::npos;
+}
+
+/// Whether the folders are scenes with a file per sensor: numbered, with files that are not.
+bool are_scenes(const std::vector<Input>& folders) {
+  return std::all_of(folders.begin(), folders.end(), [](const Input& folder) {
+    const std::vector<fs::path> files = clouds_in(folder.path);
+    return is_numbered(name_of_folder(folder.path)) &&
+           std::none_of(files.begin(), files.end(),
+                        [](const fs::path& file) { return is_numbered(name_of_file(file)); });
+  });
+}
+
+/// A folder per scene, with a file per sensor.
+Recording recording_of_scene_folders(const std::vector<Input>& folders) {
+  std::set<std::string> names;
+  for (const Input& folder : folders) {
+    for (const fs::path& file : clouds_in(folder.path)) names.insert(name_of_file(file));
+  }
+  Recording recording;
+  for (const std::string& name : names) {
+    recording.sensors.push_back({name});
+  }
+  for (const Input& folder : folders) {
+    PairedScene scene{name_of_folder(folder.path), {}};
+    scene.clouds.resize(names.size());
+    for (const fs::path& file : clouds_in(folder.path)) {
+      const auto i =
+          static_cast<std::size_t>(std::distance(names.begin(), names.find(name_of_file(file))));
+      SensorClouds& sensor = recording.sensors[i];
+      scene.clouds[i] = sensor.scans.size();
+      sensor.scans.push_back(scan_on_demand(sensor.name, file));
+    }
+    recording.paired.push_back(std::move(scene));
+  }
+  return recording;
+}
+
+/// The scenes with clouds of the reference and of another sensor; a line for each of the others.
+Pairing with_reference(const std::vector<PairedScene>& scenes, std::size_t reference) {
+  Pairing pairing;
+  for (const PairedScene& scene : scenes) {
+    const auto missing = std::count(scene.clouds.begin(), scene.clouds.end(), std::nullopt);
+    if (scene.clouds[reference] && scene.clouds.size() - static_cast<std::size_t>(missing) > 1) {
+      pairing.scenes.push_back(scene);
+    } else {
+      pairing.unpaired.push_back("Scene " + scene.name + " lacks the reference or all others.");
+    }
+  }
+  return pairing;
+}
+
+/// The folder of a rig, with a folder per sensor or per scene.
 Recording recording_of_rig_folder(const fs::path& folder) {
   std::vector<Input> inputs;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -195,6 +244,7 @@ Recording recording_of_rig_folder(const fs::path& folder) {
   }
   std::sort(inputs.begin(), inputs.end(),
             [](const Input& a, const Input& b) { return a.path < b.path; });
+  if (!inputs.empty() && are_scenes(inputs)) return recording_of_scene_folders(inputs);
   if (inputs.size() >= 2) return recording_of_folders(inputs);
   const std::size_t clouds = clouds_in(folder).size();
   throw InputError(folder.string(), "",
@@ -223,9 +273,7 @@ std::vector<std::string> names_of_topics(const std::vector<std::string>& topics)
   std::vector<std::string> names;
   for (const std::string& topic : topics) {
     const std::vector<std::string> parts = parts_of_topic(topic);
-    for (const std::string& part : std::set<std::string>(parts.begin(), parts.end())) {
-      ++topics_with[part];
-    }
+    for (const auto& part : std::set<std::string>(parts.begin(), parts.end())) ++topics_with[part];
   }
   for (const std::string& topic : topics) {
     std::string whole, name;
@@ -376,7 +424,8 @@ RecordedScenes recorded_scenes(const std::vector<std::string>& words,
   }
   const std::size_t reference = reference_index(recording, options.reference);
   const std::string& name = recording.sensors[reference].name;
-  Pairing pairing = recording.stamps.empty()
+  Pairing pairing = !recording.paired.empty() ? with_reference(recording.paired, reference)
+                    : recording.stamps.empty()
                         ? pair_by_name(recording.files, name, options.max_time_gap_s)
                         : pair_by_time(recording.stamps, name, options.max_time_gap_s);
   RecordedScenes result;

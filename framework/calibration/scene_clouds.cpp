@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <utility>
 
 #include "framework/base/threads.hpp"
 #include "framework/calibration/scan_times.hpp"
@@ -24,6 +25,26 @@ std::set<std::string> copies_among(const std::vector<SceneClouds>& scenes) {
   return {copies.begin(), copies.end()};
 }
 
+/// Sets aside each sensor whose cloud is a copy of the reference's or of an earlier sensor's: it
+/// would agree with that one perfectly, and mislead the others.
+void set_aside_copies(SceneClouds& scene) {
+  std::vector<std::pair<std::string, const LoadedCloud*>> originals = {
+      {scene.scene->reference.sensor, &scene.reference.cloud}};
+  for (std::size_t i = 0; i < scene.sensors.size(); ++i) {
+    ReadScan& scan = scene.sensors[i];
+    if (!scan.is_usable()) continue;
+    const std::string& sensor = scene.scene->sensors[i].sensor;
+    const auto original = std::find_if(
+        originals.begin(), originals.end(),
+        [&](const auto& earlier) { return have_same_points(*earlier.second, scan.cloud); });
+    if (original == originals.end()) {
+      originals.emplace_back(sensor, &scan.cloud);
+    } else {
+      scan.failure = "the cloud of " + sensor + " is a copy of that of " + original->first;
+    }
+  }
+}
+
 /// Why the times of one cloud are of no use; empty if they are.
 std::string why_no_times(const std::string& sensor, const PointCloud& cloud) {
   const TimeCheck check = check_times(cloud);
@@ -32,8 +53,8 @@ std::string why_no_times(const std::string& sensor, const PointCloud& cloud) {
          (check.has_times ? " has unusable times: " + check.reason : " has no times");
 }
 
-/// Why those of the scene are; empty if they are.
-std::string why_no_times(const SceneClouds& scene) {
+/// The doubt about those of a scene.
+TimesInDoubt doubt_in(const SceneClouds& scene) {
   std::vector<std::string> names = {scene.scene->reference.sensor};
   std::vector<const PointCloud*> clouds = {&scene.reference.cloud};
   for (std::size_t i = 0; i < scene.sensors.size(); ++i) {
@@ -43,9 +64,11 @@ std::string why_no_times(const SceneClouds& scene) {
   }
   for (std::size_t i = 0; i < clouds.size(); ++i) {
     std::string why_not = why_no_times(names[i], *clouds[i]);
-    if (!why_not.empty()) return why_not;
+    if (!why_not.empty()) return {why_not, false};
   }
-  return why_not_one_clock(names, clouds);
+  std::string why_not = why_not_one_clock(names, clouds);
+  const bool are_apart = !why_not.empty();
+  return {std::move(why_not), are_apart};
 }
 
 std::string missing_channel(const std::string& pipeline, const std::string& sensor,
@@ -90,6 +113,7 @@ std::vector<std::string> set_aside_unusable(std::vector<SceneClouds>& scenes) {
       unused.push_back(where + scene.why_unused + "; the scene is not used.");
       continue;
     }
+    set_aside_copies(scene);
     for (const ReadScan& scan : scene.sensors) {
       if (!scan.is_usable()) unused.push_back(where + why_no_cloud(scan) + ".");
     }
@@ -122,14 +146,17 @@ std::vector<NamedCloud> named_clouds(const std::vector<SceneClouds>& scenes) {
   return clouds;
 }
 
-std::string why_times_are_unusable(const std::vector<SceneClouds>& scenes) {
+TimesInDoubt times_in_doubt(const std::vector<SceneClouds>& scenes) {
+  TimesInDoubt first;
   for (const SceneClouds& scene : scenes) {
     if (!scene.why_unused.empty()) continue;
-    const std::string why_not = why_no_times(scene);
-    if (why_not.empty()) continue;
-    return scenes.size() == 1 ? why_not : "in scene " + scene.scene->name + ", " + why_not;
+    TimesInDoubt doubt = doubt_in(scene);
+    if (doubt.reason.empty()) continue;
+    if (scenes.size() > 1) doubt.reason = "in scene " + scene.scene->name + ", " + doubt.reason;
+    if (doubt.are_clocks_apart) return doubt;
+    if (first.reason.empty()) first = std::move(doubt);
   }
-  return "";
+  return first;
 }
 
 std::string why_not_for(const Composition& composition, const SceneClouds& scene,

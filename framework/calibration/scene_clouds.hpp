@@ -32,9 +32,16 @@ std::vector<std::string> set_aside_unusable(std::vector<SceneClouds>& scenes);
 /// The usable clouds of the scenes that take part, for warnings.
 std::vector<NamedCloud> named_clouds(const std::vector<SceneClouds>& scenes);
 
-/// Why the times of the usable clouds cannot be used to correct motion, for the first scene in
-/// which they cannot: "the cloud of left in scene 0001 has no times"; empty if they can.
-std::string why_times_are_unusable(const std::vector<SceneClouds>& scenes);
+/// Why times cannot be used to correct motion; empty if they can.
+struct TimesInDoubt {
+  std::string reason;  ///< "the cloud of left in scene 0001 has no times".
+  /// Each cloud has usable times, but those of different sensors are not of one clock or moment.
+  bool are_clocks_apart = false;
+};
+
+/// The doubt about the times of the usable clouds in the first scene with clocks that are apart,
+/// else in the first scene with any.
+TimesInDoubt times_in_doubt(const std::vector<SceneClouds>& scenes);
 
 /// Why `composition` cannot use the cloud of a sensor in its scene, of which it needs channels;
 /// empty if it can. `sensor` is an index in Scene::sensors.

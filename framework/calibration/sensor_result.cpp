@@ -165,6 +165,21 @@ void set_reasons(CalibratedSensor& sensor, const std::vector<SceneResult>& scene
   if (scenes.empty()) sensor.reasons.emplace_back("No scene has a cloud of it.");
 }
 
+/// Rejects a pose whose own standard deviations are beyond what any use of extrinsics accepts.
+void reject_if_uncertain(CalibratedSensor& sensor) {
+  constexpr double kMaxStd_deg = 0.5, kMaxStd_m = 0.1;
+  if (!sensor.covariance) return;
+  const Vector6d stds = sensor.covariance->matrix.diagonal().cwiseSqrt();
+  const double rotation_deg = deg_from_rad(stds.head<3>().maxCoeff());
+  const double translation_m = stds.tail<3>().maxCoeff();
+  if (rotation_deg <= kMaxStd_deg && translation_m <= kMaxStd_m) return;
+  sensor.is_accepted = false;
+  sensor.reasons.push_back("The pose is uncertain: its standard deviations reach " +
+                           fixed_number(rotation_deg, 2) + " degrees and " +
+                           fixed_number(translation_m, 2) + " m.");
+  sensor.advice.emplace_back("Record several scenes with surfaces in all directions.");
+}
+
 }  // namespace
 
 CalibratedSensor sensor_result(const std::string& name, const std::vector<SceneResult>& scenes) {
@@ -187,6 +202,8 @@ CalibratedSensor sensor_result(const std::string& name, const std::vector<SceneR
     sensor.reasons.push_back(disagreement(scenes));
     sensor.advice.emplace_back(
         "Check that all scenes are of the same rig, or record more scenes at different places.");
+  } else {
+    reject_if_uncertain(sensor);
   }
   return sensor;
 }

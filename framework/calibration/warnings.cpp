@@ -23,15 +23,6 @@ constexpr std::size_t kFewPoints = 1000;
 /// Ranges are looked at in this number of points.
 constexpr std::size_t kSampledPoints = 5000;
 
-/// Whether the clouds have the same points in the same order. Files with millimetres are copies of
-/// files with all digits.
-bool same_points(const Points& a, const Points& b) {
-  return a.size() == b.size() &&
-         std::equal(a.begin(), a.end(), b.begin(), [](const auto& p, const auto& q) {
-           return (p - q).cwiseAbs().maxCoeff() <= kRounding_m;
-         });
-}
-
 /// For each cloud the index of the first cloud with the same points; its own if there is none.
 /// Empty clouds are copies of nothing.
 std::vector<std::size_t> first_copies(const std::vector<NamedCloud>& clouds) {
@@ -42,7 +33,7 @@ std::vector<std::size_t> first_copies(const std::vector<NamedCloud>& clouds) {
     if (clouds[i].cloud->empty()) continue;
     std::vector<std::size_t>& firsts = firsts_by_size[clouds[i].cloud->size()];
     const auto copied = std::find_if(firsts.begin(), firsts.end(), [&](std::size_t other) {
-      return same_points(clouds[other].cloud->points, clouds[i].cloud->points);
+      return have_same_points(*clouds[other].cloud, *clouds[i].cloud);
     });
     if (copied != firsts.end()) {
       first.back() = *copied;
@@ -259,6 +250,13 @@ void warn_of_times(const std::vector<NamedCloud>& clouds, SensorWarnings& warnin
 }
 
 }  // namespace
+
+bool have_same_points(const PointCloud& a, const PointCloud& b) {
+  return std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(),
+                    [](const Eigen::Vector3f& p, const Eigen::Vector3f& q) {
+                      return (p - q).cwiseAbs().maxCoeff() <= kRounding_m;
+                    });
+}
 
 std::vector<std::string> warnings_about_clouds(const std::vector<NamedCloud>& clouds) {
   std::vector<std::string> warnings;

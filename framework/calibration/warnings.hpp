@@ -21,6 +21,10 @@ struct NamedCloud {
 /// of one scene far apart in time.
 std::vector<std::string> warnings_about_clouds(const std::vector<NamedCloud>& clouds);
 
+/// Whether the clouds have the same points in the same order, up to the rounding of a file with
+/// millimetres.
+bool have_same_points(const PointCloud& a, const PointCloud& b);
+
 /// The scenes whose clouds are all copies of an earlier scene's: they do not count as evidence.
 std::vector<std::string> copied_scenes(const std::vector<NamedCloud>& clouds);
 
