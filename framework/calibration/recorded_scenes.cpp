@@ -18,7 +18,6 @@
 
 namespace croon {
 namespace {
-
 namespace fs = std::filesystem;
 
 /// One word of the user: a sensor's name, empty if it has none, and its path or topic.
