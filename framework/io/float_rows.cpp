@@ -14,7 +14,7 @@ namespace croon {
 namespace {
 
 constexpr std::size_t kFloatBytes = sizeof(float);
-constexpr std::size_t kMinColumns = 3, kMaxColumns = 8;
+constexpr std::size_t kMinRowFloats = 3, kMaxRowFloats = 8;
 constexpr const char* kRemedy =
     "; give their number (columns), rename rows of nuScenes to .pcd.bin, or convert the file to "
     "PCD, PLY or NumPy";
@@ -120,7 +120,7 @@ class Sample {
 std::map<std::size_t, double> evidence_of(const Sample& sample, std::uint64_t floats,
                                           const std::string& file) {
   std::map<std::size_t, double> evidence;
-  for (std::size_t columns = kMinColumns; columns <= kMaxColumns; ++columns) {
+  for (std::size_t columns = kMinRowFloats; columns <= kMaxRowFloats; ++columns) {
     if (floats % columns == 0) evidence[columns] = sample.evidence(columns);
   }
   for (const std::size_t columns : {6U, 8U}) {
@@ -158,10 +158,10 @@ std::size_t best_of(const std::map<std::size_t, double>& evidence, const std::st
 }
 
 void check_number(std::size_t columns) {
-  if (columns == 0 || (columns >= kMinColumns && columns <= kMaxColumns)) return;
+  if (columns == 0 || (columns >= kMinRowFloats && columns <= kMaxRowFloats)) return;
   throw InputError("", "columns",
-                   "expected rows of " + std::to_string(kMinColumns) + " to " +
-                       std::to_string(kMaxColumns) + " floats, found " + std::to_string(columns));
+                   "expected rows of " + std::to_string(kMinRowFloats) + " to " +
+                       std::to_string(kMaxRowFloats) + " floats, found " + std::to_string(columns));
 }
 
 }  // namespace

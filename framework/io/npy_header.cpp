@@ -13,8 +13,6 @@
 namespace croon {
 namespace {
 
-using Kind = PythonLiteral::Kind;
-
 /// The type of one number, in bytes of padding or of an array of numbers too.
 struct Dtype {
   ScalarType type;
@@ -35,11 +33,12 @@ class HeaderReader {
   NpyHeader read() {
     const PythonLiteral& descr = at("descr");
     const PythonLiteral& order = at("fortran_order");
-    if (order.kind != Kind::truth) fail("expected fortran_order to be True or False");
+    if (order.kind != PythonLiteral::Kind::truth)
+      fail("expected fortran_order to be True or False");
     std::vector<std::uint64_t> shape;
-    if (at("shape").kind != Kind::list) fail("expected a shape");
+    if (at("shape").kind != PythonLiteral::Kind::list) fail("expected a shape");
     for (const PythonLiteral& length : at("shape").items) shape.push_back(number(length));
-    if (descr.kind == Kind::list) {
+    if (descr.kind == PythonLiteral::Kind::list) {
       read_structured(descr, shape);
     } else {
       read_plain(dtype(descr), shape, order.is_true);
@@ -80,14 +79,15 @@ class HeaderReader {
 
   std::uint64_t number(const PythonLiteral& literal) const {
     const std::optional<std::uint64_t> value = count_from(literal.text);
-    if (literal.kind != Kind::number || !value) fail("expected a whole number in the header");
+    if (literal.kind != PythonLiteral::Kind::number || !value)
+      fail("expected a whole number in the header");
     return *value;
   }
 
   /// "<f4"; also of padding, "|V4", whose type is then of no use.
   Dtype dtype(const PythonLiteral& literal) const {
     const std::string& text = literal.text;
-    if (literal.kind == Kind::text && text.size() == 3) {
+    if (literal.kind == PythonLiteral::Kind::text && text.size() == 3) {
       const char order = text[0], kind = text[1];
       const auto size = static_cast<std::size_t>(text[2] - '0');
       const bool is_order = order == '<' || order == '>' || order == '|' || order == '=';
@@ -101,7 +101,7 @@ class HeaderReader {
       }
     }
     fail("expected numbers of 1 to 8 bytes, float32 or float64, found the type " +
-         in_quotes(literal.kind == Kind::text ? text : "another") +
+         in_quotes(literal.kind == PythonLiteral::Kind::text ? text : "another") +
          "; save array.astype(numpy.float32)");
   }
 
@@ -158,14 +158,16 @@ class HeaderReader {
   std::uint64_t read_field(const PythonLiteral& entry, std::uint64_t first) {
     constexpr std::uint64_t kMaxBytes = 1U << 20U;
     const std::vector<PythonLiteral>& parts = entry.items;
-    if (entry.kind != Kind::list || parts.size() < 2 || parts.size() > 3) {
+    if (entry.kind != PythonLiteral::Kind::list || parts.size() < 2 || parts.size() > 3) {
       fail("expected the name and the type of each field");
     }
     // A field with a title has both names.
     const PythonLiteral& name =
-        parts[0].kind == Kind::list && !parts[0].items.empty() ? parts[0].items.back() : parts[0];
-    if (name.kind != Kind::text) fail("expected the name of a field");
-    if (parts[1].kind == Kind::text && parts[1].text.substr(0, 2) == "|V") {
+        parts[0].kind == PythonLiteral::Kind::list && !parts[0].items.empty()
+            ? parts[0].items.back()
+            : parts[0];
+    if (name.kind != PythonLiteral::Kind::text) fail("expected the name of a field");
+    if (parts[1].kind == PythonLiteral::Kind::text && parts[1].text.substr(0, 2) == "|V") {
       const std::optional<std::uint64_t> size = count_from(parts[1].text.substr(2));
       if (parts.size() == 2 && size && *size <= kMaxBytes) return *size;
       fail("expected the size of the padding, found " + in_quotes(parts[1].text));
@@ -173,7 +175,7 @@ class HeaderReader {
     const Dtype type = dtype(parts[1]);
     NpyField field{name.text, type.type, type.order, 1, first, 0};
     if (parts.size() == 3) {
-      if (parts[2].kind != Kind::list) fail("expected the shape of a field");
+      if (parts[2].kind != PythonLiteral::Kind::list) fail("expected the shape of a field");
       for (const PythonLiteral& length : parts[2].items) {
         field.count = product(field.count, number(length));
       }
