@@ -73,9 +73,9 @@ class ByteSource {
 };
 
 /// Reads the fields of a record: little-endian numbers, and texts after their lengths.
-class RecordReader {
+class McapRecordReader {
  public:
-  RecordReader(std::string_view content, Fault place)
+  McapRecordReader(std::string_view content, Fault place)
       : content_(content), place_(std::move(place)) {}
 
   std::string_view bytes(std::uint64_t count) {
@@ -164,7 +164,7 @@ class McapReader {
           "",
           {}};
       if (end - at < kRecordHeadBytes) return false;
-      RecordReader reader(head, place);
+      McapRecordReader reader(head, place);
       const auto kind = static_cast<std::uint8_t>(reader.number(1));
       const std::uint64_t length = reader.number(8);
       if (kind == Kind::footer || kind == Kind::data_end) return true;
@@ -189,7 +189,7 @@ class McapReader {
     if (kind != Kind::schema && kind != Kind::channel) return;
     if (length > kMaxTextBytes) fail_damaged(place, "a record of text is absurdly large");
     const std::string content = source.read(offset, length);
-    RecordReader reader(content, place);
+    McapRecordReader reader(content, place);
     const auto id = static_cast<std::uint16_t>(reader.number(2));
     if (kind == Kind::schema) {
       const std::string name = reader.text();
@@ -203,7 +203,7 @@ class McapReader {
     std::string name, encoding;
   };
 
-  void add_channel(std::uint16_t id, RecordReader& reader) {
+  void add_channel(std::uint16_t id, McapRecordReader& reader) {
     const auto schema_id = static_cast<std::uint16_t>(reader.number(2));
     const std::string topic = reader.text();
     const std::string encoding = reader.text();
@@ -226,7 +226,7 @@ class McapReader {
     // The times, the size, the checksum, the name of the compression and the size again.
     constexpr std::uint64_t kMaxChunkHeadBytes = 256;
     const std::string head = file_.read(offset, std::min(length, kMaxChunkHeadBytes));
-    RecordReader reader(head, place);
+    McapRecordReader reader(head, place);
     reader.bytes(16);
     Chunk chunk{path_, 0, 0, 0, 0, ""};
     chunk.bytes = reader.number(8);
@@ -256,7 +256,7 @@ class McapReader {
                    const std::shared_ptr<const Chunk>& chunk, const Fault& place) {
     const std::string head =
         source.read(offset, std::min<std::uint64_t>(length, kMcapMessageBytes + kMessageHeadBytes));
-    RecordReader reader(head, place);
+    McapRecordReader reader(head, place);
     const auto topic = channels_.find(static_cast<std::uint16_t>(reader.number(2)));
     reader.bytes(4);  // Its number in the sequence.
     const double log_time_s = static_cast<double>(reader.number(8)) * 1e-9;

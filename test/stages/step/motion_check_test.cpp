@@ -12,7 +12,7 @@
 namespace croon {
 namespace {
 
-std::shared_ptr<const simulation::Recipe> recipe(const simulation::Noise& noise) {
+std::shared_ptr<const simulation::Recipe> checked_recipe(const simulation::Noise& noise) {
   auto made = std::make_shared<simulation::Recipe>();
   made->rig = simulation::rigs().front().second;
   made->noise = noise;
@@ -23,14 +23,14 @@ std::shared_ptr<const simulation::Recipe> recipe(const simulation::Noise& noise)
 /// The index of the first scene of the recipe that is faster than 6 m/s if its cars drive.
 std::uint64_t fast_scene() {
   for (std::uint64_t index = 0;; ++index) {
-    const simulation::SimulatedScene scene(recipe(simulation::real_noise()), index);
+    const simulation::SimulatedScene scene(checked_recipe(simulation::real_noise()), index);
     if (scene.world().car.motion.speed_mps > 6.0) return index;
   }
 }
 
 /// Two sensors of a scene at their true poses; the clouds have no times.
 std::vector<RigEstimate> rig_of(const simulation::Noise& noise) {
-  const auto made = recipe(noise);
+  const auto made = checked_recipe(noise);
   const simulation::SimulatedScene scene(made, fast_scene());
   const auto thin =
       test::stage<Preprocessor>(R"({"type": "voxel_downsample", "leaf_size_m": 0.2})");
