@@ -91,6 +91,20 @@ TEST(CalibrateRig, StartsFromNothingIfANominalPoseIsWrong) {
   EXPECT_EQ(rig.sensors.front().nominal->translation.x(), 4.0);
 }
 
+TEST(CalibrateRig, SetsAsideASensorThatIsACopyOfAnother) {
+  std::vector<Scene> scenes = street_scenes(kLeft, 1);
+  SensorScan copy = scenes.front().reference;
+  copy.sensor = "copy";
+  scenes.front().sensors.push_back(copy);
+  const CalibratedRig rig = calibrated(scenes);
+  ASSERT_EQ(rig.sensors.size(), 2U);
+  EXPECT_TRUE(rig.sensors[0].is_accepted);
+  EXPECT_FALSE(rig.sensors[1].is_accepted);
+  EXPECT_FALSE(rig.sensors[1].T_reference_sensor.has_value());
+  EXPECT_EQ(rig.sensors[1].reasons,
+            std::vector<std::string>{"the cloud of copy is a copy of that of top"});
+}
+
 TEST(CalibrateRig, NamesWhatTookNoPart) {
   std::vector<Scene> scenes = street_scenes(kLeft, 1);
   scenes.push_back(scenes.front());

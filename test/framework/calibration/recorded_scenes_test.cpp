@@ -50,5 +50,16 @@ TEST_F(RecordedScenes, PairTheCloudsOfFolders) {
   EXPECT_EQ(some.scenes.front().reference.load().size(), 1U);
 }
 
+TEST_F(RecordedScenes, TakeNumberedFoldersOfSensorsForScenes) {
+  for (const char* const file : {"000000/top", "000000/left", "000001/top", "000002/left"}) {
+    write("drive/" + std::string(file) + ".pcd");
+  }
+  const auto recorded = recorded_scenes({path("drive")}, {"top", 0.05, 10});
+  ASSERT_EQ(recorded.scenes.size(), 1U);
+  EXPECT_EQ(recorded.scenes.front().name, "000000");
+  EXPECT_EQ(sensors_of(recorded.scenes.front()), "top: left");
+  EXPECT_EQ(recorded.unused.size(), 2U);
+}
+
 }  // namespace
 }  // namespace croon::test
