@@ -12,33 +12,31 @@
 namespace croon {
 namespace {
 
-using nlohmann::json;
-
 /// How far a pose may be from a nominal pose that a search starts from.
 constexpr double kMaxNominalRotation_deg = 30.0;
 constexpr double kMaxNominalTranslation_m = 1.0;
 
 /// The list of steps in `document`, or null.
-json* steps_of(json& document) {
-  json* steps = &document;
+nlohmann::json* steps_of(nlohmann::json& document) {
+  nlohmann::json* steps = &document;
   if (document.is_object() && document.contains("pipeline")) steps = &document.at("pipeline");
   return steps->is_array() ? steps : nullptr;
 }
 
-bool has_step(const json& steps, const std::string& type) {
-  return std::any_of(steps.begin(), steps.end(), [&](const json& step) {
+bool has_step(const nlohmann::json& steps, const std::string& type) {
+  return std::any_of(steps.begin(), steps.end(), [&](const nlohmann::json& step) {
     return step.is_object() && step.contains("step") && step.at("step") == type;
   });
 }
 
 /// A pose that no step has verified is not accepted, so a pipeline without a verdict gets one.
-void append_missing_steps(json& steps) {
+void append_missing_steps(nlohmann::json& steps) {
   for (const char* const type : {"verdict", "covariance"}) {
     if (!has_step(steps, type)) steps.push_back({{"step", type}});
   }
 }
 
-bool has_use_start(const json& step, const Catalogue& catalogue) {
+bool has_use_start(const nlohmann::json& step, const Catalogue& catalogue) {
   if (!step.is_object() || !step.contains("step") || !step.at("step").is_string()) return false;
   const StageEntry* const entry = catalogue.find(Step::kKind, step.at("step").get<std::string>());
   if (entry == nullptr) return false;
@@ -48,8 +46,8 @@ bool has_use_start(const json& step, const Catalogue& catalogue) {
 
 /// The steps whose searches drop poses that are far from the start. What a file chooses itself
 /// stays.
-void stay_near_start(json& steps, const Catalogue& catalogue) {
-  for (json& step : steps) {
+void stay_near_start(nlohmann::json& steps, const Catalogue& catalogue) {
+  for (nlohmann::json& step : steps) {
     if (!has_use_start(step, catalogue) || step.contains("use_start")) continue;
     step["use_start"] = true;
     step.emplace("max_rotation_deg", kMaxNominalRotation_deg);
@@ -61,8 +59,8 @@ Composition composition_in(const std::string& text, const std::string& name,
                            const std::string& file, const Catalogue& catalogue) {
   Composition composition;
   composition.name = name;
-  json document = params::parse_json(text, file);
-  json* const steps = steps_of(document);
+  nlohmann::json document = params::parse_json(text, file);
+  nlohmann::json* const steps = steps_of(document);
   if (steps == nullptr && document.is_object() && document.contains("extends")) {
     throw InputError(file, "", "expected a list of steps as \"pipeline\", found \"extends\" alone");
   }
@@ -99,8 +97,8 @@ Composition embedded_composition(const std::string& name, const Catalogue& catal
 Composition unsynchronised_composition(const Catalogue& catalogue) {
   // A tenth of a walking pace at 10 Hz: scans that are a second apart differ by 0.2 m.
   constexpr double kMaxTravel_m = 0.02;
-  json document = params::parse_json(embedded_pipelines().at("standing"), "standing");
-  for (json& step : *steps_of(document)) {
+  nlohmann::json document = params::parse_json(embedded_pipelines().at("standing"), "standing");
+  for (nlohmann::json& step : *steps_of(document)) {
     if (step.at("step") == "motion_check") step["max_travel_m"] = kMaxTravel_m;
   }
   return composition_in(document.dump(), "standing", "standing", catalogue);

@@ -50,15 +50,15 @@ void draw_panel(Image& canvas, int left, int up, const Points& reference, const 
 }
 
 /// One column of the picture: the clouds at one pose.
-struct Column {
+struct PictureColumn {
   std::string caption;
   RigidTransform T_level_sensor;
   Points points, above;  ///< Of the sensor in the level frame; those above the ground.
 };
 
-Column column_of(const SensorPicture& picture, const RigidTransform& T_reference_sensor,
-                 const std::string& caption) {
-  Column column{caption, picture.level.T_level_reference * T_reference_sensor, {}, {}};
+PictureColumn column_of(const SensorPicture& picture, const RigidTransform& T_reference_sensor,
+                        const std::string& caption) {
+  PictureColumn column{caption, picture.level.T_level_reference * T_reference_sensor, {}, {}};
   column.points = transformed(*picture.sensor_points, column.T_level_sensor);
   column.above = above_ground(column.points, picture.level);
   return column;
@@ -131,7 +131,7 @@ void draw_legend(Drawing& drawing, const SensorPicture& picture, double pixel_m)
 }  // namespace
 
 Image draw_sensor(const SensorPicture& picture) {
-  std::vector<Column> columns;
+  std::vector<PictureColumn> columns;
   if (picture.before) columns.push_back(column_of(picture, *picture.before, "before (nominal)"));
   if (picture.after) {
     columns.push_back(
@@ -154,7 +154,7 @@ Image draw_sensor(const SensorPicture& picture) {
   for (const Row& row : rows) {
     int left = kGap_px;
     const int panel_height = row.view.image().height();
-    for (const Column& column : columns) {
+    for (const PictureColumn& column : columns) {
       draw_panel(canvas, left, up + kCaption_px, row.shows_ground ? reference : reference_above,
                  row.shows_ground ? column.points : column.above, row.view);
       drawing.text((left + kPanelWidth_px / 2.0) / kTextScale,

@@ -10,18 +10,18 @@
 namespace croon {
 namespace {
 
-struct Contact {
+struct SurfaceContact {
   Eigen::Vector3d point;
   Eigen::Vector3d normal;
 };
 
-std::vector<Contact> contacts_of(const SensorView& target, const SensorView& source,
-                                 const RigidTransform& T, double max_distance_m) {
+std::vector<SurfaceContact> contacts_of(const SensorView& target, const SensorView& source,
+                                        const RigidTransform& T, double max_distance_m) {
   const KdTree& tree = target.thinned->kd_tree();
   const Normals& normals = target.thinned->normals(target.normal_neighbours);
   const Normals& source_normals = source.thinned->normals(source.normal_neighbours);
   constexpr double kMinCosine = 0.85;  // Of the normals of surfaces that touch: 32 degrees.
-  std::vector<Contact> contacts;
+  std::vector<SurfaceContact> contacts;
   for (const int index : source.sample) {
     const Eigen::Vector3d point = T * source.thinned->points()[index].cast<double>();
     const Neighbour nearest = tree.nearest(point.cast<float>(), static_cast<float>(max_distance_m));
@@ -39,16 +39,16 @@ std::vector<Contact> contacts_of(const SensorView& target, const SensorView& sou
 std::vector<HeldDirection> held_directions(const SensorView& target, const SensorView& source,
                                            const RigidTransform& T_target_source,
                                            double max_distance_m) {
-  const std::vector<Contact> contacts =
+  const std::vector<SurfaceContact> contacts =
       contacts_of(target, source, T_target_source, max_distance_m);
   if (contacts.size() < 6) return {};
   const auto count = static_cast<double>(contacts.size());
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const Contact& contact : contacts) middle += contact.point / count;
+  for (const SurfaceContact& contact : contacts) middle += contact.point / count;
   // Of unit motions of the contacts: along the normals, and in all.
   Matrix6d held = Matrix6d::Zero();
   Matrix6d all = 1e-9 * Matrix6d::Identity();
-  for (const Contact& contact : contacts) {
+  for (const SurfaceContact& contact : contacts) {
     const Eigen::Matrix<double, 3, 6> J = point_jacobian(contact.point - middle);
     const Vector6d along = J.transpose() * contact.normal;
     held += along * along.transpose() / count;
