@@ -49,10 +49,10 @@ std::string scene_text(const std::string& scene) {
 }
 
 /// Each scene with the indices of its clouds, in the order of their first clouds.
-using SceneClouds = std::vector<std::pair<std::string, std::vector<std::size_t>>>;
+using CloudsByScene = std::vector<std::pair<std::string, std::vector<std::size_t>>>;
 
-SceneClouds by_scene(const std::vector<NamedCloud>& clouds) {
-  SceneClouds scenes;
+CloudsByScene by_scene(const std::vector<NamedCloud>& clouds) {
+  CloudsByScene scenes;
   for (std::size_t i = 0; i < clouds.size(); ++i) {
     const auto known = std::find_if(scenes.begin(), scenes.end(), [&](const auto& scene) {
       return scene.first == clouds[i].scene;
