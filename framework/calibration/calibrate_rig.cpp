@@ -142,26 +142,35 @@ struct Outcome {
   std::vector<MemberResult> members;
 };
 
-/// Calibrates from the starts of the members; sensors that are rejected near their nominal poses
-/// are tried again from nothing.
-Outcome outcome_of(const Composition& composition, RigInput input,
-                   const std::vector<std::string>& names, std::uint64_t seed,
-                   const StepProgress& progress) {
-  Outcome outcome;
-  outcome.members = run_rig(composition, input.members, seed, progress);
-  outcome.sensors = sensor_results(input, outcome.members, names);
-  bool is_any_changed = false;
-  for (const CalibratedSensor& sensor : outcome.sensors) {
+/// Gives the members of rejected sensors their nominal poses to start from. Returns whether there
+/// are any.
+bool start_near_nominal(std::vector<CalibrationMember>& members, const RigInput& input,
+                        const std::vector<CalibratedSensor>& sensors) {
+  bool is_any = false;
+  for (const CalibratedSensor& sensor : sensors) {
     if (sensor.is_accepted) continue;
-    for (CalibrationMember& member : input.members) {
-      if (member.sensor != sensor.sensor || !member.start) continue;
-      member.start.reset();
-      is_any_changed = true;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      if (members[i].sensor != sensor.sensor || !input.members[i].start) continue;
+      members[i].start = input.members[i].start;
+      is_any = true;
     }
   }
-  if (!is_any_changed) return outcome;
+  return is_any;
+}
+
+/// Calibrates from nothing, so that a wrong nominal pose hides no rival; sensors that are rejected
+/// are tried again near their nominal poses.
+Outcome outcome_of(const Composition& composition, const RigInput& input,
+                   const std::vector<std::string>& names, std::uint64_t seed,
+                   const StepProgress& progress) {
+  std::vector<CalibrationMember> members = input.members;
+  for (CalibrationMember& member : members) member.start.reset();
+  Outcome outcome;
+  outcome.members = run_rig(composition, members, seed, progress);
+  outcome.sensors = sensor_results(input, outcome.members, names);
+  if (!start_near_nominal(members, input, outcome.sensors)) return outcome;
   Outcome again;
-  again.members = run_rig(composition, input.members, seed, progress);
+  again.members = run_rig(composition, members, seed, progress);
   again.sensors = sensor_results(input, again.members, names);
   return accepted_of(again.sensors) > accepted_of(outcome.sensors) ? again : outcome;
 }
