@@ -284,7 +284,7 @@ TEST(Schema, IsThatOfThePage) {
 
 TEST_F(SchemaAndLoader, AgreeOnDefaults) {
   const json properties = json::parse(experiment_schema(registry()))["properties"];
-  const json& starts = properties["starts"]["properties"];
+  const json& starts = properties["starts"]["anyOf"][1]["properties"];
   const StartRule rule;
   EXPECT_EQ(starts["around"]["default"], params::word_of(kStartCentres, rule.around));
   EXPECT_EQ(starts["rotation_deg"]["default"].get<double>(), rule.rotation_deg);

@@ -28,8 +28,10 @@ Points random_road(Rng& rng, double noise_m, bool has_ground) {
     if (has_ground) add(x, y, 0.01 * std::sin(phase + x / waves_m) * std::cos(y / waves_m));
   }
   for (int i = 0; i < 5000; ++i) {
-    add(rng.uniform(-30.0, 30.0), i % 2 == 0 ? 8.0 : -8.0, rng.uniform(0.0, 6.0));
-    add(rng.uniform(5.0, 9.0), 2.0, rng.uniform(0.0, 1.5));
+    const double wall_x_m = rng.uniform(-30.0, 30.0), wall_z_m = rng.uniform(0.0, 6.0);
+    add(wall_x_m, i % 2 == 0 ? 8.0 : -8.0, wall_z_m);
+    const double car_x_m = rng.uniform(5.0, 9.0), car_z_m = rng.uniform(0.0, 1.5);
+    add(car_x_m, 2.0, car_z_m);
   }
   return points;
 }
@@ -37,8 +39,9 @@ Points random_road(Rng& rng, double noise_m, bool has_ground) {
 /// A mounting over the road.
 GroundPose random_mounting(Rng& rng) {
   const bool is_upside_down = rng.uniform() < 0.3;
-  return {rad_from_deg(rng.uniform(-40.0, 40.0)) + (is_upside_down ? kPi : 0.0),
-          rad_from_deg(rng.uniform(-40.0, 40.0)), rng.uniform(1.0, 2.5)};
+  const double roll_rad = rad_from_deg(rng.uniform(-40.0, 40.0)) + (is_upside_down ? kPi : 0.0);
+  const double pitch_rad = rad_from_deg(rng.uniform(-40.0, 40.0));
+  return {roll_rad, pitch_rad, rng.uniform(1.0, 2.5)};
 }
 
 TEST(GroundPose, IsThatOfTheMountingWithinItsStandardDeviations) {

@@ -131,8 +131,7 @@ TEST(CheckTimes, SaysWhyTimesAreNotUsable) {
   EXPECT_NE(check_times(with_times(cloud, in_packets)).reason.find("restart"), std::string::npos);
   std::vector<double> in_microseconds = times;
   for (double& time : in_microseconds) time *= 1e6;
-  EXPECT_NE(check_times(with_times(cloud, in_microseconds)).reason.find("expected seconds"),
-            std::string::npos);
+  EXPECT_TRUE(check_times(with_times(cloud, in_microseconds)).is_usable);
   times[7] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(check_times(with_times(cloud, times)).reason, "1 of 11520 times are not finite");
 }
