@@ -322,7 +322,7 @@ CalibratedRig calibrate_rig(const std::vector<Scene>& scenes, const CalibrationO
                             const Catalogue& catalogue) {
   check_scenes(scenes);
   // A pipeline that does not exist is refused before clouds are read.
-  composition_called(options.pipeline, catalogue);
+  if (options.pipeline_text.empty()) composition_called(options.pipeline, catalogue);
   std::optional<CalibratedRig> rig;
   on_threads(options.jobs > 0 ? options.jobs : tbb::info::default_concurrency(),
              [&] { rig = calibrated(scenes, options, catalogue); });

@@ -298,10 +298,10 @@ TEST_F(BadInput, EmptyFileForACloud) {
 }
 
 TEST_F(BadInput, CloudOfAnUnknownFormat) {
-  folder_.write("data/rig/s1/left.xyz", "1 2 3\n");
+  folder_.write("data/rig/s1/left.laz", "LASF");
   folder_.write("data/rig/s1/lidar_cloud_path.txt",
-                "device_id: 0\npath: rig/s1/top.pcd\ndevice_id: 1\npath: rig/s1/left.xyz\n");
-  expect_refused_with({"left.xyz: ", ".pcd"});
+                "device_id: 0\npath: rig/s1/top.pcd\ndevice_id: 1\npath: rig/s1/left.laz\n");
+  expect_refused_with({"left.laz: ", "pdal"});
 }
 
 TEST_F(BadInput, TruncatedPcdHeader) {

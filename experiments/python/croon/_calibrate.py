@@ -307,7 +307,7 @@ def _nominal(nominal, sensors):
         return {}
     if not isinstance(nominal, collections.abc.Mapping):
         raise refusal("nominal", f"expected a dict of 4×4 poses by sensor, found {with_article(nominal)}")
-    for name in nominal:
-        if name not in sensors:
-            raise refusal("nominal", f"expected poses of {', '.join(sensors)}, found one of {name!r:.60}")
-    return dict(nominal)
+    known = {name: pose for name, pose in nominal.items() if name in sensors}
+    if nominal and not known:
+        raise refusal("nominal", f"expected poses of {', '.join(sensors)}, found only of {', '.join(map(str, nominal)):.60}")
+    return known

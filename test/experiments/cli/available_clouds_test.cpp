@@ -192,7 +192,7 @@ TEST_F(AvailableClouds, ThatAreDamagedAreAResultWithTheirPath) {
   EXPECT_EQ(count_of(trials("out"), "failed"), 6U);
   const std::string summary = read_whole_file(folder_.path() / "out/summary.json");
   EXPECT_NE(summary.find("the cloud of left: expected rows of 4 or 5 floats (x, y, z, intensity, "
-                         "found 4 bytes, in b_left.bin"),
+                         "...), found 4 bytes, in b_left.bin"),
             std::string::npos)
       << summary;
 }
@@ -201,7 +201,8 @@ TEST_F(AvailableClouds, OfGroupsThatAreDamagedAreToldByEachRun) {
   group();
   folder_.write("b_left.bin", "half");
   const std::string told =
-      "croon: scene b: the cloud of left: expected records of 16 bytes (x, y, z, intensity), found "
+      "croon: scene b: the cloud of left: expected rows of 4 or 5 floats (x, y, z, intensity, "
+      "...), found "
       "4 bytes, in b_left.bin; its trials use the other scenes of the group\n";
   for (const char* which : {"first", "again"}) {
     const Answer answer = run("out");
