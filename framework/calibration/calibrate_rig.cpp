@@ -175,24 +175,6 @@ Outcome outcome_of(const Composition& composition, const RigInput& input,
   return accepted_of(again.sensors) > accepted_of(outcome.sensors) ? again : outcome;
 }
 
-/// Of a rig with usable times, the sensors that are rejected because the speed is not certain
-/// enough may be accepted if motion, whatever it is, does not move their poses. Returns their
-/// names.
-std::string accept_at_rest(Outcome& outcome, const RigInput& input,
-                           const std::vector<std::string>& names, const CalibrationOptions& options,
-                           const Catalogue& catalogue, const StepProgress& progress) {
-  if (accepted_of(outcome.sensors) == outcome.sensors.size()) return "";
-  const Composition composition = embedded_composition("standing", catalogue);
-  const Outcome at_rest = outcome_of(composition, input, names, options.seed, progress);
-  std::string accepted;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (outcome.sensors[i].is_accepted || !at_rest.sensors[i].is_accepted) continue;
-    outcome.sensors[i] = at_rest.sensors[i];
-    accepted += (accepted.empty() ? "" : ", ") + names[i];
-  }
-  return accepted;
-}
-
 /// The pose of the reference over the road, and the heading of the rig.
 void set_ground(CalibratedRig& rig, const RigInput& input, std::uint64_t seed) {
   std::vector<const Points*> references;
@@ -298,13 +280,6 @@ CalibratedRig calibrated(const std::vector<Scene>& scenes, const CalibrationOpti
     progress(step, kReadingShare + (1.0 - kReadingShare) * done);
   };
   Outcome outcome = outcome_of(composition, input, names, options.seed, step_progress);
-  if (options.pipeline == "best" && composition.name == "driving") {
-    const std::string at_rest =
-        accept_at_rest(outcome, input, names, options, catalogue, step_progress);
-    if (!at_rest.empty()) {
-      rig.composition_reason += "; accepted without its correction, by \"standing\": " + at_rest;
-    }
-  }
   add_failed_scenes(input, outcome.members, rig.unused);
   rig.motion = motion_of(input, outcome.members);
   rig.sensors = std::move(outcome.sensors);
