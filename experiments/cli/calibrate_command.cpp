@@ -150,11 +150,16 @@ std::vector<std::string> all_formats(const std::vector<std::string>& formats) {
   return all;
 }
 
-/// Writes all files and returns their paths below the folder.
-std::vector<std::string> write_files(const CalibrateOptions& options, const CalibratedRig& rig,
-                                     const Scene& drawn,
-                                     const std::optional<RigidTransform>& T_base_reference,
-                                     StagedFolder& folder) {
+/// The files of a folder, by their paths in it.
+struct FolderFiles {
+  std::vector<std::string> written;
+  std::vector<std::string> left;  ///< By an earlier calibration.
+};
+
+/// Writes all files.
+FolderFiles write_files(const CalibrateOptions& options, const CalibratedRig& rig,
+                        const Scene& drawn, const std::optional<RigidTransform>& T_base_reference,
+                        StagedFolder& folder) {
   const fs::path& root = folder.make_staging();
   const std::vector<std::string> formats = all_formats(options.formats);
   const Extrinsics extrinsics = extrinsics_of(rig);
@@ -171,8 +176,7 @@ std::vector<std::string> write_files(const CalibrateOptions& options, const Cali
   write_whole_file(root / kJsonFile, rig_extrinsics_json(rig));
   write_whole_file(root / kRequestFile, rig_request_json(options, options.out));
   add({kJsonFile, kRequestFile});
-  folder.publish();
-  return paths;
+  return {paths, folder.publish()};
 }
 
 }  // namespace
@@ -193,11 +197,16 @@ int calibrate_command(const CalibrateOptions& given, const Catalogue& catalogue,
   CalibratedRig rig = calibrate_with_progress(options, recorded.scenes, catalogue, err);
   rig.unused.insert(rig.unused.begin(), recorded.unused.begin(), recorded.unused.end());
   rig.warnings.insert(rig.warnings.begin(), about_nominal.begin(), about_nominal.end());
-  const std::vector<std::string> paths = write_files(options, rig, drawn, T_base_reference, folder);
-  out << calibration_text(rig, options.colours) << "\nfiles in " << printable(options.out.string())
-      << ":";
-  for (const std::string& path : paths) out << " " << printable(path);
-  out << "\n";
+  const FolderFiles files = write_files(options, rig, drawn, T_base_reference, folder);
+  const auto list = [&](const std::string& title, const std::vector<std::string>& paths) {
+    if (paths.empty()) return;
+    out << title << ":";
+    for (const std::string& path : paths) out << " " << printable(path);
+    out << "\n";
+  };
+  out << calibration_text(rig, options.colours) << "\n";
+  list("files in " + printable(options.out.string()), files.written);
+  list("left there by an earlier calibration", files.left);
   const bool is_any_rejected =
       std::any_of(rig.sensors.begin(), rig.sensors.end(),
                   [](const CalibratedSensor& sensor) { return !sensor.is_accepted; });

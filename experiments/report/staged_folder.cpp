@@ -1,5 +1,6 @@
 #include "experiments/report/staged_folder.hpp"
 
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -45,12 +46,19 @@ const fs::path& StagedFolder::make_staging() {
   return staging_;
 }
 
-void StagedFolder::publish() {
+std::vector<std::string> StagedFolder::publish() {
   std::error_code error;
+  std::vector<std::string> left;
   if (!fs::exists(folder_)) {
     fs::rename(staging_, folder_, error);
-    return refuse_if(error, folder_);
+    refuse_if(error, folder_);
+    return left;
   }
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_)) {
+    const fs::path name = entry.path().lexically_relative(folder_);
+    if (!entry.is_directory() && !fs::exists(staging_ / name)) left.push_back(name.string());
+  }
+  std::sort(left.begin(), left.end());
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(staging_)) {
     const fs::path to = folder_ / entry.path().lexically_relative(staging_);
     if (entry.is_directory()) {
@@ -60,6 +68,7 @@ void StagedFolder::publish() {
     }
     refuse_if(error, to);
   }
+  return left;
 }
 
 }  // namespace croon::experiments

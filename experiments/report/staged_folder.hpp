@@ -21,9 +21,9 @@ class StagedFolder {
   /// Makes the folder that files are written to. Throws InputError if it cannot be made.
   const std::filesystem::path& make_staging();
 
-  /// Moves all files to the folder, over files of the same names. Throws InputError if one cannot
-  /// be moved.
-  void publish();
+  /// Moves all files to the folder, over files of the same names. Returns the other files of the
+  /// folder, which earlier results left, sorted. Throws InputError if one cannot be moved.
+  std::vector<std::string> publish();
 
  private:
   std::filesystem::path folder_;

@@ -123,8 +123,7 @@ std::string picture_note(const CalibratedSensor& sensor) {
     }
     return text;
   };
-  return "std: roll, pitch, yaw " + stds(0, deg_from_rad(1.0), 3) + "°; x, y, z " +
-         stds(3, 1e3, 1) + " mm";
+  return "std: rpy " + stds(0, deg_from_rad(1.0), 3) + "°; xyz " + stds(3, 1e3, 1) + " mm";
 }
 
 std::vector<std::string> file_names(const std::vector<std::string>& names,
