@@ -284,14 +284,14 @@ std::optional<GroundPose> ground_pose(const std::vector<const Points*>& scenes, 
                     std::sqrt(height.variance)};
 }
 
-RigidTransform T_road_reference(const GroundPose& ground) {
+RigidTransform road_from_reference(const GroundPose& ground) {
   return {rotation_from_rpy({ground.roll_rad, ground.pitch_rad, 0.0}), {0.0, 0.0, ground.height_m}};
 }
 
 std::optional<HeadingOfTravel> heading_of_travel(const std::vector<SceneMotionEstimate>& motion,
                                                  const std::optional<GroundPose>& ground) {
   const Eigen::Matrix3d R_road_reference =
-      ground ? T_road_reference(*ground).rotation : Eigen::Matrix3d::Identity();
+      ground ? road_from_reference(*ground).rotation : Eigen::Matrix3d::Identity();
   std::vector<SceneHeading> headings;
   for (const SceneMotionEstimate& scene : motion) {
     if (auto heading = heading_of_scene(scene, R_road_reference)) headings.push_back(*heading);

@@ -17,7 +17,7 @@ namespace croon {
 std::optional<GroundPose> ground_pose(const std::vector<const Points*>& scenes, Rng& rng);
 
 /// T_road_reference of a ground pose.
-RigidTransform T_road_reference(const GroundPose& ground);
+RigidTransform road_from_reference(const GroundPose& ground);
 
 /// The heading of a rig that drives, from the velocities of its reference. Scenes that are slower
 /// than 1 m/s, or in which the rig turns so much that a lever of 2 m would matter, take no part. A

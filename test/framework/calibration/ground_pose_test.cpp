@@ -52,7 +52,7 @@ TEST(GroundPose, IsThatOfTheMountingWithinItsStandardDeviations) {
     std::vector<Points> scenes;
     for (int i = 0; i <= round % 3; ++i) {
       scenes.push_back(
-          transformed(random_road(rng, 0.02, true), T_road_reference(truth).inverse()));
+          transformed(random_road(rng, 0.02, true), road_from_reference(truth).inverse()));
     }
     std::vector<const Points*> pointers;
     for (const Points& scene : scenes) pointers.push_back(&scene);
@@ -87,7 +87,7 @@ TEST(GroundPose, IsMissingWithoutGround) {
     mounting.roll_rad = rad_from_deg(rng.uniform(-20.0, 20.0));
     mounting.pitch_rad = rad_from_deg(rng.uniform(-20.0, 20.0));
     const Points points =
-        transformed(random_road(rng, 0.02, false), T_road_reference(mounting).inverse());
+        transformed(random_road(rng, 0.02, false), road_from_reference(mounting).inverse());
     EXPECT_FALSE(ground_pose({&points}, rng));
   }
   const Points none;
@@ -108,7 +108,7 @@ TEST(HeadingOfTravel, IsThatOfTheVelocityInTheLevelledFrame) {
   Rng rng = test_rng();
   for (int round = 0; round < 100; ++round) {
     const GroundPose ground = random_mounting(rng);
-    const Eigen::Matrix3d R = T_road_reference(ground).rotation.transpose();
+    const Eigen::Matrix3d R = road_from_reference(ground).rotation.transpose();
     const double yaw_rad = rng.uniform(-kPi, kPi);
     std::vector<SceneMotionEstimate> motion;
     for (int i = 0; i < 5; ++i) {
