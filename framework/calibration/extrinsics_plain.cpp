@@ -184,13 +184,11 @@ std::vector<CsvRow> csv_rows(const std::string& text) {
       field += text[++i];
     } else if (c == '"') {
       is_quoted = !is_quoted;
-    } else if (is_quoted) {
-      field += c;
-    } else if (c == ',') {
+    } else if (c == ',' && !is_quoted) {
       rows.back().fields.emplace_back();
-    } else if (c == '\n') {
+    } else if (c == '\n' && !is_quoted) {
       rows.emplace_back().line = line;
-    } else if (c != '\r') {
+    } else if (c != '\r' || is_quoted) {
       field += c;
     }
   }

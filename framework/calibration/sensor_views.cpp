@@ -25,9 +25,9 @@ constexpr int kSampled = 5000;
 /// The index of the cube of half a metre that a point is in; std::nullopt far away.
 std::optional<std::int64_t> cube_of(const Eigen::Vector3f& point) {
   constexpr float kCube_m = 0.5F;
-  constexpr std::int64_t kAxis = 1 << 20;
+  constexpr std::int64_t kHalfAxis = 1 << 19, kAxis = 2 * kHalfAxis;
   const Eigen::Vector3f cube = (point / kCube_m).array().floor();
-  if (!(cube.cwiseAbs().maxCoeff() < static_cast<float>(kAxis / 2))) return std::nullopt;
+  if (!(cube.cwiseAbs().maxCoeff() < static_cast<float>(kHalfAxis))) return std::nullopt;
   return (static_cast<std::int64_t>(cube.x()) * kAxis + static_cast<std::int64_t>(cube.y())) *
              kAxis +
          static_cast<std::int64_t>(cube.z());

@@ -72,9 +72,10 @@ std::vector<std::pair<std::string, std::string>> scene_copies(
   std::vector<std::pair<std::string, std::string>> copies;
   for (const auto& [scene, members] : by_scene(clouds)) {
     const std::string& original = clouds[first[members.front()]].scene;
+    if (original == scene) continue;
     const bool is_copy = std::all_of(members.begin(), members.end(), [&](std::size_t i) {
       const NamedCloud& of = clouds[first[i]];
-      return of.scene == original && of.scene != scene && of.sensor == clouds[i].sensor;
+      return of.scene == original && of.sensor == clouds[i].sensor;
     });
     if (is_copy) copies.emplace_back(scene, original);
   }
