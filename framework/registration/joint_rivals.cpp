@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "framework/base/threads.hpp"
 #include "framework/registration/joint_pair.hpp"
 
 namespace croon {
@@ -72,6 +73,30 @@ bool is_rival(const JointState& a, const JointState& b) {
   return false;
 }
 
+/// Where the registration of `scenes` ends from each of `starts`, in parallel.
+std::vector<JointState> registered(const std::vector<JointScene>& scenes,
+                                   const std::vector<JointState>& starts,
+                                   const JointOptions& options) {
+  std::vector<JointState> ends(starts.size());
+  for_each_in_parallel(starts.size(), [&](std::size_t i) {
+    ends[i] = register_jointly(scenes, starts[i], options).state;
+  });
+  return ends;
+}
+
+/// Those of `states` that are rivals of `state` and of all before them.
+std::vector<JointState> different_from(const JointState& state,
+                                       const std::vector<JointState>& states) {
+  std::vector<JointState> seen = {state};
+  for (const JointState& other : states) {
+    const bool is_new = std::all_of(seen.begin(), seen.end(),
+                                    [&](const JointState& one) { return is_rival(one, other); });
+    if (is_new) seen.push_back(other);
+  }
+  seen.erase(seen.begin());
+  return seen;
+}
+
 }  // namespace
 
 std::vector<JointState> other_speeds(const JointScene& scene, const JointState& state,
@@ -101,19 +126,13 @@ std::vector<JointState> other_speeds(const JointScene& scene, const JointState& 
 std::vector<std::optional<double>> leads_over_rivals(const JointScene& scene,
                                                      const JointScene& coarse,
                                                      const JointState& state,
-                                                     std::vector<JointState> starts,
+                                                     const std::vector<JointState>& starts,
                                                      const JointOptions& options,
                                                      const JointOptions& coarse_options) {
   const std::vector<PairAgreement> own = agreements_in(scene, state, options);
-  std::vector<JointState> seen = {state};
   std::vector<std::optional<double>> least(scene.sources.size());
-  for (JointState& start : starts) {
-    const JointState near = register_jointly({coarse}, std::move(start), coarse_options).state;
-    const bool is_new = std::all_of(seen.begin(), seen.end(),
-                                    [&](const JointState& other) { return is_rival(other, near); });
-    if (!is_new) continue;
-    seen.push_back(near);
-    const JointState fine = register_jointly({scene}, near, options).state;
+  const std::vector<JointState> near = registered({coarse}, starts, coarse_options);
+  for (const JointState& fine : registered({scene}, different_from(state, near), options)) {
     if (!is_rival(fine, state)) continue;
     const std::optional<Eigen::Vector3d> axis = axis_between(state, fine);
     const double lead =

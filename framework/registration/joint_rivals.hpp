@@ -31,7 +31,7 @@ inline constexpr double kRivalDistance_m = 0.05;
 std::vector<std::optional<double>> leads_over_rivals(const JointScene& scene,
                                                      const JointScene& coarse,
                                                      const JointState& state,
-                                                     std::vector<JointState> starts,
+                                                     const std::vector<JointState>& starts,
                                                      const JointOptions& options,
                                                      const JointOptions& coarse_options);
 

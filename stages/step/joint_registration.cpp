@@ -123,7 +123,7 @@ class JointRegistrationStep final : public RigStep {
     JointOptions near = params_;
     near.max_distances_m = params_.coarse_distances_m;
     if (near.max_distances_m.size() > 1) near.max_distances_m.erase(near.max_distances_m.begin());
-    return leads_over_rivals(scene, coarse, state, std::move(starts), params_, near);
+    return leads_over_rivals(scene, coarse, state, starts, params_, near);
   }
 
   /// The passes over the thinned scenes `coarse`, then those over all points.
