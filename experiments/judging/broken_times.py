@@ -1,14 +1,17 @@
-"""Calibrates simulated driving cars whose times are broken, and counts the verdicts.
+#!/usr/bin/env python3
+"""The verdicts on simulated driving cars whose times are broken.
 
-Usage: broken_times.py [SCENES] [SEED]. Needs the Python package on PYTHONPATH. Prints a Markdown table: a row for
+broken_times.py SCENES [SEED]: the number of scenes. Needs the Python package on PYTHONPATH. Prints Markdown: a row for
 each way in which times break, with the number of sensors that are accepted and right (within 0.5 deg and 0.1 m of
-the truth), accepted and wrong, and rejected. Nothing was chosen on the default seed.
+the truth), accepted and wrong, and rejected. Nothing was chosen on the default seed, 5401.
 """
-
 import sys
 
-import croon
-import numpy as np
+if len(sys.argv) not in (2, 3):
+    sys.exit(__doc__)
+
+import croon  # noqa: E402
+import numpy as np  # noqa: E402
 
 MAX_ERROR_DEG, MAX_ERROR_M = 0.5, 0.1
 LATE_S = 0.1
@@ -55,9 +58,7 @@ def is_right(pose, truth):
     return angle_deg <= MAX_ERROR_DEG and np.linalg.norm(pose[:3, 3] - truth[:3, 3]) <= MAX_ERROR_M
 
 
-def main():
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 25
-    seed = int(sys.argv[2]) if len(sys.argv) > 2 else 5401
+def main(count, seed):
     scenes = croon.simulate(count, rig="croon_five", mix="paper", noise="real", seed=seed)
     print("| times | accepted, right | accepted, wrong | rejected |\n|---|---|---|---|")
     for name, changed in CONDITIONS.items():
@@ -73,4 +74,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    main(int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) == 3 else 5401)

@@ -158,7 +158,8 @@ std::vector<ExtrinsicsFile> write_csv(const Extrinsics& extrinsics) {
     const RigidTransform& T = pose.T_parent_sensor;
     const auto field = [&](double value) { return pose.has_pose ? shortest_number(value) : ""; };
     for (const double value : T.translation) text += "," + field(value);
-    for (const double value : unit_quaternion(T.rotation).coeffs()) text += "," + field(value);
+    const Eigen::Quaterniond xyzw = unit_quaternion(T.rotation);
+    for (const double value : xyzw.coeffs()) text += "," + field(value);
     text += "\n";
   }
   return {{"extrinsics.csv", text}};
