@@ -28,8 +28,7 @@ TEST(PictureNote, HasTheDeviationsOrTheReason) {
   sensor.is_accepted = true;
   EXPECT_EQ(picture_note(sensor), "");
   sensor.covariance.emplace().matrix(5, 5) = 0.002 * 0.002;
-  EXPECT_EQ(picture_note(sensor),
-            "std: rpy 0.000, 0.000, 0.000°; xyz 0.0, 0.0, 2.0 mm");
+  EXPECT_EQ(picture_note(sensor), "std: rpy 0.000, 0.000, 0.000°; xyz 0.0, 0.0, 2.0 mm");
   sensor.is_accepted = false;
   sensor.reasons = {"Too little agrees.", "More."};
   EXPECT_EQ(picture_note(sensor), "Too little agrees.");
