@@ -38,7 +38,8 @@ if(CROON_BUILD_TOOLS)
   install(FILES "${PROJECT_BINARY_DIR}/experiments/store/version.cpp.in"
     "${PROJECT_BINARY_DIR}/experiments/store/croon_commit.cmake" DESTINATION "${package_folder}")
   # They extend each other.
-  install(FILES experiments/best.json experiments/demo.json experiments/driving.json experiments/rig.json
+  install(FILES experiments/best.json experiments/demo.json experiments/demo_car.json experiments/driving.json
+    experiments/rig.json experiments/standing.json
     DESTINATION "${CMAKE_INSTALL_DATADIR}/croon/experiments" COMPONENT runtime)
   install(DIRECTORY experiments/paper experiments/ablations experiments/judging experiments/tuning
     DESTINATION "${CMAKE_INSTALL_DATADIR}/croon/experiments" COMPONENT runtime
