@@ -1,13 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <utility>
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
-#include "framework/base/threads.hpp"
 #include "framework/pipeline/shared_view.hpp"
 #include "framework/registration/joint_rivals.hpp"
 #include "framework/registration/scene_motion.hpp"
@@ -79,33 +77,21 @@ class MotionCheck final : public RigStep {
   static params::DataFlow data_flow(const Params& params) { return params.thinning.flow(); }
 
   void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
-    std::map<std::pair<std::string, std::string>, std::vector<RigEstimate*>> by_scene;
-    for (RigEstimate& one : rig) {
-      try {
-        require_usable_clouds(one.estimate);
-        by_scene[{one.scene, one.target}].push_back(&one);
-      } catch (const StageError& error) {
-        one.failure = error.what();
-      }
-    }
-    std::vector<std::vector<RigEstimate*>> scenes;
-    for (auto& [name, estimates] : by_scene) scenes.push_back(std::move(estimates));
-    for_each_in_parallel(scenes.size(), [&](std::size_t i) { check(scenes[i]); });
+    const auto key_of = [](const RigEstimate& one) {
+      require_usable_clouds(one.estimate);
+      return RigKey{one.scene, one.target};
+    };
+    for_each_group(rig_groups(rig, key_of), [&](const RigGroup& scene) { check(scene); });
   }
 
  private:
   /// Rejects the poses of one scene if its clouds show motion. Sensors that were rejected take part
   /// as well: motion is seen best where sensors look in the direction of travel.
-  void check(const std::vector<RigEstimate*>& estimates) const {
+  void check(const RigGroup& estimates) const {
     const bool is_any_accepted =
         std::any_of(estimates.begin(), estimates.end(),
                     [](const RigEstimate* one) { return !one->estimate.rejection; });
-    if (!is_any_accepted) return;
-    try {
-      reject_if_moving(estimates);
-    } catch (const StageError& error) {
-      for (RigEstimate* const one : estimates) one->failure = error.what();
-    }
+    if (is_any_accepted) reject_if_moving(estimates);
   }
 
   void reject_if_moving(const std::vector<RigEstimate*>& estimates) const {
