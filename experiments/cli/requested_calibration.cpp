@@ -17,18 +17,6 @@ namespace fs = std::filesystem;
 
 bool is_request_file(const std::string& input) { return fs::path(input).extension() == ".json"; }
 
-std::vector<std::string> sensor_names(const std::vector<Scene>& scenes) {
-  std::vector<std::string> names;
-  for (const Scene& scene : scenes) {
-    for (const SensorScan& scan : scene.sensors) {
-      if (std::find(names.begin(), names.end(), scan.sensor) == names.end()) {
-        names.push_back(scan.sensor);
-      }
-    }
-  }
-  return names;
-}
-
 }  // namespace
 
 CalibrateOptions with_file(const CalibrateOptions& options) {

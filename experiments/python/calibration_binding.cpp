@@ -12,7 +12,7 @@
 #include "experiments/python/stage_catalogue.hpp"
 #include "experiments/report/calibration_text.hpp"
 #include "framework/calibration/calibrate_rig.hpp"
-#include "framework/calibration/extrinsics.hpp"
+#include "framework/calibration/rig_extrinsics.hpp"
 
 namespace croon::python {
 namespace {
@@ -151,18 +151,6 @@ py::object ground(const CalibratedRig& rig) {
   const GroundPose& pose = *rig.ground;
   return py::make_tuple(pose.roll_rad, pose.pitch_rad, pose.height_m, pose.roll_std_rad,
                         pose.pitch_std_rad, pose.height_std_m);
-}
-
-/// In the frame of the reference; a sensor without a best guess has no pose.
-Extrinsics extrinsics_of(const CalibratedRig& rig) {
-  Extrinsics extrinsics;
-  extrinsics.parent = rig.reference;
-  for (const CalibratedSensor& sensor : rig.sensors) {
-    extrinsics.poses.push_back({sensor.sensor, sensor.T_reference_sensor.value_or(RigidTransform()),
-                                sensor.is_accepted, sensor.covariance,
-                                sensor.T_reference_sensor.has_value()});
-  }
-  return extrinsics;
 }
 
 /// The text by file name; if `T_parent_reference` is not None, in the frame `parent`, with the

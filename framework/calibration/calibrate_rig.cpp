@@ -36,19 +36,6 @@ struct RigInput {
   std::vector<Part> parts;  ///< By scene and then by sensor.
 };
 
-/// The names of the sensors in the order of the recording.
-std::vector<std::string> sensor_names(const std::vector<Scene>& scenes) {
-  std::vector<std::string> names;
-  for (const Scene& scene : scenes) {
-    for (const SensorScan& scan : scene.sensors) {
-      if (std::find(names.begin(), names.end(), scan.sensor) == names.end()) {
-        names.push_back(scan.sensor);
-      }
-    }
-  }
-  return names;
-}
-
 /// Throws InputError if the scenes are not of one rig.
 void check_scenes(const std::vector<Scene>& scenes) {
   if (scenes.empty()) throw InputError("", "", "expected at least one scene, found none");

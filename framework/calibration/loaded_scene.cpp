@@ -82,6 +82,18 @@ LoadedScene load_scene(const Scene& scene, const std::set<std::string>& sensors,
   return loaded;
 }
 
+std::vector<std::string> sensor_names(const std::vector<Scene>& scenes) {
+  std::vector<std::string> names;
+  for (const Scene& scene : scenes) {
+    for (const SensorScan& scan : scene.sensors) {
+      if (std::find(names.begin(), names.end(), scan.sensor) == names.end()) {
+        names.push_back(scan.sensor);
+      }
+    }
+  }
+  return names;
+}
+
 std::size_t index_of(const Scene& scene, const std::string& sensor) {
   const auto is_it = [&](const SensorScan& scan) { return scan.sensor == sensor; };
   const auto found = std::find_if(scene.sensors.begin(), scene.sensors.end(), is_it);

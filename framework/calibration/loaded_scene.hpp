@@ -51,6 +51,9 @@ LoadedScan loaded_scan(ReadScan read, const std::string& scene, const std::strin
 LoadedScene load_scene(const Scene& scene, const std::set<std::string>& sensors, std::uint64_t seed,
                        const std::set<std::string>& channels);
 
+/// The names of the sensors but the reference, each once, in the order of the scenes.
+std::vector<std::string> sensor_names(const std::vector<Scene>& scenes);
+
 /// The index of `sensor` in Scene::sensors; their number if the scene does not have it.
 std::size_t index_of(const Scene& scene, const std::string& sensor);
 
