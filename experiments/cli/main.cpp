@@ -142,7 +142,8 @@ class Program {
              "A file or folder of clouds per sensor, PATH or NAME=PATH; a recording (.mcap, .db3) "
              "and its topics; or a rig.json.")
         ->required();
-    add_path(calibrate, "--nominal", o.nominal, "Poses to start from and to compare with.");
+    add_path(calibrate, "--nominal", o.nominal,
+             "Poses to compare with, and to try near if a sensor is rejected.");
     calibrate.add_flag("--from-scratch", o.from_scratch, "Only compare with the nominal poses.");
     add_text(calibrate, "--base", o.base,
              "The reference's pose in the vehicle frame: x,y,z,roll,pitch,yaw in m and degrees, or "

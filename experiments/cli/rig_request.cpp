@@ -28,7 +28,7 @@ params::Table<RigRequest> request_table() {
                         "recording.")),
       params::free_text("reference", &R::reference,
                         "The sensor that the others are calibrated to; default the first."),
-      params::free_text("nominal", &R::nominal, "A file of poses to start from."),
+      params::free_text("nominal", &R::nominal, "A file of poses to compare with."),
       params::boolean("from_scratch", &R::from_scratch, "Only compare with the nominal poses."),
       params::free_text("base", &R::base,
                         "The reference's pose in the vehicle frame: x,y,z,roll,pitch,yaw in m and "

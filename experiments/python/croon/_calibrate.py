@@ -181,8 +181,9 @@ def calibrate(clouds, *, reference="", nominal=None, pipeline="best", from_scrat
     or nanoseconds if they are integers. An array of the shape H×W×k is read as N×k. `columns` may be a dict by sensor.
 
     `reference` names the sensor that the others are calibrated to, the first one by default. No initial guess is needed.
-    `nominal` has known poses `T_reference_sensor` by sensor, 4×4, to start from and to compare with; if it has the
-    reference's too, all are poses in another frame, such as the vehicle's. With `from_scratch` they are only compared.
+    `nominal` has known poses `T_reference_sensor` by sensor, 4×4, to compare with, and to try near if a sensor is rejected
+    without a guess; with `from_scratch` they are only compared. If it has the reference's too, all are poses in another
+    frame, such as the vehicle's.
     `pipeline` is a name of `pipelines`, the path of a file, or a pipeline as `Pipeline` accepts it. `jobs` is the number
     of threads, 0 for all cores; the result has the same bits for any number. Other threads of Python run meanwhile.
 
