@@ -226,6 +226,7 @@ void StillTarget::make_tree() {
     return;
   }
   moved_tree_ = std::make_unique<const KdTree>(
+      cloud.kd_tree(),
       deskewed(cloud.points(), scene_.target.times_s, velocity_, scene_.reference_s));
   tree_ = moved_tree_.get();
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace croon {
@@ -119,6 +120,48 @@ class KdBuilder {
 
 KdNodes::KdNodes(const Points& points) : size(static_cast<int>(points.size())) {
   KdBuilder(points, *this).build();
+}
+
+void KdNodes::move_to(const Points& points) {
+  const auto box_of_leaf = [](const Leaf& leaf) {
+    Eigen::AlignedBox3f box;
+    for (int i = 0; i < kLeafSize && leaf.indices[i] >= 0; ++i) {
+      box.extend(
+          Eigen::Vector3f(leaf.coordinates[0][i], leaf.coordinates[1][i], leaf.coordinates[2][i]));
+    }
+    return box;
+  };
+  const auto is_empty = [](const Node& node, int child) { return std::isinf(node.low[0][child]); };
+  const auto box_of_node = [&](const Node& node) {
+    Eigen::AlignedBox3f box;
+    for (int child = 0; child < kChildren; ++child) {
+      if (is_empty(node, child)) continue;
+      for (int axis = 0; axis < 3; ++axis) {
+        box.min()[axis] = std::min(box.min()[axis], node.low[axis][child]);
+        box.max()[axis] = std::max(box.max()[axis], node.high[axis][child]);
+      }
+    }
+    return box;
+  };
+  for (Leaf& leaf : leaves) {
+    for (int i = 0; i < kLeafSize && leaf.indices[i] >= 0; ++i) {
+      const Eigen::Vector3f& point = points[leaf.indices[i]];
+      for (int axis = 0; axis < 3; ++axis) leaf.coordinates[axis][i] = point[axis];
+    }
+  }
+  // Children come after their parents.
+  for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
+    for (int child = 0; child < kChildren; ++child) {
+      if (is_empty(*node, child)) continue;
+      const int place = node->children[child];
+      const Eigen::AlignedBox3f box =
+          place < 0 ? box_of_leaf(leaves[~place]) : box_of_node(nodes[place]);
+      for (int axis = 0; axis < 3; ++axis) {
+        node->low[axis][child] = box.min()[axis];
+        node->high[axis][child] = box.max()[axis];
+      }
+    }
+  }
 }
 
 }  // namespace croon

@@ -31,6 +31,10 @@ struct KdNodes {
 
   explicit KdNodes(const Points& points);
 
+  /// Replaces the coordinates of all points, in their order, and adapts the boxes. No point changes
+  /// its leaf.
+  void move_to(const Points& points);
+
   int size;       ///< How many points there are.
   int root = -1;  ///< As in Node.
   std::vector<Node> nodes;

@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "framework/spatial/kd_nodes.hpp"
 
@@ -268,6 +271,17 @@ struct KdTree::Tree : KdNodes {
 };
 
 KdTree::KdTree(const Points& points) : tree_(std::make_unique<const Tree>(points)) {}
+
+KdTree::KdTree(const KdTree& tree, const Points& moved) {
+  if (static_cast<int>(moved.size()) != tree.tree_->size) {
+    throw std::invalid_argument("a moved tree needs " + std::to_string(tree.tree_->size) +
+                                " points, not " + std::to_string(moved.size()));
+  }
+  auto nodes = std::make_unique<Tree>(*tree.tree_);
+  nodes->move_to(moved);
+  tree_ = std::move(nodes);
+}
+
 KdTree::~KdTree() = default;
 
 Neighbour KdTree::nearest(const Eigen::Vector3f& query, float max_distance_m) const {

@@ -43,6 +43,10 @@ inline float squared_distance_m2(const Eigen::Vector3f& a, const Eigen::Vector3f
 class KdTree {
  public:
   explicit KdTree(const Points& points);
+  /// The points of `tree`, in the same order, at other places. They are divided as in `tree`, which
+  /// takes a tenth of the time of dividing them anew; searches are as fast if near points stay near
+  /// one another. Throws std::invalid_argument if the numbers of points differ.
+  KdTree(const KdTree& tree, const Points& moved);
   ~KdTree();
   KdTree(const KdTree&) = delete;
   KdTree& operator=(const KdTree&) = delete;

@@ -50,9 +50,10 @@ const params::Table<Params>& table() {
                          "takes motion into account."),
           params::number(
               "max_shift_std_m", &Params::max_shift_std_m, {0.0, 1e6},
-              "If velocity uncertainty shifts a sensor by more than this, or the "
-              "rig travels by more than 0.03 m and three standard deviations, the registration is "
-              "compared with those from other_speeds_mps."),
+              "If velocity uncertainty shifts a sensor by more than this, an earlier step rejected "
+              "a "
+              "sensor, or the rig appears to travel by more than 0.03 m and three standard "
+              "deviations, the registration is compared with those from other_speeds_mps."),
       }
           .inherit(joint_table())
           .inherit(motion_table());
@@ -104,7 +105,15 @@ class MotionCheck final : public RigStep {
     const bool is_moving = motion.is_moving && is_too_fast(velocity, motion.covariance);
     const double shift_std_m =
         *std::max_element(motion.shift_std_m.begin(), motion.shift_std_m.end());
-    if (!is_moving && shift_std_m > params_.max_shift_std_m)
+    const bool appears_to_travel =
+        travel_m > kMinDoubtfulTravel_m &&
+        certain_length(velocity.linear_mps, motion.covariance.bottomRightCorner<3, 3>()) > 0.0;
+    // Motion that was not corrected is a common reason for a rejection by an earlier step.
+    const bool is_any_rejected = std::any_of(
+        estimates.begin(), estimates.end(),
+        [](const RigEstimate* estimate) { return estimate->estimate.rejection.has_value(); });
+    if (!is_moving &&
+        (appears_to_travel || is_any_rejected || shift_std_m > params_.max_shift_std_m))
       motion.leads = leads_of(scene, state, motion);
     for (std::size_t j = 0; j < estimates.size(); ++j) {
       Estimate& estimate = estimates[j]->estimate;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <tuple>
 
 #include "test/support/neighbours.hpp"
@@ -66,6 +67,31 @@ TEST(KdTree, AgreesWithLookingAtEveryPoint) {
     expect_exact(tree, cloud, cloud.front());
     expect_exact(tree, cloud, {1e4F, -3.0F, 0.0F});
   }
+}
+
+TEST(KdTree, OfMovedPointsAgreesWithLookingAtEveryPoint) {
+  Rng rng = test::test_rng();
+  for (const int size : {1, 24, 25, 97, 700, 3000}) {
+    const Points before = test::random_cloud(rng, size, 5.0);
+    const KdTree tree(before);
+    const RigidTransform T = test::random_pose(rng, 3.0);
+    Points near;
+    for (const Eigen::Vector3f& p : before) near.push_back((T * p.cast<double>()).cast<float>());
+    // The second cloud has nothing to do with the first.
+    for (const Points& moved : {near, test::random_cloud(rng, size, 5.0)}) {
+      const KdTree moved_tree(tree, moved);
+      for (const Eigen::Vector3f& query : test::random_cloud(rng, 20, 7.0)) {
+        expect_exact(moved_tree, moved, query);
+        expect_exact(tree, before, query);
+      }
+    }
+  }
+}
+
+TEST(KdTree, MovesTheSameNumberOfPointsOnly) {
+  Rng rng = test::test_rng();
+  const KdTree tree(test::random_cloud(rng, 30, 1.0));
+  EXPECT_THROW(KdTree(tree, test::random_cloud(rng, 29, 1.0)), std::invalid_argument);
 }
 
 TEST(KdTree, OfEquallyNearPointsTheFirstIsNearest) {
