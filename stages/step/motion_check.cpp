@@ -203,7 +203,7 @@ StageEntry motion_check() {
       "corrected, explains the clouds better than a rig at rest, or cannot be excluded. It needs "
       "no "
       "times: the points are taken to be measured by sweeps that turn about each sensor's z axis.",
-      "croon", table(), 1);
+      "croon", table(), 2);
 }
 
 }  // namespace croon::stages::step
