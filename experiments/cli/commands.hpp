@@ -75,10 +75,11 @@ int claims_command(const std::vector<std::filesystem::path>& folders, std::ostre
 
 struct SimulateOptions {
   std::filesystem::path experiment;
-  std::filesystem::path out;  ///< The folder of the dataset.
-  int jobs = 0;               ///< 0: all cores.
-  bool png = false;           ///< Draw each scene.
-  bool quiet = false;         ///< No progress.
+  std::vector<std::filesystem::path> with;  ///< Workloads, see load_experiment.
+  std::filesystem::path out;                ///< The folder of the dataset.
+  int jobs = 0;                             ///< 0: all cores.
+  bool png = false;                         ///< Draw each scene.
+  bool quiet = false;                       ///< No progress.
 };
 
 /// Writes the simulated scenes of an experiment in the layout of the paper's authors: binary PCD
@@ -106,9 +107,10 @@ int describe_command(const DescribeOptions& options, const Catalogue& catalogue,
 
 struct StartsOptions {
   std::filesystem::path experiment;
-  std::filesystem::path out;   ///< The file to write; empty: `out`.
-  std::filesystem::path data;  ///< See `data_root`.
-  int trials = 0;              ///< 0: those of the experiment.
+  std::vector<std::filesystem::path> with;  ///< Workloads, see load_experiment.
+  std::filesystem::path out;                ///< The file to write; empty: `out`.
+  std::filesystem::path data;               ///< See `data_root`.
+  int trials = 0;                           ///< 0: those of the experiment.
 };
 
 /// Writes the starts of the experiment, by scene, sensor and trial, as a file that an experiment

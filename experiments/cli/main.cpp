@@ -106,9 +106,13 @@ class Program {
     return add_text(command, name, option, sentence, "a path");
   }
 
-  template <class T>
-  static void add_experiment(CLI::App& command, T& option) {
-    add_path(command, "EXPERIMENT", option, "The experiment, a JSON file.")->required();
+  template <class Options>
+  static void add_experiment(CLI::App& command, Options& options) {
+    add_path(command, "EXPERIMENT", options.experiment, "The experiment, a JSON file.")->required();
+    add_path(command, "--with", options.with,
+             "A workload, whose keys replace those of the experiment: dataset, starts, ...; "
+             "may be repeated.")
+        ->type_name("WORKLOAD");
   }
 
   static void add_data(CLI::App& command, std::filesystem::path& option) {
@@ -208,7 +212,7 @@ class Program {
       run_.colours = ::isatty(STDOUT_FILENO) != 0;
       return run_command(run_, registry(), std::cout, std::cerr);
     });
-    add_experiment(run, run_.experiment);
+    add_experiment(run, run_);
     add_path(run, "--out", run_.out, "Folder to write to; default results/<name>.");
     add_data(run, run_.data);
     add_jobs(run, run_.jobs);
@@ -276,7 +280,7 @@ class Program {
     CLI::App& simulate =
         add("simulate", "Write the simulated scenes of an experiment as a dataset.",
             [this] { return simulate_command(simulate_, registry(), std::cout, std::cerr); });
-    add_experiment(simulate, simulate_.experiment);
+    add_experiment(simulate, simulate_);
     add_path(simulate, "--out", simulate_.out, "Folder to write the dataset to.")->required();
     add_jobs(simulate, simulate_.jobs);
     simulate.add_flag("--png", simulate_.png,
@@ -302,7 +306,7 @@ class Program {
   void add_starts() {
     CLI::App& starts = add("starts", "Write the list of an experiment's starts.",
                            [this] { return starts_command(starts_, registry(), std::cout); });
-    add_experiment(starts, starts_.experiment);
+    add_experiment(starts, starts_);
     add_path(starts, "--out", starts_.out, "File to write; default standard output.");
     add_data(starts, starts_.data);
     add_trials(starts, starts_.trials, "Starts per scene and sensor.");

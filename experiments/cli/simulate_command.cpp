@@ -276,7 +276,7 @@ std::vector<VelocityRow> write_scenes(const SimulateOptions& options, const Expe
 
 int simulate_command(const SimulateOptions& options, const Catalogue& catalogue, std::ostream& out,
                      std::ostream& progress_out) {
-  Experiment experiment = load_experiment(options.experiment, catalogue);
+  Experiment experiment = load_experiment(options.experiment, catalogue, options.with);
   const std::vector<SceneGroup> started = groups_to_write(experiment);
   // Those that fill no group too: without them, the written dataset would have other groups.
   const std::vector<Scene> scenes = dataset_scenes(experiment, fs::path());

@@ -93,7 +93,7 @@ std::string starts_csv(const Experiment& experiment, const std::vector<SceneGrou
 }
 
 int starts_command(const StartsOptions& options, const Catalogue& catalogue, std::ostream& out) {
-  Experiment experiment = load_experiment(options.experiment, catalogue);
+  Experiment experiment = load_experiment(options.experiment, catalogue, options.with);
   if (experiment.starts.is_none) {
     throw InputError(experiment.starts_file, "/starts",
                      "expected starts that are drawn or listed, found \"none\": each trial starts "

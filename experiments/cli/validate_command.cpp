@@ -68,7 +68,7 @@ int validate_command(const std::vector<fs::path>& paths, const Catalogue& catalo
   for (const Fault& fault : faults) print_faults(InputError({fault}), err);
   for (const fs::path& file : files) {
     try {
-      load_experiment(file, catalogue);
+      validate_experiment(file, catalogue);
       out << printable(file.string()) << ": ok\n";
     } catch (const InputError& error) {
       print_faults(error, err);

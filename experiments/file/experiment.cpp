@@ -19,7 +19,9 @@ using nlohmann::json;
 using params::Node;
 
 constexpr const char* kExtends = "extends";
-constexpr std::size_t kMostFiles = 16;
+constexpr const char* kName = "name";
+constexpr const char* kPipeline = "pipeline";
+constexpr std::size_t kMaxFiles = 16;
 
 /// The keys of an experiment file and of those that it extends.
 struct MergedFile {
@@ -46,64 +48,94 @@ json with_present_names(const json& keys, const std::string& file, std::vector<F
   return renamed;
 }
 
-/// The file that `keys` of the file `path` extend; empty if there is none.
-fs::path extended_file(const json& keys, const fs::path& path, std::vector<Fault>& faults) {
-  if (!keys.contains(kExtends)) return {};
-  std::string extended;
+/// A file that another one extends: where it is, as the other file writes it, and where it writes
+/// it.
+struct Extension {
+  fs::path path;
+  std::string written;
+  std::string pointer;
+};
+
+/// The files that `keys` of the file `path` extend, in their order. Appends a fault if they are not
+/// a path or a list of paths.
+std::vector<Extension> extensions_of(const json& keys, const fs::path& path,
+                                     std::vector<Fault>& faults) {
+  std::vector<Extension> extensions;
+  if (!keys.contains(kExtends)) return extensions;
+  const auto add = [&](const Node& node) {
+    std::string written;
+    if (!node.read(written)) return;
+    // The name of a file ends at a null character.
+    if (written.empty() || written.find('\0') != std::string::npos) {
+      node.expected("the path of an experiment file");
+      return;
+    }
+    const fs::path extended = (path.parent_path() / written).lexically_normal();
+    extensions.push_back({extended, written, node.pointer()});
+  };
   const Node node = Node(keys, path.string(), faults).member(kExtends);
-  if (!node.read(extended)) return {};
-  if (!extended.empty()) return (path.parent_path() / extended).lexically_normal();
-  node.expected("the path of an experiment file");
-  return {};
+  if (node.value().is_array()) {
+    params::for_each_element(node, add);
+  } else {
+    add(node);
+  }
+  return extensions;
+}
+
+/// Adds the keys of `over`, which replace those of the same names. Names of experiments are joined.
+void overlay(MergedFile& merged, MergedFile over) {
+  if (!merged.keys.is_object()) merged.keys = json::object();
+  const auto name = merged.keys.find(kName);
+  if (name != merged.keys.end() && name->is_string() && over.keys.contains(kName) &&
+      over.keys[kName].is_string()) {
+    over.keys[kName] = name->get<std::string>() + "_" + over.keys[kName].get<std::string>();
+  }
+  merged.keys.update(over.keys);
+  for (auto& [key, origin] : over.origins) merged.origins[key] = std::move(origin);
+  merged.files.insert(merged.files.end(), over.files.begin(), over.files.end());
 }
 
 MergedFile read_merged(const std::string& text, const fs::path& path, std::vector<fs::path> chain,
                        std::vector<Fault>& faults);
 
-/// Reads the file that `own`, the keys of the file `path`, extends; without keys if there is none.
-/// Throws InputError if it cannot be had: what its keys are is then not known, so nothing more can
-/// be said of `own`. `chain` are the files that led here, `path` the last of them.
-MergedFile read_extended(const json& own, const fs::path& path, const std::vector<fs::path>& chain,
-                         std::vector<Fault>& faults) {
-  const std::size_t faults_before = faults.size();
-  const fs::path extended = extended_file(own, path, faults);
-  if (faults.size() > faults_before) throw InputError(std::move(faults));
-  if (extended.empty()) return {json::object(), {}, {}};
-  const auto refuse = [&](const std::string& file, const std::string& where,
-                          const std::string& message) {
-    faults.push_back({file, where, message});
+/// Reads a file that the file `path` extends. Throws InputError if it cannot be read: its keys are
+/// then unknown, so the others cannot be checked. `chain` are the files that led here, `path` the
+/// last of them.
+MergedFile read_extension(const Extension& extension, const fs::path& path,
+                          const std::vector<fs::path>& chain, std::vector<Fault>& faults) {
+  const fs::path& extended = extension.path;
+  const auto refuse = [&](const std::string& message) {
+    faults.push_back({path.string(), extension.pointer, message});
     throw InputError(std::move(faults));
   };
-  const std::string key = std::string("/") + kExtends;
   std::error_code error;
   const fs::path canonical = fs::weakly_canonical(extended, error);
   const bool is_file = !error && fs::is_regular_file(extended, error);
   // A name that is too long, a loop of links.
   if (error && error != std::errc::no_such_file_or_directory) {
-    refuse(path.string(), key,
-           "expected an experiment file, found " + extended.string() + ": " + error.message());
+    refuse("expected an experiment file, found " + extended.string() + ": " + error.message());
   }
   if (std::find(chain.begin(), chain.end(), canonical) != chain.end()) {
-    refuse(path.string(), key,
-           "expected another file, found " + extended.string() + ", which extends this one");
+    refuse("expected another file, found " + extended.string() + ", which extends this one");
   }
-  if (chain.size() >= kMostFiles) {
-    refuse(path.string(), key,
-           "expected at most " + std::to_string(kMostFiles) + " files that extend each other");
+  if (chain.size() >= kMaxFiles) {
+    refuse("expected at most " + std::to_string(kMaxFiles) + " files that extend each other");
   }
   if (!is_file) {
-    refuse(path.string(), key,
-           "expected an experiment file, found " + found_instead_of_file(extended) + " at " +
-               extended.string() + missing_path_hint("", extended));
+    refuse("expected an experiment file, found " + found_instead_of_file(extended) + " at " +
+           extended.string() + missing_path_hint("", extended));
   }
-  MergedFile base = read_merged(params::read_json_text(extended), extended, chain, faults);
-  if (!base.keys.is_object()) refuse(extended.string(), "/", "expected an object");
-  base.files.front().path = own.at(kExtends);
-  return base;
+  MergedFile merged = read_merged(params::read_json_text(extended), extended, chain, faults);
+  if (!merged.keys.is_object()) {
+    faults.push_back({extended.string(), "/", "expected an object"});
+    throw InputError(std::move(faults));
+  }
+  merged.files.front().path = extension.written;
+  return merged;
 }
 
-/// Reads `text`, that of the file `path`, and the files that it extends. `chain` are the files that
-/// led here.
+/// Reads `text`, the content of the file `path`, and the files that it extends. `chain` are the
+/// files that led here.
 MergedFile read_merged(const std::string& text, const fs::path& path, std::vector<fs::path> chain,
                        std::vector<Fault>& faults) {
   const ExperimentFile file = {path.filename().string(), sha256_of_text(text)};
@@ -111,7 +143,13 @@ MergedFile read_merged(const std::string& text, const fs::path& path, std::vecto
   if (!own.is_object()) return {own, {}, {file}};
   std::error_code ignored;  // The file has been read.
   chain.push_back(fs::weakly_canonical(path, ignored));
-  MergedFile merged = read_extended(own, path, chain, faults);
+  const std::size_t faults_before = faults.size();
+  const std::vector<Extension> extensions = extensions_of(own, path, faults);
+  if (faults.size() > faults_before) throw InputError(std::move(faults));
+  MergedFile merged = {json::object(), {}, {}};
+  for (const Extension& extension : extensions) {
+    overlay(merged, read_extension(extension, path, chain, faults));
+  }
   json renamed = with_present_names(own, path.string(), faults, merged.origins);
   renamed.erase(kExtends);
   merged.keys.update(renamed);
@@ -138,6 +176,27 @@ void check_variants(const Node& root, Experiment& experiment) {
   });
 }
 
+Experiment read_merged_experiment(const MergedFile& merged, const fs::path& path,
+                                  const Catalogue& catalogue, std::vector<Fault>& faults) {
+  const Node root(merged.keys, path.string(), faults, merged.origins);
+  Experiment experiment;
+  if (root.is_object()) {
+    ExperimentKeys keys = experiment_table().read(root, {}, catalogue);
+    if (keys.pipeline) keys.variants = make_variants(keys, root, catalogue, faults);
+    experiment = std::move(keys);
+    check_variants(root, experiment);
+    const std::string too_long = why_too_long(experiment.name, kMostFileNameBytes);
+    if (!too_long.empty()) root.member(kName).fault(too_long);
+  }
+  if (!faults.empty()) throw InputError(without_repeats(faults));
+  experiment.file = path.string();
+  const auto starts = merged.origins.find("starts");
+  experiment.starts_file = starts == merged.origins.end() ? experiment.file : starts->second.file;
+  experiment.files = merged.files;
+  experiment.merged = merged.keys.dump();
+  return experiment;
+}
+
 /// Keeps the JSON of stages and builds none.
 class UnbuiltStages final : public params::StageBuilder {
  public:
@@ -148,31 +207,30 @@ class UnbuiltStages final : public params::StageBuilder {
 
 }  // namespace
 
-Experiment load_experiment(const fs::path& path, const Catalogue& catalogue) {
-  return parse_experiment(params::read_json_text(path), path, catalogue);
+Experiment load_experiment(const fs::path& path, const Catalogue& catalogue,
+                           const std::vector<fs::path>& workloads) {
+  return parse_experiment(params::read_json_text(path), path, catalogue, workloads);
 }
 
 Experiment parse_experiment(const std::string& text, const fs::path& path,
-                            const Catalogue& catalogue) {
+                            const Catalogue& catalogue, const std::vector<fs::path>& workloads) {
   std::vector<Fault> faults;
-  const MergedFile merged = read_merged(text, path, {}, faults);
-  const Node root(merged.keys, path.string(), faults, merged.origins);
-  Experiment experiment;
-  if (root.is_object()) {
-    ExperimentKeys keys = experiment_table().read(root, {}, catalogue);
-    if (keys.pipeline) keys.variants = make_variants(keys, root, catalogue, faults);
-    experiment = std::move(keys);
-    check_variants(root, experiment);
-    const std::string too_long = why_too_long(experiment.name, kMostFileNameBytes);
-    if (!too_long.empty()) root.member("name").fault(too_long);
+  MergedFile merged = read_merged(text, path, {}, faults);
+  for (const fs::path& workload : workloads) {
+    overlay(merged, read_merged(params::read_json_text(workload), workload, {}, faults));
   }
+  return read_merged_experiment(merged, path, catalogue, faults);
+}
+
+void validate_experiment(const fs::path& path, const Catalogue& catalogue) {
+  std::vector<Fault> faults;
+  const MergedFile merged = read_merged(params::read_json_text(path), path, {}, faults);
+  if (!merged.keys.is_object() || merged.keys.contains(kPipeline)) {
+    read_merged_experiment(merged, path, catalogue, faults);
+    return;
+  }
+  workload_table().read(Node(merged.keys, path.string(), faults, merged.origins), {}, catalogue);
   if (!faults.empty()) throw InputError(without_repeats(faults));
-  experiment.file = path.string();
-  const auto starts = merged.origins.find("starts");
-  experiment.starts_file = starts == merged.origins.end() ? experiment.file : starts->second.file;
-  experiment.files = merged.files;
-  experiment.merged = merged.keys.dump();
-  return experiment;
 }
 
 std::string place_of(const Experiment& experiment, const Variant& variant, const NamedStep& step) {

@@ -43,7 +43,7 @@ struct SuccessBounds {
 
 /// A file that an experiment was read from.
 struct ExperimentFile {
-  std::string path;  ///< The name of the first file; of those that it extends, the path it gives.
+  std::string path;  ///< The name of the first file; for extended files, the path as written.
   std::string sha256;
 };
 
@@ -67,15 +67,22 @@ struct Experiment {
   std::string merged;
 };
 
-/// The experiment that the JSON file `path` describes, with its stages from `catalogue`. Strict:
-/// throws one InputError with every fault of the file and of those that it extends. Does not look
-/// at the data.
-Experiment load_experiment(const std::filesystem::path& path, const Catalogue& catalogue);
+/// The experiment that the JSON file `path` describes, with its stages from `catalogue`. The keys
+/// of `workloads`, files of the same form that need no pipeline, replace its keys, and their names
+/// are appended to its name. Strict: throws one InputError with every fault of all files. Does not
+/// look at the data.
+Experiment load_experiment(const std::filesystem::path& path, const Catalogue& catalogue,
+                           const std::vector<std::filesystem::path>& workloads = {});
 
 /// The same from JSON `text`; `path` is its name in errors, and paths in it are relative to the
 /// folder of `path`.
 Experiment parse_experiment(const std::string& text, const std::filesystem::path& path,
-                            const Catalogue& catalogue);
+                            const Catalogue& catalogue,
+                            const std::vector<std::filesystem::path>& workloads = {});
+
+/// Throws InputError with every fault of an experiment file, or of a workload: the same without a
+/// pipeline.
+void validate_experiment(const std::filesystem::path& path, const Catalogue& catalogue);
 
 /// Where `step` is, for faults: `the step "refine" of the variant "one plane"`, or the step alone
 /// if there is one variant.

@@ -97,13 +97,27 @@ const Table<Experiment>& kept_table() {
   return table;
 }
 
+const Table<Experiment>& workload_table() {
+  static const Table<Experiment> table = [] {
+    Table<Experiment> rows;
+    for (params::Parameter<Experiment> row : kept_table().rows()) {
+      row.doc.is_required = false;
+      row.is_slot = false;  // A missing dataset is not built.
+      rows.add(std::move(row));
+    }
+    return rows;
+  }();
+  return table;
+}
+
 const Table<ExperimentKeys>& experiment_table() {
   using P = ExperimentKeys;
   static const Table<P> table = [] {
     Table<P> rows = {
-        optional(text("extends", &P::extends,
-                      "Another experiment file, relative to this one, whose keys are defaults; a "
-                      "key that is given here replaces the whole key."))};
+        json_value("extends", &P::extends, kExtendsDefinition,
+                   "Another experiment file, relative to this one, whose keys are defaults, or a "
+                   "list of files, the later of which replace keys of the earlier. A key that is "
+                   "given here replaces the whole key.")};
     rows.inherit(kept_table());
     rows.add(params::required(json_value("pipeline", &P::pipeline, kPipelineDefinition,
                                          "The steps of the method, in order.")));

@@ -21,7 +21,8 @@ inline const params::NameRule kVariantName = {
     "a name of letters, digits, spaces and _ . - + = ( ), not starting with a dot or a sign",
     ". =+-", " "};
 
-/// Definitions of the JSON Schema that describe parts of a pipeline.
+/// Definitions of the JSON Schema that describe values of several forms.
+inline constexpr const char* kExtendsDefinition = "extends";
 inline constexpr const char* kPipelineDefinition = "pipeline";
 inline constexpr const char* kStepDefinition = "step";
 inline constexpr const char* kReplacementsDefinition = "replacements";
@@ -47,7 +48,7 @@ struct VariantKeys {
 /// The keys of an experiment file: what an Experiment keeps of them, and what its variants are made
 /// of.
 struct ExperimentKeys : Experiment {
-  std::string extends;
+  std::optional<params::Node> extends;
   std::optional<params::Node> pipeline;
   std::vector<VariantKeys> variant_keys;
   std::optional<params::Node> grid;
@@ -59,6 +60,9 @@ const params::Table<ExperimentKeys>& experiment_table();
 
 /// The rows of it that an Experiment keeps.
 const params::Table<Experiment>& kept_table();
+
+/// The same rows, none of which is required: the keys of a workload.
+const params::Table<Experiment>& workload_table();
 
 /// Keys that were renamed: the old names, which are still read, and the present ones.
 const std::map<std::string, std::string>& renamed_keys();

@@ -57,6 +57,8 @@ std::string experiment_schema(const Catalogue& catalogue) {
     schema["properties"][key] = {{"$ref", "#/properties/" + value}, {"deprecated", true}};
   }
   schema["$defs"] = stage_definitions(catalogue);
+  const ordered_json path = {{"type", "string"}, {"minLength", 1}};
+  schema["$defs"][kExtendsDefinition] = {{"anyOf", ordered_json::array({path, list_of(path)})}};
   schema["$defs"][kPipelineDefinition] = list_of(definition(kStepDefinition));
   schema["$defs"][kReplacementsDefinition] = paths_schema(catalogue, false);
   schema["$defs"][kGridDefinition] = paths_schema(catalogue, true);

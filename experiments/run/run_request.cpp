@@ -74,8 +74,9 @@ std::filesystem::path data_root(const std::filesystem::path& asked) {
 
 CheckedRun check_run(const RunRequest& request, const Catalogue& catalogue) {
   CheckedRun run;
-  run.experiment = request.text ? parse_experiment(*request.text, request.experiment, catalogue)
-                                : load_experiment(request.experiment, catalogue);
+  run.experiment =
+      request.text ? parse_experiment(*request.text, request.experiment, catalogue, request.with)
+                   : load_experiment(request.experiment, catalogue, request.with);
   run.data_root = data_root(request.data);
   std::vector<Fault> faults;
   collect_faults(faults, [&] { set_trials(run.experiment.starts, request.trials); });

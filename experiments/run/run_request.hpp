@@ -17,6 +17,7 @@ std::filesystem::path data_root(const std::filesystem::path& asked);
 /// Which trials of which experiment are asked for.
 struct RunRequest {
   std::filesystem::path experiment;
+  std::vector<std::filesystem::path> with = {};  ///< Workloads, see load_experiment.
   std::optional<std::string> text = {};  ///< JSON in the place of the file's; see parse_experiment.
   std::filesystem::path out;             ///< Empty: results/<name>.
   std::filesystem::path data;            ///< Empty: CROON_DATA, else data/.

@@ -207,6 +207,50 @@ TEST_F(Extends, IsTheSameAsOneFileWithAllKeys) {
   EXPECT_EQ(json::parse(load("c.json").merged), json::parse(load("whole.json").merged));
 }
 
+TEST_F(Extends, OfAListTheLaterFileReplacesKeysOfTheEarlier) {
+  folder_.write("study.json", R"({"name": "study", "dataset": {"type": "fake"}, "seed": 2,
+                                  "pipeline": [{"step": "drift", "size_m": 2}]})");
+  folder_.write("far.json", R"({"name": "far", "starts": {"trials": 3}, "seed": 5})");
+  folder_.write("both.json", R"({"extends": ["study.json", "far.json"]})");
+  const Experiment both = load("both.json");
+  EXPECT_EQ(both.name, "study_far");
+  EXPECT_EQ(both.seed, 5U);
+  EXPECT_EQ(both.starts.trials, 3);
+  ASSERT_EQ(both.files.size(), 3U);
+  EXPECT_EQ(both.files[1].path, "study.json");
+  EXPECT_EQ(both.files[2].path, "far.json");
+  folder_.write("named.json", R"({"extends": ["study.json", "far.json"], "name": "mine"})");
+  EXPECT_EQ(load("named.json").name, "mine");
+  folder_.write("none.json", R"({"extends": ["study.json", "fra.json", 3, ""]})");
+  EXPECT_EQ(faults_of("none.json"),
+            (Lines{"none.json: /extends/2: expected a string, found 3",
+                   "none.json: /extends/3: expected the path of an experiment file, found \"\""}));
+}
+
+TEST_F(Extends, AWorkloadReplacesKeysOfAnExperiment) {
+  folder_.write("study.json", R"({"name": "study", "dataset": {"type": "fake"}, "seed": 2,
+                                  "pipeline": [{"step": "drift", "size_m": 2}]})");
+  folder_.write("far.json", R"({"name": "far", "dataset": {"type": "fake"}, "seed": 5})");
+  const std::filesystem::path far = folder_.path() / "far.json";
+  const Experiment both =
+      load_experiment(folder_.path() / "study.json", test::fake_catalogue(), {far});
+  EXPECT_EQ(both.name, "study_far");
+  EXPECT_EQ(both.seed, 5U);
+  folder_.write("both.json", R"({"extends": ["study.json", "far.json"]})");
+  EXPECT_EQ(experiment_json(both), experiment_json(load("both.json")));
+  // A workload is valid without a pipeline, but cannot be run alone.
+  EXPECT_NO_THROW(validate_experiment(far, test::fake_catalogue()));
+  EXPECT_EQ(faults_of("far.json").size(), 1U);
+  folder_.write("far.json", R"({"name": "far", "dataset": {"type": "fakes"}})");
+  EXPECT_THROW(validate_experiment(far, test::fake_catalogue()), InputError);
+}
+
+TEST_F(Extends, APathDoesNotEndAtANullCharacter) {
+  folder_.write("b.json", minimal().dump());
+  folder_.write("a.json", R"({"extends": "b.json\u0000"})");
+  EXPECT_EQ(faults_of("a.json").size(), 1U);
+}
+
 TEST_F(Extends, NamesTheFileOfEachFault) {
   folder_.write("base.json", R"({"dataset": {"type": "fakes"}, "sede": 1, "seed": -1,
                                  "pipeline": [{"step": "drift", "size_m": "far"}],
