@@ -11,7 +11,7 @@
 #include <map>
 #include <new>
 #include <optional>
-#include <system_error>
+#include <stdexcept>
 
 #include "experiments/cli/calibrate_command.hpp"
 #include "experiments/cli/check_command.hpp"
@@ -22,6 +22,7 @@
 #include "experiments/store/version.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/huge_pages.hpp"
+#include "framework/base/memory.hpp"
 #include "framework/base/text.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/calibration/extrinsics.hpp"
@@ -422,13 +423,19 @@ int croon_main(int argc, char** argv) {
 int main(int argc, char** argv) {
   // A file that grows beyond the limit of the shell is then an error like a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
+  // With less, the memory allocator crashes when it starts a thread.
+  constexpr double kMinAddressSpace_bytes = 128e6;
+  if (croon::address_space_bytes() < kMinAddressSpace_bytes) {
+    std::cerr << "croon: needs at least 128 MB of address space; see ulimit -v\n";
+    return 1;
+  }
   try {
     return croon::experiments::croon_main(argc, argv);
   } catch (const std::bad_alloc&) {
     std::cerr << "croon: there is not enough memory; what was finished is in the store\n";
     return 1;
-  } catch (const std::system_error& error) {
-    // Of the machine, which has no memory or threads left.
+  } catch (const std::runtime_error& error) {
+    // Of the machine, which has no memory or threads left: of the standard library and of TBB.
     std::cerr << "croon: " << croon::printable(error.what())
               << "; what was finished is in the store\n";
     return 1;

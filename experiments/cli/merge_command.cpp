@@ -78,8 +78,8 @@ StoreHeader header_of_all(const std::vector<fs::path>& folders, bool same_build,
       const StoreHeader& other =
           parts.emplace_back(Part{store_path(folder), header_in(folder)}).header;
       if (header.provenance.empty()) header = other;
-      if (same_build) refuse_other_builds(store_path(folder).string(), header, other, kMergeRemedy);
       refuse_differences(store_path(folder).string(), header, other, kMergeRemedy);
+      if (same_build) refuse_other_builds(store_path(folder).string(), other, header, kMergeRemedy);
       // Trials beyond StoreHeader::trials are in no report, so their number comes first.
       const auto size = [](const StoreHeader& of) {
         return std::pair(of.trials, planned_trials(of.manifest));
@@ -116,7 +116,10 @@ StoreHeader merged_header(const std::vector<fs::path>& folders, const fs::path& 
   header.manifest = manifest_with_variants(header.manifest, header.variants);
   const fs::path path = store_path(out);
   if (!has_store(path) || is_among(folders, out)) return header;
-  return with_names_of(parts.emplace_back(Part{path, stored_header(path)}), header);
+  const Part& merged_before = parts.emplace_back(Part{path, stored_header(path)});
+  const StoreHeader all = with_names_of(merged_before, header);
+  if (same_build) refuse_other_builds(path.string(), merged_before.header, header, kMergeRemedy);
+  return all;
 }
 
 /// Puts the trials of `parts`, among which is an old store of `out`, into the store of `out`. The

@@ -128,9 +128,25 @@ void write_scene(const Experiment& experiment, const Scene& scene, const std::st
   write_whole_file(folder / kCloudList, cloud_list_text(clouds));
 }
 
+/// Whether `path` is a regular file, and no link to one, with a whole cloud.
+bool is_whole_cloud(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(path, error))) return false;
+  try {
+    parse_pcd(read_whole_file(path), path.string());
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 /// Whether the scene is complete.
 bool is_written(const Scene& scene, const fs::path& dataset) {
-  return fs::exists(dataset / scene.name / kCloudList);
+  if (!fs::is_regular_file(fs::symlink_status(dataset / scene.name / kCloudList))) return false;
+  return is_whole_cloud(dataset / cloud_path(scene, scene.reference)) &&
+         std::all_of(scene.sensors.begin(), scene.sensors.end(), [&](const SensorScan& scan) {
+           return is_whole_cloud(dataset / cloud_path(scene, scan));
+         });
 }
 
 /// Draws `scene` beside its folder: a view from behind the car if the dataset has one, and the

@@ -1,6 +1,7 @@
 #include "experiments/report/figures.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "framework/base/error.hpp"
@@ -111,14 +112,26 @@ Results restricted(Results results, const TrialChoice& choice) {
     order.scenes = scenes;
   }
   const bool is_whole = results.records.size() == results.planned;
+  const auto is_chosen = [&](const TrialId& id) {
+    return contains(order.variants, id.variant) && contains(order.sensors, id.sensor) &&
+           contains(order.scenes, id.scene);
+  };
   std::vector<TrialRecord> records;
-  for (TrialRecord& record : results.records) {
-    if (contains(order.variants, record.id.variant) && contains(order.sensors, record.id.sensor) &&
-        contains(order.scenes, record.id.scene)) {
-      records.push_back(std::move(record));
-    }
+  std::vector<std::optional<std::uint32_t>> new_index(results.records.size());
+  for (std::size_t i = 0; i < results.records.size(); ++i) {
+    if (!is_chosen(results.records[i].id)) continue;
+    new_index[i] = static_cast<std::uint32_t>(records.size());
+    records.push_back(std::move(results.records[i]));
   }
   results.records = std::move(records);
+  std::vector<StepNumber> numbers;
+  for (StepNumber number : results.steps.numbers) {
+    if (!new_index[number.record]) continue;
+    number.record = *new_index[number.record];
+    numbers.push_back(number);
+  }
+  results.steps.numbers = std::move(numbers);
+  results.diagnostics = summarise_diagnostics(results.records, results.steps);
   results.scenes = std::min(results.scenes, order.scenes.size());
   // Not every scene need have every sensor.
   results.planned = is_whole ? results.records.size()
@@ -127,6 +140,9 @@ Results restricted(Results results, const TrialChoice& choice) {
   results.summary = summarise(results.records, results.summary.bounds, order);
   results.verdicts = verdicts_of(results.records, results.summary);
   results.coverage = coverage_of(results.records, results.summary);
+  std::vector<Claim> claims;
+  for (const ClaimResult& result : results.claims) claims.push_back(result.claim);
+  results.claims = check_claims(claims, results.summary);
   if (results.basin) results.basin = basin_of(results.records, results.basin->sweep, order);
   return results;
 }

@@ -36,8 +36,9 @@ struct TrialChoice {
   std::vector<std::string> kinds;
 };
 
-/// The results as if there were no other trials: summary, comparisons (with the first of the
-/// variants) and basin are made again. Throws InputError for a name that the results lack.
+/// The results as if there were no other trials: all that is computed from trials is computed
+/// again, and comparisons are with the first of the variants. Throws InputError for a name that the
+/// results lack.
 Results restricted(Results results, const TrialChoice& choice);
 
 /// Throws InputError, with the nearest known name, if one of `names`, the values of `option`, is

@@ -192,6 +192,7 @@ std::string scene_text(const Summary& summary, const TableStyle& style) {
         all.rows.back().resize(all.columns.size());
         ratios.emplace_back();
       }
+      if (!is_judged_as(row, scene)) continue;
       const Share& share = main_share(scene);
       all.rows[entry->second][2 + static_cast<std::size_t>(sensor)] =
           to_cell(std::to_string(share.count) + "/" + std::to_string(share.trials));
@@ -225,6 +226,15 @@ std::string reason_text(const Summary& summary, const TableStyle& style) {
   return text;
 }
 
+/// The columns of the rows, with the number of trials that each share is of: with ground truth in
+/// some scenes only, those of the other scenes are not judged.
+Columns<SummaryRow> columns_with_trials() {
+  Columns<SummaryRow> columns = row_columns();
+  columns.add({"success_trials"}, [](const SummaryRow& row) { return row.success.trials; })
+      .add({"agreement_trials"}, [](const SummaryRow& row) { return row.agreement.trials; });
+  return columns;
+}
+
 /// The share, its interval, and how the other trials ended.
 View outcomes_view(const Table& table) {
   View view{{{"sensor"}}};
@@ -233,7 +243,7 @@ View outcomes_view(const Table& table) {
   };
   const std::vector<std::string> shares = share_names(table);
   for (const std::string& share : shares) {
-    add(share, "<" + share + ">/<trials>");
+    add(share, "<" + share + ">/<" + share + "_trials>");
     add("%", "<" + share + "_percent>");
     add("95 % interval", "[<" + share + "_low_percent>, <" + share + "_high_percent>]");
   }
@@ -257,7 +267,7 @@ class SummaryText {
   SummaryText(const Summary& summary, const TableStyle& style)
       : summary_(summary),
         style_(style),
-        table_(row_columns().table(summary.rows)),
+        table_(columns_with_trials().table(summary.rows)),
         has_truth_(has_deviations_from(table_, DeviationsFrom::truth)),
         has_consensus_(has_deviations_from(table_, DeviationsFrom::consensus)),
         has_scenes_(any_row([](const SummaryRow& row) { return row.scenes.size() > 1; })),

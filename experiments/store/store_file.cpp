@@ -225,6 +225,8 @@ Database open_to_write(const fs::path& path) {
 
 void build_store(const fs::path& path, const std::function<void(Database&)>& fill) {
   replace_by(path, [&](const fs::path& working) {
+    // SQLite would create it with other permissions than those that the umask leaves.
+    write_whole_file(working, "");
     Database database(working, Access::create);
     database.run(
         "PRAGMA journal_mode = MEMORY; PRAGMA synchronous = FULL; PRAGMA application_id = " +

@@ -11,7 +11,7 @@
 namespace croon {
 
 FolderLock::FolderLock(const std::filesystem::path& path) {
-  lock_ = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  lock_ = TEMP_FAILURE_RETRY(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   // A file system that cannot lock folders is no fault: SQLite locks the store besides.
   if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(lock_);

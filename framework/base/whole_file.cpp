@@ -47,8 +47,9 @@ PartFile create_part_file(const fs::path& path) {
   constexpr int kTries = 1000;
   for (int i = 0; i < kTries; ++i) {
     const fs::path part = path.string() + kPart + std::to_string(i);
-    const int descriptor =
-        ::open(part.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+    // A signal may interrupt the call on a network file system.
+    const int descriptor = TEMP_FAILURE_RETRY(
+        ::open(part.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666));
     if (descriptor < 0) {
       const int error = errno;
       struct stat something {};

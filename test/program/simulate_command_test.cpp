@@ -1,5 +1,6 @@
 // Scenes that are written run to the same results as those that are made when they are needed.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <map>
@@ -54,6 +55,24 @@ TEST_F(SimulateCommand, WritesADatasetThatRunsToTheSameResults) {
        {"/trials.csv", "/summary.csv", "/summary.json", "/summary_by_kind.csv"}) {
     EXPECT_EQ(read_whole_file(path("made") + file), read_whole_file(path("read") + file)) << file;
   }
+}
+
+TEST_F(SimulateCommand, WritesWhatIsNotWholeAgain) {
+  folder_.write("x.json", experiment(1));
+  const std::string command = "simulate " + path("x.json") + " --out " + path("data") + " --quiet";
+  run(command);
+  const auto whole = files_of(folder_.path() / "data");
+  const fs::path top = folder_.path() / "data/000000/top.pcd";
+  fs::resize_file(top, 1000);
+  const fs::path left = folder_.path() / "data/000001/left.pcd";
+  fs::rename(left, folder_.path() / "elsewhere.pcd");
+  fs::create_symlink(folder_.path() / "elsewhere.pcd", left);
+  run(command);
+  EXPECT_EQ(files_of(folder_.path() / "data"), whole);
+  EXPECT_FALSE(fs::is_symlink(fs::symlink_status(left)));
+  fs::remove(top);
+  ASSERT_EQ(::mkfifo(top.c_str(), 0600), 0);
+  run(command, 2);
 }
 
 TEST_F(SimulateCommand, IsTheSameForAnyNumberOfThreadsAndGoesOnWhereItStopped) {

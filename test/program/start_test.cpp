@@ -1,5 +1,5 @@
 // The program starts without OpenVDB, and has it where a stage or a file wants it. It tells
-// jemalloc how to allocate.
+// jemalloc how to allocate. Limits of the machine end in one line.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -54,6 +54,28 @@ TEST(OpenvdbOnDemand, IsMissedInOneLineByAProgramThatWasMovedAlone) {
       std::string::npos)
       << finished.output;
   EXPECT_EQ(finished.output.find('\n'), finished.output.size() - 1) << finished.output;
+}
+
+TEST(Limits, OfMemoryAndThreadsEndInOneLine) {
+  const test::TempFolder folder;
+  folder.write("x.json", refined_by("pointer_octree"));
+  for (const std::string limit : {"ulimit -v 100000", "ulimit -v 130000", "ulimit -v 160000"}) {
+    const test::Finished finished = test::run_script(
+        limit + "\ncroon run x.json --out results --quiet || [[ $? == 1 ]]\n", folder.path());
+    EXPECT_EQ(finished.status, 0) << limit << "\n" << finished.output;
+    EXPECT_EQ(finished.output.rfind("croon: ", 0), 0U) << finished.output;
+    EXPECT_EQ(finished.output.find("bug"), std::string::npos) << finished.output;
+  }
+}
+
+TEST(Permissions, OfAllResultsAreThoseOfTheUmask) {
+  const test::TempFolder folder;
+  folder.write("x.json", refined_by("pointer_octree"));
+  const test::Finished finished = test::run_script(
+      "umask 002\ncroon run x.json --out results --quiet >/dev/null\n"
+      "stat -c %a results/* | sort -u\n",
+      folder.path());
+  EXPECT_EQ(finished.output, "664\n");
 }
 
 TEST(Allocator, IsToldToTakeHugePages) {

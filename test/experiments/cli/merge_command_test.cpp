@@ -44,10 +44,19 @@ class MergeCommand : public testing::Test {
     MergeOptions options;
     for (const std::string& name : from) options.folders.push_back(path(name));
     options.out = path(out);
+    options.same_build = same_build_;
     std::ostringstream text;
     const int code = merge_command(options, text);
     text_ = text.str();
     return code;
+  }
+
+  /// As if another build had made the trials of `name`.
+  void change_build(const std::string& name) const {
+    Database(path(name) / "store.sqlite", Access::write)
+        .run(
+            "UPDATE meta SET value = replace(value, '\"program_sha256\":\"', "
+            "'\"program_sha256\":\"0') WHERE name = 'builds'");
   }
 
   std::string fault(const std::vector<std::string>& from, const std::string& out) {
@@ -62,6 +71,7 @@ class MergeCommand : public testing::Test {
 
   test::TempFolder folder_;
   std::vector<std::string> only_;
+  bool same_build_ = false;
   std::string text_;
 };
 
@@ -73,6 +83,26 @@ TEST_F(MergeCommand, MakesOneRunOfShards) {
   EXPECT_EQ(merge({"3", "1", "2"}, "merged"), 0);
   expect_whole("merged");
   EXPECT_EQ(text_.find("missing"), std::string::npos) << text_;
+}
+
+TEST_F(MergeCommand, OfOneBuildNamesTheOtherBuildAndFirstTheOtherExperiment) {
+  run("1", "1/2", two_variants());
+  run("2", "2/2", two_variants());
+  json other = two_variants();
+  other["seed"] = 2;
+  run("other", "", other);
+  change_build("2");
+  change_build("other");
+  EXPECT_EQ(merge({"1", "2"}, "merged"), 0);
+  same_build_ = true;
+  const std::string build = fault({"1", "2"}, "strict");
+  EXPECT_NE(build.find((path("2") / "store.sqlite").string()), std::string::npos) << build;
+  EXPECT_NE(build.find("were made by another build"), std::string::npos) << build;
+  EXPECT_NE(fault({"1", "other"}, "strict").find("from something else: /seed was"),
+            std::string::npos);
+  // The folder that is merged into counts too.
+  EXPECT_NE(fault({"1"}, "merged").find("were made by another build"), std::string::npos);
+  EXPECT_EQ(merge({"1"}, "alone"), 3);
 }
 
 TEST_F(MergeCommand, ReadsAllBeforeItWrites) {

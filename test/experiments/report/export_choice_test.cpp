@@ -252,6 +252,36 @@ TEST(Joined, RefusesWhatCannotBeCompared) {
             std::string::npos);
 }
 
+TEST(Restricted, HasTheStepsAndClaimsOfTheChosenTrials) {
+  Results results;
+  results.records = test::few_records();
+  results.trials = 4;
+  results.scenes = 2;
+  results.planned = 32;
+  results.summary = summarise(results.records, kBounds, {});
+  results.steps.names = {"step", "name"};
+  for (std::size_t i = 0; i < results.records.size(); ++i) {
+    results.steps.numbers.push_back({static_cast<std::uint32_t>(i), 0, 1, static_cast<double>(i)});
+  }
+  Claim claim;
+  claim.variant = "base";
+  claim.statistic = "success";
+  results.claims = check_claims({claim}, results.summary);
+  const int all_trials = results.claims.front().trials;
+  const Results left = restricted(results, {{}, {"left"}, {}});
+  ASSERT_EQ(left.steps.numbers.size(), left.records.size());
+  for (const StepNumber& number : left.steps.numbers) {
+    const TrialId& before = results.records[static_cast<std::size_t>(number.value)].id;
+    const TrialId& now = left.records[number.record].id;
+    EXPECT_EQ(std::tie(before.variant, before.scene, before.sensor, before.trial),
+              std::tie(now.variant, now.scene, now.sensor, now.trial));
+  }
+  int trials = 0;
+  for (const DiagnosticSummary& diagnostic : left.diagnostics) trials += diagnostic.trials;
+  EXPECT_EQ(trials, static_cast<int>(left.records.size()));
+  EXPECT_EQ(left.claims.front().trials, all_trials / 2);
+}
+
 TEST(Restricted, IsWhatARunWithoutTheOtherTrialsHas) {
   Results results;
   results.records = test::few_records();

@@ -86,6 +86,23 @@ TEST(SummaryTable, WithoutTruthShowsAgreement) {
   EXPECT_EQ(text.find("across"), std::string::npos);  // One scene alone.
 }
 
+TEST(SummaryTable, ASceneWithoutTruthAmongOthersIsNotJudged) {
+  std::vector<TrialRecord> records;
+  for (int trial = 0; trial < 3; ++trial) {
+    for (const TrialRecord& record : test::few_records()) {
+      if (record.status != Status::success) continue;
+      records.push_back(record);
+      records.back().id = {"base", "true", "left", trial};
+      break;
+    }
+    records.push_back(test::finished_without_truth({"base", "untrue", "left", trial}, {}));
+  }
+  const std::string text = summary_text(summarise(records, kBounds, {}));
+  EXPECT_NE(text.find("left        3/3  100.0"), std::string::npos) << text;
+  EXPECT_EQ(text.find("3/6"), std::string::npos) << text;
+  EXPECT_NE(text.find("untrue     -"), std::string::npos) << text;
+}
+
 TEST(SummaryTable, LongVariantNamesStandAboveTheirRows) {
   auto records = test::few_records();
   const std::string name = "base, volume_refinement.scorer = openvdb_grid";
