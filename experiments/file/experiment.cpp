@@ -30,24 +30,6 @@ struct MergedFile {
   std::vector<ExperimentFile> files;
 };
 
-/// Keys that were renamed, under their present names.
-json with_present_names(const json& keys, const std::string& file, std::vector<Fault>& faults,
-                        params::MemberOrigins& origins) {
-  json renamed = json::object();
-  for (const auto& [key, value] : keys.items()) {
-    const auto rename = renamed_keys().find(key);
-    const std::string present = rename == renamed_keys().end() ? key : rename->second;
-    if (present != key && keys.contains(present)) {
-      faults.push_back({file, "/" + key,
-                        "expected no \"" + key + "\" beside \"" + present + "\", its new name"});
-      continue;
-    }
-    renamed[present] = value;
-    origins[present] = {file, key};
-  }
-  return renamed;
-}
-
 /// A file that another one extends: where it is, as the other file writes it, and where it writes
 /// it.
 struct Extension {
@@ -150,9 +132,11 @@ MergedFile read_merged(const std::string& text, const fs::path& path, std::vecto
   for (const Extension& extension : extensions) {
     overlay(merged, read_extension(extension, path, chain, faults));
   }
-  json renamed = with_present_names(own, path.string(), faults, merged.origins);
-  renamed.erase(kExtends);
-  merged.keys.update(renamed);
+  for (const auto& [key, value] : own.items()) {
+    if (key == kExtends) continue;
+    merged.keys[key] = value;
+    merged.origins[key] = {path.string(), key};
+  }
   merged.files.insert(merged.files.begin(), file);
   return merged;
 }
@@ -256,12 +240,8 @@ Experiment read_experiment_json(const std::string& text, const std::string& file
     throw InputError(file, "/experiment/variants",
                      "expected at most " + std::to_string(kMostVariants) + " variants");
   }
-  params::MemberOrigins origins;
-  json keys = with_present_names(parsed, file, faults, origins);
-  // Earlier versions wrote the number over all levels of a sweep. The store has the number too.
-  if (keys.contains("starts") && keys["starts"].is_object()) keys["starts"].erase("trials");
   Experiment experiment =
-      kept_table().read(Node(keys, file, faults, origins), {"variants"}, UnbuiltStages());
+      kept_table().read(Node(parsed, file, faults), {"variants"}, UnbuiltStages());
   if (!faults.empty()) throw InputError(faults);
   experiment.file = file;
   return experiment;

@@ -130,11 +130,6 @@ const Table<ExperimentKeys>& experiment_table() {
   return table;
 }
 
-const std::map<std::string, std::string>& renamed_keys() {
-  static const std::map<std::string, std::string> keys = {{"expect", "claims"}};
-  return keys;
-}
-
 std::string success_json(const SuccessBounds& bounds) {
   return params::object_json(success_table(), bounds);
 }

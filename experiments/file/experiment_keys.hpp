@@ -64,9 +64,6 @@ const params::Table<Experiment>& kept_table();
 /// The same rows, none of which is required: the keys of a workload.
 const params::Table<Experiment>& workload_table();
 
-/// Keys that were renamed: the old names, which are still read, and the present ones.
-const std::map<std::string, std::string>& renamed_keys();
-
 /// The variants of the experiment `root`: the base pipeline and what `keys` make of it, each
 /// multiplied out over the grid. The base is the first. A point of the grid is called
 /// `variant/point/point`, a point for each axis. Faults are noted in `faults`; one that variants

@@ -53,9 +53,6 @@ std::string experiment_schema(const Catalogue& catalogue) {
   schema.update(object_schema(experiment_table().docs(), experiment_table().rules()));
   schema["anyOf"] = required_unless_extended(schema["required"]);
   schema.erase("required");
-  for (const auto& [key, value] : renamed_keys()) {
-    schema["properties"][key] = {{"$ref", "#/properties/" + value}, {"deprecated", true}};
-  }
   schema["$defs"] = stage_definitions(catalogue);
   const ordered_json path = {{"type", "string"}, {"minLength", 1}};
   schema["$defs"][kExtendsDefinition] = {{"anyOf", ordered_json::array({path, list_of(path)})}};

@@ -168,8 +168,7 @@ params::StageVersions read_versions(const std::string& text) {
 std::string manifest_with_builds(const std::string& manifest, const std::vector<Build>& builds,
                                  const params::StageVersions& versions) {
   const Json json = parse_bounded<Json>(manifest);
-  // One of format 2 has its build already.
-  if (json.contains("croon") || builds.empty()) return manifest;
+  if (builds.empty()) return manifest;
   Json whole = Json::object();
   for (const auto& [key, value] : json.items()) {
     if (key == "inputs") {
@@ -181,11 +180,6 @@ std::string manifest_with_builds(const std::string& manifest, const std::vector<
     whole[key] = value;
   }
   return text_of(whole, 2) + "\n";
-}
-
-Build build_of_manifest(const std::string& manifest) {
-  const Json json = parse_bounded<Json>(manifest);
-  return read_build(json.at("croon"), json.at("libraries"));
 }
 
 }  // namespace croon::experiments

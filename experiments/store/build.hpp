@@ -45,7 +45,4 @@ params::StageVersions read_versions(const std::string& text);
 std::string manifest_with_builds(const std::string& manifest, const std::vector<Build>& builds,
                                  const params::StageVersions& versions);
 
-/// The build of a manifest of format 2.
-Build build_of_manifest(const std::string& manifest);
-
 }  // namespace croon::experiments

@@ -5,6 +5,7 @@
 
 #include "experiments/store/store_check.hpp"
 #include "experiments/store/store_header.hpp"
+#include "experiments/store/store_schema.hpp"
 #include "experiments/store/trial_rows.hpp"
 #include "framework/base/error.hpp"
 
@@ -128,7 +129,6 @@ std::optional<std::size_t> find_record(const std::vector<IndexedRecord>& rows,
 /// Gives `rows`, which are sorted, their covariances.
 void add_covariances(const Database& database, const StoreHeader& header,
                      std::vector<IndexedRecord>& rows) {
-  if (!has_covariances(database)) return;
   const StoredIndices indices(database, header);
   Statement select = select_covariances(database);
   TrialIndex index;
@@ -254,10 +254,9 @@ void Store::merge(const fs::path& shard, const StoreHeader& from) {
   const Attachment attachment(database_, shard, "shard");
   Transaction transaction(database_);
   database_.run(id_maps("shard"));
-  std::vector<StoredTable> tables = {{"trials", result_columns()}, {"steps", kStepColumns}};
-  if (has_covariances(database_, "shard"))
-    tables.push_back({"covariances", stored_covariance_columns()});
-  for (const auto& [table, columns] : tables) {
+  for (const auto& [table, columns] : {StoredTable("trials", result_columns()),
+                                       {"steps", kStepColumns},
+                                       {"covariances", stored_covariance_columns()}}) {
     const std::string rows = with_main_ids("shard", table, columns);
     if (table != "steps") refuse_doubled(database_, shard, table, rows, columns);
     database_.run("INSERT OR IGNORE INTO main." + table + " " + rows);
@@ -298,12 +297,10 @@ void rewrite_in_order(const fs::path& path) {
     database.run(copy_of_header("old") + id_maps("old") + "INSERT INTO main.trials " +
                  with_main_ids("old", "trials", result_columns()) +
                  " ORDER BY 1, 2, 3, 4; INSERT INTO main.steps " +
-                 with_main_ids("old", "steps", kStepColumns) + " ORDER BY 1, 2, 3, 4, 5");
-    if (has_covariances(database, "old")) {
-      database.run("INSERT INTO main.covariances " +
-                   with_main_ids("old", "covariances", stored_covariance_columns()) +
-                   " ORDER BY 1, 2, 3, 4");
-    }
+                 with_main_ids("old", "steps", kStepColumns) +
+                 " ORDER BY 1, 2, 3, 4, 5; INSERT INTO main.covariances " +
+                 with_main_ids("old", "covariances", stored_covariance_columns()) +
+                 " ORDER BY 1, 2, 3, 4");
     transaction.commit();
   });
 }

@@ -5,8 +5,7 @@
 #include <string_view>
 
 #include "experiments/store/store_check.hpp"
-#include "experiments/store/store_header.hpp"
-#include "experiments/store/trial_rows.hpp"
+#include "experiments/store/store_schema.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
 
@@ -218,8 +217,8 @@ Database open_to_read(const fs::path& path) {
 Database open_to_write(const fs::path& path) {
   provide_log(path);
   Database database(path, Access::write);
-  database.run("PRAGMA main.locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; BEGIN EXCLUSIVE;" +
-               covariance_table() + "COMMIT;");
+  database.run(
+      "PRAGMA main.locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; BEGIN EXCLUSIVE; COMMIT;");
   return database;
 }
 
@@ -230,8 +229,7 @@ void build_store(const fs::path& path, const std::function<void(Database&)>& fil
     Database database(working, Access::create);
     database.run(
         "PRAGMA journal_mode = MEMORY; PRAGMA synchronous = FULL; PRAGMA application_id = " +
-        std::to_string(kApplicationId) + ";BEGIN;" + header_tables() + record_tables() +
-        covariance_table() + "COMMIT;");
+        std::to_string(kApplicationId) + ";BEGIN;" + store_schema() + "COMMIT;");
     fill(database);
   });
 }

@@ -16,11 +16,7 @@
 namespace croon::experiments {
 namespace {
 
-constexpr const char* kFormat = "4";
-/// Without the table `covariances`, which is added when the store is written to.
-constexpr const char* kFormatWithoutCovariances = "3";
-/// Without versions of stages: it is read, but nothing is added to it.
-constexpr const char* kEarlierFormat = "2";
+constexpr const char* kFormat = "5";
 /// The entry of `meta` that marks a store as not in order.
 constexpr const char* kUnordered = "unordered";
 
@@ -170,17 +166,6 @@ bool StoredIndices::find(const TrialRow& row, TrialIndex& index) const {
   return true;
 }
 
-std::string header_tables() {
-  std::string sql =
-      "CREATE TABLE IF NOT EXISTS meta(name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;";
-  for (const NameTable& table : kNameTables) {
-    sql += std::string("CREATE TABLE IF NOT EXISTS ") + table.name +
-           "(id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE, " + table.detail +
-           " TEXT NOT NULL, place INTEGER);";
-  }
-  return sql;
-}
-
 StoreHeader read_header(const Database& database) {
   StoreHeader header;
   // A store that was killed before its first commit has no tables.
@@ -189,24 +174,14 @@ StoreHeader read_header(const Database& database) {
   while (select.next()) header.provenance[select.text(0)] = select.text(1);
   if (header.provenance.empty()) return header;
   const std::string format = taken(header.provenance, "format");
-  const bool is_extensible = format == kFormat || format == kFormatWithoutCovariances;
-  if (!is_extensible && format != kEarlierFormat) {
+  if (format != kFormat) {
     throw InputError(database.file(), "",
                      "is a store of format \"" + format + "\", expected \"" + kFormat +
                          "\", of another version of croon; croon run --fresh starts over");
   }
   header.manifest = taken(header.provenance, "manifest");
-  if (format == kFormat && !has_covariances(database)) {
-    throw std::runtime_error("it has no table covariances");
-  }
-  if (is_extensible) {
-    header.versions = read_versions(taken(header.provenance, "versions"));
-    header.builds = read_builds(taken(header.provenance, "builds"));
-  } else {
-    header.is_earlier = true;
-    taken(header.provenance, "program");
-    header.builds = {build_of_manifest(header.manifest)};
-  }
+  header.versions = read_versions(taken(header.provenance, "versions"));
+  header.builds = read_builds(taken(header.provenance, "builds"));
   header.trials = trials_of(taken(header.provenance, "trials"));
   taken(header.provenance, kUnordered);
   if (header.provenance.empty()) {
@@ -307,16 +282,8 @@ std::vector<std::string> differences(const StoreHeader& stored, const StoreHeade
   return found;
 }
 
-void refuse_earlier(const std::string& file, const StoreHeader& stored) {
-  if (!stored.is_earlier) return;
-  throw InputError(file, "",
-                   "is a store of an earlier croon, whose stages had no versions: it can be "
-                   "exported, but not extended or merged; croon run --fresh starts over");
-}
-
 void refuse_differences(const std::string& file, const StoreHeader& stored,
                         const StoreHeader& asked, const std::string& remedy) {
-  refuse_earlier(file, stored);
   const std::vector<std::string> found = differences(stored, asked);
   if (found.empty()) return;
   std::string text;

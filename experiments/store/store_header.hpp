@@ -27,7 +27,6 @@ struct StoredName {
 /// What a store has beside its trials: all that a report needs.
 struct StoreHeader {
   Provenance provenance;
-  bool is_earlier = false;  ///< Of format 2, without versions: it is read, but nothing is added.
   params::StageVersions versions;  ///< Of the stages that decided the trials; see versions_of.
   std::vector<Build> builds;       ///< That wrote to it.
   std::string manifest;  ///< JSON of manifest.json, without "host" and what the builds say.
@@ -37,9 +36,6 @@ struct StoreHeader {
   std::vector<StoredName>
       sensors;  ///< In report order, with the sensors that they are calibrated to.
 };
-
-/// SQL that creates the tables of the header if they do not exist.
-std::string header_tables();
 
 /// Reads the header; without provenance if none was written yet.
 StoreHeader read_header(const Database& database);
@@ -89,14 +85,11 @@ class StoredIndices {
 /// difference, and neither is the build.
 std::vector<std::string> differences(const StoreHeader& stored, const StoreHeader& asked);
 
-/// Throws InputError if the header is that of a store to which nothing can be added.
-void refuse_earlier(const std::string& file, const StoreHeader& stored);
-
 /// What a user can do about results of something else.
 inline constexpr const char* kFreshRemedy =
     "--fresh deletes them and starts over, --out writes elsewhere";
 
-/// Throws InputError if there are `differences`, and as `refuse_earlier` does. `file` is the store;
+/// Throws InputError if there are `differences`. `file` is the store;
 /// `remedy` says what the user can do.
 void refuse_differences(const std::string& file, const StoreHeader& stored,
                         const StoreHeader& asked, const std::string& remedy);

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <stdexcept>
 
 #include "experiments/store/bounded_json.hpp"
+#include "experiments/store/store_schema.hpp"
 #include "framework/base/text.hpp"
 
 namespace croon::experiments {
@@ -19,8 +19,6 @@ constexpr int kErrorColumns = 8;
 constexpr int kPoseColumns = 12;
 constexpr int kCovarianceColumns = 21 + 6;
 constexpr int kResultColumns = 2 + kErrorColumns + kPoseColumns;
-
-constexpr const char* kKey = "variant INTEGER, scene INTEGER, sensor INTEGER, trial INTEGER";
 
 std::string question_marks(int count) {
   std::string text = "?";
@@ -95,88 +93,6 @@ void bind_result(Statement& insert, const TrialRecord& record) {
   for (int i = 0; i < 3; ++i) insert.bind(column + 9 + i, T.translation(i));
 }
 
-/// A view of `table` with the names of variants, scenes and sensors for their ids.
-std::string named_view(const std::string& view, const std::string& table,
-                       const std::string& columns) {
-  return "CREATE VIEW IF NOT EXISTS " + view +
-         " AS SELECT variants.name AS variant, scenes.name AS scene, sensors.name AS sensor, "
-         "t.trial, " +
-         columns + " FROM " + table +
-         " t JOIN variants ON variants.id = t.variant JOIN scenes ON scenes.id = t.scene"
-         " JOIN sensors ON sensors.id = t.sensor;";
-}
-
-}  // namespace
-
-// The columns of numbers have no type: SQLite then keeps the bits of a double, -0.0 too.
-const std::string& result_columns() {
-  static const std::string columns =
-      "status, reason, roll_error_rad, pitch_error_rad, yaw_error_rad, x_error_m, y_error_m, "
-      "z_error_m, rotation_error_rad, translation_error_m, r00, r01, r02, r10, r11, r12, r20, "
-      "r21, r22, tx_m, ty_m, tz_m";
-  return columns;
-}
-
-std::vector<std::string> names_in(const std::string& columns) {
-  std::istringstream stream(columns);
-  std::vector<std::string> names;
-  for (std::string name; std::getline(stream >> std::ws, name, ',');) names.push_back(name);
-  return names;
-}
-
-std::pair<std::vector<std::string>, std::vector<std::string>> number_columns() {
-  const std::vector<std::string> names = names_in(result_columns());
-  const auto errors = names.begin() + 2, pose = errors + kErrorColumns;
-  return {{errors, pose}, {pose, names.end()}};
-}
-
-const std::string& stored_covariance_columns() {
-  static const std::string columns = [] {
-    std::string names;
-    for (int i = 0; i < 6; ++i) {
-      for (int j = i; j < 6; ++j) names += "c" + std::to_string(i) + std::to_string(j) + ", ";
-    }
-    for (const std::string& name : kDofNames) names += name + (name == "z" ? "" : ", ");
-    return names;
-  }();
-  return columns;
-}
-
-std::string covariance_table() {
-  return std::string("CREATE TABLE IF NOT EXISTS covariances(") + kKey + ", " +
-         stored_covariance_columns() +
-         ", PRIMARY KEY(variant, scene, sensor, trial)) WITHOUT ROWID;" +
-         named_view("named_covariances", "covariances", stored_covariance_columns());
-}
-
-bool has_covariances(const Database& database, const std::string& schema) {
-  return database.prepare("SELECT 1 FROM " + schema + ".sqlite_master WHERE name = 'covariances'")
-      .next();
-}
-
-std::string record_tables() {
-  const std::string key = kKey;
-  return "CREATE TABLE IF NOT EXISTS trials(" + key + ", " + result_columns() +
-         ", PRIMARY KEY(variant, scene, sensor, trial)) WITHOUT ROWID;"
-         "CREATE TABLE IF NOT EXISTS steps(" +
-         key +
-         ", place INTEGER, step TEXT, figures TEXT, information BLOB,"
-         " PRIMARY KEY(variant, scene, sensor, trial, place)) WITHOUT ROWID;" +
-         named_view("named_trials", "trials", result_columns()) +
-         named_view("named_steps", "steps", "t.place, step, figures, information");
-}
-
-namespace {
-
-/// The columns as they are read: a `success` without an error, as older stores have it, is
-/// `finished`.
-std::string current_results() {
-  // The first of the columns is the status.
-  return "CASE WHEN status = 'success' AND rotation_error_rad IS NULL THEN 'finished' ELSE status "
-         "END AS " +
-         result_columns();
-}
-
 }  // namespace
 
 RecordInserter::RecordInserter(const Database& database)
@@ -211,7 +127,7 @@ void RecordInserter::add(const TrialRow& row, const TrialRecord& record) {
 }
 
 Statement select_results(const Database& database) {
-  return database.prepare("SELECT variant, scene, sensor, trial, " + current_results() +
+  return database.prepare("SELECT variant, scene, sensor, trial, " + result_columns() +
                           " FROM trials");
 }
 
@@ -256,7 +172,7 @@ PoseCovariance stored_covariance_of(const Statement& select) {
   }
   for (Observability& dof : covariance.dofs) {
     const auto word = observability_of(select.text(column++));
-    if (!word) throw std::runtime_error("covariances: a word is none");
+    if (!word) throw std::runtime_error("covariances: invalid observability");
     dof = *word;
   }
   return covariance;

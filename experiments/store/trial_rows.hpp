@@ -17,30 +17,6 @@ struct TrialRow {
   int trial = 0;
 };
 
-/// The columns of `trials` after the four of a TrialRow: status, reason, error (rad and m) and pose
-/// (the rotation by rows, m). Error and pose are null if the trial has none.
-const std::string& result_columns();
-
-/// The names in such a list.
-std::vector<std::string> names_in(const std::string& columns);
-
-/// The columns of numbers among those of results: those of the error, and those of the pose.
-std::pair<std::vector<std::string>, std::vector<std::string>> number_columns();
-
-/// The columns of `covariances` after the four of a TrialRow: the upper triangle by rows, `c00` to
-/// `c55`, and the words of the degrees of freedom, `roll` to `z`.
-const std::string& stored_covariance_columns();
-
-/// SQL that creates the tables `trials` and `steps` if they do not exist, and views on them with
-/// names in place of ids.
-std::string record_tables();
-
-/// The same for `covariances`, which stores of format 3 and before do not have.
-std::string covariance_table();
-
-/// Whether the store has the table `covariances`.
-bool has_covariances(const Database& database, const std::string& schema = "main");
-
 /// Adds rows to a store.
 class RecordInserter {
  public:

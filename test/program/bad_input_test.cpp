@@ -369,10 +369,10 @@ TEST_F(BadInput, UnknownVariant) {
 
 TEST_F(BadInput, AClaimOfNoSensor) {
   edit(R"("starts")",
-       R"("expect": [{"claim": "c", "source": "s", "sensor": "lift", "statistic": "success",
+       R"("claims": [{"claim": "c", "source": "s", "sensor": "lift", "statistic": "success",
                       "value": 1, "band": [0, 1]}], "starts")");
   expect_refused(
-      {": /expect/0/sensor: expected a sensor of the dataset, found \"lift\"; did you mean "
+      {": /claims/0/sensor: expected a sensor of the dataset, found \"lift\"; did you mean "
        "\"left\"?"});
 }
 

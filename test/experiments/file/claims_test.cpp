@@ -253,24 +253,6 @@ TEST(Claims, ATableShowsFaultsAtTheirPlaces) {
             "/claims/0/values/front/mean: expected a mean with \"std\"");
 }
 
-TEST(Claims, AreReadByTheirOldName) {
-  json experiment = json::parse(R"({"name": "x", "dataset": {"type": "fake"},
-                                    "pipeline": [{"step": "drift"}]})");
-  json claim = whole();
-  claim.erase("variant");
-  experiment["expect"] = json::array({claim});
-  const test::TempFolder folder;
-  const auto path = folder.write("x.json", experiment.dump());
-  const Experiment read = load_experiment(path, test::fake_catalogue());
-  ASSERT_EQ(read.claims.size(), 1U);
-  EXPECT_EQ(read.claims[0].sensor_pointer, "/expect/0/sensor");
-  experiment["expect"][0]["statistic"] = "stdd";
-  experiment["claims"] = json::array();
-  folder.write("x.json", experiment.dump());
-  EXPECT_EQ(test::input_error([&] { load_experiment(path, test::fake_catalogue()); }),
-            path.string() + ": /expect: expected no \"expect\" beside \"claims\", its new name");
-}
-
 TEST(Claims, TextThatIsNoExperimentIsRefused) {
   for (const char* text : {"", "[]", R"({"claims":[{}]})", R"({"claims":)", "{}"}) {
     EXPECT_THROW(read_experiment_json(text, "store"), InputError) << text;

@@ -366,15 +366,14 @@ TEST(ExperimentJson, MayHaveNoStarts) {
   }
 }
 
-/// As version 0.1.0 wrote it before "claims" had its name.
-TEST(ExperimentJson, OfAnEarlierVersionIsRead) {
+TEST(ExperimentJson, OfAStoreIsReadWithoutItsStages) {
   const Experiment read = read_experiment_json(
       R"({"name": "n", "description": "", "dataset": {"type": "gone", "path": "a"},
           "starts": {"around": "truth", "translation_m": 0.1,
-                     "sweep": {"rotation_deg": [0, 180], "levels": 1000}, "trials": 1000000},
+                     "sweep": {"rotation_deg": [0, 180], "levels": 1000}, "trials": 1000},
           "seed": 1, "success": {"rotation_deg": 0.5, "translation_m": 0.1},
           "variants": [{"name": "base", "pipeline": [{"name": "a", "step": "gone"}]}],
-          "expect": [{"claim": "c", "source": "s", "variant": "base", "statistic": "success",
+          "claims": [{"claim": "c", "source": "s", "variant": "base", "statistic": "success",
                       "value": 1, "band": [0, 1]}],
           "quoted": []})",
       "store");

@@ -235,7 +235,6 @@ TEST_F(SchemaAndLoader, AgreeOnKeysThatBelongTogether) {
       {"/starts", "none", true},
       {"/starts", "some", false},
       {"/claims", json::array({claim, table}), true},
-      {"/expect", json::array({claim}), true},
       {"/claims/0", with(claim, "measure", nullptr), false},
       {"/claims/0", with(claim, "why", ""), false},
       {"/claims/0", with(claim, "sensor", ""), false},
