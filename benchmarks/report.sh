@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Runs all benchmarks that are built and writes docs/benchmarks.md and its pictures. The machine should do nothing else.
-# Usage: CROON_DATA=data benchmarks/report.sh BUILD [DOCS]
+# Runs all benchmarks that are built and writes a dated page of docs/notebook and its pictures. The machine should do nothing
+# else.
+# Usage: CROON_DATA=data benchmarks/report.sh BUILD [NOTEBOOK]
 # With CROON_BENCHMARK_POINTS=10000000 up to so many points; with -DCROON_BENCHMARK_PEERS=ON other libraries too.
 set -euo pipefail
 
 build=$1
-docs=${2:-$(dirname "$0")/../docs}
+notebook=${2:-$(dirname "$0")/../docs/notebook}
 files=()
 for program in "$build"/bin/bench_*; do
   file=$build/$(basename "$program").json
@@ -15,4 +16,9 @@ for program in "$build"/bin/bench_*; do
     --benchmark_context="cpu=$(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -1 | tr -d ,)"
   files+=("$file")
 done
-"$build/bin/benchmark_report" "$docs" "${files[@]}"
+"$build/bin/benchmark_report" "$notebook" "${files[@]}"
+{
+  echo "# $(date +%F): What does each part cost?"
+  tail -n +2 "$notebook/benchmarks.md"
+} >"$notebook/$(date +%F)-what-each-part-costs.md"
+rm "$notebook/benchmarks.md"

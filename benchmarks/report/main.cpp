@@ -1,4 +1,4 @@
-// Writes docs/benchmarks.md and its pictures: benchmark_report DOCS FILE...
+// Writes benchmarks.md and its pictures to a folder: benchmark_report FOLDER FILE...
 #include <iostream>
 
 #include "benchmarks/report/page.hpp"
@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   using namespace croon;
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   if (arguments.size() < 2) {
-    std::cerr << "usage: benchmark_report DOCS FILE...\n";
+    std::cerr << "usage: benchmark_report FOLDER FILE...\n";
     return 2;
   }
   try {
@@ -19,11 +19,11 @@ int main(int argc, char** argv) {
       runs.push_back(benchmarks::read_run(arguments[i]));
     }
     const benchmarks::Page page = benchmarks::page_of(runs);
-    const std::filesystem::path docs = arguments[0];
+    const std::filesystem::path folder = arguments[0];
     for (const benchmarks::PagePicture& picture : page.pictures) {
-      write_whole_file(docs / "pictures" / picture.name, svg_bytes(picture.drawing));
+      write_whole_file(folder / "pictures" / picture.name, svg_bytes(picture.drawing));
     }
-    write_whole_file(docs / "benchmarks.md", page.markdown);
+    write_whole_file(folder / "benchmarks.md", page.markdown);
   } catch (const InputError& error) {
     for (const Fault& fault : error.faults()) std::cerr << fault.line() << '\n';
     return 2;

@@ -318,7 +318,7 @@ Page page_of(const std::vector<BenchmarkRun>& runs) {
   page.markdown =
       "# What it costs\n\n"
       "`benchmarks/report.sh` wrote this page from the files of Google Benchmark; "
-      "[benchmarks](../benchmarks/README.md) says what each program measures and what it checks "
+      "[benchmarks](../../benchmarks/README.md) says what each program measures and what it checks "
       "before "
       "it times anything. Times are medians of wall time.\n\n";
   for (const BenchmarkRun& run : runs) add_run(page, run);

@@ -14,7 +14,7 @@ struct PagePicture {
   Drawing drawing;
 };
 
-/// docs/benchmarks.md: tables and pictures of runs, each run in tables of its own.
+/// A page of docs/notebook: tables and pictures of runs, each run in tables of its own.
 struct Page {
   std::string markdown;
   std::vector<PagePicture> pictures;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Numbers of docs/results.md and docs/store.md that no table of croon has, from stores of results.
+"""Numbers of docs/notebook and docs/store.md that no table of croon has, from stores of results.
 
 store_figures.py QUESTION DIR...: prints a Markdown table of each folder of results. The questions:
   moved VARIANT  of the trials that succeed with VARIANT, and of the others: how many end elsewhere in another variant,

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The largest distances of trials from the authors' published result, by scene and sensor.
 
-published_distances.py TRIALS_CSV REAL_SCENES, as in docs/results.md: trials.csv of real_consistency.json
+published_distances.py TRIALS_CSV REAL_SCENES, as in docs/notebook/2026-11-22-the-paper-on-the-samples.md: trials.csv of real_consistency.json
 and the folder of the authors' real scenes, each with its published_result.json.
 """
 import csv

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs the paper's experiments and writes what they came to, beside the paper's numbers, to
-# docs/reproduction.md. Those on recordings run where these are there.
+# Runs the paper's experiments and writes their results, beside the paper's numbers, to a dated page of
+# docs/notebook. Experiments on recordings run only if the recordings are installed.
 # Usage: experiments/paper/reproduce.sh [DATA_ROOT], from the root of the tree; DATA_ROOT is by
 # default $CROON_DATA, else data. CROON is the program, by default build/release/bin/croon; RESULTS the
 # folder of the results, by default results/paper. What is in there already is not run again.
@@ -9,7 +9,7 @@ set -euo pipefail
 croon=${CROON:-build/release/bin/croon}
 data=${1:-${CROON_DATA:-data}}
 results=${RESULTS:-results/paper}
-page=docs/reproduction.md
+page=docs/notebook/$(date +%F)-which-numbers-of-the-paper-hold.md
 
 folders=()
 # run NAME: with code 3 some trial failed, a result like others, or its files could not be read just then; a second run
@@ -54,9 +54,9 @@ table() {
 # Written whole or not at all. Code 3: a number is not in its band, and the page says which.
 code=0
 {
-  echo '<!-- Written by `experiments/paper/reproduce.sh`. -->'
+  echo "# $(date +%F): Which numbers of the paper are reproduced?"
   echo
-  echo '# Reproduction'
+  echo '<!-- Written by `experiments/paper/reproduce.sh`. -->'
   echo
   echo 'Numbers that the paper (CROON, arXiv 2203.03182) claims, and ours. A number outside its band is said to be out; no'
   echo 'band was widened to hold it.'

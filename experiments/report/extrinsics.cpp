@@ -146,7 +146,7 @@ std::string extrinsics_json(const Summary& summary,
         "of the error (roll, pitch, yaw of T_estimate T_truth^-1, t_estimate - t_truth), rad and "
         "m, "
         "in the reference's frame; of the pose of all scenes: of the mean of independent scenes "
-        "(docs/trust.md)";
+        "(docs/how_it_works.md)";
   }
   json["extrinsics"] = json_rows(extrinsics_columns(has_covariances).table(extrinsics));
   for (std::size_t i = 0; i < extrinsics.size(); ++i) {

@@ -88,15 +88,22 @@ TEST_P(Docs, ExperimentsAreValid) {
 }
 
 /// Links to files of the tree, `[words](path)` or `[words](path#place)`, lead somewhere.
-TEST_P(Docs, LinksLeadSomewhere) {
+void expect_working_links(const std::string& page) {
   static const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
-  const fs::path folder = (source_root() / GetParam()).parent_path();
-  for (const Line& line : lines_of(GetParam())) {
+  const fs::path folder = (source_root() / page).parent_path();
+  for (const Line& line : lines_of(page)) {
     for (auto it = std::sregex_iterator(line.text.begin(), line.text.end(), link);
          it != std::sregex_iterator(); ++it) {
       EXPECT_TRUE(fs::exists(folder / (*it)[1].str())) << line.place() << ": " << (*it)[1];
     }
   }
+}
+
+TEST_P(Docs, LinksLeadSomewhere) { expect_working_links(GetParam()); }
+
+/// Pages of the notebook keep the commands of their date, so only their links are checked.
+TEST(Notebook, LinksLeadSomewhere) {
+  for (const std::string& page : tree_files("docs/notebook/", ".md")) expect_working_links(page);
 }
 
 /// A path of the tree in backquotes, `framework/base/rng.hpp`, is there.
