@@ -15,7 +15,7 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
           params::slot("search", &Params::search, R"({"type": "binary"})",
-                       "Finds the yaw of least cost."),
+                       "Finds the yaw of minimum cost."),
       }
           .inherit(nearest_cost_table());
   return table;
@@ -46,7 +46,7 @@ class YawAlignment final : public Step {
 StageEntry yaw_alignment() {
   return stage_entry<YawAlignment>(
       "yaw_alignment",
-      "Turns the sensor about the ground's normal to the least nearest-neighbour distance: yaw.",
+      "Rotates the sensor about the ground normal to minimise the nearest-neighbour distance: yaw.",
       "CROON (arXiv 2203.03182), rough calibration", table());
 }
 

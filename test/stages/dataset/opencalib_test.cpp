@@ -162,11 +162,11 @@ TEST_F(MadeUpRig, SaysWhatIsWrongWithAScene) {
   folder.write("secret.pcd", test::one_point_pcd(3));
   const std::pair<const char*, const char*> cases[] = {
       {"device_id: 1\npath: left-1-2.pcd\n", "the reference, device 0, is missing"},
-      {"device_id: 0\npath: top-1.pcd\n", "no sensor but the reference"},
+      {"device_id: 0\npath: top-1.pcd\n", "expected a sensor besides the reference"},
       {"device_id: 0\npath: top-1.pcd\ndevice_id: 0\npath: left-1-2.pcd\n",
        "line 4: device 0 stands here twice"},
       {"device_id: 0\npath: top-1.pcd\ndevice_id: 1\npath: top-9.pcd\n",
-       "lidar_cloud_path.txt: line 4: a second sensor is called \"top\""},
+       "lidar_cloud_path.txt: line 4: duplicate sensor name \"top\""},
       {"device_id: 0\npath: top-1.pcd\ndevice_id: 1\npath: x/right.pcd\n",
        "lidar_cloud_path.txt: line 4: the cloud \"x/right.pcd\" is not"},
       {"device_id: 0\npath: top-1.pcd\ndevice_id: 1\npath: ../../../secret.pcd\n",
