@@ -107,8 +107,8 @@ std::string file_stem(const std::string& name) {
       stem.begin(), stem.end(), [&](char c) { return !is_kept(c); }, '_');
   // Neither a hidden file nor a command-line option.
   if (!stem.empty() && (stem.front() == '.' || stem.front() == '-')) stem.front() = '_';
-  constexpr std::size_t kMostStemBytes = 200;
-  return stem.substr(0, kMostStemBytes);
+  constexpr std::size_t kMaxStemBytes = 200;
+  return stem.substr(0, kMaxStemBytes);
 }
 
 Eigen::Matrix3d checked_quaternion(const Eigen::Vector4d& xyzw, const FilePlace& place) {

@@ -208,12 +208,12 @@ struct TimeRange {
 
 /// std::nullopt without times of one scan; check_times reports the reason.
 std::optional<TimeRange> time_range(const PointCloud& cloud) {
-  constexpr double kLongestScan_s = 1.0;
+  constexpr double kMaxDuration_s = 1.0;
   if (cloud.empty() || find_channel(cloud, kTime) == nullptr) return std::nullopt;
   const std::vector<double> times = times_s(cloud);
   const auto [first, last] = std::minmax_element(times.begin(), times.end());
   if (!std::all_of(times.begin(), times.end(), [](double t) { return std::isfinite(t); }) ||
-      *last - *first > kLongestScan_s) {
+      *last - *first > kMaxDuration_s) {
     return std::nullopt;
   }
   return TimeRange{*first, *last};

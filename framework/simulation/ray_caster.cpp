@@ -32,12 +32,12 @@ struct PlacedMesh {
 /// Between two steps a vertex goes straight and evenly, where a body that turns goes on an arc: at
 /// 0.5 rad/s and 10 m/s the two are up to 6 mm apart.
 PlacedMesh placed(const Body& body, const Span& window_s) {
-  constexpr double kLongestStep_s = 0.1;
-  constexpr double kMostSteps = 128.0;  // Embree takes one more.
+  constexpr double kMaxStep_s = 0.1;
+  constexpr double kMaxSteps = 128.0;  // Embree takes one more.
   const bool moves = body.motion.speed_mps != 0.0 || body.motion.yaw_rate_radps != 0.0;
   double steps = 0.0;
   if (moves && window_s.length() > 0.0) {
-    steps = std::clamp(std::ceil(window_s.length() / kLongestStep_s - 1e-9), 1.0, kMostSteps);
+    steps = std::clamp(std::ceil(window_s.length() / kMaxStep_s - 1e-9), 1.0, kMaxSteps);
   }
   PlacedMesh result{&body.mesh, {}, {}};
   for (double k = 0.0; k <= steps; ++k) {
@@ -230,9 +230,9 @@ class RayCaster::Embree {
     // So far from a common edge, triangles that meet at more than ten degrees are kApart_m apart.
     constexpr double kInset_m = 4e-3;
     constexpr double kApart_m = 2.0 * kTied_m;
-    constexpr std::size_t kMostNear = 12;
+    constexpr std::size_t kMaxNear = 12;
     // Where more are around, to look at all of them costs more than it saves.
-    constexpr int kMostAround = 2000;
+    constexpr int kMaxAround = 2000;
     const Corners corners = corners_of(id);
     Interior interior = {InnerTriangle(corners, kInset_m), {}};
     if (interior.inner.is_empty()) return std::nullopt;
@@ -246,10 +246,10 @@ class RayCaster::Embree {
       if (reaches && other != id && !interior.inner.is_farther_than(kApart_m, corners_of(other))) {
         interior.near.push_back(other);
       }
-      return around <= kMostAround && interior.near.size() <= kMostNear;
+      return around <= kMaxAround && interior.near.size() <= kMaxNear;
     };
     for_each_triangle_near(scene_, sphere.centre, reach_m, 0.0, compare);
-    if (around > kMostAround || interior.near.size() > kMostNear) return std::nullopt;
+    if (around > kMaxAround || interior.near.size() > kMaxNear) return std::nullopt;
     return interior;
   }
 

@@ -19,9 +19,9 @@ StreamKey scene_key(const Recipe& recipe, std::uint64_t index) {
 /// `motion` at another speed, on the same arc as far as its lateral acceleration is that of a car.
 /// A car that stood drives straight on.
 Motion at_speed(const Motion& motion, double speed_mps) {
-  constexpr double kMostLateral_mps2 = 4.0;
+  constexpr double kMaxLateral_mps2 = 4.0;
   if (motion.speed_mps == 0.0 || speed_mps == 0.0) return {speed_mps, 0.0};
-  const double most_radps = kMostLateral_mps2 / speed_mps;
+  const double most_radps = kMaxLateral_mps2 / speed_mps;
   const double turn_radps = motion.yaw_rate_radps / motion.speed_mps * speed_mps;
   return {speed_mps, std::clamp(turn_radps, -most_radps, most_radps)};
 }

@@ -9,11 +9,11 @@ namespace croon::simulation {
 namespace {
 
 constexpr double kFloor_m = 3.0;
-constexpr double kLeastWidth_m = 9.0;
+constexpr double kMinWidth_m = 9.0;
 
 BuildingSize draw_size(const Fronts& fronts, Rng& rng) {
   BuildingSize size;
-  size.width_m = rng.uniform(kLeastWidth_m, 22.0);
+  size.width_m = rng.uniform(kMinWidth_m, 22.0);
   size.depth_m = rng.uniform(9.0, 14.0);
   size.floors = draw_int(rng, fronts.floors_low, fronts.floors_high);
   return size;
@@ -67,7 +67,7 @@ void add_fronts(SceneBuilder& builder, const Roadside& side, const Span& along_m
     if (leaves_row(own_m, along_m)) {
       own_m.to = along_m.to;
       size.width_m *= own_m.length() / needed_m;
-      if (size.width_m < kLeastWidth_m) break;
+      if (size.width_m < kMinWidth_m) break;
     }
     if (!builder.is_free(side.box(own_m, depth_m, kHeadroom_m))) {
       from_m += 2.0;
