@@ -22,7 +22,7 @@ struct Translation {
 constexpr const char* kMoreSharedView =
     "Record where both sensors see the same walls, poles or parked cars: their common field of "
     "view is small or nearly empty.";
-constexpr const char* kStand =
+constexpr const char* kAtRest =
     "Record while the vehicle is at rest and little else moves, or with the time of each point.";
 constexpr const char* kOtherPlace =
     "Record at another place, where the surroundings do not look the same after a rotation or "
@@ -36,7 +36,7 @@ constexpr Translation kTranslations[] = {
      "Only {1%} of the points that both sensors should see agree; at least {2%} is required.",
      kMoreSharedView},
     {"the share of points in free space",
-     "{1%} of the points lie in the other sensor's free space; at most {2%} is allowed.", kStand},
+     "{1%} of the points lie in the other sensor's free space; at most {2%} is allowed.", kAtRest},
     {"the lead over another pose",
      "Another pose explains the clouds nearly as well: the lead over it is {1} standard "
      "deviations; at least {2} are required.",
@@ -55,9 +55,9 @@ constexpr Translation kTranslations[] = {
     {"motion during the scans explains the clouds better",
      "The vehicle moved during the scan, by {1} m and {2} degrees per revolution, and without "
      "usable times this cannot be corrected.",
-     kStand},
+     kAtRest},
     {"motion during the scans cannot be excluded",
-     "The vehicle may have moved during the scan, which would shift the pose.", kStand},
+     "The vehicle may have moved during the scan, which would shift the pose.", kAtRest},
     {"the planes of all sensors would move it",
      "It contradicts the other sensors: the planes that all of them see would move it by {1} "
      "degrees and {2} m.",

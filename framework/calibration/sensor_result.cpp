@@ -46,12 +46,12 @@ bool is_same(const RigidTransform& a, const RigidTransform& b) {
 }
 
 /// For each degree of freedom, the best observability among the averaged poses.
-DofWords best_words(const std::vector<const MemberResult*>& results) {
-  DofWords words = results.front()->estimate.covariance->dofs;
+DofWords best_observability(const std::vector<const MemberResult*>& results) {
+  DofWords observability = results.front()->estimate.covariance->dofs;
   for (const MemberResult* const result : results) {
-    words = better_words(words, result->estimate.covariance->dofs);
+    observability = better_words(observability, result->estimate.covariance->dofs);
   }
-  return words;
+  return observability;
 }
 
 /// Sets the common pose of `accepted`, which agree: the pose to which a step has set all of them,
@@ -79,7 +79,7 @@ void set_common_pose(CalibratedSensor& sensor, const std::vector<const MemberRes
   }
   const InformedPose mean = informed_mean(known);
   sensor.T_reference_sensor = mean.pose;
-  sensor.covariance = {guarded_inverse<6>(mean.information), best_words(accepted)};
+  sensor.covariance = {guarded_inverse<6>(mean.information), best_observability(accepted)};
 }
 
 /// The accepted results in the scenes whose own poses agree with the majority.
@@ -156,10 +156,10 @@ void set_reasons(CalibratedSensor& sensor, const std::vector<SceneResult>& scene
       sensor.reasons.push_back(prefix + scene.why_not);
       continue;
     }
-    const ReasonsInWords words =
+    const ReasonsInWords explanation =
         reasons_in_words(why_not(*scene.result), scene.result->covariance_in_scene);
-    sensor.reasons.push_back(prefix + joined(words.reasons));
-    add_once(sensor.advice, words.advice);
+    sensor.reasons.push_back(prefix + joined(explanation.reasons));
+    add_once(sensor.advice, explanation.advice);
   }
   if (scenes.empty()) sensor.reasons.emplace_back("No scene has a cloud of it.");
 }

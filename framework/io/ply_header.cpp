@@ -140,7 +140,7 @@ class HeaderParser {
 
 /// The minimum size of one element: in text, a digit and a blank for each property; lists may be
 /// empty.
-std::uint64_t least_bytes(const PlyHeader& header, const PlyElement& element) {
+std::uint64_t min_bytes(const PlyHeader& header, const PlyElement& element) {
   std::uint64_t bytes = 0;
   for (const PlyProperty& property : element.properties) {
     bytes += header.encoding == PlyEncoding::ascii
@@ -178,7 +178,7 @@ void check_ply_size(const PlyHeader& header, std::uint64_t file_bytes, const std
   // The last line of text may lack its line ending.
   if (header.encoding == PlyEncoding::ascii) ++left;
   for (const PlyElement& element : header.elements) {
-    const std::uint64_t each = least_bytes(header, element);
+    const std::uint64_t each = min_bytes(header, element);
     if (each == 0) continue;
     if (element.count > left / each) {
       throw InputError(file, "",

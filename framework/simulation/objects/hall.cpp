@@ -12,7 +12,7 @@ struct HallStyle {
   double height_m = 8.0;
   double bay_m = 6.0;  ///< Distance from one rib to the next.
   bool has_ribs = false;
-  double rib_m = 0.2;      ///< How far they stand out.
+  double rib_m = 0.2;      ///< Protrusion of the ribs.
   double gates = 0.3;      ///< Share of the front's bays that have a gate.
   bool has_lights = true;  ///< A row of windows high up.
 };

@@ -18,8 +18,8 @@ Vector3d left_of(const Vector3d& from, const Vector3d& to) {
   return PathPoint{from, direction(from, to)}.left();
 }
 
-/// The vector to the left at the point `i`, so long that the pieces on either side have the
-/// thickness 1.
+/// The vector to the left at the point `i`, of a length that gives the pieces on either side a
+/// thickness of 1.
 Vector3d mitre(const Path& path, std::size_t i) {
   constexpr double kMaxLength = 2.0;  // Sharp corners are cut off.
   const std::size_t last = path.size() - 1;

@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The points of a line on the ground, at most 3 m apart.
+/// Points along a line on the ground, at most 3 m apart.
 Path path_of(const Ground& ground, const RoadLine& line) {
   constexpr double kStep_m = 3.0;
   const double ds_m = line[1].s_m - line[0].s_m;

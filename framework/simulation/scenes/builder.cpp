@@ -9,10 +9,10 @@
 namespace croon::simulation {
 namespace {
 
-/// The longest duration of a scan. Moving objects occupy their way during that time.
+/// Maximum duration of a scan, during which moving objects occupy their path.
 constexpr double kScan_s = 0.15;
 
-/// The box of the car with a margin that stays empty.
+/// The box of the car with a margin that is kept clear.
 RoadBox car_box(const RoadPose& pose, const CarBody& body, double speed_mps) {
   constexpr double kMargin_m = 0.5;
   const double half_length_m = 0.5 * body.length_m + kMargin_m;
@@ -25,7 +25,7 @@ RoadBox car_box(const RoadPose& pose, const CarBody& body, double speed_mps) {
                   {pose.d_m - across_m, pose.d_m + across_m}, kHeadroom_m);
 }
 
-/// The lowest height of the ground under the boxes.
+/// The minimum height of the ground under the boxes.
 double lowest_ground_m(const Ground& ground, const std::array<RoadBox, 2>& boxes) {
   const RoadBox& box = boxes[0].isEmpty() ? boxes[1] : boxes[0];
   double lowest_m = ground.shape().height_m(box.min().x(), box.min().y());

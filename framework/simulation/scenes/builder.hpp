@@ -8,8 +8,8 @@
 
 namespace croon::simulation {
 
-/// Adds objects to a scene so that none stands in another. Functions that return a bool add the
-/// object and return true if its space is free; else they add nothing and return false.
+/// Adds objects to a scene without collisions. Functions that return a bool add the object and
+/// return true if its space is free; otherwise they add nothing and return false.
 class SceneBuilder {
  public:
   /// A scene with the ground of `shape` and nothing on it. The random streams of its parts are
@@ -25,7 +25,7 @@ class SceneBuilder {
   /// addition.
   void put_car(const RoadPose& pose, const CarBody& body, double speed_mps,
                double turn_rate_radps = 0.0);
-  /// Adds an upright object at the height of the lowest ground below it.
+  /// Adds an upright object at the minimum height of the ground below it.
   bool stand(const Mesh& mesh, const RoadPose& pose);
   /// Adds an object that leans with the slope.
   bool park(const Mesh& mesh, const RoadPose& pose);

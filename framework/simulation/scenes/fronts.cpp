@@ -19,7 +19,7 @@ BuildingSize draw_size(const Fronts& fronts, Rng& rng) {
   return size;
 }
 
-/// True if an object at `own_m` near the car would stand beyond the end of its row, where another
+/// Whether an object at `own_m` near the car would extend beyond the end of its row, where another
 /// road may be. Far from the car this does not matter.
 bool leaves_row(const Span& own_m, const Span& along_m) {
   return std::abs(own_m.middle()) < kDetail_m &&

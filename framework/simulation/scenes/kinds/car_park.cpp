@@ -17,7 +17,7 @@ struct Bays {
   double lane_m = 6.5;  ///< Width of the lanes.
   int rows = 2;         ///< Double rows on each side of the car.
   Span along_m = {-40.0, 40.0};
-  double share = 0.6;  ///< Share of the bays that are taken.
+  double share = 0.6;  ///< Share of the bays that are occupied.
 
   double period_m() const { return lane_m + 2.0 * kBayDepth_m; }
   /// The middle of the double row `row`: 0 and up are to the left, -1 and down to the right.

@@ -23,7 +23,7 @@ RoadShape draw_plain(Rng& rng) {
   return shape;
 }
 
-/// A pose beyond the view of a sensor with a range of 20 m.
+/// A pose out of sight of a sensor with a range of 20 m.
 RoadPose draw_far_pose(Rng& rng) {
   const double bearing_rad = rng.uniform(0.0, 2.0 * kPi);
   const double distance_m = rng.uniform(50.0, 95.0);
