@@ -46,7 +46,7 @@ bool is_same(const RigidTransform& a, const RigidTransform& b) {
 }
 
 /// For each degree of freedom, the best observability among the averaged poses.
-DofWords best_observability(const std::vector<const MemberResult*>& results) {
+DofWords combined_observability(const std::vector<const MemberResult*>& results) {
   DofWords observability = results.front()->estimate.covariance->dofs;
   for (const MemberResult* const result : results) {
     observability = better_words(observability, result->estimate.covariance->dofs);
@@ -79,7 +79,7 @@ void set_common_pose(CalibratedSensor& sensor, const std::vector<const MemberRes
   }
   const InformedPose mean = informed_mean(known);
   sensor.T_reference_sensor = mean.pose;
-  sensor.covariance = {guarded_inverse<6>(mean.information), best_observability(accepted)};
+  sensor.covariance = {guarded_inverse<6>(mean.information), combined_observability(accepted)};
 }
 
 /// The accepted results in the scenes whose own poses agree with the majority.
