@@ -48,9 +48,9 @@ const ExtrinsicsFormat& writable_format(const std::string& name) {
   for (const ExtrinsicsFormat& format : formats()) {
     if (format.name == name && format.write != nullptr) return format;
   }
-  throw InputError("", "",
-                   "unknown extrinsics format " + in_quotes(name) +
-                       name_hint(name, extrinsics_format_names()));
+  throw InputError(
+      "", "",
+      "unknown extrinsics format " + in_quotes(name) + name_hint(name, extrinsics_format_names()));
 }
 
 /// The content of `file` without a byte order mark.
@@ -67,15 +67,15 @@ bool recognises(const ExtrinsicsFormat& format, const std::string& text) {
 }
 
 /// The observability of each new axis is the worst of the old axes that contribute to it.
-DofWords turned_words(const DofWords& words, const Eigen::Matrix3d& R_new_parent) {
+DofWords turned_observability(const DofWords& observability, const Eigen::Matrix3d& R_new_parent) {
   constexpr double kMinShare = 0.1;
-  DofWords turned = words;
+  DofWords turned = observability;
   for (const std::size_t block : {0, 3}) {
     for (int i = 0; i < 3; ++i) {
       Observability worst = Observability::determined;
       for (int j = 0; j < 3; ++j) {
         if (std::abs(R_new_parent(i, j)) < kMinShare) continue;
-        worst = std::max(worst, words.at(block + static_cast<std::size_t>(j)));
+        worst = std::max(worst, observability.at(block + static_cast<std::size_t>(j)));
       }
       turned.at(block + static_cast<std::size_t>(i)) = worst;
     }
@@ -91,7 +91,7 @@ PoseCovariance turned_covariance(const PoseCovariance& covariance,
   turn.bottomRightCorner<3, 3>() = R_new_parent;
   const Matrix6d turned = turn * covariance.matrix * turn.transpose();
   // Bitwise symmetric.
-  return {0.5 * (turned + turned.transpose()), turned_words(covariance.dofs, R_new_parent)};
+  return {0.5 * (turned + turned.transpose()), turned_observability(covariance.dofs, R_new_parent)};
 }
 
 }  // namespace

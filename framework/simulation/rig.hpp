@@ -28,7 +28,7 @@ struct CarBody {
   double length_m = 4.75;
   double width_m = 1.9;
   double height_m = 1.48;
-  bool is_visible = true;  ///< To the car's own sensors.
+  bool is_visible = true;  ///< Whether the car's own sensors see it.
 };
 
 /// The mesh of `body` in the car's frame: smooth and without mirrors, like that of the paper's

@@ -71,7 +71,7 @@ void add_wall(Mesh& mesh, const WallFrame& frame, const WallPart& part, Material
 void add_rim(Mesh& mesh, const WallFrame& frame, const WallPart& part, double from_depth_m,
              double to_depth_m, Material material);
 
-/// Adds a box that stands out of the wall by `out_m`.
+/// Adds a box that protrudes from the wall by `out_m`.
 void add_relief(Mesh& mesh, const WallFrame& frame, const WallPart& part, double out_m,
                 Material material);
 

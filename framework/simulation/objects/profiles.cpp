@@ -18,7 +18,7 @@ Vector3d left_of(const Vector3d& from, const Vector3d& to) {
   return PathPoint{from, direction(from, to)}.left();
 }
 
-/// The vector to the left at the point `i`, of a length that gives the pieces on either side a
+/// The vector to the left at the point `i`, scaled so that the pieces on either side have a
 /// thickness of 1.
 Vector3d mitre(const Path& path, std::size_t i) {
   constexpr double kMaxLength = 2.0;  // Sharp corners are cut off.

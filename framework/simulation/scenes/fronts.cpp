@@ -75,7 +75,8 @@ void add_fronts(SceneBuilder& builder, const Roadside& side, const Span& along_m
     }
     const bool is_near = std::abs(own_m.middle()) < kDetail_m;
     const Mesh building = is_near ? make_building(size, rng) : make_block(size, rng);
-    if (builder.stand(centred_along_x(building), side.at(own_m.middle(), out_m)) && is_near) {
+    if (builder.place_upright(centred_along_x(building), side.at(own_m.middle(), out_m)) &&
+        is_near) {
       close_gap(builder, side, {last_m + 0.1, from_m - 0.1}, out_m + 1.0, rng);
     }
     last_m = own_m.to;
@@ -91,7 +92,7 @@ void add_backdrop(SceneBuilder& builder, const Roadside& side, const Span& along
     const double away_m = draw(rng, out_m);
     const double half_m = 0.5 * size.width_m;
     if (leaves_row({from_m - half_m, from_m + half_m}, along_m)) continue;
-    builder.stand(centred_along_x(make_block(size, rng)), side.at(from_m, away_m));
+    builder.place_upright(centred_along_x(make_block(size, rng)), side.at(from_m, away_m));
   }
 }
 

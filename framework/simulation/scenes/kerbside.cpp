@@ -71,7 +71,7 @@ void add_people(SceneBuilder& builder, const Roadside& side, const Span& along_m
       builder.drive(person, side.at(position_m, away_m, turn_rad), speed_mps);
     } else {
       const double stand_rad = rng.uniform(0.0, 2.0 * kPi);
-      builder.stand(person, side.at(position_m, away_m, stand_rad));
+      builder.place_upright(person, side.at(position_m, away_m, stand_rad));
     }
   }
 }
@@ -84,7 +84,7 @@ void add_furniture(SceneBuilder& builder, const Roadside& side, const Span& alon
   const double stop_m = rng.uniform(-25.0, 35.0);
   if (chance(rng, 0.3) && near_m.contains(stop_m)) {
     const double out_m = pavement.kerb_m + std::min(pavement.width_m - 1.0, 2.2);
-    builder.stand(make_bus_stop(rng), side.at(stop_m, out_m, kToRoad_rad));
+    builder.place_upright(make_bus_stop(rng), side.at(stop_m, out_m, kToRoad_rad));
   }
   const double lamp_m = rng.uniform(22.0, 34.0);
   add_series(builder, side, along_m,

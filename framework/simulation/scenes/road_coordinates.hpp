@@ -36,7 +36,7 @@ class Occupancy {
  public:
   /// Whether `box` overlaps no occupied box; boxes may touch.
   bool is_free(const RoadBox& box) const;
-  void take(const RoadBox& box) { taken_.push_back(box); }
+  void occupy(const RoadBox& box) { taken_.push_back(box); }
 
  private:
   std::vector<RoadBox> taken_;

@@ -88,7 +88,7 @@ void add_corners(SceneBuilder& builder, const Crossroads& roads) {
     for (const Roadside& side : both_sides()) {
       // Each light faces the approaching vehicles.
       const double turn_rad = ahead * side.sign < 0.0 ? 0.0 : kToRoad_rad;
-      builder.stand(light, side.at(crossing_m + ahead * beyond_m, out_m, turn_rad));
+      builder.place_upright(light, side.at(crossing_m + ahead * beyond_m, out_m, turn_rad));
     }
     const int people = draw_int(rng, 0, 5);
     for (int i = 0; i < people; ++i) {
