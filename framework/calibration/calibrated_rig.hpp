@@ -61,8 +61,8 @@ struct HeadingOfTravel {
 struct CalibratedRig {
   std::string reference;
   std::vector<CalibratedSensor> sensors;  ///< In the order of the recording.
-  std::string
-      composition;  ///< Name of the pipeline that was used: "driving", "standing", a file name.
+  /// Name of the pipeline that was used: "driving", "standing", a file name.
+  std::string composition;
   std::string composition_reason;     ///< Why it was chosen; empty if the caller selected it.
   std::vector<std::string> warnings;  ///< One sentence each.
   std::vector<std::string> unused;    ///< Scenes and clouds that were not used, with the reasons.

@@ -32,8 +32,8 @@ struct PairedScene {
 /// The scenes of a recording, in the order of the reference's clouds.
 struct Pairing {
   std::vector<PairedScene> scenes;
-  std::vector<std::string>
-      unpaired;  ///< One line per sensor with unused clouds: number and reason.
+  /// One line per sensor with unused clouds: number and reason.
+  std::vector<std::string> unpaired;
   bool is_by_time = false;
 };
 

@@ -17,8 +17,8 @@ struct PosedCloud {
   std::optional<RigidTransform> before = {};  ///< The nominal T_reference_sensor, if any.
   std::optional<RigidTransform> after = {};   ///< The result or the best guess.
   bool is_accepted = true;
-  std::string note =
-      {};  ///< One line below the verdict, with standard deviations or a reason; may be empty.
+  /// One line below the verdict, with standard deviations or a reason; may be empty.
+  std::string note = {};
 };
 
 /// The note for a calibrated sensor: its standard deviations, or the first reason for its

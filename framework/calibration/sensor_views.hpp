@@ -19,8 +19,8 @@ inline constexpr int kSectionHeight_px = 190;
 /// The frame in which a rig is drawn: above the reference's ground, z up.
 struct LevelFrame {
   RigidTransform T_level_reference;
-  bool has_ground =
-      false;  ///< Whether z = 0 is the ground; otherwise this is the reference's own frame.
+  /// Whether z = 0 is the ground; otherwise this is the reference's own frame.
+  bool has_ground = false;
 };
 
 /// The level frame of a reference that measured `points`; its own frame if it sees no ground.

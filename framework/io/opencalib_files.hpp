@@ -13,8 +13,8 @@ struct ListedCloud {
   int device_id = 0;
   std::string path;   ///< As in the file.
   std::string place;  ///< "line 4", for errors.
-  std::string sensor =
-      {};  ///< The sensor's name; if empty when written, it follows from the file name.
+  /// The sensor's name; if empty when written, it follows from the file name.
+  std::string sensor = {};
 };
 
 /// The default name of a sensor: its file name up to the first hyphen, "left" for

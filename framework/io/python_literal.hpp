@@ -12,8 +12,8 @@ struct PythonLiteral {
   Kind kind = Kind::number;
   std::string text;      ///< The characters of a string or number.
   bool is_true = false;  ///< The value of True or False.
-  std::vector<PythonLiteral>
-      items;  ///< Of a list or tuple; of a dict its alternating keys and values.
+  /// Of a list or tuple; of a dict its alternating keys and values.
+  std::vector<PythonLiteral> items;
 
   /// The value of `key` in a dict, or null.
   const PythonLiteral* find(std::string_view key) const;

@@ -15,8 +15,8 @@ namespace croon {
 /// or blanks.
 struct TextLayout {
   char separator = ' ';  ///< A blank means any number of blanks and tabs.
-  std::vector<std::string>
-      fields;  ///< From the header; "x", "y", "z", "intensity", ... without one.
+  /// From the header; "x", "y", "z", "intensity", ... without one.
+  std::vector<std::string> fields;
   std::array<std::size_t, 3> xyz{};     ///< Indices of the coordinates.
   std::optional<std::uint64_t> points;  ///< Set if the first line is their number, as in .pts.
   bool has_header = false;

@@ -225,8 +225,8 @@ std::string style_sheet(const Sheet& sheet) {
 }
 
 double text_width(const std::string& text, double size) {
-  constexpr double kColumn =
-      0.6;  // Relative to the size; the letters of DejaVu Sans are among the widest.
+  // Relative to the size; the letters of DejaVu Sans are among the widest.
+  constexpr double kColumn = 0.6;
   return kColumn * size * static_cast<double>(text_columns(text));
 }
 

@@ -16,8 +16,8 @@ struct Mounting {
   SensorModel model = sensor_model("pandar64");
   std::vector<double> rotation_rpy_deg = {0.0, 0.0, 0.0};  ///< Roll, pitch, yaw.
   std::vector<double> translation_m = {0.0, 0.0, 0.0};
-  double time_offset_s =
-      0.0;  ///< From the start of the reference's scan to the start of this sensor's.
+  /// From the start of the reference's scan to the start of this sensor's.
+  double time_offset_s = 0.0;
 
   RigidTransform T_reference_sensor() const;
 };

@@ -34,8 +34,8 @@ struct Noise {
   double angle_std_deg = 0.0;      ///< Standard deviation of a ray's elevation and azimuth.
   double dropout_ratio = 0.0;      ///< Share of the rays that are lost regardless of the surface.
   double detection_range_m = 0.0;  ///< See detection_probability; 0: all rays return.
-  bool moves_during_scan =
-      false;  ///< Whether bodies move during a scan; otherwise all rays are fired at time 0.
+  /// Whether bodies move during a scan; otherwise all rays are fired at time 0.
+  bool moves_during_scan = false;
   double clock_offset_s = 0.0;  ///< Added to the times of all sensors except the reference.
 };
 

@@ -158,8 +158,8 @@ struct Shown {
   /// with text in between; empty for the column named like the title. Text is written verbatim, in
   /// the language of the format.
   std::string content = {};
-  bool shows_each =
-      false;  ///< Whether each cell without a value shows "-", instead of one "-" for all.
+  /// Whether each cell without a value shows "-", instead of one "-" for all.
+  bool shows_each = false;
   std::string group = {};  ///< A title above this and its neighbours of the same group (LaTeX).
 };
 
@@ -167,8 +167,8 @@ struct Shown {
 struct View {
   std::vector<Shown> columns;
   std::size_t names = 1;  ///< Number of leading columns that are left-aligned.
-  std::string heading =
-      {};  ///< A column whose text is shown as a heading above the rows that share it.
+  /// A column whose text is shown as a heading above the rows that share it.
+  std::string heading = {};
   /// Maximum width of names, beyond which they are cut (text only).
   std::size_t max_name_columns = std::numeric_limits<std::size_t>::max();
 };

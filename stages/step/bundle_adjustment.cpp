@@ -79,8 +79,8 @@ class BundleAdjustmentStep final : public RigStep {
   static RigBundle rig_bundle(const RigGroup& estimates) {
     RigBundle bundle;
     std::map<std::string, std::size_t> scenes, sensors;
-    std::vector<double>
-        zeros_s;  // By scene: the time subtracted from all of its times, to keep them small.
+    // By scene: the time that is subtracted from all of its times to keep them small.
+    std::vector<double> zeros_s;
     std::vector<std::vector<const Estimate*>> starts;  // By sensor, without the reference.
     for (const RigEstimate* const member : estimates) {
       const Estimate& estimate = member->estimate;
