@@ -29,7 +29,7 @@ class YawAlignment final : public Step {
     TurningCost cost(nearest_cost(estimate, params_), estimate.T_target_source, estimate.up());
     const YawMinimum minimum = params_.search->minimise(
         {[&](double yaw_rad) { return cost(yaw_rad); },
-         [&](double yaw_rad, double enough) { return cost.below(yaw_rad, enough); },
+         [&](double yaw_rad, double upper_bound) { return cost.below(yaw_rad, upper_bound); },
          [&](double yaw_rad) { return cost.glance(yaw_rad); }});
     estimate.set_pose(cost.turned(minimum.yaw_rad));
     estimate.diagnostics = {{"cost_m2", minimum.cost},
