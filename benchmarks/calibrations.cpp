@@ -1,5 +1,5 @@
-// What does a whole calibration of two clouds cost, when nothing is known of them yet, and from a
-// further start, when their trees, normals and grounds are there?
+// What does a complete calibration of two clouds cost, first without cached data, and then from
+// another initial guess with cached trees, normals and grounds?
 
 #include <stdexcept>
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kStarts = 8;
 
-/// A pipeline, and how far off its starts are.
+/// A pipeline, and the range of its initial guesses.
 struct Method {
   std::string name, file;
   double rotation_deg;
@@ -32,13 +32,13 @@ class Calibration {
     forget();
   }
 
-  /// What is kept of the clouds is lost.
+  /// Replaces the clouds by copies without cached data.
   void forget() {
     target_ = fresh(pair_.target);
     source_ = fresh(pair_.source);
   }
 
-  /// From the next start. Throws if a step fails.
+  /// Runs from the next initial guess. Throws if a step fails.
   void run() {
     Rig rig = {{"scene", "reference", "sensor", StreamKey(1),
                 at_start(target_, source_, starts_[next_++ % starts_.size()])}};

@@ -1,4 +1,4 @@
-// What does one iteration of each registration cost, once the clouds' normals are there?
+// What does one iteration of each registration cost, with cached normals?
 
 #include "benchmarks/support/clouds.hpp"
 #include "benchmarks/support/run.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kPoses = 8;
 
-/// The stage with one iteration at one distance, as far as its parameters can say so.
+/// The stage with one iteration at one distance, if it has these parameters.
 params::Slot<Icp> one_iteration(const std::string& name) {
   const std::vector<std::pair<std::string, std::string>> wishes = {{"max_iterations", "1"},
                                                                    {"max_distances_m", "[0.5]"}};
@@ -23,8 +23,8 @@ params::Slot<Icp> one_iteration(const std::string& name) {
   return test::stage<Icp>(json + "}");
 }
 
-/// From poses as the rough calibration leaves them. All trials of a scene share its clouds and so
-/// their kd-trees and normals: the first round over the poses is not timed.
+/// Starts from poses like the results of the rough calibration. All trials of a scene share its
+/// clouds with their kd-trees and normals, so the first round over the poses is not timed.
 void measure(benchmark::State& state, const params::Slot<Icp>& icp, const CloudPair& pair) {
   const auto target = fresh(pair.target);
   const auto source = fresh(pair.source);

@@ -1,5 +1,5 @@
-// What does a nearest neighbour cost, and what do our result set and bound save over nanoflann as
-// it comes?
+// What does a nearest-neighbour query cost, and what do our result set and bound save over plain
+// nanoflann?
 
 #include <algorithm>
 #include <stdexcept>
@@ -14,7 +14,7 @@ namespace {
 constexpr int kNormalNeighbours = 40;
 constexpr float kUnbounded = 1e9F;
 
-/// Throws where a search gives another distance than the peer's.
+/// Throws if a search returns a different distance than the peer.
 void check_equal_distances(const Points& points, const Points& queries) {
   const KdTree tree(points);
   const NanoflannPeer peer(points);
@@ -67,7 +67,8 @@ void add_queries(const std::string& name, const Points& points, const Points& qu
 template <class Tree>
 void add_tree(const std::string& name, const CloudPair& pair) {
   const std::string place = pair.name + "/";
-  // As registrations ask (near the truth) and as the rough calibration asks (up to 45 degrees off).
+  // Queries as in registrations (near the true pose) and as in the rough calibration (up to 45
+  // degrees off).
   const Points near = transformed(pair.source, poses_near(pair, 1, 0.5, 0.05)[0]);
   const Points off = transformed(pair.source, poses_near(pair, 1, 45.0, 0.1)[0]);
   const auto within = [](float bound_m) {

@@ -47,8 +47,8 @@ Points peer_normals_of(const Points& points) {
   return result;
 }
 
-/// Throws unless nearly all normals agree to a degree: where a neighbourhood is round, none is
-/// right.
+/// Throws unless nearly all normals agree within a degree: in an isotropic neighbourhood the normal
+/// is undefined.
 void check_agreement(const std::string& place, const Points& points) {
   const Points ours = normals_of(points, true);
   const Points theirs = peer_normals_of(points);
@@ -57,7 +57,7 @@ void check_agreement(const std::string& place, const Points& points) {
     differ += static_cast<std::size_t>(std::abs(ours[i].dot(theirs[i])) < 0.99985F);
   }
   if (1000 * differ > points.size()) {
-    throw std::runtime_error("normals and those of the peer differ on " + place);
+    throw std::runtime_error("normals differ from those of the peer on " + place);
   }
 }
 

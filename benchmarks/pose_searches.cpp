@@ -1,5 +1,5 @@
-// What does a search for the pose of least volume cost, over all six degrees of freedom, with the
-// scorer that is the fastest?
+// What does a search for the pose of minimum volume cost, over all six degrees of freedom, with the
+// fastest scorer?
 
 #include "benchmarks/support/clouds.hpp"
 #include "benchmarks/support/run.hpp"
@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kPoses = 8;
 
-/// From poses as a registration leaves them. Binding is a part of it, but what a scorer keeps of
-/// the target is there from the first time on, as in all trials of a scene but the first.
+/// Starts from poses like the results of a registration. Includes binding, but the scorer's data of
+/// the target is cached, as in all trials of a scene after the first.
 void measure(benchmark::State& state, const params::Slot<PoseSearch>& search,
              const CloudPair& pair) {
   const auto scorer = test::stage<VolumeScorer>(R"({"type": "brick_hash"})");

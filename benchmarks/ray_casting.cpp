@@ -1,4 +1,4 @@
-// What does a ray cost, by Embree's packets and by CGAL's AABB tree?
+// What does a ray cost, with Embree's packets and with CGAL's AABB tree?
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
@@ -65,7 +65,7 @@ double range_m(const Tree& tree, const Ray& ray) {
   return range <= kMax_m ? range : std::numeric_limits<double>::infinity();
 }
 
-/// A ray through an edge may meet either side, so a few may differ.
+/// A ray through an edge may hit either side, so a few may differ.
 void check(const std::vector<Ray>& rays, const std::vector<Hit>& hits, const Tree& tree) {
   std::size_t different = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {

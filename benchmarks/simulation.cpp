@@ -13,7 +13,7 @@ namespace {
 using simulation::Recipe;
 using simulation::SimulatedScene;
 
-/// The first scenes of a kind: one after the other is measured, since scenes differ.
+/// The number of scenes per kind, which are measured in turn, since scenes differ.
 constexpr std::uint64_t kScenes = 8;
 
 void measure_building(benchmark::State& state, const std::shared_ptr<const Recipe>& recipe) {
@@ -27,7 +27,7 @@ void measure_building(benchmark::State& state, const std::shared_ptr<const Recip
       static_cast<double>(triangles) / static_cast<double>(state.iterations());
 }
 
-/// All of it: what a run pays for a scene.
+/// Measures the total cost of a scene in a run.
 void measure_scene(benchmark::State& state, const std::shared_ptr<const Recipe>& recipe) {
   std::uint64_t index = 0;
   std::size_t points = 0;
@@ -52,7 +52,7 @@ void check_and_add() {
     const std::string name = simulation::kSceneKinds[i].name;
     const auto recipe = test::recipe_of(kind);
     if (simulation::scene_kind(*recipe, 0) != kind) {
-      throw std::logic_error("the mix does not give " + name);
+      throw std::logic_error("the mix does not produce " + name);
     }
     add("building/" + name, benchmark::kMillisecond,
         [recipe](benchmark::State& state) { measure_building(state, recipe); });

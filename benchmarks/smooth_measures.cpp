@@ -1,4 +1,4 @@
-// What does a pose cost by the measures of volume that count no leaves?
+// What does a pose cost with the volume measures that do not count leaves?
 
 #include <algorithm>
 

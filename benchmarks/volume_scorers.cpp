@@ -1,4 +1,4 @@
-// What does the occupied volume cost: to bind a scorer to two clouds, and then per pose?
+// What does the occupied volume cost, for binding a scorer to two clouds and then per pose?
 
 #include <algorithm>
 #include <stdexcept>
@@ -21,7 +21,7 @@ constexpr int kBatch = 64;
 const std::vector<double> kLeafSizes = {0.02, 0.05, 0.1, 0.2, 0.5};
 const std::vector<double> kLeafSizesOfLarge = {0.05, 0.1};
 
-/// Options of which each costs a pose more than once, beside the leaf size.
+/// Options that multiply the cost of a pose, besides the leaf size.
 const std::vector<std::pair<std::string, int>> kOptions = {
     {"lattices", 8}, {"leaf_sizes", 3}, {"min_points", 2}};
 
@@ -44,7 +44,7 @@ std::vector<std::int64_t> counts(const Scorer& scorer, const CloudPair& pair) {
   return counts;
 }
 
-/// Times mean nothing where the answers differ.
+/// Throws if the counts differ, where times would be meaningless.
 void check_equal_counts(const std::vector<std::string>& names, const CloudPair& pair,
                         double leaf_size_m, const std::string& option = "") {
   const std::vector<std::int64_t> expected = counts(scorer(names.at(0), leaf_size_m, option), pair);
@@ -56,8 +56,8 @@ void check_equal_counts(const std::vector<std::string>& names, const CloudPair& 
   }
 }
 
-/// Both clouds are new in every iteration: what a scorer makes of the target once is part of the
-/// price, in time and in memory.
+/// Both clouds are new in every iteration, so that time and memory include the data that a scorer
+/// caches of the target.
 void measure_bind(benchmark::State& state, const Scorer& scorer, const CloudPair& pair) {
   std::shared_ptr<const Cloud> target, source;
   VolumeFunction volume;
@@ -84,7 +84,7 @@ void measure_pose(benchmark::State& state, const Scorer& scorer, const CloudPair
   state.counters["leaves"] = static_cast<double>(volume(pair.T_target_source).leaves);
 }
 
-/// The time of one pose of a batch, which the scorer may spread over all cores.
+/// Measures the time per pose in a batch, which the scorer may distribute over all cores.
 void measure_batch(benchmark::State& state, const Scorer& scorer, const CloudPair& pair) {
   const VolumeFunction volume = scorer->bind(fresh(pair.target), fresh(pair.source));
   const std::vector<RigidTransform> poses = poses_near(pair, kBatch, 1.0, 0.1);
@@ -95,7 +95,7 @@ void measure_batch(benchmark::State& state, const Scorer& scorer, const CloudPai
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-/// All poses of a batch on so many threads.
+/// Measures all poses of a batch on a given number of threads.
 void measure_threads(benchmark::State& state, const Scorer& scorer, const CloudPair& pair,
                      int threads) {
   const VolumeFunction volume = scorer->bind(fresh(pair.target), fresh(pair.source));
@@ -105,7 +105,8 @@ void measure_threads(benchmark::State& state, const Scorer& scorer, const CloudP
   });
 }
 
-/// What no scorer can do without: the points at the pose, and the keys of their leaves.
+/// Measures the lower bound for any scorer: transforming the points and computing the keys of their
+/// leaves.
 void measure_floor(benchmark::State& state, const CloudPair& pair, double leaf_size_m) {
   const PointColumns points(pair.source);
   const LeafWindow window(LeafGrid(leaf_size_m), pair.T_target_source.translation);
@@ -120,13 +121,13 @@ void measure_floor(benchmark::State& state, const CloudPair& pair, double leaf_s
   state.counters["source_points"] = static_cast<double>(pair.source.size());
 }
 
-/// What memory allows: the coordinates of all points, read and summed up.
+/// Measures the limit of the memory: reading and summing the coordinates of all points.
 void measure_reading(benchmark::State& state, const CloudPair& pair) {
   const PointColumns points(pair.source);
   for (auto _ : state) {
     std::uint32_t sum = 0;
     for (const std::vector<float>* const column : {&points.x, &points.y, &points.z}) {
-      // As whole numbers: the compiler may not reorder a sum of floats, so it would be slower.
+      // As integers: a sum of floats would be slower, because the compiler must not reorder it.
       const auto* const bits = reinterpret_cast<const std::uint32_t*>(column->data());
       for (std::size_t i = 0; i < column->size(); ++i) sum += bits[i];
     }

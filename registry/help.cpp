@@ -9,7 +9,7 @@
 namespace croon {
 namespace {
 
-/// What the caller asked for: all stages (both empty), those of a kind of stage, or one stage.
+/// The requested stages: all (both empty), those of a kind, or one.
 struct Selection {
   std::string kind;
   std::string name;
@@ -56,7 +56,7 @@ std::string padded(const std::string& text, std::size_t width) {
 
 std::string as_it_is(const std::string& word) { return word; }
 
-/// One line for each stage, in columns: kind, name, sentence.
+/// One line per stage, in columns: kind, name, summary.
 std::string text_table(const StageList& stages) {
   std::size_t kind_width = 0;
   std::size_t name_width = 0;

@@ -82,7 +82,7 @@ ordered_json extras_json(const std::vector<params::ExtraDoc>& extras) {
   return list;
 }
 
-/// The channels and the extras.
+/// The channels and the extras that a stage needs.
 ordered_json needs_json(const params::DataFlow& flow) {
   std::set<std::string> channels = flow.target_channels;
   channels.insert(flow.source_channels.begin(), flow.source_channels.end());

@@ -4,7 +4,7 @@ namespace croon {
 namespace {
 
 const char* const kGenerated =
-    "<!-- Written by `croon stages --markdown`; `make docs` writes it again. -->\n\n";
+    "<!-- Written by `croon stages --markdown`; `make docs` regenerates it. -->\n\n";
 
 std::string code(const std::string& text) { return "`" + text + "`"; }
 
@@ -15,7 +15,7 @@ std::string parameter_type(const params::ParameterDoc& parameter) {
   return type_words(parameter, parameter.stage_kind.empty() ? code : linked_kind);
 }
 
-/// The least JSON that names the stage.
+/// The shortest JSON that names the stage.
 std::string example(const StageEntry& stage) {
   return "{\"" + name_key(stage.kind) + "\": \"" + stage.name + "\"}";
 }
@@ -29,7 +29,7 @@ std::string markdown_section(const StageEntry& stage) {
     text += "\n" + verb + " " + what + ".\n";
   }
   if (stage.parameters.empty()) return text + "\nIt has no parameters.\n";
-  text += "\n| parameter | takes | default | what it does |\n|---|---|---|---|\n";
+  text += "\n| parameter | type | default | description |\n|---|---|---|---|\n";
   for (const auto& [path, parameter] : placed_parameters(stage.parameters)) {
     const std::string standard =
         parameter->is_required ? "required" : code(default_words(*parameter));

@@ -22,8 +22,8 @@ std::string markdown_page(const StageList& stages);
 /// One stage with its parameters.
 std::string markdown_section(const StageEntry& stage);
 
-/// What a stage needs or provides, with default parameters: a line for each, ("needs", "the channel
-/// time").
+/// Pairs of a verb and an object for what a stage with default parameters needs or provides, such
+/// as ("Needs", "the channel time").
 std::vector<std::pair<std::string, std::string>> flow_lines(
     const params::DataFlow& flow, const std::function<std::string(const std::string&)>& mark);
 
@@ -36,16 +36,16 @@ struct PlacedParameter {
   const params::ParameterDoc* parameter;
 };
 
-/// The parameters, each followed by those of the objects in it; the documents must outlive them.
+/// The parameters, each followed by its members; `parameters` must outlive the result.
 std::vector<PlacedParameter> placed_parameters(const std::vector<params::ParameterDoc>& parameters,
                                                const std::string& above = "");
 
-/// What a parameter takes: "a number from 0 to 10", "one of all, non_ground", "an icp stage". Each
-/// stage kind, choice and key goes through `mark` first.
+/// The valid values of a parameter: "a number from 0 to 10", "one of all, non_ground", "an icp
+/// stage". `mark` formats each stage kind, choice and key.
 std::string type_words(const params::ParameterDoc& doc,
                        const std::function<std::string(const std::string&)>& mark);
 
-/// The default as JSON text, or "required".
+/// The default as JSON text, "none" or "required".
 std::string default_words(const params::ParameterDoc& doc);
 
 }  // namespace croon

@@ -26,7 +26,7 @@ std::string with_article(const std::string& kind, const std::string& marked) {
 
 std::string group_words(const ParameterDoc& doc, const Mark& mark) {
   if (doc.choices.empty()) return "an object";
-  return "one of " + marked_list(doc.choices, mark) + ", or an object, which may begin with one (" +
+  return "one of " + marked_list(doc.choices, mark) + ", or an object, which may start from one (" +
          mark(params::kLikeKey) + ")";
 }
 
@@ -80,7 +80,7 @@ std::string type_words(const ParameterDoc& doc, const Mark& mark) {
     case ParameterType::numbers:
       return "a list, each " + params::range_words("a number", doc.range);
     case ParameterType::choices:
-      return "a list of different words out of " + marked_list(doc.choices, mark);
+      return "a list of distinct words out of " + marked_list(doc.choices, mark);
     case ParameterType::stage:
       return with_article(doc.stage_kind, mark(doc.stage_kind));
     case ParameterType::stages:

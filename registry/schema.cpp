@@ -38,7 +38,7 @@ ordered_json word_list_schema(const std::vector<std::string>& words) {
   return schema;
 }
 
-/// Puts the parameters among the properties of an object, and their keys among the required ones.
+/// Adds the parameters to the properties of an object, and the keys of required ones to `required`.
 void add_parameters(const std::vector<ParameterDoc>& parameters, ordered_json& properties,
                     ordered_json& required) {
   for (const ParameterDoc& parameter : parameters) {
@@ -49,7 +49,8 @@ void add_parameters(const std::vector<ParameterDoc>& parameters, ordered_json& p
 
 ordered_json has_keys(const std::vector<std::string>& keys) { return {{"required", keys}}; }
 
-/// Objects that have the key at `path`, "sweep/rotation_deg", with a value that `value` describes.
+/// The schema of objects with a key at `path`, such as "sweep/rotation_deg", whose value satisfies
+/// the schema `value`.
 ordered_json has_path(const std::string& path, const ordered_json& value) {
   const std::size_t slash = path.find('/');
   const std::string key = path.substr(0, slash);
@@ -61,7 +62,7 @@ ordered_json has_path(const std::string& path, const ordered_json& value) {
   return schema;
 }
 
-/// Objects for which the condition of `rule` holds.
+/// The schema of objects that satisfy the condition of `rule`.
 ordered_json condition_schema(const params::KeyRule& rule) {
   const ordered_json any = ordered_json::object();
   if (rule.words.empty()) {
@@ -88,12 +89,12 @@ ordered_json rule_schema(const params::KeyRule& rule) {
   return {{"if", condition_schema(rule)}, {"then", then}};
 }
 
-/// The object of a group, or each object of a map or a list.
+/// The schema of the object of a group, or of each object of a map or list.
 ordered_json object_schema(const ParameterDoc& parameter) {
   ordered_json schema = croon::object_schema(parameter.members, parameter.rules);
   if (parameter.preset_json.empty()) return schema;
-  schema["properties"][params::kLikeKey] = {{"enum", parameter.choices},
-                                            {"description", "The preset to begin with."}};
+  schema["properties"][params::kLikeKey] = {
+      {"enum", parameter.choices}, {"description", "The preset that supplies the other values."}};
   if (schema.contains("required")) {
     // A preset has a value for every key.
     schema["anyOf"] = {has_keys({params::kLikeKey}), {{"required", schema["required"]}}};
@@ -197,8 +198,7 @@ ordered_json object_schema(const std::vector<ParameterDoc>& members,
 
 namespace {
 
-/// Any stage of `kind`. The enumeration of names is what an editor offers before the name is
-/// written.
+/// The schema of any stage of `kind`. The enumeration of names lets editors complete a name.
 ordered_json kind_schema(const Catalogue& catalogue, const std::string& kind) {
   const std::vector<std::string> names = catalogue.names(kind);
   if (names.empty()) return {{"not", ordered_json::object()}};
@@ -228,8 +228,8 @@ ordered_json stage_schema(const StageEntry& entry) {
           {"additionalProperties", false}};
 }
 
-/// The kinds that the schema refers to: those that have stages, those of an experiment's own keys,
-/// and those of slots.
+/// The kinds to which the schema refers: kinds with stages, the kinds in an experiment's own keys,
+/// and the kinds of slots.
 std::vector<std::string> referred_kinds(const Catalogue& catalogue) {
   std::vector<std::string> kinds;
   for (const StageKind& kind : catalogue.kinds()) kinds.push_back(kind.name);

@@ -18,17 +18,17 @@
 namespace croon::benchmarks {
 namespace {
 
-/// The leaves of both clouds at a pose, and the memory of what they were counted with, beside the
+/// The number of leaves of both clouds at a pose, and the memory used for counting, without the
 /// points.
 struct Count {
   std::int64_t leaves = 0;
-  std::size_t bytes = 0;  ///< Only if asked for: it takes time to find out.
+  std::size_t bytes = 0;  ///< Only if requested, because measuring it takes time.
 };
 
-/// A way to count; bound to clouds and a leaf size.
+/// A counting method, bound to clouds and a leaf size.
 using Counter = std::function<Count(const RigidTransform&, bool with_bytes)>;
 
-/// What has been allocated since the construction, if it is asked for.
+/// The bytes allocated since construction, if requested.
 class Allocated {
  public:
   explicit Allocated(bool is_asked_for)
@@ -40,9 +40,9 @@ class Allocated {
   std::size_t before_;
 };
 
-/// As the code of the paper's authors does (lidar2lidar, commit c0e1e2b): each pose puts the points
-/// of both clouds into an octree for searches. Its lattice begins at the first point, and its
-/// points are float, so the counts differ a little.
+/// As in the code of the paper's authors (lidar2lidar, commit c0e1e2b): each pose inserts the
+/// points of both clouds into a search octree. Its lattice begins at the first point, and its
+/// points are float, so the counts differ slightly.
 Counter pcl_octree(const CloudPair& pair, double leaf_size_m) {
   return [&pair, leaf_size_m](const RigidTransform& T, bool with_bytes) -> Count {
     const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZI>>();
@@ -61,7 +61,7 @@ Counter pcl_octree(const CloudPair& pair, double leaf_size_m) {
   };
 }
 
-/// An occupancy map of both clouds for each pose. Its nodes are not merged and hold no rays.
+/// An occupancy map of both clouds for each pose, without merging nodes and without ray casting.
 Counter octomap_tree(const CloudPair& pair, double leaf_size_m) {
   return [&pair, leaf_size_m](const RigidTransform& T, bool with_bytes) -> Count {
     const Allocated allocated(with_bytes);
@@ -75,7 +75,7 @@ Counter octomap_tree(const CloudPair& pair, double leaf_size_m) {
   };
 }
 
-/// A mask grid of both clouds for each pose, by the library's own transform.
+/// A mask grid of both clouds for each pose, with the library's own transform.
 Counter openvdb_plain(const CloudPair& pair, double leaf_size_m) {
   return [&pair, leaf_size_m](const RigidTransform& T, bool with_bytes) -> Count {
     const Allocated allocated(with_bytes);
@@ -103,8 +103,7 @@ Counter registered(const std::string& name, const CloudPair& pair, double leaf_s
   };
 }
 
-/// How far a count may be from ours: the lattice of PCL's tree is another one, and rounding
-/// differs.
+/// Throws if a count differs too much from ours. PCL's lattice and rounding differ.
 void check_counts(const std::string& name, const Counter& counter, const Counter& ours,
                   const CloudPair& pair, double bound_ratio) {
   for (const RigidTransform& pose : poses_near(pair, is_large(pair) ? 1 : 4, 1.0, 0.1)) {
@@ -136,7 +135,7 @@ void check_and_add() {
     pairs.push_back(std::move(pair));
   }
   for (const CloudPair& pair : pairs) {
-    // Of 2e7 points, PCL and OctoMap build trees for half a minute, for every pose.
+    // With 2e7 points, PCL and OctoMap build trees for half a minute per pose.
     constexpr std::size_t kManyPoints = 5000000;
     const bool is_slow = pair.source.size() > kManyPoints;
     for (const double leaf_size_m : is_slow ? std::vector{0.1} : std::vector{0.05, 0.1}) {

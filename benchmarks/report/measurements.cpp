@@ -18,14 +18,14 @@ double in_ms(double time, const std::string& unit) {
   return time * ms.at(unit);
 }
 
-/// Without what Google Benchmark adds.
+/// The name without Google Benchmark's suffixes.
 std::string own_name(const std::string& name) {
   const std::string ending = "/real_time";
   const std::size_t at = name.rfind(ending);
   return at != std::string::npos && at + ending.size() == name.size() ? name.substr(0, at) : name;
 }
 
-/// The parts of a name; nothing if it asks something else.
+/// The parts of a name; std::nullopt for a benchmark of another form.
 std::optional<Measurement> measurement_of(const std::string& name) {
   static const std::regex pattern(R"(^(pose|bind|batch|floor)/(.+)/leaf_size_m:([0-9.]+)/(\w+)$)");
   std::smatch match;
@@ -62,8 +62,8 @@ Machine machine_of(const json& context) {
   return machine;
 }
 
-/// What one line says of its benchmark: with repetitions there is one for the median, and one for
-/// the coefficient of variation.
+/// Whether the line has the coefficient of variation; with repetitions there is also one with the
+/// median.
 bool is_spread(const json& line) { return line.value("aggregate_name", "") == "cv"; }
 bool is_time(const json& line) {
   const std::string aggregate = line.value("aggregate_name", "");
@@ -86,7 +86,7 @@ void add_line(const json& line, PlainTime& time) {
   time.unit = line.at("time_unit");
 }
 
-/// Adds a line to the entry of its name in `list`; `entry` is that of a name not seen before.
+/// Adds a line to the entry with its name in `list`; `entry` is the initial entry of a new name.
 template <class Entry>
 void add_to(std::vector<Entry>& list, std::map<std::string, std::size_t>& places,
             const std::string& name, const Entry& entry, const json& line) {
@@ -123,7 +123,7 @@ BenchmarkRun read_run(const std::filesystem::path& file) {
     return run_of(json::parse(text), file.string());
   } catch (const json::exception& error) {
     throw InputError(file.string(), "",
-                     std::string("expected what --benchmark_out writes: ") + error.what());
+                     std::string("expected a file from --benchmark_out: ") + error.what());
   }
 }
 

@@ -7,34 +7,34 @@
 
 namespace croon::benchmarks {
 
-/// What a benchmark of volume scorers measured: one line of Google Benchmark's JSON whose name is
+/// The result of a benchmark of volume scorers: one line of Google Benchmark's JSON named
 /// `<question>/<clouds>/leaf_size_m:<size>/<scorer>`.
 struct Measurement {
   std::string question;  ///< "pose", "bind", "batch" or "floor".
   std::string clouds;    ///< "carla/004069/front".
   double leaf_size_m = 0.0;
   std::string scorer;
-  double time_ms = 0.0;          ///< Of one pose, or to bind; the median of the repetitions.
+  double time_ms = 0.0;          ///< For one pose, or for binding; the median of the repetitions.
   std::optional<double> spread;  ///< The coefficient of variation of the repetitions.
   std::optional<double> source_points;
-  std::optional<double> memory_bytes;  ///< What a bound scorer keeps.
+  std::optional<double> memory_bytes;  ///< Memory of a bound scorer.
 };
 
-/// What any other benchmark measured, whose name is `<subject>/<way>`: of a subject, such as a
-/// cloud, the time by one way to do it, such as a stage.
+/// The result of any other benchmark, named `<subject>/<way>`: the time for a subject, such as a
+/// cloud, with one method, such as a stage.
 struct PlainTime {
   std::string subject;
   std::string way;
   double time = 0.0;  ///< The median of the repetitions.
-  std::string unit;   ///< Google Benchmark's word: "ms".
+  std::string unit;   ///< As in Google Benchmark: "ms".
   std::optional<double> spread;
 };
 
-/// Where and when a run was made.
+/// The machine and date of a run.
 struct Machine {
   std::string date, commit, cpu;
   int cores = 0;
-  double load = 0.0;  ///< Of the minute before the run.
+  double load = 0.0;  ///< Average over the minute before the run.
   std::vector<std::string> caches;
 };
 
@@ -46,8 +46,8 @@ struct BenchmarkRun {
   std::vector<PlainTime> times;           ///< In the order of the file.
 };
 
-/// Reads the file that `--benchmark_out` wrote. Throws InputError if it is no such file, or a
-/// benchmark in it failed.
+/// Reads a file written by `--benchmark_out`. Throws InputError if it is invalid, or if a benchmark
+/// in it failed.
 BenchmarkRun read_run(const std::filesystem::path& file);
 
 }  // namespace croon::benchmarks

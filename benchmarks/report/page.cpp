@@ -15,17 +15,17 @@ namespace {
 
 using Measurements = std::vector<const Measurement*>;
 
-/// The measurements that `holds` is true for, in their order.
-template <class Holds>
-Measurements those(const BenchmarkRun& run, const Holds& holds) {
+/// The measurements for which `is_wanted` is true, in order.
+template <class IsWanted>
+Measurements those(const BenchmarkRun& run, const IsWanted& is_wanted) {
   Measurements found;
   for (const Measurement& one : run.measurements) {
-    if (holds(one)) found.push_back(&one);
+    if (is_wanted(one)) found.push_back(&one);
   }
   return found;
 }
 
-/// The different values of `of`, in the order of the measurements.
+/// The distinct values of `of`, in the order of the measurements.
 template <class Value, class Of>
 std::vector<Value> distinct(const Measurements& measurements, const Of& of) {
   std::vector<Value> values;
@@ -46,7 +46,7 @@ const Measurement* find(const Measurements& measurements, const std::string& clo
   return nullptr;
 }
 
-/// Three digits that count.
+/// The value with three significant digits.
 std::string three_digits(double value) {
   const int before = value > 0.0 ? static_cast<int>(std::floor(std::log10(value))) : 0;
   return fixed_number(value, std::clamp(2 - before, 0, 6));
@@ -74,8 +74,8 @@ Measurements asking(const BenchmarkRun& run, const std::string& question) {
 
 double time_of(const Measurement& one) { return one.time_ms; }
 
-/// A row for each clouds and leaf size, a column for each scorer. `cell` makes the text of a
-/// `value` from it and the least of its row.
+/// A row for each pair of clouds and leaf size, a column for each scorer. `cell` formats a `value`,
+/// given the minimum of its row.
 template <class Value, class CellText>
 std::string scorers_table(const Measurements& all, const Value& value, const CellText& cell) {
   if (all.empty()) return "";
@@ -85,17 +85,17 @@ std::string scorers_table(const Measurements& all, const Value& value, const Cel
   std::string text = header_of(titles);
   for (const std::string& clouds : distinct<std::string>(all, &Measurement::clouds)) {
     for (const double leaf_size_m : distinct<double>(all, &Measurement::leaf_size_m)) {
-      double least = std::numeric_limits<double>::infinity();
+      double minimum = std::numeric_limits<double>::infinity();
       for (const Measurement* one : all) {
         if (one->clouds == clouds && one->leaf_size_m == leaf_size_m) {
-          least = std::min(least, value(*one));
+          minimum = std::min(minimum, value(*one));
         }
       }
-      if (std::isinf(least)) continue;
+      if (std::isinf(minimum)) continue;
       std::vector<std::string> cells = {clouds + ", " + size_text(leaf_size_m)};
       for (const std::string& scorer : scorers) {
         const Measurement* one = find(all, clouds, leaf_size_m, scorer);
-        cells.push_back(one == nullptr ? "-" : cell(value(*one), least));
+        cells.push_back(one == nullptr ? "-" : cell(value(*one), minimum));
       }
       text += row_of(cells);
     }
@@ -103,35 +103,36 @@ std::string scorers_table(const Measurements& all, const Value& value, const Cel
   return text;
 }
 
-/// Three digits, the least of a row bold.
-std::string bold_if_least(double value, double least) {
+/// Three significant digits, the minimum of a row in bold.
+std::string bold_if_minimum(double value, double minimum) {
   const std::string text = three_digits(value);
-  return value == least ? "**" + text + "**" : text;
+  return value == minimum ? "**" + text + "**" : text;
 }
 
 std::string times_table(const BenchmarkRun& run, const std::string& question) {
-  return scorers_table(asking(run, question), time_of, bold_if_least);
+  return scorers_table(asking(run, question), time_of, bold_if_minimum);
 }
 
 std::string memory_table(const BenchmarkRun& run) {
   const Measurements all = those(run, [](const Measurement& one) { return one.memory_bytes; });
   return scorers_table(
       all, [](const Measurement& one) { return *one.memory_bytes / (1024.0 * 1024.0); },
-      bold_if_least);
+      bold_if_minimum);
 }
 
-/// How many times as long as the fastest each takes for a pose.
+/// The time for a pose, relative to the fastest scorer.
 std::string ratios_table(const BenchmarkRun& run) {
   return scorers_table(asking(run, "pose"), time_of, [](double time_ms, double best_ms) {
     return three_digits(time_ms / best_ms);
   });
 }
 
-/// The times of a pose of all scorers over `x`, at the measurements that `holds` is true for.
-template <class Holds, class X>
-std::vector<TimesLine> lines_over(const BenchmarkRun& run, const Holds& holds, const X& x) {
+/// The times of all scorers for a pose over `x`, for the measurements for which `is_wanted` is
+/// true.
+template <class IsWanted, class X>
+std::vector<TimesLine> lines_over(const BenchmarkRun& run, const IsWanted& is_wanted, const X& x) {
   const Measurements all =
-      those(run, [&](const Measurement& one) { return one.question == "pose" && holds(one); });
+      those(run, [&](const Measurement& one) { return one.question == "pose" && is_wanted(one); });
   std::vector<TimesLine> lines;
   for (const std::string& scorer : distinct<std::string>(all, &Measurement::scorer)) {
     std::vector<std::pair<double, double>> points;
@@ -151,9 +152,8 @@ std::vector<TimesLine> lines_over(const BenchmarkRun& run, const Holds& holds, c
 
 bool is_street(const Measurement& one) { return one.clouds.rfind("street", 0) == 0; }
 
-/// What a pose of each scorer costs per point of the source, and how far what no scorer can do
-/// without (`floor`) is below it: reading the points, and their transformation with the keys of
-/// their leaves.
+/// The cost of each scorer per pose and point of the source, and its lower bounds (`floor`):
+/// reading the points, and transforming them and computing the keys of their leaves.
 std::string limits_table(const BenchmarkRun& run) {
   const Measurements all = asking(run, "floor");
   const Measurements floors = those(
@@ -207,7 +207,7 @@ std::vector<std::string> ways_of(const Times& row) {
   return ways;
 }
 
-/// The times that are not of volume scorers. Subjects with the same ways make one table.
+/// The times of other benchmarks. Subjects with the same methods share a table.
 std::string plain_tables(const BenchmarkRun& run) {
   std::vector<std::string> subjects;
   std::map<std::string, Times> rows;
@@ -238,12 +238,13 @@ std::string machine_sentence(const BenchmarkRun& run) {
                      std::to_string(machine.cores) + " cores, " + machine.cpu;
   for (const std::string& cache : machine.caches) text += ", " + cache;
   text += "; load before the run " + fixed_number(machine.load, 2) + ".";
-  double widest = 0.0;
-  for (const Measurement& one : run.measurements) widest = std::max(widest, one.spread.value_or(0));
-  for (const PlainTime& one : run.times) widest = std::max(widest, one.spread.value_or(0));
-  if (widest > 0.0) {
+  double max_spread = 0.0;
+  for (const Measurement& one : run.measurements)
+    max_spread = std::max(max_spread, one.spread.value_or(0));
+  for (const PlainTime& one : run.times) max_spread = std::max(max_spread, one.spread.value_or(0));
+  if (max_spread > 0.0) {
     text += " The coefficient of variation of the repetitions is at most " +
-            fixed_number(100.0 * widest, 0) + " %.";
+            fixed_number(100.0 * max_spread, 0) + " %.";
   }
   return text + "\n\n";
 }
@@ -269,10 +270,10 @@ void add_run(Page& page, const BenchmarkRun& run) {
       std::any_of(run.measurements.begin(), run.measurements.end(),
                   [](const Measurement& one) { return one.scorer.rfind("peer_", 0) == 0; });
   add_section(page, "One pose",
-              "To score one pose of clouds to which the scorer is bound, ms. The fastest is bold.",
+              "Time to score one pose with a bound scorer, ms. The fastest is bold.",
               times_table(run, "pose"));
   if (has_peers) {
-    add_section(page, "Against the fastest", "The same over the fastest of the row.",
+    add_section(page, "Against the fastest", "The same, relative to the fastest in the row.",
                 ratios_table(run));
   }
   const std::string prefix = "benchmarks_" + run.program + "_";
@@ -293,21 +294,22 @@ void add_run(Page& page, const BenchmarkRun& run) {
                     run, [&](const Measurement& one) { return one.clouds == clouds; },
                     [](const Measurement& one) { return one.leaf_size_m; }));
   }
-  add_section(page, "Per point, and what limits it",
-              "A pose must transform every point of the source and find the key of its leaf: 12 "
-              "bytes read, 18 multiplications and additions and three keys for a point. Reading "
-              "alone is what memory allows: 12 bytes over its time is the bandwidth. Keys alone, "
-              "with the same code, are the limit; all else is the table of leaves.",
-              limits_table(run));
-  add_section(page, "Many poses",
-              "One pose of a batch of 64, which a scorer may spread over all cores, ms.",
-              times_table(run, "batch"));
-  add_section(page, "To bind", "To bind a scorer to two new clouds, ms.", times_table(run, "bind"));
   add_section(
-      page, "Memory",
-      "What a scorer keeps of two clouds to which it is bound, or the tree that a peer makes "
-      "of both at a pose, MiB, beside their points.",
-      memory_table(run));
+      page, "Per point, and what limits it",
+      "A pose must transform every point of the source and find the key of its leaf: 12 bytes "
+      "read, 18 multiplications and additions and three keys per point. Reading alone is limited "
+      "by memory: 12 bytes divided by its time is the bandwidth. Keys alone, computed with the "
+      "same code, are the lower bound; the rest is the table of leaves.",
+      limits_table(run));
+  add_section(page, "Many poses",
+              "Time per pose in a batch of 64, which a scorer may distribute over all cores, ms.",
+              times_table(run, "batch"));
+  add_section(page, "To bind", "Time to bind a scorer to two new clouds, ms.",
+              times_table(run, "bind"));
+  add_section(page, "Memory",
+              "Memory of a scorer bound to two clouds, or of the tree that a peer builds from both "
+              "at a pose, MiB, without their points.",
+              memory_table(run));
   page.markdown += plain_tables(run);
 }
 
@@ -316,11 +318,9 @@ void add_run(Page& page, const BenchmarkRun& run) {
 Page page_of(const std::vector<BenchmarkRun>& runs) {
   Page page;
   page.markdown =
-      "# What it costs\n\n"
-      "`benchmarks/report.sh` wrote this page from the files of Google Benchmark; "
-      "[benchmarks](../../benchmarks/README.md) says what each program measures and what it checks "
-      "before "
-      "it times anything. Times are medians of wall time.\n\n";
+      "# What it costs\n\n`benchmarks/report.sh` generated this page from the files of Google "
+      "Benchmark; [benchmarks](../../benchmarks/README.md) describes what each program measures and "
+      "what it verifies first. Times are medians of wall time.\n\n";
   for (const BenchmarkRun& run : runs) add_run(page, run);
   while (page.markdown.size() > 1 && page.markdown[page.markdown.size() - 2] == '\n') {
     page.markdown.pop_back();

@@ -8,19 +8,19 @@
 
 namespace croon::benchmarks {
 
-/// A picture of the page, and the name of its file.
+/// A picture on the page, and its file name.
 struct PagePicture {
   std::string name;
   Drawing drawing;
 };
 
-/// A page of docs/notebook: tables and pictures of runs, each run in tables of its own.
+/// A page of docs/notebook: tables and pictures of runs, with separate tables for each run.
 struct Page {
   std::string markdown;
   std::vector<PagePicture> pictures;
 };
 
-/// The page of `runs`. Times of two runs are never in one table.
+/// The page of `runs`. A table never mixes times of two runs.
 Page page_of(const std::vector<BenchmarkRun>& runs);
 
 }  // namespace croon::benchmarks

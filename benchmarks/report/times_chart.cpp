@@ -26,7 +26,7 @@ Interval exponents_around(const std::vector<TimesLine>& lines,
   return {range.low - margin, range.high + margin};
 }
 
-/// The values 1, 2 and 5 times a power of ten within the range; powers alone if it is long.
+/// The values 1, 2 and 5 times a power of ten within the range; only powers if it is long.
 std::vector<double> ticks_of(const Interval& exponents) {
   const bool is_long = exponents.high - exponents.low > 2.5;
   std::vector<double> ticks;

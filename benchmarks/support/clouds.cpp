@@ -38,7 +38,7 @@ Points without_ground(const Points& cloud) {
 
 CloudPair street(int target_count, int source_count) {
   Rng rng(StreamKey(1).with("street pair"));
-  // Askew, as a sensor sees a street: walls along the axes would be a special case.
+  // Rotated like a real sensor: walls along the axes would be a special case.
   const RigidTransform T_target_street = test::random_pose(rng, 0.5);
   const RigidTransform T_target_source = test::random_pose(rng, 1.0);
   const test::StreetPair pair =

@@ -8,36 +8,36 @@
 
 namespace croon::benchmarks {
 
-/// Two clouds of one place, each in its sensor's frame, and how they lie to each other.
+/// Two clouds of one place, each in its sensor's frame, and their relative pose.
 struct CloudPair {
   std::string name;
   Points target;
   Points source;
-  RigidTransform T_target_source;  ///< The truth; for a recording without one the drawing's pose.
+  RigidTransform T_target_source;  ///< Ground truth, or the nominal pose of a recording without it.
 };
 
 /// A street (test/support), `target_count` points for the target and `source_count` for the source.
 CloudPair street(int target_count, int source_count);
 
-/// Streets of 1e3, 1e4 and 1e5 points in each cloud; of up to CROON_BENCHMARK_POINTS, if that is
-/// set, and of no more than 1e7.
+/// Streets with 1e3, 1e4 and 1e5 points in each cloud; up to CROON_BENCHMARK_POINTS, if set, but no
+/// more than 1e7.
 std::vector<CloudPair> streets();
 
-/// Whether a pair has so many points that a pose takes a second with a slow scorer.
+/// Whether a pair is so large that a pose takes a second with a slow scorer.
 bool is_large(const CloudPair& pair);
 
-/// The first sensor of one CARLA and one real sample below the folder CROON_DATA; none where it is
-/// not set.
+/// The first sensor of one CARLA and one real sample below the folder CROON_DATA; none if it is not
+/// set.
 std::vector<CloudPair> samples();
 
 /// The pair without its ground, as the stage `ransac` finds it.
 CloudPair non_ground(const CloudPair& pair);
 
-/// A new cloud that has computed nothing yet.
+/// A new cloud without cached data.
 std::shared_ptr<const Cloud> fresh(const Points& points);
 
-/// `count` poses within +-`rotation_deg` and +-`translation_m` per axis of the pair's; the same
-/// every time.
+/// `count` reproducible poses within +-`rotation_deg` and +-`translation_m` per axis of the pair's
+/// pose.
 std::vector<RigidTransform> poses_near(const CloudPair& pair, int count, double rotation_deg,
                                        double translation_m);
 

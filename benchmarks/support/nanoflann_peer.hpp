@@ -7,8 +7,8 @@
 
 namespace croon::benchmarks {
 
-/// nanoflann with its own result set and leaf size, as its examples use it. It shares nothing with
-/// KdTree, whose changes must not move what it is compared with.
+/// nanoflann with its own result set and leaf size, as its examples use it. It shares no code with
+/// KdTree, so that changes there do not affect the comparison.
 class NanoflannPeer {
  public:
   explicit NanoflannPeer(const Points& points) : points_{points}, tree_(3, points_) {

@@ -25,7 +25,8 @@ int& failures() {
 
 std::size_t allocated_bytes() {
 #ifdef CROON_WITH_JEMALLOC
-  // What is freed counts once it has left the thread's cache, and numbers are those of an epoch.
+  // Freed memory counts only after it leaves the thread's cache, and statistics are updated per
+  // epoch.
   mallctl("thread.tcache.flush", nullptr, nullptr, nullptr, 0);
   std::uint64_t epoch = 1;
   mallctl("epoch", nullptr, nullptr, &epoch, sizeof(epoch));
@@ -55,8 +56,8 @@ void add(const std::string& name, benchmark::TimeUnit unit,
 }
 
 int run(int argc, char** argv, const std::function<void()>& check_and_add) {
-  // Short, so that all programs together stay within minutes; first, so that the caller's own flag
-  // wins.
+  // Short, so that all programs together take minutes; first, so that the caller's own flag takes
+  // precedence.
   std::string min_time = "--benchmark_min_time=0.05";
   std::vector<char*> arguments(argv, argv + argc);
   arguments.insert(arguments.begin() + 1, min_time.data());
@@ -66,7 +67,7 @@ int run(int argc, char** argv, const std::function<void()>& check_and_add) {
   try {
     check_and_add();
   } catch (const std::exception& error) {
-    std::cerr << "not measured, because it is wrong: " << error.what() << '\n';
+    std::cerr << "not measured, because a check failed: " << error.what() << '\n';
     return 1;
   }
   benchmark::RunSpecifiedBenchmarks();

@@ -8,16 +8,16 @@
 
 namespace croon::benchmarks {
 
-/// The main function of a benchmark program: calls `check_and_add`, which checks that what is to be
-/// measured is right (throws where it is not) and registers the benchmarks, and runs them. Returns
-/// the exit code: 1 where the check or a benchmark failed, 2 where an argument is unknown.
+/// The main function of a benchmark program: calls `check_and_add`, which verifies the results of
+/// the code to be measured (throws if they are wrong) and registers the benchmarks, and runs them.
+/// Returns the exit code: 1 if the check or a benchmark failed, 2 if an argument is unknown.
 int run(int argc, char** argv, const std::function<void()>& check_and_add);
 
-/// How many bytes the process has allocated and not freed, by malloc or new.
+/// The number of bytes that the process has allocated with malloc or new and not freed.
 std::size_t allocated_bytes();
 
-/// Registers `measure` under `name`. Wall time, because a stage may use more than one thread. What
-/// `measure` throws ends it as failed.
+/// Registers `measure` under `name`. Measures wall time, because a stage may use several threads.
+/// An exception from `measure` marks it as failed.
 void add(const std::string& name, benchmark::TimeUnit unit,
          const std::function<void(benchmark::State&)>& measure);
 

@@ -115,7 +115,7 @@ std::string claims_text(const std::vector<ClaimResult>& results, const std::vect
   std::string text;
   if (!results.empty()) {
     View view = claims_view("[", "]");
-    view.widest_name = kWidestName;
+    view.max_name_columns = kWidestName;
     const std::string table = text_table(claim_columns().table(results), view, style.colours);
     const std::regex out("out\n");  // In red.
     text += "\nclaims: " + verdict_counts(results) + "\n";
@@ -125,7 +125,7 @@ std::string claims_text(const std::vector<ClaimResult>& results, const std::vect
   if (!quoted.empty()) {
     const Table table = quoted_table(quoted, summary);
     View view = whole_view(table, 3);
-    view.widest_name = kWidestName;
+    view.max_name_columns = kWidestName;
     text += "\nother methods, as their sources have them, and ours\n" +
             text_table(table, view, style.colours);
   }

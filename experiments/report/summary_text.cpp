@@ -212,7 +212,7 @@ std::string reason_text(const Summary& summary, const TableStyle& style) {
   const std::size_t shown = std::min(style.max_reasons, summary.reasons.size());
   const auto first_left = summary.reasons.begin() + static_cast<std::ptrdiff_t>(shown);
   View view{{{"status"}, {"reason"}, {"trials", "<count>"}}, 2};
-  view.widest_name = 80;
+  view.max_name_columns = 80;
   std::string text =
       "\n" + text_by_variant(reason_columns().table({summary.reasons.begin(), first_left}), view,
                              summary, style);

@@ -20,20 +20,20 @@
 namespace croon {
 namespace {
 
-/// Reading takes about this share of the time.
+/// Approximate share of the time spent on reading, for progress reports.
 constexpr double kReadingShare = 0.2;
 
-/// One sensor in one scene: its member of the rig, or why it is none.
+/// One sensor in one scene: its member of the rig, or the reason why it has none.
 struct Part {
   std::string scene, sensor;
-  std::size_t member = 0;  ///< If `why_not` is empty.
+  std::size_t member = 0;  ///< Valid if `why_not` is empty.
   std::string why_not;
 };
 
-/// What is calibrated together.
+/// The members that are calibrated together.
 struct RigInput {
   std::vector<CalibrationMember> members;
-  std::vector<Part> parts;  ///< By scene and then by sensor.
+  std::vector<Part> parts;  ///< By scene, then by sensor.
 };
 
 /// Throws InputError if the scenes are not of one rig.
@@ -47,7 +47,7 @@ void check_scenes(const std::vector<Scene>& scenes) {
   }
 }
 
-/// The composition that `options` name. "best" depends on whether the clouds have usable times.
+/// The composition that `options` selects. "best" depends on whether the clouds have usable times.
 Composition chosen_composition(const CalibrationOptions& options,
                                const std::vector<SceneClouds>& scenes, const Catalogue& catalogue,
                                std::string& reason) {
@@ -60,13 +60,13 @@ Composition chosen_composition(const CalibrationOptions& options,
     reason = "the times of all clouds are usable, so the vehicle's motion is estimated";
     return embedded_composition("driving", catalogue);
   }
-  reason =
-      doubt.reason + ", so motion is not corrected; scenes in which it moves poses are rejected";
+  reason = doubt.reason +
+           ", so motion is not corrected; scenes in which it would affect poses are rejected";
   return doubt.are_clocks_apart ? unsynchronised_composition(catalogue)
                                 : embedded_composition("standing", catalogue);
 }
 
-/// The clouds for the steps of `composition`; takes them from `scenes`.
+/// The clouds for the steps of `composition`, moved out of `scenes`.
 RigInput rig_input(std::vector<SceneClouds>& scenes, const Composition& composition,
                    std::uint64_t seed, std::vector<std::string>& unused) {
   std::set<std::string> channels = composition.target_channels;
@@ -100,7 +100,7 @@ RigInput rig_input(std::vector<SceneClouds>& scenes, const Composition& composit
   return input;
 }
 
-/// The sensors by name.
+/// The results of the sensors, in the order of `names`.
 std::vector<CalibratedSensor> sensor_results(const RigInput& input,
                                              const std::vector<MemberResult>& results,
                                              const std::vector<std::string>& names) {
@@ -123,14 +123,14 @@ std::size_t accepted_of(const std::vector<CalibratedSensor>& sensors) {
                     [](const CalibratedSensor& sensor) { return sensor.is_accepted; }));
 }
 
-/// The sensors' results, and those in single scenes.
+/// The results of the sensors, and of their members in single scenes.
 struct Outcome {
   std::vector<CalibratedSensor> sensors;
   std::vector<MemberResult> members;
 };
 
-/// Gives the members of rejected sensors their nominal poses to start from. Returns whether there
-/// are any.
+/// Sets the nominal poses as initial guesses of the members of rejected sensors. Returns whether
+/// there was any.
 bool start_near_nominal(std::vector<CalibrationMember>& members, const RigInput& input,
                         const std::vector<CalibratedSensor>& sensors) {
   bool is_any = false;
@@ -145,8 +145,8 @@ bool start_near_nominal(std::vector<CalibrationMember>& members, const RigInput&
   return is_any;
 }
 
-/// Calibrates from nothing, so that a wrong nominal pose hides no rival; sensors that are rejected
-/// are tried again near their nominal poses.
+/// Calibrates without initial guesses, so that a wrong nominal pose cannot hide a rival; rejected
+/// sensors are tried again near their nominal poses.
 Outcome outcome_of(const Composition& composition, const RigInput& input,
                    const std::vector<std::string>& names, std::uint64_t seed,
                    const StepProgress& progress) {
@@ -162,7 +162,7 @@ Outcome outcome_of(const Composition& composition, const RigInput& input,
   return accepted_of(again.sensors) > accepted_of(outcome.sensors) ? again : outcome;
 }
 
-/// The pose of the reference over the road, and the heading of the rig.
+/// Computes the pose of the reference above the road and the heading of the rig.
 void set_ground(CalibratedRig& rig, const RigInput& input, std::uint64_t seed) {
   std::vector<const Points*> references;
   for (const CalibrationMember& member : input.members) {
@@ -174,7 +174,7 @@ void set_ground(CalibratedRig& rig, const RigInput& input, std::uint64_t seed) {
   rig.heading = heading_of_travel(rig.motion, rig.ground);
 }
 
-/// The scenes in which no sensor has a pose, because a step failed.
+/// Lists in `unused` the scenes in which no sensor has a pose because a step failed.
 void add_failed_scenes(const RigInput& input, const std::vector<MemberResult>& results,
                        std::vector<std::string>& unused) {
   for (std::size_t begin = 0; begin < input.members.size();) {
@@ -192,7 +192,7 @@ void add_failed_scenes(const RigInput& input, const std::vector<MemberResult>& r
   }
 }
 
-/// The velocity that steps estimated in each scene.
+/// The velocity that the steps estimated in each scene.
 std::vector<SceneMotionEstimate> motion_of(const RigInput& input,
                                            const std::vector<MemberResult>& results) {
   std::vector<SceneMotionEstimate> motion;
@@ -226,7 +226,7 @@ void require_members(const RigInput& input, const std::vector<std::string>& unus
   throw InputError(std::move(faults));
 }
 
-/// The notes on single clouds; those that a sensor has in several scenes once.
+/// The notes about single clouds, each once per sensor.
 std::vector<std::string> notes_on(const std::vector<NamedCloud>& clouds) {
   std::vector<std::string> notes;
   for (const NamedCloud& named : clouds) {
@@ -283,7 +283,7 @@ CalibratedRig calibrated(const std::vector<Scene>& scenes, const CalibrationOpti
 CalibratedRig calibrate_rig(const std::vector<Scene>& scenes, const CalibrationOptions& options,
                             const Catalogue& catalogue) {
   check_scenes(scenes);
-  // A pipeline that does not exist is refused before clouds are read.
+  // An unknown pipeline is reported before clouds are read.
   if (options.pipeline_text.empty()) composition_called(options.pipeline, catalogue);
   std::optional<CalibratedRig> rig;
   on_threads(options.jobs > 0 ? options.jobs : tbb::info::default_concurrency(),

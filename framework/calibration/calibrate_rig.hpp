@@ -14,24 +14,25 @@ namespace croon {
 
 /// How a rig is calibrated.
 struct CalibrationOptions {
-  /// "best" (corrects motion if the times of all clouds permit, else looks for motion that was not
-  /// corrected), "driving" or "paper"; or the file of a pipeline.
+  /// "best" (corrects motion if the times of all clouds allow it, otherwise checks for uncorrected
+  /// motion), "driving", "paper", or the path of a pipeline file.
   std::string pipeline = "best";
-  /// The JSON text of a pipeline, which messages call `pipeline`; if empty, that name counts.
+  /// The JSON text of a pipeline, which messages refer to as `pipeline`; if empty, `pipeline`
+  /// selects it.
   std::string pipeline_text = {};
-  /// Compare with the nominal poses, but do not start from them.
+  /// If true, nominal poses are compared with the result, but not used as initial guesses.
   bool from_scratch = false;
   std::uint64_t seed = 1;
-  int jobs = 0;  ///< Threads; 0: all cores.
-  /// Called with what is being worked on, and the share of the work that is done, 0 to 1.
+  int jobs = 0;  ///< Number of threads; 0: all cores.
+  /// Called with a description of the current work and the completed share of it, 0 to 1.
   std::function<void(const std::string& what, double done)> on_progress = {};
 };
 
 /// Calibrates the sensors of `scenes` to their common reference: one pose per sensor from all
-/// scenes. Initial guesses are not needed; SensorScan::nominal is used if it is there. A cloud that
-/// cannot be read or a scene that the pipeline cannot use is listed in CalibratedRig::unused.
-/// The same bits for any number of threads. Throws InputError if no scene has two usable clouds,
-/// or if the pipeline is unknown.
+/// scenes. Initial guesses are not required; SensorScan::nominal is used if present. Clouds that
+/// cannot be read and scenes that the pipeline cannot use are listed in CalibratedRig::unused.
+/// Bitwise the same result for any number of threads. Throws InputError if no scene has two usable
+/// clouds, or if the pipeline is unknown.
 CalibratedRig calibrate_rig(const std::vector<Scene>& scenes, const CalibrationOptions& options,
                             const Catalogue& catalogue);
 

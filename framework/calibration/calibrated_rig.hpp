@@ -24,31 +24,31 @@ struct SceneEstimate {
 struct CalibratedSensor {
   std::string sensor;
   bool is_accepted = false;
-  /// T_reference_sensor; of a rejected sensor the best guess, std::nullopt if there is none.
+  /// T_reference_sensor; for a rejected sensor the best guess, or std::nullopt if there is none.
   std::optional<RigidTransform> T_reference_sensor;
   std::optional<PoseCovariance> covariance;  ///< See PoseCovariance for its frame and units.
-  std::vector<std::string> reasons;          ///< Why it was rejected, in words; else empty.
+  std::vector<std::string> reasons;          ///< Why it was rejected; empty if accepted.
   std::vector<std::string> advice;           ///< What would help; empty if accepted.
-  std::optional<RigidTransform> nominal;     ///< The given pose T_reference_sensor.
+  std::optional<RigidTransform> nominal;     ///< The nominal T_reference_sensor.
   std::vector<SceneEstimate> scenes;         ///< By scene, in the order of the recording.
 };
 
-/// What one scene says about the rig's motion.
+/// The estimate of the rig's motion in one scene.
 struct SceneMotionEstimate {
   std::string scene;
-  Twist velocity;  ///< Of the reference, in its own frame; zero if the rig stood.
-  Matrix6d covariance = Matrix6d::Zero();  ///< About the axes in rad/s, along them in m/s.
+  Twist velocity;  ///< Of the reference, in its own frame; zero if the rig was at rest.
+  Matrix6d covariance = Matrix6d::Zero();  ///< Angular velocity in rad/s, then linear in m/s.
 };
 
-/// The reference's pose over the road, from its own ground plane. T_road_reference has the rotation
-/// Ry(pitch) Rx(roll), no yaw, and the translation (0, 0, height): z of the road's frame points up,
-/// its origin is on the road below the reference.
+/// The reference's pose above the road, from its own ground plane. T_road_reference has the
+/// rotation Ry(pitch) Rx(roll), no yaw, and the translation (0, 0, height): z of the road's frame
+/// points up, its origin is on the road below the reference.
 struct GroundPose {
   double roll_rad = 0.0, pitch_rad = 0.0, height_m = 0.0;
   double roll_std_rad = 0.0, pitch_std_rad = 0.0, height_std_m = 0.0;
 };
 
-/// Where the rig drives, seen from its reference: straight ahead of a vehicle.
+/// The rig's direction of travel in the frame of its reference: straight ahead of the vehicle.
 struct HeadingOfTravel {
   /// Yaw of the direction of travel in the levelled frame of the reference (GroundPose; without one
   /// the reference's own frame): the yaw of the reference in the vehicle frame is its negative.
@@ -61,13 +61,14 @@ struct HeadingOfTravel {
 struct CalibratedRig {
   std::string reference;
   std::vector<CalibratedSensor> sensors;  ///< In the order of the recording.
-  std::string composition;  ///< The pipeline that was used: "best", "driving", a file's name.
-  std::string composition_reason;     ///< Why it was chosen; empty if the caller named it.
+  /// Name of the pipeline that was used: "driving", "standing", a file name.
+  std::string composition;
+  std::string composition_reason;     ///< Why it was chosen; empty if the caller selected it.
   std::vector<std::string> warnings;  ///< One sentence each.
-  std::vector<std::string> unused;    ///< Scenes and clouds that took no part, with the reason.
-  std::vector<SceneMotionEstimate> motion;  ///< Of the scenes in which a velocity was estimated.
-  std::optional<GroundPose> ground;         ///< If the reference sees the ground.
-  std::optional<HeadingOfTravel> heading = {};  ///< If the rig drives straight in a scene.
+  std::vector<std::string> unused;    ///< Scenes and clouds that were not used, with the reasons.
+  std::vector<SceneMotionEstimate> motion;  ///< For the scenes in which a velocity was estimated.
+  std::optional<GroundPose> ground;         ///< Set if the reference sees the ground.
+  std::optional<HeadingOfTravel> heading = {};  ///< Set if the rig drives straight in a scene.
 };
 
 }  // namespace croon

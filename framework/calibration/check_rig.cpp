@@ -11,10 +11,10 @@
 namespace croon {
 namespace {
 
-/// From this number of standard deviations on, a degree of freedom is named.
+/// Minimum number of standard deviations from which a degree of freedom is reported.
 constexpr double kNamedDeviations = 3.0;
 
-/// With larger standard deviations nothing can be said along a degree of freedom.
+/// Maximum standard deviations at which a degree of freedom can be judged.
 constexpr double kMaxDeviation_rad = rad_from_deg(0.5);
 constexpr double kMaxDeviation_m = 0.1;
 
@@ -49,7 +49,7 @@ double in_deviations(const CheckedSensor& checked, int dof) {
   return std::abs(checked.difference(dof)) / checked.deviations(dof);
 }
 
-/// The degrees of freedom, those that are off by the most standard deviations first.
+/// The degrees of freedom, by decreasing number of standard deviations.
 std::vector<int> by_deviations(const CheckedSensor& checked) {
   std::vector<int> dofs(6);
   std::iota(dofs.begin(), dofs.end(), 0);
@@ -66,14 +66,14 @@ std::string dof_text(const CheckedSensor& checked, int dof) {
          fixed_number(in_deviations(checked, dof), 1) + " standard deviations)";
 }
 
-/// The degrees of freedom along which the given pose is off.
+/// The degrees of freedom in which the given pose is wrong.
 std::string off_text(const CheckedSensor& checked) {
   std::string text;
   for (const int dof : by_deviations(checked)) {
     if (in_deviations(checked, dof) < kNamedDeviations) break;
     text += (text.empty() ? "" : ", ") + dof_text(checked, dof);
   }
-  // Correlated errors may be significant together and not one by one.
+  // Correlated errors may be significant jointly but not individually.
   return text.empty() ? dof_text(checked, by_deviations(checked).front()) +
                             ", and more together with the other degrees of freedom"
                       : text;
@@ -98,7 +98,7 @@ std::string distance_text(const CheckedSensor& checked) {
   return fixed_number(checked.distance, 1) + " standard deviations";
 }
 
-/// Judges by an optimum that decides.
+/// Judges by an accepted optimum that was found without the given pose.
 void judge(CheckedSensor& checked) {
   const std::string uncertain = uncertain_text(checked);
   if (checked.distance > kWrongDistance) {
@@ -115,7 +115,7 @@ void judge(CheckedSensor& checked) {
   }
 }
 
-/// Judges by an optimum that was found near the given pose alone.
+/// Judges by an optimum that was accepted only near the given pose.
 void judge_near(CheckedSensor& checked) {
   if (checked.distance > kWrongDistance) {
     checked.judgement = PoseJudgement::wrong;
@@ -147,7 +147,7 @@ CheckedSensor check_sensor(const CalibratedSensor& from_nothing,
   checked.sensor = from_nothing.sensor;
   checked.given = from_nothing.nominal;
   if (!checked.given) {
-    checked.finding = "no pose of it was given";
+    checked.finding = "no pose was given for it";
     return checked;
   }
   if (from_nothing.is_accepted) {

@@ -12,11 +12,11 @@
 namespace croon {
 namespace {
 
-/// How far a pose may be from a nominal pose that a search starts from.
+/// Maximum distance of a pose from the nominal pose at which a search starts.
 constexpr double kMaxNominalRotation_deg = 30.0;
 constexpr double kMaxNominalTranslation_m = 1.0;
 
-/// The list of steps in `document`, or null.
+/// The list of steps in `document`; null if it has none.
 nlohmann::json* steps_of(nlohmann::json& document) {
   nlohmann::json* steps = &document;
   if (document.is_object() && document.contains("pipeline")) steps = &document.at("pipeline");
@@ -29,7 +29,7 @@ bool has_step(const nlohmann::json& steps, const std::string& type) {
   });
 }
 
-/// A pose that no step has verified is not accepted, so a pipeline without a verdict gets one.
+/// Appends a verdict and a covariance if they are missing: unverified poses must not be accepted.
 void append_missing_steps(nlohmann::json& steps) {
   for (const char* const type : {"verdict", "covariance"}) {
     if (!has_step(steps, type)) steps.push_back({{"step", type}});
@@ -44,8 +44,8 @@ bool has_use_start(const nlohmann::json& step, const Catalogue& catalogue) {
                      [](const params::ParameterDoc& doc) { return doc.key == "use_start"; });
 }
 
-/// The steps whose searches drop poses that are far from the start. What a file chooses itself
-/// stays.
+/// Restricts the searches of the steps to poses near the initial guess, unless the file sets
+/// `use_start` itself.
 void stay_near_start(nlohmann::json& steps, const Catalogue& catalogue) {
   for (nlohmann::json& step : steps) {
     if (!has_use_start(step, catalogue) || step.contains("use_start")) continue;
@@ -64,7 +64,7 @@ Composition composition_in(const std::string& text, const std::string& name,
   if (steps == nullptr && document.is_object() && document.contains("extends")) {
     throw InputError(file, "", "expected a list of steps as \"pipeline\", found \"extends\" alone");
   }
-  // A text without steps is parsed for its fault.
+  // For a text without steps, this throws the appropriate error.
   if (steps == nullptr || steps->empty()) parse_pipeline(text, file, catalogue);
   append_missing_steps(*steps);
   composition.from_nothing = parse_pipeline(document.dump(), file, catalogue);
@@ -95,7 +95,7 @@ Composition embedded_composition(const std::string& name, const Catalogue& catal
 }
 
 Composition unsynchronised_composition(const Catalogue& catalogue) {
-  // A tenth of a walking pace at 10 Hz: scans that are a second apart differ by 0.2 m.
+  // A tenth of walking pace at 10 Hz: scans that are a second apart differ by 0.2 m.
   constexpr double kMaxTravel_m = 0.02;
   nlohmann::json document = params::parse_json(embedded_pipelines().at("standing"), "standing");
   for (nlohmann::json& step : *steps_of(document)) {

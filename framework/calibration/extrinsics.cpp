@@ -11,20 +11,20 @@
 namespace croon {
 namespace {
 
-/// One row per format, in the order in which a content is compared with them. All poses map points
-/// of the sensor to the parent and all lengths are metres, unless a row says otherwise; roll, pitch
-/// and yaw mean R = Rz(yaw) Ry(pitch) Rx(roll), about the fixed axes of the parent.
+/// One row per format, in the order in which formats are tried when a file is read. All poses map
+/// points of the sensor to the parent and all lengths are metres, unless a row says otherwise;
+/// roll, pitch and yaw mean R = Rz(yaw) Ry(pitch) Rx(roll), about the fixed axes of the parent.
 const std::vector<ExtrinsicsFormat>& formats() {
   static const std::vector<ExtrinsicsFormat> table = {
-      // Quaternion x, y, z, w, each in an option of its own; older forms are read.
+      // Quaternion x, y, z, w as separate options; older forms can be read.
       ros2_format(),
       // Quaternion x, y, z, w as keys.
       ros2_yaml_format(),
       // Joint origins: xyz, rpy in radians.
       urdf_format(),
-      // x, y, z, roll, pitch, yaw in radians, below the parent's name.
+      // x, y, z, roll, pitch, yaw in radians, nested under the parent's name.
       autoware_format(),
-      // Quaternion x, y, z, w as keys, a file per sensor.
+      // Quaternion x, y, z, w as keys; one file per sensor.
       apollo_format(),
       // Tr_<sensor>_to_<parent>: the first three rows of the matrix, row after row.
       kitti_format(),
@@ -34,7 +34,7 @@ const std::vector<ExtrinsicsFormat>& formats() {
       kalibr_format(),
       // Roll, pitch, yaw in degrees, x, y, z by device; device 0 is the parent.
       opencalib_format(),
-      // The 4x4 matrix, a file per sensor.
+      // The 4x4 matrix; one file per sensor.
       matrix_format(),
       // Quaternion x, y, z, w; the poses must be in the frame of the reference.
       csv_format(),
@@ -48,34 +48,34 @@ const ExtrinsicsFormat& writable_format(const std::string& name) {
   for (const ExtrinsicsFormat& format : formats()) {
     if (format.name == name && format.write != nullptr) return format;
   }
-  throw InputError("", "",
-                   "unknown format " + in_quotes(name) + " of extrinsics" +
-                       name_hint(name, extrinsics_format_names()));
+  throw InputError(
+      "", "",
+      "unknown extrinsics format " + in_quotes(name) + name_hint(name, extrinsics_format_names()));
 }
 
-/// The content without a byte order mark and blanks in front.
+/// The content of `file` without a byte order mark.
 std::string content_of(const std::filesystem::path& file) {
   std::string text = read_whole_file(file);
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.erase(0, 3);
   return text;
 }
 
-/// Whether `format` recognises a text; formats look at its first character.
+/// Whether `format` recognises `text`, which is passed without leading blanks.
 bool recognises(const ExtrinsicsFormat& format, const std::string& text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   return begin != std::string::npos && format.recognises(text.substr(begin));
 }
 
-/// The word of each new axis is the worst of the old ones that contribute to it.
-DofWords turned_words(const DofWords& words, const Eigen::Matrix3d& R_new_parent) {
+/// The observability of each new axis is the worst of the old axes that contribute to it.
+DofWords turned_observability(const DofWords& observability, const Eigen::Matrix3d& R_new_parent) {
   constexpr double kMinShare = 0.1;
-  DofWords turned = words;
+  DofWords turned = observability;
   for (const std::size_t block : {0, 3}) {
     for (int i = 0; i < 3; ++i) {
       Observability worst = Observability::determined;
       for (int j = 0; j < 3; ++j) {
         if (std::abs(R_new_parent(i, j)) < kMinShare) continue;
-        worst = std::max(worst, words.at(block + static_cast<std::size_t>(j)));
+        worst = std::max(worst, observability.at(block + static_cast<std::size_t>(j)));
       }
       turned.at(block + static_cast<std::size_t>(i)) = worst;
     }
@@ -83,15 +83,15 @@ DofWords turned_words(const DofWords& words, const Eigen::Matrix3d& R_new_parent
   return turned;
 }
 
-/// The errors of a pose are about the parent's axes: they turn with them, from the same origin.
+/// Rotates a covariance to new axes of the parent; the origin does not matter for these errors.
 PoseCovariance turned_covariance(const PoseCovariance& covariance,
                                  const Eigen::Matrix3d& R_new_parent) {
   Matrix6d turn = Matrix6d::Zero();
   turn.topLeftCorner<3, 3>() = R_new_parent;
   turn.bottomRightCorner<3, 3>() = R_new_parent;
   const Matrix6d turned = turn * covariance.matrix * turn.transpose();
-  // Symmetric to the last bit.
-  return {0.5 * (turned + turned.transpose()), turned_words(covariance.dofs, R_new_parent)};
+  // Bitwise symmetric.
+  return {0.5 * (turned + turned.transpose()), turned_observability(covariance.dofs, R_new_parent)};
 }
 
 }  // namespace
@@ -147,7 +147,8 @@ Extrinsics in_frame_of_sensor(const Extrinsics& extrinsics, const std::string& r
                               const std::string& file) {
   const auto is_reference = [&](const ExtrinsicPose& pose) { return pose.sensor == reference; };
   const auto found = std::find_if(extrinsics.poses.begin(), extrinsics.poses.end(), is_reference);
-  // Several formats do not name the parent: without a pose of the reference it is the reference.
+  // Several formats do not name the parent: if the file has no pose of the reference, it is the
+  // parent.
   if (found == extrinsics.poses.end() &&
       (extrinsics.parent == reference || extrinsics.parent.empty())) {
     Extrinsics result = extrinsics;

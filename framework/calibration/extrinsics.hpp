@@ -10,13 +10,13 @@
 
 namespace croon {
 
-/// One sensor's pose as files of extrinsics hold it.
+/// One sensor's pose in a file of extrinsics.
 struct ExtrinsicPose {
   std::string sensor;  ///< The child frame.
   RigidTransform T_parent_sensor;
   bool is_accepted = true;
   std::optional<PoseCovariance> covariance = {};
-  /// False for a rejected sensor without a best guess: only `csv` has a row for it.
+  /// False for a rejected sensor without a best guess, which only `csv` lists.
   bool has_pose = true;
 };
 
@@ -26,34 +26,34 @@ struct Extrinsics {
   std::vector<ExtrinsicPose> poses;
 };
 
-/// A file that a format writes: its name and its content.
+/// The name and content of a file to be written.
 struct ExtrinsicsFile {
   std::string name;
   std::string text;
 };
 
-/// The formats by name: ros2, ros2-yaml, urdf, autoware, apollo, kitti, nuscenes, kalibr,
-/// opencalib, matrix, csv. docs/calibrate.md has the conventions of each.
+/// The names of the formats: ros2, ros2-yaml, urdf, autoware, apollo, kitti, nuscenes, kalibr,
+/// opencalib, matrix, csv. docs/calibrate.md explains their conventions.
 std::vector<std::string> extrinsics_format_names();
 
-/// The poses as files of `format`. Rejected poses are left out unless `with_rejected`, and then
-/// marked where the format can hold a mark; `csv` always has all of them with their verdict.
+/// The poses as files of `format`. Rejected poses are omitted unless `with_rejected` is set, and
+/// are then marked if the format allows it; `csv` always lists all of them with their verdict.
 /// Throws InputError, with the nearest name, for an unknown format.
 std::vector<ExtrinsicsFile> write_extrinsics(const Extrinsics& extrinsics,
                                              const std::string& format, bool with_rejected);
 
 /// Reads poses from a file in any of these formats or croon's own (extrinsics.json, nominal.json),
-/// recognised by its content. Throws InputError: unknown content, a matrix that is not a rotation,
-/// a quaternion without unit length, a missing value.
+/// recognised by its content. Throws InputError for unknown content, a matrix that is not a
+/// rotation, a quaternion without unit length, or a missing value.
 Extrinsics read_extrinsics(const std::filesystem::path& file);
 
-/// The same poses in the frame `parent` whose pose in the new frame is `T_new_parent`.
+/// The poses in the frame `new_parent`; `T_new_parent` maps the old parent to it.
 Extrinsics in_frame(const Extrinsics& extrinsics, const std::string& new_parent,
                     const RigidTransform& T_new_parent);
 
 /// The poses `T_reference_sensor` of all sensors but the reference. If the parent is not
 /// `reference`, the file must have a pose of the reference, which is inverted and removed. Throws
-/// InputError (naming `file`) if it has none.
+/// InputError, naming `file`, if it has none.
 Extrinsics in_frame_of_sensor(const Extrinsics& extrinsics, const std::string& reference,
                               const std::string& file);
 

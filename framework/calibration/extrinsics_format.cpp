@@ -15,8 +15,8 @@
 namespace croon {
 namespace {
 
-/// Files have rounded numbers: how far a matrix may be from a rotation, a quaternion from unit
-/// length.
+/// Maximum deviation of a matrix from a rotation, and of a quaternion from unit length: files have
+/// rounded numbers.
 constexpr double kFileRounding = 1e-3;
 
 std::string in_small_letters(std::string text) {
@@ -24,7 +24,7 @@ std::string in_small_letters(std::string text) {
   return text;
 }
 
-/// `name`, or the first of `name_2`, `name_3`, ... that is not taken.
+/// `name`, or the first of `name_2`, `name_3`, ... that is not in `taken`, to which it is added.
 std::string untaken(const std::string& name, std::set<std::string>& taken) {
   std::string result = name;
   for (int i = 2; !taken.insert(in_small_letters(result)).second; ++i) {
@@ -75,7 +75,7 @@ Extrinsics renamed(const Extrinsics& extrinsics, const NameRule& rule) {
   for (const ExtrinsicPose& pose : extrinsics.poses) names.push_back(pose.sensor);
   std::set<std::string> taken;
   std::vector<std::string> results(names.size());
-  // Names that need no change come first: they stay as they are.
+  // Names that need no change come first, so that they stay unchanged.
   for (const bool is_kept : {true, false}) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       std::string name = rule(names[i]);
@@ -105,10 +105,10 @@ std::string file_stem(const std::string& name) {
   std::string stem = ros_frame_name(name);
   std::replace_if(
       stem.begin(), stem.end(), [&](char c) { return !is_kept(c); }, '_');
-  // Neither hidden, nor an option of a command.
+  // Neither a hidden file nor a command-line option.
   if (!stem.empty() && (stem.front() == '.' || stem.front() == '-')) stem.front() = '_';
-  constexpr std::size_t kMostStemBytes = 200;
-  return stem.substr(0, kMostStemBytes);
+  constexpr std::size_t kMaxStemBytes = 200;
+  return stem.substr(0, kMaxStemBytes);
 }
 
 Eigen::Matrix3d checked_quaternion(const Eigen::Vector4d& xyzw, const FilePlace& place) {
@@ -137,7 +137,7 @@ Eigen::Matrix3d checked_radians(const Eigen::Vector3d& rpy_rad, const FilePlace&
   for (const double angle : rpy_rad) {
     if (std::abs(angle) <= 2.0 * kPi) continue;
     place.refuse("expected angles in radians, found " + shortest_number(angle) +
-                 (std::isfinite(angle) ? ", more than a turn; is it in degrees?" : ""));
+                 (std::isfinite(angle) ? ", more than a full turn; is it in degrees?" : ""));
   }
   return rotation_from_rpy(rpy_rad);
 }

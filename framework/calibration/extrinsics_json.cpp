@@ -1,4 +1,4 @@
-// The formats in JSON: nuScenes and croon's own.
+// The JSON formats: nuScenes and croon's own.
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -13,7 +13,7 @@
 namespace croon {
 namespace {
 
-/// A value of a JSON file; its faults are thrown at once.
+/// A value of a JSON file; throws InputError at the first fault.
 class JsonValue {
  public:
   JsonValue(const nlohmann::json& value, std::string file, std::string pointer = "")
@@ -21,7 +21,7 @@ class JsonValue {
 
   FilePlace place() const { return {file_, pointer_}; }
   const nlohmann::json& value() const { return *value_; }
-  /// Whether the member is there and not null.
+  /// Whether the member exists and is not null.
   bool has(const std::string& key) const {
     return value_->is_object() && value_->contains(key) && !value_->at(key).is_null();
   }
@@ -78,7 +78,7 @@ class JsonValue {
 
 nlohmann::ordered_json number_list(const Eigen::VectorXd& numbers) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  // Adding zero makes a negative zero positive.
+  // Adding zero turns a negative zero into a positive one.
   for (const double number : numbers) list.push_back(number + 0.0);
   return list;
 }
@@ -100,7 +100,8 @@ std::vector<ExtrinsicsFile> write_nuscenes(const Extrinsics& extrinsics) {
   return {{"calibrated_sensor.json", json_bytes(calibrated)}, {"sensor.json", json_bytes(sensors)}};
 }
 
-/// The channel of a sensor in the table `sensor.json` beside the file; its token without one.
+/// The channel of a sensor in the table `sensor.json` beside the file; its token if there is no
+/// table.
 std::string nuscenes_channel(const std::string& token, const std::filesystem::path& file) {
   const std::filesystem::path table = file.parent_path() / "sensor.json";
   std::error_code none;
@@ -157,7 +158,9 @@ std::optional<PoseCovariance> covariance_in(const JsonValue& pose) {
     covariance.dofs.at(i) = *known;
   }
   if (!is_covariance(covariance.matrix)) {
-    pose.member("covariance").place().refuse("expected a covariance: symmetric, not negative");
+    pose.member("covariance")
+        .place()
+        .refuse("expected a covariance: symmetric and positive semi-definite");
   }
   return covariance;
 }
@@ -179,7 +182,7 @@ std::optional<FrameLink> croon_link(const JsonValue& element, const std::string&
   return link;
 }
 
-/// extrinsics.json of a calibration ("sensors") and of an experiment ("extrinsics").
+/// Reads extrinsics.json of a calibration ("sensors") or of an experiment ("extrinsics").
 std::vector<FrameLink> read_croon_extrinsics(const ExtrinsicsSource& source) {
   const nlohmann::json json = params::parse_json(source.text, source.file());
   const JsonValue root(json, source.file());
@@ -194,7 +197,7 @@ std::vector<FrameLink> read_croon_extrinsics(const ExtrinsicsSource& source) {
       const std::string of = element.member("variant").text();
       if (links.empty()) variant = of;
       if (of != variant) {
-        element.place().refuse("expected the poses of one variant, found those of " +
+        element.place().refuse("expected poses of one variant, found poses of " +
                                in_quotes(variant) + " and " + in_quotes(of));
       }
       if (element.has("reference_sensor")) reference = element.member("reference_sensor").text();
@@ -236,7 +239,7 @@ ExtrinsicsFormat croon_extrinsics_format() {
 }
 
 ExtrinsicsFormat nominal_format() {
-  // Any other object: its reader names what is wrong with it.
+  // Any other object; the reader reports its faults.
   return {"nominal.json", nullptr, [](const std::string& text) { return text.front() == '{'; },
           read_nominal};
 }

@@ -1,4 +1,4 @@
-// The formats in plain text: rows of numbers.
+// The plain-text formats: rows of numbers.
 #include <algorithm>
 #include <optional>
 
@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kTransformKey = "Tr_";
 constexpr std::string_view kBetweenFrames = "_to_";
 
-/// A name as it may stand in a key of KITTI: one word without a colon and without "_to_".
+/// A name that is valid in a KITTI key: one word without a colon and without "_to_".
 std::string kitti_name(const std::string& name) {
   std::string word = ros_frame_name(name);
   std::replace_if(
@@ -31,7 +31,7 @@ std::vector<ExtrinsicsFile> write_kitti(const Extrinsics& original) {
   std::string text;
   for (const ExtrinsicPose& pose : extrinsics.poses) {
     const std::string names = pose.sensor + std::string(kBetweenFrames) + extrinsics.parent + ": ";
-    // Readers of KITTI split each line at its first colon and leave out what are not numbers.
+    // KITTI readers split each line at its first colon and skip everything that is not a number.
     if (!pose.is_accepted) text += "# " + names + verdict_comment(false) + "\n";
     text += std::string(kTransformKey) + names +
             decimal_numbers(rows_of(pose.T_parent_sensor, 3), " ") + "\n";
@@ -97,7 +97,7 @@ std::vector<ExtrinsicsFile> write_matrix(const Extrinsics& original) {
   return files;
 }
 
-/// The value of a comment `# key: value`; std::nullopt for another line.
+/// The value of a comment `# key: value`; std::nullopt for any other line.
 std::optional<std::string> comment_value(std::string_view line, const std::string& key) {
   const std::string begin = "# " + key + ":";
   if (line.substr(0, begin.size()) != begin) return std::nullopt;
@@ -172,7 +172,7 @@ struct CsvRow {
   bool is_empty() const { return fields.size() == 1 && fields.front().empty(); }
 };
 
-/// RFC 4180.
+/// Parses CSV as in RFC 4180.
 std::vector<CsvRow> csv_rows(const std::string& text) {
   std::vector<CsvRow> rows(1);
   bool is_quoted = false;
@@ -248,7 +248,7 @@ std::vector<ExtrinsicsFile> write_opencalib(const Extrinsics& original) {
   return {{"initial_extrinsic.txt", pose_list_text(poses)}};
 }
 
-/// The names of the devices in the list of clouds beside the file, if it is there.
+/// The name of a device from the list of clouds beside the file; empty if there is none.
 std::string listed_sensor(const std::filesystem::path& file, int device_id) {
   const std::filesystem::path list = file.parent_path() / "lidar_cloud_path.txt";
   std::error_code none;
@@ -266,7 +266,7 @@ std::vector<FrameLink> read_opencalib(const ExtrinsicsSource& source) {
     if (pose.sensor.empty()) pose.sensor = listed_sensor(source.path, pose.device_id);
     if (pose.sensor.empty()) pose.sensor = std::to_string(pose.device_id);
     const RigidTransform& T = pose.T_reference_sensor;
-    // Device 0 is the reference; the file has its own pose too.
+    // Device 0 is the reference, whose own pose is in the file too.
     if (pose.device_id == 0 && T.translation.isZero(0.0) && T.rotation.isIdentity(0.0)) {
       parent = pose.sensor;
     } else {

@@ -1,4 +1,4 @@
-// The formats of ROS that are not YAML: a launch file, a robot description.
+// The ROS formats other than YAML: launch files and robot descriptions.
 #include <tinyxml2.h>
 
 #include <algorithm>
@@ -59,8 +59,8 @@ struct LaunchWord {
   int line = 0;
 };
 
-/// The words of Python, YAML or XML launch files and of shell scripts: without quotes, brackets and
-/// comments.
+/// Splits Python, YAML or XML launch files and shell scripts into words, without quotes, brackets
+/// and comments.
 class LaunchWords {
  public:
   static std::vector<LaunchWord> of(const std::string& text) {
@@ -99,7 +99,7 @@ class LaunchWords {
       if (text[at] == '\\' && at + 1 < text.size()) ++at;
       word += text[at];
     }
-    // XML and YAML have all arguments in one string.
+    // In XML and YAML, one string has all arguments.
     if (word.find("--") != std::string::npos && word.find(' ') != std::string::npos) {
       split(word, line);
     } else {
@@ -124,7 +124,7 @@ class PublisherArguments {
     }
   }
 
-  /// Null if there are no arguments: the program is only named.
+  /// std::nullopt if there are no arguments, where the program is merely mentioned.
   std::optional<FrameLink> link() const {
     if (options_.empty()) return positional_link();
     FrameLink link;

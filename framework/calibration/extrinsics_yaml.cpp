@@ -1,5 +1,5 @@
-// The formats in YAML. They are written by hand, because readers disagree about numbers such as
-// 1e-05, and read with yaml-cpp.
+// The YAML formats: read with yaml-cpp, but written without it, because readers disagree about
+// numbers such as 1e-05.
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace croon {
 namespace {
 
-/// A value of a YAML file, with what errors need.
+/// A value of a YAML file, with its position for errors.
 class YamlValue {
  public:
   YamlValue(const YAML::Node& node, std::string file, std::string key = "")
@@ -59,7 +59,7 @@ class YamlValue {
     return numbers_in(node_.IsScalar() ? node_.Scalar() : "", 1, place())[0];
   }
 
-  /// The numbers of a list, of lists in a list too.
+  /// The numbers of a list, including nested lists.
   std::vector<double> numbers() const {
     if (!is_list()) return {number()};
     std::vector<double> all;
@@ -112,7 +112,8 @@ std::string stamped_pose_lines(const RigidTransform& T, const std::string& inden
          ", z: " + decimal_number(q(2)) + ", w: " + decimal_number(q(3)) + "}\n";
 }
 
-/// geometry_msgs/TransformStamped: the frames and the pose, which may be in a map of its own.
+/// geometry_msgs/TransformStamped: the frames and the pose, which may be nested in a map
+/// "transform".
 FrameLink stamped_link(const YamlValue& value) {
   FrameLink link;
   const YamlValue header = value.has("header") ? value.member("header") : value;
@@ -177,8 +178,8 @@ const std::vector<std::string>& autoware_keys() {
 std::vector<ExtrinsicsFile> write_autoware(const Extrinsics& original) {
   const Extrinsics extrinsics = renamed(original, ros_frame_name);
   std::string text =
-      "# The pose of each frame in the frame above it. Metres and radians, R = Rz(yaw) Ry(pitch)\n"
-      "# Rx(roll).\n" +
+      "# The pose of each frame in its parent frame. Metres and radians, R = Rz(yaw) Ry(pitch)\n# "
+      "Rx(roll).\n" +
       in_escaped_quotes(extrinsics.parent) + (extrinsics.poses.empty() ? ": {}\n" : ":\n");
   for (const ExtrinsicPose& pose : extrinsics.poses) {
     Vector6d values;
@@ -223,8 +224,8 @@ std::vector<ExtrinsicsFile> write_kalibr(const Extrinsics& original) {
   return {{"extrinsics_camchain.yaml", text}};
 }
 
-/// The keys of a matrix in a camera chain: the parent if the file does not name it, and whether the
-/// matrix maps the parent to the sensor.
+/// A key of a matrix in a camera chain, with the default parent and whether the matrix maps the
+/// parent to the sensor.
 struct ChainKey {
   const char* name;
   const char* parent;
@@ -235,7 +236,7 @@ constexpr std::array<ChainKey, 4> kChainKeys = {{{"T_sensor_parent", "", true},
                                                  {"T_cam_imu", "imu", true},
                                                  {"T_imu_cam", "imu", false}}};
 
-/// `previous`: the sensor before, to which T_cn_cnm1 of Kalibr refers.
+/// `previous` is the preceding sensor, to which T_cn_cnm1 of Kalibr refers.
 FrameLink chain_link(const YamlValue& sensor, const std::string& previous) {
   FrameLink link;
   link.child = sensor.key();
@@ -250,7 +251,8 @@ FrameLink chain_link(const YamlValue& sensor, const std::string& previous) {
     const YamlValue verdict = sensor.member("verdict");
     link.is_accepted = is_accepted_word(verdict.text(), verdict.place());
   }
-  // A camera that has both is linked to the first camera by the inertial sensor, too.
+  // If a camera also has T_cn_cnm1, the link to the inertial sensor already relates it to the first
+  // one.
   for (const ChainKey& key : kChainKeys) {
     if (!sensor.has(key.name)) continue;
     read(key.name, key.parent, key.maps_to_sensor);
@@ -260,7 +262,7 @@ FrameLink chain_link(const YamlValue& sensor, const std::string& previous) {
     read("T_cn_cnm1", previous, true);
     return link;
   }
-  sensor.member(kChainKeys.front().name);  // Refuses.
+  sensor.member(kChainKeys.front().name);  // Throws.
   return link;
 }
 

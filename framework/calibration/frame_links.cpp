@@ -22,8 +22,8 @@ LinksByChild links_by_child(const std::vector<FrameLink>& links, const std::stri
     if (is_new) continue;
     const std::string& other = first->second->where;
     throw InputError(file, link.where,
-                     "the sensor " + in_quotes(link.child) + " has a second pose" +
-                         (other.empty() || other == link.where ? "" : "; the first: " + other));
+                     "the sensor " + in_quotes(link.child) + " has a duplicate pose" +
+                         (other.empty() || other == link.where ? "" : "; the first one: " + other));
   }
   return by_child;
 }
@@ -41,8 +41,9 @@ RootPose root_pose(const FrameLink& link, const LinksByChild& by_child, const st
   for (auto at = by_child.find(pose.root); at != by_child.end(); at = by_child.find(pose.root)) {
     const FrameLink& above = *at->second;
     if (!visited.insert(above.child).second) {
-      throw InputError(file, link.where,
-                       "the frame " + in_quotes(link.child) + " is below itself: a loop of frames");
+      throw InputError(
+          file, link.where,
+          "the frame " + in_quotes(link.child) + " is its own ancestor: the frames form a loop");
     }
     pose = {above.parent, above.T_parent_child * pose.T_root_frame,
             above.is_fixed && pose.is_fixed};
@@ -62,11 +63,12 @@ Extrinsics joined_links(const std::vector<FrameLink>& links, const std::string& 
     if (pose.root != extrinsics.parent) {
       throw InputError(file, link.where,
                        "expected the pose of " + in_quotes(link.child) + " in " +
-                           in_quotes(extrinsics.parent) + ", as of the sensors before it, found " +
-                           "one in " + in_quotes(pose.root) + ", and no pose that links the two");
+                           in_quotes(extrinsics.parent) + ", like the preceding sensors, found " +
+                           "one in " + in_quotes(pose.root) +
+                           " and no pose that links the two frames");
     }
     if (!pose.is_fixed) continue;
-    // The covariance of a product would need that of every factor.
+    // The covariance of a product requires the covariance of every factor.
     const bool is_direct = link.parent == pose.root;
     extrinsics.poses.push_back({link.child, pose.T_root_frame, link.is_accepted,
                                 is_direct ? link.covariance : std::nullopt});

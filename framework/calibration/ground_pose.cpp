@@ -22,7 +22,7 @@ constexpr int kMinCellPoints = 3;
 constexpr std::size_t kBlocks = 8;
 constexpr std::size_t kMinCells = 40;
 
-/// One point per cube, so that a number of points is an area.
+/// One point per cube, so that numbers of points measure area.
 Points one_per_cube(const Points& points) {
   constexpr double kCube_m = 0.25;
   constexpr int kMaxPoints = 60000;
@@ -36,12 +36,12 @@ Points one_per_cube(const Points& points) {
   return thinned;
 }
 
-/// The ground's plane, its normal towards the sensor; std::nullopt if there is none.
+/// The ground plane, with its normal towards the sensor; std::nullopt if there is none.
 std::optional<Plane> rough_ground(const Points& points, Rng& rng) {
   constexpr double kMinCosTilt = 0.5;
   const std::vector<GroundCandidate> candidates =
       ground_candidates(one_per_cube(points), GroundCandidateOptions{}, rng);
-  // The ceiling of a room is as good a plane as its floor: upright is more likely.
+  // The ceiling of a room is as good a plane as its floor, but an upright sensor is more likely.
   constexpr double kMaxGap = 0.15;
   std::optional<Plane> upside_down;
   double upside_down_score = 0.0;
@@ -59,13 +59,13 @@ std::optional<Plane> rough_ground(const Points& points, Rng& rng) {
   return upside_down;
 }
 
-/// The ground as heights over a rough plane: one point per square cell, ordered by direction.
+/// The ground relative to a rough plane: one point per square cell, ordered by direction.
 struct GroundCells {
-  Eigen::Matrix3d R_level_sensor;  ///< z along the normal of the rough plane.
+  Eigen::Matrix3d R_level_sensor;  ///< z is along the normal of the rough plane.
   std::vector<Eigen::Vector3d> points;
 };
 
-/// The means of the ground's points in each cell, in a frame whose z is the plane's normal.
+/// The means of the ground points in each cell, in a frame whose z axis is the plane's normal.
 GroundCells ground_cells(const Points& points, const Plane& plane, double threshold_m) {
   GroundCells cells;
   cells.R_level_sensor = rotation_between(plane.normal, Eigen::Vector3d::UnitZ());
@@ -92,11 +92,11 @@ GroundCells ground_cells(const Points& points, const Plane& plane, double thresh
   return cells;
 }
 
-/// The block of neighbouring directions that cell `i` of `count` belongs to.
+/// The block of neighbouring directions to which cell `i` of `count` belongs.
 std::size_t block_of(std::size_t i, std::size_t count) { return i * kBlocks / count; }
 
-/// The plane z = a x + b y + c through most of the cells: the road, and not the pavement.
-/// std::nullopt if they lie on one line.
+/// (a, b, c) of the plane z = a x + b y + c through the majority of the cells: the road rather than
+/// the pavement. std::nullopt if they are collinear.
 std::optional<Eigen::Vector3d> most_common_heights(const std::vector<Eigen::Vector3d>& cells,
                                                    Rng& rng) {
   Points points;
@@ -112,7 +112,7 @@ std::optional<Eigen::Vector3d> most_common_heights(const std::vector<Eigen::Vect
   }
 }
 
-/// The plane from `abc` refitted to the cells but those of the block `without` (Tukey's biweight).
+/// The plane `abc` refitted to all cells except the block `without` (Tukey's biweight).
 Eigen::Vector3d fitted_heights(const std::vector<Eigen::Vector3d>& cells, Eigen::Vector3d abc,
                                std::size_t without) {
   constexpr int kRounds = 10;
@@ -133,8 +133,8 @@ Eigen::Vector3d fitted_heights(const std::vector<Eigen::Vector3d>& cells, Eigen:
   return abc;
 }
 
-/// The variances of roll, pitch and height that no jackknife sees if the ground lies on one side of
-/// the sensor: there the road's crossfall, a pavement or a verge may be all of it.
+/// The variances of roll, pitch and height that a jackknife misses if the ground is visible on one
+/// side of the sensor only, where it may all be crossfall, pavement or verge.
 Eigen::Vector3d one_sided_variance(const std::vector<Eigen::Vector3d>& cells) {
   constexpr double kTilt_rad = rad_from_deg(4.0);
   Eigen::Vector2d directions = Eigen::Vector2d::Zero(), mean_m = Eigen::Vector2d::Zero();
@@ -142,13 +142,13 @@ Eigen::Vector3d one_sided_variance(const std::vector<Eigen::Vector3d>& cells) {
     directions += cell.head<2>().normalized() / static_cast<double>(cells.size());
     mean_m += cell.head<2>() / static_cast<double>(cells.size());
   }
-  // 0 if the ground surrounds the sensor, 1 if it lies in one direction.
+  // The squared norm is 0 if the ground surrounds the sensor, 1 if it lies in one direction.
   const double tilt_rad = kTilt_rad * directions.squaredNorm();
   const Eigen::Vector3d deviations(tilt_rad, tilt_rad, tilt_rad * mean_m.norm());
   return deviations.cwiseAbs2();
 }
 
-/// (roll, pitch, height) of the sensor over the plane `abc` of the level frame.
+/// (roll, pitch, height) of the sensor above the plane `abc` in the level frame.
 Eigen::Vector3d pose_over(const Eigen::Vector3d& abc, const Eigen::Matrix3d& R_level_sensor) {
   const double length = std::sqrt(1.0 + abc.head<2>().squaredNorm());
   const Eigen::Vector3d normal =
@@ -157,7 +157,7 @@ Eigen::Vector3d pose_over(const Eigen::Vector3d& abc, const Eigen::Matrix3d& R_l
           std::atan2(-normal.x(), std::hypot(normal.y(), normal.z())), -abc.z() / length};
 }
 
-/// `angle_rad` as its nearest copy to `near_rad`.
+/// `angle_rad` plus the multiple of 2 pi that brings it nearest to `near_rad`.
 double unwrapped(double angle_rad, double near_rad) {
   return near_rad + std::remainder(angle_rad - near_rad, 2.0 * kPi);
 }
@@ -178,7 +178,7 @@ std::optional<SceneGround> ground_of_scene(const Points& points, Rng& rng) {
   const std::optional<Eigen::Vector3d> start = most_common_heights(cells.points, rng);
   if (!start) return std::nullopt;
   ground.value = pose_over(fitted_heights(cells.points, *start, kBlocks), cells.R_level_sensor);
-  // The jackknife: what each block of directions changes.
+  // Jackknife: the change from leaving out each block of directions.
   ground.variance = one_sided_variance(cells.points);
   for (std::size_t block = 0; block < kBlocks; ++block) {
     Eigen::Vector3d change =
@@ -196,7 +196,8 @@ struct Combined {
   double variance;
 };
 
-/// The mean of estimates that differ by more than their variances (DerSimonian and Laird 1986).
+/// The random-effects mean of estimates that may differ by more than their variances (DerSimonian
+/// and Laird 1986).
 Combined combined(const std::vector<double>& values, const std::vector<double>& variances) {
   const auto weighted = [&](double between) {
     Combined mean{0.0, 0.0};
@@ -221,7 +222,7 @@ Combined combined(const std::vector<double>& values, const std::vector<double>& 
   return weighted(excess / (weights - squares / weights));
 }
 
-/// One of the three numbers over all scenes.
+/// The mean, over all scenes, of roll, pitch or height (`of` = 0, 1, 2).
 Combined combined(const std::vector<SceneGround>& scenes, int of, bool is_angle) {
   constexpr double kMinVariance = 1e-12;
   std::vector<double> values, variances;
@@ -244,10 +245,11 @@ struct SceneHeading {
 std::optional<SceneHeading> heading_of_scene(const SceneMotionEstimate& motion,
                                              const Eigen::Matrix3d& R_road_reference) {
   constexpr double kMinSpeed_mps = 1.0;
-  // The reference is seldom farther than this from the axle that does not slip sideways.
+  // Assumed maximum distance of the reference from the axle without side slip.
   constexpr double kLever_m = 2.0;
   constexpr double kMaxSlip_rad = rad_from_deg(2.0);
-  // Camber and side wind: how much a car's heading differs from where it goes.
+  // Standard deviation between a car's heading and its direction of travel, from camber and side
+  // wind.
   constexpr double kScene_rad = rad_from_deg(0.2);
   const Eigen::Vector3d v = R_road_reference * motion.velocity.linear_mps;
   const double speed_mps = v.head<2>().norm();

@@ -13,7 +13,7 @@
 namespace croon {
 namespace {
 
-/// The faults without the file's path: a reason must not depend on the data root.
+/// The faults without the path of the file: reasons must not depend on the data root.
 std::string reasons(const InputError& error) {
   std::string text;
   for (const Fault& fault : error.faults()) {
@@ -22,8 +22,8 @@ std::string reasons(const InputError& error) {
   return text;
 }
 
-/// Reads the points of `scan`. Returns what is wrong with them, or an empty string. Throws
-/// UnavailableFile.
+/// Reads the points of `scan`. Returns the reason why they are not usable, or an empty string.
+/// Throws UnavailableFile.
 std::string read_points(const SensorScan& scan, LoadedCloud& cloud) {
   try {
     cloud = scan.load();
@@ -59,7 +59,7 @@ LoadedScan loaded_scan(ReadScan read, const std::string& scene, const std::strin
   const auto start = std::chrono::steady_clock::now();
   LoadedScan loaded{nullptr, std::move(read.failure), std::move(read.unavailable), read.reading_s};
   if (!loaded.failure.empty() || loaded.unavailable) return loaded;
-  // Others would be copied with each filtered cloud, and nothing would read them.
+  // Other channels would be copied with each filtered cloud without being used.
   keep_channels(read.cloud, channels);
   loaded.cloud = std::make_shared<const Cloud>(static_cast<PointCloud&&>(std::move(read.cloud)),
                                                cloud_stream(seed, scene, sensor));
@@ -74,7 +74,7 @@ LoadedScene load_scene(const Scene& scene, const std::set<std::string>& sensors,
   for_each_in_parallel(loaded.scans.size(), [&](std::size_t i) {
     const SensorScan& scan = scan_at(scene, i);
     if (i > 0 && sensors.count(scan.sensor) == 0) return;
-    // Isolated as trials are, so that the time of reading is its own.
+    // Isolated like trials, so that the measured time is that of reading alone.
     tbb::this_task_arena::isolate([&] {
       loaded.scans[i] = loaded_scan(read_scan(scan), scene.name, scan.sensor, seed, channels);
     });

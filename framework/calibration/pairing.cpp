@@ -25,7 +25,7 @@ std::size_t index_of_reference(const Sensors& sensors, const std::string& refere
   throw std::logic_error("the reference is not one of the sensors");
 }
 
-/// The index of the value nearest to `value`; `values` are ascending and not empty.
+/// The index of the value nearest to `value`; `values` must be ascending and not empty.
 std::size_t nearest_index(const std::vector<double>& values, double value) {
   const auto after = std::lower_bound(values.begin(), values.end(), value);
   const auto index = static_cast<std::size_t>(after - values.begin());
@@ -34,11 +34,11 @@ std::size_t nearest_index(const std::vector<double>& values, double value) {
   return value - values[index - 1] <= values[index] - value ? index - 1 : index;
 }
 
-/// How the clouds of one sensor are paired with those of the reference.
+/// The pairs of one sensor's clouds with those of the reference.
 struct SensorPairs {
-  Indices clouds;           ///< Per cloud of the reference.
-  std::size_t far = 0;      ///< Clouds without a cloud of the reference within the gap.
-  std::size_t surplus = 0;  ///< Clouds that lost to a nearer one.
+  Indices clouds;           ///< By cloud of the reference.
+  std::size_t far = 0;      ///< Number of clouds without a reference cloud within the gap.
+  std::size_t surplus = 0;  ///< Number of clouds whose reference cloud has a nearer one.
   double min_far_gap_s = std::numeric_limits<double>::infinity();
 };
 
@@ -46,7 +46,7 @@ SensorPairs pairs_of(const std::vector<double>& reference_s, const std::vector<d
                      double max_time_gap_s) {
   SensorPairs pairs;
   pairs.clouds.resize(reference_s.size());
-  // Per cloud of the sensor, the nearest cloud of the reference of those to which it is nearest.
+  // By cloud of the sensor: of the reference clouds to which it is nearest, the nearest one.
   Indices owners(stamps_s.size());
   for (std::size_t r = 0; r < reference_s.size() && !stamps_s.empty(); ++r) {
     const std::size_t cloud = nearest_index(stamps_s, reference_s[r]);
@@ -99,8 +99,8 @@ std::string why_unpaired(const SensorPairs& pairs, const std::string& reference,
   return reasons;
 }
 
-/// Appends the scenes in which the reference and another sensor have a cloud. `pairs` has an entry
-/// per sensor; that of the reference is ignored. Returns the number of scenes that were left out.
+/// Appends the scenes in which the reference and another sensor have a cloud. `pairs` has one entry
+/// per sensor; the reference's is ignored. Returns the number of omitted scenes.
 std::size_t add_scenes(Pairing& pairing, const std::vector<std::string>& names,
                        const std::vector<Indices>& pairs, std::size_t reference) {
   std::size_t lonely = 0;
@@ -122,7 +122,7 @@ std::size_t add_scenes(Pairing& pairing, const std::vector<std::string>& names,
   return lonely;
 }
 
-/// The name without its suffix, which may be ".pcd.bin".
+/// The file name without its suffix, which may be ".pcd.bin".
 std::string stem_of(const std::filesystem::path& file) {
   const std::filesystem::path stem = file.stem();
   return (stem.extension() == ".pcd" ? stem.stem() : stem).string();
@@ -193,7 +193,7 @@ std::optional<Pairing> paired_by_times_in_names(const std::vector<SensorFiles>& 
                        " (or all by their time stamps, in s, ms, us or ns since 1970), found " +
                        in_quotes(sensor.files.front().filename().string()) + " beside " +
                        in_quotes(reference.files.front().filename().string()) +
-                       "; rename the files so that those of one moment have one name");
+                       "; rename the files so that those of the same moment have the same name");
 }
 
 Pairing paired_by_equal_names(const std::vector<SensorFiles>& sensors, std::size_t reference) {
@@ -289,7 +289,7 @@ std::optional<double> stamp_in_name(const std::string& stem) {
   const std::optional<double> number = number_from(word);
   if (!number) return std::nullopt;
   const bool is_whole = word.find('.') == std::string::npos;
-  // From 2001 on; a unit has three digits more than the one before it.
+  // From 2001 on; each unit has three digits more than the previous one.
   for (const double unit_s : {1.0, 1e-3, 1e-6, 1e-9}) {
     if (*number * unit_s < 1e9 || *number * unit_s >= 1e10) continue;
     if (unit_s < 1.0 && !is_whole) return std::nullopt;

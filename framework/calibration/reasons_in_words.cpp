@@ -10,8 +10,9 @@
 namespace croon {
 namespace {
 
-/// A reason as a step words it, and what an engineer reads. In `sentence`, `{1}` and `{2}` are the
-/// first and second number of the reason, `{1%}` the same as a percentage.
+/// Maps a reason of a step, recognised by how it begins, to a sentence and advice for users. In
+/// `sentence`, `{1}` and `{2}` are the first and second number of the reason, `{1%}` and `{2%}` the
+/// same as percentages.
 struct Translation {
   const char* begins;
   const char* sentence;
@@ -19,24 +20,23 @@ struct Translation {
 };
 
 constexpr const char* kMoreSharedView =
-    "Record where both sensors see the same walls, poles or parked cars: the view that they share "
-    "is small or nearly empty.";
-constexpr const char* kStand =
-    "Record while the vehicle stands and little else moves, or with the time of each point.";
+    "Record where both sensors see the same walls, poles or parked cars: their common field of "
+    "view is small or nearly empty.";
+constexpr const char* kAtRest =
+    "Record while the vehicle is at rest and little else moves, or with the time of each point.";
 constexpr const char* kOtherPlace =
-    "Record at another place, where the surroundings do not repeat themselves after a turn or a "
-    "shift, or give nominal poses to start from.";
+    "Record at another place, where the surroundings do not look the same after a rotation or "
+    "shift, or supply nominal poses.";
 constexpr const char* kMoreScenes =
     "Record several scenes at different places and calibrate from all of them.";
-constexpr const char* kSlower = "Drive slower, or record while the vehicle stands.";
+constexpr const char* kSlower = "Drive more slowly, or record while the vehicle is at rest.";
 
 constexpr Translation kTranslations[] = {
     {"the overlap with agreeing surfaces",
-     "Only {1%} of what both sensors should see agrees; at least {2%} is required.",
+     "Only {1%} of the points that both sensors should see agree; at least {2%} is required.",
      kMoreSharedView},
     {"the share of points in free space",
-     "{1%} of the points lie where the other sensor looks through; at most {2%} is allowed.",
-     kStand},
+     "{1%} of the points lie in the other sensor's free space; at most {2%} is allowed.", kAtRest},
     {"the lead over another pose",
      "Another pose explains the clouds nearly as well: the lead over it is {1} standard "
      "deviations; at least {2} are required.",
@@ -53,12 +53,11 @@ constexpr Translation kTranslations[] = {
      "nearly as well.",
      kSlower},
     {"motion during the scans explains the clouds better",
-     "The vehicle moved while it scanned, by {1} m and {2} degrees per revolution, and without "
+     "The vehicle moved during the scan, by {1} m and {2} degrees per revolution, and without "
      "usable times this cannot be corrected.",
-     kStand},
+     kAtRest},
     {"motion during the scans cannot be excluded",
-     "It cannot be excluded that the vehicle moved while it scanned, which would move the pose.",
-     kStand},
+     "The vehicle may have moved during the scan, which would shift the pose.", kAtRest},
     {"the planes of all sensors would move it",
      "It contradicts the other sensors: the planes that all of them see would move it by {1} "
      "degrees and {2} m.",
@@ -69,7 +68,7 @@ constexpr Translation kTranslations[] = {
      kMoreSharedView},
 };
 
-/// The numbers in `text`, as they are written.
+/// The numbers in `text`, as written.
 std::vector<std::string> numbers_in(const std::string& text) {
   std::vector<std::string> numbers;
   for (std::size_t i = 0; i < text.size();) {
@@ -100,7 +99,7 @@ std::string with_numbers(std::string sentence, const std::vector<std::string>& n
   return sentence;
 }
 
-/// What helps if a degree of freedom is not constrained.
+/// Advice for an unconstrained degree of freedom.
 std::string advice_for(Dof dof) {
   switch (dof) {
     case Dof::x:
@@ -111,8 +110,8 @@ std::string advice_for(Dof dof) {
     case Dof::z:
       return "Record on a road or yard that both sensors see, or below a roof or bridge.";
     case Dof::yaw:
-      return "Record next to walls or poles that both sensors see: the ground alone says nothing "
-             "about yaw.";
+      return "Record next to walls or poles that both sensors see: the ground alone does not "
+             "constrain yaw.";
     default:
       return "Record where both sensors see the ground or other surfaces far apart, to constrain " +
              kDofNames.at(static_cast<std::size_t>(dof)) + ".";
@@ -141,7 +140,7 @@ bool add_unconstrained(const std::string& reason, ReasonsInWords& result) {
   const std::string start = "not constrained: ";
   if (reason.compare(0, start.size(), start) != 0) return false;
   const std::string names = reason.substr(start.size(), reason.find(" (") - start.size());
-  result.reasons.push_back("What both sensors see does not constrain " + names + ".");
+  result.reasons.push_back("The surfaces that both sensors see do not constrain " + names + ".");
   for (const std::string& word : words_in(names)) {
     for (std::size_t i = 0; i < kDofNames.size(); ++i) {
       if (word == kDofNames[i]) add_once(result.advice, advice_for(static_cast<Dof>(i)));
@@ -158,7 +157,7 @@ std::string sentence_of(std::string text) {
   return text;
 }
 
-/// Without the name of the step in front: a name has no spaces.
+/// The reason without a leading step name, which has no spaces.
 std::string without_step(const std::string& reason) {
   const std::size_t colon = reason.find(": ");
   if (colon == std::string::npos || reason.find(' ') < colon) return reason;

@@ -20,7 +20,7 @@ namespace croon {
 namespace {
 namespace fs = std::filesystem;
 
-/// One word of the user: a sensor's name, empty if it has none, and its path or topic.
+/// One command-line input: the name of a sensor, empty if not given, and its path or topic.
 struct Input {
   std::string name;
   std::string path;
@@ -29,16 +29,16 @@ struct Input {
 /// The clouds of one sensor.
 struct SensorClouds {
   std::string name;
-  std::string other_name = {};  ///< The topic, by which the reference may be called too.
+  std::string other_name = {};  ///< The topic, an alternative name for --reference.
   std::vector<SensorScan> scans = {};
 };
 
-/// Clouds by sensor, and how they are paired.
+/// The clouds by sensor, and the data by which they are paired.
 struct Recording {
   std::vector<SensorClouds> sensors;
   std::vector<SensorFiles> files = {};    ///< For pair_by_name.
   std::vector<SensorStamps> stamps = {};  ///< For pair_by_time.
-  std::vector<PairedScene> paired = {};   ///< Of a recording whose folders are its scenes.
+  std::vector<PairedScene> paired = {};   ///< For a recording with one folder per scene.
   std::vector<std::string> unused = {};
 };
 
@@ -52,7 +52,7 @@ Input input_of(const std::string& word) {
   return {name, word.substr(sign + 1)};
 }
 
-/// Throws InputError, with the nearest path, if there is nothing at `path`.
+/// Throws InputError, with the nearest path, if `path` does not exist.
 void require_path(const std::string& path) {
   std::error_code error;
   if (!path.empty() && fs::exists(path, error)) return;
@@ -75,7 +75,7 @@ std::string name_of_file(const fs::path& path) {
   return has_point_cloud_suffix(stem) ? stem.stem().string() : stem.string();
 }
 
-/// The path may end in a slash.
+/// The name of a folder, whose path may end in a slash.
 std::string name_of_folder(const fs::path& path) {
   const std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
   return name == "." || name == ".." ? fs::canonical(path).filename().string() : name;
@@ -85,19 +85,19 @@ bool is_repeated(const std::vector<std::string>& names, std::size_t index) {
   return std::count(names.begin(), names.end(), names[index]) > 1;
 }
 
-/// Throws InputError if two sensors have one name, or one has a name that files cannot have.
+/// Throws InputError if two sensors have the same name, or if a name is not valid in a file name.
 void check_names(const std::vector<std::string>& names, const std::vector<Input>& inputs) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string why_not = why_no_scan_name(names[i], "a sensor");
     if (!why_not.empty()) throw InputError(inputs[i].path, "", why_not + "; name it: NAME=PATH");
     if (!is_repeated(names, i)) continue;
     throw InputError(inputs[i].path, "",
-                     "expected sensors with different names, found two called " +
+                     "expected sensors with distinct names, found two named " +
                          in_quotes(names[i]) + "; name them: NAME=PATH");
   }
 }
 
-/// The names of sensors with a file each; files of one name are called after their folders.
+/// The names of sensors with a file each; files with the same name are named after their folders.
 std::vector<std::string> names_of_files(const std::vector<Input>& inputs) {
   std::vector<std::string> stems, names;
   for (const Input& input : inputs) {
@@ -118,12 +118,12 @@ void refuse_same_paths(const std::vector<Input>& inputs) {
     const auto [found, is_new] = known.emplace(fs::canonical(input.path), input.path);
     if (is_new) continue;
     throw InputError(input.path, "",
-                     "expected another path for each sensor, found that of " +
+                     "expected a different path for each sensor, found the path of " +
                          in_quotes(found->second) + " again");
   }
 }
 
-/// One scene: a file per sensor.
+/// A recording of one scene, with a file per sensor.
 Recording recording_of_files(const std::vector<Input>& inputs) {
   Recording recording;
   const std::vector<std::string> names = names_of_files(inputs);
@@ -138,7 +138,7 @@ Recording recording_of_files(const std::vector<Input>& inputs) {
   return recording;
 }
 
-/// The clouds in `folder`, sorted; if their suffixes differ, those with the most frequent one.
+/// The sorted clouds in `folder`; if suffixes differ, only those with the most frequent one.
 std::vector<fs::path> clouds_in(const fs::path& folder) {
   std::map<std::string, std::vector<fs::path>> by_suffix;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -162,7 +162,7 @@ SensorScan scan_on_demand(const std::string& sensor, const fs::path& file) {
   return scan;
 }
 
-/// A folder per sensor.
+/// A recording with a folder per sensor.
 Recording recording_of_folders(const std::vector<Input>& inputs) {
   Recording recording;
   std::vector<std::string> names;
@@ -184,7 +184,8 @@ bool is_numbered(const std::string& name) {
   return name.find_first_not_of("0123456789._-") == std::string::npos;
 }
 
-/// Whether the folders are scenes with a file per sensor: numbered, with files that are not.
+/// Whether the folders are scenes with a file per sensor: folders with numbers as names, whose
+/// files have other names.
 bool are_scenes(const std::vector<Input>& folders) {
   return std::all_of(folders.begin(), folders.end(), [](const Input& folder) {
     const std::vector<fs::path> files = clouds_in(folder.path);
@@ -194,7 +195,7 @@ bool are_scenes(const std::vector<Input>& folders) {
   });
 }
 
-/// A folder per scene, with a file per sensor.
+/// A recording with a folder per scene, and in it a file per sensor.
 Recording recording_of_scene_folders(const std::vector<Input>& folders) {
   std::set<std::string> names;
   for (const Input& folder : folders) {
@@ -219,7 +220,7 @@ Recording recording_of_scene_folders(const std::vector<Input>& folders) {
   return recording;
 }
 
-/// The scenes with clouds of the reference and of another sensor; a line for each of the others.
+/// The scenes with clouds of the reference and of another sensor, and a line for each other scene.
 Pairing with_reference(const std::vector<PairedScene>& scenes, std::size_t reference) {
   Pairing pairing;
   for (const PairedScene& scene : scenes) {
@@ -227,13 +228,14 @@ Pairing with_reference(const std::vector<PairedScene>& scenes, std::size_t refer
     if (scene.clouds[reference] && scene.clouds.size() - static_cast<std::size_t>(missing) > 1) {
       pairing.scenes.push_back(scene);
     } else {
-      pairing.unpaired.push_back("Scene " + scene.name + " lacks the reference or all others.");
+      pairing.unpaired.push_back("Scene " + scene.name +
+                                 " lacks the reference or all other sensors.");
     }
   }
   return pairing;
 }
 
-/// The folder of a rig, with a folder per sensor or per scene.
+/// The recording in the folder of a rig, with a folder per sensor or per scene.
 Recording recording_of_rig_folder(const fs::path& folder) {
   std::vector<Input> inputs;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -265,7 +267,7 @@ std::vector<std::string> parts_of_topic(const std::string& topic) {
   return parts;
 }
 
-/// The names of sensors by the parts in which their topics differ: /top/points is "top" beside
+/// Names sensors after the parts in which their topics differ: /top/points is "top" next to
 /// /left/points.
 std::vector<std::string> names_of_topics(const std::vector<std::string>& topics) {
   std::map<std::string, std::size_t> topics_with;
@@ -285,7 +287,7 @@ std::vector<std::string> names_of_topics(const std::vector<std::string>& topics)
   return names;
 }
 
-/// The topics that `inputs` name, with the sensors' names; all if there are none.
+/// The topics named in `inputs`, or all if it is empty, with names of sensors.
 std::vector<Input> chosen_topics(const std::vector<CloudTopic>& topics,
                                  const std::vector<Input>& inputs, const std::string& file) {
   std::vector<std::string> known;
@@ -309,7 +311,7 @@ std::vector<Input> chosen_topics(const std::vector<CloudTopic>& topics,
   return chosen;
 }
 
-/// The topics of a rosbag2.
+/// The recording in the topics of a rosbag2.
 Recording recording_of_bag(const std::string& bag, const std::vector<Input>& inputs) {
   Recording recording;
   const std::vector<CloudTopic> topics = read_recording(bag, &recording.unused);
@@ -334,7 +336,7 @@ Recording recording_of_bag(const std::string& bag, const std::vector<Input>& inp
   return recording;
 }
 
-/// Throws InputError if files and folders are mixed.
+/// The recording in files or in folders. Throws InputError if they are mixed.
 Recording recording_of_paths(const std::vector<Input>& inputs) {
   refuse_same_paths(inputs);
   const auto is_folder = [](const Input& input) { return fs::is_directory(input.path); };
@@ -343,8 +345,8 @@ Recording recording_of_paths(const std::vector<Input>& inputs) {
   if (static_cast<std::size_t>(folders) == inputs.size()) return recording_of_folders(inputs);
   const auto file = std::find_if_not(inputs.begin(), inputs.end(), is_folder);
   throw InputError(file->path, "",
-                   "expected a folder, like for other sensors, found a file: name a file for each "
-                   "sensor, or a folder for each");
+                   "expected a folder, as for other sensors, found a file: name either a file or a "
+                   "folder for every sensor");
 }
 
 Recording recording_of(const std::vector<Input>& inputs) {
@@ -359,16 +361,17 @@ Recording recording_of(const std::vector<Input>& inputs) {
     require_path(input.path);
     if (!is_bag(input.path)) continue;
     throw InputError(input.path, "",
-                     "expected a recording as the first input and its topics behind it");
+                     "expected a recording as the first input, followed by its topics");
   }
   if (inputs.size() > 1) return recording_of_paths(inputs);
   if (fs::is_directory(first.path)) return recording_of_rig_folder(first.path);
   throw InputError(first.path, "",
                    "expected clouds of at least two sensors, found one; the first is the "
-                   "reference, the others are calibrated to it");
+                   "reference, to which the others are calibrated");
 }
 
-/// The index of the reference. Throws InputError, with the nearest name, if there is none.
+/// The index of the sensor `reference`. Throws InputError, with the nearest name, if it does not
+/// exist.
 std::size_t reference_index(const Recording& recording, const std::string& reference) {
   if (reference.empty()) return 0;
   std::vector<std::string> names;
@@ -398,7 +401,7 @@ Scene scene_of(const Recording& recording, const PairedScene& paired, std::size_
   return scene;
 }
 
-/// At most `count` of the scenes, evenly spaced.
+/// Keeps at most `count` of the scenes, evenly spaced.
 void thin_out(std::vector<PairedScene>& scenes, int count, std::vector<std::string>& unused) {
   const std::size_t all = scenes.size();
   const auto kept = static_cast<std::size_t>(count);
@@ -431,11 +434,11 @@ RecordedScenes recorded_scenes(const std::vector<std::string>& words,
   result.unused = recording.unused;
   result.unused.insert(result.unused.end(), pairing.unpaired.begin(), pairing.unpaired.end());
   if (pairing.scenes.empty()) {
-    std::vector<Fault> faults = {{inputs.front().path, "",
-                                  "expected clouds of " + in_quotes(name) +
-                                      " and of another sensor at one time, found none within " +
-                                      plain_number(options.max_time_gap_s) +
-                                      " s (see the option max-time-gap)"}};
+    std::vector<Fault> faults = {
+        {inputs.front().path, "",
+         "expected clouds of " + in_quotes(name) +
+             " and of another sensor at the same time, found none within " +
+             plain_number(options.max_time_gap_s) + " s (see the option max-time-gap)"}};
     for (const std::string& line : result.unused) faults.push_back({"", "", line});
     throw InputError(std::move(faults));
   }

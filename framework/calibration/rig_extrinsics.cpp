@@ -13,7 +13,7 @@ using RigJson = nlohmann::ordered_json;
 
 RigJson list_of_numbers(const Eigen::VectorXd& numbers) {
   RigJson list = RigJson::array();
-  // Adding zero makes a negative zero positive.
+  // Adding zero turns a negative zero into a positive one.
   for (const double number : numbers) list.push_back(number + 0.0);
   return list;
 }
@@ -39,7 +39,7 @@ RigJson pose_json(const RigidTransform& T) {
 
 RigJson pose_json(const std::optional<RigidTransform>& T) { return T ? pose_json(*T) : RigJson(); }
 
-/// Adds the keys of a covariance; null without one.
+/// Adds the keys of a covariance, null if there is none.
 void add_uncertainty(RigJson& json, const std::optional<PoseCovariance>& covariance) {
   for (const char* key : {"standard_deviation", "observability", "covariance"}) json[key] = nullptr;
   if (!covariance) return;
@@ -63,7 +63,7 @@ RigJson scene_json(const SceneEstimate& scene) {
   return json;
 }
 
-/// How far the pose is from the nominal one; null without either.
+/// The difference between the pose and the nominal pose; null unless both exist.
 RigJson from_nominal(const CalibratedSensor& sensor) {
   if (!sensor.nominal || !sensor.T_reference_sensor) return nullptr;
   const PoseError error = pose_error(*sensor.T_reference_sensor, *sensor.nominal);

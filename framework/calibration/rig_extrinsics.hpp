@@ -7,11 +7,11 @@
 
 namespace croon {
 
-/// The poses of a calibrated rig in the frame of its reference, best guesses included.
+/// The poses of a calibrated rig in the frame of its reference, including best guesses.
 Extrinsics extrinsics_of(const CalibratedRig& rig);
 
-/// extrinsics.json: everything that a calibration found. Angles are in degrees and lengths in
-/// metres, but for the covariances, which are those of PoseCovariance.
+/// The text of extrinsics.json with all results of a calibration. Angles are in degrees and lengths
+/// in metres, except in covariances, which have the units of PoseCovariance.
 std::string rig_extrinsics_json(const CalibratedRig& rig);
 
 }  // namespace croon

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The view of rig.png and what is above it.
+/// Draws rig.png: the view from above with its title and legend.
 Image draw_rig(const std::string& reference, const Points& level_points,
                const std::vector<PosedCloud>& sensors, const LevelFrame& level) {
   const CloudView view = {20.0, 15.0, 0.03};
@@ -42,13 +42,13 @@ Image draw_rig(const std::string& reference, const Points& level_points,
                      {cut_to_columns("the rig from above" + rejected, 80)}, names, view.pixel_m);
 }
 
-/// A cloud with its names in the folder of clouds.
+/// A cloud and its file name without suffix.
 struct NamedFile {
   std::string stem;
   PointCloud cloud;
 };
 
-/// All accepted clouds with the index of their sensor, the reference being 0.
+/// All accepted clouds in one, with a channel for the index of the sensor; the reference is 0.
 PointCloud fused(const std::vector<ColouredCloud>& clouds) {
   PointCloud whole;
   std::vector<std::uint8_t> sensors;
@@ -95,7 +95,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// `name` with the characters that every file system has.
+/// `name` restricted to characters that every file system supports.
 std::string safe_name(const std::string& name) {
   constexpr std::size_t kMaxBytes = 100;
   std::string safe;

@@ -28,7 +28,7 @@ Rig rig_at_start(const std::vector<CalibrationMember>& members, std::uint64_t se
   return rig;
 }
 
-/// Whether a step has given this sensor the same pose in more than one scene.
+/// Whether a step has set this sensor to the same pose in more than one scene.
 bool has_common_pose(const Rig& rig, std::size_t index) {
   const RigidTransform& T = rig[index].result.estimate.T_target_source;
   for (std::size_t i = 0; i < rig.size(); ++i) {
@@ -52,8 +52,8 @@ bool has_any_common_pose(const Rig& rig) {
   return false;
 }
 
-/// `before_common` are the estimates before a step gave sensors one pose in all scenes; empty if
-/// none did.
+/// `before_common` has the estimates from before a step set sensors to one pose in all scenes;
+/// empty if no step did.
 std::vector<MemberResult> results_of(const std::vector<CalibrationMember>& members, const Rig& rig,
                                      const std::vector<Estimate>& before_common) {
   std::vector<MemberResult> results;
@@ -79,13 +79,13 @@ std::string why_unusable(const Estimate& estimate) {
   const RigidTransform& T = estimate.T_target_source;
   if (!T.rotation.allFinite() || !T.translation.allFinite()) return "the pose is not finite";
   if (T.translation.cwiseAbs().maxCoeff() > kLargestDistance_m) {
-    return "the pose is farther away than " + fixed_number(kLargestDistance_m, 0) + " m";
+    return "the distance of the pose exceeds " + fixed_number(kLargestDistance_m, 0) + " m";
   }
   if (!is_rotation_matrix(T.rotation)) {
-    return "the pose has no rotation: the columns of its matrix are not orthonormal";
+    return "the rotation of the pose is invalid: the columns of its matrix are not orthonormal";
   }
   if (estimate.covariance && !is_covariance(estimate.covariance->matrix)) {
-    return "the covariance is none: it is not symmetric, finite and positive semi-definite";
+    return "invalid covariance: not symmetric, finite and positive semi-definite";
   }
   return "";
 }

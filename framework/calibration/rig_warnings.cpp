@@ -9,15 +9,15 @@
 namespace croon {
 namespace {
 
-/// Two LiDARs are never as near to each other as this: they have housings.
+/// Minimum distance between two LiDARs, given their housings.
 constexpr double kSamePlace_m = 0.05;
 constexpr double kSameRotation_rad = rad_from_deg(2.0);
 
-/// From here on a pose is far from its nominal pose.
+/// Distances from the nominal pose above which a pose is suspicious.
 constexpr double kFar_m = 0.3;
 constexpr double kFar_rad = rad_from_deg(5.0);
 
-/// Counts as much as a radian where two distances are compared.
+/// Length that is equivalent to a radian when distances are compared.
 constexpr double kMetresPerRadian = 2.0;
 
 bool is_same_pose(const RigidTransform& a, const RigidTransform& b) {
@@ -53,7 +53,7 @@ struct ComparedSensor {
   double distance() const { return croon::distance(pose, nominal); }
 };
 
-/// The accepted sensors with a nominal pose other than zero.
+/// The accepted sensors with a nonzero nominal pose.
 std::vector<ComparedSensor> compared_sensors(const CalibratedRig& rig) {
   std::vector<ComparedSensor> compared;
   for (const CalibratedSensor& sensor : rig.sensors) {
@@ -64,7 +64,7 @@ std::vector<ComparedSensor> compared_sensors(const CalibratedRig& rig) {
   return compared;
 }
 
-/// Warns of pairs whose nominal poses fit better when they are exchanged; returns their names.
+/// Warns about pairs whose nominal poses fit better when swapped; returns their names.
 std::set<std::string> warn_of_swaps(const std::vector<ComparedSensor>& sensors,
                                     std::vector<std::string>& warnings) {
   std::set<std::string> swapped;
@@ -87,18 +87,18 @@ std::set<std::string> warn_of_swaps(const std::vector<ComparedSensor>& sensors,
   return swapped;
 }
 
-/// Why a pose may be far from its nominal pose.
+/// Describes how far a pose is from its nominal pose, and a possible cause.
 std::string far_text(const ComparedSensor& sensor) {
   constexpr double kHalfTurn_rad = rad_from_deg(165.0);
   const std::string distance = distance_text(sensor.pose, sensor.nominal);
   if (is_much_nearer(croon::distance(sensor.pose, sensor.nominal.inverse()), sensor.distance())) {
     return "is " + distance +
-           " from its nominal pose, but near the inverse of it: is the nominal "
-           "pose that of the reference in the frame of the sensor?";
+           " from its nominal pose, but near its inverse: does the nominal pose map the reference "
+           "to the sensor?";
   }
   if (pose_error(sensor.pose, sensor.nominal).rotation_rad > kHalfTurn_rad) {
     return "is half a turn from its nominal pose (" + distance +
-           "): is the nominal pose right? If it is, do not use the result: the scene may look the "
+           "): is the nominal pose correct? If so, do not use the result: the scene may look the "
            "same after half a turn";
   }
   return "is " + distance + " from its nominal pose";
@@ -119,7 +119,7 @@ struct NamedPose {
   RigidTransform pose;
 };
 
-/// Warns of poses at zero and of pairs at one pose.
+/// Warns about poses at zero and pairs at the same pose.
 void warn_of_same_poses(const std::vector<NamedPose>& poses, const std::string& at_zero,
                         const std::string& at_one, std::vector<std::string>& warnings) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -149,17 +149,16 @@ std::vector<std::string> warnings_about_rig(const CalibratedRig& rig) {
   }
   warn_of_same_poses(nominal, "has a nominal pose of zero: is it a placeholder?",
                      "have the same nominal pose: is one of them a placeholder?", warnings);
-  warn_of_same_poses(results,
-                     "is at the pose of the reference: its cloud is already in the frame of the "
-                     "reference, or measured by the same sensor",
-                     "are at one pose: are they clouds of the same sensor, or already in one "
-                     "frame?",
-                     warnings);
+  warn_of_same_poses(
+      results,
+      "is at the pose of the reference: its cloud is already in the frame of the "
+      "reference, or measured by the same sensor",
+      "have the same pose: are they clouds of the same sensor, or already in one frame?", warnings);
   warn_of_nominal(rig, warnings);
   if (is_one_scene) {
     warnings.emplace_back(
-        "the poses are of one scene: on real vehicles yaw usually differs by 0.1 to 0.2° between "
-        "scenes, which the standard deviations do not show; more scenes average it out");
+        "the poses are from one scene: on real vehicles, yaw usually differs by 0.1 to 0.2° "
+        "between scenes, which the standard deviations do not reflect; more scenes average it out");
   }
   return warnings;
 }

@@ -11,11 +11,11 @@
 namespace croon {
 namespace {
 
-// A part of a revolution that a mounting leaves may be short; a packet of a LiDAR lasts 1 to 2 ms.
+// A mounting may leave a short part of a revolution visible; a LiDAR packet lasts 1 to 2 ms.
 constexpr double kMinScan_s = 5e-3;
 constexpr double kMaxScan_s = 1.0;
 
-/// The points by which times are judged, in the order of the cloud.
+/// A sample of points for checking times, in the order of the cloud.
 struct Sample {
   std::vector<double> times_s;
   std::vector<Eigen::Vector3d> directions;  ///< Unit vectors from the sensor.
@@ -36,9 +36,9 @@ Sample sample_of(const PointCloud& cloud, const std::vector<double>& times) {
   return sample;
 }
 
-/// The share, 0 to 1, of the variance of the directions that the times explain: points that were
-/// measured at about the same time lie in about the same direction. About 1/20 or less if the times
-/// have no relation to the directions.
+/// The share, 0 to 1, of the variance of the directions that is explained by the times: points
+/// measured at similar times lie in similar directions. About 1/20 or less if times and directions
+/// are unrelated.
 double explained_share(const Sample& sample) {
   constexpr std::size_t kMaxBins = 200, kMinPointsPerBin = 20;
   const std::size_t size = sample.times_s.size();
@@ -62,8 +62,8 @@ double explained_share(const Sample& sample) {
   return total > 0.0 ? 1.0 - within / total : 0.0;
 }
 
-/// Whether the times decrease along the order of the points, or within each ring if the cloud has
-/// its points ring by ring. False if the points are in no order of time.
+/// Whether the times decrease in the order of the points, or within each ring if the points are
+/// stored ring by ring. False if the points are not in temporal order.
 bool decrease_along_the_cloud(const std::vector<double>& times_s) {
   constexpr double kMaxRestarts = 0.05;
   const TimeSpan span = span_of(times_s);
@@ -93,7 +93,7 @@ std::string why_unusable(const PointCloud& cloud) {
   const double length_s = span.last_s - span.first_s;
   if (length_s == 0.0) return "all times are equal";
   if (length_s < kMinScan_s || length_s > kMaxScan_s) {
-    return "the times span " + plain_number(length_s) + " s, and a scan lasts " +
+    return "the times span " + plain_number(length_s) + " s, but a scan lasts " +
            plain_number(kMinScan_s) + " to " + plain_number(kMaxScan_s) +
            " s: expected seconds, or whole nanoseconds, that do not restart within a scan";
   }
@@ -102,7 +102,7 @@ std::string why_unusable(const PointCloud& cloud) {
   const Sample sample = sample_of(cloud, times);
   if (sample.times_s.size() < kMinPoints) return "the cloud has too few points to check its times";
   if (explained_share(sample) < kMinExplained) {
-    return "the times have no relation to the directions in which the points lie";
+    return "the times are unrelated to the directions of the points";
   }
   if (decrease_along_the_cloud(sample.times_s)) {
     return "the times decrease in the order of the points, as if they were reversed";
@@ -122,8 +122,8 @@ TimeCheck check_times(const PointCloud& cloud) {
 
 std::string why_not_one_clock(const std::vector<std::string>& names,
                               const std::vector<const PointCloud*>& clouds) {
-  // One scene cannot tell a clock offset from a shift along the road. Scans of free-running sensors
-  // that are paired by time are up to half a revolution apart, those of synchronised ones less.
+  // One scene cannot distinguish a clock offset from a shift along the road. Scans of free-running
+  // sensors, paired by time, are up to half a revolution apart; those of synchronised sensors less.
   constexpr double kMaxApart = 0.45;
   if (clouds.empty()) return "";
   const TimeSpan reference = span_of(times_s(*clouds.front()));
@@ -139,9 +139,9 @@ std::string why_not_one_clock(const std::vector<std::string>& names,
              plain_number(std::round(std::abs(later_s) * 10.0) / 10.0) + " s apart";
     }
     return "the scan of " + names.at(i) + " is " + milliseconds(std::abs(later_s)) +
-           (later_s > 0.0 ? " later" : " earlier") + " than that of " + names.front() +
+           (later_s > 0.0 ? " later" : " earlier") + " than the scan of " + names.front() +
            ", too much for scans of " + milliseconds(scan_s) +
-           ": their clocks differ, or the clouds are not of one moment";
+           ": their clocks differ, or the clouds are from different moments";
   }
   return "";
 }

@@ -19,14 +19,14 @@ bool has_usable_sensor(const SceneClouds& scene) {
                      [](const ReadScan& scan) { return scan.is_usable(); });
 }
 
-/// The copies among the scenes that take part so far.
+/// The names of copies among the scenes that are still in use.
 std::set<std::string> copies_among(const std::vector<SceneClouds>& scenes) {
   const std::vector<std::string> copies = copied_scenes(named_clouds(scenes));
   return {copies.begin(), copies.end()};
 }
 
-/// Sets aside each sensor whose cloud is a copy of the reference's or of an earlier sensor's: it
-/// would agree with that one perfectly, and mislead the others.
+/// Excludes each sensor whose cloud is a copy of the reference's or of an earlier sensor's: the
+/// copy would agree perfectly with it and mislead the other sensors.
 void set_aside_copies(SceneClouds& scene) {
   std::vector<std::pair<std::string, const LoadedCloud*>> originals = {
       {scene.scene->reference.sensor, &scene.reference.cloud}};
@@ -40,12 +40,12 @@ void set_aside_copies(SceneClouds& scene) {
     if (original == originals.end()) {
       originals.emplace_back(sensor, &scan.cloud);
     } else {
-      scan.failure = "the cloud of " + sensor + " is a copy of that of " + original->first;
+      scan.failure = "the cloud of " + sensor + " is a copy of the cloud of " + original->first;
     }
   }
 }
 
-/// Why the times of one cloud are of no use; empty if they are.
+/// Why the times of one cloud are not usable; empty if they are.
 std::string why_no_times(const std::string& sensor, const PointCloud& cloud) {
   const TimeCheck check = check_times(cloud);
   if (check.is_usable) return "";
@@ -53,7 +53,7 @@ std::string why_no_times(const std::string& sensor, const PointCloud& cloud) {
          (check.has_times ? " has unusable times: " + check.reason : " has no times");
 }
 
-/// The doubt about those of a scene.
+/// Why the times in one scene are in doubt.
 TimesInDoubt doubt_in(const SceneClouds& scene) {
   std::vector<std::string> names = {scene.scene->reference.sensor};
   std::vector<const PointCloud*> clouds = {&scene.reference.cloud};
@@ -118,14 +118,14 @@ std::vector<std::string> set_aside_unusable(std::vector<SceneClouds>& scenes) {
       if (!scan.is_usable()) unused.push_back(where + why_no_cloud(scan) + ".");
     }
     if (!has_usable_sensor(scene)) {
-      scene.why_unused = "no cloud of another sensor than the reference can be used";
+      scene.why_unused = "no cloud of a sensor other than the reference is usable";
       unused.push_back(where + scene.why_unused + ".");
     }
   }
   const std::set<std::string> copies = copies_among(scenes);
   for (SceneClouds& scene : scenes) {
     if (!scene.why_unused.empty() || copies.count(scene.scene->name) == 0) continue;
-    scene.why_unused = "its clouds are copies of those of an earlier scene";
+    scene.why_unused = "its clouds are copies of the clouds of an earlier scene";
     unused.push_back("Scene " + scene.scene->name + ": " + scene.why_unused +
                      "; it does not count as evidence.");
   }

@@ -11,12 +11,12 @@
 
 namespace croon {
 
-/// The clouds of one scene as their files have them.
+/// The clouds of one scene as in their files.
 struct SceneClouds {
   const Scene* scene = nullptr;
   ReadScan reference;
-  std::vector<ReadScan> sensors;  ///< As Scene::sensors.
-  std::string why_unused = {};    ///< Why no cloud of the scene takes part; empty if some do.
+  std::vector<ReadScan> sensors;  ///< In the order of Scene::sensors.
+  std::string why_unused = {};    ///< Why no cloud of the scene is used; empty if some are.
 };
 
 /// Reads the clouds of all scenes in parallel. `scenes` must outlive the result; `on_read` is
@@ -24,27 +24,27 @@ struct SceneClouds {
 std::vector<SceneClouds> read_scenes(const std::vector<Scene>& scenes,
                                      const std::function<void(const std::string& scene)>& on_read);
 
-/// Notes in SceneClouds::why_unused which scenes cannot be used: without a usable cloud of the
-/// reference or of another sensor, and copies of earlier scenes. Returns the reasons for which
-/// scenes and single clouds take no part, one sentence each.
+/// Sets SceneClouds::why_unused of scenes without a usable cloud of the reference or of another
+/// sensor, and of copies of earlier scenes. Returns the reasons why scenes and single clouds are
+/// not used, one sentence each.
 std::vector<std::string> set_aside_unusable(std::vector<SceneClouds>& scenes);
 
-/// The usable clouds of the scenes that take part, for warnings.
+/// The usable clouds of the scenes in use, for warnings.
 std::vector<NamedCloud> named_clouds(const std::vector<SceneClouds>& scenes);
 
-/// Why times cannot be used to correct motion; empty if they can.
+/// Why times are not usable for correcting motion; empty if they are.
 struct TimesInDoubt {
   std::string reason;  ///< "the cloud of left in scene 0001 has no times".
-  /// Each cloud has usable times, but those of different sensors are not of one clock or moment.
+  /// Set if each cloud has usable times, but the clocks or moments of the sensors differ.
   bool are_clocks_apart = false;
 };
 
-/// The doubt about the times of the usable clouds in the first scene with clocks that are apart,
-/// else in the first scene with any.
+/// Why times of usable clouds are in doubt: in the first scene with differing clocks, otherwise in
+/// the first scene with any doubt.
 TimesInDoubt times_in_doubt(const std::vector<SceneClouds>& scenes);
 
-/// Why `composition` cannot use the cloud of a sensor in its scene, of which it needs channels;
-/// empty if it can. `sensor` is an index in Scene::sensors.
+/// Why `composition` cannot use the cloud of a sensor in its scene, because of missing channels or
+/// unusable times; empty if it can. `sensor` is an index into Scene::sensors.
 std::string why_not_for(const Composition& composition, const SceneClouds& scene,
                         std::size_t sensor);
 

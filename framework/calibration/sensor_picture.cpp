@@ -21,12 +21,12 @@ constexpr Colour kReferenceColour = {0, 114, 178};  // "c0"
 constexpr Colour kSensorColour = {230, 159, 0};     // "c4"
 constexpr Colour kBothColour = {34, 34, 34};        // "bar"
 
-/// Draws both clouds on `canvas` from the pixel (left, up).
+/// Draws both clouds on `canvas`, with the top left corner at the pixel (left, up).
 void draw_panel(Image& canvas, int left, int up, const Points& reference, const Points& sensor,
                 const CloudView& view) {
   const Image panel = view.image();
   enum : std::uint8_t { kReference = 1, kSensor = 2 };
-  // A row and a column more than the panel, for dots of two by two pixels.
+  // One more row and column than the panel, for dots of two by two pixels.
   const auto stride = static_cast<std::size_t>(panel.width()) + 1;
   std::vector<std::uint8_t> marks(stride * (static_cast<std::size_t>(panel.height()) + 1), 0);
   const auto mark = [&](std::uint8_t bit) {
@@ -49,11 +49,11 @@ void draw_panel(Image& canvas, int left, int up, const Points& reference, const 
   }
 }
 
-/// One column of the picture: the clouds at one pose.
+/// One column of the picture, with the clouds at one pose.
 struct PictureColumn {
   std::string caption;
   RigidTransform T_level_sensor;
-  Points points, above;  ///< Of the sensor in the level frame; those above the ground.
+  Points points, above;  ///< Of the sensor in the level frame; `above` has those above the ground.
 };
 
 PictureColumn column_of(const SensorPicture& picture, const RigidTransform& T_reference_sensor,
@@ -64,7 +64,7 @@ PictureColumn column_of(const SensorPicture& picture, const RigidTransform& T_re
   return column;
 }
 
-/// Marks the origin of a sensor if it is in the view.
+/// Marks the origin of a sensor if it is inside the view.
 void mark_origin(Drawing& drawing, const CloudView& view, const Eigen::Vector3d& origin_m, int left,
                  int up, const std::string& colour) {
   constexpr double kRadius = 4.0;
@@ -78,7 +78,7 @@ void mark_origin(Drawing& drawing, const CloudView& view, const Eigen::Vector3d&
   drawing.dot(x, y, 0.7 * kRadius, "marker " + colour);
 }
 
-/// The number of columns of text of this size that fit a width.
+/// The number of text columns of this font size that fit a width.
 std::size_t columns_in(double width, double size) {
   return static_cast<std::size_t>(width / text_width("m", size)) - 2;
 }
@@ -88,7 +88,7 @@ void draw_title(Drawing& drawing, const SensorPicture& picture) {
   const std::string verdict = picture.is_accepted ? "accepted"
                               : picture.after     ? "REJECTED – best guess, do not use"
                                                   : "REJECTED – no pose was found";
-  // A light field for dark text between two solid lines.
+  // A light background for dark text, between two solid lines.
   const std::string colour = picture.is_accepted ? "c2" : "c1";
   constexpr double kLine = 5.0;
   drawing.rectangle(0.0, 0.0, drawing.width(), height, "inside " + colour);

@@ -8,7 +8,7 @@
 
 namespace croon {
 
-/// One sensor and the reference, to be drawn.
+/// The data for the picture of one sensor and the reference.
 struct SensorPicture {
   std::string reference, sensor, note;
   const Points* reference_points = nullptr;     ///< In the level frame.
@@ -18,8 +18,8 @@ struct SensorPicture {
   LevelFrame level;
 };
 
-/// The sensor and the reference from above and in two sections, before and after, with a legend;
-/// pixels with points of both are black. The zoom is chosen from the points of the sensor.
+/// Draws the sensor and the reference from above and in two sections, before and after, with a
+/// legend; pixels with points of both are black. The points of the sensor determine the zoom.
 Image draw_sensor(const SensorPicture& picture);
 
 }  // namespace croon

@@ -18,7 +18,7 @@ std::string joined(const std::vector<std::string>& sentences) {
   return text;
 }
 
-/// Why the result is not accepted, as steps word it.
+/// Why the result is not accepted, in the words of the steps.
 std::string why_not(const MemberResult& result) {
   return result.failure.empty() ? result.estimate.rejection.value_or("") : result.failure;
 }
@@ -45,17 +45,17 @@ bool is_same(const RigidTransform& a, const RigidTransform& b) {
   return a.rotation == b.rotation && a.translation == b.translation;
 }
 
-/// Of each degree of freedom the best of the poses that are averaged.
-DofWords best_words(const std::vector<const MemberResult*>& results) {
-  DofWords words = results.front()->estimate.covariance->dofs;
+/// For each degree of freedom, the best observability among the averaged poses.
+DofWords combined_observability(const std::vector<const MemberResult*>& results) {
+  DofWords observability = results.front()->estimate.covariance->dofs;
   for (const MemberResult* const result : results) {
-    words = better_words(words, result->estimate.covariance->dofs);
+    observability = better_words(observability, result->estimate.covariance->dofs);
   }
-  return words;
+  return observability;
 }
 
-/// The one pose of `accepted`, which agree: that which a step has given to all of them, else their
-/// mean.
+/// Sets the common pose of `accepted`, which agree: the pose to which a step has set all of them,
+/// or their mean.
 void set_common_pose(CalibratedSensor& sensor, const std::vector<const MemberResult*>& accepted) {
   const Estimate& first = accepted.front()->estimate;
   const bool is_common =
@@ -79,10 +79,10 @@ void set_common_pose(CalibratedSensor& sensor, const std::vector<const MemberRes
   }
   const InformedPose mean = informed_mean(known);
   sensor.T_reference_sensor = mean.pose;
-  sensor.covariance = {guarded_inverse<6>(mean.information), best_words(accepted)};
+  sensor.covariance = {guarded_inverse<6>(mean.information), combined_observability(accepted)};
 }
 
-/// The accepted results in the scenes whose own poses agree with the pose of most of them.
+/// The accepted results in the scenes whose own poses agree with the majority.
 std::vector<const MemberResult*> agreeing(const std::vector<const MemberResult*>& accepted) {
   std::vector<RigidTransform> poses;
   for (const MemberResult* const result : accepted) poses.push_back(result->T_in_scene);
@@ -94,7 +94,7 @@ std::vector<const MemberResult*> agreeing(const std::vector<const MemberResult*>
   return near;
 }
 
-/// The two accepted scenes that are farthest apart, in words.
+/// A sentence on the two accepted scenes whose poses differ the most.
 std::string disagreement(const std::vector<SceneResult>& scenes) {
   std::string text;
   double largest_m = -1.0;
@@ -115,8 +115,7 @@ std::string disagreement(const std::vector<SceneResult>& scenes) {
   return text;
 }
 
-/// Of the poses that were not accepted the one that is nearest to where most of them are; null if
-/// there is none.
+/// Of the poses that were not accepted, the one nearest to the majority; null if there is none.
 const MemberResult* best_guess(const std::vector<SceneResult>& scenes) {
   std::vector<const MemberResult*> results;
   std::vector<RigidTransform> poses;
@@ -149,7 +148,7 @@ void add_once(std::vector<std::string>& list, const std::vector<std::string>& te
   }
 }
 
-/// The reasons of all scenes; those of several scenes begin with the scene's name.
+/// Adds the reasons from all scenes, prefixed with the scene's name if there are several.
 void set_reasons(CalibratedSensor& sensor, const std::vector<SceneResult>& scenes) {
   for (const SceneResult& scene : scenes) {
     const std::string prefix = scenes.size() > 1 ? "Scene " + scene.scene + ": " : "";
@@ -157,15 +156,15 @@ void set_reasons(CalibratedSensor& sensor, const std::vector<SceneResult>& scene
       sensor.reasons.push_back(prefix + scene.why_not);
       continue;
     }
-    const ReasonsInWords words =
+    const ReasonsInWords explanation =
         reasons_in_words(why_not(*scene.result), scene.result->covariance_in_scene);
-    sensor.reasons.push_back(prefix + joined(words.reasons));
-    add_once(sensor.advice, words.advice);
+    sensor.reasons.push_back(prefix + joined(explanation.reasons));
+    add_once(sensor.advice, explanation.advice);
   }
   if (scenes.empty()) sensor.reasons.emplace_back("No scene has a cloud of it.");
 }
 
-/// Rejects a pose whose own standard deviations are beyond what any use of extrinsics accepts.
+/// Rejects a pose whose standard deviations are too large for any application.
 void reject_if_uncertain(CalibratedSensor& sensor) {
   constexpr double kMaxStd_deg = 0.5, kMaxStd_m = 0.1;
   if (!sensor.covariance) return;

@@ -8,16 +8,15 @@
 
 namespace croon {
 
-/// One sensor in one scene: how it ended, or why it took no part.
+/// One sensor in one scene: its result, or why it was not used.
 struct SceneResult {
   std::string scene;
   const MemberResult* result = nullptr;
-  std::string why_not;  ///< If there is no result.
+  std::string why_not;  ///< Set if there is no result.
 };
 
-/// The result for `sensor` from its scenes. It is accepted if it is in at least one scene, and if
-/// most of the scenes that accept a pose agree on it; else it has the best guess, the reasons and
-/// what would help.
+/// The result for `sensor` from its scenes. It is accepted if at least one scene accepts a pose and
+/// the majority of these scenes agree on it; otherwise it has the best guess, reasons and advice.
 CalibratedSensor sensor_result(const std::string& sensor, const std::vector<SceneResult>& scenes);
 
 }  // namespace croon

@@ -16,13 +16,13 @@
 namespace croon {
 namespace {
 
-/// Points higher than this are above the ground.
+/// Minimum height of points above the ground.
 constexpr float kAboveGround_m = 0.3F;
 
-/// Extents are those of at most this number of points.
+/// Maximum number of points from which extents are computed.
 constexpr int kSampled = 5000;
 
-/// The index of the cube of half a metre that a point is in; std::nullopt far away.
+/// The index of the half-metre cube that contains a point; std::nullopt if it is too far away.
 std::optional<std::int64_t> cube_of(const Eigen::Vector3f& point) {
   constexpr float kCube_m = 0.5F;
   constexpr std::int64_t kHalfAxis = 1 << 19, kAxis = 2 * kHalfAxis;
@@ -33,7 +33,7 @@ std::optional<std::int64_t> cube_of(const Eigen::Vector3f& point) {
          static_cast<std::int64_t>(cube.z());
 }
 
-/// One of the points per cube.
+/// One point per cube.
 Points thinned(const Points& points) {
   constexpr int kThinned = 20000;
   std::unordered_set<std::int64_t> cubes;
@@ -45,7 +45,7 @@ Points thinned(const Points& points) {
   return thinned;
 }
 
-/// The middle of a robust range of values, and half of its width.
+/// The centre of a robust range of values, and half its width.
 struct Extent {
   double middle = 0.0, half = 0.0;
 };
@@ -59,10 +59,11 @@ Extent extent_of(const Points& points, int axis) {
   return {(low + high) / 2.0, (high - low) / 2.0};
 }
 
-/// Points nearer to a sensor than this may be on the car itself.
+/// Minimum distance from a sensor; nearer points may be on the car itself.
 constexpr float kOwnBody_m = 2.5F;
 
-/// The position of the section along `axis` in which both clouds have the most points.
+/// The position along `axis` of the section in which the smaller of the two clouds' point counts is
+/// largest.
 double section_centre_m(const ShownPoints& shown, const CloudView& top, int axis,
                         double thickness_m) {
   const auto counts_of = [&](const Points& points) {
@@ -86,7 +87,7 @@ double section_centre_m(const ShownPoints& shown, const CloudView& top, int axis
   return (index + 0.5) * thickness_m;
 }
 
-/// The section that looks from `from`, at the scale of `top`.
+/// The section seen from `from`, at the scale of `top`.
 Row section(const CloudView& top, ViewFrom from, const ShownPoints& shown, bool has_ground) {
   constexpr double kThickness_m = 1.0;
   CloudView view = top;

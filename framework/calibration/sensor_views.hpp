@@ -9,9 +9,9 @@
 
 namespace croon {
 
-// What the picture of a sensor shows: chosen from the clouds.
+// Chooses the views of a sensor's picture from the clouds.
 
-/// The sizes of the views.
+/// Sizes of the views.
 inline constexpr int kPanelWidth_px = 640;
 inline constexpr int kTopHeight_px = 480;
 inline constexpr int kSectionHeight_px = 190;
@@ -19,23 +19,24 @@ inline constexpr int kSectionHeight_px = 190;
 /// The frame in which a rig is drawn: above the reference's ground, z up.
 struct LevelFrame {
   RigidTransform T_level_reference;
-  bool has_ground = false;  ///< z = 0 is the ground; else the frame is the reference's own.
+  /// Whether z = 0 is the ground; otherwise this is the reference's own frame.
+  bool has_ground = false;
 };
 
 /// The level frame of a reference that measured `points`; its own frame if it sees no ground.
 LevelFrame level_frame(const Points& points);
 
-/// The points in the level frame that are above the ground; all if these are few, or if there is
-/// no ground.
+/// The points, in the level frame, that are above the ground; all points if these are few or there
+/// is no ground.
 Points above_ground(const Points& points, const LevelFrame& level);
 
-/// Points of a column at one pose, for choosing what is shown.
+/// Points of a column at one pose, from which views are chosen.
 struct ShownPoints {
   Points reference, sensor;  ///< Above the ground, away from the car's own body.
-  Points shared;             ///< Those of the sensor near which the reference has points, too.
+  Points shared;             ///< Those of the sensor with points of the reference nearby.
 };
 
-/// Chooses from points above the ground, in the level frame as are the origins of the sensors.
+/// Selects from points above the ground; points and origins are in the level frame.
 ShownPoints shown_points(const Points& reference, const Points& sensor,
                          const Eigen::Vector3f& reference_origin_m,
                          const Eigen::Vector3f& sensor_origin_m);
@@ -47,8 +48,8 @@ struct Row {
   bool shows_ground = true;
 };
 
-/// The view from above of what both clouds have, and at its scale the sections, 1 m thick, in which
-/// both have the most points.
+/// The view from above of the common area, and at its scale the sections, 1 m thick, in which both
+/// clouds have the most points.
 std::array<Row, 3> rows_of(const ShownPoints& shown, bool has_ground);
 
 }  // namespace croon

@@ -14,17 +14,17 @@
 namespace croon {
 namespace {
 
-/// Two copies of a coordinate differ by at most this if one was written with millimetres.
+/// Maximum difference between copies of a coordinate if one was rounded to millimetres.
 constexpr float kRounding_m = 0.0011F;
 
-/// Below this number of points a cloud is suspicious.
+/// Number of points below which a cloud is suspicious.
 constexpr std::size_t kFewPoints = 1000;
 
-/// Ranges are looked at in this number of points.
+/// Approximate number of points whose ranges are checked.
 constexpr std::size_t kSampledPoints = 5000;
 
-/// For each cloud the index of the first cloud with the same points; its own if there is none.
-/// Empty clouds are copies of nothing.
+/// For each cloud, the index of the first cloud with the same points, possibly its own. Empty
+/// clouds do not count as copies.
 std::vector<std::size_t> first_copies(const std::vector<NamedCloud>& clouds) {
   std::map<std::size_t, std::vector<std::size_t>> firsts_by_size;
   std::vector<std::size_t> first;
@@ -48,7 +48,7 @@ std::string scene_text(const std::string& scene) {
   return scene.empty() ? std::string() : " in scene " + printable(scene);
 }
 
-/// Each scene with the indices of its clouds, in the order of their first clouds.
+/// The scenes with the indices of their clouds, in the order of their first clouds.
 using CloudsByScene = std::vector<std::pair<std::string, std::vector<std::size_t>>>;
 
 CloudsByScene by_scene(const std::vector<NamedCloud>& clouds) {
@@ -66,7 +66,7 @@ CloudsByScene by_scene(const std::vector<NamedCloud>& clouds) {
   return scenes;
 }
 
-/// The copied scenes, each with the earlier scene that it is a copy of.
+/// The copied scenes, each with its original.
 std::vector<std::pair<std::string, std::string>> scene_copies(
     const std::vector<NamedCloud>& clouds, const std::vector<std::size_t>& first) {
   std::vector<std::pair<std::string, std::string>> copies;
@@ -95,12 +95,12 @@ void warn_of_copies(const std::vector<NamedCloud>& clouds, std::vector<std::stri
     const NamedCloud& one = clouds[first[i]];
     const NamedCloud& other = clouds[i];
     if (first[i] == i || copied.count(other.scene) > 0) continue;
-    // Once per pair of sensors: a copied folder would say it for each of its scenes.
+    // Once per pair of sensors: a copied folder would repeat the warning for each scene.
     if (!named.insert({one.sensor, other.sensor}).second) continue;
     if (one.sensor == other.sensor) {
       warnings.push_back("the cloud of " + printable(other.sensor) + scene_text(other.scene) +
                          " is the same as in scene " + printable(one.scene) +
-                         ", those of the other sensors are not: did its driver repeat a scan?");
+                         ", unlike the clouds of the other sensors: did its driver repeat a scan?");
     } else {
       warnings.push_back(printable(one.sensor) + scene_text(one.scene) + " and " +
                          printable(other.sensor) + scene_text(other.scene) +
@@ -109,7 +109,7 @@ void warn_of_copies(const std::vector<NamedCloud>& clouds, std::vector<std::stri
   }
 }
 
-/// Up to kSampledPoints of the points, evenly spaced in their order.
+/// Up to kSampledPoints of the points, evenly spaced by index.
 Points sample_of(const Points& points) {
   const std::size_t step = points.size() / kSampledPoints + 1;
   Points sample;
@@ -137,8 +137,8 @@ Eigen::Vector3f median_point(const Points& points) {
   return middle;
 }
 
-/// What is suspicious about the unit or the origin of the coordinates; empty if nothing is. Ranges
-/// of LiDARs have medians of 1 m (in a room) to 50 m.
+/// Why the unit or origin of the coordinates is suspicious, or empty. Median ranges of LiDARs are 1
+/// m (in a room) to 50 m.
 std::string why_odd_ranges(const Points& points) {
   constexpr double kCentimetres = 250.0, kMillimetres = 2500.0, kTooNear = 0.2;
   constexpr double kFarOrigin = 10.0;
@@ -148,14 +148,14 @@ std::string why_odd_ranges(const Points& points) {
   const double spread_m = median_distance_m(sample, median_point(sample));
   if (range_m > 1.0 && range_m > kFarOrigin * spread_m && range_m > kCentimetres) {
     return found +
-           ", and the points are close to each other: these look like coordinates of a map; "
-           "coordinates in the frame of the sensor are needed";
+           ", and the points are close to each other: these look like map coordinates; expected "
+           "coordinates in the frame of the sensor";
   }
   if (range_m >= kMillimetres) {
-    return found + ": this looks like millimetres; coordinates in metres are needed";
+    return found + ": this looks like millimetres; expected coordinates in metres";
   }
   if (range_m >= kCentimetres) {
-    return found + ": this looks like centimetres; coordinates in metres are needed";
+    return found + ": this looks like centimetres; expected coordinates in metres";
   }
   if (range_m > 0.0 && range_m < kTooNear) {
     return "the median range is only " + fixed_number(range_m, 3) +
@@ -191,29 +191,29 @@ void warn_of_points(const NamedCloud& of, SensorWarnings& warnings) {
   if (share > kMaxUnmeasured) {
     warnings.add(of, "zeros",
                  fixed_number(100.0 * share, 0) +
-                     " % of the points are not finite or at exactly zero: no measurements");
+                     " % of the points are not finite or exactly zero: no measurements");
   }
   if (points.size() < kFewPoints) {
-    warnings.add(of, "few", "only " + counted(points.size(), "point") + " can be used");
+    warnings.add(of, "few", "only " + counted(points.size(), "point") + " usable");
   }
   if (points.empty()) return;
   const std::string odd = why_odd_ranges(points);
   if (!odd.empty()) warnings.add(of, "ranges", odd);
 }
 
-/// The first and the last time of a scan, seconds.
+/// The first and last time of a scan, in seconds.
 struct TimeRange {
   double first_s, last_s;
 };
 
-/// std::nullopt without times, and if they are not those of one scan: check_times says why.
+/// std::nullopt without times of one scan; check_times reports the reason.
 std::optional<TimeRange> time_range(const PointCloud& cloud) {
-  constexpr double kLongestScan_s = 1.0;
+  constexpr double kMaxDuration_s = 1.0;
   if (cloud.empty() || find_channel(cloud, kTime) == nullptr) return std::nullopt;
   const std::vector<double> times = times_s(cloud);
   const auto [first, last] = std::minmax_element(times.begin(), times.end());
   if (!std::all_of(times.begin(), times.end(), [](double t) { return std::isfinite(t); }) ||
-      *last - *first > kLongestScan_s) {
+      *last - *first > kMaxDuration_s) {
     return std::nullopt;
   }
   return TimeRange{*first, *last};
@@ -228,7 +228,7 @@ std::string duration_text(double duration_s) {
   return fixed_number(duration_s / kHour_s, 0) + " h";
 }
 
-/// Warns of scans that begin long after the first sensor's end, or the other way round.
+/// Warns about scans with a long gap before or after the first sensor's scan.
 void warn_of_times(const std::vector<NamedCloud>& clouds, SensorWarnings& warnings) {
   constexpr double kMaxGap_s = 0.15, kOtherClock_s = 86400.0;
   for (const auto& [scene, members] : by_scene(clouds)) {
@@ -240,12 +240,13 @@ void warn_of_times(const std::vector<NamedCloud>& clouds, SensorWarnings& warnin
       const double gap_s =
           std::max(found->first_s - expected->last_s, expected->first_s - found->last_s);
       if (gap_s <= kMaxGap_s) continue;
-      const std::string apart = "its time stamps are " + duration_text(gap_s) + " from those of " +
-                                printable(reference.sensor);
-      warnings.add(clouds[i], "times",
-                   gap_s > kOtherClock_s
-                       ? apart + ": the two clocks are not synchronised"
-                       : apart + ": if the vehicle moved in between, the pose is wrong by that");
+      const std::string apart = "its time stamps are " + duration_text(gap_s) +
+                                " away from those of " + printable(reference.sensor);
+      warnings.add(
+          clouds[i], "times",
+          gap_s > kOtherClock_s
+              ? apart + ": the two clocks are not synchronised"
+              : apart + ": if the vehicle moved in between, the pose is wrong by that motion");
     }
   }
 }

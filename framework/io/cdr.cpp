@@ -56,7 +56,7 @@ bool CdrReader::read_bool() {
 
 std::string_view CdrReader::read_string() {
   const std::uint32_t length = read_uint32();
-  // Some writers leave out even the zero byte of an empty text.
+  // Some writers omit the zero byte of an empty string.
   if (length == 0) return {};
   const std::string_view text = take(length, 1);
   if (text.back() != '\0') fail("expected a zero byte after " + in_quotes(text));
@@ -83,7 +83,7 @@ void CdrReader::expect_end() const {
   constexpr std::size_t kMaxPaddingBytes = 7;
   const std::size_t left = body_.size() - next_;
   if (left > kMaxPaddingBytes) {
-    fail("expected the end of the message, found " + std::to_string(left) + " bytes more");
+    fail("expected the end of the message, found " + std::to_string(left) + " more bytes");
   }
 }
 

@@ -11,26 +11,26 @@
 namespace croon {
 
 /// Reads a message in the Common Data Representation (XCDR1, the encoding of ROS 2 and DDS) value
-/// by value, in the byte order that its first four bytes declare. Views into the message, which
-/// must outlive it. Every function throws InputError where the message ends too early or has a
-/// value that its type cannot have.
+/// by value, in the byte order that its first four bytes declare. Returns views into the message,
+/// which must outlive the reader. Every function throws InputError if the message ends too early or
+/// a value is invalid for its type.
 class CdrReader {
  public:
-  /// `place` is the file and the position in it of errors. Throws InputError if the first bytes
-  /// declare another encoding.
+  /// `place` has the file and position for errors. Throws InputError if the first bytes declare
+  /// another encoding.
   CdrReader(std::string_view message, Fault place);
 
   std::uint8_t read_uint8();
   std::uint32_t read_uint32();
   std::int32_t read_int32();
   bool read_bool();
-  /// Text without the zero byte at its end.
+  /// Reads a string, without its terminating zero byte.
   std::string_view read_string();
-  /// The bytes of a sequence of octets.
+  /// Reads a sequence of octets.
   std::string_view read_octets();
-  /// The length of a sequence whose elements have at least `min_element_bytes` bytes each.
+  /// Reads the length of a sequence whose elements have at least `min_element_bytes` bytes each.
   std::uint32_t read_length(std::size_t min_element_bytes);
-  /// Throws InputError if more than padding follows.
+  /// Throws InputError if anything but padding follows.
   void expect_end() const;
 
   [[noreturn]] void fail(const std::string& message) const;
@@ -39,7 +39,7 @@ class CdrReader {
   /// The next `count` bytes, after padding to a multiple of `alignment`.
   std::string_view take(std::size_t count, std::size_t alignment);
 
-  std::string_view body_;  ///< Without the first four bytes, from which alignment counts.
+  std::string_view body_;  ///< Without the first four bytes; alignment is relative to its start.
   std::size_t next_ = 0;
   ByteOrder order_ = ByteOrder::little;
   Fault place_;

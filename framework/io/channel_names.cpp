@@ -11,13 +11,13 @@
 namespace croon {
 namespace {
 
-/// The fields that hold a channel of another name.
+/// Names of fields and the channels that they contain.
 const std::vector<std::pair<std::string, std::string>> kOtherNames = {
     {"timestamp", kTime}, {"t", kTime},        {"time_stamp", kTime}, {"offset_time", kTime},
     {"i", kIntensity},    {"laser_id", kRing}, {"time", kTime},       {"intensity", kIntensity},
     {"ring", kRing}};
 
-/// The channel's name, or `field` itself. Words are known in capitals too.
+/// The name of the channel in `field`, or `field` itself. All-capital names are recognised too.
 std::string known_name(const std::string& field) {
   std::string word = field;
   for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -60,12 +60,12 @@ void check_writable(const PointCloud& cloud, const std::filesystem::path& path) 
     const bool is_word = !field.empty() && std::all_of(field.begin(), field.end(), is_of_word);
     if (!is_word || !taken.insert(field).second) {
       throw InputError(path.string(), "",
-                       "expected channels with different names of one word each, found " +
+                       "expected channels with distinct names of one word each, found " +
                            in_quotes(channel.name));
     }
     if (channel.bytes.size() != cloud.size() * channel.bytes_per_point()) {
       throw InputError(path.string(), "",
-                       "the channel " + in_quotes(channel.name) + " is not as long as the points");
+                       "the channel " + in_quotes(channel.name) + " must be as long as the points");
     }
     fields.push_back(field);
   }
@@ -74,8 +74,8 @@ void check_writable(const PointCloud& cloud, const std::filesystem::path& path) 
     const std::string& name = cloud.channels[i].name;
     if (read[i] == name) continue;
     throw InputError(path.string(), "",
-                     "expected another name of the channel " + in_quotes(name) +
-                         (read[i].empty() ? ", which is that of padding in a file"
+                     "expected another name for the channel " + in_quotes(name) +
+                         (read[i].empty() ? ", which denotes padding in a file"
                                           : ", which is read as " + in_quotes(read[i])));
   }
 }

@@ -6,10 +6,10 @@
 namespace croon {
 namespace {
 
-/// The first number of point `i`.
+/// The first number of point `i` in `column`.
 double number(const CloudColumn& column, std::uint64_t i) {
   const char* const bytes = column.first + i * column.stride;
-  // Nearly all clouds. Memory is little-endian, see docs/design.md.
+  // The common case. Memory is little-endian, see docs/design.md.
   if (column.type == scalar_type_of<float>() && column.order == ByteOrder::little) {
     float value = 0.0F;
     std::memcpy(&value, bytes, sizeof(value));

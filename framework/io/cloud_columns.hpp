@@ -11,8 +11,8 @@
 
 namespace croon {
 
-/// The numbers of one field of a binary cloud in memory: `count` of them per point, from `first`
-/// on, those of the next point `stride` bytes later.
+/// The numbers of one field of a binary cloud in memory: `count` per point, starting at `first`,
+/// with `stride` bytes from one point to the next.
 struct CloudColumn {
   std::string name;  ///< Of the channel.
   ScalarType type;
@@ -22,8 +22,8 @@ struct CloudColumn {
   ByteOrder order = ByteOrder::little;
 };
 
-/// `cloud` with `points` points more, whose coordinates are the first numbers of `xyz`, and with
-/// these channels. The memory must hold all of them.
+/// Adds `points` points to `cloud`, whose coordinates are the first numbers of the columns `xyz`,
+/// and the given channels. The memory must contain all of them.
 LoadedCloud from_columns(LoadedCloud cloud, std::uint64_t points,
                          const std::array<CloudColumn, 3>& xyz,
                          const std::vector<CloudColumn>& channels);

@@ -9,9 +9,9 @@
 namespace croon {
 namespace {
 
-/// Coordinates beyond it are those of a map.
+/// Coordinates beyond this are map coordinates.
 constexpr double kMaxRange_m = 10e3;
-/// Beyond it they are damaged: the Earth has a radius of 6400 km.
+/// Coordinates beyond this are damaged: the Earth has a radius of 6400 km.
 constexpr double kMaxMap_m = 1e8;
 
 /// Whether all coordinates were floats before the offset was subtracted.
@@ -39,7 +39,7 @@ Eigen::Vector3d common_offset_m(const Points& points) {
     std::nth_element(coordinates.begin(), middle, coordinates.end());
     const auto median_m = static_cast<double>(*middle);
     constexpr double kKilometre_m = 1000.0;
-    // Half of the points far in front and half far behind have nothing in common.
+    // If half of the points lie far in front and half far behind, there is no common offset.
     if (std::abs(median_m) > kMaxRange_m && std::abs(median_m) < kMaxMap_m) {
       offset_m(axis) = kKilometre_m * std::round(median_m / kKilometre_m);
     }
@@ -48,7 +48,7 @@ Eigen::Vector3d common_offset_m(const Points& points) {
 }
 
 void note_common_offset(LoadedCloud& cloud) {
-  std::string note = "The coordinates are those of a map: (" + plain_number(cloud.origin_m.x()) +
+  std::string note = "The coordinates are map coordinates: (" + plain_number(cloud.origin_m.x()) +
                      ", " + plain_number(cloud.origin_m.y()) + ", " +
                      plain_number(cloud.origin_m.z()) + ") m is subtracted";
   double step_m = 0.0;
@@ -58,7 +58,7 @@ void note_common_offset(LoadedCloud& cloud) {
     step_m = std::max(step_m, static_cast<double>(std::nextafter(origin, 2.0F * origin) - origin));
   }
   if (step_m > 0.0) {
-    note += "; the file has them in single precision, in steps of " + plain_number(step_m) + " m";
+    note += "; the file has single precision, with steps of " + plain_number(step_m) + " m";
   }
   cloud.notes.push_back(note + ".");
 }
@@ -72,15 +72,15 @@ void check_unit_of_times(LoadedCloud& cloud) {
   if (restart_in_packets(times, kind)) {
     time->name = kTimeInPacket;
     cloud.notes.push_back(
-        "The times start again in every packet of the sensor, so they are not used; record them "
+        "The times restart in every packet of the sensor, so they are not used; record them "
         "relative to the scan.");
     return;
   }
   const TimeUnit unit = unit_of_times(times, kind);
   if (unit == convention_of(kind)) return;
-  // A part of the points does not show the unit.
+  // The unit could not be inferred from a subset of the points.
   set_channel(cloud, make_channel(kTime, times_s(cloud)));
-  cloud.notes.push_back(std::string("The times are taken for ") + name_of(unit) + ".");
+  cloud.notes.push_back(std::string("The times are assumed to be in ") + name_of(unit) + ".");
 }
 
 }  // namespace croon

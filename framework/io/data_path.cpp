@@ -10,9 +10,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMostNames = 1000;
+constexpr std::size_t kMaxNames = 1000;
 
-/// The names in `folder`, sorted, without hidden ones; of a large folder some of them.
+/// The sorted names in `folder` without hidden ones; in a large folder only some of them.
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code error;
@@ -20,21 +20,20 @@ std::vector<std::string> names_in(const fs::path& folder) {
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     const std::string name = entry->path().filename().string();
     if (name.compare(0, 1, ".") != 0) names.push_back(name);
-    if (names.size() == kMostNames) break;
+    if (names.size() == kMaxNames) break;
   }
   std::sort(names.begin(), names.end());
   return names;
 }
 
-/// `; known: a, b`; empty if there is none.
+/// `; known: a, b`, or empty if there are no names.
 std::string list_of(const std::vector<std::string>& names) {
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "; known: " : ", ") + name;
   return list;
 }
 
-/// The nearest of `names` to that of a file. What two names have both behind their dots does not
-/// make them alike.
+/// The one of `names` nearest to the name of a file. A common suffix does not count as similarity.
 std::string nearest_file_name(const fs::path& name, const std::vector<std::string>& names) {
   std::vector<std::string> stems, others;
   for (const std::string& other : names) {
@@ -81,8 +80,8 @@ fs::path path_in_data_root(const fs::path& data_root, const std::string& relativ
   const fs::path root = fs::canonical(data_root, error);
   if (error || !fs::is_directory(root, error)) {
     throw InputError(data_root.string(), "",
-                     "expected the folder of the data, found none; --data DIR or CROON_DATA names "
-                     "it (docs/data.md)");
+                     "expected the data folder, found none; set it with --data DIR or CROON_DATA "
+                     "(docs/data.md)");
   }
   fs::path path = (root / relative).lexically_normal();
   if (path.filename().empty()) path = path.parent_path();
@@ -92,10 +91,10 @@ fs::path path_in_data_root(const fs::path& data_root, const std::string& relativ
     if (pointer.empty()) throw InputError(shown, "", message);
     throw InputError("", pointer, shown + ": " + message);
   };
-  if (error) refuse("cannot be looked at: " + error.message());
+  if (error) refuse("cannot be accessed: " + error.message());
   // Checked before existence, so that the message does not reveal which files exist outside.
   if (!is_within(path, root)) {
-    refuse("the path leads outside the data root " + data_root.string());
+    refuse("the path is outside the data root " + data_root.string());
   }
   if (!fs::exists(path, error)) {
     refuse("expected a file or folder, found none" +

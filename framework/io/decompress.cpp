@@ -17,11 +17,11 @@ constexpr std::size_t kMinBlockBytes = 1 << 20;
   throw InputError(place.file, place.where, "the compressed bytes are damaged: " + reason);
 }
 
-/// Appends blocks to a text until `expand` returns false. `expand(block, size)` fills the block of
-/// `size` bytes and makes `size` the number of bytes that it wrote.
+/// Collects blocks of bytes until `expand` returns false. `expand(block, size)` writes up to `size`
+/// bytes to the block and sets `size` to their number.
 template <class Expand>
 std::string expanded(std::uint64_t max_bytes, const Fault& place, const Expand& expand) {
-  // A size that a damaged file declares is not believed before the bytes are there.
+  // Memory grows with the actual bytes: a damaged file may declare any size.
   std::string bytes;
   for (bool has_more = true; has_more;) {
     const std::size_t begin = bytes.size();

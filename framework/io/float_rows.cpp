@@ -16,11 +16,11 @@ namespace {
 constexpr std::size_t kFloatBytes = sizeof(float);
 constexpr std::size_t kMinRowFloats = 3, kMaxRowFloats = 8;
 constexpr const char* kRemedy =
-    "; give their number (columns), rename rows of nuScenes to .pcd.bin, or convert the file to "
+    "; specify their number (columns), rename nuScenes files to .pcd.bin, or convert the file to "
     "PCD, PLY or NumPy";
 
-/// What tells a number of one column from one of another: its size, its sign and size, and whether
-/// it is whole.
+/// Features that distinguish the numbers of different columns: magnitude, signed magnitude, and
+/// whether they are whole.
 constexpr std::size_t kFeatures = 3;
 using Features = std::array<double, kFeatures>;
 
@@ -31,11 +31,11 @@ Features features_of(double value) {
           std::clamp(value, -kMaxValue, kMaxValue), value == std::trunc(value) ? 1.0 : 0.0};
 }
 
-/// The first numbers of a file. The check of the header sees no more.
+/// The first numbers of a file, which are all that the check of the header can see.
 class Sample {
  public:
   explicit Sample(std::string_view head) {
-    head = head.substr(0, kMostHeaderBytes);
+    head = head.substr(0, kMaxHeaderBytes);
     for (std::size_t at = 0; at + kFloatBytes <= head.size(); at += kFloatBytes) {
       values_.push_back(
           decode_scalar(scalar_type_of<float>(), ByteOrder::little, head.data() + at));
@@ -43,8 +43,8 @@ class Sample {
     }
   }
 
-  /// By how much a number depends on its column: n times the correlation ratio, summed over the
-  /// features, less what chance gives it.
+  /// How strongly numbers depend on their column: n times the correlation ratio, summed over the
+  /// features, minus its expectation by chance.
   double evidence(std::size_t columns) const {
     const std::vector<Features> means = column_means(columns);
     const Features mean = column_means(1).front();
@@ -61,8 +61,8 @@ class Sample {
     return sum - static_cast<double>(kFeatures * (columns - 1));
   }
 
-  /// Whether the second half of rows of `columns` holds other quantities than the first, instead of
-  /// the next point.
+  /// Whether the second half of rows of `columns` contains other quantities than the first half,
+  /// rather than the next point.
   bool has_other_second_half(std::size_t columns) const {
     constexpr double kMinLogRatio = 1.0, kMinWhole = 0.5;
     const std::vector<Features> means = column_means(columns);
@@ -84,7 +84,7 @@ class Sample {
     return values_.size() > column;
   }
 
-  /// The share of the rows with a coordinate that no LiDAR measures.
+  /// The share of rows with a coordinate beyond the range of any LiDAR.
   double share_out_of_range(std::size_t columns) const {
     constexpr double kMaxRange_m = 1000.0;
     std::size_t rows = 0, outside = 0;
@@ -116,7 +116,7 @@ class Sample {
   std::vector<Features> features_;
 };
 
-/// The evidence for each number of columns that divides the file.
+/// The evidence for each number of columns that divides the file's length.
 std::map<std::size_t, double> evidence_of(const Sample& sample, std::uint64_t floats,
                                           const std::string& file) {
   std::map<std::size_t, double> evidence;
@@ -124,12 +124,13 @@ std::map<std::size_t, double> evidence_of(const Sample& sample, std::uint64_t fl
     if (floats % columns == 0) evidence[columns] = sample.evidence(columns);
   }
   for (const std::size_t columns : {6U, 8U}) {
-    // The halves of a few rows differ by chance.
+    // With few rows, the halves differ by chance.
     constexpr std::size_t kMinRows = 20;
     if (evidence.count(columns) == 0 || floats < kMinRows * columns) continue;
     evidence.erase(sample.has_other_second_half(columns) ? columns / 2 : columns);
   }
-  // Those that are published; of a few points the content says little.
+  // Priors for the numbers of columns in published data sets: with few points, the content is
+  // inconclusive.
   constexpr double kUsual = 20.0, kOfSuffix = 1000.0;
   for (const std::size_t columns : {4U, 5U}) {
     if (evidence.count(columns) > 0) evidence[columns] += kUsual;
@@ -142,7 +143,8 @@ std::map<std::size_t, double> evidence_of(const Sample& sample, std::uint64_t fl
   return evidence;
 }
 
-/// Throws InputError if another number of columns is about as likely as the best.
+/// The number of columns with the most evidence. Throws InputError if another number is about as
+/// likely.
 std::size_t best_of(const std::map<std::size_t, double>& evidence, const std::string& file) {
   constexpr double kMinLead = 10.0;
   const auto is_less = [](const auto& a, const auto& b) { return a.second < b.second; };
@@ -150,9 +152,9 @@ std::size_t best_of(const std::map<std::size_t, double>& evidence, const std::st
   for (const auto& [columns, score] : evidence) {
     if (columns == best->first || score < best->second - kMinLead) continue;
     throw InputError(file, "",
-                     "cannot tell rows of " + std::to_string(std::min(columns, best->first)) +
-                         " floats from rows of " + std::to_string(std::max(columns, best->first)) +
-                         kRemedy);
+                     "cannot distinguish rows of " +
+                         std::to_string(std::min(columns, best->first)) + " floats from rows of " +
+                         std::to_string(std::max(columns, best->first)) + kRemedy);
   }
   return best->first;
 }

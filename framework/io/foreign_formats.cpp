@@ -6,7 +6,8 @@
 namespace croon {
 namespace {
 
-/// A format that is not read: how its files begin, or end in lower case, and what to do with them.
+/// An unsupported format: the first bytes of its files, its suffix in lower case, and how to
+/// convert them.
 struct ForeignFormat {
   std::string_view magic;
   std::string_view suffix;
@@ -21,19 +22,19 @@ constexpr const char* kPcap =
     "a rosbag2, or save one scan as PCD or CSV in the maker's viewer";
 constexpr const char* kRosBag =
     "a ROS 1 bag; convert it: rosbags-convert --src in.bag --dst out (pip install rosbags), then "
-    "give the folder to croon calibrate";
+    "pass the folder to croon calibrate";
 constexpr const char* kRecording =
-    "a recording of many messages and not one cloud; give it to croon calibrate";
+    "a recording of many messages instead of one cloud; pass it to croon calibrate";
 constexpr const char* kMesh =
-    "a mesh and not measured points; convert its vertices: CloudCompare -SILENT -O in.obj "
+    "a mesh instead of measured points; convert its vertices: CloudCompare -SILENT -O in.obj "
     "-EXTRACT_VERTICES -C_EXPORT_FMT PLY -SAVE_CLOUDS";
 constexpr const char* kCloudCompare =
-    "a file of CloudCompare; convert it: CloudCompare -SILENT -O in.bin -C_EXPORT_FMT PLY "
+    "a CloudCompare file; convert it: CloudCompare -SILENT -O in.bin -C_EXPORT_FMT PLY "
     "-SAVE_CLOUDS";
-constexpr const char* kImage = "a picture and not a point cloud";
+constexpr const char* kImage = "an image instead of a point cloud";
 constexpr const char* kZip = "a compressed archive; unpack it";
 constexpr const char* kPython =
-    "an object of Python; save its points with numpy.save(\"out.npy\", points)";
+    "a Python object; save its points with numpy.save(\"out.npy\", points)";
 constexpr const char* kHdf =
     "an HDF5 file; save its points in Python with numpy.save(\"out.npy\", dataset[:])";
 constexpr const char* kTable =
@@ -42,7 +43,7 @@ constexpr const char* kTable =
 constexpr const char* kMatlab =
     "a MATLAB file; save the points in it: pcwrite(pointCloud(xyz), 'out.pcd')";
 
-/// Magics first, which are certain.
+/// Magic numbers are checked first, because they are unambiguous.
 constexpr ForeignFormat kFormats[] = {
     {"ASTM-E57", ".e57", kE57},
     {"#ROSBAG V", ".bag", kRosBag},

@@ -23,7 +23,7 @@ constexpr std::string_view kMcapMagic("\x89MCAP0\r\n", 8);
 constexpr std::uint64_t kRecordHeadBytes = 9;    ///< The kind of a record and its length.
 constexpr std::uint64_t kMcapMessageBytes = 22;  ///< A message without its data.
 
-/// The kinds of records that matter here, see mcap.dev/spec.
+/// The kinds of records that are used, see mcap.dev/spec.
 enum Kind : std::uint8_t {
   footer = 2,
   schema = 3,
@@ -39,7 +39,7 @@ enum Kind : std::uint8_t {
 
 std::string byte_place(std::uint64_t offset) { return "byte " + std::to_string(offset); }
 
-/// Bytes of a file, or of a chunk that was expanded.
+/// The bytes of a file or of a decompressed chunk.
 class ByteSource {
  public:
   explicit ByteSource(const fs::path& file) : stream_(file, std::ios::binary) {
@@ -54,7 +54,7 @@ class ByteSource {
 
   std::uint64_t size() const { return size_; }
 
-  /// Up to `count` bytes at `offset`; fewer at the end.
+  /// Reads up to `count` bytes at `offset`, fewer at the end.
   std::string read(std::uint64_t offset, std::uint64_t count) {
     count = offset < size_ ? std::min(count, size_ - offset) : 0;
     if (!stream_.is_open()) return bytes_.substr(std::min(offset, size_), count);
@@ -103,13 +103,13 @@ class McapRecordReader {
   Fault place_;
 };
 
-/// A chunk: where its records are in the file, and how to expand them.
+/// A chunk: the position of its records in the file, and their compression.
 struct Chunk {
   fs::path file;
   std::uint64_t offset = 0;
   std::uint64_t stored_bytes = 0;
   std::uint64_t bytes = 0;
-  std::uint32_t crc = 0;  ///< Of the expanded bytes; 0 if it was not computed.
+  std::uint32_t crc = 0;  ///< Of the decompressed bytes; 0 if it was not computed.
   std::string compression;
 };
 
@@ -131,7 +131,7 @@ std::string expand(const Chunk& chunk, ByteSource& file) {
   return bytes;
 }
 
-/// Goes through the records of a file and of its chunks.
+/// Visits the records of a file and of its chunks.
 class McapReader {
  public:
   McapReader(fs::path path, StoredTopics& topics)
@@ -142,8 +142,8 @@ class McapReader {
     const bool is_complete = read_records(file_, kMcapMagic.size(), file_.size(), nullptr);
     if (is_complete) return;
     fail_damaged({path_.string(), byte_place(file_.size()), "", {}},
-                 "ends without the end of an MCAP file: the recording was interrupted, or this is "
-                 "not all of it (" +
+                 "ends without the end of an MCAP file: the recording was interrupted, or the file "
+                 "is incomplete (" +
                      in_quotes("mcap recover") + " repairs such files)");
   }
 
@@ -152,8 +152,8 @@ class McapReader {
     throw InputError(path_.string(), where, message);
   }
 
-  /// The records from `begin` to `end`, which are those of `chunk` unless it is null. Returns
-  /// whether the last record of the data was found.
+  /// Reads the records from `begin` to `end`, in `chunk` unless it is null. Returns whether the
+  /// last record of the data was found.
   bool read_records(ByteSource& source, std::uint64_t begin, std::uint64_t end,
                     const std::shared_ptr<const Chunk>& chunk) {
     for (std::uint64_t at = begin; at < end;) {
@@ -172,7 +172,7 @@ class McapReader {
       at += kRecordHeadBytes;
       if (length > end - at) {
         if (chunk == nullptr) return false;
-        fail_damaged(place, "the chunk is damaged: a record ends behind it");
+        fail_damaged(place, "the chunk is damaged: a record extends beyond it");
       }
       read_record(source, kind, at, length, chunk, place);
       at += length;
@@ -187,7 +187,7 @@ class McapReader {
     if (kind == Kind::message) return add_message(source, offset, length, chunk, place);
     if (kind == Kind::chunk && chunk == nullptr) return read_chunk(offset, length, place);
     if (kind != Kind::schema && kind != Kind::channel) return;
-    if (length > kMaxTextBytes) fail_damaged(place, "a record of text is absurdly large");
+    if (length > kMaxTextBytes) fail_damaged(place, "a text record is implausibly large");
     const std::string content = source.read(offset, length);
     McapRecordReader reader(content, place);
     const auto id = static_cast<std::uint16_t>(reader.number(2));
@@ -214,16 +214,16 @@ class McapReader {
       return;
     }
     if (encoding == "ros1" || schema.encoding == "ros1msg") {
-      fail(topic, "expected messages of ROS 2, found those of ROS 1; convert the bag with " +
+      fail(topic, "expected messages of ROS 2, found messages of ROS 1; convert the bag with " +
                       in_quotes("rosbags-convert --src drive.bag --dst drive") +
-                      " and give the folder");
+                      " and pass the folder");
     }
     if (encoding != "cdr") fail(topic, "expected messages in cdr, found " + in_quotes(encoding));
     channels_[id] = topic;
   }
 
   void read_chunk(std::uint64_t offset, std::uint64_t length, const Fault& place) {
-    // The times, the size, the checksum, the name of the compression and the size again.
+    // The times, the size, the checksum, the name of the compression, and the compressed size.
     constexpr std::uint64_t kMaxChunkHeadBytes = 256;
     const std::string head = file_.read(offset, std::min(length, kMaxChunkHeadBytes));
     McapRecordReader reader(head, place);
@@ -236,16 +236,16 @@ class McapReader {
     const std::uint64_t head_bytes = head.size() - reader.left().size();
     chunk.offset = offset + head_bytes;
     if (chunk.stored_bytes > length - head_bytes) {
-      fail_damaged(place, "the chunk is damaged: its records end behind it");
+      fail_damaged(place, "the chunk is damaged: its records extend beyond it");
     }
     if (chunk.compression.empty()) {
-      // Walked through in the file: of each message, only the head is read.
+      // Visited in the file, so that only the head of each message is read.
       read_records(file_, chunk.offset, chunk.offset + chunk.stored_bytes,
                    std::make_shared<Chunk>(chunk));
       return;
     }
     if (chunk.compression != "lz4" && chunk.compression != "zstd") {
-      fail(place.where, "expected chunks without compression, or with lz4 or zstd, found " +
+      fail(place.where, "expected chunks without compression or with lz4 or zstd, found " +
                             in_quotes(chunk.compression));
     }
     ByteSource records(expand(chunk, file_));
@@ -258,9 +258,9 @@ class McapReader {
         source.read(offset, std::min<std::uint64_t>(length, kMcapMessageBytes + kMessageHeadBytes));
     McapRecordReader reader(head, place);
     const auto topic = channels_.find(static_cast<std::uint16_t>(reader.number(2)));
-    reader.bytes(4);  // Its number in the sequence.
+    reader.bytes(4);  // Sequence number.
     const double log_time_s = static_cast<double>(reader.number(8)) * 1e-9;
-    reader.bytes(8);  // When it was published.
+    reader.bytes(8);  // Publish time.
     if (topic == channels_.end()) return;
     const std::uint64_t begin = offset + kMcapMessageBytes;
     const std::uint64_t bytes = length - kMcapMessageBytes;

@@ -48,7 +48,7 @@ std::string npy_of_npz(std::string_view bytes, const std::string& file) {
   }
   if (arrays.size() == 1) return zip_content(bytes, arrays.front(), file);
   throw InputError(file, "",
-                   "expected one array, or one called \"points\" or \"xyz\", found " +
+                   "expected one array, or one named \"points\" or \"xyz\", found " +
                        (arrays.empty() ? "none" : names));
 }
 

@@ -13,7 +13,7 @@
 namespace croon {
 namespace {
 
-/// The type of one number, in bytes of padding or of an array of numbers too.
+/// The type of one number, of padding, or of a subarray.
 struct Dtype {
   ScalarType type;
   ByteOrder order = ByteOrder::little;
@@ -84,7 +84,7 @@ class HeaderReader {
     return *value;
   }
 
-  /// "<f4"; also of padding, "|V4", whose type is then of no use.
+  /// Parses a type such as "<f4", or padding such as "|V4", whose type is then unused.
   Dtype dtype(const PythonLiteral& literal) const {
     const std::string& text = literal.text;
     if (literal.kind == PythonLiteral::Kind::text && text.size() == 3) {
@@ -107,7 +107,7 @@ class HeaderReader {
 
   std::uint64_t product(std::uint64_t a, std::uint64_t b) const {
     constexpr std::uint64_t kMax = std::numeric_limits<std::int64_t>::max();
-    if (b != 0 && a > kMax / b) fail("the shape of the array is absurdly large");
+    if (b != 0 && a > kMax / b) fail("the shape of the array is implausibly large");
     return a * b;
   }
 
@@ -154,14 +154,14 @@ class HeaderReader {
     header_.data_bytes = product(header_.points, bytes);
   }
 
-  /// Adds a field of a structured array, which begins at byte `first`; returns its bytes.
+  /// Adds a field of a structured array that begins at byte `first`; returns its number of bytes.
   std::uint64_t read_field(const PythonLiteral& entry, std::uint64_t first) {
     constexpr std::uint64_t kMaxBytes = 1U << 20U;
     const std::vector<PythonLiteral>& parts = entry.items;
     if (entry.kind != PythonLiteral::Kind::list || parts.size() < 2 || parts.size() > 3) {
-      fail("expected the name and the type of each field");
+      fail("expected the name and type of each field");
     }
-    // A field with a title has both names.
+    // A field with a title has a pair of names.
     const PythonLiteral& name =
         parts[0].kind == PythonLiteral::Kind::list && !parts[0].items.empty()
             ? parts[0].items.back()
@@ -181,7 +181,7 @@ class HeaderReader {
       }
     }
     const std::uint64_t bytes = product(field.count, type.type.size);
-    if (bytes > kMaxBytes) fail("the field " + in_quotes(name.text) + " is absurdly large");
+    if (bytes > kMaxBytes) fail("the field " + in_quotes(name.text) + " is implausibly large");
     header_.fields.push_back(field);
     return bytes;
   }
@@ -202,7 +202,7 @@ class HeaderReader {
     fail(std::string("the array has no field ") + "xyz"[axis] + name_hint("xyz", names));
   }
 
-  static constexpr std::size_t kMaxHeaderBytes_ = kMostHeaderBytes;
+  static constexpr std::size_t kMaxHeaderBytes_ = kMaxHeaderBytes;
   const std::string& file_;
   PythonLiteral dict_;
   NpyHeader header_;

@@ -25,16 +25,16 @@ constexpr const char* kPathKey = "path";
 constexpr const char* kSensorKey = "sensor";
 constexpr const char* kPoseKey = "(Roll,Pitch,Yaw,tx,ty,tz)";
 
-/// The lines that belong together: a device and what the file lists for it.
+/// A group of lines: a device and its entry.
 struct Record {
   int device_id = 0;
   std::string value;
   std::string place;    ///< Of the value.
   std::string option;   ///< The value of the optional line; empty if there is none.
-  std::string comment;  ///< Behind the device's number.
+  std::string comment;  ///< After the device number.
 };
 
-/// Removes a comment, `# ...`, from the end of `text` and returns what it says.
+/// Removes a comment, `# ...`, from the end of `text` and returns its content.
 std::string take_comment(std::string& text) {
   const std::size_t sign = text.find('#');
   if (sign == std::string::npos) return "";
@@ -43,7 +43,7 @@ std::string take_comment(std::string& text) {
   return comment;
 }
 
-/// A key as it is compared: without blanks, in small letters.
+/// A key in the form for comparison: without blanks, in lower case.
 std::string plain_key(std::string_view text) {
   std::string key;
   for (const char c : text) {
@@ -53,10 +53,10 @@ std::string plain_key(std::string_view text) {
   return key;
 }
 
-/// Puts the lines of a file together to records, and notes what is wrong with them.
+/// Groups the lines of a file into records and collects faults.
 class RecordReader {
  public:
-  /// `key` is the name of the line that is not `device_id`, `option` that of an optional third one.
+  /// `key` is the key of the line besides `device_id`, `option` the key of an optional third line.
   RecordReader(const std::filesystem::path& path, std::string key, std::string option = "")
       : file_(path.string()), key_(std::move(key)), option_key_(std::move(option)) {}
 
@@ -102,22 +102,22 @@ class RecordReader {
     std::string place;
   };
 
-  /// Gives the optional line to the record that has begun, else to the one before it.
+  /// Adds the optional line to the current record, or else to the previous one.
   void take_option(const Part& part) {
     std::string* option = device_ || value_ ? &option_ : nullptr;
     if (option == nullptr && !records_.empty()) option = &records_.back().option;
     if (option == nullptr) {
-      fault(part.place, "the line stands before its device_id");
+      fault(part.place, "the line precedes its device_id");
     } else if (part.text.empty()) {
       fault(part.place, "expected a name, found none");
     } else if (!option->empty()) {
-      fault(part.place, "the device has a second line \"" + option_key_ + "\"");
+      fault(part.place, "the device has a duplicate line \"" + option_key_ + "\"");
     } else {
       *option = part.text;
     }
   }
 
-  /// Ends the record that has begun, if any.
+  /// Ends the current record, if any.
   void close_record() {
     if (device_ && value_) {
       const std::string comment = take_comment(device_->text);
@@ -125,7 +125,7 @@ class RecordReader {
       if (id && *id <= std::numeric_limits<int>::max()) {
         add({static_cast<int>(*id), value_->text, value_->place, option_, comment});
       } else {
-        fault(device_->place, "expected a device's number, found " + in_quotes(device_->text));
+        fault(device_->place, "expected a device number, found " + in_quotes(device_->text));
       }
     } else if (device_) {
       fault(device_->place, "the device has no line \"" + key_ + "\"");
@@ -140,8 +140,7 @@ class RecordReader {
   void add(const Record& record) {
     const auto is_same = [&](const Record& r) { return r.device_id == record.device_id; };
     if (std::any_of(records_.begin(), records_.end(), is_same)) {
-      return fault(record.place,
-                   "device " + std::to_string(record.device_id) + " stands here twice");
+      return fault(record.place, "duplicate device " + std::to_string(record.device_id));
     }
     records_.push_back(record);
   }
@@ -168,14 +167,14 @@ std::optional<RigidTransform> pose_of(std::string text) {
   return RigidTransform{rotation_from_rpy(values.head<3>() * rad_from_deg(1.0)), values.tail<3>()};
 }
 
-/// The two lines of a record.
+/// The text of a record's two lines.
 std::string record_text(int device_id, const char* key, const std::string& value,
                         const std::string& comment = "") {
   return std::string(kDeviceKey) + ": " + std::to_string(device_id) +
          (comment.empty() ? "" : "  # " + comment) + "\n" + key + ": " + value + "\n";
 }
 
-/// The records by device; throws what was wrong.
+/// The records, sorted by device. Throws InputError with all faults.
 template <class Listed>
 std::vector<Listed> sorted(std::vector<Listed> listed, const RecordReader& reader) {
   if (!reader.faults.empty()) throw InputError(reader.faults);
@@ -190,7 +189,7 @@ std::vector<ListedCloud> read_cloud_list(const std::filesystem::path& file) {
   RecordReader reader(file, kPathKey, kSensorKey);
   std::vector<ListedCloud> clouds;
   for (const Record& record : reader.read()) {
-    if (record.value.empty()) reader.fault(record.place, "expected a file's path, found none");
+    if (record.value.empty()) reader.fault(record.place, "expected the path of a file, found none");
     const std::string& name = record.option;
     clouds.push_back({record.device_id, record.value, record.place,
                       name.empty() ? sensor_name_of_file(record.value) : name});
@@ -218,7 +217,7 @@ std::vector<ListedPose> read_pose_list(const std::filesystem::path& file) {
 }
 
 std::string sensor_name_of_file(const std::string& path) {
-  // Lists of the authors have Windows' separators.
+  // The authors' lists have Windows path separators.
   const std::string file = path.substr(path.find_last_of("/\\") + 1);
   const std::string stem = std::filesystem::path(file).stem().string();
   return stem.substr(0, stem.find('-'));

@@ -12,13 +12,13 @@
 namespace croon {
 namespace {
 
-/// A field that becomes a channel, and the channel so far.
+/// A field that becomes a channel, and the channel read so far.
 struct FieldChannel {
   const PcdField* field;
   Channel channel;
 };
 
-/// The channels of the fields other than x, y and z, still empty.
+/// Empty channels for the fields other than x, y and z.
 std::vector<FieldChannel> empty_channels(const PcdHeader& header) {
   const std::vector<std::string> names = pcd_channel_names(header);
   std::vector<FieldChannel> channels;
@@ -40,8 +40,8 @@ LoadedCloud empty_cloud(const PcdHeader& header, const Eigen::Vector3d& origin_m
   return cloud;
 }
 
-/// The points of a binary body; `first` returns the first number of a field, `stride` its distance
-/// to that of the next point.
+/// Reads the points of a binary body; `first` returns the first number of a field, `stride` its
+/// distance to the next point's.
 template <class First, class Stride>
 LoadedCloud from_fields(const PcdHeader& header, LoadedCloud cloud, const First& first,
                         const Stride& stride) {
@@ -60,7 +60,7 @@ LoadedCloud from_fields(const PcdHeader& header, LoadedCloud cloud, const First&
   return from_columns(std::move(cloud), header.points, xyz, channels);
 }
 
-/// Point after point, and in each point field after field.
+/// Reads a body stored point by point, each with all fields.
 LoadedCloud from_binary(const PcdHeader& header, LoadedCloud cloud, std::string_view body) {
   return from_fields(
       header, std::move(cloud),
@@ -68,7 +68,7 @@ LoadedCloud from_binary(const PcdHeader& header, LoadedCloud cloud, std::string_
       [&](const PcdField&) { return header.point_bytes; });
 }
 
-/// Field after field, and in each field point after point; all of it compressed by LZF.
+/// Reads an LZF-compressed body stored field by field, each with all points.
 LoadedCloud from_compressed(const PcdHeader& header, LoadedCloud cloud, std::string_view body,
                             const std::string& file) {
   const PcdCompressedSizes sizes = pcd_compressed_sizes(body);
@@ -83,13 +83,13 @@ LoadedCloud from_compressed(const PcdHeader& header, LoadedCloud cloud, std::str
       [](const PcdField& field) { return field.count * field.type.size; });
 }
 
-/// The words of the points of a text body.
+/// Reads the points of a text body.
 class PointLines {
  public:
   PointLines(const PcdHeader& header, std::string_view body, const std::string& file)
       : header_(header), reader_(body, header.lines), file_(file) {}
 
-  /// Goes to the next line that is not empty; false at the end.
+  /// Advances to the next non-empty line; returns false at the end.
   bool next() {
     do {
       if (!reader_.next()) return false;
@@ -160,7 +160,7 @@ LoadedCloud parse_pcd(std::string_view bytes, const std::string& file,
   if (header.encoding == PcdEncoding::ascii) {
     return from_ascii(header, std::move(cloud), body, file);
   }
-  // Without points there need not be a compressed body.
+  // Without points, a compressed body may be missing.
   if (header.encoding == PcdEncoding::binary || header.points == 0) {
     return from_binary(header, std::move(cloud), body);
   }

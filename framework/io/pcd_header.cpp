@@ -14,7 +14,7 @@ namespace {
 const std::vector<std::string> kKeywords = {"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
                                             "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
 
-/// One line of the header: the words after the keyword.
+/// The words after the keyword in one line of the header.
 struct Entry {
   std::vector<std::string> words;
   std::string place;
@@ -24,7 +24,7 @@ struct Entry {
 class HeaderLines {
  public:
   HeaderLines(std::string_view bytes, const std::string& file) : file_(file) {
-    LineReader reader(bytes.substr(0, kMostHeaderBytes));
+    LineReader reader(bytes.substr(0, kMaxHeaderBytes));
     while (entries_.count("DATA") == 0) {
       if (!reader.next())
         fail("", entries_.empty() ? "is not a PCD file: it has no header"
@@ -46,7 +46,7 @@ class HeaderLines {
     return *entry;
   }
 
-  /// The only number of a line; std::nullopt if the line is missing.
+  /// The single number in a line; std::nullopt if the line is missing.
   std::optional<std::uint64_t> number(const std::string& keyword) const {
     const Entry* entry = find(keyword);
     if (entry == nullptr) return std::nullopt;
@@ -83,7 +83,7 @@ class HeaderLines {
       fail(reader.place(), "unknown word " + in_quotes(keyword) + name_hint(keyword, kKeywords));
     const Entry entry{{words.begin() + 1, words.end()}, reader.place()};
     if (!entries_.emplace(keyword, entry).second) {
-      fail(reader.place(), "the header has a second line " + keyword);
+      fail(reader.place(), "the header has a duplicate line " + keyword);
     }
   }
 
@@ -131,7 +131,7 @@ void read_fields(const HeaderLines& header, PcdHeader& out) {
     field.name = names.words[i];
     field.type = scalar_type(header, header.at("TYPE").words[i], header.at("SIZE").words[i]);
     if (counts != nullptr) field.count = header.count(*counts, counts->words[i]);
-    // Keeps the sums below far from where they would overflow.
+    // Prevents overflow in the sums below.
     if (field.count > std::numeric_limits<std::int32_t>::max()) {
       header.fail(counts->place, "a field cannot have " + counts->words[i] + " numbers");
     }
@@ -165,7 +165,7 @@ void find_xyz(const HeaderLines& header, PcdHeader& out) {
   }
 }
 
-/// The words of VIEWPOINT if they are a pose other than the identity, 0 0 0 1 0 0 0; else empty.
+/// The words of VIEWPOINT, or empty if it is missing or the identity, 0 0 0 1 0 0 0.
 std::string viewpoint(const HeaderLines& header) {
   const Entry* entry = header.find("VIEWPOINT");
   constexpr std::size_t kNumbers = 7, kQuaternionW = 3;
@@ -185,12 +185,12 @@ std::uint64_t point_count(const HeaderLines& header) {
   const std::optional<std::uint64_t> points = header.number("POINTS");
   if (!width && !points) header.fail("", "the header has no line POINTS and no line WIDTH");
   if (!width) return *points;
-  // Some writers leave the size of the image at zero.
+  // Some writers set the size of the image to zero.
   if (points && (*width == 0 || height == 0U)) return *points;
   const std::uint64_t rows = height.value_or(1);
-  constexpr std::uint64_t kMost = std::numeric_limits<std::int64_t>::max();
-  if (rows != 0 && *width > kMost / rows)
-    header.fail(header.at("WIDTH").place, "is absurdly large");
+  constexpr std::uint64_t kMaxProduct = std::numeric_limits<std::int64_t>::max();
+  if (rows != 0 && *width > kMaxProduct / rows)
+    header.fail(header.at("WIDTH").place, "is implausibly large");
   if (points && *points != *width * rows) {
     header.fail(header.at("POINTS").place, "expected POINTS to be WIDTH times HEIGHT, " +
                                                std::to_string(*width * rows) + ", found " +
@@ -227,7 +227,7 @@ PcdHeader parse_pcd_header(std::string_view bytes, const std::string& file) {
 
 std::vector<std::string> pcd_channel_names(const PcdHeader& header) {
   std::vector<std::string> fields;
-  // Padding holds nothing, and neither does a field without numbers.
+  // A field without numbers is treated like padding.
   for (const PcdField& field : header.fields) fields.push_back(field.count > 0 ? field.name : "_");
   for (const std::size_t axis : header.xyz) fields[axis] = "_";
   return channel_names(fields);

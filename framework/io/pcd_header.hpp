@@ -24,7 +24,7 @@ enum class PcdEncoding { ascii, binary, binary_compressed };
 /// The header of a PCD file (versions .5 to .7), checked to be complete and consistent.
 struct PcdHeader {
   std::vector<PcdField> fields;
-  std::array<std::size_t, 3> xyz{};  ///< Indices of the fields x, y, z, or X, Y, Z.
+  std::array<std::size_t, 3> xyz{};  ///< Indices of the fields x, y, z or X, Y, Z.
   std::uint64_t points = 0;
   std::uint64_t point_bytes = 0;
   std::uint64_t point_words = 0;
@@ -35,7 +35,7 @@ struct PcdHeader {
 };
 
 /// Reads the header at the start of `bytes`; `file` is the name in errors. Throws InputError with
-/// the line and what is wrong with it.
+/// the faulty line and the reason.
 PcdHeader parse_pcd_header(std::string_view bytes, const std::string& file);
 
 /// The name of the channel in each field, see `channel_names`; empty for a field without numbers.
@@ -44,14 +44,14 @@ std::vector<std::string> pcd_channel_names(const PcdHeader& header);
 /// The 8 bytes before a binary_compressed body, little-endian.
 struct PcdCompressedSizes {
   std::uint64_t compressed = 0;    ///< Bytes that follow.
-  std::uint64_t uncompressed = 0;  ///< Bytes that they stand for.
+  std::uint64_t uncompressed = 0;  ///< Bytes after decompression.
 };
 constexpr std::size_t kPcdSizesBytes = 8;
 
 /// The sizes at the start of `body`, which must have kPcdSizesBytes.
 PcdCompressedSizes pcd_compressed_sizes(std::string_view body);
 
-/// Throws InputError if a file of `file_bytes` bytes cannot hold the points that its header
+/// Throws InputError if a file of `file_bytes` bytes cannot contain the points that its header
 /// declares. `head` is the file's start: the header and, for binary_compressed, at least the 8
 /// bytes after it.
 void check_pcd_size(const PcdHeader& header, std::string_view head, std::uint64_t file_bytes,

@@ -28,14 +28,14 @@ void check_compressed(const PcdHeader& header, std::string_view head, std::uint6
     fail(file, "expected " + std::to_string(sizes.compressed) + " compressed bytes, found " +
                    std::to_string(body_bytes - kPcdSizesBytes));
   }
-  // LZF's densest code is 3 bytes for 264: more is a lie, and would make us allocate what it
-  // claims.
-  constexpr std::uint64_t kMostRatio = 88;
-  if (sizes.uncompressed > kMostRatio * sizes.compressed) {
-    fail(file, std::to_string(sizes.compressed) + " compressed bytes cannot hold " +
+  // LZF encodes at most 264 bytes in 3: a higher ratio is invalid and must not cause a large
+  // allocation.
+  constexpr std::uint64_t kMaxRatio = 88;
+  if (sizes.uncompressed > kMaxRatio * sizes.compressed) {
+    fail(file, std::to_string(sizes.compressed) + " compressed bytes cannot contain " +
                    std::to_string(sizes.uncompressed));
   }
-  // The division keeps the product from overflowing.
+  // Divides instead of multiplying to prevent overflow.
   if (sizes.uncompressed / header.point_bytes != header.points ||
       sizes.uncompressed % header.point_bytes != 0) {
     fail(file, promised(header) + " of " + std::to_string(header.point_bytes) + " bytes, found " +
@@ -60,7 +60,7 @@ void check_pcd_size(const PcdHeader& header, std::string_view head, std::uint64_
   const std::uint64_t body_bytes = file_bytes - header.body_offset;
   switch (header.encoding) {
     case PcdEncoding::ascii:
-      // A number takes a digit and a blank or an end of line, which the last may lack.
+      // A number takes at least a digit and a separator, except at the end of the file.
       if (header.points > (body_bytes + 1) / (2 * header.point_words)) {
         fail(file, promised(header) + " of " + std::to_string(header.point_words) + " numbers" +
                        bytes_found(body_bytes));

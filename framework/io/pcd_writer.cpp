@@ -11,7 +11,7 @@
 namespace croon {
 namespace {
 
-/// One line of the header: `word` and a value per field.
+/// One line of the header: `word` and one value per field.
 template <class Value>
 std::string header_line(const char* word, const std::vector<Channel>& fields, const Value& value) {
   std::string line = word;
@@ -37,7 +37,7 @@ std::string header_of(const PointCloud& cloud, const std::vector<Channel>& field
          data + "\n";
 }
 
-/// The channels of the coordinates, then those of the cloud.
+/// The coordinates as channels, then the channels of the cloud.
 std::vector<Channel> all_channels(const PointCloud& cloud) {
   std::vector<Channel> channels;
   for (int axis = 0; axis < 3; ++axis) {
@@ -80,7 +80,7 @@ std::string compressed_body(const std::vector<Channel>& channels, const std::str
   if (raw.size() > std::numeric_limits<std::uint32_t>::max() / 2) {
     throw InputError(file, "", "expected at most 2 GiB of points to compress, found more");
   }
-  // Bytes that do not shrink take up to a byte more for 32 (liblzf's blocks of literals).
+  // Incompressible data grows by up to one byte per 32 (liblzf's literal runs).
   std::string packed(raw.size() + raw.size() / 16 + 64, '\0');
   const unsigned int size =
       raw.empty() ? 0

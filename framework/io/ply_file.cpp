@@ -9,7 +9,7 @@
 namespace croon {
 namespace {
 
-/// The elements of a binary body, one after the other.
+/// Reads the elements of a binary body one after the other.
 class BinaryBody {
  public:
   BinaryBody(const PlyHeader& header, std::string_view body, const std::string& file)
@@ -18,7 +18,8 @@ class BinaryBody {
         rest_(body),
         file_(file) {}
 
-  /// The next element's values, by property; lists are skipped and leave their length.
+  /// Reads the next element's values, by property; lists are skipped, with their length as the
+  /// value.
   void next(const PlyElement& element, std::vector<double>& values) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       const PlyProperty& property = element.properties[i];
@@ -32,7 +33,7 @@ class BinaryBody {
     }
   }
 
-  /// Never happens: a number was read as its type.
+  /// Not reached: numbers are read in their own type.
   [[noreturn]] void fail(const std::string& message) const { throw InputError(file_, "", message); }
 
  private:
@@ -50,7 +51,7 @@ class BinaryBody {
   const std::string& file_;
 };
 
-/// The elements of a text body: one on each line that is not empty.
+/// Reads the elements of a text body, one per non-empty line.
 class TextBody {
  public:
   TextBody(const PlyHeader& header, std::string_view body, const std::string& file)
@@ -84,7 +85,7 @@ class TextBody {
 
   void skip_list(std::string_view& rest, const PlyProperty& property, double length) const {
     if (!(length >= 0)) fail("expected the length of the list " + property.name);
-    // Stops at the line's end, however long the list is said to be.
+    // Stops at the end of the line, whatever length is declared.
     for (double i = 0; i < length; ++i) number(rest, property);
   }
 
@@ -98,7 +99,7 @@ LoadedCloud read_vertices(const PlyHeader& header, Body body, const Eigen::Vecto
   for (std::size_t e = 0; e < header.vertex; ++e) {
     const PlyElement& element = header.elements[e];
     values.resize(element.properties.size());
-    // An element without properties takes no space, however many there are.
+    // Elements without properties take no space, whatever their number.
     for (std::uint64_t i = 0; !values.empty() && i < element.count; ++i) body.next(element, values);
   }
   const PlyElement& vertex = header.elements[header.vertex];

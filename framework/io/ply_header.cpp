@@ -23,11 +23,11 @@ const std::map<std::string, ScalarType, std::less<>>& scalar_types() {
   return types;
 }
 
-/// Reads the header's lines one after the other into `header`.
+/// Parses the lines of the header.
 class HeaderParser {
  public:
   HeaderParser(std::string_view bytes, const std::string& file)
-      : file_(file), reader_(bytes.substr(0, kMostHeaderBytes)) {}
+      : file_(file), reader_(bytes.substr(0, kMaxHeaderBytes)) {}
 
   PlyHeader parse() {
     if (!reader_.next() || trimmed(reader_.line()) != "ply") {
@@ -122,7 +122,7 @@ class HeaderParser {
     for (std::size_t axis = 0; axis < 3; ++axis) header_.xyz[axis] = find_axis(*vertex, axis);
   }
 
-  /// The index of the property x, y or z, or else X, Y or Z.
+  /// The index of the property x, y or z, or otherwise X, Y or Z.
   std::size_t find_axis(const PlyElement& vertex, std::size_t axis) const {
     for (const char name : {"xyz"[axis], "XYZ"[axis]}) {
       for (std::size_t i = 0; i < vertex.properties.size(); ++i) {
@@ -138,9 +138,9 @@ class HeaderParser {
   PlyHeader header_;
 };
 
-/// The least space of one element: in text a digit and a blank for each property, and lists are
+/// The minimum size of one element: in text, a digit and a blank for each property; lists may be
 /// empty.
-std::uint64_t least_bytes(const PlyHeader& header, const PlyElement& element) {
+std::uint64_t min_bytes(const PlyHeader& header, const PlyElement& element) {
   std::uint64_t bytes = 0;
   for (const PlyProperty& property : element.properties) {
     bytes += header.encoding == PlyEncoding::ascii
@@ -166,7 +166,7 @@ std::vector<std::string> ply_channel_names(const PlyHeader& header) {
 }
 
 std::string ply_type_name(ScalarType type) {
-  // Of the two names of a type, the original one.
+  // Of the two names of each type, the original one.
   for (const char* name : {"char", "uchar", "short", "ushort", "int", "uint", "float", "double"}) {
     if (scalar_types().find(name)->second == type) return name;
   }
@@ -175,16 +175,16 @@ std::string ply_type_name(ScalarType type) {
 
 void check_ply_size(const PlyHeader& header, std::uint64_t file_bytes, const std::string& file) {
   std::uint64_t left = file_bytes - header.body_offset;
-  // The last line of text may lack its end.
+  // The last line of text may lack its line ending.
   if (header.encoding == PlyEncoding::ascii) ++left;
   for (const PlyElement& element : header.elements) {
-    const std::uint64_t each = least_bytes(header, element);
+    const std::uint64_t each = min_bytes(header, element);
     if (each == 0) continue;
     if (element.count > left / each) {
       throw InputError(file, "",
                        "expected " + std::to_string(element.count) + " of the element " +
                            in_quotes(element.name) + " of at least " + std::to_string(each) +
-                           " bytes, found the file's end after " + std::to_string(left));
+                           " bytes, found the end of the file after " + std::to_string(left));
     }
     left -= element.count * each;
   }

@@ -11,8 +11,8 @@
 
 namespace croon {
 
-/// One property of a PLY element: a number, or a list of numbers if `list_count` is set, the type
-/// of the list's length.
+/// One property of a PLY element: a number, or a list of numbers if `list_count`, the type of the
+/// list's length, is set.
 struct PlyProperty {
   std::string name;
   ScalarType type;
@@ -33,22 +33,23 @@ struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::ascii;
   std::vector<PlyElement> elements;
   std::size_t vertex = 0;            ///< Index of the element "vertex".
-  std::array<std::size_t, 3> xyz{};  ///< Indices of its properties x, y, z, or X, Y, Z.
+  std::array<std::size_t, 3> xyz{};  ///< Indices of its properties x, y, z or X, Y, Z.
   std::size_t body_offset = 0;       ///< Bytes before the elements.
   int lines = 0;                     ///< Lines before the elements.
 };
 
 /// Reads the header at the start of `bytes`; `file` is the name in errors. Throws InputError with
-/// the line and what is wrong with it.
+/// the faulty line and the reason.
 PlyHeader parse_ply_header(std::string_view bytes, const std::string& file);
 
 /// The name of the channel in each property of the vertices, see `channel_names`; empty for lists.
 std::vector<std::string> ply_channel_names(const PlyHeader& header);
 
-/// The name of a type in a header, "float"; empty for integers of 8 bytes, which PLY does not have.
+/// The name of a type in a header, such as "float"; empty for 8-byte integers, which PLY does not
+/// support.
 std::string ply_type_name(ScalarType type);
 
-/// Throws InputError if a file of `file_bytes` bytes cannot hold the elements that its header
+/// Throws InputError if a file of `file_bytes` bytes cannot contain the elements that its header
 /// declares.
 void check_ply_size(const PlyHeader& header, std::uint64_t file_bytes, const std::string& file);
 

@@ -46,7 +46,7 @@ void append_text(std::string& text, const PointCloud& cloud, std::size_t index) 
 
 constexpr const char* kBinary = "binary_little_endian";
 
-/// By which `is_fused_ply` knows the files of `write_fused_ply`.
+/// Marks the files of `write_fused_ply` for `is_fused_ply`.
 const std::string kFusedComment = "comment croon: clouds of a rig, fused\n";
 
 /// The lines before the comments.
@@ -58,7 +58,7 @@ std::string header(const std::string& format, const std::string& comments, std::
          "\nproperty float x\nproperty float y\nproperty float z\n" + colours + "end_header\n";
 }
 
-/// A sensor's name in one line, whatever its file was called.
+/// A sensor's name without line breaks.
 std::string one_line(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20) c = '?';
@@ -77,8 +77,8 @@ void write_ply(const std::filesystem::path& path, const PointCloud& cloud, PlyFo
     if (type.empty() || channel.count != 1) {
       throw InputError(path.string(), "",
                        "expected channels of one number of at most 4 bytes, or a double, per "
-                       "point, found another in " +
-                           in_quotes(channel.name) + "; PCD has them all");
+                       "point, found another type in " +
+                           in_quotes(channel.name) + "; PCD supports all types");
     }
     properties += "property " + type + " " + field_name(channel.name, cloud) + "\n";
   }

@@ -23,7 +23,7 @@ struct CloudField {
   std::uint64_t count = 1;  ///< Numbers per point.
 };
 
-/// A message, with its points as they are stored.
+/// A message, with its points as stored.
 struct CloudMessage {
   std::uint64_t height = 0, width = 0;
   std::vector<CloudField> fields;
@@ -44,7 +44,7 @@ ScalarType type_of_datatype(std::uint8_t datatype, const std::string& field,
                                                    {ScalarKind::floating, 4},
                                                    {ScalarKind::floating, 8}}};
   if (datatype < 1 || datatype > types.size()) {
-    reader.fail("expected a datatype from 1 to 8 of the field " + in_quotes(field) + ", found " +
+    reader.fail("expected a datatype from 1 to 8 for the field " + in_quotes(field) + ", found " +
                 std::to_string(datatype));
   }
   return types[datatype - 1U];
@@ -68,7 +68,7 @@ std::vector<CloudField> read_cloud_fields(CdrReader& reader) {
     field.name = std::string(reader.read_string());
     field.offset = reader.read_uint32();
     field.type = type_of_datatype(reader.read_uint8(), field.name, reader);
-    // Some drivers leave the count of single numbers at zero, which PCL accepts too.
+    // Some drivers set the count of single numbers to zero, which PCL accepts too.
     field.count = std::max<std::uint32_t>(reader.read_uint32(), 1);
   }
   return fields;
@@ -85,7 +85,7 @@ void check_layout(CloudMessage& cloud, const CdrReader& reader) {
                 std::to_string(end));
   }
   const std::uint64_t row_bytes = cloud.width * cloud.point_step;
-  // Of a single row, or of rows without padding, some drivers do not set the step.
+  // Some drivers do not set the step of a single row or of rows without padding.
   const bool is_packed =
       cloud.data.size() / cloud.height == row_bytes && cloud.data.size() % cloud.height == 0;
   if (cloud.height == 1 || is_packed) cloud.row_step = row_bytes;
@@ -110,7 +110,7 @@ CloudMessage read_cloud_message(CdrReader& reader) {
   cloud.point_step = reader.read_uint32();
   cloud.row_step = reader.read_uint32();
   cloud.data = reader.read_octets();
-  reader.read_bool();  // is_dense: the points themselves show it.
+  reader.read_bool();  // is_dense: not needed, since points are checked.
   reader.expect_end();
   check_layout(cloud, reader);
   return cloud;
@@ -192,7 +192,7 @@ std::optional<MessageHeader> read_message_header(std::string_view head) {
     try {
       header.frame = std::string(reader.read_string());
     } catch (const InputError&) {
-      // The head ends within the frame.
+      // `head` ends inside the frame.
     }
   } catch (const InputError&) {
     return std::nullopt;

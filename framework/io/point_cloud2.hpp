@@ -15,15 +15,15 @@ struct MessageHeader {
   std::string frame;     ///< frame_id.
 };
 
-/// The header at the start of a message in CDR, of which `head` has the first bytes; std::nullopt
-/// if it is not complete there. The frame is empty if `head` ends within it.
+/// Reads the header of a message in CDR from `head`, its first bytes; std::nullopt if the header is
+/// incomplete there. The frame is empty if `head` ends inside it.
 std::optional<MessageHeader> read_message_header(std::string_view head);
 
-/// The cloud in a message sensor_msgs/msg/PointCloud2 in CDR: coordinates and channels of any of
-/// its eight datatypes, in either byte order, with padding, organized or not. Points are dropped
-/// and counted as in LoadedCloud::add. The channel `time` is in seconds on the clock of `stamp_s`,
-/// the stamp of the message (see time_offset_s). `place` is that of errors. Throws InputError if
-/// the message is damaged or has no x, y, z.
+/// Reads the cloud in a sensor_msgs/msg/PointCloud2 message in CDR: coordinates and channels of any
+/// of its eight datatypes, in either byte order, with or without padding, organized or not. Points
+/// are dropped and counted as in LoadedCloud::add. The channel `time` is in seconds on the clock of
+/// `stamp_s`, the stamp of the message (see time_offset_s). `place` is the position for errors.
+/// Throws InputError if the message is damaged or has no x, y, z.
 LoadedCloud read_point_cloud2(std::string_view message, double stamp_s, const Fault& place);
 
 }  // namespace croon

@@ -28,9 +28,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file, as far as its header is concerned.
+/// The start of a file.
 struct FileHead {
-  std::string_view bytes;        ///< The first ones.
+  std::string_view bytes;        ///< The first bytes.
   std::uint64_t file_bytes = 0;  ///< Of the whole file.
   std::string file;              ///< Its path.
   ReadOptions options;
@@ -40,11 +40,11 @@ struct FileHead {
 struct Format {
   LoadedCloud (*parse)(std::string_view bytes, const std::string& file, const ReadOptions& options,
                        const Eigen::Vector3d& origin_m);
-  /// Returns the names of the channels.
+  /// Checks the header and returns the names of the channels.
   std::vector<std::string> (*check)(const FileHead& head);
 };
 
-/// Without the empty ones.
+/// The non-empty names.
 std::vector<std::string> named(std::vector<std::string> names) {
   names.erase(std::remove(names.begin(), names.end(), ""), names.end());
   return names;
@@ -54,7 +54,8 @@ std::vector<std::string> check_pcd(const FileHead& head) {
   const PcdHeader header = parse_pcd_header(head.bytes, head.file);
   check_pcd_size(header, head.bytes, head.file_bytes, head.file);
   if (header.encoding == PcdEncoding::binary_compressed) {
-    // The file, what it expands to, and the points with their channels are in memory at one time.
+    // The file, its decompressed data, and the points with their channels are in memory
+    // simultaneously.
     const auto point_bytes = static_cast<double>(header.point_bytes);
     const double points_bytes =
         static_cast<double>(header.points) * (2.0 * point_bytes + sizeof(Eigen::Vector3f));
@@ -76,7 +77,8 @@ std::vector<std::string> check_npy(const FileHead& head) {
   return named(npy_channel_names(header));
 }
 
-/// The directory of the archive is at its end, and the array may be compressed.
+/// Reads the whole file: the directory of the archive is at its end, and the array may be
+/// compressed.
 std::vector<std::string> check_npz(const FileHead& head) {
   const std::string array = npy_of_npz(read_whole_file(head.file), head.file);
   return check_npy({array, array.size(), head.file, {}});
@@ -157,14 +159,14 @@ const Format& format_of(const fs::path& path, std::string_view head) {
                        in_quotes(path.extension().string()));
 }
 
-/// The first bytes of a file: enough for a header and the sizes of a compressed body after it.
+/// The first bytes of a file: enough for a header and the sizes of a compressed body.
 std::string head_of(const fs::path& path, std::uint64_t file_bytes) {
   const std::uint64_t wanted =
-      std::min<std::uint64_t>(file_bytes, kMostHeaderBytes + kPcdSizesBytes);
+      std::min<std::uint64_t>(file_bytes, kMaxHeaderBytes + kPcdSizesBytes);
   std::string head(static_cast<std::size_t>(wanted), '\0');
   std::ifstream stream(path, std::ios::binary);
   if (!stream.read(head.data(), static_cast<std::streamsize>(head.size()))) {
-    throw InputError(path.string(), "", "expected a readable file, found one that is not");
+    throw InputError(path.string(), "", "expected a readable file, found an unreadable one");
   }
   return head;
 }
@@ -210,7 +212,7 @@ std::vector<std::string> check_point_cloud_file(const fs::path& path, const Read
   }
   const std::uintmax_t file_bytes = fs::file_size(path, error);
   if (error) throw InputError(path.string(), "", "cannot be read: " + error.message());
-  // The bytes, the points and the channels are in memory at one time.
+  // The bytes, the points and the channels are in memory simultaneously.
   constexpr double kMemoryPerByte = 2.25;
   require_memory(kMemoryPerByte * static_cast<double>(file_bytes), "to read this file",
                  "make it smaller", {path.string(), "", ""});

@@ -69,7 +69,7 @@ class LiteralParser {
       rest_.remove_prefix(1);
     }
     if (value.text.empty()) fail();
-    take("L");  // As Python 2 writes them.
+    take("L");  // The suffix of integers in Python 2.
     return value;
   }
 

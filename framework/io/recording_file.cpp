@@ -33,7 +33,7 @@ bool has_ending(const std::string& name, const std::string& ending) {
          name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-/// How the file stores messages: by its first bytes, or, if they say nothing, by its name.
+/// The storage format of a file, by its first bytes or else by its name.
 Storage storage_of(const fs::path& path) {
   std::string head(16, '\0');
   std::error_code error;
@@ -56,11 +56,11 @@ Storage storage_of(const fs::path& path) {
   return has_ending(name, ".db3") ? Storage::sqlite : Storage::none;
 }
 
-/// The path without the suffix of its compression.
+/// The path without its compression suffix.
 fs::path decompressed_path(const fs::path& path) { return path.parent_path() / path.stem(); }
 
-/// The names after "relative_file_paths:" in the metadata.yaml of a rosbag2; std::nullopt if it is
-/// another file.
+/// The names after "relative_file_paths:" in the metadata.yaml of a rosbag2; std::nullopt if there
+/// are none.
 std::optional<std::vector<std::string>> files_in_metadata(const fs::path& folder) {
   constexpr std::size_t kMaxBytes = 16 << 20;
   std::ifstream stream(folder / "metadata.yaml", std::ios::binary);
@@ -90,7 +90,7 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-/// The files of a recording in a folder that store messages, sorted by name.
+/// The files with messages in the folder of a recording, sorted by name.
 std::vector<fs::path> files_in_folder(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
@@ -99,7 +99,7 @@ std::vector<fs::path> files_in_folder(const fs::path& folder) {
     const bool is_stored =
         storage == Storage::mcap || storage == Storage::sqlite || storage == Storage::compressed;
     if (!is_stored || !is_file(at->path())) continue;
-    // The file from which it was decompressed is of no more interest.
+    // Skips a compressed file if its decompressed version exists.
     if (storage == Storage::compressed && is_file(decompressed_path(at->path()))) continue;
     files.push_back(at->path());
   }
@@ -107,13 +107,13 @@ std::vector<fs::path> files_in_folder(const fs::path& folder) {
   return files;
 }
 
-/// The files of a recording. Throws InputError if one that its metadata.yaml lists is missing.
+/// The files of a recording. Throws InputError if a file that its metadata.yaml lists is missing.
 std::vector<fs::path> files_of_recording(const fs::path& path) {
   std::error_code error;
   if (!fs::is_directory(path, error)) return {path};
   std::vector<fs::path> files;
   for (const std::string& name : files_in_metadata(path).value_or(std::vector<std::string>{})) {
-    // Early versions wrote the name of the folder before that of the file.
+    // Early versions prefixed the name of the folder.
     fs::path file = path / fs::path(name).filename();
     if (storage_of(file) == Storage::compressed && is_file(decompressed_path(file))) {
       file = decompressed_path(file);
@@ -122,7 +122,7 @@ std::vector<fs::path> files_of_recording(const fs::path& path) {
       throw InputError((path / "metadata.yaml").string(), "",
                        "expected the file " + in_quotes(name) + " beside it, found " +
                            found_instead_of_file(file) +
-                           "; give the files that are there instead of the folder");
+                           "; pass the existing files instead of the folder");
     }
     files.push_back(file);
   }
@@ -147,13 +147,13 @@ void read_stored(const fs::path& file, StoredTopics& topics) {
       throw InputError(file.string(), "",
                        "is compressed as a whole; decompress it with " +
                            in_quotes(decompression_command(file)) +
-                           " and give the same path again, or the file that it writes");
+                           " and pass the same path again, or the resulting file");
     case Storage::ros1:
       throw InputError(file.string(), "",
                        "is a recording of ROS 1; convert it with " +
                            in_quotes("rosbags-convert --src " + file.filename().string() +
                                      " --dst " + file.stem().string()) +
-                           " and give the folder");
+                           " and pass the folder");
     case Storage::none:
       break;
   }
@@ -162,12 +162,12 @@ void read_stored(const fs::path& file, StoredTopics& topics) {
                        (is_file(file) ? "another file" : found_instead_of_file(file)));
 }
 
-/// What can be done with messages of another type that have points; empty if nothing.
+/// Advice for messages with points of another type; empty if there is none.
 std::string advice_for_type(const std::string& type) {
   const auto has = [&](const char* word) { return type.find(word) != std::string::npos; };
   if (has("livox") && has("CustomMsg")) {
-    return "; Livox's driver publishes PointCloud2 instead with the parameter xfer_format 0; play "
-           "this recording through livox_to_pointcloud2 and record what that publishes";
+    return "; the Livox driver publishes PointCloud2 instead if its parameter xfer_format is 0; "
+           "play this recording through livox_to_pointcloud2 and record the output";
   }
   for (const char* word : {"Packet", "VelodyneScan", "PandarScan", "RslidarScan", "UdpFrame"}) {
     if (!has(word)) continue;
@@ -192,7 +192,7 @@ std::string advice_for_type(const std::string& type) {
                        (types.empty() ? "no topic" : types) + advice);
 }
 
-/// The message as it was published: rosbag2 can compress each message alone.
+/// The message as published; rosbag2 may compress each message individually.
 std::string published(std::string bytes, const Fault& place) {
   if (!is_zstd(bytes)) return bytes;
   return decompress_zstd(bytes, std::numeric_limits<std::uint32_t>::max(), place);
@@ -200,7 +200,7 @@ std::string published(std::string bytes, const Fault& place) {
 
 RecordedCloud recorded_cloud(const StoredMessage& message, const Fault& place, std::string& frame) {
   std::optional<MessageHeader> header;
-  // A damaged message has no header; that is said when it is loaded.
+  // A damaged message has no header; the error is reported when it is loaded.
   try {
     header = read_message_header(is_zstd(message.head) ? published(message.read(), place)
                                                        : message.head);

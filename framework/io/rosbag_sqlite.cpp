@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The URI by which SQLite opens `path` and writes nothing, not even beside it, if it can be read
-/// without the journal of an interrupted recording.
+/// The URI with which SQLite opens `path` read-only, without writing auxiliary files unless the
+/// journal of an interrupted recording must be read.
 std::string read_only_uri(const fs::path& path) {
   constexpr const char* kDigits = "0123456789ABCDEF";
   std::string uri = "file:";
@@ -69,7 +69,7 @@ class RosbagDatabase {
     if (code != SQLITE_OK) fail();
     int ignored = 0;
     sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, &ignored);
-    // Or SQLite would read nothing of a file that is shorter than its header declares.
+    // Without this, SQLite reads nothing of a file that is shorter than its header declares.
     sqlite3_db_config(database, SQLITE_DBCONFIG_WRITABLE_SCHEMA, 1, &ignored);
     for_each("PRAGMA cell_size_check = ON", [](sqlite3_stmt*) {});
   }
@@ -87,7 +87,7 @@ class RosbagDatabase {
     if (step != SQLITE_DONE) fail();
   }
 
-  /// The first `max_bytes` of the message in this row of the table.
+  /// Reads the first `max_bytes` of the message in this row of the table.
   std::string read_message(std::int64_t row, std::size_t max_bytes) {
     if (blob_ == nullptr) {
       sqlite3_blob* blob = nullptr;
@@ -115,14 +115,14 @@ class RosbagDatabase {
     const std::string words = sqlite3_errmsg(database_.get());
     switch (sqlite3_errcode(database_.get())) {
       case SQLITE_NOTADB:
-        throw InputError(path_.string(), "", "is not an SQLite file, as a rosbag2 (.db3) is");
+        throw InputError(path_.string(), "", "is not an SQLite file, unlike a rosbag2 (.db3)");
       case SQLITE_CANTOPEN:
       case SQLITE_BUSY:
       case SQLITE_IOERR:
         throw UnavailableFile(path_.string(), "", "cannot be read: " + words);
       default:
         throw DamagedRecording(path_.string(), "",
-                               "the recording is damaged or not complete: " + words);
+                               "the recording is damaged or incomplete: " + words);
     }
   }
 
@@ -137,10 +137,10 @@ std::string text_of(sqlite3_stmt* row, int column) {
   return text == nullptr ? "" : std::string(reinterpret_cast<const char*>(text), size);
 }
 
-/// Throws InputError unless the tables of a rosbag2 are there.
+/// Throws InputError unless the tables of a rosbag2 exist.
 void check_tables(RosbagDatabase& database, const fs::path& file) {
   int tables = 0;
-  // Views and virtual tables, which a recording does not have, have no root page.
+  // Views and virtual tables, which do not occur in recordings, have no root page.
   database.for_each(
       "SELECT 1 FROM sqlite_master WHERE type = 'table' AND rootpage > 0 AND name IN ('topics', "
       "'messages')",
@@ -171,7 +171,7 @@ void read_rosbag_sqlite(const fs::path& file, StoredTopics& topics) {
                       }
                       names[sqlite3_column_int64(row, 0)] = name;
                     });
-  // Of a file that is cut, the end of the last messages is missing.
+  // In a truncated file, the ends of the last messages are missing.
   const bool has_cut = is_cut(file);
   const std::size_t checked_bytes =
       has_cut ? std::numeric_limits<std::size_t>::max() : kMessageHeadBytes;
@@ -181,7 +181,7 @@ void read_rosbag_sqlite(const fs::path& file, StoredTopics& topics) {
     const std::int64_t id = sqlite3_column_int64(row, 0);
     StoredMessage message;
     message.log_time_s = static_cast<double>(sqlite3_column_int64(row, 2)) * 1e-9;
-    // Not by substr(), for which SQLite would read all of the message.
+    // Not with substr(), for which SQLite would read the whole message.
     message.head = database.read_message(id, checked_bytes).substr(0, kMessageHeadBytes);
     message.read = [file, id] {
       return RosbagDatabase(file).read_message(id, std::numeric_limits<std::size_t>::max());
@@ -190,9 +190,9 @@ void read_rosbag_sqlite(const fs::path& file, StoredTopics& topics) {
     topics.cloud_topic(name->second).messages.push_back(std::move(message));
   });
   if (has_cut) {
-    throw DamagedRecording(file.string(), "",
-                           "the recording is damaged or not complete: it is shorter than its "
-                           "header declares");
+    throw DamagedRecording(
+        file.string(), "",
+        "the recording is damaged or incomplete: it is shorter than its header declares");
   }
 }
 

@@ -7,13 +7,13 @@
 namespace croon {
 namespace {
 
-/// The lines of the points of a text.
+/// Reads the points of a text line by line.
 class TextPoints {
  public:
   TextPoints(const TextLayout& layout, std::string_view body, const std::string& file)
       : layout_(layout), reader_(body, layout.lines), file_(file) {}
 
-  /// Goes to the next line with numbers; false at the end.
+  /// Advances to the next line with numbers; returns false at the end.
   bool next() {
     while (reader_.next()) {
       const std::string_view line = trimmed(reader_.line());

@@ -5,8 +5,8 @@
 
 namespace croon {
 
-/// Makes `fields` those of `line` between separators, with the blanks around them; a blank as
-/// separator stands for any number of blanks and tabs. An empty field at the end is left out.
+/// Sets `fields` to the fields of `line`, including the blanks around them; a blank as `separator`
+/// means any number of blanks and tabs. An empty field at the end is omitted.
 void split_fields(std::string_view line, char separator, std::vector<std::string_view>& fields);
 
 }  // namespace croon

@@ -11,7 +11,7 @@
 namespace croon {
 namespace {
 
-/// Without quotes and blanks around it, and without its unit in brackets.
+/// `field` without surrounding quotes and blanks, and without a unit in brackets.
 std::string plain_name(std::string_view field) {
   field = trimmed(field);
   if (field.size() >= 2 && field.front() == '"' && field.back() == '"') {
@@ -29,7 +29,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// Whether `name` is a name of the coordinate `axis`; ParaView and VeloView write the last two.
+/// Whether `name` denotes the coordinate `axis`; ParaView and VeloView write the last two forms.
 bool is_axis(const std::string& name, std::size_t axis) {
   const std::string letter(1, "xyz"[axis]), index = std::to_string(axis);
   return name == letter || name == letter + "_m" || name == "points:" + index ||
@@ -44,7 +44,7 @@ std::optional<std::array<std::size_t, 3>> find_xyz(const std::vector<std::string
       if (is_axis(lower(fields[i]), axis)) found.push_back(i);
     }
     if (found.empty()) return std::nullopt;
-    // The plain name before those of a program.
+    // Plain names take precedence over those of specific programs.
     const auto is_plain = [&](std::size_t i) { return fields[i].size() == 1; };
     const auto plain = std::find_if(found.begin(), found.end(), is_plain);
     xyz[axis] = plain == found.end() ? found.front() : *plain;
@@ -52,7 +52,7 @@ std::optional<std::array<std::size_t, 3>> find_xyz(const std::vector<std::string
   return xyz;
 }
 
-/// The separator of a line; a comma before blanks, because blanks may follow it.
+/// The separator of a line; commas take precedence, because blanks may follow them.
 char separator_of(std::string_view line) {
   for (const char separator : {';', '\t', ','}) {
     if (line.find(separator) != std::string_view::npos) return separator;
@@ -68,11 +68,11 @@ std::vector<std::string> header_fields(std::string_view line) {
   return fields;
 }
 
-/// Takes the lines before the points.
+/// Reads the lines before the points.
 class LayoutReader {
  public:
   LayoutReader(std::string_view head, const std::string& file)
-      : file_(file), reader_(head.substr(0, kMostHeaderBytes)) {}
+      : file_(file), reader_(head.substr(0, kMaxHeaderBytes)) {}
 
   TextLayout read() {
     while (reader_.next()) {
@@ -100,7 +100,7 @@ class LayoutReader {
   }
 
  private:
-  /// Without the mark of UTF-8 that Windows writes.
+  /// The line without a UTF-8 byte order mark.
   std::string_view without_mark(std::string_view line) const {
     constexpr std::string_view kMark = "\xEF\xBB\xBF";
     return reader_.number() == 1 && line.substr(0, kMark.size()) == kMark
@@ -126,7 +126,7 @@ class LayoutReader {
     return layout_.points.has_value();
   }
 
-  /// Whether `line` is a header.
+  /// Sets the fields if `line` is a header; returns whether it is.
   bool note_header(std::string_view line) {
     std::vector<std::string> fields = header_fields(line);
     const std::optional<std::array<std::size_t, 3>> xyz = find_xyz(fields);
@@ -142,11 +142,11 @@ class LayoutReader {
     layout_.lines = lines;
   }
 
-  /// The line is the first of the points.
+  /// Completes the layout at the first line with a point.
   void finish() {
     const std::size_t columns = words_.size();
     if (!layout_.has_header) {
-      // More numbers are hardly points: 8 and 12 are poses.
+      // Lines of 8 or 12 numbers are probably poses.
       constexpr std::size_t kMinColumns = 3, kMaxColumns = 7;
       if (columns < kMinColumns || columns > kMaxColumns) {
         throw InputError(file_, reader_.place(),
@@ -194,7 +194,7 @@ void split_fields(std::string_view line, char separator, std::vector<std::string
     fields.push_back(line.substr(start, end - start));
     start = end + 1;
   }
-  // A separator may end the line.
+  // A line may end with a separator.
   if (fields.size() > 1 && trimmed(fields.back()).empty()) fields.pop_back();
 }
 

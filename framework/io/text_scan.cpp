@@ -64,14 +64,14 @@ std::vector<std::string_view> words_of(std::string_view line) {
 }
 
 std::string in_quotes(std::string_view text) {
-  constexpr std::size_t kLongest = 60;
+  constexpr std::size_t kMaxShown = 60;
   std::string shown = "\"";
-  for (const char c : text.substr(0, kLongest)) shown += c >= 0x20 && c < 0x7f ? c : '?';
-  return shown + (text.size() > kLongest ? "...\"" : "\"");
+  for (const char c : text.substr(0, kMaxShown)) shown += c >= 0x20 && c < 0x7f ? c : '?';
+  return shown + (text.size() > kMaxShown ? "...\"" : "\"");
 }
 
 std::optional<double> number_from(std::string_view word) {
-  // from_chars does not know the plus sign.
+  // from_chars does not accept a plus sign.
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   return whole_word<double>(word);
 }

@@ -8,9 +8,9 @@
 namespace croon {
 namespace {
 
-/// OpenVDB gives each file a random UUID; replaces it by one that is derived from the content.
+/// Replaces the random UUID that OpenVDB writes by one derived from the content.
 void name_by_content(std::string& bytes) {
-  // After the magic number, the version of the format, that of the library, and a flag.
+  // After the magic number, the format version, the library version and a flag.
   constexpr std::size_t kUuidOffset = 8 + 4 + 2 * 4 + 1;
   bytes.replace(kUuidOffset, 36, "00000000-0000-0000-0000-000000000000");
   std::string uuid = sha256_of_text(bytes).substr(0, 32);

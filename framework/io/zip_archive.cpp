@@ -10,7 +10,7 @@
 namespace croon {
 namespace {
 
-/// The fixed parts of the records, APPNOTE 4.3.
+/// Sizes of the fixed parts of the records, APPNOTE 4.3.
 constexpr std::size_t kLocalBytes = 30, kCentralBytes = 46, kEndBytes = 22;
 constexpr std::uint64_t kIsInZip64 = 0xFFFFFFFF;
 
@@ -18,7 +18,7 @@ constexpr std::uint64_t kIsInZip64 = 0xFFFFFFFF;
   throw InputError(file, "", message);
 }
 
-/// The little-endian whole number of `size` bytes at `at`, which must be in `bytes`.
+/// The little-endian integer of `size` bytes at `at`, which must be inside `bytes`.
 std::uint64_t number(std::string_view bytes, std::size_t at, std::size_t size) {
   std::uint64_t value = 0;
   for (std::size_t i = 0; i < size; ++i) {
@@ -31,7 +31,7 @@ bool begins_with(std::string_view bytes, std::uint64_t at, std::string_view star
   return at <= bytes.size() && bytes.substr(at, start.size()) == start;
 }
 
-/// Where the record at the end of the archive begins: a comment may follow it.
+/// The offset of the end record of the archive, which a comment may follow.
 std::size_t end_record(std::string_view bytes, const std::string& file) {
   constexpr std::size_t kMaxComment = 0xFFFF;
   const std::size_t first =
@@ -43,8 +43,7 @@ std::size_t end_record(std::string_view bytes, const std::string& file) {
   return found;
 }
 
-/// Replaces the sizes and the offset that do not fit in 32 bits by those of the ZIP64 field in
-/// `extra`.
+/// Replaces sizes and the offset that do not fit in 32 bits by those in the ZIP64 field of `extra`.
 void read_zip64(std::string_view extra, ZipEntry& entry) {
   while (extra.size() >= 4) {
     const std::uint64_t id = number(extra, 0, 2);
@@ -92,9 +91,9 @@ std::vector<ZipEntry> zip_entries(std::string_view bytes, const std::string& fil
     read_zip64(record.substr(kCentralBytes + name_bytes, extra_bytes), entry);
     const bool is_encrypted = (number(record, 8, 2) & 1U) != 0;
     if (is_encrypted || (method != 0 && method != 8)) {
-      fail(file, "the entry " + in_quotes(entry.name) +
-                     " of the ZIP archive is encrypted or compressed by another method than "
-                     "deflate");
+      fail(file,
+           "the entry " + in_quotes(entry.name) +
+               " of the ZIP archive is encrypted or compressed with a method other than deflate");
     }
     entries.push_back(entry);
     at += record_bytes;
@@ -114,7 +113,7 @@ std::string zip_content(std::string_view bytes, const ZipEntry& entry, const std
       static_cast<std::size_t>(kLocalBytes + number(local, 26, 2) + number(local, 28, 2));
   if (start > local.size() || entry.compressed > local.size() - start) fail(file, damaged);
   const std::string_view packed = local.substr(start, entry.compressed);
-  // Deflate's densest code: more is a lie, and would make us allocate what it claims.
+  // Deflate's maximum ratio: a higher one is invalid and must not cause a large allocation.
   constexpr std::uint64_t kMaxRatio = 1032;
   const bool is_possible = entry.is_deflated
                                ? entry.size / kMaxRatio <= entry.compressed &&

@@ -4,8 +4,8 @@
 
 namespace croon::voxels {
 
-/// The functions of voxels.hpp in the module that on_demand.cpp loads, where they are the variable
-/// `croon_openvdb`. The module and its program are of one build.
+/// The functions of voxels.hpp in the module that on_demand.cpp loads, as the variable
+/// `croon_openvdb` there. The module and its program must be from the same build.
 struct Module {
   decltype(&make_tree) tree;
   decltype(&occupancy_file) file;

@@ -8,21 +8,20 @@
 namespace croon::voxels {
 namespace {
 
-/// Throws InputError if the module is not where it was built or installed.
+/// Loads the module. Throws InputError if it is not where it was built or installed.
 const Module& load_module() {
-  // The folders of the program and of the module are moved together, so the path between them
-  // stays.
+  // The folders of the program and the module are moved together, so the relative path stays valid.
   const std::filesystem::path program = std::filesystem::canonical("/proc/self/exe");
   const std::filesystem::path path =
       (program.parent_path() / CROON_OPENVDB_MODULE).lexically_normal();
-  // Never closed: trees of the module live as long as the program likes.
+  // Never closed: trees of the module may live as long as the program.
   void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   const void* const module = library == nullptr ? nullptr : dlsym(library, "croon_openvdb");
   if (module == nullptr) {
-    throw InputError(path.string(), "",
-                     std::string("the part of croon that uses OpenVDB cannot be loaded; it belongs "
-                                 "to the program ") +
-                         program.string() + ": " + dlerror());
+    throw InputError(
+        path.string(), "",
+        std::string("cannot load the OpenVDB module of croon, which belongs to the program ") +
+            program.string() + ": " + dlerror());
   }
   return *static_cast<const Module*>(module);
 }

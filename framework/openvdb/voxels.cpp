@@ -12,17 +12,17 @@
 namespace croon::voxels {
 namespace {
 
-/// A sparse grid of bits. Its nodes are 64 voxels wide (those of MaskTree: 4096), because a cloud
-/// fills little of the space around it and a node's memory is cleared for every pose.
+/// A sparse grid of bits. Its nodes are 64 voxels wide (4096 in MaskTree), because a cloud occupies
+/// little of the space around it and a node's memory is cleared for every pose.
 using Bits = openvdb::tree::Tree3<openvdb::ValueMask, 3, 3>::Type;
 
-/// Not registered with its tree: no tree here loses nodes while it is read.
+/// Accessors need not be registered with their tree: no tree here loses nodes while it is read.
 template <class T>
 using Accessor = openvdb::tree::ValueAccessor<T, false>;
 
 openvdb::Coord coord(const Eigen::Vector3i& voxel) { return {voxel.x(), voxel.y(), voxel.z()}; }
 
-/// Counts on one thread: a thread that waits inside a trial must not start the work of another
+/// Counts on one thread: a thread that waits inside a trial must not start working on another
 /// trial.
 std::int64_t count(const Bits& bits) {
   return static_cast<std::int64_t>(openvdb::tools::countActiveVoxels(bits, false));
@@ -59,11 +59,11 @@ std::unique_ptr<const Tree> make_tree(const Indices& voxels) {
 
 std::string occupancy_file(const Indices& voxels, double size_m) {
   openvdb::initialize();
-  // The active voxels are true: bool grids are what most viewers draw.
+  // The active voxels are true; most viewers can draw bool grids.
   const openvdb::BoolGrid::Ptr grid = openvdb::BoolGrid::create(false);
   openvdb::BoolGrid::Accessor values = grid->getAccessor();
   for (const Eigen::Vector3i& voxel : voxels) values.setValueOn(coord(voxel), true);
-  // OpenVDB's voxel has its centre at its index, ours half a voxel beyond it.
+  // OpenVDB's voxels are centred at their indices, ours half a voxel beyond.
   const openvdb::math::Transform::Ptr transform =
       openvdb::math::Transform::createLinearTransform(size_m);
   transform->postTranslate(openvdb::Vec3d(0.5 * size_m));

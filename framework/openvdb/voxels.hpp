@@ -8,10 +8,10 @@
 
 namespace croon::voxels {
 
-/// Integer indices of voxels, in any order; one may stand there more than once.
+/// Integer indices of voxels, in any order, possibly with duplicates.
 using Indices = std::vector<Eigen::Vector3i>;
 
-/// The set of some voxels as a sparse tree of bits. Thread-safe.
+/// A set of voxels as a sparse tree of bits. Thread-safe.
 class Tree {
  public:
   Tree() = default;
@@ -19,13 +19,13 @@ class Tree {
   Tree& operator=(const Tree&) = delete;
   virtual ~Tree() = default;
 
-  /// How many voxels are in the tree or among `others`.
+  /// The number of distinct voxels in the tree or in `others`.
   virtual std::int64_t count_with(const Indices& others) const = 0;
 };
 
-/// The two functions by which croon uses OpenVDB (Museth 2013). voxels.cpp defines them by calls of
-/// OpenVDB. Its library takes 0.06 s to load, so on_demand.cpp defines them for the program as
-/// calls of a module that is loaded when it is first needed.
+/// The two functions through which croon uses OpenVDB (Museth 2013). voxels.cpp implements them
+/// with OpenVDB. Since its library takes 0.06 s to load, on_demand.cpp implements them for the
+/// program by calling a module that is loaded on first use.
 std::unique_ptr<const Tree> make_tree(const Indices& voxels);
 
 /// The content of a .vdb file with a grid of bools, "occupancy", in which these voxels are true.

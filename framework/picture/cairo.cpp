@@ -1,4 +1,4 @@
-// The writers that draw with cairo: PDF, and images.
+// The writers that draw with cairo: PDF and images.
 #include <cairo-pdf.h>
 #include <cairo.h>
 
@@ -15,7 +15,7 @@ namespace {
 using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 
-/// Throws std::runtime_error if cairo failed: no memory or no font.
+/// Throws std::runtime_error if cairo failed, for lack of memory or a font.
 void check(cairo_status_t status) {
   if (status == CAIRO_STATUS_SUCCESS) return;
   throw std::runtime_error(std::string("cairo: ") + cairo_status_to_string(status));
@@ -125,7 +125,7 @@ std::string pdf_bytes(const Drawing& drawing) {
                                                             unit * drawing.height()),
                         cairo_surface_destroy);
   check(cairo_surface_status(surface.get()));
-  // The time of writing would make the bytes differ.
+  // The creation date would make the bytes differ.
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, nullptr);
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_SUBJECT,
                                  drawing.description().c_str());
@@ -146,7 +146,7 @@ void draw_on(Image& image, const Drawing& drawing, double scale) {
   check(cairo_surface_status(surface.get()));
   unsigned char* const pixels = cairo_image_surface_get_data(surface.get());
   const int stride = cairo_image_surface_get_stride(surface.get());
-  // A pixel of cairo is 0x00RRGGBB in the order of the machine.
+  // A cairo pixel is 0x00RRGGBB in native byte order.
   const auto for_each_pixel = [&](const auto& visit) {
     for (int row = 0; row < image.height(); ++row) {
       for (int column = 0; column < image.width(); ++column) {

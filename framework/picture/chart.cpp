@@ -24,7 +24,8 @@ Parts parts_of(const std::string& name) {
   return parts;
 }
 
-/// The number of first parts, or of last ones, that all of `names` share; each keeps one part.
+/// The number of leading, or trailing, parts that all of `names` share; each name keeps at least
+/// one part.
 std::size_t shared_parts(const std::vector<Parts>& names, bool are_last) {
   std::size_t shared = 0;
   const auto part = [&](const Parts& parts) {
@@ -38,7 +39,7 @@ std::size_t shared_parts(const std::vector<Parts>& names, bool are_last) {
   return shared;
 }
 
-/// The names without the parts, between slashes, in which they do not differ.
+/// The names without the parts, separated by slashes, that they have in common.
 std::vector<std::string> without_common_parts(const std::vector<std::string>& names) {
   if (std::set<std::string>(names.begin(), names.end()).size() < 2) return names;
   std::vector<Parts> all;
@@ -52,7 +53,7 @@ std::vector<std::string> without_common_parts(const std::vector<std::string>& na
   for (const Parts& parts : all) {
     std::string& label = labels.emplace_back();
     for (std::size_t i = 0; i < parts.size(); ++i) {
-      // Parts stand for the same choice only if all names have as many.
+      // Parts correspond to each other only if all names have the same number of them.
       const bool is_shared = sizes.size() == 1 &&
                              std::all_of(all.begin(), all.end(),
                                          [&](const Parts& other) { return other[i] == parts[i]; });
@@ -62,18 +63,18 @@ std::vector<std::string> without_common_parts(const std::vector<std::string>& na
   return labels;
 }
 
-/// `label` in at most `columns`. Values tell names of a grid apart, `key=value/key=value`, so keys
-/// are cut first.
+/// `label` shortened to `columns`. Keys are cut first, because in a grid names differ by values,
+/// `key=value/key=value`.
 std::string shortened(const std::string& label, std::size_t columns) {
   if (text_columns(label) <= columns) return label;
-  for (std::size_t longest_key = columns; longest_key > 2; --longest_key) {
+  for (std::size_t key_columns = columns; key_columns > 2; --key_columns) {
     std::string text;
     for (const std::string& part : parts_of(label)) {
       const std::size_t equals = part.find('=');
       text += (text.empty() ? "" : "/") +
               (equals == std::string::npos
                    ? part
-                   : cut_in_the_middle(part.substr(0, equals), longest_key) + part.substr(equals));
+                   : cut_in_the_middle(part.substr(0, equals), key_columns) + part.substr(equals));
     }
     if (text_columns(text) <= columns) return text;
   }
@@ -83,11 +84,11 @@ std::string shortened(const std::string& label, std::size_t columns) {
 }  // namespace
 
 Axis round_axis(double low, double high, int ticks) {
-  // A flat range still needs a height; what differs by less than rounding is flat.
-  const double least = std::max(1e-6, 1e-9 * std::max(std::abs(low), std::abs(high)));
-  if (high - low < least) {
-    low -= least;
-    high += least;
+  // A flat range needs a height too; differences below rounding count as flat.
+  const double min_height = std::max(1e-6, 1e-9 * std::max(std::abs(low), std::abs(high)));
+  if (high - low < min_height) {
+    low -= min_height;
+    high += min_height;
   }
   const double rough = (high - low) / ticks;
   const auto exponent = static_cast<int>(std::floor(std::log10(rough)));

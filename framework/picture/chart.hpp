@@ -15,10 +15,10 @@ struct Axis {
   double low;
   double high;
   std::vector<double> ticks;
-  int decimals;  ///< That the ticks need.
+  int decimals;  ///< Decimals of the tick labels.
 };
 
-/// The axis that holds [low, high] with about `ticks` steps of 1, 2 or 5 times a power of ten.
+/// The axis that contains [low, high], with about `ticks` steps of 1, 2 or 5 times a power of ten.
 Axis round_axis(double low, double high, int ticks);
 
 /// A rectangle of a drawing, with a linear scale from left to right and one from bottom to top.
@@ -26,10 +26,10 @@ struct Plot {
   double left, top, width, height;
   Interval x_range, y_range;  ///< The values at its sides.
 
-  /// Where a value is in the drawing.
+  /// The position of a value in the drawing.
   double x(double value) const;
   double y(double value) const;
-  /// The same for a value beyond the plot, moved to its border.
+  /// The same, clamped to the borders of the plot.
   double y_inside(double value) const;
 
   /// Draws a line across the plot at the value of a tick, and `text` `gap` units to the left of
@@ -47,9 +47,9 @@ std::string series_style(std::size_t index);
 /// because colours repeat.
 std::string box_style(std::size_t index);
 
-/// Draws the intervals at `xs`, which ascend, as a band of the series `index`: an area that lets
-/// others through, between edges with the dashes of the series, so that bands can be told apart
-/// without colours. It has a gap if an interval is missing. `ys` and `xs` are values of `plot`.
+/// Draws the intervals at the ascending `xs` as a band of the series `index`: a translucent area
+/// between edges with the dashes of the series, so that bands are distinguishable without colours.
+/// It has a gap where an interval is missing. `ys` and `xs` are values of `plot`.
 void draw_band(Drawing& drawing, const Plot& plot, const std::vector<double>& xs,
                const std::vector<std::optional<Interval>>& ys, std::size_t index);
 
@@ -60,15 +60,15 @@ void draw_marker(Drawing& drawing, double x, double y, double radius, std::size_
 void draw_arrowhead(Drawing& drawing, double x, double y, double radius, bool is_up,
                     const std::string& style);
 
-/// Draws a line of a legend with the look of the series `index` and its name, centred on `y`.
-/// The line is `legend_line` long.
+/// Draws a legend entry with a line in the style of the series `index` and its name, centred on
+/// `y`. The line is `legend_line` long.
 void draw_legend_entry(Drawing& drawing, double left, double y, std::size_t index,
                        const std::string& name);
 double legend_line(const Sheet& sheet);
 
-/// Names as legends show them. Parts, between slashes, that all names share are left out; what is
-/// longer than `columns` is cut in the middle. Two that would then be the same have their number
-/// in the list before them.
+/// Labels for a legend. Parts, separated by slashes, that all names share are omitted; labels
+/// longer than `columns` are cut in the middle. Labels that would then be equal are prefixed with
+/// their number in the list.
 std::vector<std::string> distinct_labels(const std::vector<std::string>& names,
                                          std::size_t columns);
 

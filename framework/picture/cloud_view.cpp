@@ -28,10 +28,10 @@ Image draw_view(const std::vector<ColouredCloud>& clouds, const CloudView& view)
 }
 
 double scale_bar_m(double width_m) {
-  const double longest = width_m / 4.0;
-  const double power = std::pow(10.0, std::floor(std::log10(longest)));
+  const double max_length_m = width_m / 4.0;
+  const double power = std::pow(10.0, std::floor(std::log10(max_length_m)));
   for (const double digit : {5.0, 2.0}) {
-    if (digit * power <= longest) return digit * power;
+    if (digit * power <= max_length_m) return digit * power;
   }
   return power;
 }
@@ -40,7 +40,7 @@ Image with_legend(const std::vector<Image>& views, const std::vector<std::string
                   const std::vector<std::string>& sensors, double pixel_m) {
   constexpr int kGap_px = 8;
   constexpr int kStrip_px = 48;
-  constexpr double kScale = 2.0;  // The pictures are large, and so is their text.
+  constexpr double kScale = 2.0;  // The pictures are large, so their text must be too.
   Image image = padded(side_by_side(views, kGap_px), kStrip_px, kStrip_px);
   Drawing drawing(image.width() / kScale, image.height() / kScale);
   const double text = drawing.sheet().text();

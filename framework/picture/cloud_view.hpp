@@ -11,8 +11,8 @@
 
 namespace croon {
 
-/// From where a view looks: from above (x to the right, y up), from the front (y to the right, z
-/// up), from the right side (x to the right, z up).
+/// The viewpoint: from above (x to the right, y up), from the front (y to the right, z up), from
+/// the right side (x to the right, z up).
 enum class ViewFrom { top, front, side };
 
 /// The section of the reference's frame that a picture shows.
@@ -47,7 +47,7 @@ void for_each_pixel(const Points& points, const CloudView& view, const Image& im
   for (const Eigen::Vector3f& point : points) {
     const float right = (point(axes.x()) - left_m) / pixel_m;
     const float down = (top_m - point(axes.y())) / pixel_m;
-    // Written so that it is false for NaN, too.
+    // Also false for NaN.
     const bool is_inside = right >= 0.0F && down >= 0.0F && right < width && down < height &&
                            std::abs(point(axes.z()) - depth_m) <= half_depth_m;
     if (is_inside) mark(static_cast<int>(right), static_cast<int>(down));

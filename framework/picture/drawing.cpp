@@ -9,8 +9,8 @@
 namespace croon {
 namespace {
 
-/// A part of a chart. Colours are hexadecimal; nullptr: that of the series, "none": not drawn.
-/// Widths are multiples of a thin line.
+/// The style of a part of a chart. Colours are hexadecimal; nullptr: the colour of the series,
+/// "none": not drawn. Widths are multiples of a thin line.
 struct Part {
   const char* name;
   const char* stroke;
@@ -54,13 +54,13 @@ constexpr TextPart kTextParts[] = {{"name", &Sheet::text, false, "222222", "dddd
 /// The colour of all text on paper.
 constexpr const char* kInk = "000000";
 
-/// Colours that colour-blind readers can tell apart (Okabe and Ito 2008, two of them replaced);
-/// they show on white and on black.
+/// Colours that colour-blind readers can distinguish (Okabe and Ito 2008, two of them replaced),
+/// visible on white and on black.
 constexpr std::array<const char*, kSeriesColours> kColours = {
     "0072b2", "d55e00", "009e73", "cc79a7", "e69f00", "56b4e9", "8c7a00", "808080"};
 constexpr const char* kDarkFirstColour = "4aa8e0";
 
-/// Lengths in thin lines.
+/// Lengths as multiples of a thin line.
 const std::array<std::vector<double>, kSeriesDashes> kDashes = {
     {{}, {8, 4}, {2.5, 3}, {9, 3, 2.5, 3}, {14, 4, 4, 4}}};
 
@@ -81,14 +81,14 @@ std::string hex_of(const Colour& colour) {
   return text;
 }
 
-/// Sets `colour` unless it is that of the series.
+/// Sets `colour` unless `hex` is null, which means the colour of the series.
 void set_colour(const char* hex, bool& is_drawn, Colour& colour) {
   if (hex == nullptr) return;
   is_drawn = std::string("none") != hex;
   if (is_drawn) colour = colour_of(hex);
 }
 
-/// Adds the part of a style called `name` to `look`.
+/// Adds the part `name` of a style to `look`.
 void add_to(Look& look, const std::string& name, const Sheet& sheet) {
   for (const Part& part : kParts) {
     if (name != part.name) continue;
@@ -105,11 +105,11 @@ void add_to(Look& look, const std::string& name, const Sheet& sheet) {
     look.is_bold = part.is_bold;
     return;
   }
-  throw std::logic_error("no look is called \"" + name + "\"");
+  throw std::logic_error("unknown look \"" + name + "\"");
 }
 
-/// Sets what a series gives to `look`: a colour ("c1", "s1") or dashes ("d1"). Returns false if
-/// `name` is something else.
+/// Sets the colour ("c1", "s1") or dashes ("d1") of a series in `look`. Returns false for any other
+/// `name`.
 bool add_series(Look& look, const std::string& name, const Sheet& sheet) {
   if (name.size() != 2 || name[1] < '0' || name[1] > '9') return false;
   const auto index = static_cast<std::size_t>(name[1] - '0');
@@ -201,7 +201,7 @@ void Drawing::text(double x, double y, const std::string& text, Anchor anchor,
 void Drawing::describe(const std::string& text) { description_ = valid_utf8(text); }
 
 Look look_of(const std::string& style, const Sheet& sheet) {
-  // Series first: a part may hide what a series would draw.
+  // Series first, because a part may override the style of a series.
   std::vector<std::string> parts;
   Look look;
   std::istringstream names(style);
@@ -225,7 +225,8 @@ std::string style_sheet(const Sheet& sheet) {
 }
 
 double text_width(const std::string& text, double size) {
-  constexpr double kColumn = 0.6;  // Of the size; the letters of DejaVu Sans are among the widest.
+  // Relative to the size; the letters of DejaVu Sans are among the widest.
+  constexpr double kColumn = 0.6;
   return kColumn * size * static_cast<double>(text_columns(text));
 }
 

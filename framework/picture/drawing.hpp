@@ -9,13 +9,13 @@
 
 namespace croon {
 
-/// The part of a text that is at its position.
+/// The part of a text that is placed at its position.
 enum class Anchor { start, middle, end };
 
-/// What a drawing is made for. Lengths are in its units: pixels on a screen, points on paper.
+/// The medium of a drawing. Lengths are in its units: pixels on a screen, points on paper.
 struct Sheet {
-  double width = 0.0;     ///< Of the whole drawing; 0: as wide as its content.
-  bool is_paper = false;  ///< A unit is a point (1/72 inch), not a pixel (1/96 inch).
+  double width = 0.0;     ///< Of the whole drawing; 0: the width of its content.
+  bool is_paper = false;  ///< Whether a unit is a point (1/72 inch) instead of a pixel (1/96 inch).
   bool has_title = true;
 
   double text() const { return is_paper ? 8.0 : 12.0; }   ///< The size of text.
@@ -76,15 +76,15 @@ class Drawing {
   void rectangle(double x, double y, double width, double height, const std::string& style);
   /// A closed area.
   void area(const std::vector<Corner>& corners, const std::string& style);
-  /// Lines from corner to corner, along which dashes go on.
+  /// Lines from corner to corner; dashes continue across corners.
   void polyline(const std::vector<Corner>& corners, const std::string& style);
   void dot(double x, double y, double radius, const std::string& style);
-  /// `text` may hold anything; bytes that are not UTF-8 are replaced. `turn_deg` turns it about its
-  /// position, clockwise.
+  /// Bytes of `text` that are not UTF-8 are replaced. `turn_deg` rotates it clockwise about its
+  /// position.
   void text(double x, double y, const std::string& text, Anchor anchor, const std::string& style,
             double turn_deg = 0.0);
 
-  /// Says what the drawing shows, for readers of its file.
+  /// Sets a description of the drawing, which is stored in its file.
   void describe(const std::string& text);
 
   double width() const { return width_; }
@@ -101,14 +101,14 @@ class Drawing {
   std::vector<Element> elements_;
 };
 
-/// How a primitive looks.
+/// The style of a primitive.
 struct Look {
   bool has_stroke = false;
   bool has_fill = false;
   Colour stroke, fill;
   double fill_opacity = 1.0;
   double width = 1.0;          ///< Of the stroke.
-  std::vector<double> dashes;  ///< Lengths drawn and left out by turns; empty: a solid line.
+  std::vector<double> dashes;  ///< Alternating lengths of dashes and gaps; empty: a solid line.
   double text_size = 0.0;
   bool is_bold = false;
 };
@@ -122,12 +122,12 @@ Look look_of(const std::string& style, const Sheet& sheet);
 /// The same looks as CSS classes, with colours for dark pages beside those for light ones.
 std::string style_sheet(const Sheet& sheet);
 
-/// How many colours, dashes and markers there are before they repeat.
+/// The numbers of colours, dashes and markers before they repeat.
 inline constexpr std::size_t kSeriesColours = 8;
 inline constexpr std::size_t kSeriesDashes = 5;
 inline constexpr std::size_t kSeriesMarkers = 7;
 
-/// The width that text takes at most in a usual sans-serif font.
+/// The maximum width of text in common sans-serif fonts.
 double text_width(const std::string& text, double size);
 
 }  // namespace croon

@@ -34,7 +34,7 @@ class Image {
 /// The pictures side by side with `gap` white pixels between them; shorter ones are padded below.
 Image side_by_side(const std::vector<Image>& images, int gap);
 
-/// The picture with so many white rows above and below it.
+/// The picture with `above` and `below` additional white rows.
 Image padded(const Image& image, int above, int below);
 
 /// Writes `image` as PNG. Throws InputError if the file cannot be written.

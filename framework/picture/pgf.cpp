@@ -110,12 +110,12 @@ std::string pgf_bytes(const Drawing& drawing) {
   const PgfWriter writer(drawing);
   std::string comment;
   for (const char c : drawing.description()) comment += c == '\n' || c == '\r' ? ' ' : c;
-  std::string bytes =
-      "% " + comment +
-      "\n% Wants in the preamble: \\usepackage{pgf}\n\\begingroup\n\\begin{pgfpicture}\n"
-      "\\pgfpathrectangle{\\pgfpointorigin}{\\pgfqpoint{" +
-      writer.length(drawing.width()) + "}{" + writer.length(drawing.height()) +
-      "}}\n\\pgfusepath{use as bounding box}\n";
+  std::string bytes = "% " + comment +
+                      "\n% Requires in the preamble: "
+                      "\\usepackage{pgf}\n\\begingroup\n\\begin{pgfpicture}\n\\pgfpathrectangle{"
+                      "\\pgfpointorigin}{\\pgfqpoint{" +
+                      writer.length(drawing.width()) + "}{" + writer.length(drawing.height()) +
+                      "}}\n\\pgfusepath{use as bounding box}\n";
   for (const Drawing::Element& element : drawing.elements()) bytes += std::visit(writer, element);
   return bytes + "\\end{pgfpicture}%\n\\endgroup\n";
 }

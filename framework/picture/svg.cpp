@@ -75,7 +75,7 @@ class SvgWriter {
   }
 
  private:
-  /// A tenth of a pixel, a hundredth of a point are all that can be seen.
+  /// A tenth of a pixel or a hundredth of a point is the visible precision.
   std::string number(double value) const {
     return shortest_number(std::round(value * digit_) / digit_);
   }

@@ -8,16 +8,16 @@
 
 namespace croon {
 
-// The formats of a drawing. The same drawing gives the same bytes; those of PDF files also depend
-// on the version of cairo and on the sans-serif font of the machine, which is embedded.
+// The formats of a drawing. The same drawing yields the same bytes; PDF files also depend on the
+// version of cairo and on the machine's sans-serif font, which is embedded.
 
-/// For browsers; readable on light and on dark pages, needs no font or script.
+/// For browsers; readable on light and dark pages, without a font or script.
 std::string svg_bytes(const Drawing& drawing);
 
 /// One page of the drawing's size.
 std::string pdf_bytes(const Drawing& drawing);
 
-/// A pgfpicture for \input, whose text has the font of the document; wants the package pgf.
+/// A pgfpicture for \input with text in the font of the document; requires the package pgf.
 std::string pgf_bytes(const Drawing& drawing);
 
 /// A format of figures.
@@ -26,10 +26,10 @@ struct DrawingFormat {
   std::string (*bytes)(const Drawing& drawing);
 };
 
-/// All formats, by name; each is the ending of its files.
+/// All formats by name, which is also the suffix of their files.
 const std::vector<DrawingFormat>& drawing_formats();
 
-/// Draws over `image`, from its top left corner; a unit of the drawing is `scale` pixels.
+/// Draws over `image`, from its top left corner; one unit of the drawing is `scale` pixels.
 void draw_on(Image& image, const Drawing& drawing, double scale);
 
 }  // namespace croon

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file `name` beside the scene or above it, the nearest.
+/// The nearest file `name` beside the scene or above it.
 std::optional<fs::path> file_above(const std::string& name, const SceneLocation& location) {
   for (const fs::path& folder : folders_up(location)) {
     if (!fs::exists(folder / name)) continue;
@@ -23,7 +23,7 @@ std::optional<fs::path> file_above(const std::string& name, const SceneLocation&
   return std::nullopt;
 }
 
-/// What the file `name` above `location` has beside the poses of the sensors of `scene`.
+/// The poses in the file `name` above `location` that belong to no sensor of `scene`.
 std::vector<UnusedPose> unused_in(const std::string& name, const SceneLocation& location,
                                   const RigPoses& poses, const Scene& scene) {
   std::vector<UnusedPose> unused;
@@ -36,7 +36,7 @@ std::vector<UnusedPose> unused_in(const std::string& name, const SceneLocation& 
   return unused;
 }
 
-/// The content of the file `name` above `location`, read by `read` unless it is in `known`.
+/// The content of the file `name` above `location`, from `known` or else read with `read`.
 template <class Content, class Read>
 Content content_above(const std::string& name, const SceneLocation& location,
                       std::map<fs::path, Content>& known, const Read& read) {
@@ -46,8 +46,8 @@ Content content_above(const std::string& name, const SceneLocation& location,
   return found != known.end() ? found->second : known.emplace(*file, read(*file)).first->second;
 }
 
-/// Reads the poses of a rig. A pose of `reference` other than zero is a fault: then the poses are
-/// those in another frame, such as the car's, and would all be wrong.
+/// Reads the poses of a rig. Throws InputError if the pose of `reference` is not zero: then all
+/// poses are in another frame, such as the car's.
 RigPoses poses_in_frame_of(const std::string& reference, const fs::path& file) {
   constexpr double kZero = 1e-9;
   const RigPoses poses = read_rig_poses(file);
@@ -57,8 +57,8 @@ RigPoses poses_in_frame_of(const std::string& reference, const fs::path& file) {
   if (translation_m.norm() <= kZero && (rotation - Eigen::Matrix3d::Identity()).norm() <= kZero)
     return poses;
   throw InputError(file.string(), "/" + reference,
-                   "expected zeros, because poses are in the frame of the reference, found a pose "
-                   "of the reference itself");
+                   "expected zeros, because poses are in the frame of the reference, found a "
+                   "nonzero pose of the reference");
 }
 
 std::optional<RigidTransform> pose_of(const RigPoses& poses, const std::string& sensor) {
@@ -135,7 +135,7 @@ std::vector<Scene> with_file_errors(const std::function<std::vector<Scene>()>& r
 }
 
 bool SceneOrder::operator()(const std::string& a, const std::string& b) const {
-  // Numbers of any length: without zeros in front the longer one is larger.
+  // Numbers of any length: without leading zeros, the longer one is larger.
   const auto key = [](const std::string& name) {
     const bool is_number = name.find_first_not_of("0123456789") == std::string::npos;
     const std::size_t first = is_number ? std::min(name.find_first_not_of('0'), name.size()) : 0;
@@ -145,8 +145,8 @@ bool SceneOrder::operator()(const std::string& a, const std::string& b) const {
 }
 
 std::string why_no_scan_name(const std::string& name, const std::string& what) {
-  constexpr std::size_t kMostBytes = kMostFileNameBytes - std::string_view(".pcd").size();
-  const std::string too_long = why_too_long(name, kMostBytes, what + " with a name");
+  constexpr std::size_t kMaxStemBytes = kMostFileNameBytes - std::string_view(".pcd").size();
+  const std::string too_long = why_too_long(name, kMaxStemBytes, what + " with a name");
   if (!too_long.empty()) return too_long;
   const bool is_fine = !name.empty() && printable(name) == name &&
                        (std::string(kFormulaSigns) + ".").find(name.front()) == std::string::npos &&

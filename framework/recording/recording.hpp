@@ -24,8 +24,8 @@ struct SceneLocation {
 /// The folder and those above it, up to the data root.
 std::vector<std::filesystem::path> folders_up(const SceneLocation& location);
 
-/// The poses and the kinds of scenes that stand in files beside scenes or in folders above them,
-/// the nearest file counts. Each file is read once, for it may be about thousands of scenes.
+/// Reads poses and kinds of scenes from files beside scenes or in folders above them; the nearest
+/// file counts. Each file is read once, because it may apply to thousands of scenes.
 class RigFilesAbove {
  public:
   /// Sets the kind of `scene` (`scene_kinds.json`) and the true and the nominal poses of its
@@ -37,30 +37,30 @@ class RigFilesAbove {
   std::map<std::filesystem::path, RigPoses> poses_;
 };
 
-/// The scan of `sensor` in the file of a cloud, without poses.
-/// Throws InputError if its header shows that it cannot be read.
+/// The scan of `sensor` in the file of a cloud, without poses. Throws InputError if the header of
+/// the file is invalid.
 SensorScan scan_in_file(const std::string& sensor, const std::filesystem::path& file);
 
-/// What the parameter `scenes` of a recording does.
+/// Help text of the parameter `scenes` of a recording.
 inline constexpr const char* kScenesDoc =
-    "The names of the scenes that take part; an empty list is all of them.";
+    "Names of the scenes that are used; an empty list means all of them.";
 
-/// Those of the scenes `names` that are in `chosen`, in the order of `names`; all if `chosen` is
-/// empty. Throws InputError, at the pointers of the parameter `scenes`, for names that are none.
+/// The scenes in `names` that are also in `chosen`, in the order of `names`; all if `chosen` is
+/// empty. Throws InputError, with JSON pointers into the parameter `scenes`, for unknown names.
 std::vector<std::string> chosen_scenes(std::vector<std::string> names,
                                        const std::vector<std::string>& chosen);
 
 /// Returns what `read` returns; a std::filesystem::filesystem_error becomes an InputError.
 std::vector<Scene> with_file_errors(const std::function<std::vector<Scene>()>& read);
 
-/// Whether the scene called `a` comes before that called `b`: names that are whole numbers first,
-/// by number, so that 1000000 comes after 999999; then the others as text.
+/// Whether the scene `a` comes before `b`: whole numbers first, by value, so that 1000000 comes
+/// after 999999; then other names as text.
 struct SceneOrder {
   bool operator()(const std::string& a, const std::string& b) const;
 };
 
-/// Why a scene or a sensor cannot be called `name`, for a message, as names stand in tables and are
-/// those of files; empty if it can. `what` is "a sensor".
+/// Why `name` is not a valid name for a scene or sensor, for a message; empty if it is valid. Names
+/// are used in tables and as file names. `what` is, for example, "a sensor".
 std::string why_no_scan_name(const std::string& name, const std::string& what);
 
 }  // namespace croon

@@ -6,16 +6,16 @@
 
 namespace croon::simulation {
 
-/// The numbers from `from` to `to`: a piece of a line, a time window, bounds of a uniform draw. The
-/// name of a variable carries the unit.
+/// An interval from `from` to `to`: a piece of a line, a time window, bounds of a uniform draw. The
+/// unit is in the name of the variable.
 struct Span {
   double from = 0.0;
   double to = 0.0;
 
   double length() const { return to - from; }
   double middle() const { return 0.5 * (from + to); }
-  /// `to` itself is not inside.
-  bool holds(double value) const { return value >= from && value < to; }
+  /// Whether `value` is in the half-open interval [from, to).
+  bool contains(double value) const { return value >= from && value < to; }
 };
 
 /// Uniform in `span`.

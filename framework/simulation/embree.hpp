@@ -22,8 +22,8 @@ namespace croon::simulation {
 
 constexpr std::size_t kPacketSize = 8;
 
-/// Eight rays in Embree's layout. `valid` is -1 for the rays that exist, else 0. The others are
-/// zero, because Debian's Embree checks their values as well.
+/// Eight rays in Embree's layout. `valid` is -1 for rays in use, otherwise 0. Unused rays are zero,
+/// because Debian's Embree checks their values too.
 struct alignas(32) Packet {
   RTCRayHit8 rays = {};
   int valid[kPacketSize] = {};
@@ -65,10 +65,10 @@ inline void intersect_coherent(RTCScene scene, Packet& packet) {
 #endif
 }
 
-/// The device that all scenes share. Embree has code for several generations of processors, and
-/// they decide differently where two triangles meet. This is the code that every x86-64 runs,
-/// whatever Embree's configuration files say. Throws std::system_error if Embree finds no device:
-/// it has too little memory.
+/// The device that all scenes share. Embree's code paths for different processors decide
+/// differently where two triangles meet; this device uses the one that runs on every x86-64,
+/// whatever Embree's configuration files specify. Throws std::system_error if Embree cannot create
+/// a device for lack of memory.
 inline RTCDevice embree_device() {
   static const struct Device {
     RTCDevice handle = rtcNewDevice("isa=sse2,ignore_config_files=1");
@@ -81,11 +81,11 @@ inline RTCDevice embree_device() {
   return device.handle;
 }
 
-/// The number of a geometry, and that of one of its triangles.
+/// The IDs of a geometry and of one of its triangles.
 using TriangleId = std::pair<unsigned int, unsigned int>;
 
-/// Calls `use(id)` for the triangles whose bounding boxes are within `radius_m` of `point`, and
-/// others near it, in any order, until it returns false; a few calls more may follow.
+/// Calls `use(id)` for all triangles whose bounding boxes are within `radius_m` of `point`, and for
+/// some others nearby, in any order, until it returns false; a few more calls may follow.
 template <class Use>
 void for_each_triangle_near(RTCScene scene, const Eigen::Vector3d& point, double radius_m,
                             double time_ratio, const Use& use) {

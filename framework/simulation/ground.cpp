@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Uniform with a standard deviation of 1, from the corner (i, j) alone.
+/// A uniform random value with a standard deviation of 1 that depends only on the corner (i, j).
 double corner_value(const StreamKey& key, std::int64_t i, std::int64_t j) {
   const std::uint64_t bits =
       key.with(static_cast<std::uint64_t>(i)).with(static_cast<std::uint64_t>(j)).value();
@@ -16,7 +16,7 @@ double corner_value(const StreamKey& key, std::int64_t i, std::int64_t j) {
   return std::sqrt(12.0) * (uniform - 0.5);
 }
 
-/// From 0 to 1 with level ends (3 t^2 - 2 t^3).
+/// Smoothstep from 0 to 1 (3 t^2 - 2 t^3).
 double smooth(double t) { return t * t * (3.0 - 2.0 * t); }
 
 /// Smooth noise over the plane with a standard deviation of about 1 and features of about
@@ -34,7 +34,7 @@ double surface_noise(const StreamKey& key, double s_m, double d_m, double wavele
   const double b = smooth(v - j);
   const double near = (1.0 - a) * corner(0, 0) + a * corner(1, 0);
   const double far = (1.0 - a) * corner(0, 1) + a * corner(1, 1);
-  // The blend halves the variance twice in the middle of a cell; 1.4 makes up for it on average.
+  // Blending halves the variance twice in the middle of a cell; 1.4 compensates for it on average.
   return 1.4 * ((1.0 - b) * near + b * far);
 }
 

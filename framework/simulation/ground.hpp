@@ -11,14 +11,14 @@ namespace croon::simulation {
 /// road's centre line beside the car, x along the road there, y left, z up.
 class Ground {
  public:
-  /// The roughness follows from `key`.
+  /// `key` determines the roughness.
   Ground(const RoadShape& shape, const StreamKey& key) : shape_(shape), key_(key) {}
 
   const RoadShape& shape() const { return shape_; }
 
   /// World coordinates of the point `above_m` vertically above the surface.
   Eigen::Vector3d point(double s_m, double d_m, double above_m = 0.0) const;
-  /// Yaw of the road's direction at s in the world, radians.
+  /// Yaw of the road's direction at s in the world frame, radians.
   double heading_rad(double s_m) const { return shape_.curvature_per_m * s_m; }
   /// `T_world_object` of an upright object on the ground, turned by `yaw_rad` from the road's
   /// direction.

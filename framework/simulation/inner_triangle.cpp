@@ -17,8 +17,8 @@ InnerTriangle::Planes InnerTriangle::planes_of(const Corners& corners) {
 
 InnerTriangle::InnerTriangle(const Corners& corners, double inset_m) : planes_(planes_of(corners)) {
   const auto& [a, b, c] = corners;
-  // The centre of the incircle weighs each corner by the length of the opposite edge. Its radius is
-  // twice the area by the sum of these lengths.
+  // The incentre weights each corner by the length of the opposite edge. The inradius is twice the
+  // area divided by the sum of these lengths.
   const Vector3d lengths_m((c - b).norm(), (a - c).norm(), (b - a).norm());
   const double around_m = lengths_m.sum();
   if (around_m <= 0.0) return;
@@ -32,7 +32,7 @@ InnerTriangle::InnerTriangle(const Corners& corners, double inset_m) : planes_(p
   }
 }
 
-bool InnerTriangle::holds(const Vector3d& point) const {
+bool InnerTriangle::contains(const Vector3d& point) const {
   if (is_empty_) return false;
   return std::all_of(planes_.begin() + 1, planes_.end(),
                      [&](const Plane& edge) { return edge.signed_distance(point) < 0.0; });

@@ -67,7 +67,8 @@ void Mesh::append(const Mesh& other, const RigidTransform& T_this_other) {
 RigidTransform Body::pose_at(double time_s) const {
   const double turn_rad = motion.yaw_rate_radps * time_s;
   const double length_m = motion.speed_mps * time_s;
-  // The body moves on an arc of that length, whose chord is 2 / curvature * sin(turn / 2) long.
+  // The body moves along an arc of this length, whose chord has the length 2 / curvature * sin(turn
+  // / 2).
   const double half_rad = 0.5 * turn_rad;
   const double chord_m =
       std::abs(half_rad) < 1e-9 ? length_m : length_m * std::sin(half_rad) / half_rad;

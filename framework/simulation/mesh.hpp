@@ -10,7 +10,7 @@
 
 namespace croon::simulation {
 
-/// What a surface is made of. The material decides how much light a surface sends back.
+/// The material of a surface, which determines how much light it returns.
 enum class Material : std::uint8_t {
   asphalt,
   marking,
@@ -33,24 +33,24 @@ enum class Material : std::uint8_t {
   sign
 };
 
-/// How a material looks to a LiDAR and in a picture.
+/// The appearance of a material to a LiDAR and in a picture.
 struct MaterialLook {
   double reflectivity = 0.0;  ///< Share of near-infrared light that a Lambertian surface scatters.
-  double retroreflection = 0.0;  ///< Share that goes straight back at any angle of incidence.
+  double retroreflection = 0.0;  ///< Share that returns to the source at any angle of incidence.
   Colour colour;
 };
 
-/// The look of `material`. Reflectivities are for 905 nm, within the ranges that makers of LiDARs
-/// and of street furniture quote.
+/// The appearance of `material`. Reflectivities are for 905 nm, within the ranges quoted by
+/// manufacturers of LiDARs and street furniture.
 const MaterialLook& look_of(Material material);
 
-/// Triangles with a material each, metres. Both sides of a triangle send light back.
+/// Triangles with a material each, metres. Both sides of a triangle reflect light.
 struct Mesh {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Indices into `vertices`.
   std::vector<Material> materials;                      ///< One per triangle.
 
-  /// The index that the next vertex gets.
+  /// The index of the next vertex to be added.
   std::uint32_t next_vertex() const { return static_cast<std::uint32_t>(vertices.size()); }
   /// Adds a vertex and returns its index.
   std::uint32_t add_vertex(const Eigen::Vector3d& vertex);
@@ -66,13 +66,13 @@ struct Mesh {
   void append(const Mesh& other, const RigidTransform& T_this_other);
 };
 
-/// How a body moves: along its own x axis and about its own z axis, at constant rates.
+/// The motion of a body, along its own x axis and about its own z axis, at constant rates.
 struct Motion {
   double speed_mps = 0.0;
   double yaw_rate_radps = 0.0;
 };
 
-/// A rigid object that moves.
+/// A moving rigid object.
 struct Body {
   Mesh mesh;  ///< In the body's frame: x forward, z up, origin on the ground below the body.
   RigidTransform T_world_body;  ///< At time 0.
@@ -82,7 +82,7 @@ struct Body {
   RigidTransform pose_at(double time_s) const;
 };
 
-/// All that rays can meet in one scene. World frame: origin near the car, z up, metres.
+/// Everything that rays can hit in one scene. World frame: origin near the car, z up, metres.
 struct World {
   Mesh fixed;
   std::vector<Body> bodies;  ///< All moving objects except the car that carries the sensors.

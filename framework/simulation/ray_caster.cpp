@@ -19,8 +19,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A mesh with its vertices in the world at evenly spaced times through the window; they are there
-/// once, and its planes are, if it does not move.
+/// A mesh with its vertices in the world frame at evenly spaced times in the window. A static mesh
+/// has one set of vertices, and its planes.
 struct PlacedMesh {
   const Mesh* mesh = nullptr;
   std::vector<Points> steps;
@@ -29,19 +29,19 @@ struct PlacedMesh {
   bool moves() const { return steps.size() > 1; }
 };
 
-/// Between two steps a vertex goes straight and evenly, where a body that turns goes on an arc: at
-/// 0.5 rad/s and 10 m/s the two are up to 6 mm apart.
+/// Between two steps a vertex moves straight and uniformly, whereas a turning body moves along an
+/// arc: at 0.5 rad/s and 10 m/s they differ by up to 6 mm.
 PlacedMesh placed(const Body& body, const Span& window_s) {
-  constexpr double kLongestStep_s = 0.1;
-  constexpr double kMostSteps = 128.0;  // Embree takes one more.
+  constexpr double kMaxStep_s = 0.1;
+  constexpr double kMaxSteps = 128.0;  // Embree's limit is one more.
   const bool moves = body.motion.speed_mps != 0.0 || body.motion.yaw_rate_radps != 0.0;
   double steps = 0.0;
   if (moves && window_s.length() > 0.0) {
-    steps = std::clamp(std::ceil(window_s.length() / kLongestStep_s - 1e-9), 1.0, kMostSteps);
+    steps = std::clamp(std::ceil(window_s.length() / kMaxStep_s - 1e-9), 1.0, kMaxSteps);
   }
   PlacedMesh result{&body.mesh, {}, {}};
   for (double k = 0.0; k <= steps; ++k) {
-    // The first and the last exactly at the ends of the window.
+    // The first and last are exactly at the ends of the window.
     double time_s = window_s.from;
     if (k > 0.0) time_s = k < steps ? window_s.from + k / steps * window_s.length() : window_s.to;
     result.steps.push_back(transformed(body.mesh.vertices, body.pose_at(time_s)));
@@ -93,7 +93,7 @@ struct Sphere {
   double radius_m = 0.0;
 };
 
-/// A sphere that holds a triangle, about the middle of its longest edge.
+/// A sphere that contains a triangle, centred on its longest edge.
 Sphere sphere_around(const Corners& corners) {
   Sphere sphere{corners[0]};
   double longest_m = 0.0;
@@ -110,24 +110,24 @@ Sphere sphere_around(const Corners& corners) {
   return sphere;
 }
 
-/// Surfaces that a ray meets within this length of each other are taken for equally far by Embree,
-/// which computes in single precision.
+/// Maximum difference between the ranges of hits that count as tied, because Embree computes in
+/// single precision.
 constexpr double kTied_m = 3e-4;
-/// Single precision finds a triangle if the ray passes it by less than this.
+/// Maximum distance by which a ray may miss a triangle that single precision still hits.
 constexpr double kMiss_m = 3e-5;
 
-/// Where a ray meets the plane of a triangle.
+/// The intersection of a ray with the plane of a triangle.
 struct PlaneHit {
   Hit hit;
-  Corners corners;  ///< Of the triangle, from the origin of the ray.
+  Corners corners;  ///< Of the triangle, relative to the origin of the ray.
   Vector3d normal;  ///< Zero if the triangle has no area.
 
-  /// Whether the hit is on the triangle, or off it by no more than kMiss_m.
+  /// Whether the hit is on the triangle or at most kMiss_m off it.
   bool is_on_triangle(const Ray& ray) const;
 };
 
 /// With a vertex a, the normal n, the origin o and the direction d, the range to the triangle's
-/// plane is n.(a - o) / n.d. Embree's own range is not read: it comes from an approximate
+/// plane is n.(a - o) / n.d. Embree's own range is not used: it is computed with an approximate
 /// reciprocal, whose bits depend on the processor.
 PlaneHit hit_on_plane(const PlacedMesh& placed, std::uint32_t triangle, const Ray& ray,
                       double time_ratio) {
@@ -138,7 +138,7 @@ PlaneHit hit_on_plane(const PlacedMesh& placed, std::uint32_t triangle, const Ra
   const double cosine = plane.normal.dot(ray.direction);
   const auto [nearest, farthest] =
       std::minmax({a.dot(ray.direction), b.dot(ray.direction), c.dot(ray.direction)});
-  // A ray along the plane meets it anywhere, but is on the triangle.
+  // A ray in the plane intersects it everywhere, but hits the triangle.
   const double range_m =
       cosine == 0.0 ? nearest : std::clamp(-plane.offset_m / cosine, nearest, farthest);
   return {{range_m, std::abs(cosine), placed.mesh->materials[triangle]}, corners, plane.normal};
@@ -154,16 +154,16 @@ bool PlaneHit::is_on_triangle(const Ray& ray) const {
   return true;
 }
 
-/// The part of a triangle that is away from its edges, and all triangles that may be tied with a
-/// hit on that part.
+/// The interior of a triangle, away from its edges, and all triangles that may be tied with a hit
+/// there.
 struct Interior {
   InnerTriangle inner;
   std::vector<TriangleId> near;
 };
 
-/// What hits have shown of a triangle so far.
+/// Cached information about a triangle from previous hits.
 struct Visited {
-  std::atomic<const Interior*> interior = nullptr;  ///< Null if it is not known.
+  std::atomic<const Interior*> interior = nullptr;  ///< Null if unknown.
   std::atomic<int> hits = 0;                        ///< Before the interior was known.
 };
 
@@ -179,8 +179,8 @@ class RayCaster::Embree {
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
     for (const PlacedMesh& mesh : meshes_) attach(scene_, mesh);
-    // On one thread: the division of the work among several threads may decide which of two
-    // triangles with a common edge is hit.
+    // On one thread: with several, the division of work may determine which of two triangles with a
+    // common edge is hit.
     tbb::task_arena(1).execute([&] { rtcCommitScene(scene_); });
   }
   ~Embree() { rtcReleaseScene(scene_); }
@@ -202,18 +202,18 @@ class RayCaster::Embree {
   }
 
  private:
-  /// Embree takes no empty buffers, so meshes without triangles are left out.
+  /// Adds a mesh unless it has no triangles, because Embree does not accept empty buffers.
   void add(PlacedMesh mesh) {
     if (mesh.mesh->triangles.empty()) return;
     if (!mesh.moves()) mesh.planes = planes_of(mesh);
-    stands_still_ = stands_still_ && !mesh.moves();
+    is_static_ = is_static_ && !mesh.moves();
     visited_.emplace_back(mesh.mesh->triangles.size());
     meshes_.push_back(std::move(mesh));
   }
 
-  /// Whether a hit on the triangle may be tied with one at `point`: then they are within kTied_m of
-  /// each other, and the one on the triangle within kMiss_m of its plane. Most triangles that are
-  /// near by their bounding boxes are not.
+  /// Whether a hit on the triangle may be tied with one at `point`, which requires that they are
+  /// within kTied_m of each other and the former within kMiss_m of the triangle's plane. This
+  /// excludes most triangles with nearby bounding boxes.
   bool may_be_tied(const TriangleId& id, const Vector3d& point) const {
     constexpr double kRounding_m = 1e-6;
     const std::vector<Plane>& planes = meshes_[id.first].planes;
@@ -225,14 +225,15 @@ class RayCaster::Embree {
     return simulation::corners_of(meshes_[id.first], id.second, 0.0);
   }
 
-  /// The interior of the triangle, if there is one and few triangles are near it.
+  /// The interior of the triangle, unless it is empty or has too many triangles nearby.
   std::optional<Interior> interior_of(const TriangleId& id) const {
-    // So far from a common edge, triangles that meet at more than ten degrees are kApart_m apart.
+    // At this distance from a common edge, triangles that meet at more than ten degrees are
+    // kApart_m apart.
     constexpr double kInset_m = 4e-3;
     constexpr double kApart_m = 2.0 * kTied_m;
-    constexpr std::size_t kMostNear = 12;
-    // Where more are around, to look at all of them costs more than it saves.
-    constexpr int kMostAround = 2000;
+    constexpr std::size_t kMaxNear = 12;
+    // With more triangles around, checking all of them costs more than it saves.
+    constexpr int kMaxAround = 2000;
     const Corners corners = corners_of(id);
     Interior interior = {InnerTriangle(corners, kInset_m), {}};
     if (interior.inner.is_empty()) return std::nullopt;
@@ -246,19 +247,19 @@ class RayCaster::Embree {
       if (reaches && other != id && !interior.inner.is_farther_than(kApart_m, corners_of(other))) {
         interior.near.push_back(other);
       }
-      return around <= kMostAround && interior.near.size() <= kMostNear;
+      return around <= kMaxAround && interior.near.size() <= kMaxNear;
     };
     for_each_triangle_near(scene_, sphere.centre, reach_m, 0.0, compare);
-    if (around > kMostAround || interior.near.size() > kMostNear) return std::nullopt;
+    if (around > kMaxAround || interior.near.size() > kMaxNear) return std::nullopt;
     return interior;
   }
 
-  /// The interior of the triangle `id`, if it is known and `point` is in it. Which hits find it
-  /// known depends on the order of the threads, but changes only how long the answer takes.
+  /// The interior of the triangle `id`, if it is known and contains `point`. Whether a hit finds it
+  /// known depends on the order of the threads, but affects only the run time.
   const Interior* known_interior(const TriangleId& id, const Vector3d& point) const {
-    // To find an interior costs about as much as so many searches around a hit.
+    // Computing an interior costs about as much as this number of searches around a hit.
     constexpr int kOften = 6;
-    if (!stands_still_) return nullptr;
+    if (!is_static_) return nullptr;
     Visited& triangle = visited_[id.first][id.second];
     const Interior* interior = triangle.interior.load(std::memory_order_acquire);
     if (interior == nullptr) {
@@ -269,16 +270,16 @@ class RayCaster::Embree {
       interior = &interiors_.emplace_back(std::move(*found));
       triangle.interior.store(interior, std::memory_order_release);
     }
-    return interior->inner.holds(point) ? interior : nullptr;
+    return interior->inner.contains(point) ? interior : nullptr;
   }
 
   PlaneHit hit_on(const TriangleId& id, const Ray& ray) const {
     return hit_on_plane(meshes_[id.first], id.second, ray, time_ratio(ray));
   }
 
-  /// The hit of a ray for which Embree found the triangle `found`. Where triangles meet, or lie in
-  /// one plane, it depends on the last bits of Embree's ranges which one is found. The hit is on
-  /// the first of all that are tied; of equally far ones on that with the lowest number.
+  /// The hit of a ray for which Embree found the triangle `found`. Where triangles meet or are
+  /// coplanar, the last bits of Embree's ranges determine which one it finds. Returns the nearest
+  /// of all tied hits, and of equal ones the one with the lowest ID.
   Hit decided(const TriangleId& found, const Ray& ray) const {
     const PlaneHit on_found = hit_on(found, ray);
     const double found_m = on_found.hit.range_m;
@@ -313,12 +314,12 @@ class RayCaster::Embree {
   }
 
   Span window_s_;
-  std::vector<PlacedMesh> meshes_;  ///< By Embree's number of the geometry.
-  bool stands_still_ = true;        ///< No mesh moves in the window.
+  std::vector<PlacedMesh> meshes_;  ///< By Embree's geometry ID.
+  bool is_static_ = true;           ///< Whether no mesh moves in the window.
   RTCScene scene_ = nullptr;
   mutable std::vector<std::vector<Visited>> visited_;  ///< By mesh and triangle.
   mutable std::deque<Interior> interiors_;
-  mutable std::mutex interiors_mutex_;  ///< Of `interiors_` while it grows.
+  mutable std::mutex interiors_mutex_;  ///< Guards `interiors_` while it grows.
 };
 
 RayCaster::RayCaster(std::shared_ptr<const World> world, Span window_s)

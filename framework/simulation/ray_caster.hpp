@@ -13,11 +13,11 @@ namespace croon::simulation {
 /// A ray of light in the world.
 struct Ray {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< Of length 1.
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< A unit vector.
   double time_s = 0.0;                                   ///< In the caster's time window.
 };
 
-/// Where a ray first meets a surface.
+/// The first hit of a ray on a surface.
 struct Hit {
   double range_m = std::numeric_limits<double>::infinity();  ///< Infinite if there is no surface.
   double incidence_cos = 0.0;  ///< Of the angle between the ray and the surface's normal, 0 to 1.
@@ -26,10 +26,10 @@ struct Hit {
   bool is_there() const { return range_m < std::numeric_limits<double>::infinity(); }
 };
 
-/// Finds the first surface that each ray meets, with Embree's packets of eight rays. Embree finds
-/// the triangle in single precision; the range is the one to the triangle's plane in double
-/// precision. Bodies move in straight lines from their poses at the begin of the time window to
-/// those at its end. The bits do not depend on the number of threads. `cast` is thread-safe.
+/// Finds the first surface that each ray hits, with Embree's packets of eight rays. Embree finds
+/// the triangle in single precision; the range to its plane is computed in double precision. Within
+/// steps of at most 0.1 s of the time window, bodies move in straight lines. Results are bitwise
+/// independent of the number of threads. `cast` is thread-safe.
 class RayCaster {
  public:
   RayCaster(std::shared_ptr<const World> world, Span window_s);

@@ -31,12 +31,11 @@ Table<SensorModel> sensor_table() {
       number("azimuth_to_deg", &SensorModel::azimuth_to_deg, {-360.0, 360.0},
              "Azimuth before which the sweep ends."),
       number("azimuth_step_deg", &SensorModel::azimuth_step_deg, {0.01, 90.0},
-             "From one azimuth to the next."),
+             "Step between consecutive azimuths."),
       number("range_min_m", &SensorModel::range_min_m, {0.0, 1000.0},
-             "Nearer surfaces are not seen and hide nothing."),
-      number("range_max_m", &SensorModel::range_max_m, {0.1, 1000.0},
-             "Farther surfaces are not seen."),
-      number("period_s", &SensorModel::period_s, {0.001, 10.0}, "Time of one sweep."),
+             "Minimum range; nearer surfaces are ignored and do not occlude others."),
+      number("range_max_m", &SensorModel::range_max_m, {0.1, 1000.0}, "Maximum range."),
+      number("period_s", &SensorModel::period_s, {0.001, 10.0}, "Duration of one sweep."),
   };
   table.require([](const SensorModel& s) { return s.azimuth_to_deg > s.azimuth_from_deg; },
                 "azimuth_to_deg must be greater than azimuth_from_deg");
@@ -52,15 +51,14 @@ Table<SensorModel> sensor_table() {
 Table<Mounting> mounting_table() {
   Table<Mounting> table = {
       params::group("model", &Mounting::model, sensor_table(), presets(sensor_models()),
-                    "What LiDAR it is."),
+                    "Model of the LiDAR."),
       numbers(
           "rotation_rpy_deg", &Mounting::rotation_rpy_deg, {-360.0, 360.0},
           "Roll, pitch and yaw of the sensor in the reference, R = Rz(yaw) Ry(pitch) Rx(roll)."),
       numbers("translation_m", &Mounting::translation_m, {-100.0, 100.0},
-              "Place of the sensor in the reference's frame: x forward, y left, z up."),
-      number(
-          "time_offset_s", &Mounting::time_offset_s, {-10.0, 10.0},
-          "How much later than the reference's its sweep begins; matters with sweep_distortion."),
+              "Position of the sensor in the reference's frame: x forward, y left, z up."),
+      number("time_offset_s", &Mounting::time_offset_s, {-10.0, 10.0},
+             "Delay of its sweep relative to the reference's; matters with sweep_distortion."),
   };
   table.require([](const Mounting& m) { return m.rotation_rpy_deg.size() == 3; },
                 "rotation_rpy_deg must have three numbers");
@@ -78,7 +76,7 @@ Table<CarBody> body_table() {
   };
 }
 
-/// True if the reference is one of the sensors, its pose is zero, and so is the begin of its scan.
+/// Whether the reference is one of the sensors, with a zero pose and a zero time_offset_s.
 bool has_reference(const Rig& rig) {
   return std::any_of(rig.sensors.begin(), rig.sensors.end(), [&](const auto& sensor) {
     const RigidTransform T = sensor.second.T_reference_sensor();
@@ -89,14 +87,14 @@ bool has_reference(const Rig& rig) {
 
 Table<Rig> rig_table() {
   Table<Rig> table = {
-      params::text("reference", &Rig::reference, "The sensor that the others are calibrated to."),
+      params::text("reference", &Rig::reference, "The sensor to which the others are calibrated."),
       number("reference_height_m", &Rig::reference_height_m, {0.1, 10.0},
              "Height of the reference above the road."),
       number("reference_forward_m", &Rig::reference_forward_m, {-15.0, 15.0},
-             "How far the reference stands ahead of the middle of the car."),
+             "Distance of the reference ahead of the middle of the car."),
       params::group("body", &Rig::body, body_table(), {}, "The car that carries the sensors."),
       params::map("sensors", &Rig::sensors, mounting_table(), "a sensor's name",
-                  "The sensors by name, the reference among them."),
+                  "The sensors by name, including the reference."),
   };
   table.require(has_reference,
                 "sensors must have the reference, with a pose and a time_offset_s of zeros");
@@ -105,7 +103,7 @@ Table<Rig> rig_table() {
   return table;
 }
 
-/// The row of the weight of `kind`.
+/// The table row for the weight of `kind`.
 params::Parameter<Mix> weight_row(SceneKind kind) {
   params::ParameterDoc doc;
   doc.key = row_of(kind).name;
@@ -128,7 +126,7 @@ Table<Mix> mix_table() {
         const auto is_positive = [](double weight) { return weight > 0.0; };
         return std::any_of(mix.weights.begin(), mix.weights.end(), is_positive);
       },
-      "one weight at least must be positive");
+      "at least one weight must be positive");
   return table;
 }
 
@@ -138,16 +136,16 @@ Table<Noise> noise_table() {
       number("angle_std_deg", &Noise::angle_std_deg, {0.0, 10.0},
              "Standard deviation of a ray's azimuth and of its elevation."),
       number("dropout_ratio", &Noise::dropout_ratio, {0.0, 1.0},
-             "Share of the rays that are lost whatever they meet."),
+             "Share of the rays that are lost regardless of the surface."),
       number("detection_range_m", &Noise::detection_range_m, {0.0, 10000.0},
-             "Range at which half of the rays come back from a perpendicular target that sends "
-             "back 10 % of the light; 0: all rays come back."),
+             "Range at which half of the rays return from a perpendicular target with 10 % "
+             "reflectivity; 0: all rays return."),
       boolean("sweep_distortion", &Noise::moves_during_scan,
-              "Whether the car and others move while the sensors sweep; else all is of one time."),
-      params::optional(
-          number("clock_offset_s", &Noise::clock_offset_s, {-10.0, 10.0},
-                 "How much too late the times of all sensors but the reference are: their clocks "
-                 "are not the reference's.")),
+              "Whether the car and other objects move while the sensors sweep; otherwise a scan is "
+              "instantaneous."),
+      params::optional(number("clock_offset_s", &Noise::clock_offset_s, {-10.0, 10.0},
+                              "Offset of the clocks of all sensors except the reference; their "
+                              "times are too late by this.")),
   };
 }
 
@@ -156,22 +154,22 @@ Table<Noise> noise_table() {
 const params::Table<Recipe>& recipe_table() {
   static const params::Table<Recipe> table = {
       params::group("rig", &Recipe::rig, rig_table(), presets(rigs()), "The car with its sensors."),
-      params::group("mix", &Recipe::mix, mix_table(), {{"paper", paper_mix()}},
-                    "How often each kind of scene comes, as weights; kinds that are not named do "
-                    "not come."),
+      params::group(
+          "mix", &Recipe::mix, mix_table(), {{"paper", paper_mix()}},
+          "Frequencies of the kinds of scenes, as weights; kinds that are not named do not occur."),
       params::group("noise", &Recipe::noise, noise_table(),
                     {{"none", Noise{}},
                      {"carla", carla_noise()},
                      {"real_still", real_still_noise()},
                      {"real", real_noise()}},
-                    "What the sensors do wrong."),
-      params::optional(number(
-          "speed_mps", &Recipe::speed_mps, {0.0, 100.0},
-          "The speed of the car in each scene; without it each scene has its own, and only "
-          "for that is the way kept clear: a faster car may drive through what stands ahead. "
-          "Matters with sweep_distortion.")),
+                    "Measurement errors of the sensors."),
+      params::optional(
+          number("speed_mps", &Recipe::speed_mps, {0.0, 100.0},
+                 "The speed of the car in all scenes; without it each scene has its own. The road "
+                 "ahead is kept clear only for the scene's own speed: a faster car may drive "
+                 "through objects ahead. Matters with sweep_distortion.")),
       integer("seed", &Recipe::seed, {0, std::numeric_limits<int>::max()},
-              "Other scenes for another seed; the experiment's own seed moves starts alone."),
+              "Seed of the scenes; the experiment's own seed affects only the initial guesses."),
   };
   return table;
 }

@@ -7,13 +7,13 @@
 
 namespace croon::simulation {
 
-/// All that decides the content of simulated scenes. Scene k follows from the recipe and from k
-/// alone.
+/// Everything that determines the content of simulated scenes. Scene k depends only on the recipe
+/// and k.
 struct Recipe {
   Rig rig = rigs().front().second;
   Mix mix = paper_mix();
   Noise noise;
-  double speed_mps = -1.0;  ///< Of the car in each scene; below zero, each scene has its own.
+  double speed_mps = -1.0;  ///< Of the car in all scenes; if negative, each scene has its own.
   int seed = 1;
 };
 

@@ -15,7 +15,7 @@ Mounting mounted(const char* model, std::vector<double> rotation_rpy_deg,
 }
 
 /// The car of the CARLA samples: the reference is 2.1 m above the road, the others are at the
-/// bumpers and at the edges of the roof and look down by 48 degrees. The poses are the samples'.
+/// bumpers and the edges of the roof, pitched down by 48 degrees. The poses are from the samples.
 Rig croon_five() {
   Rig rig;
   rig.body = {4.72, 1.9, 1.45, true};
@@ -30,7 +30,7 @@ Rig croon_five() {
 }
 
 /// The real car of the paper's samples: a roof rack with a Pandar64 and two PandarQTs. The poses
-/// are the nominal ones of the samples.
+/// are the nominal poses of the samples.
 Rig croon_three() {
   Rig rig;
   rig.body = {4.7, 1.85, 1.5, true};
@@ -42,8 +42,8 @@ Rig croon_three() {
   return rig;
 }
 
-/// The silhouette from the tail over the roof to the nose (x and z as shares of the length and of
-/// the height), taken from the points that the sensors of the paper's samples see on their car.
+/// The silhouette from the tail over the roof to the nose (x and z relative to the length and
+/// height), measured from the points that the sensors of the paper's samples see on their car.
 constexpr std::array<std::array<double, 2>, 18> kSilhouette = {{{-0.47, 0.18},
                                                                 {-0.48, 0.40},
                                                                 {-0.45, 0.64},
@@ -63,17 +63,17 @@ constexpr std::array<std::array<double, 2>, 18> kSilhouette = {{{-0.47, 0.18},
                                                                 {0.475, 0.28},
                                                                 {0.47, 0.18}}};
 
-/// Half the width of the body at a share of the length and of the height. The body is narrower from
-/// the windows up to the roof, and towards nose and tail.
+/// Half the width of the body at a relative length and height. The body is narrower from the
+/// windows up to the roof, and towards nose and tail.
 double half_width_m(const CarBody& body, double length_share, double height_share) {
-  const auto narrowed = [](double share, double from, double to, double least) {
-    return 1.0 - (1.0 - least) * std::clamp((share - from) / (to - from), 0.0, 1.0);
+  const auto narrowed = [](double share, double from, double to, double min_share) {
+    return 1.0 - (1.0 - min_share) * std::clamp((share - from) / (to - from), 0.0, 1.0);
   };
   return 0.5 * body.width_m * narrowed(height_share, 0.6, 1.0, 0.72) *
          narrowed(length_share, 0.36, 0.5, 0.56) * narrowed(-length_share, 0.40, 0.5, 0.72);
 }
 
-/// The hull over the silhouette: one band across the car, and its two sides.
+/// Adds the hull over the silhouette: one band across the car, and its two sides.
 void add_hull(Mesh& mesh, const CarBody& body) {
   constexpr auto kCorners = static_cast<std::uint32_t>(kSilhouette.size());
   std::array<std::uint32_t, 2> first{};

@@ -10,13 +10,14 @@
 
 namespace croon::simulation {
 
-/// A sensor on a rig. The pose consists of the numbers that `truth.json` holds, so that a written
-/// dataset has the same bits.
+/// A sensor on a rig. The pose is stored as the numbers in `truth.json`, so that a written dataset
+/// is bitwise the same.
 struct Mounting {
   SensorModel model = sensor_model("pandar64");
   std::vector<double> rotation_rpy_deg = {0.0, 0.0, 0.0};  ///< Roll, pitch, yaw.
   std::vector<double> translation_m = {0.0, 0.0, 0.0};
-  double time_offset_s = 0.0;  ///< From the begin of the reference's scan to that of this sensor.
+  /// From the start of the reference's scan to the start of this sensor's.
+  double time_offset_s = 0.0;
 
   RigidTransform T_reference_sensor() const;
 };
@@ -27,7 +28,7 @@ struct CarBody {
   double length_m = 4.75;
   double width_m = 1.9;
   double height_m = 1.48;
-  bool is_visible = true;  ///< To the car's own sensors.
+  bool is_visible = true;  ///< Whether the car's own sensors see it.
 };
 
 /// The mesh of `body` in the car's frame: smooth and without mirrors, like that of the paper's
@@ -46,8 +47,8 @@ struct Rig {
   RigidTransform T_car_reference() const;
 };
 
-/// The rigs that have names: `croon_five`, that of the paper's simulation, and `croon_three`, that
-/// of the paper's real car.
+/// The named rigs: `croon_five` of the paper's simulation, and `croon_three` of the paper's real
+/// car.
 const std::vector<std::pair<std::string, Rig>>& rigs();
 
 }  // namespace croon::simulation

@@ -6,12 +6,12 @@
 namespace croon::simulation {
 namespace {
 
-constexpr double kKerbFace_m = 0.03;   ///< How far the face of a kerb leans.
+constexpr double kKerbFace_m = 0.03;   ///< Horizontal extent of a kerb's inclined face.
 constexpr double kKerbStone_m = 0.16;  ///< Width of a kerb stone.
 constexpr double kCornerRadius_m = 5.0;
 constexpr double kLineWidth_m = 0.15;
 
-/// The grid lines that a kerb needs: at its foot, its top and the back of its stone; many around a
+/// Adds the grid lines for a kerb: at its foot, its top and the back of its stone; more around a
 /// corner.
 void add_kerb(std::vector<double>& lines, double kerb_m, double outwards, bool has_corner) {
   for (const double step_m : {0.0, kKerbFace_m, kKerbStone_m}) {
@@ -33,19 +33,19 @@ double step_at(double line_m) {
   return kNearStep_m + (kGrowth - 1.0) * std::max(line_m - kNear_m, 0.0);
 }
 
-/// Ascending lines from `-extent_m` to `extent_m`: all of `wanted` that lie between, and others
-/// that keep a distance from them.
-std::vector<double> grid_lines(std::vector<double> wanted, double extent_m) {
-  wanted.erase(std::remove_if(wanted.begin(), wanted.end(),
-                              [&](double line_m) { return std::abs(line_m) >= extent_m; }),
-               wanted.end());
-  std::sort(wanted.begin(), wanted.end());
-  std::vector<double> lines = wanted;
+/// Ascending lines from `-extent_m` to `extent_m`: those of `required` in between, and others at a
+/// distance from them.
+std::vector<double> grid_lines(std::vector<double> required, double extent_m) {
+  required.erase(std::remove_if(required.begin(), required.end(),
+                                [&](double line_m) { return std::abs(line_m) >= extent_m; }),
+                 required.end());
+  std::sort(required.begin(), required.end());
+  std::vector<double> lines = required;
   const auto add = [&](double line_m) {
-    const auto next = std::lower_bound(wanted.begin(), wanted.end(), line_m);
+    const auto next = std::lower_bound(required.begin(), required.end(), line_m);
     const double room_m = 0.3 * step_at(std::abs(line_m));
-    if (next != wanted.end() && *next - line_m < room_m) return;
-    if (next != wanted.begin() && line_m - *(next - 1) < room_m) return;
+    if (next != required.end() && *next - line_m < room_m) return;
+    if (next != required.begin() && line_m - *(next - 1) < room_m) return;
     lines.push_back(line_m);
   };
   add(0.0);
@@ -75,7 +75,7 @@ double RoadShape::beyond_carriageway_m(double s_m, double d_m) const {
 }
 
 double RoadShape::height_m(double s_m, double d_m) const {
-  constexpr double kRunOut_m = 8.0;  // The crown runs out towards a crossing.
+  constexpr double kRunOut_m = 8.0;  // The crown flattens towards a crossing.
   double crown_here = crown;
   if (crossing) {
     const double from_m = std::abs(s_m - crossing->s_m) - crossing->half_width_m;
@@ -114,29 +114,29 @@ Material RoadShape::material_at(double s_m, double d_m) const {
 
 std::vector<double> RoadShape::grid_s_m() const {
   constexpr double kLength_m = 250.0;
-  std::vector<double> wanted;
+  std::vector<double> required;
   if (crossing) {
     for (const double side : {-1.0, 1.0}) {
-      add_kerb(wanted, crossing->s_m + side * crossing->half_width_m, side, true);
+      add_kerb(required, crossing->s_m + side * crossing->half_width_m, side, true);
     }
   }
-  return grid_lines(wanted, kLength_m);
+  return grid_lines(required, kLength_m);
 }
 
 std::vector<double> RoadShape::grid_d_m() const {
   constexpr double kWidth_m = 120.0;
-  std::vector<double> wanted;
+  std::vector<double> required;
   for (const double side : {-1.0, 1.0}) {
-    add_kerb(wanted, side * half_width_m, side, crossing.has_value());
-    wanted.push_back(side * (half_width_m + pavement_width_m));
+    add_kerb(required, side * half_width_m, side, crossing.has_value());
+    required.push_back(side * (half_width_m + pavement_width_m));
   }
   for (const LaneLine& line : lines) {
-    wanted.push_back(line.d_m - 0.5 * kLineWidth_m);
-    wanted.push_back(line.d_m + 0.5 * kLineWidth_m);
+    required.push_back(line.d_m - 0.5 * kLineWidth_m);
+    required.push_back(line.d_m + 0.5 * kLineWidth_m);
   }
   // On the inside of a curve the surface must end before the curve's centre.
   const double bend_m = 0.8 / std::max(std::abs(curvature_per_m), 1e-9);
-  return grid_lines(wanted, std::min(kWidth_m, bend_m));
+  return grid_lines(required, std::min(kWidth_m, bend_m));
 }
 
 }  // namespace croon::simulation

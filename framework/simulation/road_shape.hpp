@@ -15,12 +15,12 @@ struct LaneLine {
 
 /// A second road across the first.
 struct Crossing {
-  double s_m = 0.0;           ///< Where its centre line crosses that of the first road.
+  double s_m = 0.0;           ///< Position where the two centre lines cross.
   double half_width_m = 4.0;  ///< Of its carriageway.
 };
 
-/// The road that a scene is built along. Road coordinates: `s_m` along the centre line (the car
-/// stands at 0 and drives towards larger s), `d_m` to the left of the centre line.
+/// The road of a scene. Road coordinates: `s_m` along the centre line (the car is at 0 and drives
+/// towards larger s), `d_m` to the left of the centre line.
 struct RoadShape {
   double curvature_per_m = 0.0;  ///< Of the centre line, positive to the left; |d| < 1 / curvature.
   double half_width_m = 4.0;     ///< Of the carriageway, from kerb to kerb.
@@ -39,13 +39,12 @@ struct RoadShape {
   double height_m(double s_m, double d_m) const;
   /// Standard deviation of the surface's roughness.
   double roughness_at(double s_m, double d_m) const;
-  /// What the surface is made of.
+  /// Material of the surface.
   Material material_at(double s_m, double d_m) const;
 
   /// The lines of a grid over the surface, ascending: s of those across the road and d of those
   /// along it. They follow kerbs and lane lines, are 0.75 m apart near 0 and farther apart away
-  /// from it. The grid reaches 250 m along the road and 120 m across it, less if the road's curve
-  /// is tighter.
+  /// from it. The grid extends 250 m along the road and 120 m across it, less in a tight curve.
   std::vector<double> grid_s_m() const;
   std::vector<double> grid_d_m() const;
 

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What the sensor itself knows of a ray.
+/// The sensor's own data of a ray.
 struct Firing {
   Vector3d nominal_direction;  ///< In the sensor's frame.
   std::uint16_t ring = 0;
@@ -44,8 +44,8 @@ class Laser {
     }
   }
 
-  /// Replaces `rays` and `firings` by those of the next azimuths, about a block of rays; false if
-  /// there are none. A block stays in the cache, and rays take no more memory in a larger scan.
+  /// Replaces `rays` and `firings` by about a block of rays at the next azimuths; returns false if
+  /// there are none. A block fits the cache and bounds the memory of a scan.
   bool fire_next(std::vector<Ray>& rays, std::vector<Firing>& firings) {
     constexpr std::size_t kBlock = 4096;
     rays.clear();
@@ -86,7 +86,7 @@ class Laser {
   std::size_t next_ = 0;  ///< The number of the next azimuth.
 };
 
-/// The share of light that a surface sends back to the sensor: Lambert's cosine law, and the
+/// The share of light that a surface returns to the sensor: Lambert's cosine law, and the
 /// retroreflection of signs and plates.
 double signal_ratio(const Hit& hit) {
   const MaterialLook& look = look_of(hit.material);
@@ -118,7 +118,7 @@ PointCloud scan(const RayCaster& world, const SensorModel& sensor, const Noise& 
       if (!hits[i].is_there() || is_lost(noise, hits[i], return_rng)) continue;
       double range_m = hits[i].range_m;
       if (noise.range_std_m > 0.0) range_m += noise.range_std_m * return_rng.normal();
-      if (range_m <= 0.0) continue;  // No sensor sees a point behind itself.
+      if (range_m <= 0.0) continue;  // Range noise must not place a point behind the sensor.
       result.points.push_back((range_m * firings[i].nominal_direction).cast<float>());
       intensity.push_back(
           static_cast<float>(std::round(255.0 * std::min(signal_ratio(hits[i]), 1.0))));

@@ -55,7 +55,7 @@ SensorModel solid_state() {
 }
 
 std::vector<std::pair<std::string, SensorModel>> make_models() {
-  // In the paper's samples, CARLA's sensors have the rings of the real ones and other ranges.
+  // In the paper's samples, CARLA's sensors have the rings of the real ones, but other ranges.
   return {{"carla_pandar64", spinner(pandar64_elevations(), 0.2, 0.1, 200.0)},
           {"carla_pandar_qt", spinner(pandar_qt_elevations(), 0.6, 0.1, 20.0)},
           {"pandar64", spinner(pandar64_elevations(), 0.2, 1.0, 200.0)},
@@ -82,7 +82,7 @@ const SensorModel& sensor_model(const std::string& name) {
 
 std::vector<double> azimuths_deg(const SensorModel& sensor) {
   const double span_deg = sensor.azimuth_to_deg - sensor.azimuth_from_deg;
-  // If the step divides the span up to rounding, there is no ray at the span's end.
+  // If the step divides the span up to rounding, there is no ray at the end of the span.
   const auto count = static_cast<int>(std::ceil(span_deg / sensor.azimuth_step_deg - 1e-6));
   std::vector<double> azimuths;
   for (int i = 0; i < count; ++i) {

@@ -16,14 +16,14 @@ StreamKey scene_key(const Recipe& recipe, std::uint64_t index) {
   return StreamKey(static_cast<std::uint64_t>(recipe.seed)).with("simulated scene").with(index);
 }
 
-/// `motion` at another speed, on the same arc as far as its lateral acceleration is that of a car.
-/// A car that stood drives straight on.
+/// `motion` at another speed, on the same arc unless a car could not reach that lateral
+/// acceleration. A stationary car drives straight on.
 Motion at_speed(const Motion& motion, double speed_mps) {
-  constexpr double kMostLateral_mps2 = 4.0;
+  constexpr double kMaxLateral_mps2 = 4.0;
   if (motion.speed_mps == 0.0 || speed_mps == 0.0) return {speed_mps, 0.0};
-  const double most_radps = kMostLateral_mps2 / speed_mps;
+  const double max_radps = kMaxLateral_mps2 / speed_mps;
   const double turn_radps = motion.yaw_rate_radps / motion.speed_mps * speed_mps;
-  return {speed_mps, std::clamp(turn_radps, -most_radps, most_radps)};
+  return {speed_mps, std::clamp(turn_radps, -max_radps, max_radps)};
 }
 
 std::shared_ptr<const World> make_world(const Recipe& recipe, std::uint64_t index) {
@@ -36,7 +36,7 @@ std::shared_ptr<const World> make_world(const Recipe& recipe, std::uint64_t inde
   return std::make_shared<const World>(std::move(world));
 }
 
-/// From the first ray of any sensor to the last; {0, 0} if nothing moves during a scan.
+/// The time from the first ray of any sensor to the last; {0, 0} if nothing moves during a scan.
 Span window_of(const Recipe& recipe) {
   Span window_s;
   if (!recipe.noise.moves_during_scan) return window_s;
@@ -65,7 +65,8 @@ Colour mixed(const Colour& a, const Colour& b, double share_of_b) {
   return {mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue)};
 }
 
-/// The colour of a pixel: surfaces are brightest if they face the camera, and fade into haze.
+/// The colour of a pixel: surfaces are brightest if they face the camera, and fade into haze with
+/// distance.
 Colour colour_of(const Hit& hit) {
   const Colour haze = {206, 222, 236};
   if (!hit.is_there()) return haze;
@@ -107,7 +108,7 @@ PointCloud SimulatedScene::scan_of(const std::string& name) const {
   const ScanPlan plan = {mounting.time_offset_s,
                          [&](double time_s) { return world_->car.pose_at(time_s) * T_car_sensor; },
                          name == recipe_->rig.reference ? 0.0 : recipe_->noise.clock_offset_s};
-  // The name of the random stream decides the bits of all scans.
+  // The name of the random stream determines the bits of all scans.
   return scan(caster_, mounting.model, recipe_->noise, plan, key_.with("sweep").with(name));
 }
 

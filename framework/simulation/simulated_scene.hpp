@@ -14,8 +14,8 @@ namespace croon::simulation {
 /// The kind of the scene `index` of `recipe`.
 SceneKind scene_kind(const Recipe& recipe, std::uint64_t index);
 
-/// The world of the scene `index` of `recipe` and the scans of its sensors. Both follow from the
-/// recipe and the index alone. Thread-safe.
+/// The world of the scene `index` of `recipe` and the scans of its sensors. Both depend only on the
+/// recipe and the index. Thread-safe.
 class SimulatedScene {
  public:
   SimulatedScene(std::shared_ptr<const Recipe> recipe, std::uint64_t index);
@@ -26,8 +26,8 @@ class SimulatedScene {
   /// One scan of the sensor `name`. Throws std::logic_error if the rig has no such sensor.
   PointCloud scan_of(const std::string& name) const;
 
-  /// The velocity of the sensor `name` while it scans, in its own frame; it is constant. Zero if
-  /// the noise has no sweep distortion: then all is of one time.
+  /// The constant velocity of the sensor `name` during its scan, in its own frame. Zero without
+  /// sweep distortion, where a scan is instantaneous.
   Twist velocity_of(const std::string& name) const;
 
   /// A picture of the scene from behind and above the car, lit from the sky, in the colours of its

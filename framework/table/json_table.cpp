@@ -22,7 +22,7 @@ struct ValueJson {
   }
 };
 
-/// Replaces objects and lists of nulls alone by null.
+/// Replaces objects and lists that contain only nulls by null.
 void collapse(Json& json) {
   if (!json.is_structured()) return;
   for (Json& member : json) collapse(member);

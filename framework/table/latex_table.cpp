@@ -8,15 +8,15 @@ namespace croon {
 
 namespace {
 
-/// A name that is longer is broken into lines.
+/// Maximum length of a name in one line; longer names are broken.
 constexpr std::size_t kLongName = 22;
 
-/// The name with places at which LaTeX may break it: after its punctuation.
+/// The name with permitted LaTeX line breaks after its punctuation.
 std::string breakable(const std::string& name) {
   std::string text;
   for (std::size_t i = 0; i < name.size(); ++i) {
     text += latex_escaped(std::string(1, name[i]));
-    // Not inside 0.05.
+    // Not inside numbers such as 0.05.
     const bool is_in_number = i + 1 < name.size() && name[i + 1] >= '0' && name[i + 1] <= '9';
     if (std::string_view("/_=,").find(name[i]) != std::string_view::npos ||
         (name[i] == '.' && !is_in_number))
@@ -36,7 +36,7 @@ struct RowRange {
 };
 
 /// Tabulars of the rows of one table, with booktabs rules and siunitx columns (version 2 or 3), the
-/// best values bold. The first column of the view is names, the others have numbers.
+/// best values bold. The first column of the view has names, the others numbers.
 class Tabular {
  public:
   Tabular(const Table& table, const View& view, double name_share)
@@ -59,9 +59,9 @@ class Tabular {
     return text + "\\bottomrule\n\\end{tabular}\n";
   }
 
-  /// The rows, as many together as a page holds.
+  /// The rows, divided into pages.
   std::vector<RowRange> pages(std::size_t panels) const {
-    constexpr std::size_t kLinesOfPanels = 56;  // Beside their heads and a caption.
+    constexpr std::size_t kLinesOfPanels = 56;  // Without headers and a caption.
     const std::size_t lines_per_page = kLinesOfPanels / panels;
     std::vector<RowRange> pages = {{0, 0}};
     std::size_t total = 0;
@@ -77,13 +77,13 @@ class Tabular {
   }
 
  private:
-  /// The lines that the row takes, with the heading above it if it has one.
+  /// The number of lines of a row, including a heading above it.
   std::size_t lines(std::size_t row) const {
     const bool has_heading = !view_.heading.empty() && begins_group(row);
     return 1 + text_columns(names_[row]) / kLongName + (has_heading ? 1 : 0);
   }
 
-  /// Marks are in a column of their own, so that they move no number in any version of siunitx.
+  /// Marks are in a separate column, so that they do not shift numbers in any version of siunitx.
   bool has_marks(std::size_t k) const {
     return std::any_of(table_.rows.begin(), table_.rows.end(),
                        [k](const CellRow& row) { return !row[k].mark.empty(); });
@@ -158,7 +158,7 @@ class Tabular {
            (begins_group(row) ? "" : ", continued") + "} \\\\\n";
   }
 
-  /// A minus, not a hyphen.
+  /// The mark with a minus instead of a hyphen.
   static std::string latex_mark(const std::string& mark) {
     return mark.empty() || mark[0] != '-' ? mark : "$-$" + mark.substr(1);
   }

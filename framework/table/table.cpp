@@ -11,7 +11,7 @@ std::size_t Table::index_of(const std::string& full_name) const {
   for (std::size_t k = 0; k < columns.size(); ++k) {
     if (columns[k].full_name() == full_name) return k;
   }
-  throw std::logic_error("no column is called \"" + full_name + "\"");
+  throw std::logic_error("unknown column \"" + full_name + "\"");
 }
 
 const std::string& Table::text_at(std::size_t row, const std::string& full_name) const {

@@ -11,24 +11,24 @@
 
 namespace croon {
 
-/// Which of two values of a column is the better one.
+/// Which of two values of a column is better.
 enum class Better { neither, greater, nearer_to_zero };
 
 /// Text, a count, a number or nothing (std::monostate).
 using Value = std::variant<std::monostate, bool, long long, double, std::string>;
 
-/// `Column::decimals` for as many digits as a number takes.
+/// Value of `Column::decimals` for all digits of a number.
 inline constexpr int kAllDigits = -1;
 
 /// A column of a table.
 struct Column {
   std::string name;       ///< Without the unit: "pitch_mean".
   std::string unit = {};  ///< "deg"; a "ratio" is shown in percent.
-  std::string path = {};  ///< JSON pointer to its value in a row; empty: "/" and the full name.
+  std::string path = {};  ///< JSON pointer to its value in a row; if empty, "/" and the full name.
   int decimals = 0;       ///< Of numbers, for readers; CSV and JSON have full precision.
   Better better = Better::neither;
-  bool has_marks = false;          ///< Some cells may have a mark; CSV has a column for them.
-  bool is_all_if_nothing = false;  ///< A cell with nothing stands for all (sensors).
+  bool has_marks = false;          ///< Whether cells may have a mark; CSV has a column for them.
+  bool is_all_if_nothing = false;  ///< Whether a cell without a value means all (sensors).
 
   /// "pitch_mean_deg": the header in CSV files, and its name in views.
   std::string full_name() const { return unit.empty() ? name : name + "_" + unit; }
@@ -37,17 +37,17 @@ struct Column {
 /// A cell of a table.
 struct Cell {
   Value value = {};
-  std::optional<int> decimals = {};  ///< Instead of those of the column.
-  bool is_best = false;              ///< Among the rows that it competes with.
-  std::string mark = {};             ///< Of significance: "+*", "-**".
+  std::optional<int> decimals = {};  ///< Overrides the decimals of the column.
+  bool is_best = false;              ///< Whether it is the best among its competitors.
+  std::string mark = {};             ///< Significance mark: "+*", "-**".
 
   bool is_nothing() const { return std::holds_alternative<std::monostate>(value); }
 };
 
 using CellRow = std::vector<Cell>;
 
-/// Numbers and names in rows and columns: what every text, CSV, JSON, Markdown and LaTeX table is
-/// rendered from.
+/// Numbers and names in rows and columns, from which text, CSV, JSON, Markdown and LaTeX tables are
+/// rendered.
 struct Table {
   std::vector<Column> columns;
   std::vector<CellRow> rows;  ///< A cell per column.
@@ -57,12 +57,12 @@ struct Table {
   const Cell& at(std::size_t row, const std::string& full_name) const {
     return rows[row][index_of(full_name)];
   }
-  /// The text in a cell; empty if there is nothing.
+  /// The text in a cell; empty if it has no value.
   const std::string& text_at(std::size_t row, const std::string& full_name) const;
 };
 
-/// The cell as readers see it: with the decimals of its column, ratios in percent, without its
-/// mark; "-" for nothing, "all sensors" in a column in which nothing stands for all.
+/// The displayed text of a cell: with the decimals of its column, ratios in percent, without its
+/// mark; "-" without a value, or "all sensors" in a column where that means all.
 std::string shown_text(const Cell& cell, const Column& column);
 
 /// `value` as a cell: text, an integer, a number (NaN stays), an optional of them, or a Cell.
@@ -87,7 +87,7 @@ CellRow cell_row(const T&... values) {
   return {to_cell(values)...};
 }
 
-/// Text, or nothing if it is empty.
+/// The text, or std::nullopt if it is empty.
 inline std::optional<std::string> nothing_if_empty(const std::string& text) {
   return text.empty() ? std::nullopt : std::optional<std::string>(text);
 }
@@ -106,8 +106,8 @@ class Columns {
     return *this;
   }
 
-  /// Adds the columns of a part of each row: of a member or of the result of a function. If that
-  /// is a std::optional without a value, the cells have nothing.
+  /// Adds the columns of a part of each row: of a member or of the result of a function. If that is
+  /// a std::optional without a value, the cells have no value.
   template <class Part, class F>
   Columns& add(const Columns<Part>& of_part, F part) {
     for (std::size_t k = 0; k < of_part.columns().size(); ++k) {
@@ -151,24 +151,26 @@ class Columns {
   std::vector<Function> functions_;
 };
 
-/// A column as a reader sees it, of one or several columns of the table.
+/// A displayed column, made of one or several columns of the table.
 struct Shown {
   std::string title;
-  /// What stands in a cell: "<pitch_mean_deg> ± <pitch_std_deg>" is the cells of two columns with
-  /// text between; empty for the column that is called as the title is. Text is written as it is,
-  /// in the language of the format.
+  /// Template of a cell: "<pitch_mean_deg> ± <pitch_std_deg>" combines the cells of two columns
+  /// with text in between; empty for the column named like the title. Text is written verbatim, in
+  /// the language of the format.
   std::string content = {};
-  bool shows_each = false;  ///< Shows "-" for each cell without a value, not one "-" for all.
-  std::string group = {};   ///< A title above this and its neighbours of the same group (LaTeX).
+  /// Whether each cell without a value shows "-", instead of one "-" for all.
+  bool shows_each = false;
+  std::string group = {};  ///< A title above this and its neighbours of the same group (LaTeX).
 };
 
-/// The columns of a table that readers see, in their order.
+/// The displayed columns of a table, in order.
 struct View {
   std::vector<Shown> columns;
-  std::size_t names = 1;     ///< The first columns, which are aligned to the left.
-  std::string heading = {};  ///< A column whose text stands above the rows that share it.
-  /// Longer names are cut (text only).
-  std::size_t widest_name = std::numeric_limits<std::size_t>::max();
+  std::size_t names = 1;  ///< Number of leading columns that are left-aligned.
+  /// A column whose text is shown as a heading above the rows that share it.
+  std::string heading = {};
+  /// Maximum width of names, beyond which they are cut (text only).
+  std::size_t max_name_columns = std::numeric_limits<std::size_t>::max();
 };
 
 /// All columns of the table, under their own names.
@@ -187,8 +189,8 @@ class ShownCells {
 
   const std::vector<Piece>& pieces() const { return pieces_; }
 
-  /// The content of a row, each of its cells written by `text_of`; "-" if none of them has a value,
-  /// unless each is shown. Throws std::logic_error if the row does not have a cell per column.
+  /// The content of a row, with each cell written by `text_of`; "-" if no cell has a value, unless
+  /// `shows_each`. Throws std::logic_error if the row does not have one cell per column.
   std::string content(const CellRow& row, std::string (*text_of)(const Cell&, const Column&)) const;
 
  private:

@@ -22,7 +22,7 @@ std::string one_line(std::string text) {
 }
 
 std::string text_table(const Table& table, const View& view, bool bold_header) {
-  // The titles, the rule and a line per row, one column after the other.
+  // The titles, the rule and one line per row, built column by column.
   std::vector<std::string> lines(2 + table.rows.size());
   const std::vector<ShownCells> columns = shown_cells(table, view);
   for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -30,7 +30,7 @@ std::string text_table(const Table& table, const View& view, bool bold_header) {
     std::vector<std::string> cells = {view.columns[k].title, ""};
     for (const CellRow& row : table.rows) {
       const std::string text = columns[k].content(row, text_cell);
-      cells.push_back(is_name ? cut_in_the_middle(text, view.widest_name) : text);
+      cells.push_back(is_name ? cut_in_the_middle(text, view.max_name_columns) : text);
     }
     std::size_t width = 0;
     for (const std::string& cell : cells) width = std::max(width, text_columns(cell));

@@ -24,13 +24,12 @@ struct Params {
 
 params::Table<Params> make_table() {
   params::Table<Params> table = {
-      params::text(
-          "path", &Params::path,
-          "A folder of scenes, or one scene's folder (it has lidar_cloud_path.txt); relative to "
-          "the data root."),
+      params::text("path", &Params::path,
+                   "A folder of scenes, or the folder of one scene (with lidar_cloud_path.txt), "
+                   "relative to the data root."),
       params::texts("scenes", &Params::scenes, kScenesDoc),
       params::boolean("follow_links", &Params::follow_links,
-                      "Symbolic links may lead out of the data root."),
+                      "Whether symbolic links may point outside the data root."),
   };
   return table.finish([](const Params& params, const params::Node& node) {
     params::refuse_repeats(params.scenes, node, "scenes");
@@ -45,9 +44,8 @@ const params::Table<Params>& table() {
 constexpr const char* kCloudList = "lidar_cloud_path.txt";
 constexpr const char* kPoseList = "initial_extrinsic.txt";
 
-/// The path of a listed cloud. Lists in circulation have paths relative to whatever folder
-/// their authors stood in: the scene's, any above it, or one that did not come along with the
-/// recording.
+/// The path of a listed cloud. Published lists have paths relative to the scene's folder, to any
+/// folder above it, or to one that is not part of the recording.
 fs::path find_cloud(const ListedCloud& cloud, const SceneLocation& location) {
   std::string entry = cloud.path;
   std::replace(entry.begin(), entry.end(), '\\', '/');
@@ -64,12 +62,13 @@ fs::path find_cloud(const ListedCloud& cloud, const SceneLocation& location) {
         (location.folder / kCloudList).string(), cloud.place,
         "expected a cloud, found " + found_instead_of_file(path) + " at " + path.string());
   }
-  throw InputError((location.folder / kCloudList).string(), cloud.place,
-                   "the cloud \"" + cloud.path +
-                       "\" is not below this folder, nor below one above it in the data root");
+  throw InputError(
+      (location.folder / kCloudList).string(), cloud.place,
+      "the cloud \"" + cloud.path +
+          "\" is neither below this folder nor below a folder above it in the data root");
 }
 
-/// The starts that the recording came with, by device; the reference's must be zero.
+/// The initial poses in the recording, by device; the reference's must be zero.
 std::map<int, RigidTransform> initial_poses(const SceneLocation& location) {
   const fs::path file = location.folder / kPoseList;
   if (!fs::exists(file)) return {};
@@ -86,7 +85,7 @@ std::map<int, RigidTransform> initial_poses(const SceneLocation& location) {
   return poses;
 }
 
-/// The scans by device, without poses; looks at every cloud's file.
+/// The scans by device, without poses; inspects the file of every cloud.
 std::map<int, SensorScan> listed_scans(const SceneLocation& location) {
   const fs::path list = location.folder / kCloudList;
   std::vector<Fault> faults;
@@ -99,7 +98,7 @@ std::map<int, SensorScan> listed_scans(const SceneLocation& location) {
       const std::string& name = cloud.sensor;
       if (name.empty()) throw InputError(list.string(), cloud.place, "the sensor has no name");
       if (!names.insert(name).second) {
-        throw InputError(list.string(), cloud.place, "a second sensor is called \"" + name + "\"");
+        throw InputError(list.string(), cloud.place, "duplicate sensor name \"" + name + "\"");
       }
       scans[cloud.device_id] = scan_in_file(name, file);
     });
@@ -108,7 +107,7 @@ std::map<int, SensorScan> listed_scans(const SceneLocation& location) {
   if (scans.count(0) == 0)
     throw InputError(list.string(), "", "the reference, device 0, is missing");
   if (scans.size() == 1)
-    throw InputError(list.string(), "", "there is no sensor but the reference");
+    throw InputError(list.string(), "", "expected a sensor besides the reference, found none");
   return scans;
 }
 
@@ -149,7 +148,7 @@ SceneFolders scene_folders(const fs::path& folder) {
   return folders;
 }
 
-/// Of the scenes in `folder`, or of `folder` itself if it is a scene, those in `chosen`.
+/// The scenes named in `chosen` among those in `folder`, or `folder` itself if it is a scene.
 std::vector<SceneLocation> scene_locations(const fs::path& folder, const fs::path& root,
                                            Links links, const std::vector<std::string>& chosen) {
   const SceneFolders folders = scene_folders(folder);
@@ -194,7 +193,7 @@ class OpenCalib final : public Dataset {
 StageEntry opencalib() {
   return stage_entry<OpenCalib>("opencalib",
                                 "Recordings in the layout of the paper's authors: a folder per "
-                                "scene, a list of clouds in it.",
+                                "scene, with a list of its clouds.",
                                 "CROON's public code (lidar2lidar, commit c0e1e2b)", table());
 }
 

@@ -21,8 +21,7 @@ struct Params {
   bool follow_links = false;
 };
 
-/// Notes a fault for each name that a sensor cannot have or that stands twice, and for a sensor
-/// that is the reference.
+/// Adds a fault for each invalid or duplicate name, and for a sensor that is the reference.
 void check_names(const Params& params, const params::Node& node) {
   const auto check_name = [](const std::string& name, const params::Node& at) {
     const std::string why_not = why_no_scan_name(name, "a sensor");
@@ -42,15 +41,15 @@ void check_names(const Params& params, const params::Node& node) {
 params::Table<Params> make_table() {
   params::Table<Params> table = {
       params::text("path", &Params::path,
-                   "A folder with a folder for each sensor, relative to the data root."),
+                   "Folder that contains a folder for each sensor, relative to the data root."),
       params::text("reference", &Params::reference,
-                   "The folder of the sensor that the others are calibrated to."),
+                   "Folder of the reference, to which the other sensors are calibrated."),
       params::texts("sensors", &Params::sensors,
-                    "The folders of the other sensors, in this order; an empty list is every "
-                    "folder with clouds."),
+                    "Folders of the other sensors, in this order; an empty list means every folder "
+                    "with clouds."),
       params::texts("scenes", &Params::scenes, kScenesDoc),
       params::boolean("follow_links", &Params::follow_links,
-                      "Symbolic links may lead out of the data root."),
+                      "Whether symbolic links may point outside the data root."),
   };
   return table.finish(check_names);
 }
@@ -63,15 +62,14 @@ const params::Table<Params>& table() {
 /// The clouds of one sensor by their names without suffix.
 using Clouds = std::map<std::string, fs::path, SceneOrder>;
 
-/// Throws InputError for a link that leads nowhere, as to a disk that is not mounted: what it
-/// stands for must not be missed in silence.
+/// Throws InputError for a dangling link, for example to a disk that is not mounted: its target
+/// must not be skipped silently.
 void refuse_dangling(const fs::directory_entry& entry) {
   if (!entry.is_symlink() || entry.exists()) return;
-  throw InputError(entry.path().string(), "",
-                   "expected a file or folder, found a link that leads nowhere");
+  throw InputError(entry.path().string(), "", "expected a file or folder, found a dangling link");
 }
 
-/// The clouds in `folder`. Throws InputError if two have one name.
+/// The clouds in `folder`. Throws InputError if two have the same name.
 Clouds clouds_in(const SceneLocation& folder) {
   Clouds clouds;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder.folder)) {
@@ -85,7 +83,7 @@ Clouds clouds_in(const SceneLocation& folder) {
     const auto [found, is_new] = clouds.emplace(entry.path().stem().string(), file);
     if (is_new) continue;
     throw InputError(entry.path().string(), "",
-                     "expected one cloud of this name, found " + found->second.string() + " too");
+                     "expected one cloud of this name, also found " + found->second.string());
   }
   return clouds;
 }
@@ -96,7 +94,7 @@ std::vector<std::string> names_of(const Clouds& clouds) {
   return names;
 }
 
-/// The names of the folders in `rig` that have clouds, sorted, without the reference; all if it is
+/// The sorted names of the folders in `rig` that contain clouds, without `reference` unless that is
 /// empty.
 std::vector<std::string> other_folders(const fs::path& rig, const std::string& reference) {
   std::vector<std::string> names;
@@ -114,7 +112,7 @@ std::vector<std::string> other_folders(const fs::path& rig, const std::string& r
   return names;
 }
 
-/// A recording with a folder of clouds for each sensor. A scene is the clouds of one name.
+/// A recording with a folder of clouds for each sensor. Clouds of the same name form a scene.
 class SensorFolders final : public Dataset {
  public:
   explicit SensorFolders(Params params) : params_(std::move(params)) {}
@@ -139,7 +137,7 @@ class SensorFolders final : public Dataset {
     std::vector<Fault> faults;
     RigFilesAbove rig_files;
     std::vector<std::string> frames = names_of(references);
-    // A cloud that no other sensor has is in no scene.
+    // A reference cloud without a counterpart in any other folder forms no scene.
     const auto is_alone = [&](const std::string& frame) {
       return std::none_of(names.begin(), names.end(), [&](const std::string& name) {
         return clouds.at(name).count(frame) > 0;
@@ -162,11 +160,11 @@ class SensorFolders final : public Dataset {
     if (!faults.empty()) throw InputError(without_repeats(faults));
     if (!scenes.empty()) return scenes;
     throw InputError(rig.folder.string(), "",
-                     "expected clouds of one name in the folder \"" + params_.reference +
+                     "expected clouds of the same name in the folder \"" + params_.reference +
                          "\" and in another one, found none");
   }
 
-  /// Throws InputError, at the pointers of the parameters, if the folder of a sensor is not there.
+  /// Throws InputError, with JSON pointers to the parameters, if the folder of a sensor is missing.
   void check_folders(const fs::path& rig) const {
     std::vector<Fault> faults;
     const auto check = [&](const std::string& pointer, const std::string& name) {
@@ -199,7 +197,7 @@ class SensorFolders final : public Dataset {
 StageEntry sensor_folders() {
   return stage_entry<SensorFolders>(
       "sensor_folders",
-      "Recordings with a folder of clouds for each sensor; clouds of one name are a scene.",
+      "Recordings with a folder of clouds for each sensor; clouds of the same name form a scene.",
       "croon", table());
 }
 

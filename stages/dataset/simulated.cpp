@@ -24,10 +24,10 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table = [] {
     params::Table<Params> rows = {
         params::integer("scenes", &Params::scenes, {1, 100000},
-                        "The number of scenes; more of them are several experiments with their own "
-                        "first_scene."),
+                        "Number of scenes; for more, run several experiments with different values "
+                        "of first_scene."),
         params::integer("first_scene", &Params::first_scene, {0, 1000000},
-                        "Number of the first scene; a scene does not depend on the others."),
+                        "Number of the first scene. Each scene is independent of the others."),
     };
     rows.inherit(simulation::recipe_table());
     return rows;
@@ -96,7 +96,7 @@ class Simulated final : public Dataset {
  private:
   /// Throws InputError if the clouds of one scene, or the list of scenes, do not fit into memory.
   void check_size() const {
-    // A ray has its direction, its hit, what the sensor measures, and a leaf of the kd-tree.
+    // Per ray: its direction, its hit, the measurement, and a kd-tree leaf.
     constexpr double kRayBytes = 150.0;
     constexpr double kScanBytes = sizeof(SensorScan) + 200.0;
     double rays = 0.0;
@@ -106,10 +106,10 @@ class Simulated final : public Dataset {
               (model.azimuth_to_deg - model.azimuth_from_deg) / model.azimuth_step_deg;
     }
     require_memory(rays * kRayBytes, "a scene of " + fixed_number(rays, 0) + " rays",
-                   "give the sensors of the rig fewer rings or a larger azimuth_step_deg",
+                   "reduce the rings of the rig's sensors or increase azimuth_step_deg",
                    {"", "/rig", ""});
     require_memory(kScanBytes * params_.scenes * static_cast<double>(params_.rig.sensors.size()),
-                   "a list of " + std::to_string(params_.scenes) + " scenes", "ask for fewer",
+                   "a list of " + std::to_string(params_.scenes) + " scenes", "reduce it",
                    {"", "/scenes", ""});
   }
 
@@ -131,7 +131,7 @@ class Simulated final : public Dataset {
       if (name == params_.rig.reference) {
         scene.reference = scan;
       } else {
-        // Rounded as in a file, so that a written scene gives the same results to the last bit.
+        // Rounded as in a file, so that a scene read from files yields bitwise the same results.
         scan.truth = pose_as_written(mounting.T_reference_sensor());
         scene.sensors.push_back(scan);
       }
@@ -146,11 +146,10 @@ class Simulated final : public Dataset {
 }  // namespace
 
 StageEntry simulated() {
-  return stage_entry<Simulated>(
-      "simulated",
-      "Road scenes that are built and ray-cast on demand, with exact ground truth; nothing is "
-      "downloaded or written.",
-      "croon, after the paper's simulated experiment", table(), 2);
+  return stage_entry<Simulated>("simulated",
+                                "Road scenes with exact ground truth, built and ray-cast on "
+                                "demand; nothing is downloaded or written.",
+                                "croon, after the paper's simulated experiment", table(), 2);
 }
 
 }  // namespace croon::stages::dataset

@@ -26,30 +26,27 @@ struct Params : GroundRule {
   double min_region_ratio = 0.02;
 };
 
-/// CGAL connects the points of a plane in a bitmap of its extent, with four bytes for each square
-/// of the edge cluster_distance_m. It has at most so many squares along each side: 200 MB.
-constexpr int kMostSquares = 7000;
+/// Maximum number of squares along each side of the bitmap in which CGAL connects the points of a
+/// plane: 200 MB at four bytes per square of the edge cluster_distance_m.
+constexpr int kMaxSquares = 7000;
 
 const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
           params::number("leaf_size_m", &Params::leaf_size_m, {1e-3, 10.0},
-                         "Planes are searched for among one point per cube of this size."),
+                         "Edge of the cubes, of each of which one point is used."),
           params::integer("neighbours", &Params::neighbours, {3, 1000},
-                          "The number of nearest points that a normal is computed from."),
-          params::number(
-              "max_angle_deg", &Params::max_angle_deg, {0.0, 90.0},
-              "The normals of a plane's points differ from the plane's by at most this."),
-          params::number(
-              "cluster_distance_m", &Params::cluster_distance_m, {1e-3, 1000.0},
-              "The points of a plane are connected over gaps of about this size; a scan fails "
-              "with a plane that is more than " +
-                  std::to_string(kMostSquares) + " times as long."),
-          params::number(
-              "miss_probability", &Params::miss_probability, {1e-9, 0.999},
-              "The search ends when the probability of having missed a plane is below this."),
+                          "Number of neighbours from which a normal is computed."),
+          params::number("max_angle_deg", &Params::max_angle_deg, {0.0, 90.0},
+                         "Maximum angle between the normals of a plane's points and of the plane."),
+          params::number("cluster_distance_m", &Params::cluster_distance_m, {1e-3, 1000.0},
+                         "Maximum size, approximately, of gaps between connected points of a "
+                         "plane; the stage fails if a plane is more than " +
+                             std::to_string(kMaxSquares) + " times as long as this."),
+          params::number("miss_probability", &Params::miss_probability, {1e-9, 0.999},
+                         "Probability of having missed a plane below which the search ends."),
           params::number("min_region_ratio", &Params::min_region_ratio, {0.0, 1.0},
-                         "Planes of less than this share of the points are not searched for."),
+                         "Minimum size of a plane, as a share of the points."),
       }
           .inherit(ground_rule_table());
   return table;
@@ -63,11 +60,11 @@ using Traits = CGAL::Shape_detection::Efficient_RANSAC_traits<
     CGAL::Second_of_pair_property_map<PointWithNormal>>;
 using Search = CGAL::Shape_detection::Efficient_RANSAC<Traits>;
 
-/// A plane without a bitmap of too many squares: in its place, the search of this thread is to end.
-/// If a shape threw, CGAL would not free the others.
+/// A plane that limits the size of its bitmap: if it is too large, the search of this thread ends.
+/// An exception from a shape would leak the other shapes of CGAL.
 class BoundedPlane final : public CGAL::Shape_detection::Plane<Traits> {
  public:
-  /// The extent of a plane that is too large since this was 0.
+  /// The extent of a plane that was too large, or 0.
   static double& refused_extent_m() {
     static thread_local double extent_m = 0.0;
     return extent_m;
@@ -80,7 +77,7 @@ class BoundedPlane final : public CGAL::Shape_detection::Plane<Traits> {
     CGAL::Bbox_3 box;
     for (const std::size_t index : indices) box += point(index).bbox();
     const double extent_m = Eigen::Vector3d(box.x_span(), box.y_span(), box.z_span()).norm();
-    if (extent_m <= kMostSquares * cluster_epsilon) {
+    if (extent_m <= kMaxSquares * cluster_epsilon) {
       return CGAL::Shape_detection::Plane<Traits>::connected_component(indices, cluster_epsilon);
     }
     refused_extent_m() = extent_m;
@@ -158,11 +155,10 @@ class CgalEfficientRansac final : public GroundExtractor {
 }  // namespace
 
 StageEntry cgal_efficient_ransac() {
-  return stage_entry<CgalEfficientRansac>(
-      "cgal_efficient_ransac",
-      "Finds planes among points with normals by CGAL's Efficient RANSAC and takes the one with "
-      "the most points.",
-      "Schnabel, Wahl and Klein 2007, in CGAL (GPL)", table());
+  return stage_entry<CgalEfficientRansac>("cgal_efficient_ransac",
+                                          "Finds planes with CGAL's Efficient RANSAC over points "
+                                          "with normals and chooses the one with the most points.",
+                                          "Schnabel, Wahl and Klein 2007, in CGAL (GPL)", table());
 }
 
 }  // namespace croon::stages::ground_extractor

@@ -3,7 +3,7 @@
 #include <CGAL/exceptions.h>
 #include <CGAL/version.h>
 
-// CGAL 5.6 gave region growing a new interface.
+// CGAL 5.6 changed the interface of region growing.
 #define CROON_CGAL_REGIONS_OF_5_6 (CGAL_VERSION_NR >= 1050600900)
 
 #include <CGAL/Shape_detection/Region_growing/Region_growing.h>
@@ -35,15 +35,15 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
           params::number("leaf_size_m", &Params::leaf_size_m, {1e-3, 10.0},
-                         "Regions are grown over one point of each cube of this size."),
-          params::integer("neighbours", &Params::neighbours, {3, 1000},
-                          "The number of nearest points that regions grow to and that normals are "
-                          "computed from."),
+                         "Edge of the cubes, of each of which one point is used."),
+          params::integer(
+              "neighbours", &Params::neighbours, {3, 1000},
+              "Number of neighbours to which regions grow and from which normals are computed."),
           params::number(
               "max_angle_deg", &Params::max_angle_deg, {0.0, 90.0},
-              "The normals of a region's points differ from its plane's by at most this."),
+              "Maximum angle between the normals of a region's points and of its plane."),
           params::number("min_region_ratio", &Params::min_region_ratio, {0.0, 1.0},
-                         "Regions of less than this share of the points are ignored."),
+                         "Minimum size of a region, as a share of the points."),
       }
           .inherit(ground_rule_table());
   return table;
@@ -63,8 +63,8 @@ PointSet cgal_points(const OrientedPoints& oriented) {
   return points;
 }
 
-/// The regions of all sizes. CGAL's own limit on the size is not used: CGAL grows a region that it
-/// finds too small again from each of its points, which takes minutes if the limit is high.
+/// The regions of all sizes. CGAL's own minimum size is not used: CGAL grows a region that is too
+/// small again from each of its points, which takes minutes if the minimum is high.
 #if CROON_CGAL_REGIONS_OF_5_6
 std::vector<Region> grown_regions(const PointSet& points, const Params& params) {
   namespace on_points = CGAL::Shape_detection::Point_set;
@@ -112,8 +112,7 @@ std::vector<Region> grown_regions(const PointSet& points, const Params& params) 
 }
 #endif
 
-/// CGAL's region growing over points with planes: a region absorbs neighbours that lie on the plane
-/// fitted to it so far.
+/// Region growing with CGAL: a region absorbs neighbours that lie on the plane fitted to it so far.
 class CgalRegionGrowing final : public GroundExtractor {
  public:
   explicit CgalRegionGrowing(const Params& params) : params_(params) {}
@@ -139,7 +138,7 @@ class CgalRegionGrowing final : public GroundExtractor {
       try {
         planes.push_back(fit_plane(oriented.points, region));
       } catch (const StageError&) {
-        // A region on one line has no plane.
+        // The points of the region are collinear.
       }
     }
     return planes;
@@ -153,8 +152,7 @@ class CgalRegionGrowing final : public GroundExtractor {
 StageEntry cgal_region_growing() {
   return stage_entry<CgalRegionGrowing>("cgal_region_growing",
                                         "Grows planar regions from neighbour to neighbour with "
-                                        "CGAL and takes the plane with the most "
-                                        "points.",
+                                        "CGAL and chooses the plane with the most points.",
                                         "Lafarge and Mallet 2012, in CGAL (GPL)", table());
 }
 

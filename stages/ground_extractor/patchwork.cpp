@@ -13,7 +13,7 @@
 namespace croon::stages::ground_extractor {
 namespace {
 
-/// Which direction of the sensor's frame is up.
+/// How the upward direction in the sensor's frame is determined.
 enum class Up { searched, sensor_z };
 const params::Words<Up> kUpWords = {{"searched", Up::searched}, {"sensor_z", Up::sensor_z}};
 
@@ -25,24 +25,25 @@ struct Params : GroundRule, GroundRegionOptions {
 const params::Table<GroundRegionOptions>& region_table() {
   static const params::Table<GroundRegionOptions> table = {
       params::number("min_range_m", &GroundRegionOptions::min_range_m, {0.0, 100.0},
-                     "Nearer points, along the ground, are in no region."),
+                     "Minimum horizontal distance of the regions from the sensor."),
       params::number("max_range_m", &GroundRegionOptions::max_range_m, {1.0, 1000.0},
-                     "Nor are farther ones."),
+                     "Maximum horizontal distance."),
       params::integer("min_points", &GroundRegionOptions::min_points, {3, 1000000},
-                      "A region with fewer points is not used."),
+                      "Minimum number of points in a region; others are ignored."),
       params::number("seed_height_m", &GroundRegionOptions::seed_height_m, {0.001, 10.0},
-                     "A region's first plane is that of the points up to this much higher than "
-                     "its lowest ones."),
+                     "A region's first plane is fitted to the points up to this height above its "
+                     "lowest ones."),
       params::number("region_threshold_m", &GroundRegionOptions::region_threshold_m, {0.001, 10.0},
-                     "Points within this distance of a region's plane are on it."),
-      params::number("max_tilt_deg", &GroundRegionOptions::max_tilt_deg, {0.0, 90.0},
-                     "Uprightness: a region's normal is within this angle of up."),
+                     "Maximum distance of a region's inliers from its plane."),
+      params::number(
+          "max_tilt_deg", &GroundRegionOptions::max_tilt_deg, {0.0, 90.0},
+          "Uprightness: maximum angle between a region's normal and the upward direction."),
       params::number("max_elevation_m", &GroundRegionOptions::max_elevation_m, {0.0, 100.0},
-                     "Elevation: a region is at most this much higher or lower than the median "
-                     "of the upright regions near the sensor..."),
+                     "Elevation: maximum height difference between a region and the median of the "
+                     "upright regions near the sensor."),
       params::number("max_flatness_m", &GroundRegionOptions::max_flatness_m, {0.0, 10.0},
-                     "Flatness: ...unless the points on its plane are within this distance of "
-                     "it, root mean square: a slope."),
+                     "Flatness: a region that exceeds max_elevation_m is kept as a slope if the "
+                     "RMS distance of its inliers from its plane is at most this."),
   };
   return table;
 }
@@ -52,12 +53,11 @@ const params::Table<Params>& table() {
       params::Table<Params>{
           params::slot("thinning", &Params::thinning,
                        R"({"type": "voxel_downsample", "leaf_size_m": 0.1})",
-                       "Before the cloud is cut into regions."),
-          params::choice(
-              "up", &Params::up, kUpWords,
-              "`sensor_z`: the sensor stands level, as the source assumes; a sensor that "
-              "does not has no upright regions, and the stage fails. `searched`: up is "
-              "the normal of the plane that plausible_plane finds."),
+                       "Thins the cloud before it is divided into regions."),
+          params::choice("up", &Params::up, kUpWords,
+                         "`sensor_z`: the sensor is level, as the source assumes; if it is not, no "
+                         "region is upright and the stage fails. `searched`: the upward direction "
+                         "is the normal of the plane that plausible_plane finds."),
       }
           .inherit(region_table())
           .inherit(ground_rule_table())
@@ -88,13 +88,14 @@ class Patchwork final : public GroundExtractor {
   }
 
  private:
-  /// The rotation that turns up to z.
+  /// The rotation from the upward direction to z.
   Eigen::Matrix3d levelling(const Points& cloud, Rng& rng) const {
     if (params_.up == Up::sensor_z) return Eigen::Matrix3d::Identity();
     GroundCandidateOptions options;
     options.candidates = 1;
     const auto candidates = ground_candidates(cloud, options, rng);
-    if (candidates.empty()) throw StageError("no plane may be the ground, so up is not known");
+    if (candidates.empty())
+      throw StageError("found no plausible ground plane, so the upward direction is unknown");
     return rotation_between(candidates.front().plane.normal, Eigen::Vector3d::UnitZ());
   }
 
@@ -106,9 +107,9 @@ class Patchwork final : public GroundExtractor {
 StageEntry patchwork() {
   return stage_entry<Patchwork>(
       "patchwork",
-      "Cuts the cloud into concentric zones, fits a plane to the lowest points of each region, "
-      "keeps "
-      "those that are upright, at the road's height or flat, and takes the plane of their points.",
+      "Divides the cloud into concentric zones, fits a plane to the lowest points of each region, "
+      "keeps the regions that are upright and at road height or flat, and fits a plane to their "
+      "points.",
       "after Patchwork (Lim et al., RA-L 2021) and Patchwork++ (Lee et al., IROS 2022)", table());
 }
 

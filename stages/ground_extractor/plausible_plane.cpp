@@ -20,16 +20,16 @@ const params::Table<Params>& table() {
       params::Table<Params>{
           params::slot("thinning", &Params::thinning,
                        R"({"type": "voxel_downsample", "leaf_size_m": 0.25})",
-                       "Makes the cloud even, so that the plane with the largest area is found and "
-                       "not that with the most points."),
+                       "Equalises the density of the cloud, so that the plane with the largest "
+                       "area is found instead of the one with the most points."),
           params::number("max_range_m", &Params::max_range_m, {1.0, 1000.0},
-                         "Points farther from the sensor choose no plane."),
+                         "Points farther from the sensor are ignored when planes are chosen."),
           params::number("min_height_m", &Params::min_height_m, {0.0, 100.0},
-                         "The sensor is at least this far from the ground."),
+                         "Minimum height of the sensor above the ground."),
           params::number("max_height_m", &Params::max_height_m, {0.0, 100.0},
-                         "The sensor is at most this far from the ground."),
+                         "Maximum height of the sensor above the ground."),
           params::integer("planes", &Params::planes, {1, 100},
-                          "So many planes are taken from the cloud, the largest first."),
+                          "Number of planes that are extracted, the largest first."),
       }
           .inherit(ground_rule_table())
           .require([](const Params& p) { return p.min_height_m <= p.max_height_m; },
@@ -50,7 +50,7 @@ class PlausiblePlane final : public GroundExtractor {
     options.candidates = 1;
     const PointCloud thinned = params_.thinning->apply(cloud);
     const auto candidates = ground_candidates(thinned.points, options, rng);
-    if (candidates.empty()) throw StageError("no plane may be the ground below the sensor");
+    if (candidates.empty()) throw StageError("found no plausible ground plane below the sensor");
     return ground_from_planes(cloud.points, {candidates.front().plane}, params_, rng);
   }
 
@@ -63,7 +63,7 @@ class PlausiblePlane final : public GroundExtractor {
 StageEntry plausible_plane() {
   return stage_entry<PlausiblePlane>(
       "plausible_plane",
-      "Takes the largest planes and of them the one that may be the ground: below the sensor, "
+      "Extracts the largest planes and chooses the most plausible ground: below the sensor, "
       "however it is mounted, with a large area and few returns behind it.",
       "croon", table());
 }

@@ -17,21 +17,21 @@ const params::Table<Params>& table() {
       params::Table<Params>{
           params::number(
               "confidence", &Params::confidence, {0.0, 0.999999999},
-              "The probability of having drawn three ground points when the search ends."),
+              "Probability of having drawn three ground points at which the search ends."),
           params::integer("max_iterations", &Params::max_iterations, {1, 10000000},
-                          "At most this many planes are drawn."),
+                          "Maximum number of planes that are drawn."),
           params::integer("local_rounds", &Params::local_rounds, {0, 100},
-                          "How often a new best plane is refitted to its points."),
-          params::integer(
-              "sample_points", &Params::sample_points, {3, 1e9},
-              "Planes are drawn from, and counted on, at most this many points of the cloud."),
+                          "Number of times that a new best plane is refitted to its points."),
+          params::integer("sample_points", &Params::sample_points, {3, 1e9},
+                          "Maximum number of points from which planes are drawn and on which they "
+                          "are evaluated."),
       }
           .inherit(ground_rule_table());
   return table;
 }
 
-/// Local optimisation (Chum, Matas and Kittler 2003) is on by default; `local_rounds` 0 is plain
-/// RANSAC.
+/// RANSAC with local optimisation (Chum, Matas and Kittler 2003); plain RANSAC if `local_rounds` is
+/// 0.
 class Ransac final : public GroundExtractor {
  public:
   explicit Ransac(const Params& params) : params_(params) {}
@@ -53,7 +53,7 @@ class Ransac final : public GroundExtractor {
 
 StageEntry ransac() {
   return stage_entry<Ransac>(
-      "ransac", "Draws planes through three points and takes the one that holds the most.",
+      "ransac", "Draws planes through three points and chooses the one with the most inliers.",
       "CROON (arXiv 2203.03182), rough calibration; Fischler and Bolles 1981", table());
 }
 

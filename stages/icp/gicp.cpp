@@ -16,14 +16,14 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
           params::integer("normal_neighbours", &Params::normal_neighbours, {3, 1000},
-                          "The number of neighbours that a point's covariance is computed from."),
+                          "Number of neighbours from which a point's covariance is computed."),
           params::number(
               "plane_variance_ratio", &Params::plane_variance_ratio, {1e-9, 1.0},
-              "Variance across the surface over that along it, the epsilon of the paper."),
-          params::number("direction_balance", &Params::direction_balance, {0.0, 1.0},
-                         "Each of n correspondences on surfaces of about one direction weighs n to "
-                         "the minus this: at 1 every direction weighs the same, at 0 every point, "
-                         "as in the paper."),
+              "Variance across a surface relative to the variance along it, epsilon in the paper."),
+          params::number(
+              "direction_balance", &Params::direction_balance, {0.0, 1.0},
+              "Each of n correspondences with similar normals is weighted by n to the minus this: "
+              "at 1 every direction has the same weight, at 0 every point, as in the paper."),
       }
           .inherit(icp_table());
   return table;
@@ -41,8 +41,7 @@ class Gicp final : public Icp {
     if (params_.direction_balance > 0.0)
       rule.select = balanced_directions(params_.direction_balance);
     const double epsilon = params_.plane_variance_ratio;
-    // The information weighs a distance across two planes that agree by one, so the kernel's width
-    // is in metres.
+    // A distance across two parallel planes has weight one, so the kernel's width is in metres.
     const Linearise linearise =
         for_each_correspondence([epsilon](const Correspondence& pair, const RobustKernel& kernel,
                                           NormalEquations& equations) {
@@ -61,9 +60,9 @@ class Gicp final : public Icp {
 }  // namespace
 
 StageEntry gicp() {
-  return stage_entry<Gicp>("gicp",
-                           "Plane-to-plane: each point is weighed by the surfaces on both sides.",
-                           "Segal, Haehnel, Thrun: Generalized-ICP, RSS 2009", table());
+  return stage_entry<Gicp>(
+      "gicp", "Plane-to-plane: residuals are weighted by the covariances of both surfaces.",
+      "Segal, Haehnel, Thrun: Generalized-ICP, RSS 2009", table());
 }
 
 }  // namespace croon::stages::icp

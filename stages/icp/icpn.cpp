@@ -16,11 +16,10 @@ struct Params : IcpOptions {
 const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
-          params::integer(
-              "normal_neighbours", &Params::normal_neighbours, {3, 1000},
-              "The number of neighbours that a normal is computed from; the paper takes 40."),
+          params::integer("normal_neighbours", &Params::normal_neighbours, {3, 1000},
+                          "Number of neighbours from which a normal is computed; 40 in the paper."),
           params::number("max_normal_angle_deg", &Params::max_normal_angle_deg, {0.0, 180.0},
-                         "Points correspond if their normals differ by at most this."),
+                         "Maximum angle between the normals of corresponding points."),
       }
           .inherit(icp_table());
   return table;
@@ -47,8 +46,8 @@ class Icpn final : public Icp {
 
 StageEntry icpn() {
   return stage_entry<Icpn>("icpn",
-                           "Point-to-plane between points whose normals, each from 40 neighbours, "
-                           "agree: the paper's ICP.",
+                           "Point-to-plane between points with similar normals, each from 40 "
+                           "neighbours: the paper's ICP.",
                            "CROON (arXiv 2203.03182), refinement", table(), 2);
 }
 

@@ -21,21 +21,20 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
           params::integer("normal_neighbours", &Params::normal_neighbours, {3, 1000},
-                          "The number of neighbours that a normal is computed from."),
+                          "Number of neighbours from which a normal is computed."),
           params::number("max_normal_angle_deg", &Params::max_normal_angle_deg, {0.0, 180.0},
-                         "Points correspond if their normals differ by at most this."),
+                         "Maximum angle between the normals of corresponding points."),
           params::number("plane_surface_variation", &Params::plane_surface_variation, {0.0, 1.0},
-                         "Up to this value a point lies on a plane: its normal is used, and "
-                         "distances along the "
-                         "surface have little weight."),
+                         "Maximum surface variation of a point on a plane, where normals are used "
+                         "and distances along the surface have little weight."),
           params::number("tangent_weight_ratio", &Params::tangent_weight_ratio, {1e-9, 1.0},
-                         "Weight of a distance along a plane over that of one across it."),
+                         "Weight of a distance along a plane relative to a distance across it."),
           params::number("rough_weight_ratio", &Params::rough_weight_ratio, {0.0, 1.0},
                          "Weight of a distance, in any direction, at a point that is not on a "
-                         "plane, over that of "
-                         "one across a plane."),
-          params::number("normal_weight_m", &Params::normal_weight_m, {0.0, 1e3},
-                         "The distance that weighs as much as normals one radian apart."),
+                         "plane, relative to a distance across a plane."),
+          params::number(
+              "normal_weight_m", &Params::normal_weight_m, {0.0, 1e3},
+              "Distance with the same weight as a difference of one radian between normals."),
       }
           .inherit(icp_table());
   return table;
@@ -48,9 +47,9 @@ Eigen::Matrix<double, 3, 6> normal_jacobian(const Eigen::Vector3d& normal) {
   return J;
 }
 
-/// The residuals `R s + t - p`, weighted by the information of the target's surface (a flat surface
-/// constrains little along itself, a rough one little in any direction), and `R n_s - n_t` if it is
-/// flat (Serafin, Grisetti 2015, section III).
+/// Adds the residuals `R s + t - p`, weighted by the information of the target's surface (low along
+/// a flat surface, low in every direction on a rough one), and `R n_s - n_t` if it is flat
+/// (Serafin, Grisetti 2015, section III).
 void linearise(const Params& params, const Correspondence& pair, const RobustKernel& kernel,
                NormalEquations& equations) {
   const bool is_flat = pair.target_variation <= params.plane_surface_variation;

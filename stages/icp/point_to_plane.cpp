@@ -13,7 +13,7 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
           params::integer("normal_neighbours", &Params::normal_neighbours, {3, 1000},
-                          "The number of neighbours that a normal of the target is computed from.")}
+                          "Number of neighbours from which a normal of the target is computed.")}
           .inherit(icp_table());
   return table;
 }
@@ -37,7 +37,8 @@ class PointToPlane final : public Icp {
 
 StageEntry point_to_plane() {
   return stage_entry<PointToPlane>(
-      "point_to_plane", "Pulls each point to the plane through its nearest neighbour.",
+      "point_to_plane",
+      "Minimises the distances of points from the planes through their nearest neighbours.",
       "Chen, Medioni: Object modelling by registration of multiple range images, IVC 1992",
       table());
 }

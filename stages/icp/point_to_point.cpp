@@ -38,8 +38,8 @@ class PointToPoint final : public Icp {
 StageEntry point_to_point() {
   return stage_entry<PointToPoint>(
       "point_to_point",
-      "Pulls each point to its nearest neighbour; slides along surfaces that were sampled at "
-      "different points.",
+      "Minimises the distances between nearest neighbours; slides along surfaces that the two "
+      "sensors sample at different points.",
       "Besl, McKay: A method for registration of 3-D shapes, PAMI 1992", table());
 }
 

@@ -18,15 +18,15 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
           params::integer("normal_neighbours", &Params::normal_neighbours, {3, 1000},
-                          "The number of neighbours that a normal of the target is computed from."),
+                          "Number of neighbours from which a normal of the target is computed."),
           params::number("keep_ratio", &Params::keep_ratio, {0.01, 1.0},
-                         "The share of the correspondences, the nearest, that an iteration uses."),
+                         "Share of the correspondences that an iteration uses, the nearest first."),
       }
           .inherit(icp_table());
   return table;
 }
 
-/// Keeps the share `ratio` of `pairs` whose points are nearest to each other; of equals the first.
+/// Keeps the share `ratio` of `pairs` with the smallest distances; of equal ones the first.
 void keep_nearest(Correspondences& pairs, double ratio) {
   const auto kept = static_cast<std::size_t>(std::ceil(ratio * static_cast<double>(pairs.size())));
   if (kept >= pairs.size()) return;
@@ -66,7 +66,8 @@ class Trimmed final : public Icp {
 
 StageEntry trimmed() {
   return stage_entry<Trimmed>(
-      "trimmed", "Point-to-plane over the nearest share of the correspondences of each iteration.",
+      "trimmed",
+      "Point-to-plane over the nearest correspondences of each iteration, a fixed share of all.",
       "Chetverikov, Stepanov, Krsek: Robust Euclidean alignment of 3D point sets, IVC 2005",
       table());
 }

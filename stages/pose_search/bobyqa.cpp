@@ -30,21 +30,20 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
           params::choices("dofs", &Params::dofs, dof_words(),
-                          "The degrees of freedom that are searched together; at least two."),
+                          "Degrees of freedom that are searched together; at least two."),
           params::number("translation_range_m", &Params::translation_range_m, {1e-6, 100.0},
-                         "How far to each side x, y and z are searched."),
+                         "Half range of the search in x, y and z."),
           params::number("rotation_range_deg", &Params::rotation_range_deg, {1e-6, 90.0},
-                         "How far roll, pitch and yaw are."),
+                         "Half range of the search in roll, pitch and yaw."),
           params::number("first_step_ratio", &Params::first_step_ratio, {1e-6, 1.0},
-                         "The first steps are this share of the ranges; costs of poses that are "
-                         "nearer to each other should differ by more than chance."),
+                         "Initial steps as a share of the ranges; over such a step the cost should "
+                         "change by more than its noise."),
           params::number("tolerance_ratio", &Params::tolerance_ratio, {1e-9, 1.0},
-                         "The search ends when its steps are this share of the ranges."),
+                         "Steps, as a share of the ranges, at which the search ends."),
           params::number("min_decrease_ratio", &Params::min_decrease_ratio, {0.0, 1.0},
-                         "The pose found is taken only if it lowers the cost by more than this "
-                         "share of it."),
+                         "Minimum relative decrease of the cost for the result to be accepted."),
           params::integer("max_evaluations", &Params::max_evaluations, {20, 1000000},
-                          "At most this many evaluations."),
+                          "Maximum number of evaluations."),
       }
           .require([](const Params& p) { return p.dofs.size() >= 2; },
                    "dofs must list at least two degrees of freedom")
@@ -53,13 +52,14 @@ const params::Table<Params>& table() {
   return table;
 }
 
-/// One search: the poses around the start, in coordinates in which each range is [-1, 1].
+/// One search over poses around the initial one, in coordinates that scale each range to [-1, 1].
 class Search {
  public:
   Search(const Params& params, const PoseCost& cost, const RigidTransform& start)
       : params_(params), cost_(cost), start_(start), best_{start, cost(start), 1} {}
 
-  /// The cost at the offsets `u`, one for each degree of freedom. An exception ends the search.
+  /// The cost at the offsets `u`, one per degree of freedom. An exception ends the search and is
+  /// rethrown by best().
   double operator()(const double* u, nlopt_opt optimiser) {
     try {
       const RigidTransform pose = moved(start_, offset(u));
@@ -101,7 +101,7 @@ class Search {
   std::exception_ptr exception_;
 };
 
-/// What the library calls back needs.
+/// The data of NLopt's callback.
 struct Call {
   Search* search;
   nlopt_opt optimiser;
@@ -112,14 +112,15 @@ double cost_at(unsigned, const double* u, double*, void* data) {
   return (*call->search)(u, call->optimiser);
 }
 
-/// Powell's model-based search: a quadratic through 2 n + 1 poses, of n degrees of freedom, is
-/// minimised inside of a region of trust, which shrinks when the model promises no more.
+/// Powell's trust-region search: a quadratic through 2 n + 1 poses, for n degrees of freedom, is
+/// minimised within a trust region, which shrinks when the model predicts no further decrease.
 class Bobyqa final : public PoseSearch {
  public:
   explicit Bobyqa(Params params) : params_(std::move(params)) {}
 
   PoseMinimum minimise(const PoseCost& cost, const RigidTransform& start) const override {
-    Search search(params_, cost, start);  // It has evaluated the start; the library does it again.
+    Search search(params_, cost,
+                  start);  // Evaluates the initial pose, which NLopt evaluates again.
     const PoseMinimum before = search.best();
     const auto n = static_cast<unsigned>(params_.dofs.size());
     const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> optimiser(
@@ -132,11 +133,11 @@ class Bobyqa final : public PoseSearch {
                         nlopt_set_xtol_abs1(optimiser.get(), params_.tolerance_ratio) > 0 &&
                         nlopt_set_maxeval(optimiser.get(), params_.max_evaluations - 1) > 0;
     std::vector<double> u(n, 0.0);
-    double least = 0.0;
-    const nlopt_result result = is_set ? nlopt_optimize(optimiser.get(), u.data(), &least)  //
+    double min_cost = 0.0;
+    const nlopt_result result = is_set ? nlopt_optimize(optimiser.get(), u.data(), &min_cost)  //
                                        : NLOPT_INVALID_ARGS;
     PoseMinimum found = search.best();
-    // Steps below the rounding of costs end a search as others do.
+    // A search may also end because its steps are below the rounding of the cost.
     if (result < 0 && result != NLOPT_ROUNDOFF_LIMITED) {
       throw std::logic_error("bobyqa: " + std::string(nlopt_result_to_string(result)));
     }

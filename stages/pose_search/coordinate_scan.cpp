@@ -28,27 +28,26 @@ struct Params {
 const params::Table<Params>& table() {
   static const params::Table<Params> table = {
       params::choices("dofs", &Params::dofs, dof_words(),
-                      "The degrees of freedom that are scanned, in this order."),
+                      "Degrees of freedom that are scanned, in this order."),
       params::number("translation_step_m", &Params::translation_step_m, {1e-6, 100.0},
-                     "Step along x, y and z; the authors' 0.02."),
+                     "Step along x, y and z; 0.02 in the authors' code."),
       params::number("rotation_step_deg", &Params::rotation_step_deg, {1e-6, 180.0},
                      "Step of roll, pitch and yaw."),
       params::integer("max_steps", &Params::max_steps, {1, 10000},
-                      "At most this many steps to each side in one scan."),
-      params::number(
-          "min_decrease_ratio", &Params::min_decrease_ratio, {0.0, 1.0},
-          "A step is taken only if it lowers the cost by more than this share of it; the authors' "
-          "0.0001."),
-      params::choice(
-          "stop", &Params::stop, {{"first_rise", Stop::first_rise}, {"never", Stop::never}},
-          "first_rise: to each side, plus first, the scan ends at the first step that does not "
-          "lower the cost; never: both sides are scanned up to max_steps and the best pose is "
-          "taken."),
+                      "Maximum number of steps to each side in one scan."),
+      params::number("min_decrease_ratio", &Params::min_decrease_ratio, {0.0, 1.0},
+                     "Minimum relative decrease of the cost for a step to be accepted; 0.0001 in "
+                     "the authors' code."),
+      params::choice("stop", &Params::stop,
+                     {{"first_rise", Stop::first_rise}, {"never", Stop::never}},
+                     "first_rise: on each side, plus first, the scan ends at the first step that "
+                     "does not lower the cost; never: both sides are scanned up to max_steps and "
+                     "the best pose is chosen."),
       params::integer(
           "sweeps", &Params::sweeps, {1, 1000},
-          "At most this many passes over the list; a pass that changes nothing is the last."),
+          "Maximum number of passes over the list; a pass without a change is the last."),
       params::integer("halvings", &Params::halvings, {0, 30},
-                      "How often the steps are halved and the passes repeated."),
+                      "Number of times that the steps are halved and the passes repeated."),
   };
   return table;
 }
@@ -71,7 +70,7 @@ class Scan {
       if (params_.stop == Stop::never) {
         lower = scan_range(origin, dof, step) || lower;
       } else {
-        // The first step to each side is always needed.
+        // Both first steps are always needed, so they are evaluated together.
         const std::vector<double> first_costs =
             cost_.at({stepped(origin, dof, 1, step), stepped(origin, dof, -1, step)});
         lower = descend(origin, dof, step, first_costs[0]) || lower;
@@ -89,7 +88,7 @@ class Scan {
     return moved(pose, offset);
   }
 
-  /// Steps in one direction from `origin` as long as each step lowers the least cost so far.
+  /// Steps in one direction from `origin` while each step lowers the minimum cost so far.
   bool descend(const RigidTransform& origin, Dof dof, double step, double first_cost) {
     for (int i = 1; i <= params_.max_steps; ++i) {
       const RigidTransform pose = stepped(origin, dof, i, step);
@@ -98,7 +97,7 @@ class Scan {
     return true;
   }
 
-  /// Evaluates the whole range, the nearest poses first, and takes the best.
+  /// Evaluates the whole range, the nearest poses first, and chooses the best.
   bool scan_range(const RigidTransform& origin, Dof dof, double step) {
     std::vector<RigidTransform> poses;
     for (int i = 1; i <= params_.max_steps; ++i) {
@@ -113,7 +112,7 @@ class Scan {
     return lower;
   }
 
-  /// Counts an evaluation.
+  /// Counts an evaluation, and makes `pose` the best one if its cost is sufficiently lower.
   bool take_if_lower(const RigidTransform& pose, double pose_cost) {
     ++best_.evaluations;
     const bool lower = best_.cost - pose_cost > params_.min_decrease_ratio * std::abs(best_.cost);
@@ -129,7 +128,7 @@ class Scan {
   PoseMinimum best_;
 };
 
-/// Scans one degree of freedom after the other, as the volume search of the authors' code does: x,
+/// Scans one degree of freedom after the other, like the volume search of the authors' code: x,
 /// then y, each to the plus side while the cost falls, then to the minus side.
 class CoordinateScan final : public PoseSearch {
  public:
@@ -154,8 +153,8 @@ class CoordinateScan final : public PoseSearch {
 StageEntry coordinate_scan() {
   return stage_entry<CoordinateScan>(
       "coordinate_scan", "Steps along one degree of freedom after the other while the cost falls.",
-      "CROON (arXiv 2203.03182), refinement; the scheme is that of its public code (lidar2lidar, "
-      "commit c0e1e2b), the default steps and limits are ours",
+      "CROON (arXiv 2203.03182), refinement; scheme of its public code (lidar2lidar, commit "
+      "c0e1e2b), with our default steps and limits",
       table());
 }
 

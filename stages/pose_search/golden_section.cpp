@@ -23,20 +23,20 @@ struct Params {
 const params::Table<Params>& table() {
   static const params::Table<Params> table = {
       params::choices("dofs", &Params::dofs, dof_words(),
-                      "The degrees of freedom that are searched, in this order."),
+                      "Degrees of freedom that are searched, in this order."),
       params::number("translation_range_m", &Params::translation_range_m, {1e-6, 100.0},
-                     "How far to each side x, y and z are searched."),
+                     "Half range of the search in x, y and z."),
       params::number("rotation_range_deg", &Params::rotation_range_deg, {1e-6, 180.0},
-                     "How far roll, pitch and yaw are."),
+                     "Half range of the search in roll, pitch and yaw."),
       params::number("translation_tolerance_m", &Params::translation_tolerance_m, {1e-9, 100.0},
-                     "The interval that holds the least cost of x, y or z ends this short."),
+                     "Interval length at which the search in x, y or z ends."),
       params::number("rotation_tolerance_deg", &Params::rotation_tolerance_deg, {1e-9, 180.0},
-                     "That of roll, pitch or yaw."),
+                     "The same for roll, pitch and yaw."),
       params::number("min_decrease_ratio", &Params::min_decrease_ratio, {0.0, 1.0},
-                     "A pose is taken only if it lowers the cost by more than this share of it."),
+                     "Minimum relative decrease of the cost for a pose to be accepted."),
       params::integer(
           "sweeps", &Params::sweeps, {1, 1000},
-          "At most this many passes over the list; a pass that changes nothing is the last."),
+          "Maximum number of passes over the list; a pass without a change is the last."),
   };
   return table;
 }
@@ -47,9 +47,9 @@ struct Probe {
   double cost;
 };
 
-/// One degree of freedom after the other, each to the least cost of an interval around the pose
-/// that is shortened by the golden ratio with each evaluation (Kiefer, Sequential minimax search
-/// for a maximum, 1953). The cost is taken to fall to one place and to rise behind it.
+/// Searches one degree of freedom after the other for the minimum cost in an interval around the
+/// pose; each evaluation shortens the interval by the golden ratio (Kiefer, Sequential minimax
+/// search for a maximum, 1953). The cost is assumed to be unimodal.
 class GoldenSection final : public PoseSearch {
  public:
   explicit GoldenSection(Params params) : params_(std::move(params)) {}
@@ -65,7 +65,7 @@ class GoldenSection final : public PoseSearch {
   }
 
  private:
-  /// Searches one degree of freedom from the best pose. Whether a better one was found.
+  /// Searches one degree of freedom from the best pose. Returns whether a better one was found.
   bool search(const PoseCost& cost, Dof dof, PoseMinimum& best) const {
     const bool turns = is_rotation(dof);
     const double range =
@@ -115,9 +115,7 @@ class GoldenSection final : public PoseSearch {
 
 StageEntry golden_section() {
   return stage_entry<GoldenSection>(
-      "golden_section",
-      "Searches one degree of freedom after the other, in an interval that the golden ratio "
-      "shortens.",
+      "golden_section", "Searches one degree of freedom after the other by golden section.",
       "Kiefer 1953", table());
 }
 

@@ -30,11 +30,11 @@ const params::Table<Params>& table() {
                         "The box's upper corner x, y, z in the sensor's frame."),
         params::choice("keep", &Params::keep,
                        {{"outside", Keep::outside}, {"inside", Keep::inside}},
-                       "Which points are kept; the faces of the box are inside."),
+                       "Points that are kept; the faces of the box count as inside."),
     };
-    rows.require(
-        is_box,
-        "min_m and max_m must have three numbers each, and none of min_m may exceed that of max_m");
+    rows.require(is_box,
+                 "min_m and max_m must have three numbers each, and min_m must not exceed max_m on "
+                 "any axis");
     return rows;
   }();
   return table;
@@ -64,8 +64,9 @@ class BoxCrop final : public Preprocessor {
 
 StageEntry box_crop() {
   return stage_entry<BoxCrop>(
-      "box_crop", "Leaves out the points inside a box around the sensor: the car's body.", "croon",
-      table());
+      "box_crop",
+      "Removes the points inside a box around the sensor, such as those on the car's body.",
+      "croon", table());
 }
 
 }  // namespace croon::stages::preprocessor

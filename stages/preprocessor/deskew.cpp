@@ -22,12 +22,12 @@ const params::Table<Params>& table() {
         params::numbers("linear_mps", &Params::linear_mps, {-kFastest_mps, kFastest_mps},
                         "The sensor's velocity along x, y, z of its own frame."),
         params::numbers("angular_degps", &Params::angular_degps, {-kFastest_degps, kFastest_degps},
-                        "Its rate of turning about x, y, z of its own frame."),
+                        "Its angular velocity about x, y, z of its own frame."),
         params::choice(
             "reference_time", &Params::reference_time,
             {{"zero", Reference::zero}, {"first", Reference::first}, {"middle", Reference::middle}},
-            "The time that the points are moved to: zero of the channel time, that of "
-            "the first point, or half-way to the last."),
+            "Time to which the points are moved: zero of the channel time, the time of the first "
+            "point, or half-way between the first and the last."),
     };
     rows.require(
         [](const Params& p) { return p.linear_mps.size() == 3 && p.angular_degps.size() == 3; },
@@ -37,8 +37,8 @@ const params::Table<Params>& table() {
   return table;
 }
 
-/// Moves each point to where the sensor would have measured it if it had stood still at the
-/// reference time: `p -> T(t_reference, t) p` with the constant velocity.
+/// Moves each point to where a sensor at rest in its pose at the reference time would have measured
+/// it: `p -> T(t_reference, t) p`, for a constant velocity.
 class Deskew final : public Preprocessor {
  public:
   explicit Deskew(const Params& params) : reference_(params.reference_time) {
@@ -74,7 +74,7 @@ class Deskew final : public Preprocessor {
 
 StageEntry deskew() {
   return stage_entry<Deskew>(
-      "deskew", "Undoes the distortion of a scan by a constant velocity of the sensor.",
+      "deskew", "Removes the distortion of a scan from a constant velocity of the sensor.",
       "Zhang and Singh, LOAM, 2014, section V.B", table());
 }
 

@@ -13,9 +13,9 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table = [] {
     params::Table<Params> rows = {
         params::number("min", &Params::min, {-1e9, 1e9},
-                       "Points of a smaller intensity are left out, in the units of the data."),
+                       "Minimum intensity, in the units of the data."),
         params::number("max", &Params::max, {-1e9, 1e9},
-                       "Points of a larger intensity are left out: signs and plates."),
+                       "Maximum intensity; excludes traffic signs and number plates."),
     };
     rows.require([](const Params& params) { return params.min <= params.max; },
                  "min must not be above max");

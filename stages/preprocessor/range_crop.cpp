@@ -13,9 +13,9 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table = [] {
     params::Table<Params> rows = {
         params::number("min_m", &Params::min_m, {0.0, 1e6},
-                       "Points nearer to the sensor than this are left out: the car itself."),
+                       "Minimum distance of points from the sensor; excludes the car itself."),
         params::number("max_m", &Params::max_m, {0.0, 1e6},
-                       "Points farther from the sensor than this are left out."),
+                       "Maximum distance of points from the sensor."),
     };
     rows.require([](const Params& params) { return params.min_m <= params.max_m; },
                  "min_m must not be above max_m");

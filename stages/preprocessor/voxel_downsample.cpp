@@ -19,15 +19,15 @@ struct Params {
 const params::Table<Params>& table() {
   static const params::Table<Params> table = {
       params::number("leaf_size_m", &Params::leaf_size_m, {1e-4, 1e4},
-                     "The edge of the cubes that keep one point each."),
+                     "Edge of the cubes, each of which keeps one point."),
   };
   return table;
 }
 
-/// The points of one leaf.
+/// The accumulated points of one leaf.
 struct LeafSum {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double time_sum = 0.0;  ///< Of the differences to the first point, in units of the channel.
+  double time_sum = 0.0;  ///< Of differences from the first point, in units of the channel.
   std::uint64_t points = 0;
 };
 
@@ -47,7 +47,7 @@ class VoxelDownsample final : public Preprocessor {
   explicit VoxelDownsample(const Params& params) : grid_(params.leaf_size_m) {}
 
   PointCloud apply(const PointCloud& cloud) const override {
-    std::unordered_map<LeafKey, std::size_t, LeafHash> indices;  // In `leaves`.
+    std::unordered_map<LeafKey, std::size_t, LeafHash> indices;  // Into `leaves`.
     std::vector<LeafSum> leaves;  // In the order of their first points in the cloud.
     std::vector<std::size_t> first_points;
     const std::vector<std::uint32_t> measured = measured_points(cloud);
@@ -68,9 +68,9 @@ class VoxelDownsample final : public Preprocessor {
     }
     PointCloud thinned = selected(cloud, first_points);
     std::vector<std::uint32_t> counts(leaves.size());
-    constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+    constexpr std::uint64_t kMaxCount = std::numeric_limits<std::uint32_t>::max();
     for (std::size_t i = 0; i < leaves.size(); ++i) {
-      counts[i] = static_cast<std::uint32_t>(std::min(leaves[i].points, kMost));
+      counts[i] = static_cast<std::uint32_t>(std::min(leaves[i].points, kMaxCount));
       thinned.points[i] = (leaves[i].sum / static_cast<double>(leaves[i].points)).cast<float>();
     }
     set_channel(thinned, make_channel(kMeanOf, counts));
@@ -79,8 +79,8 @@ class VoxelDownsample final : public Preprocessor {
   }
 
  private:
-  /// When the mean of each leaf was measured: a mean of points that a motion moves is where a point
-  /// of the mean time would be.
+  /// The measurement time of each leaf's mean: under motion, a mean of points is where a point
+  /// measured at their mean time would be.
   static Channel mean_times(const Channel& time, const std::vector<LeafSum>& leaves,
                             const std::vector<std::size_t>& first_points) {
     Channel means = {time.name, time.type, 1, {}};
@@ -88,7 +88,7 @@ class VoxelDownsample final : public Preprocessor {
       const double first = time.value(first_points[i]);
       double mean = first + leaves[i].time_sum / static_cast<double>(leaves[i].points);
       if (time.type.kind != ScalarKind::floating) mean = std::round(mean);
-      // Integers of 64 bits are more exact than double.
+      // 64-bit integers are more precise than double.
       if (mean == first || !append_scalar(means.bytes, time.type, mean)) {
         means.bytes.append(time.bytes, first_points[i] * time.bytes_per_point(), time.type.size);
       }
@@ -104,9 +104,8 @@ class VoxelDownsample final : public Preprocessor {
 StageEntry voxel_downsample() {
   return stage_entry<VoxelDownsample>(
       "voxel_downsample",
-      "Replaces the points of each leaf by their mean, at the mean of their times and with the "
-      "other channels of the first of them, in the order of the cloud. The channel mean_of says "
-      "how many there were.",
+      "Replaces the points of each leaf by their mean, with their mean time and the other channels "
+      "of the first of them, in the order of the cloud. The channel mean_of counts the points.",
       "croon", table(), 3);
 }
 

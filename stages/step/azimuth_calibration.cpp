@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kWithoutError = "without_azimuth_error";
 
-/// An azimuth error in the units of users.
+/// An azimuth error in degrees, as users specify it.
 struct KnownError {
   double offset_deg = 0.0;
   double sine_deg = 0.0;
@@ -24,7 +24,7 @@ struct KnownError {
   AzimuthError error() const {
     return {rad_from_deg(offset_deg), rad_from_deg(sine_deg), rad_from_deg(cosine_deg), slope};
   }
-  /// Tells it from others.
+  /// Identifies the error in a cache.
   std::string key() const {
     return params::value_json(std::vector<double>{offset_deg, sine_deg, cosine_deg, slope});
   }
@@ -33,13 +33,13 @@ struct KnownError {
 const params::Table<KnownError>& known_table() {
   static const params::Table<KnownError> table = {
       params::number("offset_deg", &KnownError::offset_deg, {-180.0, 180.0},
-                     "The error at all azimuths."),
+                     "Constant part of the error."),
       params::number("sine_deg", &KnownError::sine_deg, {-90.0, 90.0},
-                     "The part that follows the azimuth's sine."),
+                     "Part proportional to the sine of the azimuth."),
       params::number("cosine_deg", &KnownError::cosine_deg, {-90.0, 90.0},
-                     "The part that follows its cosine."),
+                     "Part proportional to its cosine."),
       params::number("slope", &KnownError::slope, {-10.0, 10.0},
-                     "The part that follows the elevation: degrees per degree."),
+                     "Part proportional to the elevation, in degrees per degree."),
   };
   return table;
 }
@@ -53,16 +53,16 @@ struct Params : AzimuthOptions {
 const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
-          params::optional(params::map(
-              "known", &Params::known, known_table(), "a sensor's name",
-              "The errors of these sensors are known: their clouds are corrected, of the "
-              "reference too, and nothing is estimated of them.")),
+          params::optional(
+              params::map("known", &Params::known, known_table(), "a sensor's name",
+                          "Known errors by sensor, which may include the reference: their clouds "
+                          "are corrected and their errors are not estimated.")),
           params::boolean("estimate", &Params::estimate,
-                          "Whether the errors of the other sensors are estimated; else they are "
-                          "taken to have none."),
+                          "Whether the errors of the other sensors are estimated; otherwise they "
+                          "are assumed to be zero."),
           params::number("min_significance", &Params::min_significance, {0.0, 1e6},
-                         "An error that was estimated is corrected, and the pose with it, only if "
-                         "it is so many standard deviations from zero."),
+                         "Minimum distance of an estimated error from zero, in standard "
+                         "deviations, for the error and the pose to be corrected."),
       }
           .inherit(azimuth_table());
   return table;
@@ -80,13 +80,13 @@ class AzimuthCalibrationStep final : public RigStep {
   }
 
   void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
-    // A sensor's error is its own, but it is found against the surfaces of one target.
-    const auto unknown = [&](RigEstimate& one) -> std::optional<RigKey> {
-      if (!one.estimate.rejection) require_usable_clouds(one.estimate);
-      // Of rejected poses too: all sensors of a scene share the reference's cloud.
-      correct_known(one);
-      if (one.estimate.rejection || known_.count(one.source) > 0) return std::nullopt;
-      return RigKey{one.target, one.source};
+    // The error belongs to the sensor, but is estimated against the surfaces of one target.
+    const auto unknown = [&](RigEstimate& member) -> std::optional<RigKey> {
+      if (!member.estimate.rejection) require_usable_clouds(member.estimate);
+      // For rejected poses too: all sensors of a scene share the reference's cloud.
+      correct_known(member);
+      if (member.estimate.rejection || known_.count(member.source) > 0) return std::nullopt;
+      return RigKey{member.target, member.source};
     };
     const std::vector<RigGroup> sensors = rig_groups(rig, unknown);
     if (!params_.estimate) return;
@@ -94,21 +94,21 @@ class AzimuthCalibrationStep final : public RigStep {
   }
 
  private:
-  /// Corrects the clouds of both sensors, as far as their errors are known.
-  void correct_known(RigEstimate& one) const {
-    Estimate& estimate = one.estimate;
-    const auto of_target = known_.find(one.target);
+  /// Corrects the clouds of both sensors if their errors are known.
+  void correct_known(RigEstimate& member) const {
+    Estimate& estimate = member.estimate;
+    const auto of_target = known_.find(member.target);
     if (of_target != known_.end()) {
       estimate.take_clouds(corrected(*estimate.target, of_target->second), estimate.source);
       estimate.information.reset();
     }
-    const auto of_source = known_.find(one.source);
+    const auto of_source = known_.find(member.source);
     if (of_source == known_.end()) return;
     estimate.take_clouds(estimate.target, corrected(*estimate.source, of_source->second));
     estimate.information.reset();
   }
 
-  /// The same for all sensors and trials of the scene.
+  /// The corrected cloud, computed once for all sensors and trials of the scene.
   static std::shared_ptr<const Cloud> corrected(const Cloud& cloud, const KnownError& known) {
     return cloud.once<Cloud>(kWithoutError, known.key(), [&] {
       return cloud.derived(without_error(cloud.with_channels(), known.error()), kWithoutError);
@@ -117,8 +117,8 @@ class AzimuthCalibrationStep final : public RigStep {
 
   void calibrate(const RigGroup& estimates) const {
     std::vector<AzimuthView> views;
-    for (const RigEstimate* const one : estimates) {
-      const Estimate& estimate = one->estimate;
+    for (const RigEstimate* const member : estimates) {
+      const Estimate& estimate = member->estimate;
       views.push_back({&*estimate.target, &*estimate.source, estimate.T_target_source});
     }
     const AzimuthCalibration found = calibrate_azimuth(views, params_);
@@ -128,11 +128,12 @@ class AzimuthCalibrationStep final : public RigStep {
         estimates[v]->failure = "only " + std::to_string(correspondences) + " points correspond";
         continue;
       }
-      give(found, found.T_target_source[v], estimates[v]->estimate);
+      write_result(found, found.T_target_source[v], estimates[v]->estimate);
     }
   }
 
-  void give(const AzimuthCalibration& found, const RigidTransform& T, Estimate& estimate) const {
+  void write_result(const AzimuthCalibration& found, const RigidTransform& T,
+                    Estimate& estimate) const {
     const bool is_corrected = found.significance() >= params_.min_significance;
     if (is_corrected) {
       const Cloud& source = *estimate.source;
@@ -170,9 +171,9 @@ class AzimuthCalibrationStep final : public RigStep {
 StageEntry azimuth_calibration() {
   return stage_entry<AzimuthCalibrationStep>(
       "azimuth_calibration",
-      "Sees the whole rig: estimates what each sensor's azimuths are off by, one smooth error in "
-      "all scenes of a trial, and corrects its clouds; or corrects them by errors that are known. "
-      "Rejected poses take no part.",
+      "Processes the whole rig: estimates each sensor's azimuth error, one smooth function for all "
+      "scenes of a trial, and corrects its clouds; known errors are corrected directly. Rejected "
+      "poses are ignored.",
       "Lichti, ISPRS J. 2007; Muhammad and Lacroix, IROS 2010", table(), 3);
 }
 

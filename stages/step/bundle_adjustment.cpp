@@ -28,19 +28,19 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
           params::number("max_correction_deg", &Params::max_correction_deg, {1e-6, 180.0},
-                         "A sensor that would turn farther from its start is rejected, the "
-                         "farthest first, and the others are adjusted without it."),
+                         "Maximum rotation from a sensor's initial pose. A sensor beyond it is "
+                         "rejected, the farthest first, and the others are adjusted without it."),
           params::number("max_correction_m", &Params::max_correction_m, {1e-6, 1e6},
-                         "The same for a sensor that would move farther."),
+                         "The same for the translation."),
       }
           .inherit(bundle_table());
   return table;
 }
 
-DofWords all_of(Observability word) {
-  DofWords words;
-  words.fill(word);
-  return words;
+DofWords all_of(Observability observability) {
+  DofWords dofs;
+  dofs.fill(observability);
+  return dofs;
 }
 
 /// The estimates of one reference that are adjusted together.
@@ -48,9 +48,9 @@ struct RigBundle {
   std::vector<std::size_t> sensors;   ///< Of each estimate, as an index into `start`.
   std::vector<std::size_t> scene_of;  ///< Of each estimate, as an index into `scenes`.
   std::vector<BundleScene> scenes;
-  std::vector<InformedPose> start;  ///< By sensor, first the reference.
-  /// By sensor: how well the scene that holds it best does, by the covariances of steps before.
-  std::vector<DofWords> start_words;
+  std::vector<InformedPose> start;  ///< By sensor, the reference first.
+  /// By sensor: the best observability over its scenes, from the covariances of earlier steps.
+  std::vector<DofWords> start_observability;
 };
 
 class BundleAdjustmentStep final : public RigStep {
@@ -64,31 +64,33 @@ class BundleAdjustmentStep final : public RigStep {
   }
 
  private:
-  /// The target of an estimate that takes part. Throws StageError if it cannot.
-  static std::optional<RigKey> usable_target(const RigEstimate& one) {
-    if (one.estimate.rejection) return std::nullopt;
-    require_usable_clouds(one.estimate);
-    const RigidTransform& T = one.estimate.T_target_source;
+  /// The target of an estimate, or std::nullopt if it was rejected. Throws StageError if its clouds
+  /// or its pose are not usable.
+  static std::optional<RigKey> usable_target(const RigEstimate& member) {
+    if (member.estimate.rejection) return std::nullopt;
+    require_usable_clouds(member.estimate);
+    const RigidTransform& T = member.estimate.T_target_source;
     if (!T.rotation.allFinite() || !T.translation.allFinite()) {
       throw StageError("its pose is not finite");
     }
-    return RigKey{one.target};
+    return RigKey{member.target};
   }
 
   static RigBundle rig_bundle(const RigGroup& estimates) {
     RigBundle bundle;
     std::map<std::string, std::size_t> scenes, sensors;
-    std::vector<double> zeros_s;  // By scene: the zero of its times, so that they are small.
+    // By scene: the time that is subtracted from all of its times to keep them small.
+    std::vector<double> zeros_s;
     std::vector<std::vector<const Estimate*>> starts;  // By sensor, without the reference.
-    for (const RigEstimate* const one : estimates) {
-      const Estimate& estimate = one->estimate;
-      const auto [scene, is_new_scene] = scenes.emplace(one->scene, bundle.scenes.size());
+    for (const RigEstimate* const member : estimates) {
+      const Estimate& estimate = member->estimate;
+      const auto [scene, is_new_scene] = scenes.emplace(member->scene, bundle.scenes.size());
       if (is_new_scene) {
         bundle.scenes.push_back(scene_of(estimate));
         zeros_s.push_back(zero_of_times_s(bundle.scenes.back(), *estimate.target));
         add_cloud(0, *estimate.target, zeros_s.back(), bundle.scenes.back());
       }
-      const auto [sensor, is_new_sensor] = sensors.emplace(one->source, starts.size() + 1);
+      const auto [sensor, is_new_sensor] = sensors.emplace(member->source, starts.size() + 1);
       if (is_new_sensor) starts.emplace_back();
       starts[sensor->second - 1].push_back(&estimate);
       bundle.sensors.push_back(sensor->second);
@@ -101,11 +103,11 @@ class BundleAdjustmentStep final : public RigStep {
                 [](const SensorCloud& a, const SensorCloud& b) { return a.sensor < b.sensor; });
     }
     bundle.start.emplace_back();
-    bundle.start_words.push_back(all_of(Observability::determined));
+    bundle.start_observability.push_back(all_of(Observability::determined));
     for (const std::vector<const Estimate*>& of_sensor : starts) {
       const RigidTransform centre = centre_of(of_sensor);
       bundle.start.push_back(start_of(of_sensor, centre));
-      bundle.start_words.push_back(start_words_of(of_sensor, centre));
+      bundle.start_observability.push_back(start_observability_of(of_sensor, centre));
     }
     return bundle;
   }
@@ -120,24 +122,26 @@ class BundleAdjustmentStep final : public RigStep {
     return scene;
   }
 
-  /// The middle of the target's scan, if the scene's velocity is not certain: else no time counts.
+  /// The middle of the target's scan, or 0 if the scene's velocity is certain: times are not used
+  /// then.
   static double zero_of_times_s(const BundleScene& scene, const Cloud& target) {
     if (scene.motion_covariance.isZero(0.0)) return 0.0;
     return span_of(times_s(target.with_channels())).middle_s();
   }
 
-  /// The best of each degree of freedom of a sensor's estimates, one per scene, near `centre`.
-  static DofWords start_words_of(const std::vector<const Estimate*>& estimates,
-                                 const RigidTransform& centre) {
-    DofWords words = all_of(Observability::unobservable);
-    for (const Estimate* const one : estimates) {
-      if (!one->covariance || !agree(one->T_target_source, centre, kNearStart)) continue;
-      words = better_words(words, one->covariance->dofs);
+  /// The best observability of each degree of freedom over a sensor's estimates, one per scene,
+  /// near `centre`.
+  static DofWords start_observability_of(const std::vector<const Estimate*>& estimates,
+                                         const RigidTransform& centre) {
+    DofWords observability = all_of(Observability::unobservable);
+    for (const Estimate* const member : estimates) {
+      if (!member->covariance || !agree(member->T_target_source, centre, kNearStart)) continue;
+      observability = better_words(observability, member->covariance->dofs);
     }
-    return words;
+    return observability;
   }
 
-  /// Adds a cloud with its times after `zero_s`, if the scene's velocity is not certain.
+  /// Adds a cloud, with its times relative to `zero_s` unless the scene's velocity is certain.
   static void add_cloud(std::size_t sensor, const Cloud& cloud, double zero_s, BundleScene& scene) {
     scene.clouds.push_back({sensor, &cloud});
     if (scene.motion_covariance.isZero(0.0)) return;
@@ -146,21 +150,21 @@ class BundleAdjustmentStep final : public RigStep {
     for (double& time : times) time -= zero_s;
   }
 
-  /// Where most of a sensor's estimates are, one per scene.
+  /// The pose near which the majority of a sensor's estimates lie, one per scene.
   static RigidTransform centre_of(const std::vector<const Estimate*>& estimates) {
     std::vector<RigidTransform> poses;
-    for (const Estimate* const one : estimates) poses.push_back(one->T_target_source);
+    for (const Estimate* const member : estimates) poses.push_back(member->T_target_source);
     return common_start(poses);
   }
 
-  /// The start of a sensor: the mean of its estimates near `centre`.
+  /// The initial pose of a sensor: the mean of its estimates near `centre`.
   static InformedPose start_of(const std::vector<const Estimate*>& estimates,
                                const RigidTransform& centre) {
     std::vector<InformedPose> known;
-    for (const Estimate* const one : estimates) {
-      if (!one->covariance) return {centre, Matrix6d::Zero()};
-      if (!agree(one->T_target_source, centre, kNearStart)) continue;
-      known.push_back(informed(one->T_target_source, one->covariance->matrix));
+    for (const Estimate* const member : estimates) {
+      if (!member->covariance) return {centre, Matrix6d::Zero()};
+      if (!agree(member->T_target_source, centre, kNearStart)) continue;
+      known.push_back(informed(member->T_target_source, member->covariance->matrix));
     }
     return known.empty() ? InformedPose{centre, Matrix6d::Zero()} : informed_mean(known);
   }
@@ -170,7 +174,7 @@ class BundleAdjustmentStep final : public RigStep {
     const RigBundle rig = rig_bundle(estimates);
     const Bundle result = adjust_bundle(rig.scenes, rig.start, params_);
     if (const std::optional<Far> far = farthest(rig, result)) {
-      // It may have moved others that are right.
+      // It may have displaced correct ones.
       RigGroup others;
       for (std::size_t i = 0; i < estimates.size(); ++i) {
         if (rig.sensors[i] != far->sensor) {
@@ -182,17 +186,17 @@ class BundleAdjustmentStep final : public RigStep {
       return adjust_rig(others);
     }
     for (std::size_t i = 0; i < estimates.size(); ++i) {
-      give(result, rig, rig.sensors[i], rig.scene_of[i], *estimates[i]);
+      write_result(result, rig, rig.sensors[i], rig.scene_of[i], *estimates[i]);
     }
   }
 
-  /// A sensor that would move too far from its start.
+  /// A sensor that the adjustment moves too far from its initial pose.
   struct Far {
     std::size_t sensor;
     PoseError moved;
   };
 
-  /// The one that exceeds its bounds by the largest factor, if one does.
+  /// The sensor that exceeds its bounds by the largest factor, if any.
   std::optional<Far> farthest(const RigBundle& rig, const Bundle& result) const {
     std::optional<Far> far;
     double largest = 1.0;
@@ -217,29 +221,30 @@ class BundleAdjustmentStep final : public RigStep {
     estimate.diagnostics = {{"moved_deg", rotation_deg}, {"moved_m", moved.translation_m}};
   }
 
-  void give(const Bundle& result, const RigBundle& rig, std::size_t sensor, std::size_t scene,
-            RigEstimate& one) const {
+  void write_result(const Bundle& result, const RigBundle& rig, std::size_t sensor,
+                    std::size_t scene, RigEstimate& member) const {
     const InformedPose& start = rig.start[sensor];
     const bool is_adjusted = result.planes[sensor] >= params_.min_planes;
     if (!is_adjusted && start.information.isZero(0.0)) {
-      one.failure = "it shares only " +
-                    counted(static_cast<std::size_t>(result.planes[sensor]), "plane") +
-                    " with other sensors";
+      member.failure = "it shares only " +
+                       counted(static_cast<std::size_t>(result.planes[sensor]), "plane") +
+                       " with other sensors";
       return;
     }
-    Estimate& estimate = one.estimate;
+    Estimate& estimate = member.estimate;
     const PoseError moved = pose_error(result.poses[sensor], estimate.T_target_source);
     estimate.set_pose(result.poses[sensor]);
     if (is_adjusted) {
       estimate.covariance = result.covariances[sensor];
-      // Planes or registrations must hold it, and well enough.
+      // Planes or registrations must constrain it well enough.
       const bool start_counts = params_.start_weight > 0.0 && !start.information.isZero(0.0);
-      DofWords held = result.plane_words[sensor];
-      if (start_counts) held = better_words(held, rig.start_words[sensor]);
-      estimate.covariance->dofs = worse_words(estimate.covariance->dofs, held);
+      DofWords constrained = result.plane_words[sensor];
+      if (start_counts) constrained = better_words(constrained, rig.start_observability[sensor]);
+      estimate.covariance->dofs = worse_words(estimate.covariance->dofs, constrained);
     } else {
-      // One pose has one covariance, though each scene had its own.
-      estimate.covariance = {guarded_inverse<6>(start.information), rig.start_words[sensor]};
+      // All scenes share one pose, hence one covariance.
+      estimate.covariance = {guarded_inverse<6>(start.information),
+                             rig.start_observability[sensor]};
     }
     const std::optional<Twist>& change = result.velocities[scene];
     const double speed_change_mps = change ? change->linear_mps.norm() : 0.0;
@@ -273,8 +278,8 @@ class BundleAdjustmentStep final : public RigStep {
 StageEntry bundle_adjustment() {
   return stage_entry<BundleAdjustmentStep>(
       "bundle_adjustment",
-      "Sees the whole rig: gives each sensor, in all scenes of a trial, the pose at which what all "
-      "sensors see lies best on common planes. Rejected poses take no part.",
+      "Processes the whole rig: sets each sensor, in all scenes of a trial, to the pose at which "
+      "the points of all sensors fit common planes best. Rejected poses are ignored.",
       "Liu and Zhang, BALM, RA-L 2021; Liu, Yuan and Zhang, MLCC, T-IM 2022", table(), 12);
 }
 

@@ -22,25 +22,25 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table = {
       params::choice("weights", &Params::weights,
                      {{"equal", Weights::equal}, {"covariance", Weights::covariance}},
-                     "Whether all scenes that agree count alike, or each direction of each pose by "
-                     "its covariance, which a step before has to estimate."),
+                     "Whether all agreeing scenes have the same weight, or each pose is weighted "
+                     "by its covariance, which an earlier step must estimate."),
       params::number("rotation_deg", &Params::rotation_deg, {0.0, 180.0},
                      "Poses of two scenes agree if the angle between them is at most this."),
       params::number("translation_m", &Params::translation_m, {0.0, 1e6},
                      "Poses of two scenes agree if their origins are at most this far apart."),
-      params::number(
-          "min_agreeing_ratio", &Params::min_agreeing_ratio, {0.0, 1.0},
-          "The pose is rejected if the poses of fewer of the scenes agree with it; those in which "
-          "a step failed do not."),
+      params::number("min_agreeing_ratio", &Params::min_agreeing_ratio, {0.0, 1.0},
+                     "Minimum share of scenes whose poses agree; below it the pose is rejected. "
+                     "Scenes in which a step failed count as disagreeing."),
   };
   return table;
 }
 
-/// The estimates that vote: those that no step has rejected, or all if there are no others.
+/// The estimates that vote: those that no step has rejected, or all of them if every one was
+/// rejected.
 RigGroup voters(const RigGroup& estimates) {
   RigGroup accepted;
-  for (RigEstimate* const one : estimates) {
-    if (!one->estimate.rejection) accepted.push_back(one);
+  for (RigEstimate* const member : estimates) {
+    if (!member->estimate.rejection) accepted.push_back(member);
   }
   return accepted.empty() ? estimates : accepted;
 }
@@ -58,12 +58,14 @@ class ConsensusStep final : public RigStep {
   }
 
   void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
-    const auto sensor = [](const RigEstimate& one) { return RigKey{one.target, one.source}; };
+    const auto sensor = [](const RigEstimate& member) {
+      return RigKey{member.target, member.source};
+    };
     for (const RigGroup& estimates : rig_groups(rig, sensor)) agree_on_pose(estimates);
   }
 
  private:
-  /// Gives all estimates of a sensor the pose that they agree on.
+  /// Sets all estimates of a sensor to the pose that they agree on.
   void agree_on_pose(const RigGroup& estimates) const {
     const RigGroup votes = voters(estimates);
     RigidTransform pose = consensus_pose(poses_of(votes), bounds_);
@@ -74,36 +76,38 @@ class ConsensusStep final : public RigStep {
     std::optional<PoseCovariance> covariance = joint_covariance(agreeing);
     if (params_.weights == Weights::covariance && !agreeing.empty()) {
       if (!covariance) {
-        for (RigEstimate* const one : estimates) {
-          one->failure = "weights \"covariance\" needs a step before that estimates one";
+        for (RigEstimate* const member : estimates) {
+          member->failure =
+              "weights \"covariance\" requires an earlier step that estimates a covariance";
         }
         return;
       }
       const InformedPose mean = weighted_mean(agreeing);
       pose = mean.pose;
       covariance->matrix = guarded_inverse<6>(mean.information);
-      // A scene that does not hold a direction has no weight in it, so its word does not count.
-      for (const RigEstimate* const one : agreeing) {
-        covariance->dofs = better_words(covariance->dofs, one->estimate.covariance->dofs);
+      // A scene that does not constrain a direction has no weight in it, so the best class counts.
+      for (const RigEstimate* const member : agreeing) {
+        covariance->dofs = better_words(covariance->dofs, member->estimate.covariance->dofs);
       }
     } else if (agreeing.size() > 1) {
-      // consensus_pose is the mean of the poses near a medoid; those near that mean may be others.
+      // consensus_pose averages the poses near a medoid; the poses near that mean may differ.
       pose = mean_pose(poses_of(agreeing));
     }
     const std::optional<std::string> rejection = verdict(estimates, votes, agreeing.size(), ratio);
-    for (RigEstimate* const one : estimates) {
-      one->estimate.set_pose(pose);
-      one->estimate.information = information;
-      one->estimate.covariance = covariance;
-      one->estimate.rejection = rejection;
-      one->estimate.diagnostics = {{"scenes", static_cast<double>(estimates.front()->scenes)},
-                                   {"agreeing_ratio", ratio}};
+    for (RigEstimate* const member : estimates) {
+      member->estimate.set_pose(pose);
+      member->estimate.information = information;
+      member->estimate.covariance = covariance;
+      member->estimate.rejection = rejection;
+      member->estimate.diagnostics = {{"scenes", static_cast<double>(estimates.front()->scenes)},
+                                      {"agreeing_ratio", ratio}};
     }
   }
 
   static std::vector<RigidTransform> poses_of(const RigGroup& estimates) {
     std::vector<RigidTransform> poses;
-    for (const RigEstimate* const one : estimates) poses.push_back(one->estimate.T_target_source);
+    for (const RigEstimate* const member : estimates)
+      poses.push_back(member->estimate.T_target_source);
     return poses;
   }
 
@@ -116,40 +120,41 @@ class ConsensusStep final : public RigStep {
     return agreeing;
   }
 
-  /// The mean of the poses of these scenes, each of which has a covariance, weighed by it.
+  /// The mean of the poses of these scenes, weighted by their covariances, which all must have.
   static InformedPose weighted_mean(const RigGroup& agreeing) {
     std::vector<InformedPose> known;
-    for (const RigEstimate* const one : agreeing) {
-      known.push_back(informed(one->estimate.T_target_source, one->estimate.covariance->matrix));
+    for (const RigEstimate* const member : agreeing) {
+      known.push_back(
+          informed(member->estimate.T_target_source, member->estimate.covariance->matrix));
     }
     return informed_mean(known);
   }
 
-  /// Scenes are independent observations of one pose, so their information adds; std::nullopt if
-  /// one of them has none.
+  /// Scenes are independent observations of one pose, so their information matrices add up;
+  /// std::nullopt if a scene has none.
   static std::optional<Matrix6d> joint_information(const RigGroup& agreeing) {
     if (agreeing.empty()) return std::nullopt;
     Matrix6d sum = Matrix6d::Zero();
-    for (const RigEstimate* const one : agreeing) {
-      if (!one->estimate.information) return std::nullopt;
-      sum += *one->estimate.information;
+    for (const RigEstimate* const member : agreeing) {
+      if (!member->estimate.information) return std::nullopt;
+      sum += *member->estimate.information;
     }
     return sum;
   }
 
-  /// The pose is the mean of the poses of these scenes, whose errors are independent; std::nullopt
-  /// if one of them has no covariance.
+  /// The covariance of the mean of the poses of these scenes, whose errors are independent;
+  /// std::nullopt if a scene has none.
   static std::optional<PoseCovariance> joint_covariance(const RigGroup& agreeing) {
     std::vector<PoseCovariance> covariances;
-    for (const RigEstimate* const one : agreeing) {
-      if (!one->estimate.covariance) return std::nullopt;
-      covariances.push_back(*one->estimate.covariance);
+    for (const RigEstimate* const member : agreeing) {
+      if (!member->estimate.covariance) return std::nullopt;
+      covariances.push_back(*member->estimate.covariance);
     }
     if (covariances.empty()) return std::nullopt;
     return covariance_of_mean(covariances);
   }
 
-  /// Why the pose must not be trusted, if so.
+  /// The reason for a rejection, or std::nullopt if the pose is accepted.
   std::optional<std::string> verdict(const RigGroup& estimates, const RigGroup& votes,
                                      std::size_t agreeing, double ratio) const {
     if (votes.front()->estimate.rejection) return votes.front()->estimate.rejection;
@@ -166,11 +171,11 @@ class ConsensusStep final : public RigStep {
 }  // namespace
 
 StageEntry consensus() {
-  return stage_entry<ConsensusStep>(
-      "consensus",
-      "Sees the whole rig: gives each sensor, in all scenes of a trial, the pose that most of its "
-      "scenes agree on.",
-      "the mean is that of Markley et al., Averaging Quaternions, JGCD 2007", table(), 3);
+  return stage_entry<ConsensusStep>("consensus",
+                                    "Processes the whole rig: sets each sensor, in all scenes of a "
+                                    "trial, to the pose on which the majority of its scenes agree.",
+                                    "mean after Markley et al., Averaging Quaternions, JGCD 2007",
+                                    table(), 3);
 }
 
 }  // namespace croon::stages::step

@@ -19,35 +19,34 @@ const params::Table<UncertaintyOptions>& option_table() {
   using O = UncertaintyOptions;
   static const params::Table<O> table = {
       params::number("max_distance_m", &O::max_distance_m, {0.0, 1e6},
-                     "Points of the two clouds touch if they are at most this far apart."),
+                     "Maximum distance between points of the two clouds that count as in contact."),
       params::integer("normal_neighbours", &O::normal_neighbours, {3, 1000},
-                      "The number of neighbours that a normal is computed from."),
+                      "Number of neighbours from which a normal is computed."),
       params::number("direction_balance", &O::direction_balance, {0.0, 1.0},
-                     "As in the registration whose pose is judged: n contacts of about one "
-                     "direction weigh n to the minus this."),
+                     "As in the registration that computed the pose: each of n contacts with "
+                     "similar normals is weighted by n to the minus this."),
       params::number("kernel_width_m", &O::kernel_width_m, {1e-6, 1e6},
-                     "As in that registration: residuals above it lose weight."),
+                     "As in that registration: larger residuals lose weight."),
       params::number("surface_size_m", &O::surface_size_m, {0.01, 1e6},
-                     "Contacts of one direction in a cell of this edge are one surface, whose "
-                     "errors are not independent."),
+                     "Contacts with similar normals in a cell of this edge form one surface, whose "
+                     "errors are dependent."),
       params::boolean("follows_contacts", &O::follows_contacts,
-                      "Whether it is measured that other points touch if the pose moves."),
-      params::number(
-          "scale", &O::scale, {0.0, 1e6},
-          "Multiplies the standard deviations by which surfaces differ, not those of grazing "
-          "and of motion; found on scenes with truth."),
+                      "Whether the Hessian accounts for contacts that change with the pose."),
+      params::number("scale", &O::scale, {0.0, 1e6},
+                     "Factor on the standard deviations from differences between surfaces, not on "
+                     "those from grazing incidence and motion; tuned on scenes with ground truth."),
       params::number("grazing_error_ratio", &O::grazing_error_ratio, {0.0, 1e3},
-                     "Surfaces that a sensor sees more than 60 degrees off their normals share an "
-                     "error of so many times the noise."),
+                     "Common error of surfaces seen at more than 60 degrees from their normals, as "
+                     "a multiple of the noise."),
       params::number("line_breadth_ratio", &O::line_breadth_ratio, {0.0, 1.0},
-                     "Neighbours that spread across their longest axis less than this times along "
-                     "it, and less than the noise, are on a line. Their normal does not count for "
-                     "the words."),
+                     "Neighbours whose spread across their main axis is below this times the "
+                     "spread along it, and below the noise, lie on a line. Their normals are "
+                     "ignored when classifying observability."),
       params::number("weak_ratio", &O::weak_ratio, {0.0, 1e9},
-                     "A degree of freedom is weak if its information is below so many times what "
-                     "the noise of normals pretends."),
+                     "A degree of freedom is weak if its information is below this multiple of the "
+                     "information that normal noise alone would produce."),
       params::number("unobservable_ratio", &O::unobservable_ratio, {0.0, 1e9},
-                     "Below so many times it is unobservable."),
+                     "Ratio below which it is unobservable."),
   };
   return table;
 }
@@ -56,13 +55,13 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table = [] {
     params::Table<Params> rows =
         params::Table<Params>{
-            params::numbers("velocity_std_mps", &Params::velocity_std_mps, {0.0, 1000.0},
-                            "What is not known of the car's velocity during the scans, along x, "
-                            "y, z of the reference: standard deviations, beside what a step says "
-                            "of a velocity that it estimated. If it is not zero, the clouds need "
-                            "the channel time."),
+            params::numbers(
+                "velocity_std_mps", &Params::velocity_std_mps, {0.0, 1000.0},
+                "Standard deviation of the car's velocity during the scans, along x, y, z of the "
+                "reference, in addition to the covariance of a velocity that a step estimated. If "
+                "not zero, the clouds need the channel time."),
             params::number("turning_std_degps", &Params::turning_std_degps, {0.0, 3600.0},
-                           "What is not known of its rate of turning about z."),
+                           "Standard deviation of its yaw rate."),
         }
             .inherit(option_table());
     rows.require([](const Params& p) { return p.unobservable_ratio <= p.weak_ratio; },
@@ -121,10 +120,10 @@ class CovarianceStep final : public Step {
 StageEntry covariance() {
   return stage_entry<CovarianceStep>(
       "covariance",
-      "Estimates the covariance of the pose, and says of each degree of freedom whether the "
-      "surfaces hold it.",
-      "croon; the jackknife over clusters is that of Bell and McCaffrey, Survey Methodology 2002",
-      table(), 6);
+      "Estimates the covariance of the pose, and classifies each degree of freedom as determined, "
+      "weak or unobservable.",
+      "croon; jackknife over clusters after Bell and McCaffrey, Survey Methodology 2002", table(),
+      6);
 }
 
 }  // namespace croon::stages::step

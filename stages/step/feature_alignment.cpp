@@ -23,13 +23,13 @@ struct Params : FeatureOptions, MatchOptions, ConsistencyOptions, HypothesisChoi
 const params::Table<FeatureOptions>& feature_table() {
   static const params::Table<FeatureOptions> table = {
       params::number("radius_m", &FeatureOptions::radius_m, {0.1, 20.0},
-                     "A feature describes the surface within this radius."),
+                     "Radius of the surface patch that a feature describes."),
       params::integer("neighbours", &FeatureOptions::neighbours, {5, 1000},
-                      "At most the nearest so many points describe it."),
+                      "Maximum number of neighbours per descriptor, the nearest first."),
       params::integer("normal_neighbours", &FeatureOptions::normal_neighbours, {3, 1000},
-                      "Normals of the features are from so many nearest points."),
+                      "Number of neighbours from which a normal of a feature is computed."),
       params::integer("features", &FeatureOptions::features, {3, 20000},
-                      "At most so many features of a cloud, those least like a plane."),
+                      "Maximum number of features per cloud, the least planar first."),
   };
   return table;
 }
@@ -37,10 +37,10 @@ const params::Table<FeatureOptions>& feature_table() {
 const params::Table<MatchOptions>& match_table() {
   static const params::Table<MatchOptions> table = {
       params::number("reach_m", &MatchOptions::reach_m, {0.0, 1000.0},
-                     "The sensor is at most this far from the reference."),
-      params::integer("candidates", &MatchOptions::candidates, {1, 100},
-                      "A feature corresponds to so many of the other cloud's that are most like "
-                      "it, if it is among theirs."),
+                     "Maximum distance between the sensor and the reference."),
+      params::integer(
+          "candidates", &MatchOptions::candidates, {1, 100},
+          "Number of nearest descriptors considered for a feature; matches must be mutual."),
   };
   return table;
 }
@@ -51,8 +51,8 @@ const params::Table<ConsistencyOptions>& consistency_table() {
                      "Two correspondences agree if the distances of their points in both "
                      "clouds differ by at most this."),
       params::number("normal_tolerance", &ConsistencyOptions::normal_tolerance, {0.0, 2.0},
-                     "Likewise of the cosines of the angles between their normals and the line "
-                     "between the points; 2: normals do not count."),
+                     "Likewise for the cosines of the angles between their normals and the line "
+                     "through the points; 2: normals are ignored."),
   };
   return table;
 }
@@ -62,16 +62,16 @@ const params::Table<Params>& table() {
       params::Table<Params>{
           params::slot("feature_thinning", &Params::feature_thinning,
                        R"({"type": "voxel_downsample", "leaf_size_m": 0.4})",
-                       "Makes the clouds even for their features."),
+                       "Equalises the density of the clouds before features are computed."),
           params::number("max_range_m", &Params::max_range_m, {1.0, 1000.0},
                          "Points farther from the sensor have no features."),
           params::integer("min_clique", &Params::min_clique, {3, 1000},
-                          "Fewer correspondences that all agree with each other are no pose."),
+                          "Minimum number of mutually consistent correspondences for a pose."),
           params::integer("cliques", &Params::cliques, {1, 10000},
-                          "At most so many cliques propose a pose each."),
-          params::integer("hypotheses", &Params::hypotheses, {1, 1000},
-                          "How many poses are refined: those that explain the most "
-                          "correspondences."),
+                          "Maximum number of cliques, each of which proposes a pose."),
+          params::integer(
+              "hypotheses", &Params::hypotheses, {1, 1000},
+              "Number of poses that are refined: those that explain the most correspondences."),
       }
           .inherit(feature_table())
           .inherit(match_table())
@@ -130,9 +130,9 @@ class FeatureAlignment final : public Step {
     });
   }
 
-  /// A pose of each clique, from the densest parts of the graph on, each clique with a
-  /// correspondence that no earlier pose explains. The score is the number of correspondences that
-  /// a pose explains.
+  /// One pose per clique, from the densest part of the graph on; each clique has a correspondence
+  /// that no earlier pose explains. The score of a pose is the number of correspondences that it
+  /// explains.
   std::vector<Hypothesis> proposed(const OrientedPairs& pairs) const {
     const ConsistencyGraph graph(pairs, params_);
     const std::vector<int> cores = graph.core_numbers();
@@ -154,7 +154,7 @@ class FeatureAlignment final : public Step {
         const RigidTransform T = pose_of(pairs, clique);
         poses.push_back({T, explained_by(T, pairs, is_explained)});
       } catch (const StageError&) {
-        continue;  // The clique is on one line.
+        continue;  // The points of the clique are collinear.
       }
     }
     if (poses.empty()) refuse(pairs.size(), largest);
@@ -165,7 +165,7 @@ class FeatureAlignment final : public Step {
 
   [[noreturn]] void refuse(std::size_t correspondences, std::size_t largest) const {
     throw StageError("of " + std::to_string(correspondences) +
-                     " correspondences of features at most " + std::to_string(largest) +
+                     " feature correspondences, at most " + std::to_string(largest) +
                      " agree with each other; a pose needs " + std::to_string(params_.min_clique));
   }
 
@@ -179,7 +179,7 @@ class FeatureAlignment final : public Step {
     return robust_pose(target, source, 0.5 * params_.tolerance_m);
   }
 
-  /// How many correspondences the pose explains; they are marked.
+  /// Marks the correspondences that the pose explains, and returns their number.
   double explained_by(const RigidTransform& T, const OrientedPairs& pairs,
                       std::vector<bool>& is_explained) const {
     int count = 0;
@@ -200,8 +200,8 @@ class FeatureAlignment final : public Step {
 StageEntry feature_alignment() {
   return stage_entry<FeatureAlignment>(
       "feature_alignment",
-      "Finds the pose without a start: features that look alike correspond, cliques of a graph of "
-      "correspondences that agree propose poses, overlap and free space choose between them.",
+      "Finds the pose without an initial guess: matches features, takes poses from cliques of "
+      "consistent matches, and chooses among them by overlap and free space.",
       "after TEASER++ (Yang et al., T-RO 2021) and KISS-Matcher (Lim et al., ICRA 2025); FPFH of "
       "Rusu et al., ICRA 2009",
       table(), 2);

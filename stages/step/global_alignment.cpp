@@ -19,30 +19,30 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
           params::integer("ground_candidates", &Params::ground_candidates, {1, 20},
-                          "How many planes of each cloud are tried as its ground."),
+                          "Number of planes of each cloud that are tried as its ground."),
           params::integer("peaks", &Params::peaks, {1, 1000},
-                          "How many poses of each pair of planes are hypotheses."),
+                          "Number of hypotheses for each pair of planes."),
           params::integer("hypotheses", &Params::hypotheses, {1, 1000},
-                          "How many hypotheses are refined: the best of each pair of planes, then "
-                          "the best of the others."),
+                          "Number of hypotheses that are refined: the best of each pair of planes, "
+                          "then the best of the others."),
       }
           .inherit(hypothesis_choice_table())
           .inherit(layered_map_table());
   return table;
 }
 
-/// The rotation and shift that put a plane to z = 0 with its normal up.
+/// The transform that moves a plane to z = 0 with its normal up.
 RigidTransform levelling(const Plane& plane) {
   return {rotation_between(plane.normal, Eigen::Vector3d::UnitZ()), {0.0, 0.0, plane.offset_m}};
 }
 
-/// A cloud above one of its planes.
+/// A cloud in the frame of one of its planes.
 struct Levelled {
   RigidTransform T_level_cloud;
   Points points;
 };
 
-/// A cloud above each of its planes that may be the ground.
+/// A cloud in the frame of each of its ground candidates.
 using Levels = std::vector<Levelled>;
 
 class GlobalAlignment final : public Step {
@@ -77,13 +77,12 @@ class GlobalAlignment final : public Step {
       return std::make_shared<const Levels>(std::move(made));
     });
     if (levels->empty()) {
-      throw StageError(std::string("the ") + whose + " cloud has no plane that may be the ground");
+      throw StageError(std::string("the ") + whose + " cloud has no plausible ground plane");
     }
     return levels;
   }
 
-  /// The poses at which the maps above a pair of planes coincide, of all pairs; those that are
-  /// to be refined.
+  /// The hypotheses to be refined: the poses at which the maps above each pair of planes match.
   std::vector<Hypothesis> proposed(const Cloud& cloud, const Levels& target,
                                    const Levels& source) const {
     std::vector<Hypothesis> first;
@@ -105,7 +104,8 @@ class GlobalAlignment final : public Step {
       }
     }
     if (first.empty()) {
-      // Nothing stands on the ground in both clouds: the planes alone give roll, pitch and z.
+      // The clouds have no objects above the ground in common: the planes alone determine roll,
+      // pitch and z.
       first.push_back({target.front().T_level_cloud.inverse() * source.front().T_level_cloud, 0.0});
     }
     sort_by_score(first);
@@ -115,7 +115,7 @@ class GlobalAlignment final : public Step {
     return first;
   }
 
-  /// All that the target's map above plane `index` depends on.
+  /// Identifies everything that the target's map above plane `index` depends on.
   std::string map_key(std::size_t index) const {
     return std::to_string(index) + " " + params_.thinning.resolved() + " " +
            std::to_string(params_.ground_candidates) + " " +
@@ -130,8 +130,9 @@ class GlobalAlignment final : public Step {
 StageEntry global_alignment() {
   return stage_entry<GlobalAlignment>(
       "global_alignment",
-      "Finds the pose without a start: planes of both clouds propose the ground, a correlation of "
-      "maps from above over all yaws proposes poses, overlap and free space choose between them.",
+      "Finds the pose without an initial guess: selects ground candidates in both clouds, "
+      "correlates their bird's-eye maps over all yaws, and chooses among the poses by overlap and "
+      "free space.",
       "croon; correlation after Olson, Real-time correlative scan matching, 2009", table(), 3);
 }
 

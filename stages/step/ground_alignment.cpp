@@ -18,9 +18,9 @@ const params::Table<Params>& table() {
   return table;
 }
 
-/// The plane with its normal towards most of the non-ground points: the sign of a normal is
-/// arbitrary, and objects stand on the ground (paper, rough calibration, the flip of roll and pitch
-/// by pi).
+/// The plane with its normal towards the majority of the non-ground points: the sign of a normal is
+/// arbitrary, but objects are above the ground (paper, rough calibration, the flip of roll and
+/// pitch by pi).
 Plane facing_up(const Ground& ground, const Points& cloud) {
   std::size_t above = 0;
   std::size_t below = 0;
@@ -59,7 +59,7 @@ class GroundAlignment final : public Step {
   }
 
  private:
-  /// The cloud's ground, extracted once for all starts.
+  /// The cloud's ground, extracted once for all initial guesses.
   std::shared_ptr<const GroundSplit> split(const Cloud& cloud, const char* whose) const {
     if (cloud.empty()) throw StageError(std::string("the ") + whose + " cloud is empty");
     const std::string what = "ground/" + params_.extractor.name();
@@ -81,8 +81,8 @@ class GroundAlignment final : public Step {
 
 StageEntry ground_alignment() {
   return stage_entry<GroundAlignment>("ground_alignment",
-                                      "Turns the sensor's ground onto the reference's and lifts it "
-                                      "to the same height: roll, pitch, z.",
+                                      "Rotates the sensor's ground plane onto the reference's and "
+                                      "lifts it to the same height: roll, pitch, z.",
                                       "CROON (arXiv 2203.03182), rough calibration", table());
 }
 

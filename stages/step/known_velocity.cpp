@@ -28,26 +28,32 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table = [] {
     params::Table<Params> rows = {
         params::optional(params::text("file", &Params::file,
-                                      "A CSV file with a velocity for each scene; without it "
-                                      "linear_mps and angular_degps hold for all.")),
+                                      "A CSV file with a velocity for each scene; without it, "
+                                      "linear_mps and angular_degps apply to all.")),
         params::numbers("linear_mps", &Params::linear_mps, {-kFastest_mps, kFastest_mps},
-                        "The velocity along x, y, z of the frame of the velocities."),
+                        "The velocity along x, y, z of the velocity frame."),
         params::numbers("angular_degps", &Params::angular_degps, {-kFastest_degps, kFastest_degps},
-                        "The rate of turning about x, y, z of that frame."),
+                        "The angular velocity about x, y, z of that frame."),
         params::number("linear_std_mps", &Params::linear_std_mps, {0.0, kFastest_mps},
-                       "Standard deviation along each axis of a velocity that has none in the "
-                       "file; 0: it is certain."),
+                       "Standard deviation along each axis, for velocities without one in the "
+                       "file; 0: exact."),
         params::number("angular_std_degps", &Params::angular_std_degps, {0.0, kFastest_degps},
-                       "The same about each axis; both or none are 0."),
+                       "The same about each axis; either both are 0 or neither."),
         params::numbers("rotation_rpy_deg", &Params::rotation_rpy_deg, {-360.0, 360.0},
-                        "Roll, pitch and yaw of the frame of the velocities in the reference's "
-                        "frame, R = Rz(yaw) Ry(pitch) Rx(roll)."),
-        params::numbers("translation_m", &Params::translation_m, {-100.0, 100.0},
-                        "Where that frame is in the reference's: the lever arm of an INS."),
+                        "Roll, pitch and yaw of the velocity frame in the reference frame, R = "
+                        "Rz(yaw) Ry(pitch) Rx(roll)."),
+        params::numbers(
+            "translation_m", &Params::translation_m, {-100.0, 100.0},
+            "Origin of the velocity frame in the reference frame: the lever arm of an INS."),
         params::optional(params::text("sha256", &Params::sha256,
-                                      "The SHA-256 of the file; another file is refused.")),
+                                      "SHA-256 of the file; a file with another one is an error.")),
     };
-    rows.rule({"file", {}, false, {}, {"linear_mps", "angular_degps"}, "no key beside \"file\""});
+    rows.rule({"file",
+               {},
+               false,
+               {},
+               {"linear_mps", "angular_degps"},
+               "no such key together with \"file\""});
     rows.rule({"sha256", {}, false, {"file"}});
     const auto has_three = [](const std::vector<double>& list) { return list.size() == 3; };
     rows.require(
@@ -65,7 +71,7 @@ const params::Table<Params>& table() {
         "sha256 must have 64 hexadecimal digits, in lower case");
     rows.require(
         [](const Params& p) { return (p.linear_std_mps > 0.0) == (p.angular_std_degps > 0.0); },
-        "linear_std_mps and angular_std_degps must both be 0 or both be above it");
+        "linear_std_mps and angular_std_degps must both be 0 or both be positive");
     return rows;
   }();
   return table;
@@ -97,17 +103,17 @@ class KnownVelocityStep final : public GivenMotionStep {
   }
 
   void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
-    for (RigEstimate& one : rig) {
+    for (RigEstimate& member : rig) {
       try {
-        correct(one.scene, one.estimate);
+        correct(member.scene, member.estimate);
       } catch (const StageError& error) {
-        one.failure = error.what();
+        member.failure = error.what();
       }
     }
   }
 
  private:
-  /// What is known of the velocity in `scene`, in the frame of the velocities.
+  /// The velocity in `scene` and its uncertainty, in the velocity frame.
   GivenMotion motion_in(const std::string& scene) const {
     if (params_.file.empty()) {
       return {
@@ -116,7 +122,7 @@ class KnownVelocityStep final : public GivenMotionStep {
     }
     if (!motions_) throw StageError("only an experiment reads a file of velocities");
     const auto found = motions_->find(scene);
-    if (found == motions_->end()) throw StageError("the file has no velocity of this scene");
+    if (found == motions_->end()) throw StageError("the file has no velocity for this scene");
     return found->second;
   }
 
@@ -130,14 +136,14 @@ class KnownVelocityStep final : public GivenMotionStep {
   }
 
   /// Moves the points of both clouds to where they were half-way through the target's scan. The
-  /// sensor's velocity follows from its pose, so that should be near the truth.
+  /// sensor's velocity follows from its pose, which should therefore be nearly correct.
   void correct(const std::string& scene, Estimate& estimate) const {
     const Twist* const removed = estimate.extras.find(kMotion);
     if (removed != nullptr && !vector_of(*removed).isZero(0.0)) {
-      throw StageError("a step before has corrected the clouds by a velocity already");
+      throw StageError("an earlier step has already corrected the clouds for a velocity");
     }
     if (estimate.target->empty() || estimate.source->empty()) {
-      throw StageError("a cloud to be corrected is empty");
+      throw StageError("cannot correct an empty cloud");
     }
     const GivenMotion motion = motion_in(scene);
     const Twist velocity = velocity_in(body_pose_, motion.velocity);
@@ -168,7 +174,7 @@ class KnownVelocityStep final : public GivenMotionStep {
   }
 
   Params params_;
-  RigidTransform body_pose_;  ///< T_reference_body: of the frame of the velocities.
+  RigidTransform body_pose_;  ///< T_reference_body, with the velocity frame as body.
   std::optional<GivenMotions> motions_;
 };
 
@@ -177,8 +183,8 @@ class KnownVelocityStep final : public GivenMotionStep {
 StageEntry known_velocity() {
   return stage_entry<KnownVelocityStep>(
       "known_velocity",
-      "Removes the distortion of all scans of a scene by a velocity that is known, for each scene "
-      "from a file or one for all; the poses should be near the truth.",
+      "Removes the motion distortion of all scans of a scene with a known velocity: one per scene "
+      "from a file, or one for all. The poses should be nearly correct already.",
       "Zhang and Singh, LOAM, 2014, section V.B", table(), 2);
 }
 

@@ -36,23 +36,22 @@ const params::Table<Params>& table() {
           params::slot("thinning", &Params::thinning,
                        R"({"type": "voxel_downsample", "leaf_size_m": 0.25})",
                        "Thins the clouds that are registered."),
-          params::number("period_s", &Params::period_s, {1e-3, 10.0},
-                         "The assumed duration of one revolution. Only its product with the "
-                         "velocity matters."),
+          params::number(
+              "period_s", &Params::period_s, {1e-3, 10.0},
+              "Assumed duration of one revolution. Only its product with the velocity matters."),
           params::number("max_travel_m", &Params::max_travel_m, {0.0, 1e6},
-                         "Maximum distance that the rig may travel during one revolution, less "
-                         "three standard deviations. Poses move by up to half of it."),
+                         "Maximum distance that the rig travels during one revolution, less three "
+                         "standard deviations. It shifts poses by up to half as much."),
           params::number("max_turn_deg", &Params::max_turn_deg, {0.0, 180.0},
-                         "Maximum angle that the rig may turn by during one revolution, less "
-                         "three standard deviations."),
+                         "Maximum angle that the rig turns during one revolution, less three "
+                         "standard deviations."),
           params::number("max_shift_m", &Params::max_shift_m, {0.0, 1e6},
-                         "Maximum distance between the pose and that of a registration that "
-                         "takes motion into account."),
+                         "Maximum distance between the pose and the pose from a registration that "
+                         "models motion."),
           params::number(
               "max_shift_std_m", &Params::max_shift_std_m, {0.0, 1e6},
               "If velocity uncertainty shifts a sensor by more than this, an earlier step rejected "
-              "a "
-              "sensor, or the rig appears to travel by more than 0.03 m and three standard "
+              "a sensor, or the rig appears to travel by more than 0.03 m and three standard "
               "deviations, the registration is compared with those from other_speeds_mps."),
       }
           .inherit(joint_table())
@@ -60,7 +59,7 @@ const params::Table<Params>& table() {
   return table;
 }
 
-/// A rig at rest may appear to travel by less during one revolution.
+/// Apparent travel during one revolution below this is normal for a rig at rest.
 constexpr double kMinDoubtfulTravel_m = 0.03;
 
 /// The length of `vector` less three standard deviations along it.
@@ -78,20 +77,20 @@ class MotionCheck final : public RigStep {
   static params::DataFlow data_flow(const Params& params) { return params.thinning.flow(); }
 
   void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
-    const auto key_of = [](const RigEstimate& one) {
-      require_usable_clouds(one.estimate);
-      return RigKey{one.scene, one.target};
+    const auto key_of = [](const RigEstimate& member) {
+      require_usable_clouds(member.estimate);
+      return RigKey{member.scene, member.target};
     };
     for_each_group(rig_groups(rig, key_of), [&](const RigGroup& scene) { check(scene); });
   }
 
  private:
-  /// Rejects the poses of one scene if its clouds show motion. Sensors that were rejected take part
-  /// as well: motion is seen best where sensors look in the direction of travel.
+  /// Rejects the poses of one scene if its clouds show motion. Rejected sensors take part too:
+  /// motion is most visible to sensors that face the direction of travel.
   void check(const RigGroup& estimates) const {
     const bool is_any_accepted =
         std::any_of(estimates.begin(), estimates.end(),
-                    [](const RigEstimate* one) { return !one->estimate.rejection; });
+                    [](const RigEstimate* member) { return !member->estimate.rejection; });
     if (is_any_accepted) reject_if_moving(estimates);
   }
 
@@ -108,7 +107,7 @@ class MotionCheck final : public RigStep {
     const bool appears_to_travel =
         travel_m > kMinDoubtfulTravel_m &&
         certain_length(velocity.linear_mps, motion.covariance.bottomRightCorner<3, 3>()) > 0.0;
-    // Motion that was not corrected is a common reason for a rejection by an earlier step.
+    // Uncorrected motion is a common reason for a rejection by an earlier step.
     const bool is_any_rejected = std::any_of(
         estimates.begin(), estimates.end(),
         [](const RigEstimate* estimate) { return estimate->estimate.rejection.has_value(); });
@@ -148,7 +147,7 @@ class MotionCheck final : public RigStep {
     return travel_m > params_.max_travel_m || deg_from_rad(turn_rad) > params_.max_turn_deg;
   }
 
-  /// The clouds with the times of sweeps of one period that began together.
+  /// The clouds, with the times of scans of one period that start simultaneously.
   JointScene scene_of(const std::vector<RigEstimate*>& estimates) const {
     JointScene scene;
     scene.is_moving = true;
@@ -166,18 +165,18 @@ class MotionCheck final : public RigStep {
     return {thinned, sweep_times_s(points, sweep_of(points), params_.period_s)};
   }
 
-  /// The rig at rest, with its poses.
+  /// The rig at rest, at its current poses.
   static JointState start_of(const std::vector<RigEstimate*>& estimates) {
     JointState start;
-    for (const RigEstimate* const one : estimates) {
-      start.T_target_sensor.push_back(one->estimate.T_target_source);
+    for (const RigEstimate* const member : estimates) {
+      start.T_target_sensor.push_back(member->estimate.T_target_source);
     }
     start.clock_offsets_s.assign(estimates.size(), 0.0);
     start.velocities.emplace_back();
     return start;
   }
 
-  /// How far `state` is ahead of where other speeds lead each source.
+  /// The lead of `state`, by source, over the states to which other speeds converge.
   std::vector<std::optional<double>> leads_of(const JointScene& scene, const JointState& state,
                                               const SceneMotion& motion) const {
     const Eigen::Vector3d axis = axis_of_motion(motion, state.velocities.front());
@@ -199,10 +198,9 @@ class MotionCheck final : public RigStep {
 StageEntry motion_check() {
   return stage_entry<MotionCheck>(
       "motion_check",
-      "Sees the whole rig: rejects the poses of a scene if motion during its scans, which was not "
-      "corrected, explains the clouds better than a rig at rest, or cannot be excluded. It needs "
-      "no "
-      "times: the points are taken to be measured by sweeps that turn about each sensor's z axis.",
+      "Processes the whole rig: rejects the poses of a scene if uncorrected motion during its "
+      "scans explains the clouds better than a rig at rest, or cannot be excluded. Needs no times: "
+      "each sensor is assumed to sweep about its z axis.",
       "croon", table(), 2);
 }
 

@@ -17,7 +17,7 @@ const params::Table<Params>& table() {
               "search", &Params::search,
               R"({"type": "coordinate_scan", "dofs": ["x", "y"], "translation_step_m": 0.1, )"
               R"("min_decrease_ratio": 0.0001})",
-              "Finds the pose of least cost; the paper searches x, then y."),
+              "Finds the pose of minimum cost; the paper searches x, then y."),
       }
           .inherit(nearest_cost_table());
   return table;
@@ -45,7 +45,7 @@ class PlanarAlignment final : public Step {
 StageEntry planar_alignment() {
   return stage_entry<PlanarAlignment>(
       "planar_alignment",
-      "Moves the sensor along the reference's x and y to the least nearest-neighbour distance.",
+      "Moves the sensor along the reference's x and y to minimise the nearest-neighbour distance.",
       "CROON (arXiv 2203.03182), rough calibration", table());
 }
 

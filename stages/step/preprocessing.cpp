@@ -13,14 +13,13 @@ struct Params {
 const params::Table<Params>& table() {
   static const params::Table<Params> table = {
       params::slots("reference", &Params::reference,
-                    "The filters of the reference's cloud, in this order."),
-      params::slots("sensor", &Params::sensor,
-                    "The filters of each sensor's cloud, in this order."),
+                    "Filters for the reference's cloud, in this order."),
+      params::slots("sensor", &Params::sensor, "Filters for each sensor's cloud, in this order."),
   };
   return table;
 }
 
-/// The cloud after `preprocessors`, made once for all starts.
+/// The cloud after `preprocessors`, computed once for all initial guesses.
 std::shared_ptr<const Cloud> preprocessed(
     std::shared_ptr<const Cloud> cloud,
     const std::vector<params::Slot<Preprocessor>>& preprocessors) {

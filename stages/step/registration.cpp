@@ -16,10 +16,10 @@ struct Params {
 const params::Table<Params>& table() {
   static const params::Table<Params> table = {
       params::slot("icp", &Params::icp, R"({"type": "icpn"})", "Registers the two clouds."),
-      params::choice("points", &Params::points, kPointsWords, "Which points are registered."),
+      params::choice("points", &Params::points, kPointsWords, "Points that are registered."),
       params::number("min_inlier_ratio", &Params::min_inlier_ratio, {0.0, 1.0},
-                     "The pose is rejected if fewer of the sensor's points have a correspondence; "
-                     "those that `trimmed` leaves out have none."),
+                     "Minimum share of the sensor's points with a correspondence (points that "
+                     "`trimmed` discards have none); below it the pose is rejected."),
   };
   return table;
 }
@@ -54,7 +54,8 @@ class RegistrationStep final : public Step {
 
 StageEntry registration() {
   return stage_entry<RegistrationStep>(
-      "registration", "Registers the sensor's cloud to the reference's from the pose so far.",
+      "registration",
+      "Registers the sensor's cloud to the reference's, starting from the current pose.",
       "CROON (arXiv 2203.03182), refinement", table());
 }
 

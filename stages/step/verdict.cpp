@@ -33,38 +33,38 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table = {
       params::slot("thinning", &Params::thinning,
                    R"({"type": "voxel_downsample", "leaf_size_m": 0.25})",
-                   "Makes the clouds even, so that numbers of points are areas."),
+                   "Equalises the density of the clouds, so that numbers of points measure area."),
       params::slot(
           "icp", &Params::icp,
           R"({"type": "point_to_plane", "max_distances_m": [0.8, 0.4], )"
           R"("max_iterations": 20, "normal_neighbours": 10, "rotation_tolerance_deg": 0.01, )"
           R"("translation_tolerance_m": 0.001})",
-          "Registers each half of the points, and the poses that compete."),
+          "Registers each half of the points, and the rival poses."),
       params::number("min_overlap_ratio", &Params::min_overlap_ratio, {0.0, 1.0},
-                     "Least share of the points that both sensors should see that agree."),
+                     "Minimum share of agreeing points among those that both sensors should see."),
       params::number("max_violation_ratio", &Params::max_violation_ratio, {0.0, 1.0},
-                     "Largest share of these points that lie where the other sensor sees through."),
-      params::number(
-          "min_lead", &Params::min_lead, {-1e3, 1e3},
-          "Of the points that are visible at the pose and at any of the first three others "
-          "that the search found, at least so many standard deviations more agree at the pose."),
+                     "Maximum share of these points that lie in free space of the other sensor."),
+      params::number("min_lead", &Params::min_lead, {-1e3, 1e3},
+                     "Minimum McNemar z-score of the pose over each of the first three rivals that "
+                     "the search found, from the points visible at both poses."),
       params::number("min_strength", &Params::min_strength, {0.0, 1.0},
-                     "In the direction that is held the least, at least this share of the points' "
-                     "mean squared motion is off their surfaces."),
-      params::number("max_halves_rotation_deg", &Params::max_halves_rotation_deg, {0.0, 180.0},
-                     "Largest rotation between the pose and those of two disjoint halves of the "
-                     "points."),
+                     "Minimum share of the points' mean squared motion that is normal to their "
+                     "surfaces, in the least constrained direction."),
+      params::number(
+          "max_halves_rotation_deg", &Params::max_halves_rotation_deg, {0.0, 180.0},
+          "Maximum rotation between the pose and the poses of two disjoint halves of the points."),
       params::number("max_halves_translation_m", &Params::max_halves_translation_m, {0.0, 1e6},
-                     "Largest distance between these poses."),
+                     "Maximum distance between these poses."),
       params::number("slide_m", &Params::slide_m, {0.0, 10.0},
-                     "The halves start this far to both sides in a loosely held direction."),
+                     "Distance to either side, along a weakly constrained direction, at which the "
+                     "halves start."),
       params::integer("slides", &Params::slides, {1, 6},
-                      "In how many directions, the most loosely held first."),
+                      "Number of such directions, the least constrained first."),
   };
   return table;
 }
 
-/// How far apart two disjoint halves of the points and the pose end, at most.
+/// Maximum distances between the pose and the poses of two disjoint halves of the points.
 struct Halves {
   double rotation_rad = 0.0;
   double translation_m = 0.0;
@@ -82,7 +82,7 @@ class Verdict final : public Step {
     constexpr double kContact_m = 0.3;
     const std::vector<HeldDirection> held = held_directions(*target, *source, T, kContact_m);
     const Halves halves = halves_of(*target, *source, T, held);
-    const std::optional<double> lead = least_lead(evidence, estimate, *target, *source);
+    const std::optional<double> lead = min_lead_over_rivals(evidence, estimate, *target, *source);
     const double strength = held.empty() ? 0.0 : held.front().strength;
     Reasons reasons;
     reasons.need_at_least("the overlap with agreeing surfaces", evidence.overlap_ratio(),
@@ -112,7 +112,7 @@ class Verdict final : public Step {
   }
 
  private:
-  /// Why a pose is rejected, in words and numbers.
+  /// The reasons for a rejection, with their numbers.
   struct Reasons {
     std::optional<std::string> words;
     void add(const std::string& reason) { words = with_reason(words, reason); }
@@ -138,7 +138,7 @@ class Verdict final : public Step {
                 fixed_number(params_.min_strength, 4) + ")");
   }
 
-  /// The points of the sample whose number has the remainder `half` by `halves`.
+  /// The points of the sample whose index modulo `halves` is `half`.
   static std::shared_ptr<const Cloud> part(const SensorView& view, std::size_t half,
                                            std::size_t halves) {
     Points points;
@@ -148,7 +148,8 @@ class Verdict final : public Step {
     return view.thinned->derived_in_trial(std::move(points), "half");
   }
 
-  /// Two halves of the points, started on either side of the pose in its loosest directions.
+  /// Registers two halves of the points, started on either side of the pose along its least
+  /// constrained directions.
   Halves halves_of(const SensorView& target, const SensorView& source, const RigidTransform& T,
                    const std::vector<HeldDirection>& held) const {
     constexpr double kNever = 1e3;
@@ -167,36 +168,38 @@ class Verdict final : public Step {
           worst.translation_m = std::max(worst.translation_m, apart.translation_m);
         }
       } catch (const StageError&) {
-        return {kPi, kNever};  // Too few points correspond.
+        return {kPi, kNever};  // Too few correspondences.
       }
     }
     return worst;
   }
 
-  /// The least lead over the poses that a global search found elsewhere: of the three with the most
-  /// evidence those that stay elsewhere and do not lie in free space; nothing if there is none.
-  std::optional<double> least_lead(const PoseEvidence& evidence, const Estimate& estimate,
-                                   const SensorView& target, const SensorView& source) const {
+  /// The minimum lead over the poses that a global search found elsewhere: the three with the most
+  /// evidence, except those that converge to this pose or lie in free space. std::nullopt if none
+  /// is left.
+  std::optional<double> min_lead_over_rivals(const PoseEvidence& evidence, const Estimate& estimate,
+                                             const SensorView& target,
+                                             const SensorView& source) const {
     constexpr std::size_t kRefined = 3;
     const std::vector<Hypothesis>* const others = estimate.extras.find(kHypotheses);
     if (others == nullptr) return std::nullopt;
     const auto points = part(source, 0, 2);
-    std::optional<double> least;
+    std::optional<double> min_lead;
     std::size_t refined = 0;
     for (const Hypothesis& other : *others) {
       if (agree(other.T_target_source, estimate.T_target_source, kSameHypothesis)) continue;
       if (++refined > kRefined) break;
       const RigidTransform T = refined_pose(other.T_target_source, target, *points);
       if (agree(T, estimate.T_target_source, kSameHypothesis)) continue;
-      const PoseEvidence its = pose_evidence(target, source, T);
-      if (its.violation_ratio() > params_.max_violation_ratio) continue;
-      const std::optional<double> lead = lead_over(evidence, its);
-      if (lead) least = std::min(*lead, least.value_or(*lead));
+      const PoseEvidence rival_evidence = pose_evidence(target, source, T);
+      if (rival_evidence.violation_ratio() > params_.max_violation_ratio) continue;
+      const std::optional<double> lead = lead_over(evidence, rival_evidence);
+      if (lead) min_lead = std::min(*lead, min_lead.value_or(*lead));
     }
-    return least;
+    return min_lead;
   }
 
-  /// The pose `T` refined; as it is if too few points correspond.
+  /// The refined pose `T`, or `T` itself if too few points correspond.
   RigidTransform refined_pose(const RigidTransform& T, const SensorView& target,
                               const Cloud& points) const {
     try {
@@ -212,13 +215,13 @@ class Verdict final : public Step {
 }  // namespace
 
 StageEntry verdict() {
-  return stage_entry<Verdict>("verdict",
-                              "Accepts or rejects the pose: overlap, free space, the lead over "
-                              "other poses, directions that nothing constrains, agreement of two "
-                              "halves of the points.",
-                              "croon; directions after Gelfand et al., 3DIM 2003; the lead "
-                              "after McNemar, Psychometrika 1947",
-                              table(), 2);
+  return stage_entry<Verdict>(
+      "verdict",
+      "Accepts or rejects the pose by overlap, free space, lead over other poses, unconstrained "
+      "directions, and agreement between two halves of the points.",
+      "croon; directions after Gelfand et al., 3DIM 2003; the lead "
+      "after McNemar, Psychometrika 1947",
+      table(), 2);
 }
 
 }  // namespace croon::stages::step

@@ -23,21 +23,22 @@ struct Params {
 const params::Table<Params>& table() {
   static const params::Table<Params> table = {
       params::slot("scorer", &Params::scorer, R"({"type": "pointer_octree"})",
-                   "Measures the volume that the two clouds occupy together."),
+                   "Computes the volume that the two clouds occupy together."),
       params::slot("search", &Params::search, R"({"type": "coordinate_scan"})",
-                   "Finds the pose of least volume."),
-      params::choice("points", &Params::points, kPointsWords, "Which points occupy volume."),
+                   "Finds the pose of minimum volume."),
+      params::choice("points", &Params::points, kPointsWords, "Points that occupy volume."),
       params::number(
           "overlap_cube_m", &Params::overlap_cube_m, {0.0, 1000.0},
-          "If not 0, only those points of the sensor count that, at the pose before, lie "
-          "in cubes of this edge in which the reference has points."),
+          "If not 0, only those of the sensor's points are used that, at the initial pose of this "
+          "step, lie in cubes of this edge that contain points of the reference."),
   };
   return table;
 }
 
-/// The source's points in cubes that hold points of the target. They are chosen once for all poses
-/// of a search, since clouds that move apart would otherwise occupy less. The target keeps all of
-/// its points: those elsewhere add the same to every pose. Throws StageError if none is left.
+/// The source's points in cubes that contain points of the target. They are chosen once for all
+/// poses of a search, since otherwise clouds that move apart would occupy less. The target keeps
+/// all its points: those outside the overlap add the same volume at every pose. Throws StageError
+/// if no point is left.
 std::shared_ptr<const Cloud> overlapping(const SelectedClouds& clouds,
                                          const RigidTransform& T_target_source, double cube_m) {
   const LeafGrid cubes(cube_m);
@@ -54,7 +55,7 @@ std::shared_ptr<const Cloud> overlapping(const SelectedClouds& clouds,
     if (of_target->count(leaf_key(cubes.leaf_of(T_target_source * p.cast<double>()))) > 0)
       kept.push_back(p);
   }
-  if (kept.empty()) throw StageError("the two clouds share no cube of overlap_cube_m");
+  if (kept.empty()) throw StageError("the two clouds have no common cube of overlap_cube_m");
   return clouds.source->derived_in_trial(std::move(kept), "overlap");
 }
 
@@ -87,7 +88,7 @@ class VolumeRefinement final : public Step {
 StageEntry volume_refinement() {
   return stage_entry<VolumeRefinement>(
       "volume_refinement",
-      "Moves the sensor to the pose at which the two clouds occupy the least volume together.",
+      "Moves the sensor to the pose at which the two clouds together occupy the minimum volume.",
       "CROON (arXiv 2203.03182), refinement", table());
 }
 

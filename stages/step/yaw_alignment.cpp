@@ -15,7 +15,7 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
           params::slot("search", &Params::search, R"({"type": "binary"})",
-                       "Finds the yaw of least cost."),
+                       "Finds the yaw of minimum cost."),
       }
           .inherit(nearest_cost_table());
   return table;
@@ -29,7 +29,7 @@ class YawAlignment final : public Step {
     TurningCost cost(nearest_cost(estimate, params_), estimate.T_target_source, estimate.up());
     const YawMinimum minimum = params_.search->minimise(
         {[&](double yaw_rad) { return cost(yaw_rad); },
-         [&](double yaw_rad, double enough) { return cost.below(yaw_rad, enough); },
+         [&](double yaw_rad, double upper_bound) { return cost.below(yaw_rad, upper_bound); },
          [&](double yaw_rad) { return cost.glance(yaw_rad); }});
     estimate.set_pose(cost.turned(minimum.yaw_rad));
     estimate.diagnostics = {{"cost_m2", minimum.cost},
@@ -46,7 +46,7 @@ class YawAlignment final : public Step {
 StageEntry yaw_alignment() {
   return stage_entry<YawAlignment>(
       "yaw_alignment",
-      "Turns the sensor about the ground's normal to the least nearest-neighbour distance: yaw.",
+      "Rotates the sensor about the ground normal to minimise the nearest-neighbour distance: yaw.",
       "CROON (arXiv 2203.03182), rough calibration", table());
 }
 

@@ -12,11 +12,11 @@ namespace {
 /// Bricks of 4 x 4 x 4 leaves, one bit for each leaf, found by hashing with open addressing.
 class BrickTable {
  public:
-  BrickTable() { resize(kLeastBits); }
+  BrickTable() { resize(kMinBits); }
 
-  /// Occupies the leaves of `keys` (LeafWindow). Nothing in the loop depends on what a point hits
-  /// but the search for a free slot, which seldom goes beyond the first: wrong predictions of
-  /// branches would cost more than all else.
+  /// Occupies the leaves of `keys` (LeafWindow). The only branch in the loop that depends on the
+  /// data is the search for a free slot, which seldom goes beyond the first: branch mispredictions
+  /// would dominate the cost.
   void occupy(const std::uint64_t* keys, std::size_t count) {
     while (slot_count() < kSlotsPerBrick * (used_count_ + count)) grow();
     Brick* const slots = slots_.data();
@@ -40,12 +40,13 @@ class BrickTable {
     return count;
   }
 
-  /// How many leaves are occupied here and not in `other`. Empties this table on the way.
+  /// Returns the number of leaves that are occupied here and not in `other`, and empties this
+  /// table.
   std::int64_t take_leaves_not_in(const BrickTable& other) {
     std::int64_t count = 0;
     for (std::size_t i = 0; i < used_count_; ++i) {
-      // The other table is larger than a cache, and a wrong prediction is noticed when its slot has
-      // arrived: slots are asked for long before.
+      // The other table is larger than a cache, and a misprediction is noticed only when its slot
+      // arrives, so slots are prefetched well ahead.
       const std::size_t ahead = std::min(i + kAhead, used_count_ - 1);
       __builtin_prefetch(&other.slots_[first_slot(slots_[used_[ahead]].key, other.shift_)]);
       Brick& brick = slots_[used_[i]];
@@ -69,11 +70,11 @@ class BrickTable {
     std::uint64_t leaves = 0;
   };
   static constexpr std::uint64_t kNone = ~std::uint64_t{0};
-  static constexpr int kLeastBits = 10;
-  /// At least so many, so that a search seldom goes beyond its first slot. With two a pose takes a
-  /// tenth to two fifths longer; with eight large tables leave the cache.
+  static constexpr int kMinBits = 10;
+  /// Minimum number of slots per brick, so that a search seldom goes beyond its first slot. With
+  /// two, a pose takes 10 to 40 % longer; with eight, large tables no longer fit the cache.
   static constexpr std::size_t kSlotsPerBrick = 4;
-  static constexpr std::size_t kAhead = 16;  ///< Half of them or twice as many are as fast.
+  static constexpr std::size_t kAhead = 16;  ///< Half or twice as many are as fast.
 
   std::size_t slot_count() const { return std::size_t{1} << (64 - shift_); }
 
@@ -82,14 +83,14 @@ class BrickTable {
     return brick_key * 0x9e3779b97f4a7c15 >> shift;
   }
 
-  /// Whether a slot is taken, and by another brick. The least of two numbers is 0 if one of them
-  /// is: one branch, which is seldom taken. With && there would be two, and which of them ends a
-  /// search is not predictable.
+  /// Whether another brick occupies a slot. The minimum of two unsigned numbers is 0 if either is:
+  /// one branch, seldom taken. With && there would be two, and which of them ends a search is
+  /// unpredictable.
   static bool is_of_another(const Brick& brick, std::uint64_t brick_key) {
     return std::min(brick.key ^ brick_key, brick.key ^ kNone) != 0;
   }
 
-  /// The slot of a brick, or the free one that it would get. A free slot has no leaves.
+  /// The slot of a brick, or the free slot where it would be inserted. A free slot has no leaves.
   static std::size_t slot_of(std::uint64_t brick_key, const Brick* slots, int shift) {
     std::size_t slot = first_slot(brick_key, shift);
     while (is_of_another(slots[slot], brick_key)) {
@@ -98,7 +99,7 @@ class BrickTable {
     return slot;
   }
 
-  /// Uses 2^bits slots, which are free, from now on.
+  /// Sets the number of slots to 2^bits; all of them must be free.
   void resize(int bits) {
     shift_ = 64 - bits;
     if (slots_.size() < slot_count()) {
@@ -121,16 +122,16 @@ class BrickTable {
     }
   }
 
-  /// The next pose needs about as many slots as the last one; all that were ever needed would be
-  /// more than the cache has. The memory is kept.
+  /// Resizes for about as many slots as the last pose used: the maximum so far could exceed the
+  /// cache. The memory is kept.
   void begin_again() {
-    int bits = kLeastBits;
+    int bits = kMinBits;
     while (std::size_t{1} << bits < kSlotsPerBrick * (used_count_ + LeafWindow::kBlock)) ++bits;
     used_count_ = 0;
     resize(bits);
   }
 
-  std::vector<Brick> slots_;  ///< The first slot_count() are in use, at most a quarter taken.
+  std::vector<Brick> slots_;  ///< The first slot_count() are in use, at most a quarter occupied.
   std::vector<std::uint32_t> used_;
   std::vector<Brick> moved_;
   std::size_t used_count_ = 0;
@@ -149,7 +150,7 @@ class BrickHash final : public LeafSet {
 
   std::int64_t leaves_with(const PointColumns& source,
                            const RigidTransform& T_grid_source) const override {
-    // One per thread: no pose allocates memory after the first.
+    // One per thread: only the first pose allocates memory.
     thread_local BrickTable added;
     added.clear();
     const FarLeaves far = occupy(source, T_grid_source, added);

@@ -14,9 +14,9 @@ struct MeanMapEntropy {
   /// exp(h) of the entropy `h = 1/2 ln det(2 pi e C)` of a normal density with the covariance C.
   static double volume_m3(const Eigen::Matrix3d& covariance, const NeighbourhoodOptions& options) {
     constexpr double kOfVariance = 2.0 * M_PI * M_E;
-    // No variance is below that of the noise, but rounding may take the determinant below zero.
-    const double least = std::pow(kOfVariance * options.noise_m * options.noise_m, 3);
-    return std::sqrt(std::max((kOfVariance * covariance).determinant(), least));
+    // No variance is below that of the noise, but rounding may make the determinant negative.
+    const double min_determinant = std::pow(kOfVariance * options.noise_m * options.noise_m, 3);
+    return std::sqrt(std::max((kOfVariance * covariance).determinant(), min_determinant));
   }
 };
 
@@ -24,8 +24,8 @@ struct MeanMapEntropy {
 
 StageEntry mean_map_entropy() {
   return neighbourhood_scorer_entry<MeanMapEntropy>(
-      "The exponential of the mean entropy of the points around each point: a volume that is "
-      "smooth in the pose.",
+      "The exponential of the mean entropy of each point's neighbourhood: a volume that is smooth "
+      "in the pose.",
       "Razlaw, Droeschel, Holz and Behnke, Evaluation of registration methods for sparse 3D laser "
       "scans, ECMR 2015");
 }

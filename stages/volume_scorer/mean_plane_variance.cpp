@@ -11,7 +11,8 @@ struct MeanPlaneVariance {
   static constexpr const char* kName = "mean_plane_variance";
   static constexpr NeighbourhoodMean kMean = NeighbourhoodMean::arithmetic;
 
-  /// A disk as wide as the neighbourhood, whose thickness t has the variance across it, t^2 / 12.
+  /// A disk with the neighbourhood's radius and a thickness t whose variance t^2 / 12 is that of
+  /// the points.
   static double volume_m3(const Eigen::Matrix3d& covariance, const NeighbourhoodOptions& options) {
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
     axes.computeDirect(covariance, Eigen::EigenvaluesOnly);

@@ -9,7 +9,7 @@
 namespace croon::stages::volume_scorer {
 namespace {
 
-/// The lowest 21 bits with two zeros after each (Morton 1966).
+/// Spreads the lowest 21 bits, with two zeros after each (Morton 1966).
 std::uint64_t spread(std::uint64_t bits) {
   bits = (bits | bits << 32) & 0x001f00000000ffff;
   bits = (bits | bits << 16) & 0x001f0000ff0000ff;
@@ -18,7 +18,7 @@ std::uint64_t spread(std::uint64_t bits) {
   return (bits | bits << 2) & 0x1249249249249249;
 }
 
-/// The index of a leaf in Z order: the order of the leaves of an octree, each of whose cubes is an
+/// The index of a leaf in Z order, the order of the leaves of an octree; each of its cubes is an
 /// interval of codes.
 std::uint64_t morton_code(std::uint64_t key) {
   const std::array<std::uint64_t, 3> offsets = LeafWindow::offsets(key);
@@ -27,8 +27,7 @@ std::uint64_t morton_code(std::uint64_t key) {
 
 using Codes = std::vector<std::uint64_t>;
 
-/// Sorts by digits of 11 bits, the lowest first (radix sort). Digits that all codes share cost one
-/// look.
+/// Radix sort by digits of 11 bits, the lowest first. Digits that all codes share are skipped.
 void sort_codes(Codes& codes, Codes& buffer) {
   constexpr int kDigitBits = 11;
   constexpr std::size_t kDigits = 6;
@@ -55,7 +54,7 @@ void sort_codes(Codes& codes, Codes& buffer) {
   }
 }
 
-/// How many different codes there are that `others` lacks; both are sorted.
+/// The number of distinct codes that are not in `others`; both are sorted.
 std::int64_t count_new_codes(const Codes& codes, const Codes& others) {
   std::int64_t count = 0;
   auto other = others.begin();
@@ -63,7 +62,7 @@ std::int64_t count_new_codes(const Codes& codes, const Codes& others) {
   for (const std::uint64_t code : codes) {
     if (code == last) continue;
     last = code;
-    // Steps that double: the next one is near, unless the others have a region of their own.
+    // Doubling steps: the next code is usually near, except where `others` has leaves of its own.
     auto step = std::ptrdiff_t{1};
     auto low = other;
     while (others.end() - low > step && low[step] < code) {
@@ -88,7 +87,7 @@ class MortonSort final : public LeafSet {
 
   std::int64_t leaves_with(const PointColumns& source,
                            const RigidTransform& T_grid_source) const override {
-    // One per thread: no pose allocates memory after the first.
+    // One per thread: only the first pose allocates memory.
     static thread_local Codes codes;
     const FarLeaves far = sort_leaves(source, T_grid_source, codes);
     const auto target_leaves = static_cast<std::int64_t>(codes_.size() + far_.size());
@@ -96,7 +95,7 @@ class MortonSort final : public LeafSet {
   }
 
  private:
-  /// The leaves' codes, sorted, each as often as it has points; those outside of the window.
+  /// Sets `codes` to the sorted code of every point's leaf; returns the leaves outside the window.
   FarLeaves sort_leaves(const PointColumns& points, const RigidTransform& T_grid_points,
                         Codes& codes) const {
     static thread_local Codes buffer;
@@ -110,7 +109,7 @@ class MortonSort final : public LeafSet {
   }
 
   LeafWindow window_;
-  Codes codes_;  ///< Each once, sorted.
+  Codes codes_;  ///< Distinct, sorted.
   FarLeaves far_;
 };
 
@@ -118,7 +117,7 @@ class MortonSort final : public LeafSet {
 
 StageEntry morton_sort() {
   return leaf_scorer_entry<MortonSort>(
-      "Sorts the leaves in Z order and counts the different ones.",
+      "Sorts the leaves in Z order and counts the distinct ones.",
       "linear octree (Gargantini 1982) in the order of Morton 1966, for the volume of CROON (arXiv "
       "2203.03182)");
 }

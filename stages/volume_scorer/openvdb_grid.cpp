@@ -35,7 +35,7 @@ class OpenvdbGrid final : public LeafSet {
 }  // namespace
 
 StageEntry openvdb_grid() {
-  return leaf_scorer_entry<OpenvdbGrid>("Counts the voxels of a sparse grid that hold points.",
+  return leaf_scorer_entry<OpenvdbGrid>("Counts the voxels of a sparse grid that contain points.",
                                         "OpenVDB (Museth 2013)");
 }
 

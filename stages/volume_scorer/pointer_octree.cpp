@@ -8,9 +8,8 @@
 namespace croon::stages::volume_scorer {
 namespace {
 
-/// The paper's octree (refinement): a cube that holds points is cut into eight until its side is
-/// that of a leaf. The root's side is 2^depth leaves; it doubles towards a leaf that it does not
-/// cover.
+/// The paper's octree (refinement): a cube that contains points is divided into eight down to the
+/// leaf size. The root's side is 2^depth leaves; it doubles towards a leaf outside it.
 class Octree {
  public:
   std::int64_t leaves() const { return leaves_; }
@@ -54,8 +53,8 @@ class Octree {
   static constexpr std::uint32_t kNone = 0;
   static constexpr std::uint32_t kLeaf = 1;
 
-  /// The child of a cube of side 2^(level + 1) leaves that holds the leaf `offset` (from the root's
-  /// corner).
+  /// The child, of a cube of side 2^(level + 1) leaves, that contains the leaf `offset` (from the
+  /// root's corner).
   static std::size_t octant(const Vector3l& offset, int level) {
     return static_cast<std::size_t>((offset.x() >> level & 1) | (offset.y() >> level & 1) << 1 |
                                     (offset.z() >> level & 1) << 2);
@@ -63,7 +62,7 @@ class Octree {
 
   bool covers(const Eigen::Vector3i& leaf) const {
     const Vector3l offset = leaf.cast<std::int64_t>() - corner_;
-    // A negative offset has high bits too.
+    // A negative offset has its high bits set.
     return (offset.x() | offset.y() | offset.z()) >> depth_ == 0;
   }
 
@@ -110,7 +109,7 @@ class PointerOctree final : public LeafSet {
 
   std::int64_t leaves_with(const PointColumns& source,
                            const RigidTransform& T_grid_source) const override {
-    // One per thread: allocating its memory again for each pose would take most of the time.
+    // One per thread: reallocating its memory for each pose would take most of the time.
     thread_local Octree added;
     added.clear();
     for (std::size_t i = 0; i < source.size(); ++i) {
@@ -129,7 +128,8 @@ class PointerOctree final : public LeafSet {
 
 StageEntry pointer_octree() {
   return leaf_scorer_entry<PointerOctree>(
-      "Cuts every cube that holds points into eight down to the leaf size and counts the leaves.",
+      "Divides every cube that contains points into eight down to the leaf size and counts the "
+      "leaves.",
       "CROON (arXiv 2203.03182), refinement");
 }
 

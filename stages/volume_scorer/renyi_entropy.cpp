@@ -17,24 +17,24 @@ struct Params {
 const params::Table<Params>& table() {
   static const params::Table<Params> table = {
       params::number("width_m", &Params::width_m, {1e-3, 100.0},
-                     "Standard deviation of the Gaussian that each point is blurred by."),
+                     "Standard deviation of the Gaussian that blurs each point."),
       params::integer("max_points", &Params::max_points, {1, 1e9},
-                      "At most this many of the sensor's points, evenly spaced."),
+                      "Maximum number of the sensor's points that are used, evenly spaced."),
   };
   return table;
 }
 
 /// Points farther apart than this many widths are not paired: their Gaussians overlap by 1e-4 of
-/// those of equal points.
+/// the overlap of coincident points.
 constexpr double kReach = 6.0;
 
-/// The exponential of the quadratic Renyi entropy of the density p that all points blurred make,
+/// The exponential of the quadratic Renyi entropy of the density p of all blurred points,
 ///
 ///   exp(H2) = 1 / int p^2 = N^2 / sum_ij G(x_i - x_j),   G(d) = exp(-d^2 / 4 w^2) / (4 pi
 ///   w^2)^1.5,
 ///
-/// which is the volume of a uniform density of the same entropy. Of the pairs inside of one cloud,
-/// which no pose changes, only those of a point with itself are counted.
+/// which is the volume of a uniform density of the same entropy. Pairs within one cloud do not
+/// depend on the pose; of these only each point with itself is counted.
 class RenyiEntropy final : public VolumeScorer {
  public:
   explicit RenyiEntropy(const Params& params) : params_(params) {}
@@ -73,7 +73,7 @@ StageEntry renyi_entropy() {
   return stage_entry<RenyiEntropy>(
       "renyi_entropy",
       "The exponential of the quadratic Renyi entropy of both clouds, each point blurred by a "
-      "Gaussian, without the pairs inside of a cloud: a volume that is smooth in the pose.",
+      "Gaussian, without the pairs within a cloud: a volume that is smooth in the pose.",
       "Sheehan, Harrison and Newman, Self-calibration for a 3D laser, 2012", table());
 }
 

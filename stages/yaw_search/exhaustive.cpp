@@ -13,7 +13,7 @@ struct Params {
 const params::Table<Params>& table() {
   static const params::Table<Params> table = {
       params::number("range_deg", &Params::range_deg, {0.01, 180.0},
-                     "Half range of the search around the start."),
+                     "Half range of the search around the initial yaw."),
       params::number("step_deg", &Params::step_deg, {0.001, 180.0}, "Step of the grid."),
   };
   return table;
@@ -24,8 +24,8 @@ class Exhaustive final : public YawSearch {
   explicit Exhaustive(const Params& params) : params_(params) {}
 
   YawMinimum minimise(const YawCost& cost) const override {
-    const GridMinimum least = least_on_grid(cost, params_.range_deg, params_.step_deg);
-    return {rad_from_deg(least.multiple * params_.step_deg), least.cost, least.evaluations};
+    const GridMinimum minimum = least_on_grid(cost, params_.range_deg, params_.step_deg);
+    return {rad_from_deg(minimum.multiple * params_.step_deg), minimum.cost, minimum.evaluations};
   }
 
  private:
@@ -36,7 +36,8 @@ class Exhaustive final : public YawSearch {
 
 StageEntry exhaustive() {
   return stage_entry<Exhaustive>(
-      "exhaustive", "Evaluates every yaw of a grid around the start; the baseline of the others.",
+      "exhaustive",
+      "Evaluates every yaw of a grid around the initial one; the baseline for the other searches.",
       "croon", table());
 }
 

@@ -147,7 +147,7 @@ TEST_F(BadInput, MisspeltFolderOfTheData) {
   edit("\"path\": \"rig\"", "\"path\": \"another\"");
   expect_refused({": /dataset/path: " + root + "another" + none + "; known: rig"});
   edit("\"path\": \"rig\"", "\"path\": \"../other\"");
-  expect_refused_with({"e.json: /dataset/path: ", "leads outside the data root"});
+  expect_refused_with({"e.json: /dataset/path: ", "is outside the data root"});
 }
 
 TEST_F(BadInput, MisspeltFiles) {

@@ -97,8 +97,9 @@ TEST_F(GivenVelocities, AreReadStrictly) {
   write_velocities(kRows);
   expect_refusal(run(R"("file": "v.csv")", R"("loops": true, )"),
                  "x.json: /pipeline/0: the step \"known_velocity\" expects no \"loops\"");
-  expect_refusal(run(R"("file": "v.csv", "linear_mps": [1, 0, 0])"), "no key beside \"file\"");
-  expect_refusal(run(R"("linear_std_mps": 1)"), "must both be 0 or both be above it");
+  expect_refusal(run(R"("file": "v.csv", "linear_mps": [1, 0, 0])"),
+                 "no such key together with \"file\"");
+  expect_refusal(run(R"("linear_std_mps": 1)"), "must both be 0 or both be positive");
 }
 
 }  // namespace

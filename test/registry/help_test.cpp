@@ -106,7 +106,7 @@ TEST(StagesHelp, ShowsTheParametersOfObjectsBelowThem) {
 TEST(StagesHelp, SaysWhatAnObjectTakes) {
   const std::string page = nested_help(HelpFormat::text);
   for (const char* line :
-       {"model: one of coarse, fine, or an object, which may begin with one (like); default "
+       {"model: one of coarse, fine, or an object, which may start from one (like); default "
         "\"coarse\"",
         "mix: an object; default {\"urban\":3,\"highway\":1}", "rig: one of pair, or an object",
         "rig.sensors: an object with a sensor's name for each key; required"}) {

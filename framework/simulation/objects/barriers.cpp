@@ -65,7 +65,7 @@ Mesh make_garden_wall(const Path& path, double height_m, Rng& rng) {
 
 Mesh make_jersey_barrier(const Path& path) {
   // The New Jersey profile of 32 inches: foot, slopes of 55 and 84 degrees. All corners are visible
-  // from the first one, so the ends of the loft are right although the profile is not convex.
+  // from the first one, so the ends of the loft are correct although the profile is not convex.
   const Profile profile = {{0.0, kPostFoot_m}, {0.3, kPostFoot_m}, {0.3, 0.08},
                            {0.17, 0.33},       {0.08, 0.8},        {-0.08, 0.8},
                            {-0.17, 0.33},      {-0.3, 0.08},       {-0.3, kPostFoot_m}};

@@ -10,13 +10,13 @@ constexpr double kBridgeFoot_m = -1.0;
 constexpr double kSlab_m = 0.35;     ///< Thickness of a deck above its girders.
 constexpr double kParapet_m = 0.25;  ///< Thickness of a parapet.
 
-/// The dimensions of a bridge. Positions beside the road count from its centre line.
+/// The dimensions of a bridge. Lateral positions are relative to the centre line of the road.
 struct Bridge {
   Span along_m;
   double low_m = 5.0;        ///< Height of the lower side.
   double top_m = 6.0;        ///< Height of the deck.
   double pier_m = 0.0;       ///< Position of the piers; 0: none.
-  double abutment_m = 8.0;   ///< Begin of the abutments.
+  double abutment_m = 8.0;   ///< Start of the abutments.
   double approach_m = 60.0;  ///< End of the embankments behind them.
   bool has_girders = false;
   bool has_railing = false;

@@ -3,15 +3,15 @@
 namespace croon::simulation {
 namespace {
 
-/// What a type of car or van is drawn from. The defaults are those of a hatchback. Ratios in z
-/// refer to the height; ratios in x refer to the length, from the car's middle forward.
+/// The distributions of a type of car or van, by default a hatchback. Ratios in z refer to the
+/// height; ratios in x refer to the length, from the car's middle forward.
 struct CarType {
   Span length_m = {3.6, 4.3};
   Span width_m = {1.66, 1.8};
   Span height_m = {1.42, 1.56};
   Span clearance_m = {0.15, 0.19};
   Span wheel_radius_m = {0.29, 0.32};
-  Span roof_width_ratio = {0.66, 0.74};  ///< Width of the roof to that of the car.
+  Span roof_width_ratio = {0.66, 0.74};  ///< Width of the roof relative to the car's.
   double belt_z_ratio = 0.63;            ///< The belt line.
   double nose_z_ratio = 0.5;             ///< The bonnet's front edge.
   Span belt_x_ratio = {-0.465, 0.27};    ///< Rear and front end of the cabin at the belt line.

@@ -35,7 +35,7 @@ WallFrame Block::wall(std::size_t side) const {
 
 WallPart Row::cell(int index) const {
   const double cell_m = (whole.right_m - whole.left_m) / cells;
-  // Neighbours share an edge exactly, and the last edge is the end of the wall.
+  // Neighbouring cells share an edge exactly, and the last edge is the end of the wall.
   const auto edge_m = [&](int i) { return i == cells ? whole.right_m : whole.left_m + i * cell_m; };
   return {edge_m(index), edge_m(index + 1), whole.low_m, whole.high_m};
 }

@@ -8,7 +8,7 @@
 namespace croon::simulation {
 
 /// The frame of a wall: `origin` at the lower left, seen from outside; `along` and `inwards` are
-/// level and have the length 1.
+/// horizontal unit vectors.
 struct WallFrame {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector3d along = Eigen::Vector3d::UnitX();
@@ -71,7 +71,7 @@ void add_wall(Mesh& mesh, const WallFrame& frame, const WallPart& part, Material
 void add_rim(Mesh& mesh, const WallFrame& frame, const WallPart& part, double from_depth_m,
              double to_depth_m, Material material);
 
-/// Adds a box that stands out of the wall by `out_m`.
+/// Adds a box that protrudes from the wall by `out_m`.
 void add_relief(Mesh& mesh, const WallFrame& frame, const WallPart& part, double out_m,
                 Material material);
 
@@ -88,8 +88,8 @@ void add_foundation(Mesh& mesh, const Block& block);
 
 /// A pitched roof with two slopes over a block.
 struct PitchedRoof {
-  double height_m = 6.0;  ///< Where the slopes meet the walls.
-  double rise_m = 3.0;    ///< From there to the ridge.
+  double height_m = 6.0;  ///< Height at which the slopes meet the walls.
+  double rise_m = 3.0;    ///< Height from there to the ridge.
   double eaves_m = 0.4;   ///< Overhang over the walls below the slopes.
   double verges_m = 0.0;  ///< Overhang over the gables.
   Material tiles = Material::brick;

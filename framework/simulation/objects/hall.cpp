@@ -12,7 +12,7 @@ struct HallStyle {
   double height_m = 8.0;
   double bay_m = 6.0;  ///< Distance from one rib to the next.
   bool has_ribs = false;
-  double rib_m = 0.2;      ///< How far they stand out.
+  double rib_m = 0.2;      ///< Protrusion of the ribs.
   double gates = 0.3;      ///< Share of the front's bays that have a gate.
   bool has_lights = true;  ///< A row of windows high up.
 };
@@ -62,15 +62,14 @@ void add_ribs(Mesh& mesh, const WallFrame& wall, const Row& row, const HallStyle
 }  // namespace
 
 Mesh make_hall(const BuildingSize& size, Rng& rng) {
-  constexpr int kMostBays = 8;
+  constexpr int kMaxBays = 8;
   const HallStyle style = draw_style(size.floors, rng);
   const Block block = {Eigen::Vector3d::Zero(), size.width_m, size.depth_m};
   Mesh mesh;
   add_foundation(mesh, block);
   for (std::size_t side = 0; side < Block::kWalls; ++side) {
     const double along_m = block.length_m(side);
-    const Row row = {{0.0, along_m, 0.0, style.height_m},
-                     cells_of(along_m, style.bay_m, kMostBays)};
+    const Row row = {{0.0, along_m, 0.0, style.height_m}, cells_of(along_m, style.bay_m, kMaxBays)};
     if (side == 0) {
       add_front(mesh, block.wall(side), row, style, rng);
     } else {

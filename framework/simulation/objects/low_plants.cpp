@@ -48,7 +48,7 @@ Mesh make_bush(Rng& rng) {
   const double leaf_size_m = 0.12 + 0.08 * height_m;
   const Vector3d centre(0.0, 0.0, 0.5 * height_m);
   const Vector3d radii(girth_ratio * height_m, girth_ratio * height_m, 0.5 * height_m);
-  // The core is solid and stands on a stem.
+  // A solid core on a stem.
   add_ellipsoid(mesh, centre, 0.62 * radii, 8, Material::leaf);
   add_cylinder(mesh, Vector3d::Zero(), centre, 0.05, 0.04, 5, Material::bark);
   const Vector3d reach = (radii.array() - 0.5 * leaf_size_m).matrix();
@@ -59,7 +59,7 @@ Mesh make_bush(Rng& rng) {
 Mesh make_hedge(double length_m, double height_m, double width_m, Rng& rng) {
   Mesh mesh;
   const double leaf_size_m = std::min(0.3, 0.4 * std::min(width_m, height_m));
-  const double depth_m = 0.5 * leaf_size_m;  // How far leaves stand out from the core.
+  const double depth_m = 0.5 * leaf_size_m;  // Protrusion of leaves from the core.
   const double half_m = 0.5 * width_m - depth_m;
   const double top_m = height_m - depth_m;
   const int pieces = std::max(1, static_cast<int>(length_m));

@@ -6,8 +6,8 @@
 #include "framework/simulation/draws.hpp"
 #include "framework/simulation/ground.hpp"
 
-// All objects of a scene. Their sizes and shapes are drawn from `rng` alone. Unless stated
-// otherwise, an object is in a frame of its own: z up, origin on the ground at its foot.
+// All objects of a scene. Their sizes and shapes depend on `rng` only. Unless stated otherwise, an
+// object is in its own frame: z up, origin on the ground at its foot.
 
 namespace croon::simulation {
 
@@ -31,8 +31,8 @@ Mesh make_person(Rng& rng);
 Mesh make_tree(Rng& rng);
 /// A round bush of 0.6 to 1.8 m.
 Mesh make_bush(Rng& rng);
-/// A cut hedge along x, from the origin to `length_m`, symmetric about y = 0. Single leaves stand
-/// out by up to 7 cm.
+/// A cut hedge along x, from the origin to `length_m`, symmetric about y = 0. Single leaves
+/// protrude by up to 7 cm.
 Mesh make_hedge(double length_m, double height_m, double width_m, Rng& rng);
 /// Tufts of high grass along x, from the origin to `length_m`, symmetric about y = 0.
 Mesh make_tufts(double length_m, double width_m, Rng& rng);
@@ -67,7 +67,7 @@ Mesh make_house(Rng& rng);
 /// A hall in the same frame: long walls with few openings, a flat roof.
 Mesh make_hall(const BuildingSize& size, Rng& rng);
 
-/// A line on the ground in world coordinates: two points or more, neighbours differ.
+/// A line on the ground in world coordinates: at least two points, consecutive ones distinct.
 using Path = std::vector<Eigen::Vector3d>;
 
 // Barriers follow a path, which is their middle, and go 0.3 m below it. World coordinates.

@@ -8,20 +8,20 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Lengths below are ratios of the body's height (after Drillis and Contini, 1966).
+// Lengths below are relative to the body's height (after Drillis and Contini, 1966).
 constexpr double kThigh = 0.245;
 constexpr double kShin = 0.24;
 constexpr double kAnkle = 0.04;
 constexpr double kUpperArm = 0.18;
 constexpr double kForearm = 0.2;
-// There is no skin among the materials; plaster scatters as much.
+// There is no material for skin; plaster has the same reflectivity.
 constexpr Material kSkin = Material::plaster;
 
-/// How a person stands or walks.
+/// The posture of a standing or walking person.
 struct Posture {
   double height_m = 1.7;
-  double girth_ratio = 1.0;  ///< Width of the body to the usual one.
-  double stride_rad = 0.0;   ///< Angle of the front leg from upright; 0: the person stands.
+  double girth_ratio = 1.0;  ///< Width of the body relative to the average.
+  double stride_rad = 0.0;   ///< Angle of the front leg from the vertical; 0: standing.
   double elbow_rad = 0.2;
   double lead = 1.0;  ///< 1: the left leg is in front; -1: the right.
 };
@@ -76,7 +76,7 @@ void add_arm(Mesh& mesh, const Posture& posture, const Vector3d& shoulder, doubl
   add_box(mesh, hand - Vector3d(0.02, 0.02, 0.06), hand + Vector3d(0.03, 0.02, 0.02), kSkin);
 }
 
-/// An outline across the trunk. All are ratios of the body's height.
+/// A cross-section of the trunk, relative to the body's height.
 struct Girth {
   double above_hip, half_depth, half_width;
 };

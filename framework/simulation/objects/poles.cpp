@@ -94,7 +94,7 @@ Mesh make_sign(Rng& rng) {
     const std::vector<Vector2d> outline = draw_plate(rng);
     const double half_m = depth_below(outline);
     add_plate(mesh, {radius_m + 0.02, 0.0, z_m + half_m}, outline, 0.012, Material::sign);
-    // A plate is as high above its middle as below it, a triangle twice as high.
+    // A plate extends as far above its middle as below it, a triangle twice as far.
     z_m += half_m + (outline.size() == 3 ? 2.0 : 1.0) * half_m + 0.03;
   }
   add_cylinder(mesh, {0.0, 0.0, 0.0}, {0.0, 0.0, z_m}, radius_m, radius_m, 8, Material::metal);

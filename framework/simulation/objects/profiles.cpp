@@ -18,15 +18,15 @@ Vector3d left_of(const Vector3d& from, const Vector3d& to) {
   return PathPoint{from, direction(from, to)}.left();
 }
 
-/// The vector to the left at the point `i`, so long that the pieces on either side have the
-/// thickness 1.
+/// The vector to the left at the point `i`, scaled so that the pieces on either side have a
+/// thickness of 1.
 Vector3d mitre(const Path& path, std::size_t i) {
-  constexpr double kLongest = 2.0;  // Sharp corners are cut off.
+  constexpr double kMaxLength = 2.0;  // Sharp corners are cut off.
   const std::size_t last = path.size() - 1;
   const Vector3d before = left_of(path[i > 0 ? i - 1 : 0], path[i > 0 ? i : 1]);
   const Vector3d after = left_of(path[i < last ? i : last - 1], path[std::min(i + 1, last)]);
   const Vector3d middle = (before + after).normalized();
-  return middle * std::min(kLongest, 1.0 / std::max(middle.dot(before), 1e-9));
+  return middle * std::min(kMaxLength, 1.0 / std::max(middle.dot(before), 1e-9));
 }
 
 }  // namespace

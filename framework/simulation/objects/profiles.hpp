@@ -18,7 +18,7 @@ Profile box_profile(const Eigen::Vector2d& low, const Eigen::Vector2d& high);
 /// same in each piece.
 std::vector<Ring> rings_along(const Path& path, const Profile& profile);
 
-/// A point on a path and the level direction of the path there, of length 1.
+/// A point on a path and the horizontal unit vector along the path there.
 struct PathPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector3d along = Eigen::Vector3d::UnitX();
@@ -27,7 +27,7 @@ struct PathPoint {
   Eigen::Vector3d left() const { return {-along.y(), along.x(), 0.0}; }
 };
 
-/// Evenly spaced points on the path from its begin to its end, at most `step_m` apart.
+/// Evenly spaced points on the path from its start to its end, at most `step_m` apart.
 std::vector<PathPoint> points_along(const Path& path, double step_m);
 
 /// Adds an upright box around `point`, from `low_m` to `high_m` above it; `half_m` are half its
@@ -42,8 +42,8 @@ class OverRoad {
   explicit OverRoad(const Ground& ground) : ground_(ground) {}
 
   /// World coordinates of the point `d_m` left of the centre line and `above_m` above the
-  /// carriageway. A negative `above_m` counts from the ground at the point itself, so that the feet
-  /// of walls are below the ground.
+  /// carriageway. A negative `above_m` is relative to the ground at the point itself, so that walls
+  /// extend below the ground.
   Eigen::Vector3d point(double s_m, double d_m, double above_m) const;
   /// `profile` at each s of `stations_m`.
   std::vector<Ring> rings(const std::vector<double>& stations_m, const Profile& profile) const;

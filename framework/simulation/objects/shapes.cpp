@@ -27,8 +27,8 @@ void add_end(Mesh& mesh, std::uint32_t first, std::uint32_t count, Material mate
   }
 }
 
-/// Adds the band between two rings of `count` vertices from `first` and from `second`; between
-/// open rings, the quad from the last vertex to the first is left out.
+/// Adds the band between two rings of `count` vertices from `first` and from `second`; between open
+/// rings, the quad from the last vertex to the first is omitted.
 void add_band(Mesh& mesh, std::uint32_t first, std::uint32_t second, std::uint32_t count,
               Material material, bool is_open = false) {
   for (std::uint32_t i = 0; i + (is_open ? 1 : 0) < count; ++i) {

@@ -37,7 +37,7 @@ void add_loft(Mesh& mesh, const std::vector<Ring>& rings, Material material);
 /// last corners are not joined to the first ones.
 void add_strip(Mesh& mesh, const std::vector<Ring>& rings, Material material);
 
-/// Adds a plate of `thickness_m` that faces x. Its outline (y, z) is given about `front`, the
+/// Adds a plate of `thickness_m` that faces x. Its outline (y, z) is relative to `front`, the
 /// middle of its front.
 void add_plate(Mesh& mesh, const Eigen::Vector3d& front,
                const std::vector<Eigen::Vector2d>& outline, double thickness_m, Material material);

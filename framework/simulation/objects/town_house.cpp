@@ -40,14 +40,14 @@ void draw_features(TownHouse& house, Rng& rng) {
 
 TownHouse draw_town_house(const BuildingSize& size, Rng& rng) {
   // On very large fronts, windows become wider instead of more numerous.
-  constexpr int kMostCells = 44;
+  constexpr int kMaxCells = 44;
   TownHouse house;
   house.size = size;
   house.wall = pick<Material>(
       {Material::brick, Material::plaster, Material::plaster, Material::concrete}, rng);
   house.floor_m = rng.uniform(2.8, 3.8);
   const double cell_m = rng.uniform(2.2, 3.5);
-  house.cells = cells_of(size.width_m, cell_m, std::max(1, kMostCells / size.floors));
+  house.cells = cells_of(size.width_m, cell_m, std::max(1, kMaxCells / size.floors));
   house.top = pick<Top>({Top::flat, Top::flat, Top::pitched, Top::pitched, Top::set_back}, rng);
   const bool is_large = size.floors > 2 && std::min(size.width_m, size.depth_m) > 6.0;
   if (house.top == Top::set_back && !is_large) house.top = Top::flat;
@@ -60,13 +60,13 @@ TownHouse draw_town_house(const BuildingSize& size, Rng& rng) {
 /// Adds the sides and the back, which have fewer windows than the front.
 void add_other_walls(Mesh& mesh, const TownHouse& house) {
   constexpr double kCell_m = 4.5;
-  constexpr int kMostCells = 18;
+  constexpr int kMaxCells = 18;
   const Block block = house.block();
   Opening window = house.window;
   window.width_m = std::min(window.width_m, 1.4);
   for (std::size_t side = 1; side < Block::kWalls; ++side) {
     const double along_m = block.length_m(side);
-    const int cells = cells_of(along_m, kCell_m, std::max(1, kMostCells / house.size.floors));
+    const int cells = cells_of(along_m, kCell_m, std::max(1, kMaxCells / house.size.floors));
     for (int floor = 0; floor < house.full_floors; ++floor) {
       const WallPart whole = {0.0, along_m, floor * house.floor_m, (floor + 1) * house.floor_m};
       add_openings(mesh, block.wall(side), {whole, cells}, window, house.wall);

@@ -21,8 +21,8 @@ struct TownHouse {
   bool has_shops = false;
   bool has_bands = false;
   double plinth_m = 0.4;
-  double relief_m = 0.05;  ///< How far the plinth and the bands stand out.
-  double cornice_m = 0.2;  ///< How far the cornice stands out.
+  double relief_m = 0.05;  ///< Protrusion of the plinth and the bands.
+  double cornice_m = 0.2;  ///< Protrusion of the cornice.
   Top top = Top::flat;
   double rise_m = 3.0;  ///< Of a pitched roof.
   Opening window;

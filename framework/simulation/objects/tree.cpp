@@ -21,7 +21,7 @@ void add_clump(Mesh& mesh, const Clump& clump, int leaves, double leaf_size_m, R
   constexpr int kSprays = 40;
   const double spray_m = std::min(1.1, clump.radii.minCoeff());
   add_leaves(mesh, clump.centre, 0.5 * clump.radii, kSprays, spray_m, rng);
-  // Leaves reach half their size beyond their middles.
+  // Leaves extend half their size beyond their centres.
   const Vector3d radii = (clump.radii.array() - 0.5 * leaf_size_m).matrix();
   add_leaves(mesh, clump.centre, radii, leaves, leaf_size_m, rng);
 }

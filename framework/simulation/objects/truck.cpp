@@ -65,7 +65,7 @@ void add_cargo_box(Mesh& mesh, const TruckShape& shape, Rng& rng) {
              {shape.height_m - 0.08, rear_m, front_m, half_m - 0.02},
              {shape.height_m, rear_m + 0.06, front_m - 0.06, half_m - 0.08}},
             wall);
-  // The rails along the floor stand out.
+  // The rails along the floor protrude.
   for (const double side : {1.0, -1.0}) {
     const double y_m = side * (half_m - 0.05);
     add_box(mesh, {rear_m, y_m - 0.05, shape.deck_m - 0.05},
@@ -141,7 +141,7 @@ Mesh make_truck(Rng& rng) {
   add_chassis(mesh, shape);
   add_cab(mesh, shape, rng);
   using AddLoad = void (*)(Mesh&, const TruckShape&, Rng&);
-  // Boxes are the most frequent.
+  // Boxes are drawn most often.
   const auto add_load = pick<AddLoad>({add_cargo_box, add_cargo_box, add_flatbed, add_tank}, rng);
   add_load(mesh, shape, rng);
   add_lights(mesh, shape.whole_m, shape.half_width_m - 0.05, 0.75);

@@ -11,7 +11,7 @@ constexpr double kTunnelFoot_m = -1.0;
 constexpr double kDado_m = 2.4;   ///< Height of the niches.
 constexpr double kNiche_m = 2.0;  ///< Length of a niche.
 
-/// The dimensions of a tunnel. Positions beside the road count from its centre line.
+/// The dimensions of a tunnel. Lateral positions are relative to the centre line of the road.
 struct Tunnel {
   Span along_m;
   double kerb_m = 4.0;   ///< End of the carriageway.

@@ -116,7 +116,7 @@ void add_body(Mesh& mesh, const BodyShape& shape) {
   add_axle(mesh, shape.front_axle_m, wheels);
   add_axle(mesh, shape.rear_axle_m, wheels);
   const double end_m = 0.5 * shape.length_m;
-  // Engine, floor and boot, which close the view through the arches.
+  // Engine, floor and boot, which block the view through the arches.
   add_box(mesh, {-end_m + 0.3, -half_m + 0.24, shape.clearance_m},
           {end_m - 0.3, half_m - 0.24, shape.nose_m - 0.1}, Material::rubber);
   add_mirrors(mesh, shape.cabin.belt.front_m - 0.35, 0.88 * half_m, shape.cabin.belt.z_m + 0.09,

@@ -10,8 +10,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Adds the part `span` of one side between the levels `low` and `high`; `span` is given in x at
-/// the lower level, its share of the length is the same at the upper one.
+/// Adds the part `span` of one side between the levels `low` and `high`; `span` is in x at the
+/// lower level, with the same share of the length at the upper one.
 void add_panel(Mesh& mesh, const Level& low, const Level& high, const Span& span, double side,
                Material material) {
   const auto corner = [&](const Level& level, double belt_x_m) {

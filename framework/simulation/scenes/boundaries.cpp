@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The points of a line on the ground, at most 3 m apart.
+/// Points along a line on the ground, at most 3 m apart.
 Path path_of(const Ground& ground, const RoadLine& line) {
   constexpr double kStep_m = 3.0;
   const double ds_m = line[1].s_m - line[0].s_m;
@@ -85,8 +85,8 @@ bool add_boundary(SceneBuilder& builder, const RoadLine& line, const Boundary& b
   const bool is_along = s_high - s_low > d_high - d_low;
   const double ahead_m = is_along ? 0.0 : half_m;
   const double aside_m = is_along ? half_m : 0.0;
-  if (!builder.take(road_box({s_low - ahead_m, s_high + ahead_m},
-                             {d_low - aside_m, d_high + aside_m}, boundary.height_m))) {
+  if (!builder.occupy(road_box({s_low - ahead_m, s_high + ahead_m},
+                               {d_low - aside_m, d_high + aside_m}, boundary.height_m))) {
     return false;
   }
   builder.add(make_boundary(path_of(builder.ground(), line), boundary, rng));

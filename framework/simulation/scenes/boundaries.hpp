@@ -19,7 +19,8 @@ enum class BoundaryType {
 /// A barrier that follows a line on the ground.
 struct Boundary {
   BoundaryType type = BoundaryType::fence;
-  double height_m = 1.2;  ///< Of its space, and of itself if the type has no fixed height.
+  /// Of its occupied space, and of the barrier itself unless its type has a fixed height.
+  double height_m = 1.2;
 };
 
 /// The line between two poses that is straight in road coordinates. Their yaw is not used.

@@ -9,10 +9,10 @@
 namespace croon::simulation {
 namespace {
 
-/// The longest duration of a scan. Moving objects occupy their way during that time.
+/// Maximum duration of a scan, during which moving objects occupy their path.
 constexpr double kScan_s = 0.15;
 
-/// The box of the car with a margin that stays empty.
+/// The box of the car with a margin that is kept clear.
 RoadBox car_box(const RoadPose& pose, const CarBody& body, double speed_mps) {
   constexpr double kMargin_m = 0.5;
   const double half_length_m = 0.5 * body.length_m + kMargin_m;
@@ -25,7 +25,7 @@ RoadBox car_box(const RoadPose& pose, const CarBody& body, double speed_mps) {
                   {pose.d_m - across_m, pose.d_m + across_m}, kHeadroom_m);
 }
 
-/// The lowest height of the ground under the boxes.
+/// The minimum height of the ground under the boxes.
 double lowest_ground_m(const Ground& ground, const std::array<RoadBox, 2>& boxes) {
   const RoadBox& box = boxes[0].isEmpty() ? boxes[1] : boxes[0];
   double lowest_m = ground.shape().height_m(box.min().x(), box.min().y());
@@ -59,7 +59,7 @@ void SceneBuilder::put_car(const RoadPose& pose, const CarBody& body, double spe
   keep_clear(car_box(pose, body, speed_mps));
 }
 
-bool SceneBuilder::take_all(const std::array<RoadBox, 2>& boxes) {
+bool SceneBuilder::occupy_all(const std::array<RoadBox, 2>& boxes) {
   for (const RoadBox& box : boxes) {
     if (!box.isEmpty() && !is_free(box)) return false;
   }
@@ -69,11 +69,11 @@ bool SceneBuilder::take_all(const std::array<RoadBox, 2>& boxes) {
   return true;
 }
 
-bool SceneBuilder::take(const RoadBox& box) { return take_all({box, RoadBox()}); }
+bool SceneBuilder::occupy(const RoadBox& box) { return occupy_all({box, RoadBox()}); }
 
-bool SceneBuilder::stand(const Mesh& mesh, const RoadPose& pose) {
+bool SceneBuilder::place_upright(const Mesh& mesh, const RoadPose& pose) {
   const std::array<RoadBox, 2> boxes = boxes_of(mesh, pose, shape().curvature_per_m);
-  if (!take_all(boxes)) return false;
+  if (!occupy_all(boxes)) return false;
   RigidTransform T_world_mesh = ground_.upright(pose.s_m, pose.d_m, pose.yaw_rad);
   T_world_mesh.translation.z() =
       std::min(T_world_mesh.translation.z(), lowest_ground_m(ground_, boxes));
@@ -82,7 +82,7 @@ bool SceneBuilder::stand(const Mesh& mesh, const RoadPose& pose) {
 }
 
 bool SceneBuilder::park(const Mesh& mesh, const RoadPose& pose) {
-  if (!take_all(boxes_of(mesh, pose, shape().curvature_per_m))) return false;
+  if (!occupy_all(boxes_of(mesh, pose, shape().curvature_per_m))) return false;
   add(mesh, ground_.on_slope(pose.s_m, pose.d_m, pose.yaw_rad));
   return true;
 }
@@ -94,7 +94,7 @@ bool SceneBuilder::drive(Mesh mesh, const RoadPose& pose, double speed_mps) {
   for (RoadBox& box : boxes) {
     if (!box.isEmpty()) box.extend(RoadBox(box.min() + way, box.max() + way));
   }
-  if (!take_all(boxes)) return false;
+  if (!occupy_all(boxes)) return false;
   world_.bodies.push_back({std::move(mesh), ground_.on_slope(pose.s_m, pose.d_m, pose.yaw_rad),
                            motion_at(pose, speed_mps)});
   return true;
@@ -111,7 +111,7 @@ void add_series(SceneBuilder& builder, const Roadside& side, const Span& along_m
     const double out_m = draw(rng, series.out_m);
     const double turn_rad = series.has_random_turn ? rng.uniform(0.0, 2.0 * kPi) : series.turn_rad;
     if (chance(rng, series.share)) {
-      builder.stand(pick(meshes, rng), side.at(position_m, out_m, turn_rad));
+      builder.place_upright(pick(meshes, rng), side.at(position_m, out_m, turn_rad));
     }
     position_m += draw(rng, series.spacing_m);
   }

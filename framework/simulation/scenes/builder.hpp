@@ -8,8 +8,8 @@
 
 namespace croon::simulation {
 
-/// Adds objects to a scene so that none stands in another. Functions that return a bool add the
-/// object and return true if its space is free; else they add nothing and return false.
+/// Adds objects to a scene without collisions. Functions that return a bool add the object and
+/// return true if its space is free; otherwise they add nothing and return false.
 class SceneBuilder {
  public:
   /// A scene with the ground of `shape` and nothing on it. The random streams of its parts are
@@ -25,18 +25,18 @@ class SceneBuilder {
   /// addition.
   void put_car(const RoadPose& pose, const CarBody& body, double speed_mps,
                double turn_rate_radps = 0.0);
-  /// Adds an upright object at the height of the lowest ground below it.
-  bool stand(const Mesh& mesh, const RoadPose& pose);
+  /// Adds an upright object at the minimum height of the ground below it.
+  bool place_upright(const Mesh& mesh, const RoadPose& pose);
   /// Adds an object that leans with the slope.
   bool park(const Mesh& mesh, const RoadPose& pose);
   /// Adds an object that leans with the slope and moves ahead: along the road, or straight on
   /// across it.
   bool drive(Mesh mesh, const RoadPose& pose, double speed_mps);
   /// Occupies `box` if it is free.
-  bool take(const RoadBox& box);
+  bool occupy(const RoadBox& box);
   bool is_free(const RoadBox& box) const { return occupancy_.is_free(box); }
   /// Occupies `box` in any case.
-  void keep_clear(const RoadBox& box) { occupancy_.take(box); }
+  void keep_clear(const RoadBox& box) { occupancy_.occupy(box); }
   /// Adds a mesh in world coordinates; its space is not occupied.
   void add(const Mesh& mesh) { add(mesh, RigidTransform{}); }
   void add(const Mesh& mesh, const RigidTransform& T_world_mesh) {
@@ -47,7 +47,7 @@ class SceneBuilder {
   World finish();
 
  private:
-  bool take_all(const std::array<RoadBox, 2>& boxes);
+  bool occupy_all(const std::array<RoadBox, 2>& boxes);
   Motion motion_at(const RoadPose& pose, double speed_mps) const;
 
   StreamKey key_;

@@ -9,17 +9,17 @@ namespace croon::simulation {
 namespace {
 
 constexpr double kFloor_m = 3.0;
-constexpr double kLeastWidth_m = 9.0;
+constexpr double kMinWidth_m = 9.0;
 
 BuildingSize draw_size(const Fronts& fronts, Rng& rng) {
   BuildingSize size;
-  size.width_m = rng.uniform(kLeastWidth_m, 22.0);
+  size.width_m = rng.uniform(kMinWidth_m, 22.0);
   size.depth_m = rng.uniform(9.0, 14.0);
   size.floors = draw_int(rng, fronts.floors_low, fronts.floors_high);
   return size;
 }
 
-/// True if an object at `own_m` near the car would stand beyond the end of its row, where another
+/// Whether an object at `own_m` near the car would extend beyond the end of its row, where another
 /// road may be. Far from the car this does not matter.
 bool leaves_row(const Span& own_m, const Span& along_m) {
   return std::abs(own_m.middle()) < kDetail_m &&
@@ -67,7 +67,7 @@ void add_fronts(SceneBuilder& builder, const Roadside& side, const Span& along_m
     if (leaves_row(own_m, along_m)) {
       own_m.to = along_m.to;
       size.width_m *= own_m.length() / needed_m;
-      if (size.width_m < kLeastWidth_m) break;
+      if (size.width_m < kMinWidth_m) break;
     }
     if (!builder.is_free(side.box(own_m, depth_m, kHeadroom_m))) {
       from_m += 2.0;
@@ -75,7 +75,8 @@ void add_fronts(SceneBuilder& builder, const Roadside& side, const Span& along_m
     }
     const bool is_near = std::abs(own_m.middle()) < kDetail_m;
     const Mesh building = is_near ? make_building(size, rng) : make_block(size, rng);
-    if (builder.stand(centred_along_x(building), side.at(own_m.middle(), out_m)) && is_near) {
+    if (builder.place_upright(centred_along_x(building), side.at(own_m.middle(), out_m)) &&
+        is_near) {
       close_gap(builder, side, {last_m + 0.1, from_m - 0.1}, out_m + 1.0, rng);
     }
     last_m = own_m.to;
@@ -91,7 +92,7 @@ void add_backdrop(SceneBuilder& builder, const Roadside& side, const Span& along
     const double away_m = draw(rng, out_m);
     const double half_m = 0.5 * size.width_m;
     if (leaves_row({from_m - half_m, from_m + half_m}, along_m)) continue;
-    builder.stand(centred_along_x(make_block(size, rng)), side.at(from_m, away_m));
+    builder.place_upright(centred_along_x(make_block(size, rng)), side.at(from_m, away_m));
   }
 }
 

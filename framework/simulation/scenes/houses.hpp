@@ -4,7 +4,7 @@
 
 namespace croon::simulation {
 
-/// Objects farther than this along the road from the car have no details.
+/// Maximum distance from the car along the road at which objects have details.
 constexpr double kDetail_m = 60.0;
 
 /// A row of town houses along a side.
@@ -13,14 +13,14 @@ struct Fronts {
   int floors_low = 2;
   int floors_high = 6;
   double wall_to_wall = 0.5;  ///< Share of the houses that touch the next one.
-  double side_street = 0.15;  ///< Share of the houses that a side street follows.
+  double side_street = 0.15;  ///< Share of the houses that are followed by a side street.
 };
 
 /// Adds a row of town houses with gaps and side streets; beyond `kDetail_m` they are plain blocks.
 void add_fronts(SceneBuilder& builder, const Roadside& side, const Span& along_m,
                 const Fronts& fronts, Rng rng);
 
-/// Adds plain blocks at distances within `out_m`, which are seen through the gaps of a row.
+/// Adds plain blocks at distances within `out_m`, visible through the gaps of a row.
 void add_backdrop(SceneBuilder& builder, const Roadside& side, const Span& along_m,
                   const Span& out_m, Rng rng);
 

@@ -8,7 +8,7 @@
 namespace croon::simulation {
 namespace {
 
-/// The part of `along_m` near the car. Farther away, small objects would cost more than they show.
+/// The part of `along_m` near the car. Farther away, small objects are not worth their cost.
 Span near_part(const Span& along_m) {
   return {std::max(along_m.from, -kDetail_m), std::min(along_m.to, kDetail_m)};
 }
@@ -51,7 +51,7 @@ void add_parked_row(SceneBuilder& builder, const Roadside& side, const Span& alo
     const double about_rad = chance(rng, 0.85) ? kWithTraffic_rad : 0.0;
     const double turn_rad = about_rad + rad_from_deg(rng.uniform(-2.0, 2.0));
     const double length_m = vehicle.size_m.x();
-    // Wide vehicles stand farther from the kerb, so that their wheels do not touch it.
+    // Wide vehicles park farther from the kerb, so that their wheels do not touch it.
     const double wide_m = std::max(0.0, 0.5 * (vehicle.size_m.y() - 1.85));
     builder.park(vehicle.mesh, side.at(from_m + 0.5 * length_m, out_m + off_m - wide_m, turn_rad));
     from_m += length_m + gap_m;
@@ -71,7 +71,7 @@ void add_people(SceneBuilder& builder, const Roadside& side, const Span& along_m
       builder.drive(person, side.at(position_m, away_m, turn_rad), speed_mps);
     } else {
       const double stand_rad = rng.uniform(0.0, 2.0 * kPi);
-      builder.stand(person, side.at(position_m, away_m, stand_rad));
+      builder.place_upright(person, side.at(position_m, away_m, stand_rad));
     }
   }
 }
@@ -82,9 +82,9 @@ void add_furniture(SceneBuilder& builder, const Roadside& side, const Span& alon
   const double strip_m = pavement.kerb_m + 0.7;
   const Span near_m = near_part(along_m);
   const double stop_m = rng.uniform(-25.0, 35.0);
-  if (chance(rng, 0.3) && near_m.holds(stop_m)) {
+  if (chance(rng, 0.3) && near_m.contains(stop_m)) {
     const double out_m = pavement.kerb_m + std::min(pavement.width_m - 1.0, 2.2);
-    builder.stand(make_bus_stop(rng), side.at(stop_m, out_m, kToRoad_rad));
+    builder.place_upright(make_bus_stop(rng), side.at(stop_m, out_m, kToRoad_rad));
   }
   const double lamp_m = rng.uniform(22.0, 34.0);
   add_series(builder, side, along_m,

@@ -4,8 +4,8 @@
 
 namespace croon::simulation {
 
-/// Adds a row of parked cars and vans with their middles at the distance `out_m`; the share `share`
-/// of the parking spaces is taken.
+/// Adds a row of parked cars and vans with their middles at the distance `out_m`; `share` is the
+/// share of occupied parking spaces.
 void add_parked_row(SceneBuilder& builder, const Roadside& side, const Span& along_m, double out_m,
                     double share, Rng rng);
 

@@ -22,7 +22,7 @@ struct Plot {
 void add_house(SceneBuilder& builder, const Roadside& side, const Plot& plot, Rng& rng) {
   const double off_m = rng.uniform(-1.0, 0.5);
   const Mesh house = centred_along_x(make_house(rng));
-  builder.stand(house, side.at(plot.along_m.middle() + off_m, plot.out_m + plot.setback_m));
+  builder.place_upright(house, side.at(plot.along_m.middle() + off_m, plot.out_m + plot.setback_m));
 }
 
 /// Adds a boundary to the pavement that leaves the driveway open, and one to the next plot.
@@ -69,12 +69,12 @@ void add_plants(SceneBuilder& builder, const Roadside& side, const Plot& plot,
     const double along_m = draw(rng, plot.along_m);
     const double out_m = draw(rng, i < front_trees ? front_m : back_m);
     const double turn_rad = rng.uniform(0.0, 2.0 * kPi);
-    builder.stand(pick(trees, rng), side.at(along_m, out_m, turn_rad));
+    builder.place_upright(pick(trees, rng), side.at(along_m, out_m, turn_rad));
   }
   for (int i = 0; i < bushes && std::abs(plot.along_m.middle()) < kDetail_m; ++i) {
     const double along_m = draw(rng, plot.along_m);
     const double out_m = draw(rng, front_m);
-    builder.stand(make_bush(rng), side.at(along_m, out_m));
+    builder.place_upright(make_bush(rng), side.at(along_m, out_m));
   }
 }
 

@@ -10,8 +10,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Length in s per metre where a road with `curvature_per_m` bends: the largest between the two d
-/// of `across_m`.
+/// Maximum length in s per metre, between the two d of `across_m`, on a road with
+/// `curvature_per_m`.
 double bend_ratio(double curvature_per_m, const Span& across_m) {
   const double inmost = std::max(curvature_per_m * across_m.from, curvature_per_m * across_m.to);
   return 1.0 / std::max(1.0 - inmost, 0.2);
@@ -26,7 +26,7 @@ RoadBox box_at(const RoadBox& box, const RoadPose& pose, double curvature_per_m)
     turned.extend(turn * box.corner(static_cast<RoadBox::CornerType>(corner)));
   }
   const double half_m = 0.5 * turned.sizes().x();
-  // A straight side of length 2 h leaves an arc by h^2 curvature / 2.
+  // A straight side of length 2 h deviates from an arc by h^2 curvature / 2.
   const double bulge_m = 0.5 * half_m * half_m * std::abs(curvature_per_m);
   const Vector3d foot(0.0, pose.d_m, 0.0);
   RoadBox moved(turned.min() + foot, turned.max() + foot);

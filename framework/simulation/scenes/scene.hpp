@@ -7,15 +7,15 @@
 #include "framework/simulation/rig.hpp"
 
 /// The kinds of scenes: the name, the weight in the mix "paper" and the description of the weight
-/// in "mix". The file kinds/<name>.cpp defines make_<name>. The paper's hard kinds come last; they
-/// have the share of the frames that fail in the paper, 101 of 1899.
+/// in "mix". The file kinds/<name>.cpp defines make_<name>. The paper's hard kinds come last; their
+/// share equals that of the paper's failures, 101 of 1899 frames.
 #define CROON_SCENE_KINDS(KIND)                                           \
   KIND(urban, 42.0, "Weight of town streets.")                            \
   KIND(suburban, 24.0, "Weight of streets of family houses.")             \
   KIND(highway, 5.0, "Weight of highways.")                               \
   KIND(crossing, 18.0, "Weight of crossings in a town.")                  \
   KIND(car_park, 5.7, "Weight of car parks.")                             \
-  KIND(empty, 1.5, "Weight of places where all around is the same.")      \
+  KIND(empty, 1.5, "Weight of featureless places.")                       \
   KIND(narrow, 1.3, "Weight of alleys with walls close on both sides.")   \
   KIND(blocked, 1.5, "Weight of streets with a truck beside one sensor.") \
   KIND(corridor, 1.0, "Weight of roads between long smooth walls.")
@@ -50,7 +50,7 @@ constexpr const SceneKindRow& row_of(SceneKind kind) {
 }
 
 /// A scene of `kind` without the car that carries the sensors: `car` of the result has a pose and a
-/// motion, but no mesh. No other object stands in the space of a body of the size `car`.
+/// motion, but no mesh. The space of a body of the size `car` is free.
 inline World make_scene(SceneKind kind, const CarBody& car, const StreamKey& key) {
   return row_of(kind).make(car, key);
 }

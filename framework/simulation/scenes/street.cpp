@@ -47,11 +47,11 @@ RoadShape draw_road(Rng& rng) {
   return shape;
 }
 
-Street draw_street(int least_lanes, Rng& rng) {
+Street draw_street(int min_lanes, Rng& rng) {
   Street street;
   street.shape = draw_road(rng);
   const int lanes = chance(rng, 0.65) ? 1 : 2;
-  street.lanes.each_way = std::max(least_lanes, lanes);
+  street.lanes.each_way = std::max(min_lanes, lanes);
   street.lanes.width_m = rng.uniform(3.1, 3.75);
   street.shape.half_width_m = street.lanes.edge_m() + kParking_m;
   street.shape.pavement_width_m = rng.uniform(2.8, 5.0);
@@ -61,8 +61,8 @@ Street draw_street(int least_lanes, Rng& rng) {
   const double kerb_m = street.shape.half_width_m + street.shape.pavement_width_m;
   for (std::size_t i = 0; i < 2; ++i) {
     street.has_parking[i] = chance(rng, 0.75);
-    const double least_m = std::max(kerb_m, 12.0);
-    street.front_m[i] = rng.uniform(least_m, least_m + 5.0);
+    const double min_front_m = std::max(kerb_m, 12.0);
+    street.front_m[i] = rng.uniform(min_front_m, min_front_m + 5.0);
   }
   return street;
 }

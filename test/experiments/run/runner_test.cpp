@@ -249,12 +249,12 @@ TEST(Runner, SaysHowATrialEnded) {
         Case{"reject", Status::rejected, "behave: too few points", true},
         Case{"defeat", Status::failed, "behave: no ground", false},
         Case{"nan", Status::failed, "the pose is not finite", false},
-        Case{"far", Status::failed, "the pose is farther away than 1000000000 m", false},
+        Case{"far", Status::failed, "the distance of the pose exceeds 1000000000 m", false},
         Case{"misjudge", Status::failed,
-             "the covariance is none: it is not symmetric, finite and positive semi-definite",
-             false},
+             "invalid covariance: not symmetric, finite and positive semi-definite", false},
         Case{"skewed", Status::failed,
-             "the pose has no rotation: the columns of its matrix are not orthonormal", false}}) {
+             "the rotation of the pose is invalid: the columns of its matrix are not orthonormal",
+             false}}) {
     json experiment = drifting_apart();
     experiment["pipeline"][1]["how"] = c.how;
     for (const TrialRecord& record : run(experiment).records) {

@@ -102,7 +102,7 @@ TEST(CalibrateRig, SetsAsideASensorThatIsACopyOfAnother) {
   EXPECT_FALSE(rig.sensors[1].is_accepted);
   EXPECT_FALSE(rig.sensors[1].T_reference_sensor.has_value());
   EXPECT_EQ(rig.sensors[1].reasons,
-            std::vector<std::string>{"the cloud of copy is a copy of that of top"});
+            std::vector<std::string>{"the cloud of copy is a copy of the cloud of top"});
 }
 
 TEST(CalibrateRig, NamesWhatTookNoPart) {
@@ -156,9 +156,10 @@ TEST(ReasonsInWords, AreSentencesWithNumbersAndAdvice) {
       "yaw (strength 0.0012, below 0.0100); a reason of another stage",
       std::nullopt);
   ASSERT_EQ(words.reasons.size(), 3U);
-  EXPECT_EQ(words.reasons[0],
-            "Only 12.3 % of what both sensors should see agrees; at least 15.0 % is required.");
-  EXPECT_EQ(words.reasons[1], "What both sensors see does not constrain x and yaw.");
+  EXPECT_EQ(
+      words.reasons[0],
+      "Only 12.3 % of the points that both sensors should see agree; at least 15.0 % is required.");
+  EXPECT_EQ(words.reasons[1], "The surfaces that both sensors see do not constrain x and yaw.");
   EXPECT_EQ(words.reasons[2], "A reason of another stage.");
   EXPECT_EQ(words.advice.size(), 3U);
 }

@@ -112,7 +112,7 @@ TEST(CheckRig, PairsTheSensorsByName) {
   EXPECT_EQ(checked[0].judgement, PoseJudgement::right);
   EXPECT_EQ(checked[1].judgement, PoseJudgement::wrong);
   EXPECT_EQ(checked[2].judgement, PoseJudgement::undecidable);
-  EXPECT_EQ(checked[2].finding, "no pose of it was given");
+  EXPECT_EQ(checked[2].finding, "no pose was given for it");
 }
 
 }  // namespace

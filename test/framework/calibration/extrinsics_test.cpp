@@ -270,11 +270,11 @@ TEST(Extrinsics, SayWhatIsWrongWithAFile) {
        "expected 1 number, found 0"},
       {"sensor,verdict,tx_m,ty_m,tz_m,qx,qy,qz,qw\nleft,accepted,0,0,0,0,0,0,1\n"
        "left,accepted,0,0,0,0,0,0,1\n",
-       "line 3", "\"left\" has a second pose; the first: line 2"},
+       "line 3", "\"left\" has a duplicate pose; the first one: line 2"},
       {"Tr_a_to_b: 1 0 0 0 0 1 0 0 0 0 1 0\nTr_c_to_d: 1 0 0 0 0 1 0 0 0 0 1 0\n", "line 2",
        "no pose that links the two"},
       {"Tr_a_to_b: 1 0 0 0 0 1 0 0 0 0 1 0\nTr_b_to_a: 1 0 0 0 0 1 0 0 0 0 1 0\n", "line 1",
-       "a loop of frames"},
+       "the frames form a loop"},
       {"Tr_a_to_b: 1 0 0 0 0 1 0 0 0 0 1\n", "line 1", "expected 12 numbers, found 11"},
       {"<robot><joint type='fixed'><parent link='a'/><child link='b'/><origin xyz='${x} 0 0'/>"
        "</joint></robot>",

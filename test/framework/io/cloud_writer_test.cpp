@@ -103,9 +103,9 @@ TEST(CloudWriter, RefusesWhatAFileCannotHold) {
   };
   for (const char* name : {"x", "", "two words", "a\nb", "\xff"}) {
     const std::string faults = faults_of({name, {}, 1, "1234"});
-    EXPECT_NE(faults.find("different names"), faults.rfind("different names")) << name;
+    EXPECT_NE(faults.find("distinct names"), faults.rfind("distinct names")) << name;
   }
-  EXPECT_NE(faults_of({"short", {}, 1, "123"}).find("not as long"), std::string::npos);
+  EXPECT_NE(faults_of({"short", {}, 1, "123"}).find("as long as the points"), std::string::npos);
   // PLY alone.
   EXPECT_EQ(faults_of({"many", {}, 2, "12345678"}).find("|" + path.string()), 0U);
   EXPECT_EQ(faults_of({"long", {ScalarKind::signed_integer, 8}, 1, "12345678"}).find("|"), 0U);

@@ -28,8 +28,9 @@ TEST(CloudList, NamesSensors) {
             "device_id: 2\npath: c/left-2.pcd\nsensor: rear left\n");
   for (const auto& [wrong, message] :
        {std::pair<const char*, const char*>{"sensor: a\ndevice_id: 0\npath: b\n",
-                                            "line 1: the line stands before its device_id"},
-        {"device_id: 0\npath: b\nsensor: a\nsensor: c\n", "line 4: the device has a second line"},
+                                            "line 1: the line precedes its device_id"},
+        {"device_id: 0\npath: b\nsensor: a\nsensor: c\n",
+         "line 4: the device has a duplicate line"},
         {"device_id: 0\npath: b\nsensor:\n", "line 3: expected a name, found none"}}) {
     EXPECT_NE(test::input_error([&, text = wrong] { read(text); }).find(message), std::string::npos)
         << wrong;
@@ -63,11 +64,11 @@ TEST(OpencalibFiles, SaysEveryLineThatIsWrong) {
       {"device_id: 0\ndevice_id: 1\npath: b\n", "line 1: the device has no line \"path\""},
       {"device_id: 0\npath: a\ndevice_id: 1\n", "line 3: the device has no line \"path\""},
       {"device_id: 0\npath: a\npath: b\n", "line 3: the line has no device_id beside it"},
-      {"device_id: 0\npath: a\ndevice_id: 0\npath: b\n", "line 4: device 0 stands here twice"},
-      {"device_id: -1\npath: a\n", "line 1: expected a device's number, found \"-1\""},
-      {"device_id: 9999999999\npath: a\n", "expected a device's number"},
-      {"device_id: 0\npath:\n", "line 2: expected a file's path"},
-      {"a\ndevice_id: x\npath: a\n", "line 2: expected a device's number, found \"x\""},
+      {"device_id: 0\npath: a\ndevice_id: 0\npath: b\n", "line 4: duplicate device 0"},
+      {"device_id: -1\npath: a\n", "line 1: expected a device number, found \"-1\""},
+      {"device_id: 9999999999\npath: a\n", "expected a device number"},
+      {"device_id: 0\npath:\n", "line 2: expected the path of a file"},
+      {"a\ndevice_id: x\npath: a\n", "line 2: expected a device number, found \"x\""},
   };
   for (const auto& [text, message] : cases) {
     const auto path = folder.write("list.txt", text);

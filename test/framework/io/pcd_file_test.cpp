@@ -156,7 +156,7 @@ TEST(PcdFile, SaysWhatIsWrongWithAHeader) {
       {"FIELDS", "FIELDS x y\n", "line 4: expected SIZE of 2 fields, found 3"},
       {"FIELDS", "FIELDS x y intensity\n", "line 3: the field z is missing"},
       {"FIELDS", "FIELDS x y x\n", "duplicate field x"},
-      {"FIELDS", "FIELDS x y z\nFIELDS x y z\n", "line 4: the header has a second line FIELDS"},
+      {"FIELDS", "FIELDS x y z\nFIELDS x y z\n", "line 4: the header has a duplicate line FIELDS"},
       {"TYPE", "TYPE F F\n", "line 5: expected TYPE of 3 fields, found 2"},
       {"TYPE", "TYPE F F Q\n", "found \"Q\" of 4"},
       {"SIZE", "SIZE 4 4 2\n", "found \"F\" of 2"},
@@ -165,7 +165,7 @@ TEST(PcdFile, SaysWhatIsWrongWithAHeader) {
       {"COUNT", "COUNT 1 1 2\n", "expected one number in the field z"},
       {"COUNT", "COUNT 1 1 99999999999\n", "cannot have"},
       {"WIDTH", "WIDTH -10\n", "line 7: expected a number of at least 0, found \"-10\""},
-      {"WIDTH", "WIDTH 18446744073709551615\n", "absurdly large"},
+      {"WIDTH", "WIDTH 18446744073709551615\n", "implausibly large"},
       {"HEIGHT", "HEIGHT 2\n", "expected POINTS to be WIDTH times HEIGHT, 20, found 10"},
       {"POINTS", "POINTS 11\n", "line 10: expected POINTS to be WIDTH times HEIGHT, 10, found 11"},
       {"DATA", "DATA zip\n", "expected DATA ascii, binary or binary_compressed, found \"zip\""},
@@ -204,7 +204,7 @@ TEST(PcdFile, BelievesNoSizeThatTheFileCannotHold) {
   EXPECT_THAT(error("binary_compressed", sizes(5, 60) + "1234"),
               HasSubstr("expected 5 compressed bytes, found 4"));
   EXPECT_THAT(error("binary_compressed", sizes(4, 4e9) + "1234"),
-              HasSubstr("cannot hold 4000000000"));
+              HasSubstr("cannot contain 4000000000"));
   EXPECT_THAT(error("binary_compressed", sizes(4, 300) + "1234"),
               HasSubstr("found 300 uncompressed bytes"));
 }

@@ -122,7 +122,7 @@ TEST(PointCloud2, RefusesMessagesThatContradictThemselves) {
   EXPECT_THAT(error_of(spec), HasSubstr("duplicate field \"y\""));
   spec = {};
   spec.datatype = 9;
-  EXPECT_THAT(error_of(spec), HasSubstr("datatype from 1 to 8 of the field \"z\", found 9"));
+  EXPECT_THAT(error_of(spec), HasSubstr("datatype from 1 to 8 for the field \"z\", found 9"));
   spec = {};
   spec.last_offset = 9;
   EXPECT_THAT(error_of(spec), HasSubstr("found its end at byte 13"));

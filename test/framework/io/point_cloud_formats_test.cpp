@@ -221,7 +221,7 @@ TEST(PointCloudFormats, OfOthersAreNamedWithTheWayToConvertThem) {
       {"a.stl", "solid\n", "EXTRACT_VERTICES"},
       {"a.bin", "CCB2", "CloudCompare"},
       {"a.pkl", "x", "numpy.save"},
-      {"a.png", "\x89PNG", "a picture"},
+      {"a.png", "\x89PNG", "an image"},
       {"a.zip", "PK\x03\x04", "ZIP archive"},
       {"a.xyzrgb", "1 2 3 4 5 6\n", ".xyz"},
   };
@@ -269,10 +269,11 @@ TEST(CommonOffset, OfAMapIsSubtractedInDoublePrecision) {
     const Eigen::Vector3f expected = local[i] + Eigen::Vector3f(0, 0, 515);
     EXPECT_LT((cloud.points[i + 1] - expected).norm(), 1e-4F);
   }
-  EXPECT_THAT(cloud.notes, ElementsAre("The coordinates are those of a map: (691000, 5336000, 0) m "
-                                       "is subtracted."));
+  EXPECT_THAT(
+      cloud.notes,
+      ElementsAre("The coordinates are map coordinates: (691000, 5336000, 0) m is subtracted."));
   EXPECT_THAT(read_point_cloud(folder.write("b.csv", single)).notes,
-              ElementsAre(HasSubstr("single precision, in steps of 0.5 m")));
+              ElementsAre(HasSubstr("single precision, with steps of 0.5 m")));
   EXPECT_TRUE(read_point_cloud(folder.write("c.xyz", "1 2 3\n4 5 6\n9e5 9e5 9e5\n")).notes.empty());
 }
 
@@ -287,13 +288,13 @@ TEST(TimesOfAFile, ThatStartAgainInEveryPacketAreNotUsed) {
   const LoadedCloud found = read_point_cloud(folder.path() / "a.pcd");
   EXPECT_EQ(find_channel(found, kTime), nullptr);
   EXPECT_NE(find_channel(found, kTimeInPacket), nullptr);
-  EXPECT_THAT(found.notes, ElementsAre(HasSubstr("start again in every packet")));
+  EXPECT_THAT(found.notes, ElementsAre(HasSubstr("restart in every packet")));
   std::vector<std::uint32_t> microseconds;
   for (std::uint32_t i = 0; i < 2000; ++i) microseconds.push_back(50 * i);
   cloud.channels = {make_channel(kTime, microseconds)};
   write_pcd(folder.path() / "a.pcd", cloud);
   const LoadedCloud in_seconds = read_point_cloud(folder.path() / "a.pcd");
-  EXPECT_THAT(in_seconds.notes, ElementsAre("The times are taken for microseconds."));
+  EXPECT_THAT(in_seconds.notes, ElementsAre("The times are assumed to be in microseconds."));
   EXPECT_NEAR(times_s(selected(in_seconds, {1999})).front(), 1999 * 50e-6, 1e-12);
 }
 

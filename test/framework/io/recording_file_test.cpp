@@ -219,7 +219,7 @@ TEST(RecordingFile, IsReadUpToItsDamage) {
       if (readable < 6) {
         EXPECT_THAT(test::input_error([&] { read_recording(cut); }),
                     AnyOf(HasSubstr("the recording was interrupted"),
-                          HasSubstr("the recording is damaged or not complete")));
+                          HasSubstr("the recording is damaged or incomplete")));
       }
       for (const std::string& notice : notices) {
         EXPECT_THAT(notice, HasSubstr("before that are used"));

@@ -86,7 +86,7 @@ TEST(FloatRows, AreNeverReadWithAnotherNumberOfColumns) {
         ++read;
         EXPECT_EQ(cloud.channels.size(), columns - 3) << points << " points of " << columns;
       } else {
-        EXPECT_THAT(error, HasSubstr("give their number (columns), rename rows of nuScenes"));
+        EXPECT_THAT(error, HasSubstr("specify their number (columns), rename nuScenes files"));
       }
       EXPECT_TRUE(error.empty() || points < 400) << columns << error;
       EXPECT_EQ(read_point_cloud(path, {columns}).size(), static_cast<std::size_t>(points));
@@ -107,7 +107,7 @@ TEST(FloatRows, OfAnotherTypeOrSizeAreRefused) {
     return test::input_error([&] { check_point_cloud_file(path, {columns}); });
   };
   EXPECT_THAT(error(doubles, 0),
-              testing::AnyOf(HasSubstr("beyond 1 km"), HasSubstr("cannot tell")));
+              testing::AnyOf(HasSubstr("beyond 1 km"), HasSubstr("cannot distinguish")));
   EXPECT_THAT(error(std::string(17, '\0'), 0), HasSubstr("found 17 bytes"));
   EXPECT_THAT(error(std::string(44, '\0'), 0), HasSubstr("expected rows of 4 or 5 floats"));
   EXPECT_THAT(error(std::string(44, '\0'), 5), HasSubstr("expected rows of 5 floats"));
@@ -139,9 +139,9 @@ TEST(NpyFile, SaysWhatIsWrong) {
       {npy(header("'|O'", "(5, 3)"), ""), "found the type \"|O\""},
       {npy(header("'<f4'", "(2, 3)"), "1234"), "expected 2 points of 24 bytes, found 4 bytes"},
       {npy(header("'<f4'", "(99999999999999999999, 3)"), ""), "expected a whole number"},
-      {npy(header("'<f8'", "(999999999999999999, 3)"), ""), "absurdly large"},
+      {npy(header("'<f8'", "(999999999999999999, 3)"), ""), "implausibly large"},
       {npy(header("[('x', '<f4'), ('y', '<f4')]", "(2,)"), ""), "no field z"},
-      {npy(header(xyz + ", ('n', '<f4', (3, 99999999))]", "(2,)"), ""), "absurdly large"},
+      {npy(header(xyz + ", ('n', '<f4', (3, 99999999))]", "(2,)"), ""), "implausibly large"},
   };
   for (const auto& [bytes, message] : cases) {
     const auto path = folder.write("a.npy", bytes);

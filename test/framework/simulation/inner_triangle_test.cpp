@@ -46,13 +46,13 @@ TEST(InnerTriangle, HoldsThePointsThatAreFarFromTheEdges) {
     const Vector3d point = draw_in(rng, corners);
     const double edge_m = distance_to_edges_m(corners, point);
     if (std::abs(edge_m - kInset_m) < 1e-9) continue;
-    EXPECT_EQ(inner.holds(point), edge_m > kInset_m);
+    EXPECT_EQ(inner.contains(point), edge_m > kInset_m);
     if (inner.is_empty()) {
       EXPECT_LT(edge_m, kInset_m);
     }
-    held += inner.holds(point) ? 1 : 0;
+    held += inner.contains(point) ? 1 : 0;
     // Mirrored in the middle of an edge, the point is out of the triangle.
-    EXPECT_FALSE(inner.holds(corners[0] + corners[1] - point));
+    EXPECT_FALSE(inner.contains(corners[0] + corners[1] - point));
   }
   EXPECT_GT(held, 1000);
 }
@@ -63,7 +63,7 @@ TEST(InnerTriangle, WithoutAreaIsEmpty) {
   for (const Corners& corners : {Corners{a, a, a}, Corners{a, b, a}, Corners{a, b, 2.0 * b - a}}) {
     const InnerTriangle inner(corners, 0.01);
     EXPECT_TRUE(inner.is_empty());
-    EXPECT_FALSE(inner.holds(a));
+    EXPECT_FALSE(inner.contains(a));
   }
 }
 
@@ -88,7 +88,7 @@ TEST(InnerTriangle, SaysThatNoOtherIsNearOnlyWhereNoneIs) {
     ++far;
     for (int k = 0; k < 200; ++k) {
       const Vector3d point = draw_in(rng, corners);
-      if (!inner.holds(point)) continue;
+      if (!inner.contains(point)) continue;
       EXPECT_GT((point - draw_in(rng, other)).norm(), kNear_m);
     }
   }

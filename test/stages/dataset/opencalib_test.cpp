@@ -82,11 +82,11 @@ TEST_F(MadeUpRig, StaysInTheDataRoot) {
   fs::create_directory_symlink(root / "rig" / "a", root / "inner");
   for (const std::string& path : {std::string("../outside"), std::string("link"), std::string(".."),
                                   (folder.path() / "outside").string()}) {
-    EXPECT_THAT(error_of(root, path), HasSubstr("leads outside the data root")) << path;
+    EXPECT_THAT(error_of(root, path), HasSubstr("is outside the data root")) << path;
   }
   EXPECT_EQ(scenes(root, "inner").size(), 1u);
   fs::create_directory_symlink(folder.path() / "outside", root / "rig" / "c");
-  EXPECT_THAT(error_of(root, "rig"), HasSubstr("leads outside the data root"));
+  EXPECT_THAT(error_of(root, "rig"), HasSubstr("is outside the data root"));
 }
 
 TEST_F(MadeUpRig, MayFollowLinksOutOfTheDataRoot) {
@@ -98,7 +98,7 @@ TEST_F(MadeUpRig, MayFollowLinksOutOfTheDataRoot) {
   fs::create_symlink(folder.path() / "disk/top-1.pcd", root / "rig" / "a" / "far.pcd");
   folder.write("data/rig/a/lidar_cloud_path.txt",
                "device_id: 0\npath: far.pcd\ndevice_id: 1\npath: left-1-2.pcd\n");
-  EXPECT_THAT(error_of(root, "rig"), HasSubstr("leads outside the data root"));
+  EXPECT_THAT(error_of(root, "rig"), HasSubstr("is outside the data root"));
   const auto follow = [&](const std::string& path) {
     return test::stage<Dataset>(R"({"type": "opencalib", "follow_links": true, "path": ")" + path +
                                 "\"}")
@@ -109,8 +109,7 @@ TEST_F(MadeUpRig, MayFollowLinksOutOfTheDataRoot) {
   EXPECT_EQ(all[0].reference.load().points, (Points{{5, 0, 0}}));
   EXPECT_EQ(all[2].sensors[0].load().points, (Points{{6, 0, 0}}));
   EXPECT_EQ(all[2].sensors[0].file, (fs::canonical(root) / "rig/c/left-1-2.pcd").string());
-  EXPECT_THAT(test::input_error([&] { follow("../disk"); }),
-              HasSubstr("leads outside the data root"));
+  EXPECT_THAT(test::input_error([&] { follow("../disk"); }), HasSubstr("is outside the data root"));
 }
 
 TEST_F(MadeUpRig, HasSensorsOfGivenNames) {
@@ -130,7 +129,7 @@ TEST_F(MadeUpRig, NeedsAFolderWithScenes) {
   EXPECT_THAT(error_of(root, "rig/notes"),
               HasSubstr("expected folders with lidar_cloud_path.txt, found none"));
   EXPECT_THAT(error_of(root, "rig/notes/readme.txt"), HasSubstr("expected a folder of scenes"));
-  EXPECT_THAT(error_of(root / "none", "rig"), HasSubstr("expected the folder of the data"));
+  EXPECT_THAT(error_of(root / "none", "rig"), HasSubstr("expected the data folder"));
   EXPECT_THAT(test::input_error([] { test::build_stage("dataset", R"({"type": "opencalib"})"); }),
               HasSubstr("the key \"path\" is missing"));
 }
@@ -162,11 +161,11 @@ TEST_F(MadeUpRig, SaysWhatIsWrongWithAScene) {
   folder.write("secret.pcd", test::one_point_pcd(3));
   const std::pair<const char*, const char*> cases[] = {
       {"device_id: 1\npath: left-1-2.pcd\n", "the reference, device 0, is missing"},
-      {"device_id: 0\npath: top-1.pcd\n", "no sensor but the reference"},
+      {"device_id: 0\npath: top-1.pcd\n", "expected a sensor besides the reference"},
       {"device_id: 0\npath: top-1.pcd\ndevice_id: 0\npath: left-1-2.pcd\n",
-       "line 4: device 0 stands here twice"},
+       "line 4: duplicate device 0"},
       {"device_id: 0\npath: top-1.pcd\ndevice_id: 1\npath: top-9.pcd\n",
-       "lidar_cloud_path.txt: line 4: a second sensor is called \"top\""},
+       "lidar_cloud_path.txt: line 4: duplicate sensor name \"top\""},
       {"device_id: 0\npath: top-1.pcd\ndevice_id: 1\npath: x/right.pcd\n",
        "lidar_cloud_path.txt: line 4: the cloud \"x/right.pcd\" is not"},
       {"device_id: 0\npath: top-1.pcd\ndevice_id: 1\npath: ../../../secret.pcd\n",

@@ -80,7 +80,7 @@ TEST_F(SensorFolders, AreThoseThatAreNamed) {
   ASSERT_EQ(some.size(), 1U);
   EXPECT_EQ(some[0].sensors.size(), 1U);
   EXPECT_THAT(error(R"(, "sensors": ["none"])"), HasSubstr("car/none"));
-  EXPECT_THAT(error(R"(, "sensors": ["pictures"])"), HasSubstr("expected clouds of one name"));
+  EXPECT_THAT(error(R"(, "sensors": ["pictures"])"), HasSubstr("expected clouds of the same name"));
   EXPECT_THAT(error(R"(, "sensors": ["../.."])"), HasSubstr("a name in UTF-8 without slashes"));
 }
 
@@ -115,7 +115,7 @@ TEST_F(SensorFolders, AreFoundByTheNearestName) {
 
 TEST_F(SensorFolders, NameWhatIsWrong) {
   folder.write("data/car/back/000002.ply", "ply\n");
-  EXPECT_THAT(error(), HasSubstr("expected one cloud of this name, found "));
+  EXPECT_THAT(error(), HasSubstr("expected one cloud of this name, also found "));
   fs::remove(root / "car/back/000002.ply");
   folder.write("data/car/back/000002.pcd", "FIELDS x\n");
   EXPECT_THAT(error(), HasSubstr("car/back/000002.pcd"));
@@ -126,8 +126,7 @@ TEST_F(SensorFolders, MissNoLinkThatLeadsNowhere) {
     const fs::path link = folder.path() / name;
     fs::create_symlink("/a-disk-that-is-not-there/data", link);
     for (const char* more : {"", R"(, "follow_links": true)"}) {
-      EXPECT_EQ(error(more),
-                link.string() + ": expected a file or folder, found a link that leads nowhere");
+      EXPECT_EQ(error(more), link.string() + ": expected a file or folder, found a dangling link");
     }
     fs::remove(link);
   }
@@ -160,7 +159,7 @@ TEST_F(SensorFolders, FollowLinksIfAsked) {
   folder.write("disk/000002.pcd", test::one_point_pcd(7));
   fs::remove_all(root / "car/back");
   fs::create_directory_symlink(folder.path() / "disk", root / "car/back");
-  EXPECT_THAT(error(), HasSubstr("leads outside the data root"));
+  EXPECT_THAT(error(), HasSubstr("is outside the data root"));
   const std::vector<Scene> all = scenes(R"(, "follow_links": true)");
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[1].sensors[0].load().points, (Points{{7, 0, 0}}));

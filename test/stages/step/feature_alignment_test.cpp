@@ -51,7 +51,7 @@ TEST(FeatureAlignment, SaysHowManyFeaturesAgreeIfTheyAreTooFew) {
   const Points street = test::random_street(rng, 1, 4000, 0.01);
   const Points three(3, Eigen::Vector3f(1, 2, -2));
   EXPECT_EQ(failure_of(R"({"step": "feature_alignment"})", street, three),
-            "of 0 correspondences of features at most 0 agree with each other; a pose needs 5");
+            "of 0 feature correspondences, at most 0 agree with each other; a pose needs 5");
   const std::string demanding = failure_of(R"({"step": "feature_alignment", "min_clique": 200})",
                                            street, test::random_street(rng, 2, 4000, 0.01));
   EXPECT_NE(demanding.find("agree with each other; a pose needs 200"), std::string::npos)

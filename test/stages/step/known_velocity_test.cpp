@@ -127,7 +127,7 @@ TEST(KnownVelocity, IsThatOfTheSceneInTheFile) {
   EXPECT_NEAR(of_b.estimate.extras.get(kMotionCovariance)(5, 5), 1.0, 1e-12);
   of_c.scene = "c";
   adjust(*given, of_c);
-  EXPECT_EQ(of_c.failure, "the file has no velocity of this scene");
+  EXPECT_EQ(of_c.failure, "the file has no velocity for this scene");
 }
 
 TEST(KnownVelocity, OfAFileIsKnownInAnExperimentOnly) {
@@ -149,7 +149,7 @@ TEST(KnownVelocity, IsRemovedOnce) {
   DrivenScene scene = driven_scene(some_velocity());
   adjust(*step, scene.one);
   adjust(*step, scene.one);
-  EXPECT_EQ(scene.one.failure, "a step before has corrected the clouds by a velocity already");
+  EXPECT_EQ(scene.one.failure, "an earlier step has already corrected the clouds for a velocity");
 }
 
 }  // namespace

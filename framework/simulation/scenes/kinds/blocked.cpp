@@ -20,7 +20,7 @@ void put_car_and_blocker(SceneBuilder& builder, const Lanes& lanes, const CarBod
   const double ahead_m = rng.uniform(-0.15, 0.15) * blocker.size_m.x();
   const double yaw_rad = rad_from_deg(rng.uniform(-0.5, 0.5));
   const double off_m = rng.uniform(-0.1, 0.1);
-  // The two vehicles are on both sides of the border between the two innermost lanes.
+  // The two vehicles are on either side of the border between the two innermost lanes.
   const double apart_m = 0.5 * (car.width_m + blocker.size_m.y()) + gap_m;
   const double border_m = -(lanes.half_median_m + lanes.width_m);
   const double middle_m = border_m + 0.25 * (blocker.size_m.y() - car.width_m) * side + off_m;

@@ -17,7 +17,7 @@ struct Bays {
   double lane_m = 6.5;  ///< Width of the lanes.
   int rows = 2;         ///< Double rows on each side of the car.
   Span along_m = {-40.0, 40.0};
-  double share = 0.6;  ///< Share of the bays that are taken.
+  double share = 0.6;  ///< Share of the bays that are occupied.
 
   double period_m() const { return lane_m + 2.0 * kBayDepth_m; }
   /// The middle of the double row `row`: 0 and up are to the left, -1 and down to the right.
@@ -73,14 +73,15 @@ void add_row_ends(SceneBuilder& builder, const Bays& bays, double row_m,
     }
     for (const double side : {-2.6, 2.6}) {
       const double turn_rad = rng.uniform(0.0, 2.0 * kPi);
-      if (chance(rng, 0.7)) builder.stand(pick(trees, rng), {end_m, row_m + side, turn_rad});
+      if (chance(rng, 0.7))
+        builder.place_upright(pick(trees, rng), {end_m, row_m + side, turn_rad});
     }
     Mesh kerb;
     add_box(kerb, {-0.9, -4.6, -0.2}, {0.9, 4.6, 0.14}, Material::concrete);
     builder.add(kerb, builder.ground().on_slope(end_m, row_m, 0.0));
   }
   for (double s_m = bays.along_m.from + 6.5; s_m < bays.along_m.to; s_m += 22.0) {
-    builder.stand(lamp, {s_m + 0.5 * kBay_m, row_m, 0.5 * kPi * draw_sign(rng)});
+    builder.place_upright(lamp, {s_m + 0.5 * kBay_m, row_m, 0.5 * kPi * draw_sign(rng)});
   }
 }
 
@@ -107,7 +108,8 @@ void add_surroundings(SceneBuilder& builder, const Bays& bays, const StreamKey& 
   const BuildingSize size = {rng.uniform(40.0, 80.0), 30.0, draw_int(rng, 2, 3)};
   const double along_m = rng.uniform(-15.0, 25.0);
   const double front_m = bays.edge_m() + rng.uniform(0.5, 6.0);
-  builder.stand(centred_along_x(make_hall(size, rng)), sides[hall_side].at(along_m, front_m));
+  builder.place_upright(centred_along_x(make_hall(size, rng)),
+                        sides[hall_side].at(along_m, front_m));
   const Span around_m = {bays.along_m.from - 12.0, bays.along_m.to + 14.0};
   for (std::size_t i = 0; i < 2; ++i) {
     const BoundaryType type = chance(rng, 0.5) ? BoundaryType::hedge : BoundaryType::fence;

@@ -8,7 +8,8 @@
 namespace croon::simulation {
 namespace {
 
-/// Two streets. The second one crosses the first; its coordinates are those of a Roadside across.
+/// Two streets. The second crosses the first; its coordinates are those of a Roadside with
+/// `is_across`.
 struct Crossroads {
   Street along;
   Street across;
@@ -85,9 +86,9 @@ void add_corners(SceneBuilder& builder, const Crossroads& roads) {
   const Mesh light = make_traffic_light(rng);
   for (const double ahead : {-1.0, 1.0}) {
     for (const Roadside& side : both_sides()) {
-      // Each light faces the vehicles that come towards it.
+      // Each light faces the approaching vehicles.
       const double turn_rad = ahead * side.sign < 0.0 ? 0.0 : kToRoad_rad;
-      builder.stand(light, side.at(crossing_m + ahead * beyond_m, out_m, turn_rad));
+      builder.place_upright(light, side.at(crossing_m + ahead * beyond_m, out_m, turn_rad));
     }
     const int people = draw_int(rng, 0, 5);
     for (int i = 0; i < people; ++i) {
@@ -101,7 +102,7 @@ void add_corners(SceneBuilder& builder, const Crossroads& roads) {
   }
 }
 
-/// Adds the sides of all four arms, from the corner houses on.
+/// Adds the sides of all four arms, starting at the corner houses.
 void add_arms(SceneBuilder& builder, const Crossroads& roads) {
   const double crossing_m = roads.along.shape.crossing->s_m;
   const std::array<Roadside, 2> sides = both_sides();

@@ -23,7 +23,7 @@ RoadShape draw_plain(Rng& rng) {
   return shape;
 }
 
-/// A pose beyond the view of a sensor with a range of 20 m.
+/// A pose out of sight of a sensor with a range of 20 m.
 RoadPose draw_far_pose(Rng& rng) {
   const double bearing_rad = rng.uniform(0.0, 2.0 * kPi);
   const double distance_m = rng.uniform(50.0, 95.0);
@@ -46,11 +46,11 @@ World make_empty(const CarBody& car, const StreamKey& key) {
   for (int i = 0; i < blocks; ++i) {
     const RoadPose pose = draw_far_pose(far_rng);
     const Mesh block = centred_along_x(make_block({20.0, 10.0, 3}, far_rng));
-    builder.stand(block, pose);
+    builder.place_upright(block, pose);
   }
   for (int i = 0; i < trees; ++i) {
     const RoadPose pose = draw_far_pose(far_rng);
-    builder.stand(make_tree(far_rng), pose);
+    builder.place_upright(make_tree(far_rng), pose);
   }
   return builder.finish();
 }

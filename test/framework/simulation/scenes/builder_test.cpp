@@ -39,11 +39,12 @@ TEST(SceneBuilder, AcceptsAnObjectIfAndOnlyIfItsSpaceIsFree) {
       const RoadPose pose = random_pose(rng);
       const std::array<RoadBox, 2> boxes = boxes_of(mesh, pose, shape.curvature_per_m);
       const bool is_free = expected.is_free(boxes[0]);
-      const bool is_accepted = i % 2 == 0 ? builder.stand(mesh, pose) : builder.park(mesh, pose);
+      const bool is_accepted =
+          i % 2 == 0 ? builder.place_upright(mesh, pose) : builder.park(mesh, pose);
       ASSERT_EQ(is_accepted, is_free) << "seed " << seed;
       refused += is_free ? 0 : 1;
       if (!is_free) continue;
-      expected.take(boxes[0]);
+      expected.occupy(boxes[0]);
       accepted_vertices += mesh.vertices.size();
     }
     EXPECT_GT(refused, 0);
@@ -56,9 +57,9 @@ TEST(SceneBuilder, LetsObjectsStandUnderCrownsAndArms) {
   Mesh roof;
   add_box(roof, {-2.0, -2.0, 4.0}, {2.0, 2.0, 4.2}, Material::wood);
   Rng rng = test_rng();
-  EXPECT_TRUE(builder.stand(roof, {0.0, 0.0, 0.0}));
-  EXPECT_FALSE(builder.stand(roof, {1.0, 1.0, 0.0}));
-  EXPECT_TRUE(builder.stand(make_bollard(rng), {0.0, 0.0, 0.0}));
+  EXPECT_TRUE(builder.place_upright(roof, {0.0, 0.0, 0.0}));
+  EXPECT_FALSE(builder.place_upright(roof, {1.0, 1.0, 0.0}));
+  EXPECT_TRUE(builder.place_upright(make_bollard(rng), {0.0, 0.0, 0.0}));
 }
 
 TEST(SceneBuilder, KeepsTheSpaceOfTheCarClear) {
@@ -71,7 +72,7 @@ TEST(SceneBuilder, KeepsTheSpaceOfTheCarClear) {
     for (int i = 0; i < 200; ++i) {
       const double s_m = rng.uniform(-6.0, 6.0);
       const double d_m = pose.d_m + rng.uniform(-6.0, 6.0);
-      builder.stand(make_bollard(rng), {s_m, d_m, 0.0});
+      builder.place_upright(make_bollard(rng), {s_m, d_m, 0.0});
     }
     const World world = builder.finish();
     const Mesh objects = test::without_ground(world, shape);
@@ -93,7 +94,7 @@ TEST(SceneBuilder, StandsObjectsOnTheGroundWithoutGaps) {
     Mesh plate;
     plate.add_quad(Vector3d(-2.0, -1.0, 0.0), Vector3d(2.0, -1.0, 0.0), Vector3d(2.0, 1.0, 0.0),
                    Vector3d(-2.0, 1.0, 0.0), Material::wood);
-    ASSERT_TRUE(builder.stand(plate, pose));
+    ASSERT_TRUE(builder.place_upright(plate, pose));
     for (const Eigen::Vector3f& vertex : test::without_ground(builder.finish(), shape).vertices) {
       const Eigen::Vector2d road = test::road_coordinates(shape, vertex.cast<double>());
       EXPECT_LE(vertex.z(), shape.height_m(road.x(), road.y()) + 0.03) << "seed " << seed;

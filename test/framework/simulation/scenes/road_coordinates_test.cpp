@@ -79,7 +79,7 @@ TEST(Occupancy, IsFreeWhereNoTakenBoxOverlaps) {
       ASSERT_EQ(occupancy.is_free(box), !overlaps) << "seed " << seed;
       refused += overlaps ? 1 : 0;
       if (overlaps) continue;
-      occupancy.take(box);
+      occupancy.occupy(box);
       taken.push_back(box);
     }
     EXPECT_GT(refused, 0);
@@ -89,7 +89,7 @@ TEST(Occupancy, IsFreeWhereNoTakenBoxOverlaps) {
 
 TEST(Occupancy, LetsBoxesTouch) {
   Occupancy occupancy;
-  occupancy.take(road_box({0.0, 1.0}, {0.0, 1.0}, 2.0));
+  occupancy.occupy(road_box({0.0, 1.0}, {0.0, 1.0}, 2.0));
   EXPECT_TRUE(occupancy.is_free(road_box({1.0, 2.0}, {0.0, 1.0}, 2.0)));
   EXPECT_FALSE(occupancy.is_free(road_box({0.99, 2.0}, {0.0, 1.0}, 2.0)));
 }
