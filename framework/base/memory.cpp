@@ -16,16 +16,16 @@ namespace fs = std::filesystem;
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// The number in `file`; infinity if it has none, as "max".
+/// The number in `file`; infinity if it does not contain one, e.g. "max".
 double limit_in(const fs::path& file) {
   double bytes = 0.0;
   return std::ifstream(file) >> bytes ? bytes : kNoLimit;
 }
 
-/// The least limit of the group `path` and those above it, in files `name` below `mount`.
+/// The minimum limit of the group `path` and its parents, in files `name` below `mount`.
 double least_limit(const fs::path& mount, fs::path path, const char* name) {
   double least = limit_in(mount / name);
-  // A container sees its own group as the root, whatever /proc says of those outside.
+  // Inside a container its own group is the root, whatever path /proc reports.
   for (path = path.relative_path(); !path.empty(); path = path.parent_path()) {
     least = std::min(least, limit_in(mount / path / name));
   }
