@@ -9,7 +9,7 @@
 namespace croon {
 namespace {
 
-/// The sum times `factor`, and of each degree of freedom the worst word.
+/// The sum times `factor`, with the worst observability of each degree of freedom.
 PoseCovariance scaled_sum(const std::vector<PoseCovariance>& covariances, double factor) {
   if (covariances.empty()) throw std::logic_error("no covariances");
   PoseCovariance sum;
@@ -46,7 +46,7 @@ bool is_covariance(const Matrix6d& matrix) {
   if (!matrix.allFinite() || matrix != matrix.transpose()) return false;
   const Vector6d variances = matrix.diagonal();
   if (variances.minCoeff() < 0.0 || variances.maxCoeff() > kLargestVariance) return false;
-  // Rotations and translations have other units, so the matrix of correlations is looked at.
+  // Rotations and translations have different units, so the correlations are examined.
   Matrix6d correlations;
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {

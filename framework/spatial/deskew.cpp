@@ -15,7 +15,7 @@ Points deskewed(const Points& points, const std::vector<double>& times_s, const 
   moved.reserve(points.size());
   RigidTransform T_reference_now;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    // All rings fire at one time, one after the other in most clouds.
+    // All rings fire simultaneously; in most clouds their points are consecutive.
     if (i == 0 || times_s[i] != times_s[i - 1]) {
       T_reference_now = motion_over(velocity, times_s[i] - reference_s);
     }
@@ -43,7 +43,7 @@ void require_near(const std::vector<double>& times_s, double reference_s) {
       throw StageError("a point's time is not a finite number");
     }
     throw StageError("a point's time is more than " + fixed_number(kLongest_s, 0) +
-                     " s from the reference time: is its zero that of the scan (reference_time)?");
+                     " s from the reference time: is it relative to the scan (reference_time)?");
   }
   if (times_s.empty()) return;
   const TimeSpan span = span_of(times_s);

@@ -7,12 +7,12 @@
 
 namespace croon {
 
-/// The index of element `i` of `count` that are spaced evenly through `size`.
+/// The position, among `size` elements, of element `i` out of `count` evenly spaced ones.
 inline std::size_t evenly_spaced_index(std::size_t i, std::size_t size, std::size_t count) {
   return i * size / count;
 }
 
-/// At most `most` of `points`, evenly through the list and in its order: all if there are no more.
+/// At most `most` of `points`, evenly spaced and in their order.
 inline Points evenly_spaced(const Points& points, int most) {
   const std::size_t size = points.size();
   const std::size_t count = std::min(size, static_cast<std::size_t>(most));

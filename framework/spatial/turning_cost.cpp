@@ -14,10 +14,10 @@ namespace {
 /// More than the relative error of a few operations in single precision.
 constexpr float kSingleRounding = 1e-6F;
 
-/// A search looks this many times as far as the cost's largest distance.
+/// The search radius over the cost's maximum distance.
 constexpr float kLooksFarther = 1.5F;
 
-/// Of the most points at all angles together it is kept what is known: 64 MB, 12 bytes of each.
+/// Bounds are kept for at most this many points, summed over all angles: 64 MB, 12 bytes each.
 constexpr std::size_t kMostKnown = 5'300'000;
 
 }  // namespace
@@ -85,8 +85,8 @@ double TurningCost::addend_at_least_m2(const Known& known, std::size_t i) const 
 }
 
 std::vector<std::size_t> TurningCost::promising_first(const Known& known) const {
-  // A few classes do: the order within a class decides little, and a full sort costs as much as a
-  // hundred searches.
+  // A few classes suffice: the order within a class matters little, and a full sort costs as much
+  // as a hundred searches.
   constexpr std::size_t kClasses = 16;
   const float most_m2 = cost_.max_distance_m() * cost_.max_distance_m();
   std::vector<std::uint8_t> classes(points_.size());
@@ -112,8 +112,8 @@ double TurningCost::below(double angle_rad, double enough_m2) {
   const double count = static_cast<double>(points_.size());
   Known here = known_at(angle_rad);
 
-  // The sum is at least this much: what has been searched, and the bounds of all other points. It
-  // is compared with a little more than enough, because it is summed in another order than a mean.
+  // A lower bound of the sum: the searched points, and the bounds of all others. It is compared
+  // with slightly more than the limit, because the order of summation differs from that of a mean.
   double at_least_m2 = 0.0;
   for (std::size_t i = 0; i < points_.size(); ++i) at_least_m2 += addend_at_least_m2(here, i);
   const double enough = enough_m2 * count * (1.0 + 1e-9);

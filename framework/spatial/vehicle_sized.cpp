@@ -11,7 +11,7 @@ namespace {
 
 using GroundCell = std::array<int, 2>;
 
-/// What is in a cell of the ground plane.
+/// The points in a cell of the ground plane.
 struct GroundColumn {
   std::vector<int> points;
   double height_m = 0.0;  ///< Of its highest point.
@@ -24,7 +24,7 @@ struct Thing {
   double height_m = 0.0;
 };
 
-/// The thing that reaches from column `first` over all its neighbours.
+/// The object that extends from column `first` over all its neighbours.
 Thing thing_from(std::map<GroundCell, GroundColumn>& columns, const GroundCell& first) {
   Thing thing;
   std::vector<GroundCell> open = {first};
@@ -47,7 +47,7 @@ Thing thing_from(std::map<GroundCell, GroundColumn>& columns, const GroundCell& 
   return thing;
 }
 
-/// How long and how wide the points are, along the axes of their spread.
+/// The length and width of the points, along their principal axes.
 Eigen::Vector2d extent_m(const std::vector<int>& points, const std::vector<Eigen::Vector2d>& plan) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const int i : points) mean += plan[i] / static_cast<double>(points.size());
