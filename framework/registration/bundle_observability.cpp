@@ -9,13 +9,14 @@
 namespace croon {
 namespace {
 
-/// What planes say of the pose of a sensor, and what the noise of their normals pretends.
+/// The information of planes about the pose of a sensor, and the part due to noise of their
+/// normals.
 struct PlaneEvidence {
   Matrix6d information = Matrix6d::Zero();
   Matrix6d noise = Matrix6d::Zero();
 };
 
-/// Adds what a patch says of each of its sensors, the others being where they are.
+/// Adds the information of a patch about each of its sensors, with the others fixed.
 void add_patch(const PlanePatch& patch, const std::vector<RigidTransform>& poses,
                std::vector<PlaneEvidence>& evidence) {
   PointSums all;
@@ -27,14 +28,14 @@ void add_patch(const PlanePatch& patch, const std::vector<RigidTransform>& poses
   for (const PlanePatch::View& view : patch.views) {
     const double own = view.sums.weight, others = all.weight - own;
     if (!(own > 0.0) || !(others > 0.0)) continue;
-    // The distance between two planes is known by the sum of the variances of both.
+    // The variance of the distance between two planes is the sum of their variances.
     const double weight = own * others / all.weight;
     const Eigen::Vector3d arm = poses[view.sensor].rotation * (view.sums.sum / own);
     const Vector6d J = plane_jacobian(arm, solver.eigenvectors().col(0));
     PlaneEvidence& of_sensor = evidence[view.sensor];
     of_sensor.information += weight * (J * J.transpose());
     for (int k = 1; k < 3; ++k) {
-      // The weights are inverse variances, so this is that of a turn towards the axis k.
+      // The weights are inverse variances, so this is the variance of a turn towards the axis k.
       const double turn = 1.0 / std::max(across(k) - across(0), 1e-12);
       const Vector6d turned = plane_jacobian(arm, solver.eigenvectors().col(k));
       of_sensor.noise += weight * turn * (turned * turned.transpose());
@@ -52,7 +53,7 @@ std::vector<DofWords> plane_words(const BundleSystem& system) {
     for (const PlanePatch& patch : system.planes()[s]) add_patch(patch, poses, evidence);
   }
   const Matrix6d prior = unknown_variances().cwiseInverse().asDiagonal();
-  std::vector<DofWords> words(sensors);  // First all determined.
+  std::vector<DofWords> words(sensors);  // Initially all determined.
   for (std::size_t k = 1; k < sensors; ++k) {
     const auto held = held_dofs(evidence[k].information, evidence[k].noise, prior);
     for (std::size_t dof = 0; dof < held.size(); ++dof) words[k][dof] = held[dof].word;

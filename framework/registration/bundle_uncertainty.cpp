@@ -16,7 +16,7 @@
 namespace croon {
 namespace {
 
-/// The planes of one scene by direction and place: the errors in a cluster are not independent.
+/// The planes of one scene by direction and position: the errors in a cluster are not independent.
 std::vector<std::vector<PlanePatch>> clusters_of(const std::vector<PlanePatch>& planes,
                                                  const RigState& state) {
   constexpr double kCell_m = 3.0;
@@ -31,7 +31,7 @@ std::vector<std::vector<PlanePatch>> clusters_of(const std::vector<PlanePatch>& 
   return result;
 }
 
-/// The gradient and the Hessian of `cost` along the motion in which the velocity follows the poses.
+/// The gradient and Hessian of `cost` along the motion in which the velocity follows the poses.
 BundleCost along(const BundleCost& cost, const ReducedCost& scene) {
   if (scene.by_pose.size() == 0) return cost;
   const Eigen::Index size = cost.gradient.size() - 6;
@@ -41,7 +41,7 @@ BundleCost along(const BundleCost& cost, const ReducedCost& scene) {
           follow.transpose() * cost.hessian * follow};
 }
 
-/// By cluster of planes of a scene.
+/// The steps of each cluster of planes of a scene.
 std::vector<ClusterStep> steps_by_cluster(const BundleSystem& system, std::size_t scene,
                                           const ReducedCost& scene_cost, const Eigen::MatrixXd& K) {
   const auto clusters =
@@ -54,9 +54,9 @@ std::vector<ClusterStep> steps_by_cluster(const BundleSystem& system, std::size_
   return steps;
 }
 
-/// The step of all poses if the velocity of a scene were off by `error_mps` along itself, at most
-/// by all of it, and stayed so; zero in a scene whose velocity is no unknown. `hessian` is that of
-/// the poses, with all velocities following; `cost` and `reduced_cost` are those of the scene.
+/// The step of all poses for a constant error of a scene's velocity of `error_mps` along itself, at
+/// most its magnitude; zero if the scene's velocity is not an unknown. `hessian` is that of the
+/// poses, with all velocities following; `cost` and `reduced_cost` are those of the scene.
 Eigen::VectorXd step_for_velocity_error(const Twist& velocity, const BundleCost& cost,
                                         const ReducedCost& reduced_cost,
                                         const Eigen::MatrixXd& hessian, double error_mps) {
@@ -76,7 +76,7 @@ Observability word_of(double std_ratio) {
   return std_ratio > kWeak ? Observability::weak : Observability::determined;
 }
 
-/// The words of a pose by its standard deviations.
+/// The observability of a pose's degrees of freedom from its standard deviations.
 DofWords words_of(const Matrix6d& covariance, const Vector6d& start_std) {
   return judged_dofs(covariance, guarded_inverse<6>(covariance),
                      [&](std::size_t dof, const Matrix6d& of_free) {
@@ -85,12 +85,12 @@ DofWords words_of(const Matrix6d& covariance, const Vector6d& start_std) {
                      });
 }
 
-/// What all scenes say of the poses, the velocities following them.
+/// The costs of all scenes, and their sum with the velocities following the poses.
 struct AllScenes {
   std::vector<BundleCost> costs;     ///< By scene.
   std::vector<ReducedCost> reduced;  ///< The same without the velocity.
   Eigen::MatrixXd hessian;
-  /// The covariance of the gradient that comes from what is known of starts and velocities.
+  /// The covariance of the gradient that is due to the priors of initial poses and velocities.
   Eigen::MatrixXd scatter;
 };
 
@@ -110,7 +110,7 @@ AllScenes all_scenes(const BundleSystem& system) {
   return all;
 }
 
-/// Of all poses, then perhaps of the offsets of the clocks.
+/// The covariance of all poses, optionally followed by the clock offsets.
 Eigen::MatrixXd joint_covariance(const BundleSystem& system, const BundleOptions& options) {
   const AllScenes all = all_scenes(system);
   const Eigen::MatrixXd inverse = guarded_inverse<Eigen::Dynamic>(all.hessian);
@@ -135,7 +135,7 @@ Eigen::MatrixXd joint_covariance(const BundleSystem& system, const BundleOptions
 
 ClusterStep cluster_step(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& hessian,
                          const Eigen::MatrixXd& K) {
-  // A cluster that alone holds a direction has a leverage of one there, and no finite step.
+  // A cluster that alone constrains a direction has a leverage of one and no finite step there.
   constexpr double kLargestLeverage = 0.99;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> of_leverage(K.transpose() * hessian * K);
   const Eigen::VectorXd leverage = of_leverage.eigenvalues().cwiseMax(0.0);

@@ -17,7 +17,7 @@ bool consistent(const OrientedPairs& pairs, std::size_t i, std::size_t j,
   const double target_m = target.norm();
   const double source_m = source.norm();
   if (!(std::abs(target_m - source_m) <= options.tolerance_m)) return false;
-  // Cosines differ by two at most, but for rounding: normals do not count.
+  // Except for rounding, cosines differ by at most two: normals are ignored.
   if (options.normal_tolerance >= 2.0) return true;
   const auto alike = [&](double a, double b) {
     return std::abs(a - b) <= options.normal_tolerance;
@@ -27,7 +27,7 @@ bool consistent(const OrientedPairs& pairs, std::size_t i, std::size_t j,
   const Eigen::Vector3d source_i = pairs.source_normals[i].cast<double>();
   const Eigen::Vector3d source_j = pairs.source_normals[j].cast<double>();
   if (!alike(target_i.dot(target_j), source_i.dot(source_j))) return false;
-  // The direction between points that are near each other is not known.
+  // The direction between points that are close to each other is undefined.
   if (std::min(target_m, source_m) < std::max(1e-6, 4.0 * options.tolerance_m)) return true;
   return alike(target_i.dot(target) / target_m, source_i.dot(source) / source_m) &&
          alike(target_j.dot(target) / target_m, source_j.dot(source) / source_m);
@@ -38,8 +38,8 @@ bool consistent(const OrientedPairs& pairs, std::size_t i, std::size_t j,
 ConsistencyGraph::ConsistencyGraph(const OrientedPairs& pairs, const ConsistencyOptions& options)
     : size_(static_cast<int>(pairs.size())), words_((pairs.size() + 63) / 64) {
   if (pairs.size() > kMostVertices) {
-    throw StageError(std::to_string(pairs.size()) + " correspondences are more than the " +
-                     std::to_string(kMostVertices) + " that a graph has room for");
+    throw StageError(std::to_string(pairs.size()) + " correspondences exceed the maximum of " +
+                     std::to_string(kMostVertices) + " for a consistency graph");
   }
   rows_.resize(pairs.size() * words_);
   for (int i = 0; i < size_; ++i) {
@@ -77,7 +77,7 @@ std::vector<int> ConsistencyGraph::members(const Bits& set) const {
 }
 
 std::vector<int> ConsistencyGraph::core_numbers() const {
-  // Vertices are taken away by degree, least first, from bins of equal degree.
+  // Vertices are removed in order of ascending degree, from bins of equal degree.
   std::vector<int> degrees;
   const Bits all(words_, ~std::uint64_t{0});
   for (int i = 0; i < size_; ++i) degrees.push_back(common(i, all));
