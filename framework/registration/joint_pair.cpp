@@ -16,14 +16,14 @@
 namespace croon {
 namespace {
 
-/// The points of a scan that take part: evenly through it, those with a normal, and their weights.
+/// The points of a scan that are used, evenly spaced and with normals, and their weights.
 struct Sample {
   std::vector<int> indices;
   std::vector<int> patches;
   std::vector<double> weights;
 };
 
-/// The same in every iteration, so it is made once.
+/// The sample is the same in every iteration, so it is computed once.
 std::shared_ptr<const Sample> sample_of(const Cloud& cloud, const JointOptions& options) {
   const std::string parameters =
       params::value_json(options.points) + " " + params::value_json(options.normal_neighbours) +
@@ -46,11 +46,11 @@ std::shared_ptr<const Sample> sample_of(const Cloud& cloud, const JointOptions& 
 
 /// A point on a surface of the target, linearised.
 struct JointTerm {
-  PairVector J;  ///< Its three elements by the translation are the normal of the target's surface.
+  PairVector J;  ///< Its three translational elements are the normal of the target's surface.
   double residual_m;
   int patch;
   double weight;          ///< Of the patch and the target point, without the kernel.
-  double later_s;         ///< So much later than the target the sensor measured it.
+  double later_s;         ///< Time of the sensor's measurement after the target's.
   Eigen::Vector3d point;  ///< Of the target.
 
   Eigen::Vector3d normal() const { return J.segment<3>(kPairPose + 3); }
@@ -64,11 +64,11 @@ RobustKernel kernel_at(double max_distance_m, const JointOptions& options) {
   return {Kernel::geman_mcclure, std::max(options.kernel_width_m, max_distance_m / 4.0)};
 }
 
-/// The second derivative of Geman and McClure's kernel over its weight, which is the square of
-/// `1 / (1 + r^2 / width^2)`: 1 without a residual, negative for large ones.
+/// The second derivative of the Geman-McClure kernel divided by its weight, which is the square of
+/// `1 / (1 + r^2 / width^2)`: 1 for a residual of zero, negative for large ones.
 double curvature_share(double weight) { return 4.0 * std::sqrt(weight) - 3.0; }
 
-/// Weighs less the terms of a patch that is off as a whole: it moves by itself.
+/// Reduces the weight of the terms of a patch that is off as a whole, i.e. moves independently.
 void weigh_patches(std::vector<JointTerm>& terms, const JointView& view) {
   if (view.options.patch_kernel_m <= 0.0) return;
   struct Mean {
@@ -92,7 +92,7 @@ void weigh_patches(std::vector<JointTerm>& terms, const JointView& view) {
   }
 }
 
-/// Linearises what the points of a source say in one iteration.
+/// Linearises the residuals of the points of a source in one iteration.
 class TermMaker {
  public:
   TermMaker(const JointScene::Source& source, const StillTarget& target, const JointView& view)
@@ -107,8 +107,8 @@ class TermMaker {
         min_cosine_(std::cos(rad_from_deg(view.options.max_normal_angle_deg))),
         max_distance_m_(view.max_distance_m) {}
 
-  /// Writes into `term` what point `index` of the source says, all but its patch, with the weight
-  /// of the target point alone. False if the point does not correspond.
+  /// Writes the term of point `index` of the source into `term`, except for its patch, with only
+  /// the weight of the target point. Returns false if the point has no correspondence.
   bool make(int index, JointTerm& term) const {
     using Eigen::Vector3d;
     const double source_s = scan_.times_s[index] + clock_offset_s_ - target_.reference_s();
@@ -126,7 +126,7 @@ class TermMaker {
     term.weight = target_.weight(nearest.index);
     term.later_s = source_s - target_s;
     term.point = p;
-    // The derivatives of exp(xi t) at small xi t: a scan turns by a few degrees at most.
+    // The derivatives of exp(xi t) at small xi t: a scan rotates by a few degrees at most.
     term.J << (motion.rotation * turned).cross(n), n, source_s * q.cross(n) - target_s * p.cross(n),
         term.later_s * n,
         n.dot(whole_velocity_.angular_radps.cross(q) + whole_velocity_.linear_mps);
@@ -137,17 +137,17 @@ class TermMaker {
   const TimedScan& scan_;
   const StillTarget& target_;
   const Twist& velocity_;
-  Twist whole_velocity_;  ///< With what a step before has removed.
+  Twist whole_velocity_;  ///< Including the velocity that an earlier step has removed.
   double clock_offset_s_;
-  /// Of the sensor, moved by what a step before has not removed, because it took the sensor's
-  /// clock for right.
+  /// Of the sensor, moved by the part that an earlier step has not removed, because it did not
+  /// correct the sensor's clock.
   RigidTransform pose_;
   const Normals& normals_;
   double min_cosine_;
   double max_distance_m_;
 };
 
-/// The terms of the points of `source` that correspond, in their order.
+/// The terms of the corresponding points of `source`, in their order.
 std::vector<JointTerm> terms_of(const JointScene::Source& source, const StillTarget& target,
                                 const JointView& view) {
   const TermMaker maker(source, target, view);
@@ -164,7 +164,7 @@ std::vector<JointTerm> terms_of(const JointScene::Source& source, const StillTar
   return terms;
 }
 
-/// Which points of a scan belong to things of a vehicle's size; none if it has no ground.
+/// Whether each point of a scan belongs to a vehicle-sized object; all false if no ground is found.
 std::shared_ptr<const std::vector<bool>> vehicles_of(const Cloud& cloud) {
   constexpr int kForTheGround = 5000;
   return cloud.once<std::vector<bool>>("vehicles", [&] {

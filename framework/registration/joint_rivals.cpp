@@ -10,7 +10,7 @@
 namespace croon {
 namespace {
 
-/// How well each source of a scene fits in `state`.
+/// The agreement of each source of a scene in `state`.
 std::vector<PairAgreement> agreements_in(const JointScene& scene, const JointState& state,
                                          const JointOptions& options) {
   const Twist& velocity = state.velocities.front();
@@ -24,7 +24,7 @@ std::vector<PairAgreement> agreements_in(const JointScene& scene, const JointSta
 
 using Agreement = std::map<JointCell, double>;
 
-/// The sums over all sources that take part.
+/// The sums over all sources with enough correspondences.
 Agreement sum_by_cell(const std::vector<PairAgreement>& pairs,
                       const std::optional<Eigen::Vector3d>& axis) {
   Agreement agreement;
@@ -41,8 +41,8 @@ double sum_of(const Agreement& agreement) {
   return sum;
 }
 
-/// The axis in the plane of x and y along which the velocities of two states differ; nothing if
-/// they do not.
+/// The horizontal axis along which the velocities of two states differ; std::nullopt if they do
+/// not.
 std::optional<Eigen::Vector3d> axis_between(const JointState& a, const JointState& b) {
   Eigen::Vector3d apart_mps = a.velocities.front().linear_mps - b.velocities.front().linear_mps;
   apart_mps.z() = 0.0;
@@ -50,7 +50,7 @@ std::optional<Eigen::Vector3d> axis_between(const JointState& a, const JointStat
   return apart_mps.normalized();
 }
 
-/// By how many standard deviations `a` is ahead of `b`; 0 if they agree in every cube.
+/// The lead of `a` over `b` in standard deviations; 0 if they agree in every cube.
 double lead_of(const Agreement& a, const Agreement& b) {
   Agreement differences = a;
   for (const auto& [cell, agreeing] : b) differences[cell] -= agreeing;
@@ -59,7 +59,7 @@ double lead_of(const Agreement& a, const Agreement& b) {
   return squares > 0.0 ? sum_of(differences) / std::sqrt(squares) : 0.0;
 }
 
-/// Whether a sensor has another place in one state than in the other.
+/// Whether the position of a sensor differs between two states.
 bool is_elsewhere(const JointState& a, const JointState& b, std::size_t sensor) {
   const Eigen::Vector3d apart_m =
       a.T_target_sensor[sensor].translation - b.T_target_sensor[sensor].translation;
@@ -73,7 +73,7 @@ bool is_rival(const JointState& a, const JointState& b) {
   return false;
 }
 
-/// Where the registration of `scenes` ends from each of `starts`, in parallel.
+/// The results of the registration of `scenes` from each of `starts`, computed in parallel.
 std::vector<JointState> registered(const std::vector<JointScene>& scenes,
                                    const std::vector<JointState>& starts,
                                    const JointOptions& options) {
@@ -84,7 +84,7 @@ std::vector<JointState> registered(const std::vector<JointScene>& scenes,
   return ends;
 }
 
-/// Those of `states` that are rivals of `state` and of all before them.
+/// The `states` that are rivals of `state` and of all states before them.
 std::vector<JointState> different_from(const JointState& state,
                                        const std::vector<JointState>& states) {
   std::vector<JointState> seen = {state};

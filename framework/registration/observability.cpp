@@ -19,7 +19,7 @@ std::array<bool, 6> leading_dofs(const DofWords& words, const Matrix6d& covarian
   return leads;
 }
 
-/// `information` with the degrees of freedom `held` known: they are independent of the others.
+/// `information` with the degrees of freedom in `held` fixed: independent of the others.
 Matrix6d with_held(const Matrix6d& information, const std::array<bool, 6>& held) {
   Matrix6d result = information;
   for (std::size_t dof = 0; dof < held.size(); ++dof) {
