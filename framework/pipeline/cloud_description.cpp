@@ -25,7 +25,7 @@ double volume_m3(const Points& points) {
 }
 
 double ground_ratio(const Points& points, const GroundExtractor& extractor) {
-  // One stream for all clouds: a cloud's description depends on the cloud alone.
+  // One stream for all clouds: a cloud's description depends only on the cloud.
   Rng rng(StreamKey(0).with("figures"));
   try {
     const Ground ground = extractor.extract(points, rng);

@@ -18,7 +18,7 @@ void require_usable(const Cloud& cloud) {
     if ((point.array().abs() <= static_cast<float>(kLargestCoordinate_m)).all()) continue;
     std::ostringstream message;
     message << "a point at (" << point.x() << ", " << point.y() << ", " << point.z()
-            << ") m is farther off than " << kLargestCoordinate_m << " m";
+            << ") m exceeds the maximum coordinate of " << kLargestCoordinate_m << " m";
     throw StageError(message.str());
   }
 }

@@ -10,7 +10,7 @@
 namespace croon {
 
 std::vector<int> yaw_grid(double range_deg, double step_deg) {
-  // The addend makes a range that is a multiple of the step, up to rounding, include its ends.
+  // The addend ensures that a range that is a multiple of the step includes its ends.
   const int count = static_cast<int>(std::floor(range_deg / step_deg + 1e-9));
   std::vector<int> grid = {0};
   for (int i = 1; i <= count; ++i) {
