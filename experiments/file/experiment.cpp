@@ -163,7 +163,7 @@ Experiment parse_experiment(const std::string& text, const fs::path& path,
     if (keys.pipeline) keys.variants = make_variants(keys, root, catalogue, faults);
     experiment = std::move(keys);
     check_variants(root, experiment);
-    const std::string too_long = why_too_long(experiment.name, kMostFileNameBytes);
+    const std::string too_long = why_too_long(experiment.name, kMaxFileNameBytes);
     if (!too_long.empty()) root.member("name").fault(too_long);
   }
   if (!faults.empty()) throw InputError(without_repeats(faults));

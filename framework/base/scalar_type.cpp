@@ -100,10 +100,10 @@ bool append_scalar(std::string& bytes, ScalarType type, double value) {
     using Number = decltype(number);
     if constexpr (std::is_integral_v<Number>) {
       // The bounds are compared as double: the 64-bit maximum rounds up to a value out of range.
-      const double most = static_cast<double>(std::numeric_limits<Number>::max());
-      const double least = static_cast<double>(std::numeric_limits<Number>::min());
-      const bool is_in_range = sizeof(Number) < 8 ? value <= most : value < most;
-      if (!(value >= least && is_in_range && value == std::trunc(value))) return false;
+      const double max_value = static_cast<double>(std::numeric_limits<Number>::max());
+      const double min_value = static_cast<double>(std::numeric_limits<Number>::min());
+      const bool is_in_range = sizeof(Number) < 8 ? value <= max_value : value < max_value;
+      if (!(value >= min_value && is_in_range && value == std::trunc(value))) return false;
     }
     append_raw(bytes, static_cast<Number>(value));
     return true;

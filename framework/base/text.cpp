@@ -168,9 +168,9 @@ std::string printable(const std::string& text) {
   return shown;
 }
 
-std::string why_too_long(const std::string& name, std::size_t most, const std::string& what) {
-  if (name.size() <= most) return "";
-  return "expected " + what + " of at most " + std::to_string(most) + " bytes, found one of " +
+std::string why_too_long(const std::string& name, std::size_t max_bytes, const std::string& what) {
+  if (name.size() <= max_bytes) return "";
+  return "expected " + what + " of at most " + std::to_string(max_bytes) + " bytes, found one of " +
          std::to_string(name.size());
 }
 

@@ -9,15 +9,15 @@ namespace croon {
 inline constexpr const char* kFormulaSigns = "=+-@";
 
 /// The maximum size of the name of a file or folder on common file systems, in bytes.
-inline constexpr std::size_t kMostFileNameBytes = 255;
+inline constexpr std::size_t kMaxFileNameBytes = 255;
 
 /// The maximum size of the name of a variant or a step, in bytes; for scenes and sensors it is
 /// less.
-inline constexpr std::size_t kMostNameBytes = 1000;
+inline constexpr std::size_t kMaxNameBytes = 1000;
 
-/// "expected WHAT of at most 255 bytes, found one of 256" if `name` has more than `most` bytes;
-/// otherwise empty.
-std::string why_too_long(const std::string& name, std::size_t most,
+/// "expected WHAT of at most 255 bytes, found one of 256" if `name` has more than `max_bytes`
+/// bytes; otherwise empty.
+std::string why_too_long(const std::string& name, std::size_t max_bytes,
                          const std::string& what = "a name");
 
 /// The number of columns of UTF-8 text, i.e. of its code points.

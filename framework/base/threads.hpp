@@ -11,7 +11,7 @@ namespace croon {
 
 /// The maximum number of threads that a user may request: more than machines have, and started
 /// within a few seconds.
-inline constexpr int kMostJobs = 1024;
+inline constexpr int kMaxJobs = 1024;
 
 /// The number of threads, out of `jobs`, that can be used: all of them, unless they outnumber the
 /// cores and the system cannot start that many. TBB aborts the process if a thread does not start.

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 std::string reason(int number) { return std::strerror(number); }
 
 /// Larger than any text and any sensor's cloud.
-constexpr double kLargestFileBytes = 4e9;
+constexpr double kMaxFileBytes = 4e9;
 
 /// Between the path and a number in the name of a temporary file.
 constexpr const char* kPart = ".croon-part";
@@ -70,9 +70,10 @@ PartFile create_part_file(const fs::path& path) {
 /// Zero, or the error number.
 int write_all(int descriptor, std::string_view bytes) {
   // Linux writes less than 2 GiB per call.
-  constexpr std::size_t kMost = std::size_t{1} << 30;
+  constexpr std::size_t kMaxWriteBytes = std::size_t{1} << 30;
   while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), std::min(bytes.size(), kMost));
+    const ssize_t written =
+        ::write(descriptor, bytes.data(), std::min(bytes.size(), kMaxWriteBytes));
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) return errno;
     bytes.remove_prefix(static_cast<std::size_t>(written));
@@ -103,10 +104,10 @@ std::string read_whole_file(const fs::path& path) {
   }
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) throw UnavailableFile(path.string(), "", "cannot be read: " + error.message());
-  const double largest = std::min(kLargestFileBytes, memory_limit_bytes());
-  if (static_cast<double>(size) > largest) {
+  const double max_bytes = std::min(kMaxFileBytes, memory_limit_bytes());
+  if (static_cast<double>(size) > max_bytes) {
     throw UnavailableFile(path.string(), "",
-                          "expected a file of at most " + fixed_number(largest, 0) +
+                          "expected a file of at most " + fixed_number(max_bytes, 0) +
                               " bytes, found one of " + std::to_string(size));
   }
   std::string bytes(static_cast<std::size_t>(size), '\0');

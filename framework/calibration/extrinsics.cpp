@@ -67,9 +67,9 @@ bool recognises(const ExtrinsicsFormat& format, const std::string& text) {
 }
 
 /// The word of each new axis is the worst of the old ones that contribute to it.
-DofWords turned_words(const DofWords& words, const Eigen::Matrix3d& R_new_parent) {
+DofObservability turned_words(const DofObservability& words, const Eigen::Matrix3d& R_new_parent) {
   constexpr double kMinShare = 0.1;
-  DofWords turned = words;
+  DofObservability turned = words;
   for (const std::size_t block : {0, 3}) {
     for (int i = 0; i < 3; ++i) {
       Observability worst = Observability::determined;

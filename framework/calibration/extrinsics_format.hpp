@@ -91,7 +91,7 @@ Eigen::Matrix3d checked_quaternion(const Eigen::Vector4d& xyzw, const FilePlace&
 Eigen::Matrix3d checked_matrix(const Eigen::Matrix3d& matrix, const FilePlace& place);
 /// `rotation_from_rpy`; angles beyond a whole turn are refused, because they look like degrees.
 Eigen::Matrix3d checked_radians(const Eigen::Vector3d& rpy_rad, const FilePlace& place);
-/// A finite position of at most kLargestCoordinate_m.
+/// A finite position of at most kMaxCoordinate_m.
 Eigen::Vector3d checked_position(const Eigen::Vector3d& position_m, const FilePlace& place);
 /// The pose of three or four rows of four numbers, row after row.
 RigidTransform checked_pose(const std::vector<double>& rows, const FilePlace& place);

@@ -46,10 +46,10 @@ bool is_same(const RigidTransform& a, const RigidTransform& b) {
 }
 
 /// Of each degree of freedom the best of the poses that are averaged.
-DofWords best_words(const std::vector<const MemberResult*>& results) {
-  DofWords words = results.front()->estimate.covariance->dofs;
+DofObservability best_words(const std::vector<const MemberResult*>& results) {
+  DofObservability words = results.front()->estimate.covariance->dofs;
   for (const MemberResult* const result : results) {
-    words = better_words(words, result->estimate.covariance->dofs);
+    words = best_observability(words, result->estimate.covariance->dofs);
   }
   return words;
 }

@@ -3,10 +3,10 @@
 namespace croon {
 
 /// The maximum coordinate of a position in a file, in metres; larger than any rig or scene.
-inline constexpr double kLargestCoordinate_m = 1e6;
+inline constexpr double kMaxCoordinate_m = 1e6;
 
 /// The maximum distance from the origin at which a result is a pose, in metres. Starts and poses
-/// within kLargestCoordinate_m of each other stay far below it; a store accepts larger numbers.
-inline constexpr double kLargestDistance_m = 1e9;
+/// within kMaxCoordinate_m of each other stay far below it; a store accepts larger numbers.
+inline constexpr double kMaxPoseDistance_m = 1e9;
 
 }  // namespace croon

@@ -115,18 +115,18 @@ Plane plane_ransac(const Points& cloud, const PlaneRansacOptions& options, Rng& 
   if (cloud.size() < 3) throw StageError("a plane needs three points");
   const Sample sample(cloud, options.sample_points, rng);
   std::optional<Plane> best;
-  int most = 0;
+  int max_count = 0;
   double iterations = options.max_iterations;
   for (int i = 0; i < iterations; ++i) {
     const std::optional<Plane> drawn = sample.draw_plane(rng);
     if (!drawn) continue;
     const int count = sample.count_within(*drawn, options.threshold_m);
-    if (count <= most) continue;
+    if (count <= max_count) continue;
     best = drawn;
-    most = count;
-    optimise(sample, options, *best, most);
+    max_count = count;
+    optimise(sample, options, *best, max_count);
     iterations =
-        std::min(iterations, iterations_for(options.confidence, most, sample.points().size()));
+        std::min(iterations, iterations_for(options.confidence, max_count, sample.points().size()));
   }
   if (!best) throw StageError("the points lie on one line");
   return *best;

@@ -30,11 +30,11 @@ inline const char* name_of(Observability word) {
 std::optional<Observability> observability_of(const std::string& name);
 
 /// The observability of each degree of freedom, by Dof.
-using DofWords = std::array<Observability, 6>;
+using DofObservability = std::array<Observability, 6>;
 
 /// The better and the worse of two values, for each degree of freedom.
-DofWords better_words(const DofWords& a, const DofWords& b);
-DofWords worse_words(const DofWords& a, const DofWords& b);
+DofObservability best_observability(const DofObservability& a, const DofObservability& b);
+DofObservability worst_observability(const DofObservability& a, const DofObservability& b);
 
 /// The uncertainty of an estimate of `T_reference_sensor`: the covariance of its error as
 /// `pose_error` measures it, `e = (roll, pitch, yaw of T_estimate T_truth^-1, t_estimate -
@@ -42,14 +42,14 @@ DofWords worse_words(const DofWords& a, const DofWords& b);
 /// `moved(T_estimate, -e)`: the rotation is about the sensor's own origin, applied from the left.
 struct PoseCovariance {
   Matrix6d matrix = Matrix6d::Zero();
-  DofWords dofs = {};
+  DofObservability dofs = {};
 };
 
 /// The maximum variance in a covariance, rad^2 or m^2.
-inline constexpr double kLargestVariance = 1e12;
+inline constexpr double kMaxVariance = 1e12;
 
 /// Whether `matrix` can be the covariance of a pose: symmetric to the last bit, finite, positive
-/// semi-definite up to rounding, no variance above `kLargestVariance`.
+/// semi-definite up to rounding, no variance above `kMaxVariance`.
 bool is_covariance(const Matrix6d& matrix);
 
 /// The standard deviations of an unconstrained degree of freedom: any angle, and 10 m.

@@ -118,10 +118,10 @@ std::string without_number(const std::string& message) {
 void refuse_large(std::uintmax_t bytes, const std::string& file) {
   // A value needs up to ninety times the bytes of its text. Realistic files for croon, with 10,000
   // variants or claims, have a few megabytes.
-  constexpr std::uintmax_t kMostBytes = 10'000'000;
-  if (bytes <= kMostBytes) return;
+  constexpr std::uintmax_t kMaxJsonBytes = 10'000'000;
+  if (bytes <= kMaxJsonBytes) return;
   throw InputError(file, "",
-                   "expected JSON of at most " + std::to_string(kMostBytes) + " bytes, found " +
+                   "expected JSON of at most " + std::to_string(kMaxJsonBytes) + " bytes, found " +
                        std::to_string(bytes));
 }
 

@@ -28,11 +28,11 @@ std::string escaped(const std::string& key) {
 
 /// The value as the user wrote it, cut if it is long.
 std::string shown(const nlohmann::json& value) {
-  constexpr std::size_t kLongest = 60;
+  constexpr std::size_t kMaxShownBytes = 60;
   const std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  if (text.size() <= kLongest) return text;
+  if (text.size() <= kMaxShownBytes) return text;
   // Never cut inside a UTF-8 character.
-  std::size_t end = kLongest;
+  std::size_t end = kMaxShownBytes;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
   return text.substr(0, end) + "...";
 }

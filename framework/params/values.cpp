@@ -229,8 +229,8 @@ std::string value_json(const std::array<double, 2>& ends) {
 }
 std::string value_json(double value) {
   // A whole number is written without decimals: "10", not "10.0".
-  constexpr double kLargestExact = 9007199254740992.0;  // 2^53
-  const bool is_whole = std::floor(value) == value && std::abs(value) <= kLargestExact;
+  constexpr double kMaxExactInteger = 9007199254740992.0;  // 2^53
+  const bool is_whole = std::floor(value) == value && std::abs(value) <= kMaxExactInteger;
   return is_whole ? std::to_string(static_cast<long long>(value)) : json(value).dump();
 }
 std::string value_json(const std::string& value) { return json(value).dump(); }
@@ -263,13 +263,13 @@ void check_key_rules(const Node& node, const std::vector<KeyRule>& rules) {
 
 void note_broken_rule(const Node& node, const std::string& message,
                       const std::vector<std::pair<std::string, std::string>>& members) {
-  constexpr std::size_t kLongestValue = 60;
+  constexpr std::size_t kMaxValueColumns = 60;
   std::vector<std::string> parts;
   std::vector<std::pair<std::string, std::string>> named;
   for (const auto& [key, text] : members) {
     if (text.empty() || !has_word(message, key)) continue;
     parts.push_back(node.pointer_to(key));
-    named.emplace_back(key, cut_in_the_middle(text, kLongestValue));
+    named.emplace_back(key, cut_in_the_middle(text, kMaxValueColumns));
   }
   std::string found;
   for (const auto& [key, text] : named) {

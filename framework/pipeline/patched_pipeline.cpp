@@ -43,7 +43,7 @@ std::string read_step_name(const Node& step) {
   std::string name;
   const Node member = step.member("name");
   if (!member.read(name)) return name;
-  const std::string too_long = why_too_long(name, kMostNameBytes);
+  const std::string too_long = why_too_long(name, kMaxNameBytes);
   if (!too_long.empty()) {
     member.fault(too_long);
   } else if (!params::kKeyName.allows(name)) {
@@ -175,8 +175,8 @@ PatchedPipeline read_steps(const Node& pipeline) {
   if (!pipeline.is_array()) return steps;
   const std::size_t count = pipeline.value().size();
   if (count == 0) pipeline.expected("a list of at least one step");
-  if (count > kMostSteps) {
-    pipeline.fault("expected a list of at most " + std::to_string(kMostSteps) + " steps, found " +
+  if (count > kMaxSteps) {
+    pipeline.fault("expected a list of at most " + std::to_string(kMaxSteps) + " steps, found " +
                    std::to_string(count));
     return steps;
   }

@@ -29,7 +29,7 @@ struct PatchedStep {
 using PatchedPipeline = std::vector<PatchedStep>;
 
 /// The maximum number of steps in a list: far above that of any method, and quick to check.
-inline constexpr std::size_t kMostSteps = 1000;
+inline constexpr std::size_t kMaxSteps = 1000;
 
 /// The steps of the list `pipeline` with their names. Notes faults in the node.
 PatchedPipeline read_steps(const params::Node& pipeline);

@@ -31,7 +31,7 @@ struct PipelineResult {
   Estimate estimate;    ///< Of the last step that did not fail.
   std::string failure;  ///< Empty, or the step that failed and the reason.
   std::vector<StepRecord> records;
-  std::string remark = {};  ///< Optional remark.
+  std::string note = {};  ///< Optional remark.
 };
 
 /// The state before the first step.

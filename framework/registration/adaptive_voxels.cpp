@@ -107,8 +107,8 @@ class PatchSearch {
       view.timed.add(own, weight * time_s);
       view.timed_twice.add(own, weight * time_s * time_s);
     }
-    constexpr double kLeastNoise_m = 0.005;  // Standard deviation of a point across its plane.
-    const double noise_m = std::max(rms_m, kLeastNoise_m);
+    constexpr double kMinNoise_m = 0.005;  // Standard deviation of a point across its plane.
+    const double noise_m = std::max(rms_m, kMinNoise_m);
     PlanePatch patch;
     for (std::size_t k = 0; k < clouds_.size(); ++k) {
       const PlanePatch::View& view = views[k];
@@ -119,7 +119,7 @@ class PatchSearch {
       const double weight = 1.0 / (variance * view.sums.weight);
       patch.views.push_back({clouds_[k].sensor, view.sums.scaled(weight), view.timed.scaled(weight),
                              view.timed_twice.scaled(weight)});
-      patch.own_cost += least_eigenvalue(patch.views.back().sums.scatter());
+      patch.own_cost += min_eigenvalue(patch.views.back().sums.scatter());
     }
     if (patch.views.size() > 1) patches_.push_back(std::move(patch));
   }

@@ -41,8 +41,8 @@ struct Contact {
 /// A view and the points of it that are used.
 class ViewProblem {
  public:
-  /// Uses at most `most` points of the source, evenly spaced.
-  ViewProblem(const AzimuthView& view, const AzimuthOptions& options, std::size_t most)
+  /// Uses at most `max_points` points of the source, evenly spaced.
+  ViewProblem(const AzimuthView& view, const AzimuthOptions& options, std::size_t max_points)
       : view_(view),
         options_(options),
         min_cosine_(std::max(std::cos(rad_from_deg(options.max_normal_angle_deg)), 1e-9)),
@@ -50,7 +50,7 @@ class ViewProblem {
         target_normals_(view.target->normals(options.normal_neighbours)),
         source_normals_(view.source->normals(options.normal_neighbours)) {
     const std::size_t size = view.source->points().size();
-    const std::size_t count = std::min(size, most);
+    const std::size_t count = std::min(size, max_points);
     for (std::size_t i = 0; i < count; ++i) {
       indices_.push_back(static_cast<int>(evenly_spaced_index(i, size, count)));
     }
@@ -184,10 +184,10 @@ class Problem {
       : options_(options) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     std::size_t points = 0;
-    const std::size_t most =
+    const std::size_t max_points =
         static_cast<std::size_t>(options.points) / std::max<std::size_t>(views.size(), 1) + 1;
     for (const AzimuthView& view : views) {
-      views_.emplace_back(view, options_, most);
+      views_.emplace_back(view, options_, max_points);
       poses_.push_back(view.T_target_source);
       sum += views_.back().sum_of_terms();
       points += views_.back().points();
@@ -202,17 +202,17 @@ class Problem {
     information_.setZero();
     gradient_.setZero();
     scatter_.setZero();
-    int most = 0;
+    int max_correspondences = 0;
     for (std::size_t v = 0; v < views_.size(); ++v) {
       reduced_.push_back(reduced_at(v, poses_[v], error()));
       const ReducedView& view = reduced_.back();
       information_ += view.information;
       gradient_ += view.gradient;
       scatter_ += view.scatter;
-      most = std::max(most, view.correspondences);
+      max_correspondences = std::max(max_correspondences, view.correspondences);
     }
-    if (most < kFewestAzimuthCorrespondences) {
-      throw StageError("only " + std::to_string(most) + " points correspond");
+    if (max_correspondences < kMinAzimuthCorrespondences) {
+      throw StageError("only " + std::to_string(max_correspondences) + " points correspond");
     }
   }
 
@@ -248,7 +248,7 @@ class Problem {
   }
 
   /// Writes the solution, from the last linearisation, into `result`.
-  void give(AzimuthCalibration& result) const {
+  void write_result(AzimuthCalibration& result) const {
     result.error = error();
     const Eigen::Matrix3d inverse = guarded_inverse<3>(measured_hessian());
     result.covariance = inverse * scatter_ * inverse;
@@ -267,7 +267,7 @@ class Problem {
   /// A linearised view; zero, so that its pose stays, if it has too few correspondences.
   ReducedView reduced_at(std::size_t v, const RigidTransform& T, const AzimuthError& error) const {
     ReducedView view = reduced(views_[v].contacts(T, error, mean_terms_), options_);
-    if (view.correspondences >= kFewestAzimuthCorrespondences) return view;
+    if (view.correspondences >= kMinAzimuthCorrespondences) return view;
     ReducedView nothing;
     nothing.correspondences = view.correspondences;
     return nothing;
@@ -356,8 +356,8 @@ const params::Table<AzimuthOptions>& azimuth_table() {
 
 double AzimuthCalibration::significance() const {
   // With few surfaces, the gradients sum to zero for any error, so their scatter vanishes.
-  constexpr double kFewestSurfaces = 10.0;
-  if (surfaces < kFewestSurfaces) return 0.0;
+  constexpr double kMinSurfaces = 10.0;
+  if (surfaces < kMinSurfaces) return 0.0;
   const Eigen::Vector3d sizes(error.sine_rad, error.cosine_rad, error.slope);
   return std::sqrt(std::max(0.0, sizes.dot(guarded_inverse<3>(covariance) * sizes) / 3.0));
 }
@@ -373,7 +373,7 @@ AzimuthCalibration calibrate_azimuth(const std::vector<AzimuthView>& views,
     ++result.iterations;
     problem.linearise();
   }
-  problem.give(result);
+  problem.write_result(result);
   return result;
 }
 

@@ -54,7 +54,7 @@ struct AzimuthOptions {
 const params::Table<AzimuthOptions>& azimuth_table();
 
 /// Views with fewer correspondences are skipped.
-inline constexpr int kFewestAzimuthCorrespondences = 30;
+inline constexpr int kMinAzimuthCorrespondences = 30;
 
 /// The azimuth error of a sensor, and its pose without it in each view.
 struct AzimuthCalibration {
@@ -65,7 +65,7 @@ struct AzimuthCalibration {
   double rmse_before_m = 0.0;  ///< Weighted, of the distances to surfaces, at the initial poses
                                ///< without an error.
   double rmse_m = 0.0;         ///< The same at the end.
-  /// By view. A view with fewer than kFewestAzimuthCorrespondences keeps its initial pose and does
+  /// By view. A view with fewer than kMinAzimuthCorrespondences keeps its initial pose and does
   /// not contribute to the error.
   std::vector<int> correspondences;
   double surfaces = 0.0;  ///< Effective number (equally weighted) of surfaces over all views.

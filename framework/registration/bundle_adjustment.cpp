@@ -82,13 +82,13 @@ std::optional<NewtonStep> newton_step(const BundleSystem& system,
 
 /// Makes one step that lowers the cost `value`. Returns whether it moved a sensor.
 bool improve(BundleSystem& system, double& value, double& damping) {
-  constexpr double kLargestDamping = 1e6;
+  constexpr double kMaxDamping = 1e6;
   const BundleCost start = system.start_cost();
   std::vector<BundleCost> scenes;
   for (std::size_t s = 0; s < system.planes().size(); ++s) {
     scenes.push_back(system.scene_cost(s, system.planes()[s], true));
   }
-  for (; damping <= kLargestDamping; damping *= 10.0) {
+  for (; damping <= kMaxDamping; damping *= 10.0) {
     std::optional<NewtonStep> next = newton_step(system, scenes, start, damping);
     if (!next) continue;
     if (next->is_small) return false;
@@ -186,7 +186,7 @@ Bundle adjust_bundle(const std::vector<BundleScene>& scenes, const std::vector<I
   bundle.clock_offsets_s = system.state().clock_offsets_s;
   BundleUncertainty uncertainty = bundle_uncertainty(system, options);
   bundle.covariances = std::move(uncertainty.covariances);
-  bundle.plane_words = plane_words(system);
+  bundle.plane_observability = plane_observability(system);
   bundle.clock_offset_stds_s = std::move(uncertainty.clock_offset_stds_s);
   const double planes = static_cast<double>(std::max<std::size_t>(system.number_of_planes(), 1));
   bundle.cost_per_plane = system.value_in(system.state()) / planes;

@@ -49,8 +49,9 @@ struct Bundle {
   std::vector<int> planes;  ///< By sensor: number of planes that it shares with others.
   /// By sensor, see adjust_bundle; zero for the first and for those that were excluded.
   std::vector<PoseCovariance> covariances;
-  /// By sensor: the observability of each degree of freedom from its planes alone, see plane_words.
-  std::vector<DofWords> plane_words;
+  /// By sensor: the observability of each degree of freedom from its planes alone, see
+  /// plane_observability.
+  std::vector<DofObservability> plane_observability;
   /// By sensor: the offset to be added to its times to obtain those of the first, and its standard
   /// deviation. Zero unless they are unknowns.
   std::vector<double> clock_offsets_s;
@@ -88,7 +89,7 @@ struct Bundle {
 /// for an error of `velocity_error_mps` along the velocity is added: a moving object is elsewhere
 /// when the next sensor sees it, which leaving out one surface at a time does not reveal. According
 /// to its covariance, a degree of freedom is weak if its standard deviation exceeds a tenth of
-/// `start_std`, and unobservable if it exceeds a half; see plane_words for the planes.
+/// `start_std`, and unobservable if it exceeds a half; see plane_observability for the planes.
 ///
 /// `start` contains, by sensor, T_common_sensor and its information in addition to
 /// BundleOptions::start_std; the first is the identity.

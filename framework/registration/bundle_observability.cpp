@@ -45,7 +45,7 @@ void add_patch(const PlanePatch& patch, const std::vector<RigidTransform>& poses
 
 }  // namespace
 
-std::vector<DofWords> plane_words(const BundleSystem& system) {
+std::vector<DofObservability> plane_observability(const BundleSystem& system) {
   const std::size_t sensors = system.state().poses.size();
   std::vector<PlaneEvidence> evidence(sensors);
   for (std::size_t s = 0; s < system.planes().size(); ++s) {
@@ -53,9 +53,9 @@ std::vector<DofWords> plane_words(const BundleSystem& system) {
     for (const PlanePatch& patch : system.planes()[s]) add_patch(patch, poses, evidence);
   }
   const Matrix6d prior = unknown_variances().cwiseInverse().asDiagonal();
-  std::vector<DofWords> words(sensors);  // Initially all determined.
+  std::vector<DofObservability> words(sensors);  // Initially all determined.
   for (std::size_t k = 1; k < sensors; ++k) {
-    const auto held = held_dofs(evidence[k].information, evidence[k].noise, prior);
+    const auto held = dof_constraints(evidence[k].information, evidence[k].noise, prior);
     for (std::size_t dof = 0; dof < held.size(); ++dof) words[k][dof] = held[dof].word;
   }
   return words;

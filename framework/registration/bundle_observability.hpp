@@ -11,7 +11,7 @@ namespace croon {
 /// constrain it in its current state, with the other sensors fixed; `determined` for the first. The
 /// uncertainty of a plane's normal follows from the distribution of its points, and random turns of
 /// that size contribute information; in a direction that no surface constrains, all information is
-/// this noise, for any number of scenes (see held_dofs).
-std::vector<DofWords> plane_words(const BundleSystem& system);
+/// this noise, for any number of scenes (see dof_constraints).
+std::vector<DofObservability> plane_observability(const BundleSystem& system);
 
 }  // namespace croon

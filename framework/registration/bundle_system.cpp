@@ -79,14 +79,14 @@ void BundleSystem::find_planes(int stride) {
     planes_of_sensors_[0] = planes[0];
     for (const std::size_t k : free_sensors_) planes_of_sensors_[k] = planes[k];
     // The one with the fewest planes is removed first: others may share planes only with it.
-    const auto fewest =
+    const auto weakest =
         std::min_element(free_sensors_.begin(), free_sensors_.end(),
                          [&](std::size_t a, std::size_t b) { return planes[a] < planes[b]; });
-    if (fewest == free_sensors_.end() || planes[*fewest] >= options_.min_planes) return;
+    if (weakest == free_sensors_.end() || planes[*weakest] >= options_.min_planes) return;
     // Its points have distorted planes of the others, so the planes are searched again.
-    state_.poses[*fewest] = start_[*fewest].pose;
-    state_.clock_offsets_s[*fewest] = 0.0;
-    free_sensors_.erase(fewest);
+    state_.poses[*weakest] = start_[*weakest].pose;
+    state_.clock_offsets_s[*weakest] = 0.0;
+    free_sensors_.erase(weakest);
   }
 }
 

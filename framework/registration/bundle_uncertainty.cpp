@@ -70,18 +70,18 @@ Eigen::VectorXd step_for_velocity_error(const Twist& velocity, const BundleCost&
          (std::min(error_mps, velocity.linear_mps.norm()) * velocity.linear_mps.normalized());
 }
 
-Observability word_of(double std_ratio) {
+Observability observability_for(double std_ratio) {
   constexpr double kWeak = 0.1, kUnobservable = 0.5;
   if (std_ratio > kUnobservable) return Observability::unobservable;
   return std_ratio > kWeak ? Observability::weak : Observability::determined;
 }
 
 /// The observability of a pose's degrees of freedom from its standard deviations.
-DofWords words_of(const Matrix6d& covariance, const Vector6d& start_std) {
+DofObservability observability_from(const Matrix6d& covariance, const Vector6d& start_std) {
   return judged_dofs(covariance, guarded_inverse<6>(covariance),
                      [&](std::size_t dof, const Matrix6d& of_free) {
                        const auto i = static_cast<Eigen::Index>(dof);
-                       return word_of(std::sqrt(of_free(i, i)) / start_std(i));
+                       return observability_for(std::sqrt(of_free(i, i)) / start_std(i));
                      });
 }
 
@@ -136,11 +136,11 @@ Eigen::MatrixXd joint_covariance(const BundleSystem& system, const BundleOptions
 ClusterStep cluster_step(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& hessian,
                          const Eigen::MatrixXd& K) {
   // A cluster that alone constrains a direction has a leverage of one and no finite step there.
-  constexpr double kLargestLeverage = 0.99;
+  constexpr double kMaxLeverage = 0.99;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> of_leverage(K.transpose() * hessian * K);
   const Eigen::VectorXd leverage = of_leverage.eigenvalues().cwiseMax(0.0);
   const Eigen::MatrixXd directions = K * of_leverage.eigenvectors();
-  const Eigen::VectorXd rest = (1.0 - leverage.array().min(kLargestLeverage)).sqrt();
+  const Eigen::VectorXd rest = (1.0 - leverage.array().min(kMaxLeverage)).sqrt();
   const Eigen::VectorXd slope = directions.transpose() * gradient;
   return {directions * slope.cwiseQuotient(rest), directions.cwiseAbs2() * leverage};
 }
@@ -163,8 +163,8 @@ Eigen::MatrixXd covariance_by_clusters(const std::vector<ClusterStep>& clusters)
 }
 
 double student_widening(double freedom) {
-  constexpr double kLeast = 1.5;
-  const double n = std::max(freedom, kLeast);
+  constexpr double kMinFreedom = 1.5;
+  const double n = std::max(freedom, kMinFreedom);
   return std::sqrt((n + 1.0) / (n - 1.0));
 }
 
@@ -179,7 +179,7 @@ BundleUncertainty bundle_uncertainty(const BundleSystem& system, const BundleOpt
     const auto at = static_cast<Eigen::Index>(6 * a);
     PoseCovariance& own = result.covariances[sensors[a]];
     own.matrix = bounded_covariance(covariance.block<6, 6>(at, at));
-    own.dofs = words_of(own.matrix, system.start_std());
+    own.dofs = observability_from(own.matrix, system.start_std());
     const auto offset_at = static_cast<Eigen::Index>(6 * sensors.size() + a);
     if (offset_at < covariance.rows()) {
       result.clock_offset_stds_s[sensors[a]] = std::sqrt(covariance(offset_at, offset_at));

@@ -37,9 +37,9 @@ bool consistent(const OrientedPairs& pairs, std::size_t i, std::size_t j,
 
 ConsistencyGraph::ConsistencyGraph(const OrientedPairs& pairs, const ConsistencyOptions& options)
     : size_(static_cast<int>(pairs.size())), words_((pairs.size() + 63) / 64) {
-  if (pairs.size() > kMostVertices) {
+  if (pairs.size() > kMaxVertices) {
     throw StageError(std::to_string(pairs.size()) + " correspondences exceed the maximum of " +
-                     std::to_string(kMostVertices) + " for a consistency graph");
+                     std::to_string(kMaxVertices) + " for a consistency graph");
   }
   rows_.resize(pairs.size() * words_);
   for (int i = 0; i < size_; ++i) {
@@ -84,17 +84,17 @@ std::vector<int> ConsistencyGraph::core_numbers() const {
   std::vector<std::vector<int>> bins(static_cast<std::size_t>(size_) + 1);
   for (int i = 0; i < size_; ++i) bins[static_cast<std::size_t>(degrees[i])].push_back(i);
   std::vector<int> cores(static_cast<std::size_t>(size_), -1);
-  for (std::size_t least = 0; least < bins.size();) {
-    if (bins[least].empty()) {
-      ++least;
+  for (std::size_t min_degree = 0; min_degree < bins.size();) {
+    if (bins[min_degree].empty()) {
+      ++min_degree;
       continue;
     }
-    const int vertex = bins[least].back();
-    bins[least].pop_back();
-    if (cores[vertex] >= 0 || degrees[vertex] != static_cast<int>(least)) continue;
-    cores[vertex] = static_cast<int>(least);
+    const int vertex = bins[min_degree].back();
+    bins[min_degree].pop_back();
+    if (cores[vertex] >= 0 || degrees[vertex] != static_cast<int>(min_degree)) continue;
+    cores[vertex] = static_cast<int>(min_degree);
     for (const int other : members(neighbours(vertex))) {
-      if (cores[other] >= 0 || degrees[other] <= static_cast<int>(least)) continue;
+      if (cores[other] >= 0 || degrees[other] <= static_cast<int>(min_degree)) continue;
       bins[static_cast<std::size_t>(--degrees[other])].push_back(other);
     }
   }

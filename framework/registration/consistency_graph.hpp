@@ -32,7 +32,7 @@ struct ConsistencyOptions {
 class ConsistencyGraph {
  public:
   /// Maximum number of correspondences: one bit per pair of them, 300 MB.
-  static constexpr std::size_t kMostVertices = 50000;
+  static constexpr std::size_t kMaxVertices = 50000;
 
   /// Throws StageError if there are more.
   ConsistencyGraph(const OrientedPairs& pairs, const ConsistencyOptions& options);

@@ -36,9 +36,10 @@ std::vector<SurfaceContact> contacts_of(const SensorView& target, const SensorVi
 
 }  // namespace
 
-std::vector<HeldDirection> held_directions(const SensorView& target, const SensorView& source,
-                                           const RigidTransform& T_target_source,
-                                           double max_distance_m) {
+std::vector<ConstraintDirection> constraint_directions(const SensorView& target,
+                                                       const SensorView& source,
+                                                       const RigidTransform& T_target_source,
+                                                       double max_distance_m) {
   const std::vector<SurfaceContact> contacts =
       contacts_of(target, source, T_target_source, max_distance_m);
   if (contacts.size() < 6) return {};
@@ -55,10 +56,10 @@ std::vector<HeldDirection> held_directions(const SensorView& target, const Senso
     all += J.transpose() * J / count;
   }
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> solver(held, all);
-  std::vector<HeldDirection> directions;
+  std::vector<ConstraintDirection> directions;
   for (int i = 0; i < 6; ++i) {
     const Vector6d motion = solver.eigenvectors().col(i);
-    HeldDirection direction;
+    ConstraintDirection direction;
     direction.strength = std::max(0.0, solver.eigenvalues()(i));
     direction.motion.head<3>() = motion.head<3>();
     // `moved` rotates about the sensor's own origin, the motion is about the centre of the points.
@@ -70,10 +71,10 @@ std::vector<HeldDirection> held_directions(const SensorView& target, const Senso
   return directions;
 }
 
-std::string words_of(const std::vector<HeldDirection>& directions) {
+std::string dof_names_of(const std::vector<ConstraintDirection>& directions) {
   constexpr double kTakesPart = 0.4;  // Minimum share of a rotation, or of a translation.
   std::array<double, 6> shares{};
-  for (const HeldDirection& direction : directions) {
+  for (const ConstraintDirection& direction : directions) {
     const double turn = direction.motion.head<3>().norm();
     const double shift = direction.motion.tail<3>().norm();
     for (int i = 0; i < 6; ++i) {

@@ -9,7 +9,7 @@
 namespace croon {
 
 /// A direction of motion of a pose, and how strongly surfaces constrain it.
-struct HeldDirection {
+struct ConstraintDirection {
   Vector6d motion = Vector6d::Zero();  ///< Of `moved`: radians, metres; points move by 1 m.
   double strength = 0.0;  ///< In [0, 1]: 0 unconstrained, 1 along the normals of all surfaces.
 };
@@ -20,11 +20,12 @@ struct HeldDirection {
 /// normal equations relative to those of point to point (after Gelfand et al., Geometrically stable
 /// sampling for the ICP algorithm, 2003, who scale rotations by the radius of the cloud). Empty if
 /// fewer than six points correspond.
-std::vector<HeldDirection> held_directions(const SensorView& target, const SensorView& source,
-                                           const RigidTransform& T_target_source,
-                                           double max_distance_m);
+std::vector<ConstraintDirection> constraint_directions(const SensorView& target,
+                                                       const SensorView& source,
+                                                       const RigidTransform& T_target_source,
+                                                       double max_distance_m);
 
 /// The names of the degrees of freedom that contribute to the motions: "x, y and yaw".
-std::string words_of(const std::vector<HeldDirection>& directions);
+std::string dof_names_of(const std::vector<ConstraintDirection>& directions);
 
 }  // namespace croon

@@ -21,7 +21,7 @@ using SelectCorrespondences = std::function<void(Correspondences&)>;
 
 /// The minimum cosine of two unit vectors that are at most `max_angle_deg` apart; below all cosines
 /// for 180 degrees, because the length of a float vector is not exactly one.
-inline double least_cosine(double max_angle_deg) {
+inline double min_cosine_within(double max_angle_deg) {
   return max_angle_deg < 180.0 ? std::cos(rad_from_deg(max_angle_deg)) : -2.0;
 }
 

@@ -10,9 +10,9 @@
 namespace croon {
 
 /// The target of a scene with its points moved to where they were at the reference time.
-class StillTarget {
+class DeskewedTarget {
  public:
-  StillTarget(const JointScene& scene, const Twist& velocity, const JointOptions& options);
+  DeskewedTarget(const JointScene& scene, const Twist& velocity, const JointOptions& options);
 
   /// Moves the points for another velocity. The kd-tree is rebuilt if, to first order, a point may
   /// be farther than `max_shift_m` from its position in the tree.
@@ -45,10 +45,10 @@ class StillTarget {
   Twist tree_velocity_;  ///< For which the points in the tree were moved.
   /// Not in a Cloud: computations for one velocity are work of the trial, not shared work.
   std::unique_ptr<const KdTree> moved_tree_;
-  const KdTree* tree_ = nullptr;  ///< Of the moved points, or the shared one of the scan.
-  const Normals& normals_;        ///< Of the scan as measured.
-  double longest_s_ = 0.0;        ///< Maximum time from the reference time.
-  double widest_sm_ = 0.0;        ///< Maximum product of that time and a point's range.
+  const KdTree* tree_ = nullptr;          ///< Of the moved points, or the shared one of the scan.
+  const Normals& normals_;                ///< Of the scan as measured.
+  double max_time_s_ = 0.0;               ///< Maximum time from the reference time.
+  double max_time_times_range_sm_ = 0.0;  ///< Maximum product of that time and a point's range.
   double vehicle_weight_;
   /// Whether each point belongs to a vehicle-sized object; null if all points weigh the same.
   std::shared_ptr<const std::vector<bool>> vehicles_;
@@ -91,7 +91,7 @@ struct PairEquations {
   int correspondences = 0;
 };
 
-PairEquations pair_equations(const JointScene::Source& source, const StillTarget& target,
+PairEquations pair_equations(const JointScene::Source& source, const DeskewedTarget& target,
                              const JointView& view);
 
 /// A cube of space around the target.
@@ -118,7 +118,7 @@ struct PairAgreement {
       const std::optional<Eigen::Vector3d>& axis = std::nullopt) const;
 };
 
-PairAgreement pair_agreement(const JointScene::Source& source, const StillTarget& target,
+PairAgreement pair_agreement(const JointScene::Source& source, const DeskewedTarget& target,
                              const JointView& view);
 
 /// The contributions of the correspondences in one cube to the cost's gradient and Hessian, which
@@ -131,6 +131,7 @@ struct CellEquations {
 
 /// The same correspondences by cube. Throws StageError for points outside the grid of cubes.
 std::map<JointCell, CellEquations> cell_equations(const JointScene::Source& source,
-                                                  const StillTarget& target, const JointView& view);
+                                                  const DeskewedTarget& target,
+                                                  const JointView& view);
 
 }  // namespace croon

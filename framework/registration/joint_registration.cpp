@@ -32,8 +32,8 @@ class Problem {
   }
 
   /// The targets of all scenes at `state`.
-  std::vector<StillTarget> targets_at(const JointState& state) const {
-    std::vector<StillTarget> targets;
+  std::vector<DeskewedTarget> targets_at(const JointState& state) const {
+    std::vector<DeskewedTarget> targets;
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
       targets.emplace_back(scenes_[s], state.velocities[s], options_);
     }
@@ -41,7 +41,7 @@ class Problem {
   }
 
   /// Moves `outcome` by Gauss-Newton at one distance until convergence.
-  void run(JointRegistration& outcome, std::vector<StillTarget>& targets,
+  void run(JointRegistration& outcome, std::vector<DeskewedTarget>& targets,
            double max_distance_m) const {
     outcome.converged = false;
     for (int i = 0; i < options_.max_iterations && !outcome.converged; ++i) {
@@ -53,7 +53,7 @@ class Problem {
   }
 
  private:
-  Eigen::VectorXd step_at(JointRegistration& outcome, std::vector<StillTarget>& targets,
+  Eigen::VectorXd step_at(JointRegistration& outcome, std::vector<DeskewedTarget>& targets,
                           double max_distance_m) const {
     // A tree whose points have moved by less finds about the same neighbours; residuals use the
     // exact positions.
@@ -62,7 +62,7 @@ class Problem {
     for_each_in_parallel(scenes_.size(), [&](std::size_t s) {
       const JointScene& scene = scenes_[s];
       const Twist& velocity = outcome.state.velocities[s];
-      StillTarget& target = targets[s];
+      DeskewedTarget& target = targets[s];
       target.set_velocity(velocity, kShiftShare * max_distance_m);
       for (const JointScene::Source& source : scene.sources) {
         pairs[s].push_back(
@@ -77,7 +77,7 @@ class Problem {
       for (std::size_t j = 0; j < pairs[s].size(); ++j) {
         const PairEquations& pair = pairs[s][j];
         outcome.correspondences[s].push_back(pair.correspondences);
-        if (pair.correspondences < kLeastJointCorrespondences) continue;
+        if (pair.correspondences < kMinJointCorrespondences) continue;
         add(pair, blocks_of(s, scenes_[s].sources[j].sensor), information, gradient);
         square_sum += pair.weighted_square_sum;
         weight_sum += pair.weight_sum;
@@ -223,7 +223,7 @@ JointRegistration register_jointly(const std::vector<JointScene>& scenes, JointS
   const std::size_t sensors = start.T_target_sensor.size();
   outcome.state = std::move(start);
   const Problem problem(scenes, options, sensors);
-  std::vector<StillTarget> targets = problem.targets_at(outcome.state);
+  std::vector<DeskewedTarget> targets = problem.targets_at(outcome.state);
   for (const double distance : options.max_distances_m) problem.run(outcome, targets, distance);
   return outcome;
 }

@@ -71,7 +71,7 @@ struct JointRegistration {
 };
 
 /// A source with fewer correspondences is skipped in an iteration.
-inline constexpr int kLeastJointCorrespondences = 30;
+inline constexpr int kMinJointCorrespondences = 30;
 
 /// Registers all sensors in all scenes at once, starting at `start`: one pose per sensor, and one
 /// velocity per moving scene. A point s of a sensor, measured at time t, has the residual

@@ -14,7 +14,7 @@ namespace {
 std::vector<PairAgreement> agreements_in(const JointScene& scene, const JointState& state,
                                          const JointOptions& options) {
   const Twist& velocity = state.velocities.front();
-  const StillTarget target(scene, velocity, options);
+  const DeskewedTarget target(scene, velocity, options);
   std::vector<PairAgreement> pairs;
   for (const JointScene::Source& source : scene.sources) {
     pairs.push_back(pair_agreement(source, target, last_view(state, velocity, options)));
@@ -29,7 +29,7 @@ Agreement sum_by_cell(const std::vector<PairAgreement>& pairs,
                       const std::optional<Eigen::Vector3d>& axis) {
   Agreement agreement;
   for (const PairAgreement& pair : pairs) {
-    if (pair.points.size() < kLeastJointCorrespondences) continue;
+    if (pair.points.size() < kMinJointCorrespondences) continue;
     for (const auto& [cell, agreeing] : pair.by_cell(axis)) agreement[cell] += agreeing;
   }
   return agreement;
@@ -130,19 +130,19 @@ std::vector<std::optional<double>> leads_over_rivals(const JointScene& scene,
                                                      const JointOptions& options,
                                                      const JointOptions& coarse_options) {
   const std::vector<PairAgreement> own = agreements_in(scene, state, options);
-  std::vector<std::optional<double>> least(scene.sources.size());
+  std::vector<std::optional<double>> min_leads(scene.sources.size());
   const std::vector<JointState> near = registered({coarse}, starts, coarse_options);
   for (const JointState& fine : registered({scene}, different_from(state, near), options)) {
     if (!is_rival(fine, state)) continue;
     const std::optional<Eigen::Vector3d> axis = axis_between(state, fine);
     const double lead =
         lead_of(sum_by_cell(own, axis), sum_by_cell(agreements_in(scene, fine, options), axis));
-    for (std::size_t j = 0; j < least.size(); ++j) {
+    for (std::size_t j = 0; j < min_leads.size(); ++j) {
       if (!is_elsewhere(fine, state, scene.sources[j].sensor)) continue;
-      least[j] = std::min(lead, least[j].value_or(lead));
+      min_leads[j] = std::min(lead, min_leads[j].value_or(lead));
     }
   }
-  return least;
+  return min_leads;
 }
 
 }  // namespace croon

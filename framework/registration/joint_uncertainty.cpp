@@ -41,7 +41,7 @@ VelocityEquations velocity_equations(const std::vector<CellEquations>& sensors,
 
 }  // namespace
 
-Matrix6d velocity_covariance(const StillTarget& target, const JointState& state,
+Matrix6d velocity_covariance(const DeskewedTarget& target, const JointState& state,
                              const JointOptions& options) {
   const JointScene& scene = target.scene();
   const JointView view = last_view(state, target.velocity(), options);
@@ -49,7 +49,7 @@ Matrix6d velocity_covariance(const StillTarget& target, const JointState& state,
   std::map<JointCell, std::vector<CellEquations>> cells;
   for (std::size_t j = 0; j < scene.sources.size(); ++j) {
     const Cells of_source = cell_equations(scene.sources[j], target, view);
-    if (correspondences_in(of_source) < kLeastJointCorrespondences) continue;
+    if (correspondences_in(of_source) < kMinJointCorrespondences) continue;
     for (const auto& [place, sums] : of_source) {
       all[j].hessian += sums.hessian;
       std::vector<CellEquations>& cell = cells[place];
@@ -77,7 +77,7 @@ Matrix6d velocity_covariance(const StillTarget& target, const JointState& state,
   return guarded_inverse<6>(guarded_inverse<6>(covariance) + of_unknown);
 }
 
-std::vector<double> shift_std_m(const StillTarget& target, const Matrix6d& covariance,
+std::vector<double> shift_std_m(const DeskewedTarget& target, const Matrix6d& covariance,
                                 const JointState& state, const JointOptions& options) {
   const JointView view = last_view(state, target.velocity(), options);
   std::vector<double> std_m;

@@ -15,7 +15,7 @@ inline constexpr double kWeakRatio = 10.0;
 inline constexpr double kUnobservableRatio = 2.0;
 
 /// How well the data constrain a degree of freedom.
-struct HeldDof {
+struct DofConstraint {
   Observability word = Observability::unobservable;
   /// The motion of the pose by one unit of it, with all free degrees of freedom following such that
   /// the opposing information is minimal.
@@ -32,8 +32,8 @@ using JudgeDof = std::function<Observability(std::size_t dof, const Matrix6d& co
 /// determined lead. For example, on a plain seen by a reference that is tilted by up to 14 degrees,
 /// roll follows yaw, because the rotation about the plain's normal, which is unconstrained, is
 /// mostly yaw.
-DofWords judged_dofs(const Matrix6d& covariance, const Matrix6d& information,
-                     const JudgeDof& judge);
+DofObservability judged_dofs(const Matrix6d& covariance, const Matrix6d& information,
+                             const JudgeDof& judge);
 
 /// Compares, for each degree of freedom with all others free (the Schur complement), the
 /// `information` from the normals of surfaces with the part of it that their `noise` alone would
@@ -42,8 +42,8 @@ DofWords judged_dofs(const Matrix6d& covariance, const Matrix6d& information,
 /// units; without it, a plain would not constrain roll either, because a translation by kilometres
 /// could compensate it. Degrees of freedom that follow another one are classified with that one
 /// fixed (judged_dofs).
-std::array<HeldDof, 6> held_dofs(const Matrix6d& information, const Matrix6d& noise,
-                                 const Matrix6d& prior, double weak_ratio = kWeakRatio,
-                                 double unobservable_ratio = kUnobservableRatio);
+std::array<DofConstraint, 6> dof_constraints(const Matrix6d& information, const Matrix6d& noise,
+                                             const Matrix6d& prior, double weak_ratio = kWeakRatio,
+                                             double unobservable_ratio = kUnobservableRatio);
 
 }  // namespace croon

@@ -134,7 +134,7 @@ PointSums moved(const PointSums& sums, const RigidTransform& T) {
   return after;
 }
 
-double least_eigenvalue(const Eigen::Matrix3d& scatter) {
+double min_eigenvalue(const Eigen::Matrix3d& scatter) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter, Eigen::EigenvaluesOnly);
   return std::max(solver.eigenvalues()(0), 0.0);
 }
@@ -145,23 +145,23 @@ Matrix6d velocity_at(const Eigen::Vector3d& origin) {
 
 double plane_cost_value(const PlanePatch& patch, const RigState& state) {
   const Joined points = joined(patch, state);
-  return std::max(least_eigenvalue(points.all.scatter()) - patch.own_cost, 0.0);
+  return std::max(min_eigenvalue(points.all.scatter()) - patch.own_cost, 0.0);
 }
 
 void plane_cost(const PlanePatch& patch, const RigState& state, PlaneCost& cost) {
   const Joined points = joined(patch, state);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(points.all.scatter());
   const Eigen::Vector3d& variances = solver.eigenvalues();
-  const double least = std::max(variances(0), 0.0);
-  cost.value = std::max(least - patch.own_cost, 0.0);
+  const double minimum = std::max(variances(0), 0.0);
+  cost.value = std::max(minimum - patch.own_cost, 0.0);
   cost.normal = solver.eigenvectors().col(0);
   cost.centre = points.all.sum / points.all.weight;
   // The plane rotates about the two other eigenvectors and moves along n. The second derivatives
   // with respect to these three are 2 (l_1 - l_0), 2 (l_2 - l_0) and 2 w; they do not mix.
-  const double smallest_gap = 1e-12 * variances(2) + 1e-300;
+  const double min_gap = 1e-12 * variances(2) + 1e-300;
   const Eigen::Vector3d curvature =
-      2.0 * Eigen::Vector3d(std::max(variances(1) - least, smallest_gap),
-                            std::max(variances(2) - least, smallest_gap), points.all.weight);
+      2.0 * Eigen::Vector3d(std::max(variances(1) - minimum, min_gap),
+                            std::max(variances(2) - minimum, min_gap), points.all.weight);
   const FittedPlane plane = {solver.eigenvectors(), curvature.cwiseSqrt(), cost.centre};
   cost.views.clear();
   cost.view_velocity.clear();

@@ -30,7 +30,7 @@ PointSums moved(const PointSums& sums, const RigidTransform& T);
 
 /// The minimum eigenvalue of a scatter, clamped to zero: the weighted sum of squared distances to
 /// the best-fitting plane.
-double least_eigenvalue(const Eigen::Matrix3d& scatter);
+double min_eigenvalue(const Eigen::Matrix3d& scatter);
 
 /// A piece of a plane that several sensors see, the sensors in ascending order.
 struct PlanePatch {

@@ -197,9 +197,9 @@ PointFeatures point_features(const Cloud& cloud, const FeatureOptions& options) 
   for (std::size_t i = 0; i < surface.points.size(); ++i) simple.push_back(simplified(surface, i));
   std::vector<FeatureHistogram> histograms;
   std::vector<std::size_t> described;
-  constexpr std::size_t kFewest = 5;  // Fewer neighbours do not describe a surface.
+  constexpr std::size_t kMinNeighbours = 5;  // Fewer neighbours do not describe a surface.
   for (std::size_t i = 0; i < surface.points.size(); ++i) {
-    if (surface.neighbours[i].size() < kFewest) continue;
+    if (surface.neighbours[i].size() < kMinNeighbours) continue;
     histograms.push_back(whole_numbers(weighted(surface, simple, i)));
     described.push_back(i);
   }

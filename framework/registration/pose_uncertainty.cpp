@@ -20,7 +20,7 @@
 namespace croon {
 namespace {
 
-constexpr std::size_t kFewestContacts = 12;
+constexpr std::size_t kMinContacts = 12;
 constexpr int kDofCount = 6;
 
 /// A source point on a surface of the target.
@@ -62,11 +62,11 @@ class ContactFinder {
     require_near(source_times_, reference_s);
   }
 
-  /// The contacts of at most `most` points, evenly spaced in the source.
-  std::vector<Contact> contacts(const RigidTransform& T, std::size_t most) const {
+  /// The contacts of at most `max_points` points, evenly spaced in the source.
+  std::vector<Contact> contacts(const RigidTransform& T, std::size_t max_points) const {
     std::vector<Contact> found;
     const std::size_t size = source_.points().size();
-    const std::size_t count = std::min(size, most);
+    const std::size_t count = std::min(size, max_points);
     Contact contact;
     for (std::size_t i = 0; i < count; ++i) {
       const auto index = static_cast<int>(evenly_spaced_index(i, size, count));
@@ -179,11 +179,11 @@ Matrix6d prior_information(double noise_m) {
 /// `F^-1 H` by the eigenvectors of `F v = lambda H v`, with each lambda at least 1/4: in a weakly
 /// constrained direction F consists of noise, may be negative, and would dominate all others.
 Matrix6d bounded_ratio(const Matrix6d& F, const Matrix6d& H) {
-  constexpr double kLeast = 0.25;  // In ordinary scenes 0.4 to 1.2.
+  constexpr double kMinRatio = 0.25;  // In ordinary scenes 0.4 to 1.2.
   const Matrix6d L = guarded_inverse<6>(H).llt().matrixL();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(symmetric<6>(L.transpose() * F * L));
   const Matrix6d V = L * solver.eigenvectors();  // V^T H V is the identity.
-  return V * solver.eigenvalues().cwiseMax(kLeast).cwiseInverse().asDiagonal() * V.inverse();
+  return V * solver.eigenvalues().cwiseMax(kMinRatio).cwiseInverse().asDiagonal() * V.inverse();
 }
 
 /// The quadratic model of all contacts at a pose.
@@ -192,8 +192,8 @@ class ContactModel {
   ContactModel(const ContactFinder& finder, const RigidTransform& T,
                const UncertaintyOptions& options)
       : finder_(finder), pose_(T), options_(options) {
-    constexpr std::size_t kMost = 20000;
-    const std::vector<Contact> contacts = finder.contacts(T, kMost);
+    constexpr std::size_t kMaxContacts = 20000;
+    const std::vector<Contact> contacts = finder.contacts(T, kMaxContacts);
     count_ = contacts.size();
     DirectionCounts counts{};
     for (const Contact& contact : contacts) ++counts.at(contact.surface.second);
@@ -241,16 +241,17 @@ class ContactModel {
   /// The ratio by which a pose moves farther than with constant contacts: `F^-1 H` of the Hessian H
   /// with constant contacts and F from differences of gradients with new contacts.
   Matrix6d stretch() const {
-    constexpr std::size_t kMost = 4000;
+    constexpr std::size_t kMaxContacts = 4000;
     constexpr double kStep_rad = 0.0005, kStep_m = 0.01;
     Matrix6d same = prior_information(noise_m_);
-    for (const Contact& contact : finder_.contacts(pose_, kMost)) {
+    for (const Contact& contact : finder_.contacts(pose_, kMaxContacts)) {
       same += quadratic(contact).hessian;
     }
     Matrix6d found;
     for (int i = 0; i < kDofCount; ++i) {
       const double step = i < 3 ? kStep_rad : kStep_m;
-      found.col(i) = (gradient_at(i, step, kMost) - gradient_at(i, -step, kMost)) / (2.0 * step);
+      found.col(i) =
+          (gradient_at(i, step, kMaxContacts) - gradient_at(i, -step, kMaxContacts)) / (2.0 * step);
     }
     return bounded_ratio(found, same);
   }
@@ -261,10 +262,10 @@ class ContactModel {
                         noise_m_);
   }
 
-  Vector6d gradient_at(int dof, double step, std::size_t most) const {
+  Vector6d gradient_at(int dof, double step, std::size_t max_points) const {
     Vector6d sum = Vector6d::Zero();
     for (const Contact& contact :
-         finder_.contacts(moved(pose_, step * Vector6d::Unit(dof)), most)) {
+         finder_.contacts(moved(pose_, step * Vector6d::Unit(dof)), max_points)) {
       sum += quadratic(contact).gradient;
     }
     return sum;
@@ -284,8 +285,8 @@ class ContactModel {
 /// those that only noise constrains.
 void judge_dofs(const Quadratic& all, double noise_m, const UncertaintyOptions& options,
                 PoseCovariance& covariance) {
-  const auto held = held_dofs(all.information, all.noise, prior_information(noise_m),
-                              options.weak_ratio, options.unobservable_ratio);
+  const auto held = dof_constraints(all.information, all.noise, prior_information(noise_m),
+                                    options.weak_ratio, options.unobservable_ratio);
   for (std::size_t dof = 0; dof < held.size(); ++dof) {
     const auto& [word, motion] = held[dof];
     covariance.dofs[dof] = word;
@@ -306,7 +307,7 @@ PoseCovariance pose_uncertainty(const Cloud& target, const Cloud& source,
   if (target.empty() || source.empty()) return covariance;
   const ContactFinder finder(target, source, options);
   const ContactModel model(finder, T_target_source, options);
-  if (model.count() < kFewestContacts) return covariance;
+  if (model.count() < kMinContacts) return covariance;
   Matrix6d matrix = options.scale * options.scale * model.jackknife();
   const Vector6d grazing = options.grazing_error_ratio * model.grazing_step();
   matrix += grazing * grazing.transpose();

@@ -51,27 +51,27 @@ bool SceneMotion::is_in_doubt(const MotionOptions& options) const {
 
 std::string SceneMotion::rejection(std::size_t source, const MotionOptions& options) const {
   const bool is_held = shift_std_m.at(source) <= options.certain_shift_m;
-  const double least = is_held ? std::min(options.min_speed_lead, 0.0) : options.min_speed_lead;
+  const double min_lead = is_held ? std::min(options.min_speed_lead, 0.0) : options.min_speed_lead;
   const std::optional<double>& lead = leads.at(source);
-  if (!lead || *lead >= least) return "";
+  if (!lead || *lead >= min_lead) return "";
   return "the standard deviation of the speed, m/s, is " +
          fixed_number(speed_std_mps(covariance), 3) +
          ", and the lead over another speed, in standard deviations, is " + fixed_number(*lead, 2) +
-         ", below " + fixed_number(least, 2);
+         ", below " + fixed_number(min_lead, 2);
 }
 
 SceneMotion motion_of(const JointScene& scene, std::size_t s, const JointState& state,
-                      const std::optional<JointState>& every_patch, const JointOptions& options,
-                      const MotionOptions& motion_options) {
+                      const std::optional<JointState>& state_without_patch_kernel,
+                      const JointOptions& options, const MotionOptions& motion_options) {
   SceneMotion motion;
   motion.shift_std_m.assign(scene.sources.size(), 0.0);
   motion.leads.resize(scene.sources.size());
   if (!scene.is_moving) return motion;
   const Vector6d velocity = vector_of(state.velocities[s]);
-  const StillTarget target(scene, state.velocities[s], options);
+  const DeskewedTarget target(scene, state.velocities[s], options);
   motion.covariance = velocity_covariance(target, state, options);
-  if (every_patch) {
-    const Vector6d apart = velocity - vector_of(every_patch->velocities[s]);
+  if (state_without_patch_kernel) {
+    const Vector6d apart = velocity - vector_of(state_without_patch_kernel->velocities[s]);
     motion.covariance += apart * apart.transpose();
   }
   motion.shift_std_m = shift_std_m(target, motion.covariance, state, options);

@@ -42,11 +42,11 @@ struct SceneMotion {
 };
 
 /// The motion of scene `s` in `state`. Moving objects may decide between two velocities: then the
-/// velocity in `every_patch`, the state without the patch kernel, differs, and the difference adds
-/// to the uncertainty.
+/// velocity in `state_without_patch_kernel`, the state without the patch kernel, differs, and the
+/// difference adds to the uncertainty.
 SceneMotion motion_of(const JointScene& scene, std::size_t s, const JointState& state,
-                      const std::optional<JointState>& every_patch, const JointOptions& options,
-                      const MotionOptions& motion_options);
+                      const std::optional<JointState>& state_without_patch_kernel,
+                      const JointOptions& options, const MotionOptions& motion_options);
 
 /// The horizontal axis along which a scene most likely moves: the principal axis of the second
 /// moment of its velocity, which has the mean `velocity` and the covariance of `motion`. A unit

@@ -36,13 +36,13 @@ TimeSpan span_of(const std::vector<double>& times_s) {
 }
 
 void require_near(const std::vector<double>& times_s, double reference_s) {
-  constexpr double kLongest_s = 60.0;
+  constexpr double kMaxTimeOffset_s = 60.0;
   for (const double time_s : times_s) {
-    if (std::abs(time_s - reference_s) <= kLongest_s) continue;
+    if (std::abs(time_s - reference_s) <= kMaxTimeOffset_s) continue;
     if (!std::isfinite(time_s) || !std::isfinite(reference_s)) {
       throw StageError("a point's time is not a finite number");
     }
-    throw StageError("a point's time is more than " + fixed_number(kLongest_s, 0) +
+    throw StageError("a point's time is more than " + fixed_number(kMaxTimeOffset_s, 0) +
                      " s from the reference time: is it relative to the scan (reference_time)?");
   }
   if (times_s.empty()) return;

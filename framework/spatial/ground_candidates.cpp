@@ -23,9 +23,9 @@ Plane refitted(const Points& points, const Plane& plane, double threshold_m) {
   for (const int i : points_within(points, plane, threshold_m)) {
     if (points[i].cast<double>().norm() <= kNear_m) near.push_back(i);
   }
-  constexpr std::size_t kFewest = 50;
+  constexpr std::size_t kMinNearPoints = 50;
   Plane fitted = plane;
-  if (near.size() >= kFewest) {
+  if (near.size() >= kMinNearPoints) {
     try {
       fitted = fit_plane(points, near);
     } catch (const StageError&) {

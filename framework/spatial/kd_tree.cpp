@@ -116,15 +116,16 @@ class NearestResult {
   const Neighbour& best() const { return best_; }
 
   void visit(const Distances& squared, const Indices& indices) {
-    const float least = squared.minCoeff();
-    if (least > best_.squared_distance_m2) return;
+    const float min_squared = squared.minCoeff();
+    if (min_squared > best_.squared_distance_m2) return;
     constexpr int kNone = std::numeric_limits<int>::max();
     int first = kNone;
     for (int i = 0; i < kLeafSize; ++i) {
-      const int index = squared.data()[i] == least ? indices.data()[i] : kNone;
+      const int index = squared.data()[i] == min_squared ? indices.data()[i] : kNone;
       first = index < first ? index : first;
     }
-    if (is_nearer(least, first, best_.squared_distance_m2, best_.index)) best_ = {first, least};
+    if (is_nearer(min_squared, first, best_.squared_distance_m2, best_.index))
+      best_ = {first, min_squared};
   }
 
  private:
@@ -164,7 +165,7 @@ class NearestTwoResult {
 class NearestManyResult {
  public:
   NearestManyResult(int wanted, float bound_m2) : wanted_(wanted), bound_m2_(bound_m2) {
-    const auto room = static_cast<std::size_t>(most()) + kLeafSize;
+    const auto room = static_cast<std::size_t>(max_candidates()) + kLeafSize;
     if (squared().size() < room) {
       squared().resize(room);
       indices().resize(room);
@@ -181,7 +182,7 @@ class NearestManyResult {
       indices[count_] = places[i];
       count_ += static_cast<int>(squared_distances[i] <= bound_m2_);
     }
-    if (count_ > most()) drop_farthest();
+    if (count_ > max_candidates()) drop_farthest();
   }
 
   void write(std::vector<Neighbour>& neighbours) {
@@ -193,7 +194,7 @@ class NearestManyResult {
   }
 
  private:
-  int most() const { return wanted_ + 2 * kLeafSize; }
+  int max_candidates() const { return wanted_ + 2 * kLeafSize; }
   static std::vector<float>& squared() {
     thread_local std::vector<float> memory;
     return memory;

@@ -24,7 +24,7 @@ class NearestDistanceCost {
   /// The source's points that are used, in its frame, m.
   const Points& points() const { return points_; }
   /// An estimate of the cost from a few evenly spaced points.
-  double glance(const RigidTransform& T_target_source) const;
+  double cheap_estimate(const RigidTransform& T_target_source) const;
 
   /// The point of the target nearest to `point_in_target`, within `reach_m`. `near` is the index of
   /// a target point that is known to be near, or -1; it bounds the search and does not change the

@@ -18,7 +18,7 @@ constexpr float kSingleRounding = 1e-6F;
 constexpr float kLooksFarther = 1.5F;
 
 /// Bounds are kept for at most this many points, summed over all angles: 64 MB, 12 bytes each.
-constexpr std::size_t kMostKnown = 5'300'000;
+constexpr std::size_t kMaxKnownPoints = 5'300'000;
 
 }  // namespace
 
@@ -76,7 +76,7 @@ TurningCost::Known TurningCost::known_at(double angle_rad) const {
 }
 
 void TurningCost::keep(double angle_rad, Known known) {
-  if (known_.size() * points_.size() < kMostKnown) known_[angle_rad] = std::move(known);
+  if (known_.size() * points_.size() < kMaxKnownPoints) known_[angle_rad] = std::move(known);
 }
 
 double TurningCost::addend_at_least_m2(const Known& known, std::size_t i) const {
@@ -104,7 +104,7 @@ std::vector<std::size_t> TurningCost::promising_first(const Known& known) const 
   return places;
 }
 
-double TurningCost::below(double angle_rad, double enough_m2) {
+double TurningCost::below(double angle_rad, double upper_bound_m2) {
   if (points_.empty()) return 0.0;
   const RigidTransform T = turned(angle_rad);
   const Eigen::Matrix3f R = T.rotation.cast<float>();
@@ -116,11 +116,11 @@ double TurningCost::below(double angle_rad, double enough_m2) {
   // with slightly more than the limit, because the order of summation differs from that of a mean.
   double at_least_m2 = 0.0;
   for (std::size_t i = 0; i < points_.size(); ++i) at_least_m2 += addend_at_least_m2(here, i);
-  const double enough = enough_m2 * count * (1.0 + 1e-9);
+  const double upper_bound = upper_bound_m2 * count * (1.0 + 1e-9);
   const float reach_m = kLooksFarther * cost_.max_distance_m();
   std::vector<double> addends_m2(points_.size());
   for (const std::size_t i : promising_first(here)) {
-    if (at_least_m2 >= enough) {
+    if (at_least_m2 >= upper_bound) {
       keep(angle_rad, std::move(here));
       return at_least_m2 / count;
     }
@@ -140,6 +140,8 @@ double TurningCost::below(double angle_rad, double enough_m2) {
   return std::accumulate(addends_m2.begin(), addends_m2.end(), 0.0) / count;
 }
 
-double TurningCost::glance(double angle_rad) const { return cost_.glance(turned(angle_rad)); }
+double TurningCost::cheap_estimate(double angle_rad) const {
+  return cost_.cheap_estimate(turned(angle_rad));
+}
 
 }  // namespace croon

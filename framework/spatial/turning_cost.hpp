@@ -28,11 +28,11 @@ class TurningCost {
   /// The cost of that pose, m^2; exact to the last bit.
   double operator()(double angle_rad);
 
-  /// The same if it is below `enough_m2`, else any number that is not below.
-  double below(double angle_rad, double enough_m2);
+  /// The same if it is below `upper_bound_m2`, else any number that is not below.
+  double below(double angle_rad, double upper_bound_m2);
 
   /// An estimate of the cost from a few of the points, m^2.
-  double glance(double angle_rad) const;
+  double cheap_estimate(double angle_rad) const;
 
  private:
   /// One point of the source.

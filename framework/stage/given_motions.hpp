@@ -12,8 +12,8 @@
 namespace croon {
 
 /// Upper bounds for a car's speed and rate of rotation; larger numbers indicate a wrong unit.
-inline constexpr double kFastest_mps = 1000.0;
-inline constexpr double kFastest_degps = 3600.0;
+inline constexpr double kMaxSpeed_mps = 1000.0;
+inline constexpr double kMaxTurnRate_degps = 3600.0;
 
 /// The velocity of the car in one scene, as measured by another device.
 struct GivenMotion {

@@ -33,11 +33,11 @@ RigidTransform pose_of(const Eigen::Vector3d& rpy_deg, const Eigen::Vector3d& tr
 /// Notes a fault for each element of the position `translation_m` of `pose` that is too large.
 void check_position(const params::Node& pose, const Eigen::Vector3d& translation_m) {
   for (int i = 0; i < 3; ++i) {
-    if (std::abs(translation_m(i)) <= kLargestCoordinate_m) continue;
+    if (std::abs(translation_m(i)) <= kMaxCoordinate_m) continue;
     pose.member("translation_m")
         .element(static_cast<std::size_t>(i))
-        .expected("a number from -" + fixed_number(kLargestCoordinate_m, 0) + " to " +
-                  fixed_number(kLargestCoordinate_m, 0) + " m");
+        .expected("a number from -" + fixed_number(kMaxCoordinate_m, 0) + " to " +
+                  fixed_number(kMaxCoordinate_m, 0) + " m");
   }
 }
 

@@ -37,7 +37,7 @@ class RigStep : public Step {
   Estimate advance(Estimate estimate, Rng& rng) const final;
 };
 
-/// Throws StageError if a cloud of `estimate` is empty, or has a point beyond kLargestCoordinate_m.
+/// Throws StageError if a cloud of `estimate` is empty, or has a point beyond kMaxCoordinate_m.
 /// Steps that combine all clouds into one problem call it for each estimate, so that only the
 /// estimate of an unusable cloud fails.
 void require_usable_clouds(const Estimate& estimate);

@@ -11,33 +11,36 @@ namespace croon {
 class YawCost {
  public:
   using OfYaw = std::function<double(double yaw_rad)>;
-  using OfYawBelow = std::function<double(double yaw_rad, double enough)>;
+  using OfYawBelow = std::function<double(double yaw_rad, double upper_bound)>;
 
-  /// From a function of yaw, one that may stop early as in `below`, and one for `glance`.
+  /// From a function of yaw, one that may stop early as in `below`, and one for `cheap_estimate`.
   template <class Function,
             class = std::enable_if_t<std::is_invocable_r_v<double, const Function&, double>>>
   // Implicit on purpose: callables convert.
-  YawCost(Function of_yaw, OfYawBelow of_yaw_below = {}, OfYaw glance = {})  // NOLINT(*-explicit-*)
+  YawCost(Function of_yaw, OfYawBelow of_yaw_below = {},
+          OfYaw cheap_estimate = {})  // NOLINT(*-explicit-*)
       : of_yaw_(std::move(of_yaw)),
         of_yaw_below_(std::move(of_yaw_below)),
-        glance_(std::move(glance)) {}
+        cheap_estimate_(std::move(cheap_estimate)) {}
 
   double operator()(double yaw_rad) const { return of_yaw_(yaw_rad); }
 
-  /// The cost if it is below `enough`, else any number that is not. Saves most of a sum if a search
-  /// only needs to know whether one yaw costs less than another.
-  double below(double yaw_rad, double enough) const {
-    return of_yaw_below_ ? of_yaw_below_(yaw_rad, enough) : of_yaw_(yaw_rad);
+  /// The cost if it is below `upper_bound`, else any number that is not. Saves most of a sum if a
+  /// search only needs to know whether one yaw costs less than another.
+  double below(double yaw_rad, double upper_bound) const {
+    return of_yaw_below_ ? of_yaw_below_(yaw_rad, upper_bound) : of_yaw_(yaw_rad);
   }
 
   /// A cheap estimate of the cost, or the same number for every yaw. Tells a search where to look
   /// first.
-  double glance(double yaw_rad) const { return glance_ ? glance_(yaw_rad) : 0.0; }
+  double cheap_estimate(double yaw_rad) const {
+    return cheap_estimate_ ? cheap_estimate_(yaw_rad) : 0.0;
+  }
 
  private:
   OfYaw of_yaw_;
   OfYawBelow of_yaw_below_;
-  OfYaw glance_;
+  OfYaw cheap_estimate_;
 };
 
 /// The yaw of minimum cost that a search found.
@@ -74,6 +77,6 @@ struct GridMinimum {
 /// The minimum of `cost` on the grid of `yaw_grid`; in case of ties the first, i.e. the smallest
 /// rotation. Starts with the yaws of low estimated cost, so that most others can be ruled out
 /// early.
-GridMinimum least_on_grid(const YawCost& cost, double range_deg, double step_deg);
+GridMinimum min_on_grid(const YawCost& cost, double range_deg, double step_deg);
 
 }  // namespace croon

@@ -19,9 +19,10 @@ struct Params {
 const params::Table<Params>& table() {
   static const params::Table<Params> table = [] {
     params::Table<Params> rows = {
-        params::numbers("linear_mps", &Params::linear_mps, {-kFastest_mps, kFastest_mps},
+        params::numbers("linear_mps", &Params::linear_mps, {-kMaxSpeed_mps, kMaxSpeed_mps},
                         "The sensor's velocity along x, y, z of its own frame."),
-        params::numbers("angular_degps", &Params::angular_degps, {-kFastest_degps, kFastest_degps},
+        params::numbers("angular_degps", &Params::angular_degps,
+                        {-kMaxTurnRate_degps, kMaxTurnRate_degps},
                         "Its rate of turning about x, y, z of its own frame."),
         params::choice(
             "reference_time", &Params::reference_time,

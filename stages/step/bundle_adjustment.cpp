@@ -37,8 +37,8 @@ const params::Table<Params>& table() {
   return table;
 }
 
-DofWords all_of(Observability word) {
-  DofWords words;
+DofObservability all_of(Observability word) {
+  DofObservability words;
   words.fill(word);
   return words;
 }
@@ -50,7 +50,7 @@ struct RigBundle {
   std::vector<BundleScene> scenes;
   std::vector<InformedPose> start;  ///< By sensor, first the reference.
   /// By sensor: how well the scene that holds it best does, by the covariances of steps before.
-  std::vector<DofWords> start_words;
+  std::vector<DofObservability> start_words;
 };
 
 class BundleAdjustmentStep final : public RigStep {
@@ -127,12 +127,12 @@ class BundleAdjustmentStep final : public RigStep {
   }
 
   /// The best of each degree of freedom of a sensor's estimates, one per scene, near `centre`.
-  static DofWords start_words_of(const std::vector<const Estimate*>& estimates,
-                                 const RigidTransform& centre) {
-    DofWords words = all_of(Observability::unobservable);
+  static DofObservability start_words_of(const std::vector<const Estimate*>& estimates,
+                                         const RigidTransform& centre) {
+    DofObservability words = all_of(Observability::unobservable);
     for (const Estimate* const one : estimates) {
       if (!one->covariance || !agree(one->T_target_source, centre, kNearStart)) continue;
-      words = better_words(words, one->covariance->dofs);
+      words = best_observability(words, one->covariance->dofs);
     }
     return words;
   }
@@ -234,9 +234,9 @@ class BundleAdjustmentStep final : public RigStep {
       estimate.covariance = result.covariances[sensor];
       // Planes or registrations must hold it, and well enough.
       const bool start_counts = params_.start_weight > 0.0 && !start.information.isZero(0.0);
-      DofWords held = result.plane_words[sensor];
-      if (start_counts) held = better_words(held, rig.start_words[sensor]);
-      estimate.covariance->dofs = worse_words(estimate.covariance->dofs, held);
+      DofObservability held = result.plane_observability[sensor];
+      if (start_counts) held = best_observability(held, rig.start_words[sensor]);
+      estimate.covariance->dofs = worst_observability(estimate.covariance->dofs, held);
     } else {
       // One pose has one covariance, though each scene had its own.
       estimate.covariance = {guarded_inverse<6>(start.information), rig.start_words[sensor]};

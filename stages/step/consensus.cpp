@@ -84,7 +84,7 @@ class ConsensusStep final : public RigStep {
       covariance->matrix = guarded_inverse<6>(mean.information);
       // A scene that does not hold a direction has no weight in it, so its word does not count.
       for (const RigEstimate* const one : agreeing) {
-        covariance->dofs = better_words(covariance->dofs, one->estimate.covariance->dofs);
+        covariance->dofs = best_observability(covariance->dofs, one->estimate.covariance->dofs);
       }
     } else if (agreeing.size() > 1) {
       // consensus_pose is the mean of the poses near a medoid; those near that mean may be others.

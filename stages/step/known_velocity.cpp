@@ -30,14 +30,15 @@ const params::Table<Params>& table() {
         params::optional(params::text("file", &Params::file,
                                       "A CSV file with a velocity for each scene; without it "
                                       "linear_mps and angular_degps hold for all.")),
-        params::numbers("linear_mps", &Params::linear_mps, {-kFastest_mps, kFastest_mps},
+        params::numbers("linear_mps", &Params::linear_mps, {-kMaxSpeed_mps, kMaxSpeed_mps},
                         "The velocity along x, y, z of the frame of the velocities."),
-        params::numbers("angular_degps", &Params::angular_degps, {-kFastest_degps, kFastest_degps},
+        params::numbers("angular_degps", &Params::angular_degps,
+                        {-kMaxTurnRate_degps, kMaxTurnRate_degps},
                         "The rate of turning about x, y, z of that frame."),
-        params::number("linear_std_mps", &Params::linear_std_mps, {0.0, kFastest_mps},
+        params::number("linear_std_mps", &Params::linear_std_mps, {0.0, kMaxSpeed_mps},
                        "Standard deviation along each axis of a velocity that has none in the "
                        "file; 0: it is certain."),
-        params::number("angular_std_degps", &Params::angular_std_degps, {0.0, kFastest_degps},
+        params::number("angular_std_degps", &Params::angular_std_degps, {0.0, kMaxTurnRate_degps},
                        "The same about each axis; both or none are 0."),
         params::numbers("rotation_rpy_deg", &Params::rotation_rpy_deg, {-360.0, 360.0},
                         "Roll, pitch and yaw of the frame of the velocities in the reference's "

@@ -432,7 +432,7 @@ TEST(BundleAdjustment, APoseThatKeepsItsStartHasOneWordInAllScenes) {
   adjust_bundle(rig);
   for (const RigEstimate& one : rig) {
     ASSERT_EQ(one.failure, "");
-    const DofWords& words = one.estimate.covariance->dofs;
+    const DofObservability& words = one.estimate.covariance->dofs;
     EXPECT_EQ(words.front(), Observability::determined) << one.scene;
     EXPECT_EQ(words.back(), Observability::determined) << one.scene;
     EXPECT_EQ(words[1], Observability::weak) << one.scene;
