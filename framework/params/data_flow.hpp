@@ -13,8 +13,8 @@ struct ExtraDoc {
   std::string meaning;  ///< Description for help: "poses that are still possible".
 };
 
-/// What a stage needs besides points and poses, and what it provides. Declared by the stage, shown
-/// in help, checked before anything runs.
+/// The needs of a stage besides points and poses, and what it provides. Declared by the stage,
+/// shown in help, checked before anything runs.
 struct DataFlow {
   std::set<std::string> target_channels;  ///< Required in the reference's cloud.
   std::set<std::string> source_channels;  ///< Required in the sensor's cloud.

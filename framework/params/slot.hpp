@@ -20,7 +20,7 @@ struct BuiltStage {
   std::string name;                   ///< "ransac".
   std::string resolved;
   StageVersions versions = {};  ///< Of the stage and of those in its own slots.
-  /// What the stage and those in its slots need and provide.
+  /// The data flow of the stage and of those in its slots.
   std::optional<DataFlow> flow = {};
 };
 
@@ -55,7 +55,7 @@ class Slot {
   const std::string& resolved() const { return resolved_; }
   /// The versions of the stage and of those in its own slots.
   const StageVersions& versions() const { return versions_; }
-  /// What the stage and those in its slots need and provide.
+  /// The data flow of the stage and of those in its slots.
   const DataFlow& flow() const { return flow_; }
 
  private:

@@ -23,7 +23,7 @@ struct HypothesisChoice {
   double max_rotation_deg = 45.0;
   double max_translation_m = 0.5;
 
-  /// What the stage needs and provides (`hypotheses`).
+  /// The data flow of the stage; it provides `hypotheses`.
   params::DataFlow flow() const;
 };
 

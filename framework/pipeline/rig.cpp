@@ -53,7 +53,8 @@ void fail_if_not_finite(RigMember& member, const std::string& step, const Rig& r
 }
 
 /// Updates `member` with the estimate that the step `name` computed in `seconds`.
-void take(RigMember& member, const std::string& name, RigEstimate&& adjusted, double seconds) {
+void update_member(RigMember& member, const std::string& name, RigEstimate&& adjusted,
+                   double seconds) {
   Estimate before = std::exchange(member.result.estimate, std::move(adjusted.estimate));
   Estimate& after = member.result.estimate;
   const bool is_computed = after.information && after.information != before.information;
@@ -90,7 +91,7 @@ void adjust_all(Rig& rig, const RigStep& step, const std::string& name, const St
   }
   const double seconds = time.seconds() / static_cast<double>(live.size());
   for (std::size_t i = 0; i < live.size(); ++i) {
-    take(*live[i], name, std::move(estimates[i]), seconds);
+    update_member(*live[i], name, std::move(estimates[i]), seconds);
   }
 }
 

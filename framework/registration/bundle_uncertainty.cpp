@@ -63,9 +63,9 @@ Eigen::VectorXd step_for_velocity_error(const Twist& velocity, const BundleCost&
   const Eigen::Index size = hessian.rows();
   const bool is_moving = velocity.linear_mps.norm() > 0.0 && reduced_cost.by_pose.size() > 0;
   if (!is_moving) return Eigen::VectorXd::Zero(size);
-  const Eigen::MatrixXd held =
+  const Eigen::MatrixXd with_fixed_velocity =
       hessian - reduced_cost.hessian + cost.hessian.topLeftCorner(size, size);
-  return -guarded_inverse<Eigen::Dynamic>(held) *
+  return -guarded_inverse<Eigen::Dynamic>(with_fixed_velocity) *
          cost.hessian.block(0, cost.hessian.cols() - 3, size, 3) *
          (std::min(error_mps, velocity.linear_mps.norm()) * velocity.linear_mps.normalized());
 }
@@ -156,8 +156,8 @@ Eigen::MatrixXd covariance_by_clusters(const std::vector<ClusterStep>& clusters)
   }
   Eigen::VectorXd widening(size);
   for (Eigen::Index i = 0; i < size; ++i) {
-    const bool is_held = sum_of_squares(i) > 0.0;
-    widening(i) = is_held ? student_widening(sum(i) * sum(i) / sum_of_squares(i)) : 1.0;
+    const bool is_constrained = sum_of_squares(i) > 0.0;
+    widening(i) = is_constrained ? student_widening(sum(i) * sum(i) / sum_of_squares(i)) : 1.0;
   }
   return widening.asDiagonal() * covariance * widening.asDiagonal();
 }

@@ -20,7 +20,7 @@ std::array<bool, 6> leading_dofs(const DofObservability& words, const Matrix6d& 
 }
 
 /// `information` with the degrees of freedom in `held` fixed: independent of the others.
-Matrix6d with_held(const Matrix6d& information, const std::array<bool, 6>& held) {
+Matrix6d with_fixed(const Matrix6d& information, const std::array<bool, 6>& held) {
   Matrix6d result = information;
   for (std::size_t dof = 0; dof < held.size(); ++dof) {
     if (!held[dof]) continue;
@@ -39,7 +39,7 @@ DofObservability judged_dofs(const Matrix6d& covariance, const Matrix6d& informa
   DofObservability words;
   for (std::size_t dof = 0; dof < words.size(); ++dof) words[dof] = judge(dof, covariance);
   const std::array<bool, 6> leads = leading_dofs(words, covariance);
-  const Matrix6d of_others = guarded_inverse<6>(with_held(information, leads));
+  const Matrix6d of_others = guarded_inverse<6>(with_fixed(information, leads));
   for (std::size_t dof = 0; dof < words.size(); ++dof) {
     const bool follows = words[dof] != Observability::determined && !leads[dof];
     if (follows) words[dof] = judge(dof, of_others);
@@ -56,10 +56,10 @@ std::array<DofConstraint, 6> dof_constraints(const Matrix6d& information, const 
     Vector6d& motion = held[dof].motion;
     motion = covariance.col(i) / covariance(i, i);
     const double found = motion.dot(information * motion);
-    const double pretended = motion.dot(noise * motion);
-    if (found > weak_ratio * pretended) return Observability::determined;
-    return found > unobservable_ratio * pretended ? Observability::weak
-                                                  : Observability::unobservable;
+    const double by_noise = motion.dot(noise * motion);
+    if (found > weak_ratio * by_noise) return Observability::determined;
+    return found > unobservable_ratio * by_noise ? Observability::weak
+                                                 : Observability::unobservable;
   };
   const Matrix6d all = information + prior;
   const DofObservability words = judged_dofs(guarded_inverse<6>(all), all, judge);

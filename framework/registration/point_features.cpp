@@ -165,9 +165,9 @@ std::vector<double> ranges_of(const PointFeatures& features) {
 }
 
 /// The features most similar to one feature; in case of ties those that were added first.
-class MostAlike {
+class MostSimilar {
  public:
-  explicit MostAlike(int count) : count_(static_cast<std::size_t>(count)) {}
+  explicit MostSimilar(int count) : count_(static_cast<std::size_t>(count)) {}
   void add(int index, int distance) {
     if (distances_.size() == count_) {
       if (distance >= distances_.back()) return;
@@ -217,8 +217,8 @@ std::vector<FeatureMatch> mutual_matches(const PointFeatures& target, const Poin
                                          const MatchOptions& options) {
   const std::vector<double> target_ranges_m = ranges_of(target);
   const std::vector<double> source_ranges_m = ranges_of(source);
-  std::vector<MostAlike> of_target(target.points.size(), MostAlike(options.candidates));
-  std::vector<MostAlike> of_source(source.points.size(), MostAlike(options.candidates));
+  std::vector<MostSimilar> of_target(target.points.size(), MostSimilar(options.candidates));
+  std::vector<MostSimilar> of_source(source.points.size(), MostSimilar(options.candidates));
   for (std::size_t i = 0; i < target.points.size(); ++i) {
     for (std::size_t j = 0; j < source.points.size(); ++j) {
       if (std::abs(target_ranges_m[i] - source_ranges_m[j]) > options.reach_m) continue;

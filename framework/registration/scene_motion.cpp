@@ -50,8 +50,9 @@ bool SceneMotion::is_in_doubt(const MotionOptions& options) const {
 }
 
 std::string SceneMotion::rejection(std::size_t source, const MotionOptions& options) const {
-  const bool is_held = shift_std_m.at(source) <= options.certain_shift_m;
-  const double min_lead = is_held ? std::min(options.min_speed_lead, 0.0) : options.min_speed_lead;
+  const bool is_shift_certain = shift_std_m.at(source) <= options.certain_shift_m;
+  const double min_lead =
+      is_shift_certain ? std::min(options.min_speed_lead, 0.0) : options.min_speed_lead;
   const std::optional<double>& lead = leads.at(source);
   if (!lead || *lead >= min_lead) return "";
   return "the standard deviation of the speed, m/s, is " +

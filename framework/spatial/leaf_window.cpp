@@ -112,7 +112,7 @@ LeafWindow::LeafWindow(const LeafGrid& grid, const PointColumns& points,
                            ? Eigen::Vector3d::Zero().eval()
                            : (T_grid_points * points.point(points.size() / 2)).eval()) {}
 
-bool LeafWindow::holds(const PointColumns& points, const RigidTransform& T_target_source) const {
+bool LeafWindow::contains(const PointColumns& points, const RigidTransform& T_target_source) const {
   if (!points.finite) return false;
   const Eigen::Matrix3d spread = T_target_source.rotation.cwiseAbs();
   const Eigen::Vector3d reach = spread * points.reach;

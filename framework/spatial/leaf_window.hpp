@@ -78,7 +78,7 @@ class LeafWindow {
   FarLeaves for_each_block(const PointColumns& points, const RigidTransform& T_target_source,
                            const Use& use) const {
     std::array<std::uint64_t, kBlock> keys{};
-    if (!holds(points, T_target_source)) return one_by_one(points, T_target_source, use);
+    if (!contains(points, T_target_source)) return one_by_one(points, T_target_source, use);
     const Instructions instructions = best_instructions();
     for (std::size_t first = 0; first < points.size(); first += kBlock) {
       const std::size_t count = std::min(kBlock, points.size() - first);
@@ -90,7 +90,7 @@ class LeafWindow {
 
   /// Whether all points at `T_target_source` are certainly inside the window. May be false if they
   /// are near its border.
-  bool holds(const PointColumns& points, const RigidTransform& T_target_source) const;
+  bool contains(const PointColumns& points, const RigidTransform& T_target_source) const;
 
   /// Computes the keys of `count` points from the index `first`, all of which are in the window.
   void compute_keys(const PointColumns& points, const RigidTransform& T_target_source,

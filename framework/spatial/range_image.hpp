@@ -7,8 +7,8 @@
 
 namespace croon {
 
-/// What a sensor sees in each direction: the nearest and the farthest return of each cell of the
-/// six faces of a cube around the sensor. A point in front of the nearest return contradicts the
+/// The returns of a sensor by direction: the nearest and the farthest of each cell of the six faces
+/// of a cube around the sensor. A point in front of the nearest return contradicts the
 /// measurement, because the sensor's ray passed through it.
 class RangeImage {
  public:
