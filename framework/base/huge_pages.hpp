@@ -1,7 +1,6 @@
 #pragma once
 
-// For one source file of a program that links jemalloc; a library leaves this choice to its
-// program.
+// For one source file of a program that links jemalloc; a library must not make this choice.
 
 /// The options that jemalloc reads from its program (its manual, `TUNING`): use pages of 2 MiB and
 /// keep memory that has been used. On a virtual machine, a page fault for 4 KiB costs more than the

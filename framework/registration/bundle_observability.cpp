@@ -9,8 +9,7 @@
 namespace croon {
 namespace {
 
-/// The information of planes about the pose of a sensor, and the part due to noise of their
-/// normals.
+/// The information of planes about the pose of a sensor, and the part due to noisy normals.
 struct PlaneEvidence {
   Matrix6d information = Matrix6d::Zero();
   Matrix6d noise = Matrix6d::Zero();

@@ -11,7 +11,7 @@ namespace croon {
 /// A direction of motion of a pose, and how strongly surfaces constrain it.
 struct ConstraintDirection {
   Vector6d motion = Vector6d::Zero();  ///< Of `moved`: radians, metres; points move by 1 m.
-  double strength = 0.0;  ///< In [0, 1]: 0 unconstrained, 1 along the normals of all surfaces.
+  double strength = 0.0;  ///< In [0, 1]: 0 unconstrained, 1 if all points move along normals.
 };
 
 /// The directions of motion of the points of `source` that lie on surfaces of `target`, the least

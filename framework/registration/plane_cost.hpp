@@ -43,8 +43,7 @@ struct PlanePatch {
     PointSums timed_twice = {};
   };
   std::vector<View> views;
-  /// The sum over the sensors of the cost of a separate plane for each; a lower bound for any
-  /// poses.
+  /// The cost of separate planes for all sensors; a lower bound for any poses.
   double own_cost = 0.0;
 };
 

@@ -35,8 +35,8 @@ struct UncertaintyOptions {
 ///
 /// Errors of points on one surface are not independent, but errors of different surfaces are. So
 /// contacts are grouped into surfaces k, each with its gradient g_k and its Hessian H_k of the
-/// cost, and the covariance is the jackknife over surfaces: the sum of d_k d_k^T of the steps `d_k
-/// = (H - H_k)^-1 g_k` of the pose when surface k is left out (Efron 1982; for dependent
+/// cost, and the covariance is the jackknife over surfaces: the sum of d_k d_k^T over the steps
+/// `d_k = (H - H_k)^-1 g_k` of the pose when surface k is left out (Efron 1982; for dependent
 /// observations the cluster jackknife, Bell and McCaffrey 2002). The Hessian includes the curvature
 /// of the robust kernel (Huber 1981). If the pose moves, contacts change, and the cost rises less
 /// than with constant contacts; this is measured by differences of gradients.
