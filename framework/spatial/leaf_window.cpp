@@ -54,8 +54,8 @@ CROON_INLINE std::uint64_t offset_of(double scaled, double shift) {
   return (bits - static_cast<std::uint64_t>(nearest > scaled)) & 0x1fffff;
 }
 
-/// The compiler vectorises this loop. The sums have the order in which Eigen computes `rotation *
-/// point + translation`, so the result is bitwise that of `RigidTransform`.
+/// The compiler vectorises this loop. The order of the sums is that in which Eigen computes
+/// `rotation * point + translation`, so the result is bitwise that of `RigidTransform`.
 CROON_INLINE void transform_and_key(const float* xs, const float* ys, const float* zs,
                                     std::size_t count, const Pose& pose, std::uint64_t* keys) {
   const Eigen::Matrix3d R = pose.rotation;
