@@ -122,7 +122,7 @@ class Program {
 
   static void add_jobs(CLI::App& command, int& option) {
     command.add_option("--jobs", option, "Threads; default all cores.")
-        ->check(CLI::Range(1, kMostJobs));
+        ->check(CLI::Range(1, kMaxJobs));
   }
 
   static void add_trials(CLI::App& command, int& option, const std::string& sentence) {

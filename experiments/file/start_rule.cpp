@@ -38,7 +38,7 @@ const params::Table<Sweep>& sweep_table() {
     params::Table<Sweep> rows = {
         swept_range("rotation_deg", SweepOf::rotation, 180.0,
                     "Smallest and largest angle, about an axis uniform on the sphere."),
-        swept_range("translation_m", SweepOf::translation, kLargestCoordinate_m,
+        swept_range("translation_m", SweepOf::translation, kMaxCoordinate_m,
                     "Smallest and largest length, along a direction uniform on the sphere."),
         params::integer("levels", &Sweep::levels, {2, 1000},
                         "Sizes from the smallest to the largest, in equal steps."),
@@ -99,7 +99,7 @@ params::Table<StartRule> make_start_table() {
           "rotation_deg", &P::rotation_deg, {0.0, 180.0},
           "Half range of roll, pitch and yaw, or of each; 180 is any rotation, uniform "
           "on SO(3)."),
-      params::per_axis("translation_m", &P::translation_m, {0.0, kLargestCoordinate_m},
+      params::per_axis("translation_m", &P::translation_m, {0.0, kMaxCoordinate_m},
                        "Half range of x, y and z in reference axes, or of each."),
       trials_row(),
       params::optional_group("sweep", &P::sweep, sweep_table(),

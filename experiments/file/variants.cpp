@@ -282,7 +282,7 @@ std::vector<Variant> make_variants(const ExperimentKeys& keys, const Node& root,
   if (keys.grid) pipelines = apply_grid(pipelines, *keys.grid, catalogue);
   std::vector<Variant> variants;
   for (const NamedPipeline& named : pipelines) {
-    const std::string too_long = why_too_long(named.name, kMostNameBytes, "variants with names");
+    const std::string too_long = why_too_long(named.name, kMaxNameBytes, "variants with names");
     if (!too_long.empty()) {
       root.fault(too_long);
       break;

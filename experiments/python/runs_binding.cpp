@@ -156,7 +156,7 @@ void bind_runs(py::module_& module) {
       .def("poses", poses)
       .def("extrinsics", [](const R& r) { return extrinsics_json(r.summary, r.references); })
       .def("text", [](const R& r) { return result_text(r, false); });
-  module.attr("MOST_JOBS") = kMostJobs;
+  module.attr("MOST_JOBS") = kMaxJobs;
   module.attr("MOST_TRIALS") = kMaxTrials;
   module.def("run", run_from);
   module.def("load", load);

@@ -278,9 +278,9 @@ bool is_timing(const std::string& line) {
 }
 
 /// Calls `use` with each whole line of the file `path`, if there is one. A line is at most as long
-/// as names of `kMostNameBytes` make it; a longer one, of a damaged file, is left out.
+/// as names of `kMaxNameBytes` make it; a longer one, of a damaged file, is left out.
 void for_each_line(const fs::path& path, const std::function<void(const std::string&)>& use) {
-  constexpr std::streamsize kMostBytes = 10 * kMostNameBytes;
+  constexpr std::streamsize kMostBytes = 10 * kMaxNameBytes;
   std::error_code error;
   if (!fs::exists(fs::symlink_status(path, error))) return;
   std::ifstream stream;

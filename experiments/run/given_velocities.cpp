@@ -14,8 +14,8 @@ namespace {
 
 /// A field along (0 to 2) or about (3 to 5) an axis, at most as large as those of a car.
 double velocity(const std::string& text, int index) {
-  return index < 3 ? bounded_number(text, kFastest_mps, "m/s")
-                   : bounded_number(text, kFastest_degps, "deg/s");
+  return index < 3 ? bounded_number(text, kMaxSpeed_mps, "m/s")
+                   : bounded_number(text, kMaxTurnRate_degps, "deg/s");
 }
 
 /// The six numbers from the field `first` on: along the axes, then about them in degrees per

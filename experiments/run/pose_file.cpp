@@ -42,7 +42,7 @@ PoseLine read_line(const CsvLine& csv) {
   PoseLine line{fields[0], fields[1], has_trial ? trial_number(fields[2]) : -1, {}};
   for (std::size_t i = 0; i < 3; ++i) {
     line.pose.translation(static_cast<int>(i)) =
-        bounded_number(fields[names + i], kLargestCoordinate_m, "m");
+        bounded_number(fields[names + i], kMaxCoordinate_m, "m");
   }
   Eigen::Quaterniond q;
   for (std::size_t i = 0; i < 4; ++i) {

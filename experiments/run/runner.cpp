@@ -166,7 +166,7 @@ PipelineResult result_of(const SceneGroup& group, const Rig& rig,
   PipelineResult result = result_of_sensor(members);
   if (group.scenes.size() == 1) return result;
   if (result.failure.empty()) {
-    result.remark = lost_scenes(members);
+    result.note = lost_scenes(members);
   } else {
     result.failure = "in all scenes; in " + members.front()->scene + ": " + result.failure;
   }

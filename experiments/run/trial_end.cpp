@@ -39,8 +39,8 @@ TrialRecord record_of(const TrialId& id, const PipelineResult& result,
   record.reason = result.failure;
   record.steps = result.records;
   if (result.failure.empty()) finish(record, result.estimate, truth, bounds);
-  if (!result.remark.empty()) {
-    record.reason += (record.reason.empty() ? "" : "; ") + result.remark;
+  if (!result.note.empty()) {
+    record.reason += (record.reason.empty() ? "" : "; ") + result.note;
   }
   return record;
 }

@@ -4,8 +4,8 @@
 
 namespace croon {
 
-/// The number of bits that are set. Without an instruction for it, which not every x86-64 has, the
-/// compiler's builtin calls a function.
+/// The number of set bits. Without the popcnt instruction, which not every x86-64 processor has,
+/// the compiler's builtin is a function call.
 inline int count_bits(std::uint64_t bits) {
   bits -= (bits >> 1U) & 0x5555555555555555ULL;
   bits = (bits & 0x3333333333333333ULL) + ((bits >> 2U) & 0x3333333333333333ULL);

@@ -38,13 +38,13 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string Fault::line() const {
-  // The text is partly the user's, of any length and with any bytes.
-  constexpr std::size_t kMostWhere = 200;
-  constexpr std::size_t kMostMessage = 2000;
+  // Partly the user's text, of any length and with any bytes.
+  constexpr std::size_t kMaxWhereColumns = 200;
+  constexpr std::size_t kMaxMessageColumns = 2000;
   std::string text;
-  if (!file.empty()) text += cut_in_the_middle(printable(file), kMostMessage) + ": ";
-  if (!where.empty()) text += cut_in_the_middle(printable(where), kMostWhere) + ": ";
-  return text + cut_in_the_middle(printable(message), kMostMessage);
+  if (!file.empty()) text += cut_in_the_middle(printable(file), kMaxMessageColumns) + ": ";
+  if (!where.empty()) text += cut_in_the_middle(printable(where), kMaxWhereColumns) + ": ";
+  return text + cut_in_the_middle(printable(message), kMaxMessageColumns);
 }
 
 void collect_faults(std::vector<Fault>& faults, const std::function<void()>& work) {
@@ -72,19 +72,19 @@ InputError::InputError(std::string file, std::string where, std::string message)
 }
 
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known) {
-  // Of the user's text, whose length has no bound; no name is as long.
-  constexpr std::size_t kLongestName = 200;
+  // The user's text may have any length; no known name is this long.
+  constexpr std::size_t kMaxNameLength = 200;
   std::string best;
-  if (name.size() > kLongestName) return best;
+  if (name.size() > kMaxNameLength) return best;
   // Allows two swapped letters in a short word, and up to half of a long word to differ.
-  std::size_t least = std::min(name.size(), std::max<std::size_t>(2, name.size() / 2) + 1);
+  std::size_t min_distance = std::min(name.size(), std::max<std::size_t>(2, name.size() / 2) + 1);
   for (const std::string& candidate : known) {
-    // Each letter that one of them has more is an edit.
+    // The distance is at least the difference of the lengths.
     const auto [shorter, longer] = std::minmax({name.size(), candidate.size()});
-    if (longer - shorter >= least) continue;
+    if (longer - shorter >= min_distance) continue;
     const std::size_t distance = edit_distance(name, candidate);
-    if (distance < least) {
-      least = distance;
+    if (distance < min_distance) {
+      min_distance = distance;
       best = candidate;
     }
   }
@@ -93,12 +93,12 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
 
 namespace {
 
-/// The one name of `known` that begins with `name`, as "voxel_size_m" does with "voxel"; empty if
-/// there is none, there are more, or `name` is shorter than a word.
+/// The only name in `known` that begins with `name`, as "voxel_size_m" begins with "voxel"; empty
+/// if there is none, if there are several, or if `name` is shorter than three letters.
 std::string completed_name(const std::string& name, const std::vector<std::string>& known) {
-  constexpr std::size_t kShortestWord = 3;
+  constexpr std::size_t kMinWordLength = 3;
   std::string found;
-  if (name.size() < kShortestWord) return found;
+  if (name.size() < kMinWordLength) return found;
   for (const std::string& candidate : known) {
     if (candidate.compare(0, name.size(), name) != 0) continue;
     if (!found.empty()) return "";

@@ -4,10 +4,10 @@
 
 namespace croon {
 
-/// Locks a folder against other croon processes while this object lives; it need not be writable.
+/// Locks a folder, which need not be writable, against other croon processes during its lifetime.
 class FolderLock {
  public:
-  /// Throws InputError if another croon works in the folder.
+  /// Throws InputError if another croon process is using the folder.
   explicit FolderLock(const std::filesystem::path& path);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

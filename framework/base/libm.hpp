@@ -2,12 +2,12 @@
 
 // Included before every file that is compiled (framework/CMakeLists.txt): calls of these functions
 // of the C library become calls of SLEEF, in our code and in the templates of Eigen, CGAL and
-// Boost. The C library chooses their code by processor, with fused multiply-adds or without, and
-// the last bits differ. The `cinz` functions of SLEEF have one code, without fused multiply-adds;
-// they are within 1 ulp (erfc: 1.5 ulp).
+// Boost. The C library selects an implementation by processor, with or without fused multiply-adds,
+// and their last bits differ. The `cinz` functions of SLEEF have a single implementation without
+// fused multiply-adds, accurate to 1 ulp (erfc: 1.5 ulp).
 //
-// GCC turns sine and cosine of the same angle into a call of `sincos`, which no pragma renames;
-// -fno-builtin-sin and -fno-builtin-cos prevent that. SLEEF has no functions of long double.
+// GCC combines the sine and cosine of the same angle into a call of `sincos`, which no pragma
+// renames; -fno-builtin-sin and -fno-builtin-cos prevent that. SLEEF has no long double functions.
 // test/house/libm_test.cpp checks that the program calls neither these nor other inexact functions
 // of the C library.
 

@@ -16,20 +16,20 @@ namespace fs = std::filesystem;
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// The number in `file`; infinity if it has none, as "max".
+/// The number in `file`; infinity if it does not contain one, e.g. "max".
 double limit_in(const fs::path& file) {
   double bytes = 0.0;
   return std::ifstream(file) >> bytes ? bytes : kNoLimit;
 }
 
-/// The least limit of the group `path` and those above it, in files `name` below `mount`.
-double least_limit(const fs::path& mount, fs::path path, const char* name) {
-  double least = limit_in(mount / name);
-  // A container sees its own group as the root, whatever /proc says of those outside.
+/// The minimum limit of the group `path` and its parents, in files `name` below `mount`.
+double min_limit(const fs::path& mount, fs::path path, const char* name) {
+  double minimum = limit_in(mount / name);
+  // Inside a container its own group is the root, whatever path /proc reports.
   for (path = path.relative_path(); !path.empty(); path = path.parent_path()) {
-    least = std::min(least, limit_in(mount / path / name));
+    minimum = std::min(minimum, limit_in(mount / path / name));
   }
-  return least;
+  return minimum;
 }
 
 std::string gigabytes(double bytes) { return fixed_number(bytes / 1e9, 1) + " GB"; }
@@ -43,7 +43,7 @@ double address_space_bytes() {
 }
 
 double control_group_bytes(const fs::path& root) {
-  double least = kNoLimit;
+  double minimum = kNoLimit;
   std::ifstream groups(root / "proc/self/cgroup");
   // A line is NUMBER:CONTROLLERS:PATH; version 2 has no controllers.
   for (std::string line; std::getline(groups, line);) {
@@ -53,13 +53,13 @@ double control_group_bytes(const fs::path& root) {
     const std::string controllers = line.substr(first + 1, second - first - 1);
     const fs::path path = line.substr(second + 1);
     if (controllers.empty()) {
-      least = std::min(least, least_limit(root / "sys/fs/cgroup", path, "memory.max"));
+      minimum = std::min(minimum, min_limit(root / "sys/fs/cgroup", path, "memory.max"));
     } else if (controllers == "memory") {
-      least = std::min(least,
-                       least_limit(root / "sys/fs/cgroup/memory", path, "memory.limit_in_bytes"));
+      minimum = std::min(minimum,
+                         min_limit(root / "sys/fs/cgroup/memory", path, "memory.limit_in_bytes"));
     }
   }
-  return least;
+  return minimum;
 }
 
 double memory_limit_bytes() {

@@ -16,7 +16,7 @@ constexpr double kRedraw_s = 0.1;
 constexpr double kLine_s = 10.0;
 constexpr std::size_t kLinesPerRun = 10;
 constexpr std::size_t kBarColumns = 24;
-constexpr std::size_t kLineColumns = 79;  // What fits every terminal without wrapping.
+constexpr std::size_t kLineColumns = 79;  // Fits every terminal without wrapping.
 
 std::string bar_text(std::size_t done, std::size_t total) {
   const std::size_t filled = total == 0 ? kBarColumns : std::min(done, total) * kBarColumns / total;
@@ -75,7 +75,7 @@ void Progress::show_if_due() {
   const double since_s = now_s - shown_s_;
   const bool is_tenth = done_ * kLinesPerRun / std::max<std::size_t>(total_, 1) >
                         shown_done_ * kLinesPerRun / std::max<std::size_t>(total_, 1);
-  // finish() shows the end, in either style.
+  // finish() shows the final state in either style.
   if (style_ == ProgressStyle::bar ? since_s >= kRedraw_s
                                    : (since_s >= kLine_s || is_tenth) && done_ < total_) {
     show(now_s);

@@ -11,7 +11,7 @@ namespace croon {
 /// How progress is shown.
 enum class ProgressStyle {
   none,  ///< Not at all (--quiet).
-  bar,   ///< One line that is drawn anew: for a terminal.
+  bar,   ///< One line that is redrawn: for a terminal.
   lines  ///< A line every 10 s or 10 %, whichever comes first: for a log.
 };
 
@@ -30,11 +30,11 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// What is being worked on from now on.
+  /// Sets the scene that is shown as being processed.
   void set_scene(const std::string& scene);
   /// `count` more trials are done.
   void advance(std::size_t count = 1);
-  /// Trials that need no work (the store has them): done, but not part of the rate.
+  /// Counts trials that need no work (the store has them): done, but not part of the rate.
   void skip(std::size_t count);
   /// Draws the last state and ends the line. The destructor calls it too.
   void finish();

@@ -6,8 +6,7 @@
 namespace croon {
 namespace {
 
-/// The finaliser of SplitMix64 (Steele, Lea, Flood 2014): every bit of the input moves every bit
-/// out.
+/// The finaliser of SplitMix64 (Steele, Lea, Flood 2014): every input bit affects every output bit.
 std::uint64_t mix(std::uint64_t z) {
   z += 0x9e3779b97f4a7c15ULL;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -30,7 +29,7 @@ StreamKey StreamKey::with(std::string_view word) const { return with(hash(word))
 
 StreamKey StreamKey::with(std::uint64_t number) const {
   StreamKey key = *this;
-  // Mixing before the sum makes the order of the parts count.
+  // Mixing before the sum makes the result depend on the order of the parts.
   key.value_ = mix(mix(value_) + number);
   return key;
 }
@@ -41,7 +40,7 @@ double Rng::uniform(double low, double high) { return low + (high - low) * unifo
 
 std::uint64_t Rng::below(std::uint64_t count) {
   if (count == 0) throw std::logic_error("Rng::below: nothing to draw from");
-  // Draws in the last, incomplete block of `count` values would favour its first ones: draw again.
+  // Values in the last, incomplete block of `count` would favour small results: draw again.
   const std::uint64_t excess = (UINT64_MAX % count + 1) % count;
   std::uint64_t draw = bits();
   while (draw > UINT64_MAX - excess) draw = bits();

@@ -6,9 +6,9 @@
 
 namespace croon {
 
-/// Names a stream of random numbers: a seed, then words and numbers that say what the stream is
-/// for. Two different paths give independent streams; the same path gives the same bits on every
-/// machine.
+/// Names a stream of random numbers: a seed, followed by words and numbers that describe the
+/// purpose of the stream. Two different paths give independent streams; the same path gives the
+/// same bits on every machine.
 ///
 ///     Rng rng(StreamKey(seed).with(scene).with(sensor).with(trial));
 class StreamKey {
@@ -22,8 +22,8 @@ class StreamKey {
   std::uint64_t value_;
 };
 
-/// The only source of random numbers in croon: mt19937_64, whose bits the C++ standard fixes, with
-/// draws of our own, because the standard distributions differ between libraries. Not thread-safe:
+/// The only source of random numbers in croon: mt19937_64, whose bits the C++ standard specifies,
+/// with our own distributions, because the standard ones differ between libraries. Not thread-safe:
 /// one per thread.
 class Rng {
  public:

@@ -37,7 +37,7 @@ double signed_integer(std::uint64_t bits, std::size_t size) {
   }
 }
 
-/// Calls `work` with a number of `type`, whose value means nothing.
+/// Calls `work` with a number of `type`; its value is meaningless.
 template <class Work>
 auto with_type(ScalarType type, const Work& work) {
   const bool is_signed = type.kind == ScalarKind::signed_integer;
@@ -56,7 +56,7 @@ auto with_type(ScalarType type, const Work& work) {
   }
 }
 
-/// Memory is little-endian, as croon runs on x86-64 alone (docs/design.md).
+/// Memory is little-endian, because croon runs only on x86-64 (docs/design.md).
 template <class Number>
 void append_raw(std::string& bytes, Number number) {
   std::array<char, sizeof(Number)> raw;
@@ -84,7 +84,7 @@ double decode_scalar(ScalarType type, ByteOrder order, const char* bytes) {
 }
 
 bool append_scalar(std::string& bytes, ScalarType type, std::string_view word) {
-  // from_chars does not know the plus sign.
+  // from_chars does not accept a plus sign.
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   return with_type(type, [&](auto number) {
     const char* const end = word.data() + word.size();
@@ -99,11 +99,11 @@ bool append_scalar(std::string& bytes, ScalarType type, double value) {
   return with_type(type, [&](auto number) {
     using Number = decltype(number);
     if constexpr (std::is_integral_v<Number>) {
-      // The bounds are compared as double: that of 64 bits is rounded up, and is out of range.
-      const double most = static_cast<double>(std::numeric_limits<Number>::max());
-      const double least = static_cast<double>(std::numeric_limits<Number>::min());
-      const bool is_in_range = sizeof(Number) < 8 ? value <= most : value < most;
-      if (!(value >= least && is_in_range && value == std::trunc(value))) return false;
+      // The bounds are compared as double: the 64-bit maximum rounds up to a value out of range.
+      const double max_value = static_cast<double>(std::numeric_limits<Number>::max());
+      const double min_value = static_cast<double>(std::numeric_limits<Number>::min());
+      const bool is_in_range = sizeof(Number) < 8 ? value <= max_value : value < max_value;
+      if (!(value >= min_value && is_in_range && value == std::trunc(value))) return false;
     }
     append_raw(bytes, static_cast<Number>(value));
     return true;

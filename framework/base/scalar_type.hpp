@@ -21,7 +21,7 @@ struct ScalarType {
   }
 };
 
-/// The type of the C++ numbers `Number`.
+/// The type of the C++ type `Number`.
 template <class Number>
 constexpr ScalarType scalar_type_of() {
   static_assert(std::is_arithmetic_v<Number>, "a number");
@@ -32,19 +32,19 @@ constexpr ScalarType scalar_type_of() {
       sizeof(Number)};
 }
 
-/// The number that starts at `bytes`, on machines of any byte order; integers of 8 bytes are
-/// rounded to double.
+/// The number that starts at `bytes`, on machines of any byte order; 8-byte integers are rounded to
+/// double.
 double decode_scalar(ScalarType type, ByteOrder order, const char* bytes);
 
-/// Appends the little-endian bytes of `type` of the number that `word` spells, independent of the
-/// locale ("nan" and "inf" too). Returns false, and appends nothing, if the whole word is not a
+/// Parses `word` as a number of `type`, independent of the locale ("nan" and "inf" too), and
+/// appends its little-endian bytes. Returns false, and appends nothing, unless the whole word is a
 /// number of this type.
 bool append_scalar(std::string& bytes, ScalarType type, std::string_view word);
 
-/// The same for a number. Returns false if `type` is an integer that cannot be `value`.
+/// The same for a number. Returns false if `type` is an integer type that cannot represent `value`.
 bool append_scalar(std::string& bytes, ScalarType type, double value);
 
-/// The shortest text that `append_scalar` reads as the same bytes; `bytes` are little-endian.
+/// The shortest text that `append_scalar` converts to the same bytes; `bytes` are little-endian.
 std::string scalar_text(ScalarType type, const char* bytes);
 
 }  // namespace croon

@@ -15,12 +15,12 @@ void require_values(const std::vector<double>& values) {
   if (values.empty()) throw std::logic_error("a statistic of no values");
 }
 
-/// The rank of a percentile among `count` values, from zero; between two values if not whole.
+/// The zero-based rank of a percentile among `count` values; fractional between two values.
 double percentile_rank(std::size_t count, double ratio) {
   return ratio * static_cast<double>(count - 1);
 }
 
-/// `percentile` of values that are in order. Reads only the two values beside the rank.
+/// `percentile` of sorted values. Reads only the two values next to the rank.
 double percentile_of_sorted(const std::vector<double>& sorted, double ratio) {
   const double rank = percentile_rank(sorted.size(), ratio);
   const auto below = static_cast<std::size_t>(rank);
@@ -66,7 +66,7 @@ double root_mean_square(const std::vector<double>& values) {
 double percentile(std::vector<double> values, double ratio) {
   require_values(values);
   if (!(ratio >= 0.0 && ratio <= 1.0)) throw std::logic_error("a percentile's ratio is in [0, 1]");
-  // Only the two values that are read come to their places, which takes linear time.
+  // Moves only the two required values to their sorted positions, which takes linear time.
   const auto below =
       values.begin() + static_cast<std::ptrdiff_t>(percentile_rank(values.size(), ratio));
   std::nth_element(values.begin(), below, values.end());
@@ -84,13 +84,13 @@ Interval wilson_interval(int successes, int trials) {
 }
 
 Interval wilson_interval(double proportion, double trials) {
-  const double z = 1.959963984540054;  // The normal distribution's 97.5 % quantile.
+  const double z = 1.959963984540054;  // 97.5 % quantile of the normal distribution.
   const double n = trials;
   const double p = proportion;
   const double centre = p + z * z / (2.0 * n);
   const double half_width = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
   const double scale = 1.0 + z * z / n;
-  // At the ends the two terms are equal, and only rounding would keep them from 0 and 1.
+  // At the ends the two terms are equal, and only rounding would move the bounds off 0 and 1.
   return {p == 0.0 ? 0.0 : (centre - half_width) / scale,
           p == 1.0 ? 1.0 : (centre + half_width) / scale};
 }

@@ -4,8 +4,8 @@
 
 namespace croon {
 
-// They throw std::logic_error on an empty sample unless they say what its value is. Sums are
-// compensated (Neumaier 1974), so neither the number of values nor one common large offset costs
+// These functions throw std::logic_error for an empty sample unless their comment says otherwise.
+// Sums are compensated (Neumaier 1974), so neither many values nor a large common offset costs
 // digits.
 
 /// The sum, compensated (Neumaier 1974); 0 for no values.
@@ -14,32 +14,32 @@ double compensated_sum(const std::vector<double>& values);
 /// The arithmetic mean.
 double mean(const std::vector<double>& values);
 
-/// The sample standard deviation (n - 1), in two passes; not a number for one value, whose spread
-/// is not known.
+/// The sample standard deviation (n - 1), in two passes; NaN for a single value, whose spread is
+/// unknown.
 double standard_deviation(const std::vector<double>& values);
 
 /// The root of the mean of the squares.
 double root_mean_square(const std::vector<double>& values);
 
-/// The value below which a share `ratio` in [0, 1] of the sample lies, linear between order
-/// statistics (Hyndman and Fan 1996, type 7).
+/// The value below which a fraction `ratio` in [0, 1] of the sample lies, with linear interpolation
+/// between order statistics (Hyndman and Fan 1996, type 7).
 double percentile(std::vector<double> values, double ratio);
 
 /// The middle value, or the mean of the middle two.
 double median(std::vector<double> values);
 
-/// From low to high.
+/// An interval [low, high].
 struct Interval {
   double low;
   double high;
 };
 
-/// The 95 % score interval of a proportion, `successes` of `trials` (Wilson 1927); [0, 1] if
-/// there were no trials.
+/// The 95 % score interval of a proportion of `successes` in `trials` (Wilson 1927); [0, 1] without
+/// trials.
 Interval wilson_interval(int successes, int trials);
 
-/// The same of a proportion in [0, 1] that is known as well as one of `trials` independent trials,
-/// more than 0 and not always a whole number.
+/// The same for a proportion in [0, 1] that is known as precisely as from `trials` independent
+/// trials, a positive number that need not be whole.
 Interval wilson_interval(double proportion, double trials);
 
 /// The numbers of a box plot (Tukey 1977).
@@ -47,9 +47,9 @@ struct BoxPlot {
   double lower_quartile;
   double median;
   double upper_quartile;
-  double lower_whisker;          ///< The least value within 1.5 interquartile ranges of the box.
-  double upper_whisker;          ///< The greatest.
-  std::vector<double> outliers;  ///< The values beyond, ascending.
+  double lower_whisker;          ///< The minimum value within 1.5 interquartile ranges of the box.
+  double upper_whisker;          ///< The maximum value within that range.
+  std::vector<double> outliers;  ///< The values beyond the whiskers, ascending.
 };
 
 BoxPlot box_plot(std::vector<double> values);

@@ -15,7 +15,7 @@ namespace {
 /// Whether a byte begins a UTF-8 code point.
 bool begins_code_point(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }
 
-/// The number of bytes of the UTF-8 code point that begins at `at` (RFC 3629); 0 if none does.
+/// The number of bytes of the UTF-8 code point that begins at `at` (RFC 3629); 0 if it is invalid.
 std::size_t code_point_bytes(const std::string& text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(at);
@@ -25,14 +25,14 @@ std::size_t code_point_bytes(const std::string& text, std::size_t at) {
   for (std::size_t i = at + 1; i < at + bytes; ++i) {
     if (begins_code_point(text[i])) return 0;
   }
-  // Codes that are too long for their value, surrogates, and values above U+10FFFF.
+  // Overlong encodings, surrogates, and values above U+10FFFF.
   const unsigned char second = byte(at + 1);
   const bool is_wrong = (first == 0xE0 && second < 0xA0) || (first == 0xED && second >= 0xA0) ||
                         (first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90);
   return is_wrong ? 0 : bytes;
 }
 
-/// The UTF-8 code point in `bytes` bytes at `at`.
+/// The UTF-8 code point encoded in `bytes` bytes at `at`.
 std::uint32_t code_point(const std::string& text, std::size_t at, std::size_t bytes) {
   constexpr std::array<unsigned char, 5> kFirstBits = {0, 0x7F, 0x1F, 0x0F, 0x07};
   std::uint32_t value = static_cast<unsigned char>(text[at]) & kFirstBits.at(bytes);
@@ -42,9 +42,9 @@ std::uint32_t code_point(const std::string& text, std::size_t at, std::size_t by
   return value;
 }
 
-/// Whether a code point is seen as nothing or changes the order of others: control characters,
-/// separators of lines, marks of direction, and what Unicode calls format characters. Two names
-/// that differ by one of them look the same.
+/// Whether a code point is invisible or changes the order of others: control characters, line
+/// separators, direction marks, and Unicode's format characters. Two names that differ by one of
+/// them look the same.
 bool is_unseen(std::uint32_t code) {
   struct Range {
     std::uint32_t first, last;
@@ -92,7 +92,7 @@ std::string escaped(char c) {
                                                        {'\r', " "}};
   if (const auto command = commands.find(c); command != commands.end()) return command->second;
   if (is_one_of("{}$&#_%", c)) return std::string("\\") + c;
-  // At the end of a line "[" and "*" begin its options; two of the others form another sign.
+  // "[" and "*" after a line break would begin its options; two of the others form a ligature.
   if (is_one_of("[]*-`'", c)) return std::string("{") + c + "}";
   return std::string(1, c);
 }
@@ -132,7 +132,7 @@ std::string left_aligned(const std::string& text, std::size_t columns) {
 
 std::string fixed_number(double value, int decimals) {
   if (!std::isfinite(value)) return std::isnan(value) ? "nan" : value < 0.0 ? "-inf" : "inf";
-  std::array<char, 400> digits;  // The largest double has 309 digits before the point.
+  std::array<char, 400> digits;  // The largest double has 309 digits before the decimal point.
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
                                  std::chars_format::fixed, decimals)
                        .ptr;
@@ -150,7 +150,7 @@ std::string shortest_number(double value) {
 }
 
 std::string plain_number(double value) {
-  std::array<char, 400> digits;  // The least number has more than 300 behind the point.
+  std::array<char, 400> digits;  // The smallest double has over 300 digits after the decimal point.
   const auto format = std::abs(value) < 1e9 ? std::chars_format::fixed : std::chars_format::general;
   const auto end =
       std::to_chars(digits.data(), digits.data() + digits.size(), value + 0.0, format).ptr;
@@ -168,9 +168,9 @@ std::string printable(const std::string& text) {
   return shown;
 }
 
-std::string why_too_long(const std::string& name, std::size_t most, const std::string& what) {
-  if (name.size() <= most) return "";
-  return "expected " + what + " of at most " + std::to_string(most) + " bytes, found one of " +
+std::string why_too_long(const std::string& name, std::size_t max_bytes, const std::string& what) {
+  if (name.size() <= max_bytes) return "";
+  return "expected " + what + " of at most " + std::to_string(max_bytes) + " bytes, found one of " +
          std::to_string(name.size());
 }
 

@@ -16,7 +16,7 @@ namespace croon {
 int startable_threads(int jobs) {
   const int cores = tbb::info::default_concurrency();
   if (jobs <= cores) return jobs;
-  // Its stack, its heap of 64 MB that malloc reserves, and some work.
+  // The stack, the 64 MB heap that malloc reserves per thread, and some work.
   constexpr double kThreadBytes = 1e8;
   jobs =
       std::max(1, static_cast<int>(std::min<double>(jobs, address_space_bytes() / kThreadBytes)));
@@ -32,7 +32,7 @@ int startable_threads(int jobs) {
       });
     }
   } catch (const std::system_error&) {
-    // Fewer must do.
+    // Fewer threads have to suffice.
   }
   {
     const std::lock_guard<std::mutex> lock(mutex);
@@ -41,7 +41,7 @@ int startable_threads(int jobs) {
   changed.notify_all();
   for (std::thread& thread : threads) thread.join();
   const auto started = static_cast<int>(threads.size());
-  // Half of them, for the work itself needs memory too.
+  // Half of them, because the work itself needs memory too.
   return started == jobs ? jobs : std::max(std::min(cores, jobs), started / 2);
 }
 

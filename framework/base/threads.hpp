@@ -9,15 +9,16 @@
 
 namespace croon {
 
-/// The most threads that a user may ask for: more than machines have, and started in a few seconds.
-inline constexpr int kMostJobs = 1024;
+/// The maximum number of threads that a user may request: more than machines have, and started
+/// within a few seconds.
+inline constexpr int kMaxJobs = 1024;
 
-/// How many of `jobs` threads may be used: all of them, unless there are more than cores and the
-/// system does not start so many. TBB ends the process if a thread does not start.
+/// The number of threads, out of `jobs`, that can be used: all of them, unless they outnumber the
+/// cores and the system cannot start that many. TBB aborts the process if a thread does not start.
 int startable_threads(int jobs);
 
-/// Calls `use` with TBB limited to `jobs` threads, which may be more than there are cores; to fewer
-/// if the system does not start so many.
+/// Calls `use` with TBB limited to `asked_jobs` threads, which may exceed the number of cores, or
+/// to fewer if the system cannot start that many.
 template <class Use>
 void on_threads(int asked_jobs, const Use& use) {
   const int jobs = startable_threads(asked_jobs);
@@ -27,7 +28,7 @@ void on_threads(int asked_jobs, const Use& use) {
   arena.execute(use);
 }
 
-/// Calls `use(i)` for each i below `count`, each as a task of its own.
+/// Calls `use(i)` for each i below `count`, each as a separate task.
 template <class Use>
 void for_each_in_parallel(std::size_t count, const Use& use) {
   tbb::parallel_for(

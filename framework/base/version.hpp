@@ -2,9 +2,9 @@
 
 namespace croon {
 
-/// The version of everything outside of stages that decides the result of a trial: the framework,
-/// how starts are drawn, how trials are run. Raise it with a change by which the same experiment
-/// gives other results; trials of two versions do not go into one store.
+/// The version of everything outside the stages that affects the result of a trial: the framework,
+/// the drawing of starts, the execution of trials. Increment it with every change that alters the
+/// results of the same experiment; a store never contains trials of two versions.
 inline constexpr int kFrameworkVersion = 6;
 
 }  // namespace croon

@@ -21,10 +21,10 @@ namespace fs = std::filesystem;
 
 std::string reason(int number) { return std::strerror(number); }
 
-/// No text and no cloud of a sensor is as large.
-constexpr double kLargestFileBytes = 4e9;
+/// Larger than any text and any sensor's cloud.
+constexpr double kMaxFileBytes = 4e9;
 
-/// What follows the path and comes before a number.
+/// Between the path and a number in the name of a temporary file.
 constexpr const char* kPart = ".croon-part";
 
 /// An empty file that is open for writing and locked.
@@ -33,8 +33,8 @@ struct PartFile {
   int descriptor;
 };
 
-/// Whether the open file is a plain one that is still called `path`, and nothing else: the process
-/// that had it locked may have renamed it, and what has a second name is somebody's.
+/// Whether the open file is a regular one whose only name is still `path`: the process that had
+/// locked it may have renamed it, and a file with a second name belongs to somebody else.
 bool is_still(int descriptor, const fs::path& path) {
   struct stat open_file {};
   struct stat named {};
@@ -57,7 +57,7 @@ PartFile create_part_file(const fs::path& path) {
       errno = error;
       break;
     }
-    // A lock ends with its process, so a file without one is left over.
+    // A lock ends with its process, so an unlocked file is left over from a killed one.
     const bool is_ours = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
     if (is_ours && is_still(descriptor, part) && ::ftruncate(descriptor, 0) == 0) {
       return {part, descriptor};
@@ -68,12 +68,13 @@ PartFile create_part_file(const fs::path& path) {
                    "expected a file that can be written, found: " + reason(errno));
 }
 
-/// Zero, or the number of the error.
+/// Zero, or the error number.
 int write_all(int descriptor, std::string_view bytes) {
-  // Linux writes less than 2 GiB at a time.
-  constexpr std::size_t kMost = std::size_t{1} << 30;
+  // Linux writes less than 2 GiB per call.
+  constexpr std::size_t kMaxWriteBytes = std::size_t{1} << 30;
   while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), std::min(bytes.size(), kMost));
+    const ssize_t written =
+        ::write(descriptor, bytes.data(), std::min(bytes.size(), kMaxWriteBytes));
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) return errno;
     bytes.remove_prefix(static_cast<std::size_t>(written));
@@ -93,7 +94,7 @@ std::string found_instead_of_file(const fs::path& path) {
 
 std::string read_whole_file(const fs::path& path) {
   std::error_code error;
-  // Before it is opened: opening a pipe would wait for a writer.
+  // Checked before opening, because opening a pipe would wait for a writer.
   if (!fs::is_regular_file(path, error)) {
     throw UnavailableFile(path.string(), "",
                           "expected a readable file, found " + found_instead_of_file(path));
@@ -104,16 +105,16 @@ std::string read_whole_file(const fs::path& path) {
   }
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) throw UnavailableFile(path.string(), "", "cannot be read: " + error.message());
-  const double largest = std::min(kLargestFileBytes, memory_limit_bytes());
-  if (static_cast<double>(size) > largest) {
+  const double max_bytes = std::min(kMaxFileBytes, memory_limit_bytes());
+  if (static_cast<double>(size) > max_bytes) {
     throw UnavailableFile(path.string(), "",
-                          "expected a file of at most " + fixed_number(largest, 0) +
+                          "expected a file of at most " + fixed_number(max_bytes, 0) +
                               " bytes, found one of " + std::to_string(size));
   }
   std::string bytes(static_cast<std::size_t>(size), '\0');
   stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (static_cast<std::uintmax_t>(stream.gcount()) != size) {
-    throw UnavailableFile(path.string(), "", "ended while it was read");
+    throw UnavailableFile(path.string(), "", "became shorter while it was being read");
   }
   return bytes;
 }
@@ -140,7 +141,7 @@ bool file_has(const fs::path& path, std::string_view bytes) {
 
 void write_whole_file(const fs::path& path, std::string_view bytes) {
   std::error_code ignored;
-  // Renaming onto a device or a pipe would replace it by a file.
+  // Renaming onto a device or a pipe would replace it with a file.
   if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
     throw InputError(path.string(), "",
                      "expected a file that can be written, found " + found_instead_of_file(path));
@@ -148,7 +149,7 @@ void write_whole_file(const fs::path& path, std::string_view bytes) {
   const PartFile part = create_part_file(path);
   int error = write_all(part.descriptor, bytes);
   if (error == 0 && ::fsync(part.descriptor) != 0) error = errno;
-  // Renamed or removed while the lock is held: no other process writes to it meanwhile.
+  // Renamed or removed while locked, so that no other process writes to it meanwhile.
   if (error == 0 && ::rename(part.path.c_str(), path.c_str()) != 0) error = errno;
   if (error != 0) ::unlink(part.path.c_str());
   if (::close(part.descriptor) != 0 && error == 0) error = errno;
@@ -165,7 +166,7 @@ void make_folder_below(const fs::path& root, const fs::path& relative) {
       throw InputError(folder.string(), "", "expected a folder or nothing, found a symbolic link");
     }
     fs::create_directory(folder, error);
-    if (error) throw InputError(folder.string(), "", "cannot be made: " + error.message());
+    if (error) throw InputError(folder.string(), "", "cannot be created: " + error.message());
   }
 }
 

@@ -144,8 +144,8 @@ Eigen::Matrix3d checked_radians(const Eigen::Vector3d& rpy_rad, const FilePlace&
 
 Eigen::Vector3d checked_position(const Eigen::Vector3d& position_m, const FilePlace& place) {
   for (const double value : position_m) {
-    if (std::abs(value) <= kLargestCoordinate_m) continue;
-    place.refuse("expected a position of at most " + fixed_number(kLargestCoordinate_m, 0) +
+    if (std::abs(value) <= kMaxCoordinate_m) continue;
+    place.refuse("expected a position of at most " + fixed_number(kMaxCoordinate_m, 0) +
                  " m, found " + shortest_number(value));
   }
   return position_m;

@@ -25,16 +25,16 @@ inline bool is_rotation(Dof dof) { return dof < Dof::x; }
 /// turns the sensor about its own origin, the translation is along the axes of the reference frame.
 RigidTransform moved(const RigidTransform& T_target_source, const Vector6d& offset);
 
-/// The pose (R, t) after the step (w, d) of an iteration: (exp(w) R, t + d), with R a rotation to
-/// the last digits. A step is cut to half a radian, because the linearisation is not valid beyond.
+/// The pose (R, t) after the step (w, d) of an iteration: (exp(w) R, t + d), with R
+/// re-orthonormalised. A step is limited to half a radian, beyond which the linearisation is
+/// invalid.
 RigidTransform stepped(const RigidTransform& T_target_source, const Vector6d& step);
 
-/// How far an estimate of `T_reference_sensor` is from the truth, in the reference frame (as in the
-/// paper's tables): roll, pitch, yaw of `T_estimate * T_truth^-1`, and the difference of the
-/// translations.
+/// The error of an estimated `T_reference_sensor`, in the reference frame (as in the paper's
+/// tables): roll, pitch, yaw of `T_estimate * T_truth^-1`, and the difference of the translations.
 struct PoseError {
   Vector6d dof = Vector6d::Zero();  ///< roll, pitch, yaw in rad; x, y, z in m.
-  double rotation_rad = 0.0;        ///< The angle of the rotation between the two.
+  double rotation_rad = 0.0;        ///< The angle of the rotation between the two poses.
   double translation_m = 0.0;       ///< The distance between the two origins.
 };
 

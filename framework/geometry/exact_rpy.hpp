@@ -4,9 +4,9 @@
 
 namespace croon {
 
-/// (roll, pitch, yaw) in radians whose `rotation_from_rpy` is `rotation` to 1e-12, also near a
-/// pitch of 90 degrees, where roll and yaw of rpy_from_rotation lose digits independently of each
-/// other. Elsewhere the same bits.
+/// (roll, pitch, yaw) in radians whose `rotation_from_rpy` equals `rotation` to 1e-12, even near a
+/// pitch of 90 degrees, where rpy_from_rotation loses digits of roll and yaw independently of each
+/// other. Elsewhere it returns the same bits as rpy_from_rotation.
 Eigen::Vector3d exact_rpy(const Eigen::Matrix3d& rotation);
 
 }  // namespace croon

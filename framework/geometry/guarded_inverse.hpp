@@ -5,14 +5,14 @@
 
 namespace croon {
 
-/// The mean of a matrix and its transpose, which rounding made differ.
+/// The mean of a matrix and its transpose; removes asymmetry due to rounding.
 template <int N>
 Eigen::Matrix<double, N, N> symmetric(const Eigen::Matrix<double, N, N>& matrix) {
   return 0.5 * (matrix + matrix.transpose());
 }
 
-/// The inverse of a symmetric matrix, whose eigenvalues are taken to be at least 1e-6 after its
-/// diagonal is scaled to 1. It does not depend on the units of the unknowns.
+/// The inverse of a symmetric matrix with eigenvalues clamped to at least 1e-6 after scaling its
+/// diagonal to 1. Independent of the units of the unknowns.
 template <int N>
 Eigen::Matrix<double, N, N> guarded_inverse(const Eigen::Matrix<double, N, N>& matrix) {
   using Matrix = Eigen::Matrix<double, N, N>;

@@ -11,13 +11,13 @@
 namespace croon {
 namespace {
 
-/// The points that planes are drawn from and counted on.
+/// The points from which planes are drawn and on which inliers are counted.
 class Sample {
  public:
-  /// `count` of the cloud's points, drawn without replacement; all of a smaller cloud.
+  /// `count` points of the cloud, drawn without replacement; all points of a smaller cloud.
   Sample(const Points& cloud, int count, Rng& rng) : points_(cloud) {
     const std::size_t size = std::min(cloud.size(), static_cast<std::size_t>(count));
-    // The front of a Fisher-Yates shuffle. Not every n-th point: a LiDAR's rings come in turn.
+    // The front of a Fisher-Yates shuffle. Not every n-th point: the rings of a LiDAR alternate.
     for (std::size_t i = 0; i < size && size < points_.size(); ++i) {
       std::swap(points_[i], points_[i + rng.below(points_.size() - i)]);
     }
@@ -29,8 +29,8 @@ class Sample {
     }
   }
 
-  /// How many points lie within `distance_m` of the plane. Axis by axis, so that the compiler can
-  /// take several points at once.
+  /// The number of points within `distance_m` of the plane. Axis by axis, so that the compiler can
+  /// vectorise the loop.
   int count_within(const Plane& plane, double distance_m) const {
     const Eigen::Vector3f n = plane.normal.cast<float>();
     const float a = n.x(), b = n.y(), c = n.z();
@@ -43,7 +43,7 @@ class Sample {
     return count;
   }
 
-  /// The plane through three points drawn at random; std::nullopt if they are on one line.
+  /// The plane through three points drawn at random; std::nullopt if they are collinear.
   std::optional<Plane> draw_plane(Rng& rng) const {
     constexpr double kMinSine = 1e-3;
     Eigen::Vector3d p[3];
@@ -63,7 +63,7 @@ class Sample {
   std::vector<float> x_, y_, z_;
 };
 
-/// Fits the plane to its points for as long as that wins more of them.
+/// Refits the plane to its inliers as long as that increases their number.
 void optimise(const Sample& sample, const PlaneRansacOptions& options, Plane& plane, int& count) {
   for (int round = 0; round < options.local_rounds; ++round) {
     const Plane fitted =
@@ -75,8 +75,8 @@ void optimise(const Sample& sample, const PlaneRansacOptions& options, Plane& pl
   }
 }
 
-/// `log(1 - p) / log(1 - w^3)`: draws until three points of a plane that holds the share w of the
-/// points come together with probability p.
+/// `log(1 - p) / log(1 - w^3)`: the number of draws after which, with probability p, one has
+/// consisted of three points of a plane that contains the fraction w of the points.
 double iterations_for(double confidence, int inliers, std::size_t points) {
   const double share = static_cast<double>(inliers) / static_cast<double>(points);
   return std::log1p(-confidence) / std::log1p(-share * share * share);
@@ -115,18 +115,18 @@ Plane plane_ransac(const Points& cloud, const PlaneRansacOptions& options, Rng& 
   if (cloud.size() < 3) throw StageError("a plane needs three points");
   const Sample sample(cloud, options.sample_points, rng);
   std::optional<Plane> best;
-  int most = 0;
+  int max_count = 0;
   double iterations = options.max_iterations;
   for (int i = 0; i < iterations; ++i) {
     const std::optional<Plane> drawn = sample.draw_plane(rng);
     if (!drawn) continue;
     const int count = sample.count_within(*drawn, options.threshold_m);
-    if (count <= most) continue;
+    if (count <= max_count) continue;
     best = drawn;
-    most = count;
-    optimise(sample, options, *best, most);
+    max_count = count;
+    optimise(sample, options, *best, max_count);
     iterations =
-        std::min(iterations, iterations_for(options.confidence, most, sample.points().size()));
+        std::min(iterations, iterations_for(options.confidence, max_count, sample.points().size()));
   }
   if (!best) throw StageError("the points lie on one line");
   return *best;

@@ -13,7 +13,7 @@ struct Plane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
   double offset_m = 0.0;
 
-  /// Distance of `point` in metres, positive on the side that the normal points to.
+  /// Distance of `point` in metres, positive on the side of the normal.
   double signed_distance(const Eigen::Vector3d& point) const {
     return normal.dot(point) + offset_m;
   }
@@ -22,8 +22,8 @@ struct Plane {
 };
 
 /// The least-squares plane through the points of `cloud` at `indices`: it contains their mean, and
-/// its normal is the direction of their smallest variance. Throws StageError if there are not three
-/// points off one line.
+/// its normal is the direction of their minimum variance. Throws StageError for fewer than three
+/// points or collinear ones.
 Plane fit_plane(const Points& cloud, const std::vector<int>& indices);
 
 /// The indices of the points of `cloud` within `distance_m` of the plane, in order.
@@ -33,9 +33,9 @@ std::vector<int> points_within(const Points& cloud, const Plane& plane, double d
 struct PlaneRansacOptions {
   double threshold_m = 0.2;    ///< Points within this distance of a plane are its inliers.
   double confidence = 0.9999;  ///< Probability of having drawn three inliers of the best plane.
-  int max_iterations = 10000;  ///< At most this many planes are drawn.
-  int local_rounds = 4;        ///< How often a new best plane is refitted to its inliers.
-  int sample_points = 5000;    ///< Planes are drawn from, and counted on, at most this many points.
+  int max_iterations = 10000;  ///< Maximum number of planes drawn.
+  int local_rounds = 4;        ///< Maximum number of refits of a new best plane to its inliers.
+  int sample_points = 5000;    ///< Maximum number of points for drawing planes and counting.
 };
 
 /// The plane with the most inliers in `cloud`: RANSAC (Fischler and Bolles 1981) with a local

@@ -23,7 +23,7 @@ const Channel& channel_of(const PointCloud& cloud, const std::string& name) {
 bool LoadedCloud::add(const Eigen::Vector3d& point) {
   const Eigen::Vector3f rounded = (point - origin_m).cast<float>();
   const bool is_finite = rounded.allFinite();
-  // The second: a cloud that is written and read again is the same cloud.
+  // The second condition ensures that a cloud that is written and read again stays the same.
   const bool is_zero = is_finite && (point.cast<float>().isZero(0.0F) || rounded.isZero(0.0F));
   if (is_finite && !is_zero) points.push_back(rounded);
   if (!is_finite) ++dropped_non_finite;

@@ -9,13 +9,13 @@
 namespace croon {
 namespace {
 
-/// The sum times `factor`, and of each degree of freedom the worst word.
+/// The sum times `factor`, with the worst observability of each degree of freedom.
 PoseCovariance scaled_sum(const std::vector<PoseCovariance>& covariances, double factor) {
   if (covariances.empty()) throw std::logic_error("no covariances");
   PoseCovariance sum;
   for (const PoseCovariance& one : covariances) {
     sum.matrix += one.matrix;
-    sum.dofs = worse_words(sum.dofs, one.dofs);
+    sum.dofs = worst_observability(sum.dofs, one.dofs);
   }
   sum.matrix *= factor;
   return sum;
@@ -30,14 +30,14 @@ std::optional<Observability> observability_of(const std::string& name) {
   return std::nullopt;
 }
 
-DofWords better_words(const DofWords& a, const DofWords& b) {
-  DofWords words;
+DofObservability best_observability(const DofObservability& a, const DofObservability& b) {
+  DofObservability words;
   for (std::size_t dof = 0; dof < words.size(); ++dof) words[dof] = std::min(a[dof], b[dof]);
   return words;
 }
 
-DofWords worse_words(const DofWords& a, const DofWords& b) {
-  DofWords words;
+DofObservability worst_observability(const DofObservability& a, const DofObservability& b) {
+  DofObservability words;
   for (std::size_t dof = 0; dof < words.size(); ++dof) words[dof] = std::max(a[dof], b[dof]);
   return words;
 }
@@ -45,8 +45,8 @@ DofWords worse_words(const DofWords& a, const DofWords& b) {
 bool is_covariance(const Matrix6d& matrix) {
   if (!matrix.allFinite() || matrix != matrix.transpose()) return false;
   const Vector6d variances = matrix.diagonal();
-  if (variances.minCoeff() < 0.0 || variances.maxCoeff() > kLargestVariance) return false;
-  // Rotations and translations have other units, so the matrix of correlations is looked at.
+  if (variances.minCoeff() < 0.0 || variances.maxCoeff() > kMaxVariance) return false;
+  // Rotations and translations have different units, so the correlations are examined.
   Matrix6d correlations;
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {

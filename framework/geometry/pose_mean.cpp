@@ -14,7 +14,7 @@ namespace croon {
 
 namespace {
 
-/// A medoid of more poses is that of a sample: its time grows with their square.
+/// The medoid of more poses is computed on a sample, because its time grows with their square.
 constexpr std::size_t kMedoidSample = 2000;
 
 template <class Pose>
@@ -41,7 +41,7 @@ bool is_before(const Vote& a, const Vote& b) {
   return a.weight < b.weight;
 }
 
-/// A fixed order, so that sums do not depend on the order that the poses came in.
+/// In a fixed order, so that sums do not depend on the order of the input.
 std::vector<Vote> in_fixed_order(const std::vector<RigidTransform>& poses,
                                  const std::vector<double>& weights = {}) {
   if (!weights.empty() && weights.size() != poses.size()) {
@@ -64,8 +64,8 @@ std::vector<RigidTransform> poses_of(const std::vector<Vote>& votes) {
 /// `length` as a multiple of `bound`, which may be zero.
 double multiple(double length, double bound) { return length == 0.0 ? 0.0 : length / bound; }
 
-/// A pose whose rotation is a quaternion: a consensus of n poses asks for n^2 / 2 angles, and of
-/// rotation matrices each costs three times as much.
+/// A pose whose rotation is a quaternion: the consensus of n poses needs n^2 / 2 angles, each of
+/// which is three times as expensive for rotation matrices.
 struct QuaternionPose {
   Eigen::Quaterniond rotation;
   Eigen::Vector3d translation;
@@ -80,7 +80,7 @@ double distance_in_bounds(const QuaternionPose& a, const QuaternionPose& b,
                   multiple((a.translation - b.translation).norm(), bounds.translation_m));
 }
 
-/// Evenly spaced poses of the sorted ones; all of them if they are few.
+/// Evenly spaced elements of the sorted poses; all of them if they are few.
 std::vector<Vote> sample_of(const std::vector<Vote>& ordered) {
   if (ordered.size() <= kMedoidSample) return ordered;
   std::vector<Vote> sample;
@@ -90,7 +90,7 @@ std::vector<Vote> sample_of(const std::vector<Vote>& ordered) {
   return sample;
 }
 
-/// The index of the pose with the most others near it; see `consensus_pose`.
+/// The index of the pose with the most neighbours; see `consensus_pose`.
 std::size_t medoid(const std::vector<Vote>& votes, const PoseBounds& bounds) {
   std::vector<QuaternionPose> quaternions;
   for (const Vote& vote : votes) {
@@ -109,7 +109,7 @@ std::size_t medoid(const std::vector<Vote>& votes, const PoseBounds& bounds) {
   return static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
 }
 
-/// `mean_pose` of poses that are in their fixed order.
+/// `mean_pose` of poses in their fixed order.
 RigidTransform mean_of_ordered(const std::vector<RigidTransform>& poses) {
   Eigen::Matrix4d M = Eigen::Matrix4d::Zero();
   std::array<std::vector<double>, 3> coordinates;
@@ -119,13 +119,13 @@ RigidTransform mean_of_ordered(const std::vector<RigidTransform>& poses) {
     for (int k = 0; k < 3; ++k)
       coordinates[static_cast<std::size_t>(k)].push_back(pose.translation(k));
   }
-  // Eigenvalues come in increasing order.
+  // Eigenvalues are in increasing order.
   const Eigen::Vector4d q = Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(M).eigenvectors().col(3);
   return {Eigen::Quaterniond(q).normalized().toRotationMatrix(),
           {mean(coordinates[0]), mean(coordinates[1]), mean(coordinates[2])}};
 }
 
-/// The pose with the most others near it.
+/// The pose with the most neighbours.
 RigidTransform centre_of(const std::vector<Vote>& ordered, const PoseBounds& bounds) {
   const std::vector<Vote> sample = sample_of(ordered);
   return sample[medoid(sample, bounds)].pose;
@@ -134,7 +134,7 @@ RigidTransform centre_of(const std::vector<Vote>& ordered, const PoseBounds& bou
 }  // namespace
 
 bool agree(const RigidTransform& a, const RigidTransform& b, const PoseBounds& bounds) {
-  // As pose_error has them, without its angles of Euler: this is called for every trial.
+  // As in pose_error, but without Euler angles, because this is called for every trial.
   return (a.translation - b.translation).norm() <= bounds.translation_m &&
          rotation_angle(a.rotation * b.rotation.transpose()) <= bounds.rotation_rad;
 }
@@ -155,7 +155,7 @@ InformedPose informed_mean(const std::vector<InformedPose>& poses) {
   mean.information.setZero();
   for (const InformedPose& one : poses) mean.information += one.information;
   const Matrix6d covariance = guarded_inverse<6>(mean.information);
-  // The offsets are linear only to first order; the poses are near each other, so few rounds do.
+  // Offsets are linear only to first order; the poses are close, so a few rounds suffice.
   for (int i = 0; i < 5; ++i) {
     Vector6d pull = Vector6d::Zero();
     for (const InformedPose& one : poses) {
@@ -177,7 +177,7 @@ RigidTransform consensus_pose(const std::vector<RigidTransform>& poses, const Po
   for (const Vote& vote : ordered) {
     if (agree(vote.pose, centre, bounds)) near.push_back(vote.pose);
   }
-  // Rounding may put a pose a hair off itself, and bounds may be zero.
+  // Due to rounding, a pose may not agree with itself if the bounds are zero.
   return near.empty() ? centre : mean_of_ordered(near);
 }
 

@@ -15,7 +15,7 @@ Eigen::Matrix3d rotation_from_rpy(const Eigen::Vector3d& rpy_rad) {
 Eigen::Vector3d rpy_from_rotation(const Eigen::Matrix3d& R) {
   const double cos_pitch = std::hypot(R(0, 0), R(1, 0));
   const double pitch = std::atan2(-R(2, 0), cos_pitch);
-  // Straight up or down only yaw -+ roll is defined: all of it goes to yaw.
+  // At a pitch of +-90 degrees only yaw -+ roll is defined: all of it is assigned to yaw.
   if (cos_pitch < 1e-9) return {0.0, pitch, std::atan2(-R(0, 1), R(1, 1))};
   return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
 }

@@ -33,18 +33,18 @@ Eigen::Vector3d rpy_from_rotation(const Eigen::Matrix3d& rotation);
 /// The rotation by `|omega|` radians about `omega` (Rodrigues' formula).
 Eigen::Matrix3d rotation_exp(const Eigen::Vector3d& omega_rad);
 
-/// The angle of a rotation in radians, in [0, pi]; accurate for the smallest angles too.
+/// The angle of a rotation in radians, in [0, pi]; accurate even for very small angles.
 double rotation_angle(const Eigen::Matrix3d& rotation);
 
-/// The nearest rotation to a matrix that rounding has moved off SO(3).
+/// The rotation nearest to a matrix that rounding has moved off SO(3).
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix);
 
-/// Whether the columns of `matrix` are of unit length, orthogonal and right-handed within 1e-4:
-/// stages from outside the tree may compute in single precision.
+/// Whether the columns of `matrix` have unit length and are orthogonal and right-handed within
+/// 1e-4: stages from outside the tree may compute in single precision.
 bool is_rotation_matrix(const Eigen::Matrix3d& matrix);
 
-/// The smallest rotation that turns the unit vector `from` into the unit vector `to` (axis `from x
-/// to`, Rodrigues; paper, rough calibration). Opposite vectors turn by pi about an axis
+/// The minimum rotation that turns the unit vector `from` into the unit vector `to` (axis `from x
+/// to`, Rodrigues; paper, rough calibration). Opposite vectors rotate by pi about an axis
 /// perpendicular to them.
 Eigen::Matrix3d rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 

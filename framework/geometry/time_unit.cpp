@@ -12,7 +12,7 @@ namespace {
 constexpr TimeUnit kUnits[] = {TimeUnit::seconds, TimeUnit::milliseconds, TimeUnit::microseconds,
                                TimeUnit::nanoseconds};
 
-/// The smallest and the largest of the finite times.
+/// The minimum and the maximum of the finite times.
 struct Range {
   double min = std::numeric_limits<double>::infinity();
   double max = -std::numeric_limits<double>::infinity();
@@ -72,12 +72,12 @@ TimeUnit unit_of_times(const std::vector<double>& times, ScalarKind kind) {
     const double length_s = range.length() * seconds_of(unit);
     return length_s <= kMaxScan_s && (length_s >= kMinScan_s || !is_scan);
   };
-  // From 2001 to 2096. A scan may be shorter here: the clock may have stood still.
+  // From 2001 to 2096. A scan may be shorter here, because the clock may have been stopped.
   constexpr double kMinEpoch_s = 1e9, kMaxEpoch_s = 4e9;
   for (const TimeUnit unit : kUnits) {
     const double one_s = seconds_of(unit);
     const bool is_epoch = range.min * one_s >= kMinEpoch_s && range.max * one_s <= kMaxEpoch_s;
-    // Integers of 32 bits count nanoseconds of a scan up to four seconds.
+    // 32-bit integers can represent nanoseconds of scans of up to four seconds.
     const bool is_certain = unit != TimeUnit::seconds || kind == ScalarKind::floating;
     if (is_epoch && is_certain && range.length() * one_s <= kMaxScan_s) return unit;
   }
@@ -104,7 +104,7 @@ bool restart_in_packets(const std::vector<double>& times, ScalarKind kind) {
   for (std::size_t i = 1; i < times.size(); ++i) {
     if (times[i - 1] - times[i] > 0.5 * range.length()) ++restarts;
   }
-  // As many restarts, one per ring, are in a scan that is stored ring after ring.
+  // A scan that is stored ring by ring has about as many restarts, one per ring.
   if (restarts < kMinRestarts) return false;
   const auto is_packet = [&](TimeUnit unit) {
     constexpr double kMinPacket_s = 2.5e-4, kMaxPacket_s = 0.01;

@@ -5,17 +5,18 @@
 namespace croon {
 namespace {
 
-/// With K the cross product with an angle times its axis, the rotation is `I + a K + b K^2` and the
-/// translation `(I + b K + c K^2)` times the way.
+/// With K the cross product matrix of the angle times its axis, the rotation is `I + a K + b K^2`
+/// and the translation `(I + b K + c K^2)` times the path.
 struct Shares {
   double a, b, c;
 };
 
-/// The shares of the angle whose square is `square_rad2`: sin x / x, (1 - cos x) / x^2 and
+/// The coefficients for the angle x whose square is `square_rad2`: sin x / x, (1 - cos x) / x^2 and
 /// (x - sin x) / x^3.
 Shares shares_of(double square_rad2) {
-  // So many terms of the series are exact to double precision up to here. A scan turns by less, and
-  // has its own time, so its own angle, for nearly every point: sine and cosine cost more.
+  // Up to here, kTerms terms of the series are exact to double precision. A scan rotates by less
+  // and has a different time, hence a different angle, for nearly every point; sine and cosine are
+  // slower.
   constexpr double kSeries_rad2 = 0.25;
   constexpr int kTerms = 7;
   if (square_rad2 > kSeries_rad2) {
@@ -24,7 +25,7 @@ Shares shares_of(double square_rad2) {
     return {sine / angle, (1.0 - std::cos(angle)) / square_rad2,
             (angle - sine) / (angle * square_rad2)};
   }
-  // Horner's scheme: each sum is 1/n! of the series 1 - x^2 / ((n+1)(n+2)) (1 - ...).
+  // Horner's method: each sum is 1/n! of the series 1 - x^2 / ((n+1)(n+2)) (1 - ...).
   Shares shares = {1.0, 1.0, 1.0};
   for (int k = 2 * (kTerms - 1); k > 0; k -= 2) {
     shares.a = 1.0 - square_rad2 * (1.0 / (k * (k + 1))) * shares.a;

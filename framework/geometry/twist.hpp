@@ -4,18 +4,18 @@
 
 namespace croon {
 
-/// The velocity of a rigid body, in the body's own frame. If it is constant, the body moves on a
-/// screw: a straight line, an arc, a helix.
+/// The velocity of a rigid body, in the body's own frame. With a constant velocity, the body moves
+/// along a screw: a straight line, an arc, a helix.
 struct Twist {
   Eigen::Vector3d angular_radps = Eigen::Vector3d::Zero();
   Eigen::Vector3d linear_mps = Eigen::Vector3d::Zero();
 };
 
-/// The matrix of the cross product with `v`: `cross_matrix(v) * w` is `v x w`. With the angular
-/// velocity it gives the velocities of points.
+/// The matrix of the cross product with `v`: `cross_matrix(v) * w` is `v x w`. For an angular
+/// velocity `v`, it maps points to their velocities.
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
 
-/// The six numbers of a velocity: about the axes in rad/s, along them in m/s.
+/// The six components of a velocity: about the axes in rad/s, along them in m/s.
 Vector6d vector_of(const Twist& velocity);
 
 /// The velocity plus `step`, in the order of `vector_of`.
@@ -25,8 +25,8 @@ Twist stepped(const Twist& velocity, const Vector6d& step);
 /// exponential of SE(3) (Barfoot, State Estimation for Robotics, 2017, eq. 7.85 and 7.86).
 RigidTransform motion_over(const Twist& velocity, double time_s);
 
-/// The velocity of a frame a that is fixed to the body, from `velocity_b` of the frame b: the
-/// adjoint of `T_a_b`.
+/// The velocity of a frame a that is fixed to the body, from the velocity `velocity_b` of the frame
+/// b: the adjoint of `T_a_b`.
 Twist velocity_in(const RigidTransform& T_a_b, const Twist& velocity_b);
 
 /// The same as a matrix, in the order of `vector_of`.

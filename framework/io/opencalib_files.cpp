@@ -205,9 +205,9 @@ std::vector<ListedPose> read_pose_list(const std::filesystem::path& file) {
     const std::optional<RigidTransform> pose = pose_of(record.value);
     if (!pose) {
       reader.fault(record.place, "expected six numbers, found " + in_quotes(record.value));
-    } else if (pose->translation.cwiseAbs().maxCoeff() > kLargestCoordinate_m) {
+    } else if (pose->translation.cwiseAbs().maxCoeff() > kMaxCoordinate_m) {
       reader.fault(record.place, "expected a position of at most " +
-                                     fixed_number(kLargestCoordinate_m, 0) + " m, found " +
+                                     fixed_number(kMaxCoordinate_m, 0) + " m, found " +
                                      in_quotes(record.value));
     }
     poses.push_back(

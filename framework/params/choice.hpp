@@ -10,12 +10,11 @@
 
 namespace croon::params {
 
-/// The values of the enumeration `E`, each behind the word that stands for it in JSON, in the order
-/// in which help and errors list them.
+/// The values of the enumeration `E`, each with its word in JSON, in the order of help and errors.
 template <class E>
 using Words = std::vector<std::pair<std::string, E>>;
 
-/// The words of `words` alone.
+/// Only the words of `words`.
 template <class E>
 std::vector<std::string> word_list(const Words<E>& words) {
   std::vector<std::string> list;
@@ -23,7 +22,7 @@ std::vector<std::string> word_list(const Words<E>& words) {
   return list;
 }
 
-/// The word of `value`. A value without a word is a std::logic_error.
+/// The word for `value`. A value without a word is a std::logic_error.
 template <class E>
 const std::string& word_of(const Words<E>& words, E value) {
   for (const auto& [word, candidate] : words) {
@@ -32,7 +31,7 @@ const std::string& word_of(const Words<E>& words, E value) {
   throw std::logic_error("a value of an enumeration has no word");
 }
 
-/// A value of the enumeration `E`, in JSON one of `words`.
+/// A value of the enumeration `E`; in JSON one of `words`.
 template <class P, class E, class = std::enable_if_t<std::is_enum_v<E>>>
 Parameter<P> choice(const std::string& key, E P::*member, const Words<E>& words,
                     const std::string& sentence) {
@@ -46,7 +45,7 @@ Parameter<P> choice(const std::string& key, E P::*member, const Words<E>& words,
           false};
 }
 
-/// A list of different values of the enumeration `E`, not empty, in JSON a list of `words`.
+/// A non-empty list of distinct values of the enumeration `E`; in JSON a list of `words`.
 template <class P, class E, class = std::enable_if_t<std::is_enum_v<E>>>
 Parameter<P> choices(const std::string& key, std::vector<E> P::*member, const Words<E>& words,
                      const std::string& sentence) {

@@ -6,24 +6,24 @@
 
 namespace croon::params {
 
-/// A value that one step puts into the estimate and a later one reads; see `Extra`.
+/// A value that one step adds to the estimate and a later one reads; see `Extra`.
 struct ExtraDoc {
   std::string name;     ///< "hypotheses".
-  std::string type;     ///< Of its C++ type; equal for equal types.
-  std::string meaning;  ///< What it is, for help: "poses that are still possible".
+  std::string type;     ///< Name of its C++ type; equal for equal types.
+  std::string meaning;  ///< Description for help: "poses that are still possible".
 };
 
-/// What a stage needs besides points and poses, and what it provides. Declared by the stage, shown
-/// by help, checked before anything runs.
+/// The needs of a stage besides points and poses, and what it provides. Declared by the stage,
+/// shown in help, checked before anything runs.
 struct DataFlow {
-  std::set<std::string> target_channels;  ///< Of the reference's cloud.
-  std::set<std::string> source_channels;  ///< Of the sensor's cloud.
-  std::vector<ExtraDoc> takes;
-  std::vector<ExtraDoc> gives;
+  std::set<std::string> target_channels;  ///< Required in the reference's cloud.
+  std::set<std::string> source_channels;  ///< Required in the sensor's cloud.
+  std::vector<ExtraDoc> takes;            ///< Extras that it requires.
+  std::vector<ExtraDoc> gives;            ///< Extras that it provides.
   /// The sensors whose names are in the stage's parameters; help does not show them.
   std::set<std::string> named_sensors = {};
 
-  /// Adds all that `other` needs and provides.
+  /// Adds everything that `other` needs and provides.
   void add(const DataFlow& other) {
     target_channels.insert(other.target_channels.begin(), other.target_channels.end());
     source_channels.insert(other.source_channels.begin(), other.source_channels.end());
@@ -33,7 +33,7 @@ struct DataFlow {
   }
 };
 
-/// The flow of a stage that needs the channels `names` of every cloud that it is given.
+/// The flow of a stage that needs the channels `names` in every input cloud.
 inline DataFlow needs_channels(const std::set<std::string>& names) {
   return {names, names, {}, {}};
 }

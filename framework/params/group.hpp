@@ -17,30 +17,30 @@ struct Preset {
   G value;
 };
 
-/// The key of a group's object that names the preset to begin with.
+/// The key in a group's object that names the preset to start from.
 constexpr const char* kLikeKey = "like";
 
-/// The names of steps and of the keys of maps. They stand in tables, in which a minus sign in front
-/// would begin a formula.
+/// The names of steps and the keys of maps. They appear in tables, where a leading minus sign would
+/// begin a formula.
 extern const NameRule kKeyName;
 
-/// The keys of the object `node`, in order. Notes a fault if there are none, for each that is not a
-/// name (kKeyName), and if the node is not an object. `name_words` says what a key is: "a sensor's
-/// name".
+/// The keys of the object `node`, in order. Notes a fault if the node is not an object, if it has
+/// no keys, and for each key that is not a valid name (kKeyName). `name_words` describes a key: "a
+/// sensor's name".
 std::vector<std::string> read_names(const Node& node, const std::string& name_words);
 
-/// The JSON object of the values by name, `named_json` their texts. Names that are not in
-/// alphabetical order are a std::logic_error: a file is read in that order.
+/// The JSON object with the texts `named_json` by name. Names that are not in alphabetical order
+/// are a std::logic_error, because files are read in that order.
 std::string map_json(const std::vector<std::pair<std::string, std::string>>& named_json);
 
-/// The JSON object that `table` reads as `value`.
+/// The JSON text of the object that `table` reads as `value`.
 template <class G>
 std::string object_json(const Table<G>& table, const G& value) {
   return "{" + table.members_json(value) + "}";
 }
 
-/// The document of a parameter that holds objects which `table` reads. A stage in `table` is a
-/// std::logic_error: presets and defaults are values, and a stage must be built.
+/// The documentation of a parameter whose objects `table` reads. A stage in `table` is a
+/// std::logic_error: presets and defaults are plain values, whereas a stage must be built.
 template <class G>
 ParameterDoc object_doc(const std::string& key, ParameterType type, const Table<G>& table,
                         const std::string& sentence) {
@@ -53,7 +53,7 @@ ParameterDoc object_doc(const std::string& key, ParameterType type, const Table<
   return doc;
 }
 
-/// Reads into `out` the object `node`, which may begin like a preset. Notes faults in the node.
+/// Reads the object `node`, which may start from a preset, into `out`. Notes faults in the node.
 template <class G>
 void read_object(const Node& node, const Table<G>& table, const std::vector<Preset<G>>& presets,
                  const std::vector<std::string>& names, const StageBuilder& builder, G& out) {
@@ -64,14 +64,14 @@ void read_object(const Node& node, const Table<G>& table, const std::vector<Pres
   } else if (const auto like = read_word(node.member(kLikeKey), names)) {
     out = table.read(node, {kLikeKey}, builder, presets[*like].value);
   } else {
-    // What else is wrong with it: with any preset no key is missing, and conditions may not hold.
+    // Finds the other faults: with any preset no key is missing; its conditions are not checked.
     out = presets.front().value;
     table.read_members(node, {kLikeKey}, builder, out);
   }
 }
 
-/// An object that `table` reads, or the name of a preset. In the object the optional key "like"
-/// names the preset to begin with; else it begins with G{}.
+/// An object that `table` reads, or the name of a preset. In the object, the optional key "like"
+/// names the preset to start from; without it the object starts from G{}.
 template <class P, class G>
 Parameter<P> group(const std::string& key, G P::*member, const Table<G>& table,
                    const std::vector<Preset<G>>& presets, const std::string& sentence) {
@@ -95,7 +95,7 @@ Parameter<P> group(const std::string& key, G P::*member, const Table<G>& table,
   return {doc, read, [=](const P& params) { return object_json(table, params.*member); }, false};
 }
 
-/// An object that `table` reads, if the key is there.
+/// An optional object that `table` reads.
 template <class P, class G>
 Parameter<P> optional_group(const std::string& key, std::optional<G> P::*member,
                             const Table<G>& table, const std::string& sentence) {
@@ -110,8 +110,8 @@ Parameter<P> optional_group(const std::string& key, std::optional<G> P::*member,
   return {doc, read, json, false};
 }
 
-/// A list of objects that `table` reads. An element with faults is in the list too, so that indices
-/// are those of the file. Empty if the key is missing.
+/// A list of objects that `table` reads. Elements with faults are kept, so that the indices match
+/// the file. Empty if the key is missing.
 template <class P, class G>
 Parameter<P> list(const std::string& key, std::vector<G> P::*member, const Table<G>& table,
                   const std::string& sentence) {
@@ -134,9 +134,8 @@ Parameter<P> list(const std::string& key, std::vector<G> P::*member, const Table
   return {doc, read, json, false};
 }
 
-/// An object with names of the user's choosing as keys, each value an object that `table` reads.
-/// Not empty: if the struct's own value is empty, the key must be there. Kept in the order of the
-/// names.
+/// An object whose keys are names that the user chooses and whose values are objects that `table`
+/// reads. Never empty: the key is required unless the struct has a default. Sorted by name.
 template <class P, class G>
 Parameter<P> map(const std::string& key, std::vector<std::pair<std::string, G>> P::*member,
                  const Table<G>& table, const std::string& name_words,

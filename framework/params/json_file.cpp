@@ -12,9 +12,8 @@ namespace {
 
 using nlohmann::json;
 
-/// Goes through a text and notes every key that its object already has. Stops at what is not JSON.
-/// A callback of json::parse would see the same, but with one the parser's time grows with the
-/// square of a list's length.
+/// Parses a text and notes every duplicate key of an object. Stops at invalid JSON. A callback of
+/// json::parse would see the same keys, but it makes the parser quadratic in the length of a list.
 class DuplicateKeyWatch final : public nlohmann::json_sax<json> {
  public:
   DuplicateKeyWatch(std::string file, std::vector<Fault>& faults)
@@ -55,7 +54,7 @@ class DuplicateKeyWatch final : public nlohmann::json_sax<json> {
 
   bool enter(bool is_array) {
     next_element();
-    // Code that walks the value calls itself once for each level.
+    // Code that walks the value recurses once per level.
     if (levels_.size() >= kMaxDepth) {
       throw InputError(file_, pointer(),
                        "expected at most " + std::to_string(kMaxDepth) +
@@ -74,10 +73,10 @@ class DuplicateKeyWatch final : public nlohmann::json_sax<json> {
     Level& level = levels_.back();
     level.key = key;
     if (level.keys.insert(key).second) return;
-    faults_.push_back({file_, pointer(), "the key \"" + key + "\" stands here twice"});
+    faults_.push_back({file_, pointer(), "duplicate key \"" + key + "\""});
   }
 
-  /// Of the value that is parsed.
+  /// Of the value that is being parsed.
   std::string pointer() const {
     json::json_pointer pointer;
     for (const Level& level : levels_) {
@@ -91,7 +90,7 @@ class DuplicateKeyWatch final : public nlohmann::json_sax<json> {
   std::vector<Level> levels_;
 };
 
-/// "line 3, column 7" of the byte `at`.
+/// The position of the byte `at`, e.g. "line 3, column 7".
 std::string place_of(const std::string& text, std::size_t at) {
   const auto begin = text.begin();
   const auto end = begin + static_cast<std::ptrdiff_t>(std::min(at, text.size()));
@@ -100,7 +99,7 @@ std::string place_of(const std::string& text, std::size_t at) {
          std::to_string(newline == std::string::npos ? at + 1 : at - newline);
 }
 
-/// The position of the number that `message`, "number overflow parsing '1e999'", quotes.
+/// The position of the number quoted in `message`, e.g. "number overflow parsing '1e999'".
 std::string place_of_number(const std::string& text, const std::string& message) {
   const std::size_t quote = message.find('\'');
   if (quote == std::string::npos) return "";
@@ -115,14 +114,14 @@ std::string without_number(const std::string& message) {
   return end == std::string::npos ? message : message.substr(end + 2);
 }
 
-/// Throws InputError if `bytes` of text are more than the JSON of any file that croon reads.
+/// Throws InputError if `bytes` exceeds the size of any JSON file that croon reads.
 void refuse_large(std::uintmax_t bytes, const std::string& file) {
-  // A value takes up to ninety times the bytes of its text. What people and programs write for
-  // croon, 10,000 variants or claims, has a few megabytes.
-  constexpr std::uintmax_t kMostBytes = 10'000'000;
-  if (bytes <= kMostBytes) return;
+  // A value needs up to ninety times the bytes of its text. Realistic files for croon, with 10,000
+  // variants or claims, have a few megabytes.
+  constexpr std::uintmax_t kMaxJsonBytes = 10'000'000;
+  if (bytes <= kMaxJsonBytes) return;
   throw InputError(file, "",
-                   "expected JSON of at most " + std::to_string(kMostBytes) + " bytes, found " +
+                   "expected JSON of at most " + std::to_string(kMaxJsonBytes) + " bytes, found " +
                        std::to_string(bytes));
 }
 
@@ -131,14 +130,14 @@ void refuse_large(std::uintmax_t bytes, const std::string& file) {
 std::string read_json_text(const std::filesystem::path& path) {
   std::error_code none;
   const std::uintmax_t bytes = std::filesystem::file_size(path, none);
-  // What has no size is refused with its reason when it is read.
+  // A file without a size is refused, with the reason, when it is read.
   if (!none) refuse_large(bytes, path.string());
   return read_whole_file(path);
 }
 
 json parse_json(const std::string& text, const std::string& file, std::vector<Fault>& faults) {
   refuse_large(text.size(), file);
-  // The parser takes a null byte for the end of the text.
+  // The parser treats a null byte as the end of the text.
   const std::size_t null_byte = text.find('\0');
   if (null_byte != std::string::npos) {
     throw InputError(file, place_of(text, null_byte), "expected JSON, found a null byte");

@@ -11,7 +11,7 @@
 namespace croon::params {
 namespace {
 
-/// RFC 6901: `~` and `/` inside a key.
+/// Escapes `~` and `/` in a key (RFC 6901).
 std::string escaped(const std::string& key) {
   std::string text;
   for (const char c : key) {
@@ -28,11 +28,11 @@ std::string escaped(const std::string& key) {
 
 /// The value as the user wrote it, cut if it is long.
 std::string shown(const nlohmann::json& value) {
-  constexpr std::size_t kLongest = 60;
+  constexpr std::size_t kMaxShownBytes = 60;
   const std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  if (text.size() <= kLongest) return text;
-  // Not in the middle of a character of UTF-8.
-  std::size_t end = kLongest;
+  if (text.size() <= kMaxShownBytes) return text;
+  // Never cut inside a UTF-8 character.
+  std::size_t end = kMaxShownBytes;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
   return text.substr(0, end) + "...";
 }

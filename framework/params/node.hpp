@@ -10,22 +10,22 @@
 
 namespace croon::params {
 
-/// Where a member of a merged object comes from.
+/// The file and key that a member of a merged object comes from.
 struct MemberOrigin {
   std::string file;
-  std::string key;  ///< As the file writes it.
+  std::string key;  ///< As written in the file.
 };
 
-/// The origins of members by their keys in the merged object.
+/// The origins of members, by their keys in the merged object.
 using MemberOrigins = std::map<std::string, MemberOrigin>;
 
-/// A value in a JSON file, with its file and pointer, so that a reader can report what is wrong
-/// with it. Faults are collected, not thrown: the user sees all of them at once. Cheap to copy; the
-/// JSON value and the list of faults must outlive it.
+/// A value in a JSON file with its file and pointer, so that a reader can report faults in it.
+/// Faults are collected, not thrown: the user sees all of them at once. Cheap to copy; the JSON
+/// value and the list of faults must outlive it.
 class Node {
  public:
   Node(const nlohmann::json& value, std::string file, std::vector<Fault>& faults);
-  /// An object merged from several files: faults in a member name the file that it comes from.
+  /// An object merged from several files: a fault in a member names the file it comes from.
   Node(const nlohmann::json& value, std::string file, std::vector<Fault>& faults,
        MemberOrigins origins);
 
@@ -34,39 +34,39 @@ class Node {
   /// RFC 6901 pointer of this value, empty at the root.
   const std::string& pointer() const { return pointer_; }
 
-  /// The member `key` of an object, which must be there.
+  /// The member `key` of an object; it must exist.
   Node member(const std::string& key) const;
   /// The element `index` of an array.
   Node element(std::size_t index) const;
   bool has(const std::string& key) const;
-  /// True for an object; notes no fault.
+  /// Whether this is an object; notes no fault.
   bool has_members() const;
 
-  /// RFC 6901 pointer of the member `key` of this object, which need not be there.
+  /// RFC 6901 pointer of the member `key` of this object, which need not exist.
   std::string pointer_to(const std::string& key) const;
 
-  /// Notes that this value is wrong. `parts`: see Fault.
+  /// Notes a fault in this value. `parts`: see Fault.
   void fault(const std::string& message, std::vector<std::string> parts = {}) const;
   /// Notes `expected WHAT, found VALUE`.
   void expected(const std::string& what) const;
 
-  /// The number of faults so far, in this node and elsewhere.
+  /// The number of faults found so far, in this node and elsewhere.
   std::size_t fault_count() const { return faults_->size(); }
 
-  /// True for an object; else notes a fault.
+  /// Whether this is an object; if not, notes a fault.
   bool is_object() const;
-  /// True for an array; else notes a fault.
+  /// Whether this is an array; if not, notes a fault.
   bool is_array() const;
-  /// Notes a fault for each key of this object that is not in `known`, with the nearest known one.
+  /// Notes a fault, with the nearest known key, for each key of this object that is not in `known`.
   void refuse_unknown_keys(const std::vector<std::string>& known) const;
-  /// Notes a fault if the member `key` is missing. `parts` are the values that require it, see
-  /// Fault.
+  /// Notes a fault if the member `key` is missing. `parts` are the pointers of the values that
+  /// require it, see Fault.
   bool require(const std::string& key, std::vector<std::string> parts = {}) const;
 
-  /// The value at `path`, "sweep/rotation_deg", below this object; null if there is none.
+  /// The value at `path`, e.g. "sweep/rotation_deg", below this object; null if it does not exist.
   const nlohmann::json* find(const std::string& path) const;
 
-  /// Reads into `out` and returns true, or notes a fault.
+  /// Reads the value into `out` and returns true, or notes a fault.
   bool read(bool& out) const;
   bool read(double& out) const;
   bool read(int& out) const;

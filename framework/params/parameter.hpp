@@ -13,11 +13,11 @@ struct Range {
   double maximum = std::numeric_limits<double>::infinity();
 };
 
-/// Which names are allowed: letters, digits and `marks`, at least one character, and none of
-/// `not_first` (`not_last`) as the first (last) one.
+/// The rule for valid names: at least one character; letters, digits and `marks`; the first (last)
+/// character is not one of `not_first` (`not_last`).
 struct NameRule {
   std::string marks;
-  std::string words;  ///< What is expected, for messages: "a name of letters, digits, _ and -".
+  std::string words;  ///< Description for messages: "a name of letters, digits, _ and -".
   std::string not_first = {};
   std::string not_last = {};
 
@@ -26,17 +26,17 @@ struct NameRule {
   std::string pattern() const;
 };
 
-/// Which keys of one object belong together. The rule applies if the object has `key` and, if
-/// `words` are given, the key's value is one of them. Then every key of `required` must be there
-/// and none of `excluded` may be. In canonical JSON, excluded keys are left out.
+/// A dependency between keys of one object. The rule applies if the object has `key` and, if
+/// `words` is not empty, its value is one of them. Then every key of `required` must be present and
+/// no key of `excluded` may be. Canonical JSON omits excluded keys.
 struct KeyRule {
-  std::string key;  ///< "file"; "sweep/rotation_deg" is a key of an object in the object.
+  std::string key;  ///< "file"; "sweep/rotation_deg" is a key of a nested object.
   std::vector<std::string> words = {};
-  bool is_negated = false;  ///< Applies if the key is missing; with words, if the value is another.
+  bool is_negated = false;  ///< Applies if the key is missing or, with `words`, has another value.
   std::vector<std::string> required = {};
   std::vector<std::string> excluded = {};
-  std::string expected = {};  ///< Of excluded keys, for messages: "no key beside \"file\"".
-  /// If not empty, the rule is another one: exactly one of these keys must be there.
+  std::string expected = {};  ///< For messages on excluded keys: "no key beside \"file\"".
+  /// If not empty, all other members are ignored: exactly one of these keys must be present.
   std::vector<std::string> one_of = {};
 };
 
@@ -59,8 +59,8 @@ enum class ParameterType {
   json
 };
 
-/// All that there is to know of one parameter: reading, help, JSON Schema, canonical JSON and the
-/// reference page come from it.
+/// Everything about one parameter: reading, help, JSON Schema, canonical JSON and the reference
+/// page are derived from it.
 struct ParameterDoc {
   std::string key;
   ParameterType type = ParameterType::number;
@@ -68,16 +68,16 @@ struct ParameterDoc {
   Range range;                       ///< integer, number, numbers, interval, per_axis.
   std::vector<std::string> choices;  ///< choice, choices; the names of a group's presets.
   std::string stage_kind;            ///< stage, stages.
-  std::string sentence;              ///< What it does; one sentence with its full stop.
-  bool is_required = false;          ///< The key must be there; `default_json` is then no value.
-  bool is_optional = false;          ///< The key may be missing, and has no default.
+  std::string sentence;              ///< Its purpose; one sentence with a full stop.
+  bool is_required = false;          ///< The key is required; `default_json` is then meaningless.
+  bool is_optional = false;          ///< The key may be missing and has no default.
   std::vector<ParameterDoc> members = {};     ///< group, map, list: the keys of the object.
-  std::vector<KeyRule> rules = {};            ///< group, map, list: which of them belong together.
-  std::vector<std::string> preset_json = {};  ///< group: the object that each preset stands for.
-  std::string name_words = {};                ///< map: what its keys are, "a sensor's name".
+  std::vector<KeyRule> rules = {};            ///< group, map, list: dependencies between its keys.
+  std::vector<std::string> preset_json = {};  ///< group: the object of each preset.
+  std::string name_words = {};                ///< map: description of its keys: "a sensor's name".
   std::optional<NameRule> name_rule = {};     ///< text: which names are allowed.
   bool may_be_empty = false;                  ///< text: the empty string is allowed.
-  std::string definition = {};  ///< json: the definition of the JSON Schema that describes it.
+  std::string definition = {};  ///< json: the JSON Schema definition that describes it.
 };
 
 }  // namespace croon::params

@@ -8,7 +8,7 @@
 
 namespace croon::params {
 
-/// Notes a fault for each of `names`, the list at `key` of `node`, that stands in it before.
+/// Notes a fault for each repeated name in `names`, the list at `key` of `node`.
 inline void refuse_repeats(const std::vector<std::string>& names, const Node& node,
                            const std::string& key) {
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -10,31 +10,31 @@
 
 namespace croon::params {
 
-/// The versions of stages by kind and name: {"icp/icpn", 1}.
+/// The versions of stages by kind and name, e.g. {"icp/icpn", 1}.
 using StageVersions = std::map<std::string, int>;
 
-/// A stage that was built from JSON, with the JSON that builds it again: all its parameters,
-/// defaults too, keys in order. Two slots with the same `resolved` text compute the same.
+/// A stage built from JSON, with the canonical JSON that builds it again: all its parameters,
+/// including defaults, keys in order. Two slots with the same `resolved` text compute the same.
 struct BuiltStage {
-  std::shared_ptr<const void> stage;  ///< Points at the stage's kind; null if there were faults.
+  std::shared_ptr<const void> stage;  ///< Points to the stage's kind; null if there were faults.
   std::string name;                   ///< "ransac".
   std::string resolved;
-  StageVersions versions = {};  ///< Of the stage and of those in its slots.
-  /// What the stage and those in its slots need and provide.
+  StageVersions versions = {};  ///< Of the stage and of those in its own slots.
+  /// The data flow of the stage and of those in its slots.
   std::optional<DataFlow> flow = {};
 };
 
-/// Builds the stages that a parameter table holds. The catalogue of stages is one; params knows no
-/// stage.
+/// Builds the stages that are values in a parameter table. The catalogue of stages implements it,
+/// so that params depends on no stage.
 class StageBuilder {
  public:
   virtual ~StageBuilder() = default;
-  /// The stage of `kind` that `node` describes. Notes faults in the node and then returns a null
-  /// stage.
+  /// Builds the stage of `kind` that `node` describes. Notes faults in the node and then returns a
+  /// null stage.
   virtual BuiltStage build(const std::string& kind, const Node& node) const = 0;
 };
 
-/// A parameter that holds a stage of the kind `Kind`.
+/// A parameter whose value is a stage of the kind `Kind`.
 template <class Kind>
 class Slot {
  public:
@@ -50,12 +50,12 @@ class Slot {
   const Kind& operator*() const { return *stage_; }
   /// The stage's name, "ransac".
   const std::string& name() const { return name_; }
-  /// Canonical JSON text of the stage and its parameters: the key of what it computes once per
-  /// cloud.
+  /// Canonical JSON text of the stage and its parameters: the cache key for what it computes once
+  /// per cloud.
   const std::string& resolved() const { return resolved_; }
-  /// The versions of the stage and of those in its slots.
+  /// The versions of the stage and of those in its own slots.
   const StageVersions& versions() const { return versions_; }
-  /// What the stage and those in its slots need and provide.
+  /// The data flow of the stage and of those in its slots.
   const DataFlow& flow() const { return flow_; }
 
  private:

@@ -16,17 +16,18 @@
 
 namespace croon::params {
 
-/// One row of a Table: what the parameter is, and how it gets into the struct `P` and out again.
+/// One row of a Table: a parameter's documentation, and how to read it into the struct `P` and
+/// write it.
 template <class P>
 struct Parameter {
   ParameterDoc doc;
   std::function<void(P&, const Node&, const StageBuilder&)> read;
   std::function<std::string(const P&)> json;  ///< JSON text of the value.
-  bool is_slot = false;                       ///< Its default must be built, not copied.
+  bool is_slot = false;                       ///< The default must be built, not copied.
 };
 
-/// The parameters of a stage, each declared once: its JSON key, the member of the struct `P` that
-/// holds it, its bounds and a sentence. Defaults are the initialisers of `P`.
+/// The parameters of a stage, each declared once: its JSON key, its member in the struct `P`, its
+/// bounds and a sentence. The initialisers of `P` are the defaults.
 template <class P>
 class Table {
  public:
@@ -39,8 +40,8 @@ class Table {
     return *this;
   }
 
-  /// Adds all that the table of a base of `P` has: parameters that several stages share.
-  /// `P` may give them defaults of its own.
+  /// Adds all rows of the table of a base of `P`, i.e. parameters that several stages share. `P`
+  /// may have other defaults.
   template <class Base>
   Table& inherit(const Table<Base>& base) {
     for (const Parameter<Base>& row : base.rows()) {
@@ -66,42 +67,41 @@ class Table {
     return conditions_;
   }
 
-  /// Adds a condition on the parameters together; `message` says what must hold, and names the
-  /// keys.
+  /// Adds a condition on several parameters; `message` states the condition and names the keys.
   Table& require(std::function<bool(const P&)> holds, std::string message) {
     conditions_.push_back({std::move(holds), std::move(message)});
     return *this;
   }
 
-  /// Adds a rule on which keys belong together.
+  /// Adds a dependency between keys.
   Table& rule(KeyRule rule) {
     rules_.push_back(std::move(rule));
     return *this;
   }
   const std::vector<KeyRule>& rules() const { return rules_; }
 
-  /// Adds a last step of reading that needs the node: it completes the values and may note faults.
-  /// It is left out if a fault was found before.
+  /// Adds a final step of reading that needs the node: it completes the values and may note faults.
+  /// Skipped if there were faults before it.
   Table& finish(std::function<void(P&, const Node&)> finish) {
     finishes_.push_back(std::move(finish));
     return *this;
   }
   const std::vector<std::function<void(P&, const Node&)>>& finishes() const { return finishes_; }
 
-  /// Reads the object `node` over the values that `params` begins with, and checks the conditions;
-  /// `other_keys` ("type", "step") are the caller's. Notes all faults in the node.
+  /// Reads the object `node` over the initial values `params` and checks the conditions. The caller
+  /// reads `other_keys` ("type", "step"). Notes all faults in the node.
   P read(const Node& node, const std::vector<std::string>& other_keys, const StageBuilder& builder,
          P params = P{}) const;
 
-  /// The same without the conditions.
+  /// The same without checking the conditions.
   void read_members(const Node& node, const std::vector<std::string>& other_keys,
                     const StageBuilder& builder, P& params) const;
 
-  /// True if `params` has a value for every required key.
+  /// Whether `params` has a value for every required key.
   bool is_whole(const P& params) const;
 
   /// `"key":value` for each parameter that has a value, comma-separated, for the resolved JSON.
-  /// Leaves out what the rules exclude and the keys of `without`.
+  /// Omits keys that the rules exclude and those in `without`.
   std::string members_json(const P& params, const std::vector<std::string>& without = {}) const;
 
   std::vector<ParameterDoc> docs() const {
@@ -135,7 +135,7 @@ P Table<P>::read(const Node& node, const std::vector<std::string>& other_keys,
                  const StageBuilder& builder, P params) const {
   const std::size_t faults_before = node.fault_count();
   read_members(node, other_keys, builder, params);
-  // Of parameters of which one could not be read, nothing can be said together.
+  // Conditions on several parameters are meaningless if one of them could not be read.
   if (node.fault_count() > faults_before) return params;
   for (const auto& [holds, message] : conditions_) {
     if (!holds(params)) note_broken_rule(node, message, members(params));
@@ -181,7 +181,7 @@ std::string Table<P>::members_json(const P& params, const std::vector<std::strin
   return members_text(kept, rules_);
 }
 
-/// A row for any value that `read_value` and `value_json` know.
+/// A row for any type that has `read_value` and `value_json`.
 template <class P, class T>
 Parameter<P> value_parameter(ParameterDoc doc, T P::*member) {
   doc.default_json = value_json(P{}.*member);
@@ -191,7 +191,7 @@ Parameter<P> value_parameter(ParameterDoc doc, T P::*member) {
   return {doc, read, [member](const P& params) { return value_json(params.*member); }, false};
 }
 
-/// `row` as one whose key must be there, whatever its default.
+/// `row` with its key made required, even if it has a default.
 template <class P>
 Parameter<P> required(Parameter<P> row) {
   row.doc.is_required = true;
@@ -199,8 +199,8 @@ Parameter<P> required(Parameter<P> row) {
   return row;
 }
 
-/// `row` as one whose key may be missing and has no default: the value that the struct begins with
-/// stands for none, and is not written.
+/// `row` with its key made optional and without a default: the struct's initial value means "not
+/// set" and is not written.
 template <class P>
 Parameter<P> optional(Parameter<P> row) {
   row.doc.is_required = false;
@@ -223,7 +223,7 @@ Parameter<P> integer(const std::string& key, int P::*member, Range range,
   return value_parameter<P>({key, ParameterType::integer, "", range, {}, "", sentence}, member);
 }
 
-/// A whole number that 32 bits do not hold; at most 2^53, which is exact in every JSON reader.
+/// A whole number beyond 32 bits; at most 2^53, so that it is exact in every JSON reader.
 template <class P>
 Parameter<P> integer(const std::string& key, std::uint64_t P::*member,
                      const std::string& sentence) {
@@ -231,14 +231,14 @@ Parameter<P> integer(const std::string& key, std::uint64_t P::*member,
       {key, ParameterType::integer, "", {0.0, 9007199254740992.0}, {}, "", sentence}, member);
 }
 
-/// Two numbers, [low, high] with low at most high.
+/// Two numbers [low, high] with low <= high.
 template <class P>
 Parameter<P> interval(const std::string& key, std::array<double, 2> P::*member, Range range,
                       const std::string& sentence) {
   return value_parameter<P>({key, ParameterType::interval, "", range, {}, "", sentence}, member);
 }
 
-/// A number, or a list of three, one for each axis.
+/// A number, or a list of three numbers, one per axis.
 template <class P>
 Parameter<P> per_axis(const std::string& key, PerAxis P::*member, Range range,
                       const std::string& sentence) {
@@ -251,8 +251,7 @@ Parameter<P> number(const std::string& key, double P::*member, Range range,
   return value_parameter<P>({key, ParameterType::number, "", range, {}, "", sentence}, member);
 }
 
-/// A string that is not empty: a path, a name. If the struct's own value is empty, the key must be
-/// there.
+/// A non-empty string: a path, a name. The key is required unless the struct has a default.
 template <class P>
 Parameter<P> text(const std::string& key, std::string P::*member, const std::string& sentence) {
   const bool is_required = (P{}.*member).empty();
@@ -270,13 +269,13 @@ Parameter<P> free_text(const std::string& key, std::string P::*member,
   return value_parameter<P>(doc, member);
 }
 
-/// A name that `rule` allows.
+/// A name that satisfies `rule`.
 template <class P>
 Parameter<P> name(const std::string& key, std::string P::*member, const NameRule& rule,
                   const std::string& sentence) {
   Parameter<P> row = text(key, member, sentence);
   row.doc.name_rule = rule;
-  // The row reads with a copy of its document.
+  // The row captures its document by value, so a changed document needs a new row.
   return value_parameter<P>(row.doc, member);
 }
 
@@ -287,8 +286,8 @@ Parameter<P> texts(const std::string& key, std::vector<std::string> P::*member,
   return value_parameter<P>({key, ParameterType::texts, "", {}, {}, "", sentence}, member);
 }
 
-/// Any JSON value, kept with its place in the file for code that reads it later. `definition`
-/// names the part of the JSON Schema that describes it. The key may be missing.
+/// An optional value of any JSON type, kept with its position in the file for code that reads it
+/// later. `definition` names the JSON Schema definition that describes it.
 template <class P>
 Parameter<P> json_value(const std::string& key, std::optional<Node> P::*member,
                         const std::string& definition, const std::string& sentence) {
@@ -301,7 +300,7 @@ Parameter<P> json_value(const std::string& key, std::optional<Node> P::*member,
           false};
 }
 
-/// A list of numbers, not empty.
+/// A non-empty list of numbers.
 template <class P>
 Parameter<P> numbers(const std::string& key, std::vector<double> P::*member, Range range,
                      const std::string& sentence) {
@@ -315,7 +314,7 @@ Parameter<P> choice(const std::string& key, std::string P::*member,
   return value_parameter<P>({key, ParameterType::choice, "", {}, choices, "", sentence}, member);
 }
 
-/// A stage of the kind `Kind`; `default_json` describes the one that is built if the key is
+/// A stage of the kind `Kind`; `default_json` describes the stage that is built if the key is
 /// missing.
 template <class Kind, class P>
 Parameter<P> slot(const std::string& key, Slot<Kind> P::*member, const std::string& default_json,
@@ -328,7 +327,7 @@ Parameter<P> slot(const std::string& key, Slot<Kind> P::*member, const std::stri
           true};
 }
 
-/// A stage of the kind `Kind`; the key must be there.
+/// A stage of the kind `Kind`; the key is required.
 template <class Kind, class P>
 Parameter<P> required_slot(const std::string& key, Slot<Kind> P::*member,
                            const std::string& sentence) {

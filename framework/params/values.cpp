@@ -33,7 +33,7 @@ void read_text(const Node& node, const ParameterDoc& doc, std::string& out) {
   out = text;
 }
 
-/// Whether `word` stands in `text`, and not as a part of a longer word.
+/// Whether `word` occurs in `text` as a whole word.
 bool has_word(const std::string& text, const std::string& word) {
   const auto ends_at = [&](std::size_t i) {
     return i >= text.size() || (!is_alphanumeric(text[i]) && text[i] != '_');
@@ -44,7 +44,7 @@ bool has_word(const std::string& text, const std::string& word) {
   return false;
 }
 
-/// Whether the rule's condition holds for the object `node`.
+/// Whether the rule applies to the object `node`.
 bool applies(const KeyRule& rule, const Node& node) {
   const json* value = node.find(rule.key);
   if (rule.words.empty()) return (value != nullptr) != rule.is_negated;
@@ -72,7 +72,7 @@ std::string NameRule::pattern() const {
   const auto one_of = [&](const std::string& without) {
     std::string others;
     for (const char c : marks) {
-      // A minus sign means a range unless it is the last character.
+      // A minus sign denotes a range unless it is the last character.
       if (c != '-' && !holds(without, c)) others += c;
     }
     return "[A-Za-z0-9" + others + (holds(marks, '-') && !holds(without, '-') ? "-]" : "]");
@@ -97,7 +97,7 @@ void read_value(const Node& node, const ParameterDoc&, bool& out) { node.read(ou
 void read_value(const Node& node, const ParameterDoc& doc, int& out) {
   const json& value = node.value();
   const double number = value.is_number() ? value.get<double>() : 0.5;
-  // Also of what an int does not hold.
+  // Checked here, because the number may also exceed an int.
   if (std::floor(number) == number && !in_range(number, doc.range)) {
     return node.expected(range_words("a whole number", doc.range));
   }
@@ -117,7 +117,7 @@ void read_value(const Node& node, const ParameterDoc& doc, double& out) {
 
 void read_value(const Node& node, const ParameterDoc& doc, std::uint64_t& out) {
   const json& value = node.value();
-  // 1e3 too; its range ends where a double no longer holds every whole number.
+  // Accepts 1e3 too; the range ends where a double can no longer represent every whole number.
   const double number = value.is_number() ? value.get<double>() : 0.5;
   if (std::floor(number) == number && number >= 0.0 && in_range(number, doc.range)) {
     out = value.is_number_unsigned() ? value.get<std::uint64_t>()
@@ -209,7 +209,7 @@ std::vector<std::size_t> read_words(const Node& node, const std::vector<std::str
     const std::optional<std::size_t> index = read_word(element, words);
     if (!index) return;
     if (std::find(indices.begin(), indices.end(), *index) != indices.end()) {
-      element.fault("\"" + words[*index] + "\" stands in this list twice");
+      element.fault("duplicate \"" + words[*index] + "\" in this list");
     } else {
       indices.push_back(*index);
     }
@@ -228,9 +228,9 @@ std::string value_json(const std::array<double, 2>& ends) {
   return value_json(std::vector<double>(ends.begin(), ends.end()));
 }
 std::string value_json(double value) {
-  // A whole number is written as one: "10", not "10.0".
-  constexpr double kLargestExact = 9007199254740992.0;  // 2^53
-  const bool is_whole = std::floor(value) == value && std::abs(value) <= kLargestExact;
+  // A whole number is written without decimals: "10", not "10.0".
+  constexpr double kMaxExactInteger = 9007199254740992.0;  // 2^53
+  const bool is_whole = std::floor(value) == value && std::abs(value) <= kMaxExactInteger;
   return is_whole ? std::to_string(static_cast<long long>(value)) : json(value).dump();
 }
 std::string value_json(const std::string& value) { return json(value).dump(); }
@@ -263,13 +263,13 @@ void check_key_rules(const Node& node, const std::vector<KeyRule>& rules) {
 
 void note_broken_rule(const Node& node, const std::string& message,
                       const std::vector<std::pair<std::string, std::string>>& members) {
-  constexpr std::size_t kLongestValue = 60;
+  constexpr std::size_t kMaxValueColumns = 60;
   std::vector<std::string> parts;
   std::vector<std::pair<std::string, std::string>> named;
   for (const auto& [key, text] : members) {
     if (text.empty() || !has_word(message, key)) continue;
     parts.push_back(node.pointer_to(key));
-    named.emplace_back(key, cut_in_the_middle(text, kLongestValue));
+    named.emplace_back(key, cut_in_the_middle(text, kMaxValueColumns));
   }
   std::string found;
   for (const auto& [key, text] : named) {

@@ -13,17 +13,17 @@
 
 namespace croon::params {
 
-/// A number for each of three axes; one number stands for all three.
+/// A number for each of three axes; a single number sets all three.
 struct PerAxis {
   std::array<double, 3> values;
 
-  PerAxis(double all) : values{all, all, all} {}  // NOLINT: a number is one.
+  PerAxis(double all) : values{all, all, all} {}  // NOLINT: implicit on purpose.
   double operator[](std::size_t axis) const { return values[axis]; }
   friend bool operator==(const PerAxis& a, const PerAxis& b) { return a.values == b.values; }
 };
 
-/// Reads the value of `node` into `out` and checks it against `doc`. If it does not fit, notes a
-/// fault and keeps `out`.
+/// Reads the value of `node` into `out` and checks it against `doc`. If the value is invalid, notes
+/// a fault and leaves `out` unchanged.
 void read_value(const Node& node, const ParameterDoc& doc, bool& out);
 void read_value(const Node& node, const ParameterDoc& doc, int& out);
 void read_value(const Node& node, const ParameterDoc& doc, std::uint64_t& out);
@@ -40,7 +40,7 @@ std::optional<std::size_t> read_word(const Node& node, const std::vector<std::st
                                      const std::string& or_else = "");
 
 /// The indices in `words` of the elements of the list `node`. Notes a fault if the node is not a
-/// list, if it is empty, and for each element that is not one of `words` or is listed twice.
+/// list or is empty, and for each element that is not in `words` or is a duplicate.
 std::vector<std::size_t> read_words(const Node& node, const std::vector<std::string>& words);
 
 /// The JSON text of a value.
@@ -49,7 +49,7 @@ std::string value_json(int value);
 std::string value_json(std::uint64_t value);
 std::string value_json(double value);
 std::string value_json(const std::array<double, 2>& ends);
-/// One number if the three are equal.
+/// A single number if all three are equal.
 std::string value_json(const PerAxis& axes);
 std::string value_json(const std::string& value);
 std::string value_json(const std::vector<double>& value);
@@ -58,30 +58,30 @@ std::string value_json(const std::vector<std::string>& value);
 /// The JSON text of the node's value.
 std::string node_json(const Node& node);
 
-/// Notes a fault for each of the rules that the object `node` breaks.
+/// Notes a fault for each rule that the object `node` breaks.
 void check_key_rules(const Node& node, const std::vector<KeyRule>& rules);
 
-/// Notes that `members`, keys with their JSON text, break the rule `message`, with the values of
-/// those that it names.
+/// Notes that `members` (keys with their JSON text) break the rule `message`, and appends the
+/// values of the keys that `message` names.
 void note_broken_rule(const Node& node, const std::string& message,
                       const std::vector<std::pair<std::string, std::string>>& members);
 
-/// The JSON members `"key":value`, comma-separated. Leaves out keys whose text is empty and those
-/// that the rules exclude.
+/// The JSON members `"key":value`, comma-separated. Omits keys whose text is empty and those that
+/// the rules exclude.
 std::string members_text(const std::vector<std::pair<std::string, std::string>>& members,
                          const std::vector<KeyRule>& rules);
 
-/// Sets the parameter's default to the JSON text `value`, or to the name of the preset that has it.
+/// Sets the parameter's default to the JSON text `value`, or to the name of the preset equal to it.
 void set_default(ParameterDoc& doc, const std::string& value);
 
-/// Calls `use` with the parameter's default as a node; a fault in it is noted at `node`.
+/// Calls `use` with the parameter's default as a node; notes faults in it at `node`.
 void read_default(const ParameterDoc& doc, const Node& node,
                   const std::function<void(const Node&)>& use);
 
 /// Calls `use` with each element of the array `node`.
 void for_each_element(const Node& node, const std::function<void(const Node&)>& use);
 
-/// "a number from 0 to 10", "a number of at least 0": the range in words.
+/// The range in words, e.g. "a number from 0 to 10", "a number of at least 0".
 std::string range_words(const std::string& what, const Range& range);
 
 }  // namespace croon::params

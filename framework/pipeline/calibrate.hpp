@@ -13,7 +13,7 @@ namespace croon {
 // and calibrate.
 
 /// The pipeline in the JSON `text`: a list of steps, or an object with such a list as "pipeline"
-/// (an experiment; its other keys are not read). `file` is the name in errors. Throws InputError
+/// (e.g. an experiment; other keys are ignored). `file` is the name in errors. Throws InputError
 /// with every fault.
 Pipeline parse_pipeline(const std::string& text, const std::string& file,
                         const Catalogue& catalogue);
@@ -21,8 +21,8 @@ Pipeline parse_pipeline(const std::string& text, const std::string& file,
 /// The same from the file `path`.
 Pipeline load_pipeline(const std::filesystem::path& path, const Catalogue& catalogue);
 
-/// Names the random streams of a calibration. With the seed and the names of a trial, `calibrate`
-/// gives the same bits as `croon run`.
+/// The names of the random streams of a calibration. With the seed and the names of a trial,
+/// `calibrate` computes the same bits as `croon run`.
 struct CalibrationNames {
   std::uint64_t seed = 1;
   std::string scene = "scene";
@@ -31,11 +31,11 @@ struct CalibrationNames {
   int trial = 0;
 };
 
-/// The random stream of what is computed from the cloud of `sensor` alone, and that of a trial.
+/// The random streams of computations that depend only on the cloud of `sensor`, and of a trial.
 StreamKey cloud_stream(std::uint64_t seed, const std::string& scene, const std::string& sensor);
 StreamKey trial_stream(const CalibrationNames& names);
 
-/// Takes `start`, a pose `T_target_source`, through the steps of `pipeline`. The result has the
+/// Applies the steps of `pipeline` to `start`, a pose `T_target_source`. The result contains the
 /// pose in `estimate.T_target_source`, or a `failure`.
 PipelineResult calibrate(const Pipeline& pipeline, PointCloud target, PointCloud source,
                          const RigidTransform& start = {}, const CalibrationNames& names = {});

@@ -11,7 +11,7 @@
 namespace croon {
 namespace {
 
-constexpr double kLeast_m = 0.1;
+constexpr double kMinRange_m = 0.1;
 constexpr double kBinsPerDecade = 8.0;
 
 double volume_m3(const Points& points) {
@@ -25,7 +25,7 @@ double volume_m3(const Points& points) {
 }
 
 double ground_ratio(const Points& points, const GroundExtractor& extractor) {
-  // One stream for all clouds: a cloud's description depends on the cloud alone.
+  // One stream for all clouds: a cloud's description depends only on the cloud.
   Rng rng(StreamKey(0).with("figures"));
   try {
     const Ground ground = extractor.extract(points, rng);
@@ -38,14 +38,14 @@ double ground_ratio(const Points& points, const GroundExtractor& extractor) {
 
 std::size_t bin_of(double range_m) {
   const double bin =
-      std::floor(kBinsPerDecade * std::log10(std::max(range_m, kLeast_m) / kLeast_m));
+      std::floor(kBinsPerDecade * std::log10(std::max(range_m, kMinRange_m) / kMinRange_m));
   return std::min(static_cast<std::size_t>(bin), kRangeBins - 1);
 }
 
 }  // namespace
 
 double range_bin_m(std::size_t bin) {
-  return kLeast_m * std::pow(10.0, static_cast<double>(bin) / kBinsPerDecade);
+  return kMinRange_m * std::pow(10.0, static_cast<double>(bin) / kBinsPerDecade);
 }
 
 CloudDescription description_of(const Points& points, const GroundExtractor& extractor) {

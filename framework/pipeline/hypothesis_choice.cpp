@@ -10,7 +10,7 @@
 namespace croon {
 namespace {
 
-/// The points that poses of the cloud are refined with.
+/// The points of the cloud that are used to refine its poses.
 std::shared_ptr<const Cloud> refinement_sample(const Cloud& cloud, const HypothesisChoice& choice) {
   return cloud.once<Cloud>("refinement_sample", choice.thinning.resolved(), [&] {
     constexpr int kPoints = 400;
@@ -24,7 +24,7 @@ std::shared_ptr<const Cloud> refinement_sample(const Cloud& cloud, const Hypothe
   });
 }
 
-/// The best poses that are not near a better one.
+/// The poses that are not near a better one, best first.
 std::vector<Hypothesis> apart(std::vector<Hypothesis> poses) {
   sort_by_score(poses);
   std::vector<Hypothesis> kept;
@@ -37,7 +37,7 @@ std::vector<Hypothesis> apart(std::vector<Hypothesis> poses) {
   return kept;
 }
 
-/// The poses refined, with their evidence, best first, apart from each other.
+/// The refined poses with their scores, best first, no two near each other.
 std::vector<Hypothesis> judged(const std::vector<Hypothesis>& poses, const Estimate& estimate,
                                const HypothesisChoice& choice) {
   const auto target = shared_view(*estimate.target, choice.thinning);
@@ -71,19 +71,19 @@ const params::Table<HypothesisChoice>& hypothesis_choice_table() {
   static const params::Table<HypothesisChoice> table = {
       params::slot("thinning", &HypothesisChoice::thinning,
                    R"({"type": "voxel_downsample", "leaf_size_m": 0.25})",
-                   "Makes the clouds even, so that numbers of points are areas."),
+                   "Thins the clouds evenly, so that numbers of points measure area."),
       params::slot("icp", &HypothesisChoice::icp,
                    R"({"type": "point_to_plane", "max_distances_m": [1.5, 0.8, 0.4], )"
                    R"("max_iterations": 8, "coarse_points": 300, "normal_neighbours": 10, )"
                    R"("rotation_tolerance_deg": 0.05, "translation_tolerance_m": 0.005})",
-                   "Refines each hypothesis before they are compared."),
+                   "Refines each hypothesis before the comparison."),
       params::boolean("use_start", &HypothesisChoice::use_start,
-                      "Poses beyond max_rotation_deg or max_translation_m from the start are "
-                      "dropped; without it the start does not matter."),
+                      "Whether poses beyond max_rotation_deg or max_translation_m from the start "
+                      "are discarded; otherwise the start is ignored."),
       params::number("max_rotation_deg", &HypothesisChoice::max_rotation_deg, {0.0, 180.0},
-                     "See use_start."),
+                     "Maximum rotation from the start, see use_start."),
       params::number("max_translation_m", &HypothesisChoice::max_translation_m, {0.0, 1e6},
-                     "See use_start."),
+                     "Maximum translation from the start, see use_start."),
   };
   return table;
 }

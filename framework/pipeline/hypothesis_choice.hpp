@@ -13,38 +13,38 @@
 
 namespace croon {
 
-/// How every global search chooses between the poses that it proposes, so that searches differ in
-/// what they propose alone. A search's own parameters derive from this and its table inherits
-/// hypothesis_choice_table().
+/// How global searches choose between the poses that they propose; common to all of them, so that
+/// they differ only in their proposals. A search's own parameters derive from this and its table
+/// inherits hypothesis_choice_table().
 struct HypothesisChoice {
-  params::Slot<Preprocessor> thinning;  ///< Of the clouds that poses are judged by.
-  params::Slot<Icp> icp;                ///< Refines a pose before it is judged.
+  params::Slot<Preprocessor> thinning;  ///< Of the clouds with which poses are scored.
+  params::Slot<Icp> icp;                ///< Refines a pose before it is scored.
   bool use_start = false;
   double max_rotation_deg = 45.0;
   double max_translation_m = 0.5;
 
-  /// What the stage needs and gives: `hypotheses`.
+  /// The data flow of the stage; it provides `hypotheses`.
   params::DataFlow flow() const;
 };
 
 /// The rows of HypothesisChoice.
 const params::Table<HypothesisChoice>& hypothesis_choice_table();
 
-/// Poses by score, best first; of equals the first remains the first.
+/// Sorts poses by score, best first; ties keep their order.
 void sort_by_score(std::vector<Hypothesis>& poses);
 
-/// Throws StageError if the cloud is empty; `whose` names it.
+/// Throws StageError if the cloud is empty; `whose` is its owner in the message.
 void require_points(const Cloud& cloud, const char* whose);
 
-/// What a cloud's poses are judged by (see shared_view), made once. Throws StageError as
-/// require_points does.
+/// The view of a cloud for judging poses (see shared_view), computed once. Throws StageError like
+/// require_points.
 std::shared_ptr<const SensorView> view_of(const Cloud& cloud, const HypothesisChoice& choice,
                                           const char* whose);
 
-/// The estimate at the best of `proposed` (their scores do not count): each pose is refined, judged
-/// by pose_evidence, and dropped if it is near a better one or, with `use_start`, far from the
-/// start. The others become the extra `hypotheses`; diagnostics are their number and the two best
-/// scores. Throws StageError if none remains.
+/// The estimate at the best of `proposed` (their scores are ignored): each pose is refined, scored
+/// by pose_evidence, and discarded if it is near a better one or, with `use_start`, far from the
+/// start. The remaining poses become the extra `hypotheses`; the diagnostics are their number and
+/// the two best scores. Throws StageError if none remains.
 Estimate at_best(Estimate estimate, const std::vector<Hypothesis>& proposed,
                  const HypothesisChoice& choice);
 

@@ -6,9 +6,9 @@
 
 namespace croon {
 
-/// Measures the time of a step on this thread, without the shared work (see OnceTable) that the
-/// thread does or waits for meanwhile. Shared work that other threads do for the step, of which it
-/// makes several where it sees several scenes, is part of its time.
+/// Measures the time of a step on this thread, excluding the shared work (see OnceTable) that the
+/// thread does or waits for meanwhile. Shared work that other threads do for a step that processes
+/// several scenes in parallel is included.
 class OwnTime {
  public:
   /// Seconds since the construction.

@@ -33,17 +33,17 @@ std::string no_step(const PatchedPipeline& pipeline, const std::string& name) {
 
 std::string two_steps(const std::string& name) { return "two steps are called \"" + name + "\""; }
 
-/// The step's "name", else its type. Notes a fault if it is not a name.
+/// The step's "name", else its type. Notes a fault for an invalid name.
 std::string read_step_name(const Node& step) {
   if (!step.has("name")) {
-    // A type that is not a string is noted when the step is built.
+    // A type that is not a string is noted as a fault when the step is built.
     const bool has_type = step.has("step") && step.value().at("step").is_string();
     return has_type ? step.value().at("step").get<std::string>() : "";
   }
   std::string name;
   const Node member = step.member("name");
   if (!member.read(name)) return name;
-  const std::string too_long = why_too_long(name, kMostNameBytes);
+  const std::string too_long = why_too_long(name, kMaxNameBytes);
   if (!too_long.empty()) {
     member.fault(too_long);
   } else if (!params::kKeyName.allows(name)) {
@@ -56,20 +56,20 @@ PatchedStep patched_step(const std::string& name, const Node& step) {
   return {name, std::make_shared<const json>(step.value()), {{"", step.file(), step.pointer()}}};
 }
 
-/// True if the JSON pointer `part` leads to `pointer` or to something around it.
+/// Whether the JSON pointer `part` refers to `pointer` or to a value that contains it.
 bool contains(const std::string& part, const std::string& pointer) {
   return pointer.compare(0, part.size(), part) == 0 &&
          (pointer.size() == part.size() || pointer[part.size()] == '/');
 }
 
-/// Notes that `origin.part` of a step was written at `origin`.
+/// Records that `origin.part` of a step was written at `origin`.
 void set_origin(std::vector<Origin>& origins, const Origin& origin) {
   const auto is_replaced = [&](const Origin& other) { return contains(origin.part, other.part); };
   origins.erase(std::remove_if(origins.begin(), origins.end(), is_replaced), origins.end());
   origins.push_back(origin);
 }
 
-/// The origin of the value at `pointer`. Later ones in the list were set later.
+/// The origin of the value at `pointer`. Later elements of the list were set later.
 std::vector<Origin>::const_iterator origin_of(const std::vector<Origin>& origins,
                                               const std::string& pointer) {
   auto nearest = origins.end();
@@ -82,8 +82,8 @@ std::vector<Origin>::const_iterator origin_of(const std::vector<Origin>& origins
   return nearest;
 }
 
-/// `fault`, which names a pointer in the step, with the file and the pointer where it was written.
-/// Of values that break a rule together, the last that was set broke it.
+/// Converts `fault`, whose pointer is relative to the step, to the file and pointer where the value
+/// was written. If several values break a rule together, the one set last is reported.
 Fault located(Fault fault, const std::vector<Origin>& origins) {
   std::string pointer = fault.where == "/" ? "" : fault.where;
   auto origin = origin_of(origins, pointer);
@@ -128,7 +128,7 @@ std::string no_parameter(const StageEntry& entry, const std::string& key) {
          name_hint(key, known);
 }
 
-/// Puts `value` in the place that `keys` lead to inside `step`.
+/// Replaces the value at `keys` inside `step` with `value`.
 std::string replace_inside(PatchedStep& step, const std::vector<std::string>& keys,
                            const Node& value, const Catalogue& catalogue) {
   json changed = *step.value;
@@ -137,7 +137,7 @@ std::string replace_inside(PatchedStep& step, const std::vector<std::string>& ke
   std::string kind = Step::kKind;
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const StageEntry* entry = entry_of(kind, *at, catalogue);
-    // The fault of an unknown stage is noted when it is built; its parameters are not known.
+    // The fault of an unknown stage is noted when it is built; its parameters are unknown.
     if (entry == nullptr) return "";
     const params::ParameterDoc* doc = find_parameter(*entry, keys[i]);
     if (doc == nullptr) return no_parameter(*entry, keys[i]);
@@ -175,8 +175,8 @@ PatchedPipeline read_steps(const Node& pipeline) {
   if (!pipeline.is_array()) return steps;
   const std::size_t count = pipeline.value().size();
   if (count == 0) pipeline.expected("a list of at least one step");
-  if (count > kMostSteps) {
-    pipeline.fault("expected a list of at most " + std::to_string(kMostSteps) + " steps, found " +
+  if (count > kMaxSteps) {
+    pipeline.fault("expected a list of at most " + std::to_string(kMaxSteps) + " steps, found " +
                    std::to_string(count));
     return steps;
   }
@@ -252,8 +252,8 @@ std::vector<Fault> unmet_needs(const PatchedPipeline& pipeline, const Pipeline& 
       std::vector<std::string> names;
       for (const auto& [name, doc] : given) names.push_back(name);
       const std::string why = found == given.end()
-                                  ? "which no step before it gives" + name_hint(extra.name, names)
-                                  : "which a step before it gives with another type";
+                                  ? "which no earlier step provides" + name_hint(extra.name, names)
+                                  : "which an earlier step provides with another type";
       faults.push_back(fault_of_step(
           pipeline[i], "needs the extra \"" + extra.name + "\" (" + extra.meaning + "), " + why));
     }

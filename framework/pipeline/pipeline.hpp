@@ -21,7 +21,7 @@ using Pipeline = std::vector<NamedStep>;
 /// The record of one step of one trial.
 struct StepRecord {
   std::string name;
-  double seconds = 0.0;  ///< Its own time, without what was computed once for all trials.
+  double seconds = 0.0;  ///< Its own time, without shared work for all trials.
   std::vector<Diagnostic> diagnostics;
   std::optional<Matrix6d> information;  ///< If this step computed one, see Estimate.
 };
@@ -31,20 +31,20 @@ struct PipelineResult {
   Estimate estimate;    ///< Of the last step that did not fail.
   std::string failure;  ///< Empty, or the step that failed and the reason.
   std::vector<StepRecord> records;
-  std::string remark = {};  ///< Empty, or what else is to be known of the result.
+  std::string note = {};  ///< Optional remark.
 };
 
 /// The state before the first step.
 PipelineResult at_start(std::shared_ptr<const Cloud> target, std::shared_ptr<const Cloud> source,
                         const RigidTransform& start);
 
-/// Takes `result` one step further; does nothing if an earlier step failed. Each step draws from a
-/// stream of its own, named by `key` and its name, so one step's draws do not move another's and a
-/// step that is removed moves none. A StageError ends the trial and becomes its `failure`; any
-/// other exception passes through (see `with_stage_errors` for those of libraries).
+/// Applies one step to `result`; does nothing if an earlier step failed. Each step draws from its
+/// own stream, named by `key` and its name, so that adding or removing a step does not change the
+/// draws of others. A StageError ends the trial and becomes its `failure`; any other exception is
+/// passed on (see `with_stage_errors` for those of libraries).
 void advance(PipelineResult& result, const NamedStep& step, const StreamKey& key);
 
-/// Takes `start` through the steps of `pipeline`.
+/// Applies the steps of `pipeline` to `start`.
 PipelineResult run_pipeline(const Pipeline& pipeline, std::shared_ptr<const Cloud> target,
                             std::shared_ptr<const Cloud> source, const RigidTransform& start,
                             const StreamKey& key);

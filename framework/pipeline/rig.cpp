@@ -23,7 +23,7 @@ bool is_of_same_sensor(const A& a, const B& b) {
   return a.target == b.target && a.source == b.source;
 }
 
-/// The estimates of the members that have not failed; their diagnostics are those of a new step.
+/// The estimates of the members that have not failed, with their diagnostics cleared.
 std::vector<RigEstimate> live_estimates(const std::vector<RigMember*>& members, const Rig& rig) {
   std::vector<RigEstimate> estimates;
   for (const RigMember* const member : members) {
@@ -37,8 +37,8 @@ std::vector<RigEstimate> live_estimates(const std::vector<RigMember*>& members, 
   return estimates;
 }
 
-/// A pose that is not finite is a failure: it must not spoil the other scenes of its sensor. The
-/// only scene of a sensor is judged at the end of its trial.
+/// A pose that is not finite is a failure, so that it does not spoil the other scenes of its
+/// sensor. The only scene of a sensor is judged at the end of its trial.
 void fail_if_not_finite(RigMember& member, const std::string& step, const Rig& rig) {
   const RigidTransform& T = member.result.estimate.T_target_source;
   if (!member.result.failure.empty() || (T.rotation.allFinite() && T.translation.allFinite())) {
@@ -52,8 +52,9 @@ void fail_if_not_finite(RigMember& member, const std::string& step, const Rig& r
   }
 }
 
-/// Gives `member` what the step `name` made of its estimate in `seconds`.
-void take(RigMember& member, const std::string& name, RigEstimate&& adjusted, double seconds) {
+/// Updates `member` with the estimate that the step `name` computed in `seconds`.
+void update_member(RigMember& member, const std::string& name, RigEstimate&& adjusted,
+                   double seconds) {
   Estimate before = std::exchange(member.result.estimate, std::move(adjusted.estimate));
   Estimate& after = member.result.estimate;
   const bool is_computed = after.information && after.information != before.information;
@@ -90,11 +91,11 @@ void adjust_all(Rig& rig, const RigStep& step, const std::string& name, const St
   }
   const double seconds = time.seconds() / static_cast<double>(live.size());
   for (std::size_t i = 0; i < live.size(); ++i) {
-    take(*live[i], name, std::move(estimates[i]), seconds);
+    update_member(*live[i], name, std::move(estimates[i]), seconds);
   }
 }
 
-/// 0 if the result can be trusted as far as the program knows, 1 if it is rejected, 2 if it failed.
+/// 0 if the result is not rejected, 1 if it is rejected, 2 if it failed.
 int rank(const RigMember& member) {
   if (!member.result.failure.empty()) return 2;
   return member.result.estimate.rejection ? 1 : 0;

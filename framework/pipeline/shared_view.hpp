@@ -6,8 +6,8 @@
 
 namespace croon {
 
-/// The view of `cloud` that poses are judged by, made once for all starts and steps: `thinning`
-/// makes it even.
+/// The view of `cloud` for judging poses, computed once for all starts and steps; `thinning` makes
+/// its density even.
 std::shared_ptr<const SensorView> shared_view(const Cloud& cloud,
                                               const params::Slot<Preprocessor>& thinning);
 

@@ -18,11 +18,11 @@ SelectedClouds selected_clouds(const Estimate& estimate, PointSelection points) 
 const params::Table<NearestCostOptions>& nearest_cost_table() {
   static const params::Table<NearestCostOptions> table = {
       params::choice("points", &NearestCostOptions::points, kPointsWords,
-                     "Which points the cost uses; the ground does not constrain yaw, x and y."),
+                     "Points that the cost uses; the ground does not constrain yaw, x and y."),
       params::integer("max_points", &NearestCostOptions::max_points, {10, 1e9},
-                      "At most this many points of the sensor are used, evenly spaced."),
+                      "Maximum number of the sensor's points, evenly spaced."),
       params::number("max_distance_m", &NearestCostOptions::max_distance_m, {0.01, 1e6},
-                     "Nearest-neighbour distances are truncated at this."),
+                     "Maximum nearest-neighbour distance; larger ones are truncated."),
   };
   return table;
 }

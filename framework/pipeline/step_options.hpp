@@ -9,21 +9,21 @@
 
 namespace croon {
 
-/// Which points of the two clouds a step works on.
+/// The points of the two clouds that a step uses.
 enum class PointSelection { non_ground, all };
 
 /// The choices of a step's parameter `points`.
 inline const params::Words<PointSelection> kPointsWords = {
     {"non_ground", PointSelection::non_ground}, {"all", PointSelection::all}};
 
-/// The target and source clouds that a step works on.
+/// The target and source clouds that a step uses.
 struct SelectedClouds {
   std::shared_ptr<const Cloud> target;
   std::shared_ptr<const Cloud> source;
 };
 
-/// The clouds with the selected points. PointSelection::non_ground selects all points if no step
-/// before has found the ground. Throws StageError if a selected cloud is empty.
+/// The clouds with the selected points. PointSelection::non_ground selects all points if no earlier
+/// step has found the ground. Throws StageError if a selected cloud is empty.
 SelectedClouds selected_clouds(const Estimate& estimate, PointSelection points);
 
 /// The parameters of the steps that minimise the nearest-neighbour distances. A step's own

@@ -12,7 +12,7 @@
 namespace croon {
 namespace {
 
-/// A point in the common frame and in its sensor's.
+/// A point in the common frame and in that of its sensor.
 struct PlacedPoint {
   Eigen::Vector3f common;
   Eigen::Vector3f own;
@@ -34,7 +34,7 @@ class PatchSearch {
               std::vector<PlanePatch>& patches)
       : clouds_(clouds), options_(options), patches_(patches) {}
 
-  /// Adds the patches of the cube around `centre` that holds these points.
+  /// Adds the patches of the cube around `centre` that contains these points.
   void search(Iterator begin, Iterator end, const Eigen::Vector3f& centre, double edge_m) {
     if (end - begin < options_.min_points || !is_seen_by_two(begin, end)) return;
     PointSums sums;
@@ -63,7 +63,7 @@ class PatchSearch {
                        [&](const PlacedPoint& point) { return point.view != begin->view; });
   }
 
-  /// Whether the plane runs along a face of its cube, nearer than points scatter.
+  /// Whether the plane is closer to a face of its cube than its points scatter.
   static bool may_be_cut(const Eigen::Vector3d& mean, const Eigen::Vector3d& normal, double rms_m,
                          double edge_m) {
     int axis = 0;
@@ -107,8 +107,8 @@ class PatchSearch {
       view.timed.add(own, weight * time_s);
       view.timed_twice.add(own, weight * time_s * time_s);
     }
-    constexpr double kLeastNoise_m = 0.005;  // Of a point across its plane.
-    const double noise_m = std::max(rms_m, kLeastNoise_m);
+    constexpr double kMinNoise_m = 0.005;  // Standard deviation of a point across its plane.
+    const double noise_m = std::max(rms_m, kMinNoise_m);
     PlanePatch patch;
     for (std::size_t k = 0; k < clouds_.size(); ++k) {
       const PlanePatch::View& view = views[k];
@@ -119,7 +119,7 @@ class PatchSearch {
       const double weight = 1.0 / (variance * view.sums.weight);
       patch.views.push_back({clouds_[k].sensor, view.sums.scaled(weight), view.timed.scaled(weight),
                              view.timed_twice.scaled(weight)});
-      patch.own_cost += least_eigenvalue(patch.views.back().sums.scatter());
+      patch.own_cost += min_eigenvalue(patch.views.back().sums.scatter());
     }
     if (patch.views.size() > 1) patches_.push_back(std::move(patch));
   }
@@ -153,7 +153,7 @@ std::vector<PlacedPoint> placed_points(const std::vector<SensorCloud>& clouds,
   return points;
 }
 
-/// The points by the cubes that hold them; `leaves` has the cube of each.
+/// The points sorted by cube; `leaves` contains the cube of each.
 std::vector<PlacedPoint> sorted(const std::vector<PlacedPoint>& points,
                                 std::vector<LeafOfPoint>& leaves) {
   std::sort(leaves.begin(), leaves.end(), [](const LeafOfPoint& a, const LeafOfPoint& b) {
@@ -173,18 +173,19 @@ const params::Table<VoxelOptions>& voxel_table() {
   static const params::Table<O> table = [] {
     params::Table<O> rows = {
         params::numbers("voxels_m", &O::voxels_m, {1e-3, 1e6},
-                        "The edges of the largest and of the smallest voxels; a voxel that holds "
-                        "no plane is cut into eight."),
+                        "The maximum and the minimum edge of a voxel; a voxel whose points do not "
+                        "form a plane is divided into eight."),
         params::number("max_thickness_ratio", &O::max_thickness_ratio, {0.0, 1.0},
-                       "Points are on a plane if their variance across it is at most this share of "
-                       "the middle one."),
+                       "Maximum ratio of the variance across a plane to the middle variance of its "
+                       "points."),
         params::integer("min_points", &O::min_points, {4, 1000000},
-                        "A plane has at least so many points, of all sensors together."),
+                        "Minimum number of points on a plane, over all sensors."),
         params::integer("min_sensor_points", &O::min_sensor_points, {1, 1000000},
-                        "A sensor that has fewer points on a plane does not see it."),
+                        "Minimum number of points of one sensor on a plane; a sensor with fewer is "
+                        "ignored there."),
         params::number("surface_error_m", &O::surface_error_m, {0.0, 1e3},
-                       "What a surface is off a plane: however many points a sensor has on it, "
-                       "they do not know the plane better."),
+                       "Standard deviation of a surface from a plane: no number of points makes a "
+                       "plane more certain."),
     };
     rows.require([](const O& o) { return o.voxels_m.size() == 2; },
                  "voxels_m must have two numbers");

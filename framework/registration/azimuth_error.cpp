@@ -18,31 +18,31 @@
 namespace croon {
 namespace {
 
-/// The functions of sine, cosine and slope at a point: sin a, cos a and e.
+/// The factors of sine, cosine and slope at a point: sin a, cos a and e.
 Eigen::Vector3d terms_at(const Eigen::Vector3d& point) {
   const double across = std::hypot(point.x(), point.y());
   if (!(across > 0.0)) return Eigen::Vector3d::Zero();
   return {point.y() / across, point.x() / across, std::atan2(point.z(), across)};
 }
 
-/// The error whose mean over points with the mean terms `mean` is zero.
+/// The error whose mean is zero over points with the mean terms `mean`.
 AzimuthError error_of(const Eigen::Vector3d& sizes, const Eigen::Vector3d& mean) {
   return {-sizes.dot(mean), sizes.x(), sizes.y(), sizes.z()};
 }
 
 /// A point on a surface of the target, linearised.
 struct Contact {
-  Vector6d by_pose;         ///< The Jacobian of its distance by `moved`,
-  Eigen::Vector3d by_size;  ///< and by sine, cosine and slope.
+  Vector6d by_pose;         ///< The Jacobian of its distance with respect to `moved`,
+  Eigen::Vector3d by_size;  ///< and to sine, cosine and slope.
   double distance_m = 0.0;
   SurfaceKey surface;
 };
 
-/// A view and the points of it that take part.
+/// A view and the points of it that are used.
 class ViewProblem {
  public:
-  /// At most `most` points of the source take part, evenly through it.
-  ViewProblem(const AzimuthView& view, const AzimuthOptions& options, std::size_t most)
+  /// Uses at most `max_points` points of the source, evenly spaced.
+  ViewProblem(const AzimuthView& view, const AzimuthOptions& options, std::size_t max_points)
       : view_(view),
         options_(options),
         min_cosine_(std::max(std::cos(rad_from_deg(options.max_normal_angle_deg)), 1e-9)),
@@ -50,7 +50,7 @@ class ViewProblem {
         target_normals_(view.target->normals(options.normal_neighbours)),
         source_normals_(view.source->normals(options.normal_neighbours)) {
     const std::size_t size = view.source->points().size();
-    const std::size_t count = std::min(size, most);
+    const std::size_t count = std::min(size, max_points);
     for (std::size_t i = 0; i < count; ++i) {
       indices_.push_back(static_cast<int>(evenly_spaced_index(i, size, count)));
     }
@@ -100,15 +100,15 @@ class ViewProblem {
 
   AzimuthView view_;
   const AzimuthOptions& options_;
-  double min_cosine_;  ///< Above zero: the product with a normal that is not there is zero.
+  double min_cosine_;  ///< Positive, because the product with a missing normal is zero.
   const KdTree& target_tree_;
   const Normals& target_normals_;
   const Normals& source_normals_;
   std::vector<int> indices_;
 };
 
-/// The weights of contacts: n to the minus `direction_balance` for n of about one direction, times
-/// that of the robust kernel.
+/// The weights of contacts: n to the minus `direction_balance` for n contacts of about the same
+/// direction, times the weight of the robust kernel.
 std::vector<double> weights_of(const std::vector<Contact>& contacts,
                                const AzimuthOptions& options) {
   DirectionCounts counts{};
@@ -123,13 +123,13 @@ std::vector<double> weights_of(const std::vector<Contact>& contacts,
   return weights;
 }
 
-/// What one view says of sine, cosine and slope when its pose follows them.
+/// The normal equations of one view for sine, cosine and slope, with its pose eliminated.
 struct ReducedView {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();  ///< Of the gradients of surfaces.
-  Vector6d pose_step = Vector6d::Zero();              ///< With the sizes as they are,
-  Eigen::Matrix<double, 6, 3> pose_by_size =          ///< and by a change of them.
+  Vector6d pose_step = Vector6d::Zero();              ///< The step with constant sizes,
+  Eigen::Matrix<double, 6, 3> pose_by_size =          ///< and per change of the sizes.
       Eigen::Matrix<double, 6, 3>::Zero();
   double square_sum = 0.0;
   double weight_sum = 0.0;
@@ -184,10 +184,10 @@ class Problem {
       : options_(options) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     std::size_t points = 0;
-    const std::size_t most =
+    const std::size_t max_points =
         static_cast<std::size_t>(options.points) / std::max<std::size_t>(views.size(), 1) + 1;
     for (const AzimuthView& view : views) {
-      views_.emplace_back(view, options_, most);
+      views_.emplace_back(view, options_, max_points);
       poses_.push_back(view.T_target_source);
       sum += views_.back().sum_of_terms();
       points += views_.back().points();
@@ -195,31 +195,31 @@ class Problem {
     if (points > 0) mean_terms_ = sum / static_cast<double>(points);
   }
 
-  /// Linearises all views at the present state. Throws StageError if too few points correspond in
-  /// all of them.
+  /// Linearises all views at the current state. Throws StageError if each of them has too few
+  /// correspondences.
   void linearise() {
     reduced_.clear();
     information_.setZero();
     gradient_.setZero();
     scatter_.setZero();
-    int most = 0;
+    int max_correspondences = 0;
     for (std::size_t v = 0; v < views_.size(); ++v) {
       reduced_.push_back(reduced_at(v, poses_[v], error()));
       const ReducedView& view = reduced_.back();
       information_ += view.information;
       gradient_ += view.gradient;
       scatter_ += view.scatter;
-      most = std::max(most, view.correspondences);
+      max_correspondences = std::max(max_correspondences, view.correspondences);
     }
-    if (most < kFewestAzimuthCorrespondences) {
-      throw StageError("only " + std::to_string(most) + " points correspond");
+    if (max_correspondences < kMinAzimuthCorrespondences) {
+      throw StageError("only " + std::to_string(max_correspondences) + " points correspond");
     }
   }
 
-  /// Moves the state by a Gauss-Newton step. Returns whether it was a small one.
+  /// Moves the state by a Gauss-Newton step. Returns whether the step was small.
   bool step() {
     const double expected_rad = rad_from_deg(options_.expected_error_deg);
-    // What a unit of information is worth: by it the scatter of gradients is that of information.
+    // Converts information to inverse variance, estimated from the scatter of the gradients.
     const double variance =
         std::max((guarded_inverse<3>(information_) * scatter_).trace() / 3.0, 1e-12);
     const double prior = variance / (expected_rad * expected_rad);
@@ -247,8 +247,8 @@ class Problem {
     return weights > 0.0 ? std::sqrt(squares / weights) : 0.0;
   }
 
-  /// Fills in what is found, from the last linearisation.
-  void give(AzimuthCalibration& result) const {
+  /// Writes the solution, from the last linearisation, into `result`.
+  void write_result(AzimuthCalibration& result) const {
     result.error = error();
     const Eigen::Matrix3d inverse = guarded_inverse<3>(measured_hessian());
     result.covariance = inverse * scatter_ * inverse;
@@ -264,17 +264,18 @@ class Problem {
   }
 
  private:
-  /// A view, linearised. One in which too few points correspond says nothing and stays where it is.
+  /// A linearised view; zero, so that its pose stays, if it has too few correspondences.
   ReducedView reduced_at(std::size_t v, const RigidTransform& T, const AzimuthError& error) const {
     ReducedView view = reduced(views_[v].contacts(T, error, mean_terms_), options_);
-    if (view.correspondences >= kFewestAzimuthCorrespondences) return view;
+    if (view.correspondences >= kMinAzimuthCorrespondences) return view;
     ReducedView nothing;
     nothing.correspondences = view.correspondences;
     return nothing;
   }
 
-  /// The change of the gradient by sine, cosine and slope when the poses follow them. Other points
-  /// correspond then, so it is less than what the present correspondences let expect.
+  /// The derivative of the gradient with respect to sine, cosine and slope, with the poses
+  /// following, by finite differences. Correspondences change, so it is smaller than predicted from
+  /// the current ones.
   Eigen::Matrix3d measured_hessian() const {
     constexpr double kOffset_rad = 2e-3;
     Eigen::Matrix3d hessian;
@@ -328,35 +329,35 @@ const params::Table<AzimuthOptions>& azimuth_table() {
   using O = AzimuthOptions;
   static const params::Table<O> table = {
       params::number("max_distance_m", &O::max_distance_m, {1e-6, 1e6},
-                     "Points that are farther apart do not correspond."),
+                     "Maximum distance between corresponding points."),
       params::integer("points", &O::points, {30, 100000000},
-                      "How many points of the sensor take part, as many of each scene, evenly "
-                      "through its scan."),
+                      "Number of points of the sensor, divided equally among the scenes and evenly "
+                      "spaced in each scan."),
       params::integer("normal_neighbours", &O::normal_neighbours, {3, 1000},
-                      "The number of neighbours that a normal is computed from."),
+                      "Number of neighbours from which a normal is computed."),
       params::number("max_normal_angle_deg", &O::max_normal_angle_deg, {0.0, 90.0},
-                     "Points whose normals differ by more do not correspond."),
+                     "Maximum angle between the normals of corresponding points."),
       params::number("direction_balance", &O::direction_balance, {0.0, 1.0},
-                     "Each of n points on surfaces of about one direction weighs n to the minus "
-                     "this."),
+                     "Each of n points on surfaces of about the same direction is weighted by n to "
+                     "the minus this."),
       params::number("kernel_width_m", &O::kernel_width_m, {1e-6, 1e6},
-                     "Residuals above it begin to lose weight."),
+                     "Larger residuals lose weight."),
       params::number("surface_size_m", &O::surface_size_m, {0.01, 1e6},
-                     "Points of one direction in a cell of this edge are one surface, whose errors "
-                     "are not independent."),
+                     "Points of about the same direction in a cell of this edge are one surface, "
+                     "whose errors are not independent."),
       params::number("expected_error_deg", &O::expected_error_deg, {1e-6, 90.0},
-                     "What is expected of an error before any point is seen: the standard "
-                     "deviation of sine and cosine about 0, and of the slope for an elevation of "
-                     "one radian."),
-      params::integer("max_iterations", &O::max_iterations, {1, 10000}, "The most iterations."),
+                     "Prior standard deviation of the error: of sine and cosine about 0, and of "
+                     "the slope for an elevation of one radian."),
+      params::integer("max_iterations", &O::max_iterations, {1, 10000},
+                      "Maximum number of iterations."),
   };
   return table;
 }
 
 double AzimuthCalibration::significance() const {
-  // The gradients of a few surfaces add up to zero, whatever the error, and scatter by nothing.
-  constexpr double kFewestSurfaces = 10.0;
-  if (surfaces < kFewestSurfaces) return 0.0;
+  // With few surfaces, the gradients sum to zero for any error, so their scatter vanishes.
+  constexpr double kMinSurfaces = 10.0;
+  if (surfaces < kMinSurfaces) return 0.0;
   const Eigen::Vector3d sizes(error.sine_rad, error.cosine_rad, error.slope);
   return std::sqrt(std::max(0.0, sizes.dot(guarded_inverse<3>(covariance) * sizes) / 3.0));
 }
@@ -372,7 +373,7 @@ AzimuthCalibration calibrate_azimuth(const std::vector<AzimuthView>& views,
     ++result.iterations;
     problem.linearise();
   }
-  problem.give(result);
+  problem.write_result(result);
   return result;
 }
 

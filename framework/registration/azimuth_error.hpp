@@ -8,26 +8,26 @@
 
 namespace croon {
 
-/// What a spinning LiDAR reports too much of azimuth, in radians, at the azimuth a and the
-/// elevation e of a point in its own frame, which turns about z:
+/// Azimuth error of a spinning LiDAR (reported minus true), in radians, at the azimuth a and the
+/// elevation e of a point in the sensor's own frame, which rotates about z:
 /// `offset + sine sin a + cosine cos a + slope e`. The once-per-turn part is that of an encoder
-/// whose disc is not centred, the slope that of a column of lasers that is rolled about its beams
-/// (Lichti, Error modelling, calibration and analysis of an AM-CW terrestrial laser scanner system,
-/// 2007; Muhammad and Lacroix, Calibration of a rotating multi-beam lidar, 2010).
+/// with an eccentric disc, the slope that of a column of lasers rolled about its beams (Lichti,
+/// Error modelling, calibration and analysis of an AM-CW terrestrial laser scanner system, 2007;
+/// Muhammad and Lacroix, Calibration of a rotating multi-beam lidar, 2010).
 struct AzimuthError {
   double offset_rad = 0.0;
   double sine_rad = 0.0;
   double cosine_rad = 0.0;
   double slope = 0.0;  ///< Radians per radian.
 
-  /// At `point`, in metres in the sensor's frame.
+  /// The error at `point`, in metres in the sensor's frame.
   double at(const Eigen::Vector3d& point) const;
 };
 
-/// `point` at the azimuth that it would have without the error.
+/// `point` with its azimuth corrected for the error.
 Eigen::Vector3d without_error(const Eigen::Vector3d& point, const AzimuthError& error);
 
-/// `cloud` with its points without the error; its channels stay.
+/// `cloud` with its points corrected; its channels stay.
 PointCloud without_error(PointCloud cloud, const AzimuthError& error);
 
 /// One scene in which a sensor's azimuths are compared with a target's surfaces.
@@ -37,7 +37,7 @@ struct AzimuthView {
   RigidTransform T_target_source;
 };
 
-/// How an azimuth error is estimated.
+/// The parameters of calibrate_azimuth.
 struct AzimuthOptions {
   double max_distance_m = 0.3;
   int points = 20000;
@@ -53,37 +53,37 @@ struct AzimuthOptions {
 /// The rows of AzimuthOptions.
 const params::Table<AzimuthOptions>& azimuth_table();
 
-/// A view in which less points correspond takes no part.
-inline constexpr int kFewestAzimuthCorrespondences = 30;
+/// Views with fewer correspondences are skipped.
+inline constexpr int kMinAzimuthCorrespondences = 30;
 
 /// The azimuth error of a sensor, and its pose without it in each view.
 struct AzimuthCalibration {
   AzimuthError error;
-  /// Of sine, cosine and slope, rad^2: the errors of all points of one surface are taken as one.
+  /// Of sine, cosine and slope, rad^2; the errors of points on one surface count as a single error.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   std::vector<RigidTransform> T_target_source;  ///< By view.
-  double rmse_before_m = 0.0;  ///< Weighted, of the distances to surfaces, with the start's poses
-                               ///< and no error.
+  double rmse_before_m = 0.0;  ///< Weighted, of the distances to surfaces, at the initial poses
+                               ///< without an error.
   double rmse_m = 0.0;         ///< The same at the end.
-  /// By view. In one with less than kFewestAzimuthCorrespondences the pose is the start's, and the
-  /// error does not follow from it.
+  /// By view. A view with fewer than kMinAzimuthCorrespondences keeps its initial pose and does
+  /// not contribute to the error.
   std::vector<int> correspondences;
-  double surfaces = 0.0;  ///< On which the points lie, of all views; as many of one weight.
+  double surfaces = 0.0;  ///< Effective number (equally weighted) of surfaces over all views.
   int iterations = 0;
   bool converged = false;
 
-  /// How many standard deviations sine, cosine and slope are from zero: the root of a third of
-  /// their squared Mahalanobis distance, about 1 for a sensor without an error. 0 if the points lie
-  /// on too few surfaces to tell.
+  /// The distance of sine, cosine and slope from zero in standard deviations: the root of a third
+  /// of their squared Mahalanobis distance, about 1 for a sensor without an error. 0 if there are
+  /// too few surfaces to tell.
   double significance() const;
 };
 
-/// Finds the azimuth error of one sensor, the same in all `views`, together with its pose in each:
-/// least squares of the distances of its points to the surfaces of the targets, robust, from the
-/// poses of the views. An error that is the same at all azimuths is a yaw of the mounting, so the
-/// offset is the one that makes the mean error of all points zero. Of sine, cosine and slope a
-/// standard deviation of `expected_error_deg` about zero is expected. Throws StageError if too few
-/// points correspond in all views.
+/// Estimates the azimuth error of one sensor, the same in all `views`, together with its pose in
+/// each: robust least squares of the distances of its points to the surfaces of the targets,
+/// starting at the poses of the views. A constant error is equivalent to a yaw of the mounting, so
+/// the offset is chosen such that the mean error over all points is zero. The prior of sine, cosine
+/// and slope has the standard deviation `expected_error_deg` about zero. Throws StageError if all
+/// views have too few correspondences.
 AzimuthCalibration calibrate_azimuth(const std::vector<AzimuthView>& views,
                                      const AzimuthOptions& options);
 

@@ -12,7 +12,8 @@
 namespace croon {
 namespace {
 
-/// A step of the poses of so many sensors, then perhaps of the offsets of their clocks.
+/// Whether a step is small: of the poses of `sensors` sensors, optionally followed by their clock
+/// offsets.
 bool is_step_small(const Eigen::VectorXd& step, std::size_t sensors) {
   constexpr double kRotation_rad = 1e-8, kTranslation_m = 1e-7, kOffset_s = 1e-9;
   const auto offsets_at = static_cast<Eigen::Index>(6 * sensors);
@@ -34,19 +35,19 @@ bool are_same(const std::vector<RigidTransform>& a, const std::vector<RigidTrans
   return true;
 }
 
-/// The damping of Levenberg and Marquardt: the diagonal grows by this share of itself.
+/// Levenberg-Marquardt damping: increases the diagonal by this fraction.
 BundleCost damped(BundleCost cost, double damping) {
   cost.hessian.diagonal() += damping * cost.hessian.diagonal().cwiseAbs();
   return cost;
 }
 
-/// A step of Newton's method: where it leads, and whether it is too small to be made.
+/// A Newton step: the resulting state, and whether the step is too small to be made.
 struct NewtonStep {
   BundleState state;
   bool is_small = false;
 };
 
-/// The step with this damping; none if the Hessian is not positive.
+/// The step with this damping; std::nullopt if the Hessian is not positive definite.
 std::optional<NewtonStep> newton_step(const BundleSystem& system,
                                       const std::vector<BundleCost>& scenes,
                                       const BundleCost& start, double damping) {
@@ -79,15 +80,15 @@ std::optional<NewtonStep> newton_step(const BundleSystem& system,
   return result;
 }
 
-/// One step that lowers the cost, whose present value is `value`. Whether it moved a sensor.
+/// Makes one step that lowers the cost `value`. Returns whether it moved a sensor.
 bool improve(BundleSystem& system, double& value, double& damping) {
-  constexpr double kLargestDamping = 1e6;
+  constexpr double kMaxDamping = 1e6;
   const BundleCost start = system.start_cost();
   std::vector<BundleCost> scenes;
   for (std::size_t s = 0; s < system.planes().size(); ++s) {
     scenes.push_back(system.scene_cost(s, system.planes()[s], true));
   }
-  for (; damping <= kLargestDamping; damping *= 10.0) {
+  for (; damping <= kMaxDamping; damping *= 10.0) {
     std::optional<NewtonStep> next = newton_step(system, scenes, start, damping);
     if (!next) continue;
     if (next->is_small) return false;
@@ -101,7 +102,7 @@ bool improve(BundleSystem& system, double& value, double& damping) {
   return false;
 }
 
-/// Looks for planes and moves the sensors until they stay. Whether they stayed at once.
+/// Finds planes and moves the sensors until convergence. Returns whether no sensor moved.
 bool pass(BundleSystem& system, int stride, const BundleOptions& options, Bundle& bundle) {
   system.find_planes(stride);
   const std::vector<RigidTransform> before = system.state().poses;
@@ -117,7 +118,7 @@ bool pass(BundleSystem& system, int stride, const BundleOptions& options, Bundle
 
 }  // namespace
 
-// Not in the header: in aggregates with such a base GCC 12 takes vectors for uninitialized.
+// Not in the header: GCC 12 reports uninitialised vectors in aggregates with such a base.
 BundleOptions::BundleOptions() = default;
 
 const params::Table<BundleOptions>& bundle_table() {
@@ -125,40 +126,40 @@ const params::Table<BundleOptions>& bundle_table() {
   static const params::Table<O> table = [] {
     params::Table<O> rows = {
         params::number("kernel_width", &O::kernel_width, {1e-3, 1e9},
-                       "Planes that fit worse than so many standard deviations lose weight."),
+                       "Kernel width in standard deviations: planes that fit worse lose weight."),
         params::numbers(
             "start_std", &O::start_std, {1e-9, 1e9},
-            "The standard deviations of how far a start is expected to be off: the first in "
-            "degrees, about each axis; the second in metres, along each axis. They "
-            "keep sensors from moving where no plane holds them."),
+            "Prior standard deviations of the error of an initial pose: the first in degrees, "
+            "about each axis; the second in metres, along each axis. They keep sensors from moving "
+            "in directions that no plane constrains."),
         params::number(
             "start_weight", &O::start_weight, {0.0, 1.0},
-            "The weight of what steps before know of poses and velocities, by covariances: "
-            "the inverse of how many times larger that is taken to be, because both saw "
-            "the same points. 0 takes the start as a start alone."),
+            "Factor on the inverse covariances of poses and velocities from earlier steps, at most "
+            "1 because the bundle adjustment uses the same points again. At 0 they are only "
+            "initial values."),
         params::integer("coarse_stride", &O::coarse_stride, {1, 1000000},
-                        "Coarse passes take one of so many points."),
-        params::integer("coarse_passes", &O::coarse_passes, {0, 1000},
-                        "The number of coarse passes."),
+                        "Coarse passes use every n-th point."),
+        params::integer("coarse_passes", &O::coarse_passes, {0, 1000}, "Number of coarse passes."),
         params::integer("max_passes", &O::max_passes, {1, 1000},
-                        "The most passes over all points; they end when no sensor moves."),
+                        "Maximum number of passes over all points; they end when no sensor moves."),
         params::integer("max_iterations", &O::max_iterations, {1, 10000},
-                        "The most iterations of each pass."),
+                        "Maximum number of iterations of each pass."),
         params::integer(
             "min_planes", &O::min_planes, {1, 1000000},
-            "A sensor that shares fewer planes (counted in each of the two grids) with others is "
-            "not adjusted: it keeps its start if a step before has given it a covariance, and "
-            "fails if not."),
+            "Minimum number of planes (counted in each of the two grids) that a sensor must share "
+            "with others to be adjusted. Otherwise it keeps its initial pose if an earlier step "
+            "computed a covariance, and fails if not."),
         params::number("covariance_scale", &O::covariance_scale, {0.0, 1e6},
-                       "Multiplies the standard deviations; found on scenes with truth."),
+                       "Factor on the standard deviations; tuned on scenes with ground truth."),
         params::number("velocity_error_mps", &O::velocity_error_mps, {0.0, 1e6},
-                       "In a scene that moves with a velocity that is not certain, the poses are "
-                       "less certain, as if the speed were "
-                       "off by this standard deviation; found on scenes with truth."),
+                       "Standard deviation of a speed error that is added to the uncertainty of "
+                       "the poses in a scene with an uncertain velocity; tuned on scenes with "
+                       "ground truth."),
         params::number("clock_offset_std_s", &O::clock_offset_std_s, {0.0, 1e6},
-                       "How far a sensor's clock is expected to be off from the target's, beyond "
-                       "what a step before has corrected; at 0 they agree. Above it the offset is "
-                       "found from scenes of different velocities."),
+                       "Prior standard deviation of the offset of a sensor's clock from the "
+                       "target's, beyond what an earlier step has corrected. At 0 the clocks "
+                       "agree; otherwise the offset is estimated from scenes with different "
+                       "velocities."),
     };
     rows.inherit(voxel_table());
     rows.require([](const O& o) { return o.start_std.size() == 2; },
@@ -185,7 +186,7 @@ Bundle adjust_bundle(const std::vector<BundleScene>& scenes, const std::vector<I
   bundle.clock_offsets_s = system.state().clock_offsets_s;
   BundleUncertainty uncertainty = bundle_uncertainty(system, options);
   bundle.covariances = std::move(uncertainty.covariances);
-  bundle.plane_words = plane_words(system);
+  bundle.plane_observability = plane_observability(system);
   bundle.clock_offset_stds_s = std::move(uncertainty.clock_offset_stds_s);
   const double planes = static_cast<double>(std::max<std::size_t>(system.number_of_planes(), 1));
   bundle.cost_per_plane = system.value_in(system.state()) / planes;

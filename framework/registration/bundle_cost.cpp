@@ -23,7 +23,7 @@ void for_each_patch(const std::vector<PlanePatch>& patches, const Use& use) {
   });
 }
 
-/// An unknown of six of a patch: the derivatives by it, and where it begins among all unknowns.
+/// A six-dimensional unknown of a patch: its derivatives and its position among all unknowns.
 struct PatchUnknown {
   const PlaneCost::Part* part;
   Eigen::Index at;

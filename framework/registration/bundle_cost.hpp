@@ -6,9 +6,9 @@
 
 namespace croon {
 
-/// The robust cost of the `patches` of one scene and its derivatives by the poses of all sensors, 6
-/// for each, and then by the velocity, if `state` has one: the sum of `w^2 c / (w^2 + c)` over the
-/// costs c of the planes, with the width w of the kernel.
+/// The robust cost of the `patches` of one scene and its derivatives with respect to the poses of
+/// all sensors, 6 for each, and then to the velocity, if `state` has one: the sum of
+/// `w^2 c / (w^2 + c)` over the costs c of the planes, with the width w of the kernel.
 struct BundleCost {
   double value = 0.0;
   Eigen::VectorXd gradient;
@@ -17,7 +17,7 @@ struct BundleCost {
 BundleCost bundle_cost(const std::vector<PlanePatch>& patches, const RigState& state,
                        double kernel_width);
 
-/// Its value alone.
+/// Only the value of bundle_cost.
 double bundle_value(const std::vector<PlanePatch>& patches, const RigState& state,
                     double kernel_width);
 

@@ -9,13 +9,13 @@
 namespace croon {
 namespace {
 
-/// What planes say of the pose of a sensor, and what the noise of their normals pretends.
+/// The information of planes about the pose of a sensor, and the part due to noisy normals.
 struct PlaneEvidence {
   Matrix6d information = Matrix6d::Zero();
   Matrix6d noise = Matrix6d::Zero();
 };
 
-/// Adds what a patch says of each of its sensors, the others being where they are.
+/// Adds the information of a patch about each of its sensors, with the others fixed.
 void add_patch(const PlanePatch& patch, const std::vector<RigidTransform>& poses,
                std::vector<PlaneEvidence>& evidence) {
   PointSums all;
@@ -27,14 +27,14 @@ void add_patch(const PlanePatch& patch, const std::vector<RigidTransform>& poses
   for (const PlanePatch::View& view : patch.views) {
     const double own = view.sums.weight, others = all.weight - own;
     if (!(own > 0.0) || !(others > 0.0)) continue;
-    // The distance between two planes is known by the sum of the variances of both.
+    // The variance of the distance between two planes is the sum of their variances.
     const double weight = own * others / all.weight;
     const Eigen::Vector3d arm = poses[view.sensor].rotation * (view.sums.sum / own);
     const Vector6d J = plane_jacobian(arm, solver.eigenvectors().col(0));
     PlaneEvidence& of_sensor = evidence[view.sensor];
     of_sensor.information += weight * (J * J.transpose());
     for (int k = 1; k < 3; ++k) {
-      // The weights are inverse variances, so this is that of a turn towards the axis k.
+      // The weights are inverse variances, so this is the variance of a turn towards the axis k.
       const double turn = 1.0 / std::max(across(k) - across(0), 1e-12);
       const Vector6d turned = plane_jacobian(arm, solver.eigenvectors().col(k));
       of_sensor.noise += weight * turn * (turned * turned.transpose());
@@ -44,7 +44,7 @@ void add_patch(const PlanePatch& patch, const std::vector<RigidTransform>& poses
 
 }  // namespace
 
-std::vector<DofWords> plane_words(const BundleSystem& system) {
+std::vector<DofObservability> plane_observability(const BundleSystem& system) {
   const std::size_t sensors = system.state().poses.size();
   std::vector<PlaneEvidence> evidence(sensors);
   for (std::size_t s = 0; s < system.planes().size(); ++s) {
@@ -52,9 +52,9 @@ std::vector<DofWords> plane_words(const BundleSystem& system) {
     for (const PlanePatch& patch : system.planes()[s]) add_patch(patch, poses, evidence);
   }
   const Matrix6d prior = unknown_variances().cwiseInverse().asDiagonal();
-  std::vector<DofWords> words(sensors);  // First all determined.
+  std::vector<DofObservability> words(sensors);  // Initially all determined.
   for (std::size_t k = 1; k < sensors; ++k) {
-    const auto held = held_dofs(evidence[k].information, evidence[k].noise, prior);
+    const auto held = dof_constraints(evidence[k].information, evidence[k].noise, prior);
     for (std::size_t dof = 0; dof < held.size(); ++dof) words[k][dof] = held[dof].word;
   }
   return words;

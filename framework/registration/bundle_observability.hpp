@@ -7,11 +7,11 @@
 
 namespace croon {
 
-/// How well the planes of a bundle adjustment hold each degree of freedom of each sensor in its
-/// present state, with the other sensors as they are; `determined` for the first. A plane's normal
-/// is known as well as its points let it be turned, and turns by so much at random; in a direction
-/// that no surface holds, all that planes say of it is this noise, however many scenes there are
-/// (see held_dofs).
-std::vector<DofWords> plane_words(const BundleSystem& system);
+/// Classifies each degree of freedom of each sensor by how well the planes of a bundle adjustment
+/// constrain it in its current state, with the other sensors fixed; `determined` for the first. The
+/// uncertainty of a plane's normal follows from the distribution of its points, and random turns of
+/// that size contribute information; in a direction that no surface constrains, all information is
+/// this noise, for any number of scenes (see dof_constraints).
+std::vector<DofObservability> plane_observability(const BundleSystem& system);
 
 }  // namespace croon

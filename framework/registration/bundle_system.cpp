@@ -10,7 +10,7 @@
 namespace croon {
 namespace {
 
-/// How far `T` is from `start`, in the order of Dof.
+/// The offset of `T` from `start`, in the order of Dof.
 Vector6d moved_by(const RigidTransform& T, const RigidTransform& start) {
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(T.rotation * start.rotation.transpose()));
   Vector6d offset;
@@ -18,7 +18,7 @@ Vector6d moved_by(const RigidTransform& T, const RigidTransform& start) {
   return offset;
 }
 
-/// The cost by these unknowns of six each alone.
+/// The part of the cost that depends on these six-dimensional unknowns.
 BundleCost part_of(const BundleCost& cost, const std::vector<std::size_t>& unknowns) {
   const auto size = static_cast<Eigen::Index>(6 * unknowns.size());
   BundleCost part = {cost.value, Eigen::VectorXd(size), Eigen::MatrixXd(size, size)};
@@ -78,15 +78,15 @@ void BundleSystem::find_planes(int stride) {
     const std::vector<int> planes = counted_planes();
     planes_of_sensors_[0] = planes[0];
     for (const std::size_t k : free_sensors_) planes_of_sensors_[k] = planes[k];
-    // The one with the fewest first: others may share planes with it alone.
-    const auto fewest =
+    // The one with the fewest planes is removed first: others may share planes only with it.
+    const auto weakest =
         std::min_element(free_sensors_.begin(), free_sensors_.end(),
                          [&](std::size_t a, std::size_t b) { return planes[a] < planes[b]; });
-    if (fewest == free_sensors_.end() || planes[*fewest] >= options_.min_planes) return;
-    // Its points have spoilt planes of the others, so these are looked for again.
-    state_.poses[*fewest] = start_[*fewest].pose;
-    state_.clock_offsets_s[*fewest] = 0.0;
-    free_sensors_.erase(fewest);
+    if (weakest == free_sensors_.end() || planes[*weakest] >= options_.min_planes) return;
+    // Its points have distorted planes of the others, so the planes are searched again.
+    state_.poses[*weakest] = start_[*weakest].pose;
+    state_.clock_offsets_s[*weakest] = 0.0;
+    free_sensors_.erase(weakest);
   }
 }
 
@@ -99,7 +99,7 @@ void BundleSystem::search_planes(int stride) {
   for_each_in_parallel(scenes_.size(), [&](std::size_t s) {
     const std::vector<SensorCloud>& all = scenes_[s].clouds;
     const RigState state = {poses_in(state_, s), state_.velocities[s]};
-    // Mostly all do, and a cloud's times are not copied.
+    // Usually all do; then the clouds' times need not be copied.
     if (std::all_of(all.begin(), all.end(), takes_part)) {
       planes_[s] = plane_patches(all, state, stride, options_);
       return;
@@ -156,7 +156,7 @@ BundleCost BundleSystem::with_offsets(const BundleCost& cost, std::size_t scene)
   const bool has_velocity = state_.velocities[scene].has_value();
   const Twist velocity = velocity_in_scene(state_, scene);
   const std::vector<RigidTransform> poses = poses_in(state_, scene);
-  // How the poses in the scene, and its velocity, follow from the unknowns.
+  // The Jacobian of the poses in the scene, and of its velocity, with respect to the unknowns.
   Eigen::MatrixXd follow =
       Eigen::MatrixXd::Zero(cost.gradient.size(), cost.gradient.size() + sensors);
   for (Eigen::Index a = 0; a < sensors; ++a) {
@@ -170,8 +170,8 @@ BundleCost BundleSystem::with_offsets(const BundleCost& cost, std::size_t scene)
     if (has_velocity) follow.block<6, 6>(6 * a, 7 * sensors) = offset_s * along;
   }
   if (has_velocity) follow.bottomRightCorner<6, 6>().setIdentity();
-  // The second derivatives of exp(xi d) T are left out, as in Gauss-Newton: with offsets the
-  // Hessian is not exact.
+  // The second derivatives of exp(xi d) T are neglected, as in Gauss-Newton: with offsets the
+  // Hessian is approximate.
   return {cost.value, follow.transpose() * cost.gradient,
           follow.transpose() * cost.hessian * follow};
 }
@@ -226,8 +226,8 @@ BundleCost BundleSystem::start_cost() const {
 }
 
 Eigen::MatrixXd BundleSystem::start_scatter() const {
-  // The cost is twice the negative logarithm of a likelihood: the covariance of the gradient of a
-  // term with the Hessian 2 w I is 4 w^2 I, if the covariance of what it knows is the inverse of I.
+  // The cost is twice the negative log-likelihood: the gradient of a term with the Hessian 2 w I
+  // has the covariance 4 w^2 I, if the term's covariance is the inverse of I.
   Eigen::MatrixXd scatter = 2.0 * start_cost().hessian;
   for (std::size_t a = 0; a < free_sensors_.size(); ++a) {
     const auto at = static_cast<Eigen::Index>(6 * a);

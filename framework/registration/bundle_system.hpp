@@ -11,24 +11,25 @@ namespace croon {
 /// The unknowns of a bundle adjustment.
 struct BundleState {
   std::vector<RigidTransform> poses;  ///< T_common_sensor, by sensor.
-  /// By scene: by how much its velocity differs from that by which its clouds were corrected; none
-  /// where that is certain.
+  /// By scene: the correction of the velocity for which its clouds were corrected; std::nullopt if
+  /// that is certain.
   std::vector<std::optional<Twist>> velocities;
-  std::vector<double> clock_offsets_s;  ///< By sensor: added to its times, they are the first's.
+  std::vector<double>
+      clock_offsets_s;  ///< By sensor: added to its times, yields the first's times.
 };
 
-/// The second-order terms of a cost by the free poses of the sensors, 6 for each, and the offsets
-/// of their clocks, if those are unknowns, after each scene's velocity was eliminated: for any step
-/// of the poses it makes its own best step (the Schur complement).
+/// The second-order terms of a cost with respect to the free poses of the sensors, 6 for each, and
+/// the offsets of their clocks, if those are unknowns, with each scene's velocity eliminated (Schur
+/// complement): for any step of the poses it makes its optimal step.
 struct ReducedCost {
   Eigen::VectorXd gradient;
   Eigen::MatrixXd hessian;
-  /// The step of the velocity: `rest + by_pose * step of the others`; of size zero without one.
+  /// The step of the velocity: `rest + by_pose * step of the others`; empty without a velocity.
   Eigen::MatrixXd by_pose;
   Eigen::VectorXd rest;
 };
 
-/// The cost of a bundle of planes: what adjust_bundle minimises.
+/// The cost of a bundle of planes that adjust_bundle minimises.
 class BundleSystem {
  public:
   BundleSystem(const std::vector<BundleScene>& scenes, const std::vector<InformedPose>& start,
@@ -37,59 +38,58 @@ class BundleSystem {
   const BundleState& state() const { return state_; }
   void set_state(BundleState state) { state_ = std::move(state); }
 
-  /// Finds the planes of all scenes at the present state, of every `stride`-th point. A sensor that
-  /// shares less than BundleOptions::min_planes of them with others that take part takes no part:
-  /// it goes back to its start, and no plane has what it sees.
+  /// Finds the planes of all scenes at the current state, from every `stride`-th point. A sensor
+  /// that shares fewer than BundleOptions::min_planes of them with other active sensors is
+  /// excluded: it returns to its initial pose, and no plane contains its points.
   void find_planes(int stride);
   /// By scene.
   const std::vector<std::vector<PlanePatch>>& planes() const { return planes_; }
   std::size_t number_of_planes() const;
-  /// By sensor: how many planes it shares with others; of one that takes no part, those for which
-  /// it was left out.
+  /// By sensor: the number of planes that it shares with others; for an excluded sensor, the number
+  /// that led to its exclusion.
   const std::vector<int>& planes_of_sensors() const { return planes_of_sensors_; }
   /// The sensors that share enough planes to be moved; never the first.
   const std::vector<std::size_t>& free_sensors() const { return free_sensors_; }
 
-  /// The value in another state, by the present planes.
+  /// The value in another state, with the current planes.
   double value_in(const BundleState& state) const;
-  /// The cost of some planes of a scene and, if `with_prior`, of what is known of its velocity, by
-  /// the free poses, then by the offsets of their clocks, one for each, if those are unknowns, and
-  /// then by the velocity.
+  /// The cost of some planes of a scene and, if `with_prior`, of the prior of its velocity, with
+  /// respect to the free poses, then to one clock offset each, if those are unknowns, and then to
+  /// the velocity.
   BundleCost scene_cost(std::size_t scene, const std::vector<PlanePatch>& planes,
                         bool with_prior) const;
-  /// The covariance of the gradient of the cost of what is known of the velocity of a scene, as
-  /// start_scatter.
+  /// The covariance of the gradient of the prior of a scene's velocity, as in start_scatter.
   Matrix6d velocity_scatter(std::size_t scene) const {
     return 4.0 * options_.start_weight * velocity_information_[scene];
   }
-  /// The cost of what is known of the starts and of clocks, by the free poses and the offsets.
+  /// The cost of the priors of initial poses and clocks, with respect to free poses and offsets.
   BundleCost start_cost() const;
-  /// The covariance of the gradient of start_cost. In the cost what is known of the starts counts
-  /// as if it was less certain (BundleOptions::start_weight); its errors are what they are.
+  /// The covariance of the gradient of start_cost. The cost weakens the prior of the initial poses
+  /// (BundleOptions::start_weight), but the covariance of their errors is unchanged.
   Eigen::MatrixXd start_scatter() const;
-  /// What is known of the start of a sensor, the inverse of its covariance.
+  /// The information of the prior of a sensor's initial pose.
   Matrix6d start_information(std::size_t sensor) const;
   /// The standard deviations of BundleOptions::start_std, in the order of Dof.
   const Vector6d& start_std() const { return start_std_; }
 
-  /// The velocity by which the clouds of a scene were corrected.
+  /// The velocity for which the clouds of a scene were corrected.
   const Twist& known_velocity(std::size_t scene) const { return scenes_[scene].velocity; }
 
-  /// The rig in `state` as planes() of a scene see it: its velocity is relative to that at which
-  /// they were found.
+  /// The rig in `state`, as needed by planes() of a scene: its velocity is relative to that at
+  /// which they were found.
   RigState rig_state(const BundleState& state, std::size_t scene) const;
 
  private:
   bool has_offsets() const { return options_.clock_offset_std_s > 0.0; }
   /// The velocity of the rig in a scene.
   Twist velocity_in_scene(const BundleState& state, std::size_t scene) const;
-  /// Where the sensors stand in a scene: their clocks move them along its velocity.
+  /// The poses of the sensors in a scene: their clock offsets move them along its velocity.
   std::vector<RigidTransform> poses_in(const BundleState& state, std::size_t scene) const;
-  /// The cost of a scene, which is by where its sensors stand in it, by the unknowns.
+  /// Converts the cost of a scene from the poses of its sensors in it to the unknowns.
   BundleCost with_offsets(const BundleCost& cost, std::size_t scene) const;
   double start_value(const BundleState& state) const;
   std::vector<int> counted_planes() const;
-  /// The planes that the first sensor and the free ones share at the present state.
+  /// Finds the planes that the first sensor and the free ones share at the current state.
   void search_planes(int stride);
 
   const std::vector<BundleScene>& scenes_;
@@ -99,7 +99,7 @@ class BundleSystem {
   std::vector<Matrix6d> velocity_information_;  ///< By scene.
   BundleState state_;
   std::vector<std::vector<PlanePatch>> planes_;
-  std::vector<std::optional<Twist>> planes_velocities_;  ///< At which the planes were found.
+  std::vector<std::optional<Twist>> planes_velocities_;  ///< Those at which the planes were found.
   std::vector<std::size_t> free_sensors_;
   std::vector<int> planes_of_sensors_;
 };

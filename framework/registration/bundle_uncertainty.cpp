@@ -16,7 +16,7 @@
 namespace croon {
 namespace {
 
-/// The planes of one scene by direction and place: the errors in a cluster are not independent.
+/// The planes of one scene by direction and position: the errors in a cluster are not independent.
 std::vector<std::vector<PlanePatch>> clusters_of(const std::vector<PlanePatch>& planes,
                                                  const RigState& state) {
   constexpr double kCell_m = 3.0;
@@ -31,7 +31,7 @@ std::vector<std::vector<PlanePatch>> clusters_of(const std::vector<PlanePatch>& 
   return result;
 }
 
-/// The gradient and the Hessian of `cost` along the motion in which the velocity follows the poses.
+/// The gradient and Hessian of `cost` along the motion in which the velocity follows the poses.
 BundleCost along(const BundleCost& cost, const ReducedCost& scene) {
   if (scene.by_pose.size() == 0) return cost;
   const Eigen::Index size = cost.gradient.size() - 6;
@@ -41,7 +41,7 @@ BundleCost along(const BundleCost& cost, const ReducedCost& scene) {
           follow.transpose() * cost.hessian * follow};
 }
 
-/// By cluster of planes of a scene.
+/// The steps of each cluster of planes of a scene.
 std::vector<ClusterStep> steps_by_cluster(const BundleSystem& system, std::size_t scene,
                                           const ReducedCost& scene_cost, const Eigen::MatrixXd& K) {
   const auto clusters =
@@ -54,43 +54,43 @@ std::vector<ClusterStep> steps_by_cluster(const BundleSystem& system, std::size_
   return steps;
 }
 
-/// The step of all poses if the velocity of a scene were off by `error_mps` along itself, at most
-/// by all of it, and stayed so; zero in a scene whose velocity is no unknown. `hessian` is that of
-/// the poses, with all velocities following; `cost` and `reduced_cost` are those of the scene.
+/// The step of all poses for a constant error of a scene's velocity of `error_mps` along itself, at
+/// most its magnitude; zero if the scene's velocity is not an unknown. `hessian` is that of the
+/// poses, with all velocities following; `cost` and `reduced_cost` are those of the scene.
 Eigen::VectorXd step_for_velocity_error(const Twist& velocity, const BundleCost& cost,
                                         const ReducedCost& reduced_cost,
                                         const Eigen::MatrixXd& hessian, double error_mps) {
   const Eigen::Index size = hessian.rows();
   const bool is_moving = velocity.linear_mps.norm() > 0.0 && reduced_cost.by_pose.size() > 0;
   if (!is_moving) return Eigen::VectorXd::Zero(size);
-  const Eigen::MatrixXd held =
+  const Eigen::MatrixXd with_fixed_velocity =
       hessian - reduced_cost.hessian + cost.hessian.topLeftCorner(size, size);
-  return -guarded_inverse<Eigen::Dynamic>(held) *
+  return -guarded_inverse<Eigen::Dynamic>(with_fixed_velocity) *
          cost.hessian.block(0, cost.hessian.cols() - 3, size, 3) *
          (std::min(error_mps, velocity.linear_mps.norm()) * velocity.linear_mps.normalized());
 }
 
-Observability word_of(double std_ratio) {
+Observability observability_for(double std_ratio) {
   constexpr double kWeak = 0.1, kUnobservable = 0.5;
   if (std_ratio > kUnobservable) return Observability::unobservable;
   return std_ratio > kWeak ? Observability::weak : Observability::determined;
 }
 
-/// The words of a pose by its standard deviations.
-DofWords words_of(const Matrix6d& covariance, const Vector6d& start_std) {
+/// The observability of a pose's degrees of freedom from its standard deviations.
+DofObservability observability_from(const Matrix6d& covariance, const Vector6d& start_std) {
   return judged_dofs(covariance, guarded_inverse<6>(covariance),
                      [&](std::size_t dof, const Matrix6d& of_free) {
                        const auto i = static_cast<Eigen::Index>(dof);
-                       return word_of(std::sqrt(of_free(i, i)) / start_std(i));
+                       return observability_for(std::sqrt(of_free(i, i)) / start_std(i));
                      });
 }
 
-/// What all scenes say of the poses, the velocities following them.
+/// The costs of all scenes, and their sum with the velocities following the poses.
 struct AllScenes {
   std::vector<BundleCost> costs;     ///< By scene.
   std::vector<ReducedCost> reduced;  ///< The same without the velocity.
   Eigen::MatrixXd hessian;
-  /// The covariance of the gradient that comes from what is known of starts and velocities.
+  /// The covariance of the gradient that is due to the priors of initial poses and velocities.
   Eigen::MatrixXd scatter;
 };
 
@@ -110,7 +110,7 @@ AllScenes all_scenes(const BundleSystem& system) {
   return all;
 }
 
-/// Of all poses, then perhaps of the offsets of the clocks.
+/// The covariance of all poses, optionally followed by the clock offsets.
 Eigen::MatrixXd joint_covariance(const BundleSystem& system, const BundleOptions& options) {
   const AllScenes all = all_scenes(system);
   const Eigen::MatrixXd inverse = guarded_inverse<Eigen::Dynamic>(all.hessian);
@@ -135,12 +135,12 @@ Eigen::MatrixXd joint_covariance(const BundleSystem& system, const BundleOptions
 
 ClusterStep cluster_step(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& hessian,
                          const Eigen::MatrixXd& K) {
-  // A cluster that alone holds a direction has a leverage of one there, and no finite step.
-  constexpr double kLargestLeverage = 0.99;
+  // A cluster that alone constrains a direction has a leverage of one and no finite step there.
+  constexpr double kMaxLeverage = 0.99;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> of_leverage(K.transpose() * hessian * K);
   const Eigen::VectorXd leverage = of_leverage.eigenvalues().cwiseMax(0.0);
   const Eigen::MatrixXd directions = K * of_leverage.eigenvectors();
-  const Eigen::VectorXd rest = (1.0 - leverage.array().min(kLargestLeverage)).sqrt();
+  const Eigen::VectorXd rest = (1.0 - leverage.array().min(kMaxLeverage)).sqrt();
   const Eigen::VectorXd slope = directions.transpose() * gradient;
   return {directions * slope.cwiseQuotient(rest), directions.cwiseAbs2() * leverage};
 }
@@ -156,15 +156,15 @@ Eigen::MatrixXd covariance_by_clusters(const std::vector<ClusterStep>& clusters)
   }
   Eigen::VectorXd widening(size);
   for (Eigen::Index i = 0; i < size; ++i) {
-    const bool is_held = sum_of_squares(i) > 0.0;
-    widening(i) = is_held ? student_widening(sum(i) * sum(i) / sum_of_squares(i)) : 1.0;
+    const bool is_constrained = sum_of_squares(i) > 0.0;
+    widening(i) = is_constrained ? student_widening(sum(i) * sum(i) / sum_of_squares(i)) : 1.0;
   }
   return widening.asDiagonal() * covariance * widening.asDiagonal();
 }
 
 double student_widening(double freedom) {
-  constexpr double kLeast = 1.5;
-  const double n = std::max(freedom, kLeast);
+  constexpr double kMinFreedom = 1.5;
+  const double n = std::max(freedom, kMinFreedom);
   return std::sqrt((n + 1.0) / (n - 1.0));
 }
 
@@ -179,7 +179,7 @@ BundleUncertainty bundle_uncertainty(const BundleSystem& system, const BundleOpt
     const auto at = static_cast<Eigen::Index>(6 * a);
     PoseCovariance& own = result.covariances[sensors[a]];
     own.matrix = bounded_covariance(covariance.block<6, 6>(at, at));
-    own.dofs = words_of(own.matrix, system.start_std());
+    own.dofs = observability_from(own.matrix, system.start_std());
     const auto offset_at = static_cast<Eigen::Index>(6 * sensors.size() + a);
     if (offset_at < covariance.rows()) {
       result.clock_offset_stds_s[sensors[a]] = std::sqrt(covariance(offset_at, offset_at));

@@ -17,7 +17,7 @@ bool consistent(const OrientedPairs& pairs, std::size_t i, std::size_t j,
   const double target_m = target.norm();
   const double source_m = source.norm();
   if (!(std::abs(target_m - source_m) <= options.tolerance_m)) return false;
-  // Cosines differ by two at most, but for rounding: normals do not count.
+  // Except for rounding, cosines differ by at most two: normals are ignored.
   if (options.normal_tolerance >= 2.0) return true;
   const auto alike = [&](double a, double b) {
     return std::abs(a - b) <= options.normal_tolerance;
@@ -27,7 +27,7 @@ bool consistent(const OrientedPairs& pairs, std::size_t i, std::size_t j,
   const Eigen::Vector3d source_i = pairs.source_normals[i].cast<double>();
   const Eigen::Vector3d source_j = pairs.source_normals[j].cast<double>();
   if (!alike(target_i.dot(target_j), source_i.dot(source_j))) return false;
-  // The direction between points that are near each other is not known.
+  // The direction between points that are close to each other is undefined.
   if (std::min(target_m, source_m) < std::max(1e-6, 4.0 * options.tolerance_m)) return true;
   return alike(target_i.dot(target) / target_m, source_i.dot(source) / source_m) &&
          alike(target_j.dot(target) / target_m, source_j.dot(source) / source_m);
@@ -37,9 +37,9 @@ bool consistent(const OrientedPairs& pairs, std::size_t i, std::size_t j,
 
 ConsistencyGraph::ConsistencyGraph(const OrientedPairs& pairs, const ConsistencyOptions& options)
     : size_(static_cast<int>(pairs.size())), words_((pairs.size() + 63) / 64) {
-  if (pairs.size() > kMostVertices) {
-    throw StageError(std::to_string(pairs.size()) + " correspondences are more than the " +
-                     std::to_string(kMostVertices) + " that a graph has room for");
+  if (pairs.size() > kMaxVertices) {
+    throw StageError(std::to_string(pairs.size()) + " correspondences exceed the maximum of " +
+                     std::to_string(kMaxVertices) + " for a consistency graph");
   }
   rows_.resize(pairs.size() * words_);
   for (int i = 0; i < size_; ++i) {
@@ -77,24 +77,24 @@ std::vector<int> ConsistencyGraph::members(const Bits& set) const {
 }
 
 std::vector<int> ConsistencyGraph::core_numbers() const {
-  // Vertices are taken away by degree, least first, from bins of equal degree.
+  // Vertices are removed in order of ascending degree, from bins of equal degree.
   std::vector<int> degrees;
   const Bits all(words_, ~std::uint64_t{0});
   for (int i = 0; i < size_; ++i) degrees.push_back(common(i, all));
   std::vector<std::vector<int>> bins(static_cast<std::size_t>(size_) + 1);
   for (int i = 0; i < size_; ++i) bins[static_cast<std::size_t>(degrees[i])].push_back(i);
   std::vector<int> cores(static_cast<std::size_t>(size_), -1);
-  for (std::size_t least = 0; least < bins.size();) {
-    if (bins[least].empty()) {
-      ++least;
+  for (std::size_t min_degree = 0; min_degree < bins.size();) {
+    if (bins[min_degree].empty()) {
+      ++min_degree;
       continue;
     }
-    const int vertex = bins[least].back();
-    bins[least].pop_back();
-    if (cores[vertex] >= 0 || degrees[vertex] != static_cast<int>(least)) continue;
-    cores[vertex] = static_cast<int>(least);
+    const int vertex = bins[min_degree].back();
+    bins[min_degree].pop_back();
+    if (cores[vertex] >= 0 || degrees[vertex] != static_cast<int>(min_degree)) continue;
+    cores[vertex] = static_cast<int>(min_degree);
     for (const int other : members(neighbours(vertex))) {
-      if (cores[other] >= 0 || degrees[other] <= static_cast<int>(least)) continue;
+      if (cores[other] >= 0 || degrees[other] <= static_cast<int>(min_degree)) continue;
       bins[static_cast<std::size_t>(--degrees[other])].push_back(other);
     }
   }

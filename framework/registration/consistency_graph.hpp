@@ -8,7 +8,7 @@
 
 namespace croon {
 
-/// Correspondences by index: `target[i]` is said to be `source[i]`, both with a unit normal.
+/// Correspondences by index: `target[i]` corresponds to `source[i]`, both with a unit normal.
 struct OrientedPairs {
   Points target;
   Points target_normals;
@@ -18,21 +18,21 @@ struct OrientedPairs {
   std::size_t size() const { return target.size(); }
 };
 
-/// When two correspondences may be of one pose.
+/// Tolerances for two correspondences to be consistent with one pose.
 struct ConsistencyOptions {
   double tolerance_m = 0.4;        ///< Of the distance between the two points.
   double normal_tolerance = 0.35;  ///< Of the products of the normals with each other and with the
-                                   ///< line between the points; 2: normals do not count.
+                                   ///< line between the points; 2: normals are ignored.
 };
 
-/// Which correspondences agree with which: no motion changes the distance of two points, nor the
-/// angles between their normals and the line between them. Correct correspondences all agree with
-/// each other, so they are a clique. After Yang, Shi and Carlone, TEASER, T-RO 2021 (distances),
-/// and Lusk, Fathian and How, CLIPPER, ICRA 2021 (normals).
+/// The pairwise consistency of correspondences: no motion changes the distance of two points, nor
+/// the angles between their normals and the line between them. Correct correspondences are all
+/// mutually consistent, so they form a clique. After Yang, Shi and Carlone, TEASER, T-RO 2021
+/// (distances), and Lusk, Fathian and How, CLIPPER, ICRA 2021 (normals).
 class ConsistencyGraph {
  public:
-  /// Has room for so many correspondences: a bit for each two of them, 300 MB.
-  static constexpr std::size_t kMostVertices = 50000;
+  /// Maximum number of correspondences: one bit per pair of them, 300 MB.
+  static constexpr std::size_t kMaxVertices = 50000;
 
   /// Throws StageError if there are more.
   ConsistencyGraph(const OrientedPairs& pairs, const ConsistencyOptions& options);
@@ -42,9 +42,9 @@ class ConsistencyGraph {
   /// (n-1)-core (Shi et al., ROBIN, ICRA 2021).
   std::vector<int> core_numbers() const;
 
-  /// A clique with `seed` that no other vertex can join: of the vertices that agree with all so
-  /// far, the next is that with the most neighbours among them; of equals the first. They are
-  /// counted anew each time that half of the vertices have dropped out.
+  /// A maximal clique that contains `seed`: of the vertices consistent with all members, the next
+  /// member is the one with the most neighbours among them; the first in case of ties. Neighbours
+  /// are recounted each time half of the vertices have dropped out.
   std::vector<int> clique(int seed) const;
 
   int size() const { return size_; }
@@ -56,7 +56,7 @@ class ConsistencyGraph {
   }
   /// The neighbours of a vertex.
   Bits neighbours(int vertex) const;
-  /// How many of `set` are neighbours of a vertex.
+  /// The number of elements of `set` that are neighbours of a vertex.
   int common(int vertex, const Bits& set) const;
   std::vector<int> members(const Bits& set) const;
   /// The members of `set`, those with the most neighbours in it first.
@@ -64,7 +64,7 @@ class ConsistencyGraph {
 
   int size_;
   std::size_t words_;  ///< Of a row.
-  Bits rows_;          ///< Bit b of row a: a and b are consistent; not of a with itself.
+  Bits rows_;          ///< Bit b of row a: a and b are consistent; unset for a = b.
 };
 
 }  // namespace croon

@@ -20,7 +20,7 @@ std::vector<SurfaceContact> contacts_of(const SensorView& target, const SensorVi
   const KdTree& tree = target.thinned->kd_tree();
   const Normals& normals = target.thinned->normals(target.normal_neighbours);
   const Normals& source_normals = source.thinned->normals(source.normal_neighbours);
-  constexpr double kMinCosine = 0.85;  // Of the normals of surfaces that touch: 32 degrees.
+  constexpr double kMinCosine = 0.85;  // Between the normals of surfaces in contact: 32 degrees.
   std::vector<SurfaceContact> contacts;
   for (const int index : source.sample) {
     const Eigen::Vector3d point = T * source.thinned->points()[index].cast<double>();
@@ -36,16 +36,17 @@ std::vector<SurfaceContact> contacts_of(const SensorView& target, const SensorVi
 
 }  // namespace
 
-std::vector<HeldDirection> held_directions(const SensorView& target, const SensorView& source,
-                                           const RigidTransform& T_target_source,
-                                           double max_distance_m) {
+std::vector<ConstraintDirection> constraint_directions(const SensorView& target,
+                                                       const SensorView& source,
+                                                       const RigidTransform& T_target_source,
+                                                       double max_distance_m) {
   const std::vector<SurfaceContact> contacts =
       contacts_of(target, source, T_target_source, max_distance_m);
   if (contacts.size() < 6) return {};
   const auto count = static_cast<double>(contacts.size());
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const SurfaceContact& contact : contacts) middle += contact.point / count;
-  // Of unit motions of the contacts: along the normals, and in all.
+  // Sums over unit motions of the contacts: the part along the normals, and all of it.
   Matrix6d held = Matrix6d::Zero();
   Matrix6d all = 1e-9 * Matrix6d::Identity();
   for (const SurfaceContact& contact : contacts) {
@@ -55,13 +56,13 @@ std::vector<HeldDirection> held_directions(const SensorView& target, const Senso
     all += J.transpose() * J / count;
   }
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> solver(held, all);
-  std::vector<HeldDirection> directions;
+  std::vector<ConstraintDirection> directions;
   for (int i = 0; i < 6; ++i) {
     const Vector6d motion = solver.eigenvectors().col(i);
-    HeldDirection direction;
+    ConstraintDirection direction;
     direction.strength = std::max(0.0, solver.eigenvalues()(i));
     direction.motion.head<3>() = motion.head<3>();
-    // `moved` turns the sensor about its own origin, the motion is about the middle of the points.
+    // `moved` rotates about the sensor's own origin, the motion is about the centre of the points.
     const Eigen::Vector3d arm = T_target_source.translation - middle;
     direction.motion.tail<3>() =
         motion.tail<3>() + Eigen::Vector3d(direction.motion.head<3>()).cross(arm);
@@ -70,15 +71,15 @@ std::vector<HeldDirection> held_directions(const SensorView& target, const Senso
   return directions;
 }
 
-std::string words_of(const std::vector<HeldDirection>& directions) {
-  constexpr double kTakesPart = 0.4;  // The least share of a turn, or of a shift.
+std::string dof_names_of(const std::vector<ConstraintDirection>& directions) {
+  constexpr double kTakesPart = 0.4;  // Minimum share of a rotation, or of a translation.
   std::array<double, 6> shares{};
-  for (const HeldDirection& direction : directions) {
+  for (const ConstraintDirection& direction : directions) {
     const double turn = direction.motion.head<3>().norm();
     const double shift = direction.motion.tail<3>().norm();
     for (int i = 0; i < 6; ++i) {
-      // Turns are compared with turns and shifts with shifts. Below 0.02 rad and 0.1 m for a unit
-      // of the direction all are small.
+      // Rotations are compared with rotations and translations with translations. Below 0.02 rad
+      // and 0.1 m per unit of the direction all count as small.
       const double whole = i < 3 ? std::max(turn, 0.02) : std::max(shift, 0.1);
       auto& share = shares[static_cast<std::size_t>(i)];
       share = std::max(share, std::abs(direction.motion(i)) / whole);

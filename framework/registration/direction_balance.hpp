@@ -4,18 +4,18 @@
 
 namespace croon {
 
-/// Weighs each correspondence by n^-`exponent` for n correspondences whose target normals have
-/// about its direction, times a constant by which the mean weight is 1. Without it a street's
-/// ground and fronts outvote the few surfaces that hold the pose along the street.
+/// Weights each correspondence by n^-`exponent` for n correspondences whose target normals have
+/// about the same direction, scaled to a mean weight of 1. Without it, a street's ground and
+/// facades outvote the few surfaces that constrain the pose along the street.
 SelectCorrespondences balanced_directions(double exponent);
 
-/// Which patch of surface each of the points `indices` of `cloud` is on, numbered from 0 in their
-/// order: those in one cube of edge `patch_m` whose normals have about one direction. Points
-/// without a normal must not be among them.
+/// The index of the surface patch of each of the points `indices` of `cloud`, numbered from 0 in
+/// order of appearance: points in one cube of edge `patch_m` whose normals have about the same
+/// direction share a patch. All points must have a normal.
 std::vector<int> patches_of(const Cloud& cloud, const std::vector<int>& indices,
                             int normal_neighbours, double patch_m);
 
-/// The weights n^-`exponent` of points, n of which are on one patch.
+/// The weights n^-`exponent` of points, for n points on the same patch.
 std::vector<double> patch_weights(const std::vector<int>& patches, double exponent);
 
 }  // namespace croon

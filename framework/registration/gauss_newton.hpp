@@ -17,30 +17,30 @@ struct Correspondence {
   /// `R n`, in the target's axes; zero in the same cases.
   Eigen::Vector3d source_normal = Eigen::Vector3d::Zero();
   float target_variation = 0.0F;  ///< LocalShape::surface_variation.
-  double weight = 1.0;            ///< Of its residuals, beside that of the robust kernel.
+  double weight = 1.0;            ///< Factor on its residuals, besides the robust kernel's weight.
 };
 
-/// The Jacobian of `R s + t` by the six degrees of freedom of `moved`: `[-[R s]x, I]`.
+/// The Jacobian of `R s + t` with respect to the six degrees of freedom of `moved`: `[-[R s]x, I]`.
 Eigen::Matrix<double, 3, 6> point_jacobian(const Eigen::Vector3d& arm);
 
-/// The Jacobian of `n . (R s + t - p)` by the six degrees of freedom of `moved`:
+/// The Jacobian of `n . (R s + t - p)` with respect to the six degrees of freedom of `moved`:
 /// `[(arm x n)^T, n^T]`.
 Vector6d plane_jacobian(const Eigen::Vector3d& arm, const Eigen::Vector3d& normal);
 
 /// The information of `R s + t - p` between two surfaces with these normals, `2 e (C_t + R C_s
 /// R^T)^-1` with C = diag(e, 1, 1), the normal first (Segal et al. 2009, equation 2; e is
-/// `epsilon`). It weighs a distance across two planes that agree by one.
+/// `epsilon`). A distance across two parallel planes has the weight one.
 Eigen::Matrix3d plane_to_plane_information(const Eigen::Vector3d& target_normal,
                                            const Eigen::Vector3d& source_normal, double epsilon);
 
 /// The sums of one Gauss-Newton step: `information = sum w J^T Omega J`, `gradient = sum w J^T
-/// Omega r`. Of `information` only the lower triangle is meant.
+/// Omega r`. Only the lower triangle of `information` is valid.
 struct NormalEquations {
   Matrix6d information = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
   double weighted_square_sum = 0.0;  ///< `sum w r^T Omega r`.
   double weight_sum = 0.0;
-  /// Multiplies the weight of what is added: `Correspondence::weight` of the current one.
+  /// Factor on the weight of what is added: `Correspondence::weight` of the current one.
   double factor = 1.0;
 
   /// Adds the scalar residual `r` with the Jacobian row `J` and the weight `w`.

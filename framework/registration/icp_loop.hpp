@@ -16,32 +16,32 @@ namespace croon {
 using Correspondences = std::vector<Correspondence>;
 
 /// Removes correspondences of one iteration, or changes their weights; the order must stay. It sees
-/// all of them at once, to keep for example the best 70 %, or one for each point of the target.
+/// all of them at once, e.g. to keep the best 70 %, or one for each point of the target.
 using SelectCorrespondences = std::function<void(Correspondences&)>;
 
-/// The least cosine of two unit vectors that are at most `max_angle_deg` apart; below all cosines
-/// for 180 degrees, because the length of a vector of floats is not exactly one.
-inline double least_cosine(double max_angle_deg) {
+/// The minimum cosine of two unit vectors that are at most `max_angle_deg` apart; below all cosines
+/// for 180 degrees, because the length of a float vector is not exactly one.
+inline double min_cosine_within(double max_angle_deg) {
   return max_angle_deg < 180.0 ? std::cos(rad_from_deg(max_angle_deg)) : -2.0;
 }
 
-/// Which points correspond, in addition to being nearest within the current distance.
+/// The conditions for correspondences, in addition to being nearest within the current distance.
 struct CorrespondenceRule {
-  int target_normals = 0;  ///< Neighbours for the target's normals; 0: no normals are needed.
+  int target_normals = 0;  ///< Neighbours for the target's normals; 0: normals are not needed.
   int source_normals = 0;  ///< Likewise for the source.
-  /// The smallest cosine between the two normals, if both are needed. Points without a needed
-  /// normal do not correspond.
+  /// The minimum cosine between the two normals, if both are needed. Points without a needed normal
+  /// do not correspond.
   double min_normal_cosine = -2.0;
-  SelectCorrespondences select = nullptr;  ///< Null: all of them count.
+  SelectCorrespondences select = nullptr;  ///< Null: all correspondences are used.
 };
 
-/// Adds the contributions of some correspondences to the normal equations. A variant of ICP is such
-/// a function and a CorrespondenceRule.
+/// Adds the contributions of some correspondences to the normal equations. A variant of ICP
+/// consists of such a function and a CorrespondenceRule.
 using Linearise =
     std::function<void(const Correspondences&, const RobustKernel&, NormalEquations&)>;
 
 /// The same from a function of one correspondence, `linearise(pair, kernel, equations)`, which the
-/// compiler inlines. The weight of the correspondence is applied to all that it adds.
+/// compiler inlines. The weight of the correspondence applies to everything that it adds.
 template <class Function>
 Linearise for_each_correspondence(Function linearise) {
   return [linearise](const Correspondences& pairs, const RobustKernel& kernel,

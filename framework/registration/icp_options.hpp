@@ -7,7 +7,7 @@
 
 namespace croon {
 
-/// The M-estimators that weigh residuals.
+/// The M-estimators that weight residuals.
 enum class Kernel { none, huber, cauchy, geman_mcclure };
 
 /// The choices of an ICP's parameter `kernel`.
@@ -17,11 +17,11 @@ inline const params::Words<Kernel> kKernelWords = {{"none", Kernel::none},
                                                    {"geman_mcclure", Kernel::geman_mcclure}};
 
 /// The weight of a residual in iteratively reweighted least squares, `rho'(r) / r` of an
-/// M-estimator, so that outliers pull little (Zhang 1997, "Parameter estimation techniques",
-/// table 1).
+/// M-estimator, which reduces the influence of outliers (Zhang 1997, "Parameter estimation
+/// techniques", table 1).
 class RobustKernel {
  public:
-  /// `width` in the residual's unit: residuals above it begin to lose weight.
+  /// `width` in the residual's unit: larger residuals lose weight.
   RobustKernel(Kernel kernel, double width)
       : kernel_(kernel), width_(width), inverse_squared_width_(1.0 / (width * width)) {}
 
@@ -50,8 +50,8 @@ class RobustKernel {
   double inverse_squared_width_;
 };
 
-/// The parameters that every ICP has. A variant's own `Params` derives from this and its table
-/// inherits icp_table().
+/// The parameters common to all variants of ICP. A variant's own `Params` derives from this and its
+/// table inherits icp_table().
 struct IcpOptions {
   std::vector<double> max_distances_m = {1.0, 0.5, 0.3};
   int max_iterations = 20;

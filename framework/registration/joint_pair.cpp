@@ -16,14 +16,14 @@
 namespace croon {
 namespace {
 
-/// The points of a scan that take part: evenly through it, those with a normal, and their weights.
+/// The points of a scan that are used, evenly spaced and with normals, and their weights.
 struct Sample {
   std::vector<int> indices;
   std::vector<int> patches;
   std::vector<double> weights;
 };
 
-/// The same in every iteration, so it is made once.
+/// The sample is the same in every iteration, so it is computed once.
 std::shared_ptr<const Sample> sample_of(const Cloud& cloud, const JointOptions& options) {
   const std::string parameters =
       params::value_json(options.points) + " " + params::value_json(options.normal_neighbours) +
@@ -46,11 +46,11 @@ std::shared_ptr<const Sample> sample_of(const Cloud& cloud, const JointOptions& 
 
 /// A point on a surface of the target, linearised.
 struct JointTerm {
-  PairVector J;  ///< Its three elements by the translation are the normal of the target's surface.
+  PairVector J;  ///< Its three translational elements are the normal of the target's surface.
   double residual_m;
   int patch;
   double weight;          ///< Of the patch and the target point, without the kernel.
-  double later_s;         ///< So much later than the target the sensor measured it.
+  double later_s;         ///< Time of the sensor's measurement after the target's.
   Eigen::Vector3d point;  ///< Of the target.
 
   Eigen::Vector3d normal() const { return J.segment<3>(kPairPose + 3); }
@@ -64,11 +64,11 @@ RobustKernel kernel_at(double max_distance_m, const JointOptions& options) {
   return {Kernel::geman_mcclure, std::max(options.kernel_width_m, max_distance_m / 4.0)};
 }
 
-/// The second derivative of Geman and McClure's kernel over its weight, which is the square of
-/// `1 / (1 + r^2 / width^2)`: 1 without a residual, negative for large ones.
-double curvature_share(double weight) { return 4.0 * std::sqrt(weight) - 3.0; }
+/// The second derivative of the Geman-McClure kernel divided by its weight, which is the square of
+/// `1 / (1 + r^2 / width^2)`: 1 for a residual of zero, negative for large ones.
+double curvature_over_weight(double weight) { return 4.0 * std::sqrt(weight) - 3.0; }
 
-/// Weighs less the terms of a patch that is off as a whole: it moves by itself.
+/// Reduces the weight of the terms of a patch that is off as a whole, i.e. moves independently.
 void weigh_patches(std::vector<JointTerm>& terms, const JointView& view) {
   if (view.options.patch_kernel_m <= 0.0) return;
   struct Mean {
@@ -92,10 +92,10 @@ void weigh_patches(std::vector<JointTerm>& terms, const JointView& view) {
   }
 }
 
-/// Linearises what the points of a source say in one iteration.
+/// Linearises the residuals of the points of a source in one iteration.
 class TermMaker {
  public:
-  TermMaker(const JointScene::Source& source, const StillTarget& target, const JointView& view)
+  TermMaker(const JointScene::Source& source, const DeskewedTarget& target, const JointView& view)
       : scan_(source.scan),
         target_(target),
         velocity_(view.velocity),
@@ -107,8 +107,8 @@ class TermMaker {
         min_cosine_(std::cos(rad_from_deg(view.options.max_normal_angle_deg))),
         max_distance_m_(view.max_distance_m) {}
 
-  /// Writes into `term` what point `index` of the source says, all but its patch, with the weight
-  /// of the target point alone. False if the point does not correspond.
+  /// Writes the term of point `index` of the source into `term`, except for its patch, with only
+  /// the weight of the target point. Returns false if the point has no correspondence.
   bool make(int index, JointTerm& term) const {
     using Eigen::Vector3d;
     const double source_s = scan_.times_s[index] + clock_offset_s_ - target_.reference_s();
@@ -126,7 +126,7 @@ class TermMaker {
     term.weight = target_.weight(nearest.index);
     term.later_s = source_s - target_s;
     term.point = p;
-    // The derivatives of exp(xi t) at small xi t: a scan turns by a few degrees at most.
+    // The derivatives of exp(xi t) at small xi t: a scan rotates by a few degrees at most.
     term.J << (motion.rotation * turned).cross(n), n, source_s * q.cross(n) - target_s * p.cross(n),
         term.later_s * n,
         n.dot(whole_velocity_.angular_radps.cross(q) + whole_velocity_.linear_mps);
@@ -135,20 +135,20 @@ class TermMaker {
 
  private:
   const TimedScan& scan_;
-  const StillTarget& target_;
+  const DeskewedTarget& target_;
   const Twist& velocity_;
-  Twist whole_velocity_;  ///< With what a step before has removed.
+  Twist whole_velocity_;  ///< Including the velocity that an earlier step has removed.
   double clock_offset_s_;
-  /// Of the sensor, moved by what a step before has not removed, because it took the sensor's
-  /// clock for right.
+  /// Of the sensor, moved by the part that an earlier step has not removed, because it did not
+  /// correct the sensor's clock.
   RigidTransform pose_;
   const Normals& normals_;
   double min_cosine_;
   double max_distance_m_;
 };
 
-/// The terms of the points of `source` that correspond, in their order.
-std::vector<JointTerm> terms_of(const JointScene::Source& source, const StillTarget& target,
+/// The terms of the corresponding points of `source`, in their order.
+std::vector<JointTerm> terms_of(const JointScene::Source& source, const DeskewedTarget& target,
                                 const JointView& view) {
   const TermMaker maker(source, target, view);
   const std::shared_ptr<const Sample> sample = sample_of(*source.scan.cloud, view.options);
@@ -164,7 +164,7 @@ std::vector<JointTerm> terms_of(const JointScene::Source& source, const StillTar
   return terms;
 }
 
-/// Which points of a scan belong to things of a vehicle's size; none if it has no ground.
+/// Whether each point of a scan belongs to a vehicle-sized object; all false if no ground is found.
 std::shared_ptr<const std::vector<bool>> vehicles_of(const Cloud& cloud) {
   constexpr int kForTheGround = 5000;
   return cloud.once<std::vector<bool>>("vehicles", [&] {
@@ -181,11 +181,11 @@ std::shared_ptr<const std::vector<bool>> vehicles_of(const Cloud& cloud) {
 }  // namespace
 
 Matrix6d velocity_information(const JointScene& scene, const JointOptions& options) {
-  constexpr double kLeastStd = 1e-4;
+  constexpr double kMinStd = 1e-4;
   const double width_m = options.kernel_width_m;
   if (scene.velocity_covariance) {
-    const Matrix6d least = Vector6d::Constant(kLeastStd * kLeastStd).asDiagonal();
-    return width_m * width_m * guarded_inverse<6>(*scene.velocity_covariance + least);
+    const Matrix6d min_covariance = Vector6d::Constant(kMinStd * kMinStd).asDiagonal();
+    return width_m * width_m * guarded_inverse<6>(*scene.velocity_covariance + min_covariance);
   }
   return unknown_velocity_information(options);
 }
@@ -202,8 +202,8 @@ JointView last_view(const JointState& state, const Twist& velocity, const JointO
   return {state, velocity, options.max_distances_m.back(), options};
 }
 
-StillTarget::StillTarget(const JointScene& scene, const Twist& velocity,
-                         const JointOptions& options)
+DeskewedTarget::DeskewedTarget(const JointScene& scene, const Twist& velocity,
+                               const JointOptions& options)
     : scene_(scene),
       velocity_(velocity),
       normals_(scene.target.cloud->normals(options.normal_neighbours)),
@@ -211,14 +211,15 @@ StillTarget::StillTarget(const JointScene& scene, const Twist& velocity,
   const Cloud& cloud = *scene.target.cloud;
   for (std::size_t i = 0; i < cloud.points().size(); ++i) {
     const double away_s = std::abs(time_s(static_cast<int>(i)));
-    longest_s_ = std::max(longest_s_, away_s);
-    widest_sm_ = std::max(widest_sm_, away_s * cloud.points()[i].cast<double>().norm());
+    max_time_s_ = std::max(max_time_s_, away_s);
+    max_time_times_range_sm_ =
+        std::max(max_time_times_range_sm_, away_s * cloud.points()[i].cast<double>().norm());
   }
   if (vehicle_weight_ < 1.0) vehicles_ = vehicles_of(cloud);
   make_tree();
 }
 
-void StillTarget::make_tree() {
+void DeskewedTarget::make_tree() {
   const Cloud& cloud = *scene_.target.cloud;
   tree_velocity_ = velocity_;
   if (vector_of(velocity_).isZero(0.0)) {
@@ -231,25 +232,25 @@ void StillTarget::make_tree() {
   tree_ = moved_tree_.get();
 }
 
-void StillTarget::set_velocity(const Twist& velocity, double max_shift_m) {
+void DeskewedTarget::set_velocity(const Twist& velocity, double max_shift_m) {
   velocity_ = velocity;
   const Twist change = stepped(velocity, -vector_of(tree_velocity_));
-  const double shift_m =
-      longest_s_ * change.linear_mps.norm() + widest_sm_ * change.angular_radps.norm();
+  const double shift_m = max_time_s_ * change.linear_mps.norm() +
+                         max_time_times_range_sm_ * change.angular_radps.norm();
   if (shift_m > max_shift_m) make_tree();
 }
 
-Neighbour StillTarget::nearest(const Eigen::Vector3d& query, double max_distance_m) const {
+Neighbour DeskewedTarget::nearest(const Eigen::Vector3d& query, double max_distance_m) const {
   return tree_->nearest(query.cast<float>(), static_cast<float>(max_distance_m));
 }
 
-StillTarget::Surface StillTarget::surface(int index) const {
+DeskewedTarget::Surface DeskewedTarget::surface(int index) const {
   const RigidTransform motion = motion_over(velocity_, time_s(index));
   return {motion * scene_.target.cloud->points()[index].cast<double>(),
           motion.rotation * normals_.at(index).normal.cast<double>()};
 }
 
-PairEquations pair_equations(const JointScene::Source& source, const StillTarget& target,
+PairEquations pair_equations(const JointScene::Source& source, const DeskewedTarget& target,
                              const JointView& view) {
   const RobustKernel kernel = kernel_at(view.max_distance_m, view.options);
   PairEquations sums;
@@ -266,12 +267,13 @@ PairEquations pair_equations(const JointScene::Source& source, const StillTarget
   return sums;
 }
 
-PairAgreement pair_agreement(const JointScene::Source& source, const StillTarget& target,
+PairAgreement pair_agreement(const JointScene::Source& source, const DeskewedTarget& target,
                              const JointView& view) {
-  JointOptions every_patch = view.options;
-  every_patch.patch_kernel_m = 0.0;
+  JointOptions options_without_patch_kernel = view.options;
+  options_without_patch_kernel.patch_kernel_m = 0.0;
   const std::vector<JointTerm> terms =
-      terms_of(source, target, {view.state, view.velocity, view.max_distance_m, every_patch});
+      terms_of(source, target,
+               {view.state, view.velocity, view.max_distance_m, options_without_patch_kernel});
   PairAgreement agreement;
   for (const JointTerm& term : terms) {
     const double widths = term.residual_m / view.options.kernel_width_m;
@@ -292,7 +294,7 @@ std::map<JointCell, double> PairAgreement::by_cell(
 }
 
 std::map<JointCell, CellEquations> cell_equations(const JointScene::Source& source,
-                                                  const StillTarget& target,
+                                                  const DeskewedTarget& target,
                                                   const JointView& view) {
   const RobustKernel kernel = kernel_at(view.max_distance_m, view.options);
   std::map<JointCell, CellEquations> cells;
@@ -300,7 +302,8 @@ std::map<JointCell, CellEquations> cell_equations(const JointScene::Source& sour
     CellEquations& sums = cells[cell_of(term)];
     const double square = term.residual_m * term.residual_m;
     const double w = term.weight * kernel.weight(square);
-    sums.hessian += (w * curvature_share(kernel.weight(square))) * (term.J * term.J.transpose());
+    sums.hessian +=
+        (w * curvature_over_weight(kernel.weight(square))) * (term.J * term.J.transpose());
     sums.gradient += (w * term.residual_m) * term.J;
     ++sums.correspondences;
   }

@@ -11,7 +11,7 @@
 namespace croon {
 namespace {
 
-/// Where some unknowns of a pair, `size` of them from `from` on, are among all unknowns.
+/// The position, among all unknowns, of `size` unknowns of a pair that begin at `from`.
 struct Block {
   int from, size, at;
 };
@@ -31,17 +31,17 @@ class Problem {
     }
   }
 
-  /// The targets of all scenes, as they are at `state`.
-  std::vector<StillTarget> targets_at(const JointState& state) const {
-    std::vector<StillTarget> targets;
+  /// The targets of all scenes at `state`.
+  std::vector<DeskewedTarget> targets_at(const JointState& state) const {
+    std::vector<DeskewedTarget> targets;
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
       targets.emplace_back(scenes_[s], state.velocities[s], options_);
     }
     return targets;
   }
 
-  /// Moves `outcome` by Gauss-Newton at one distance until it stays.
-  void run(JointRegistration& outcome, std::vector<StillTarget>& targets,
+  /// Moves `outcome` by Gauss-Newton at one distance until convergence.
+  void run(JointRegistration& outcome, std::vector<DeskewedTarget>& targets,
            double max_distance_m) const {
     outcome.converged = false;
     for (int i = 0; i < options_.max_iterations && !outcome.converged; ++i) {
@@ -53,16 +53,16 @@ class Problem {
   }
 
  private:
-  Eigen::VectorXd step_at(JointRegistration& outcome, std::vector<StillTarget>& targets,
+  Eigen::VectorXd step_at(JointRegistration& outcome, std::vector<DeskewedTarget>& targets,
                           double max_distance_m) const {
-    // A tree with points that have moved by less finds about the same neighbours, and residuals
-    // are of the points as they are.
+    // A tree whose points have moved by less finds about the same neighbours; residuals use the
+    // exact positions.
     constexpr double kShiftShare = 0.04;
     std::vector<std::vector<PairEquations>> pairs(scenes_.size());
     for_each_in_parallel(scenes_.size(), [&](std::size_t s) {
       const JointScene& scene = scenes_[s];
       const Twist& velocity = outcome.state.velocities[s];
-      StillTarget& target = targets[s];
+      DeskewedTarget& target = targets[s];
       target.set_velocity(velocity, kShiftShare * max_distance_m);
       for (const JointScene::Source& source : scene.sources) {
         pairs[s].push_back(
@@ -77,7 +77,7 @@ class Problem {
       for (std::size_t j = 0; j < pairs[s].size(); ++j) {
         const PairEquations& pair = pairs[s][j];
         outcome.correspondences[s].push_back(pair.correspondences);
-        if (pair.correspondences < kLeastJointCorrespondences) continue;
+        if (pair.correspondences < kMinJointCorrespondences) continue;
         add(pair, blocks_of(s, scenes_[s].sources[j].sensor), information, gradient);
         square_sum += pair.weighted_square_sum;
         weight_sum += pair.weight_sum;
@@ -107,8 +107,8 @@ class Problem {
     }
   }
 
-  /// What is expected of velocities and offsets before any point is seen, as residuals of the
-  /// kernel's width; and a damping, so that a pose stays in directions that nothing constrains.
+  /// Adds the priors of velocities and offsets, as residuals of the kernel's width, and a damping,
+  /// so that a pose stays in unconstrained directions.
   void add_priors(const JointState& state, Eigen::MatrixXd& information,
                   Eigen::VectorXd& gradient) const {
     constexpr double kDamping = 1e-6;
@@ -141,7 +141,7 @@ class Problem {
     }
   }
 
-  /// Whether no pose and no clock moves, and no point of a scan by its velocity.
+  /// Whether poses and clocks no longer move, nor points of a scan due to its velocity.
   bool is_small(const Eigen::VectorXd& step) const {
     constexpr double kRotation_rad = 1e-4, kTranslation_m = 1e-3, kScan_s = 0.1, kOffset_s = 3e-5;
     const auto is_still = [&](int at, double scale) {
@@ -159,8 +159,8 @@ class Problem {
   const std::vector<JointScene>& scenes_;
   const JointOptions& options_;
   int sensors_;
-  std::vector<int> velocity_at_;  ///< By scene: where its velocity is among the unknowns, or -1.
-  int offset_at_ = -1;            ///< Where the clocks' offsets are, or -1.
+  std::vector<int> velocity_at_;  ///< By scene: index of its velocity among the unknowns, or -1.
+  int offset_at_ = -1;            ///< Index of the clock offsets, or -1.
   int size_ = 0;
 };
 
@@ -170,40 +170,41 @@ const params::Table<JointOptions>& joint_table() {
   static const params::Table<JointOptions> table = [] {
     params::Table<JointOptions> rows = {
         params::numbers("max_distances_m", &JointOptions::max_distances_m, {1e-6, 1e6},
-                        "Points that are farther apart do not correspond; one pass for each."),
+                        "Maximum distances between corresponding points; one pass for each."),
         params::numbers(
             "velocity_std", &JointOptions::velocity_std, {1e-9, 1e6},
-            "The standard deviations of a velocity about zero before any point is seen: the "
-            "first in m/s, along each axis; the second in rad/s, about each axis."),
+            "Prior standard deviations of a velocity about zero: the first in m/s, along each "
+            "axis; the second in rad/s, about each axis."),
         params::number("clock_offset_std_s", &JointOptions::clock_offset_std_s, {0.0, 1e6},
-                       "The same of the sensors' clocks against the target's; at 0 they agree."),
+                       "Prior standard deviation of the offset of a sensor's clock from the "
+                       "target's; at 0 the clocks agree."),
         params::integer("max_iterations", &JointOptions::max_iterations, {1, 10000},
-                        "The most iterations of each pass."),
+                        "Maximum number of iterations of each pass."),
         params::integer("points", &JointOptions::points, {30, 100000000},
-                        "How many points of each scan take part, evenly through it."),
+                        "Number of points of each scan that are used, evenly spaced."),
         params::integer("normal_neighbours", &JointOptions::normal_neighbours, {3, 1000},
-                        "The number of neighbours that a normal is computed from."),
+                        "Number of neighbours from which a normal is computed."),
         params::number("max_normal_angle_deg", &JointOptions::max_normal_angle_deg, {0.0, 180.0},
-                       "Points whose normals differ by more do not correspond."),
+                       "Maximum angle between the normals of corresponding points."),
         params::number("patch_m", &JointOptions::patch_m, {1e-3, 1e6},
-                       "A patch is a surface of about one direction in a cube of this edge."),
+                       "Edge of the cubes that divide surfaces of about the same direction into "
+                       "patches."),
         params::number("patch_balance", &JointOptions::patch_balance, {0.0, 1.0},
-                       "Each of the n points of a patch weighs n to the minus this: at 1 every "
-                       "patch weighs the same, at 0 every point. It keeps one large thing that "
-                       "moves from outvoting many small ones that stand."),
+                       "Each of the n points of a patch is weighted by n to the minus this: at 1 "
+                       "every patch has the same weight, at 0 every point. It keeps one large "
+                       "moving object from outvoting many small static ones."),
         params::number(
             "patch_kernel_m", &JointOptions::patch_kernel_m, {0.0, 1e6},
-            "A patch whose residuals are above it in the mean begins to lose weight as "
-            "a whole: it moves by itself. It is at least a tenth of a pass's distance; at 0 "
-            "no patch loses weight."),
+            "A patch with a larger mean residual loses weight as a whole, because it moves "
+            "independently. At least a tenth of a pass's distance; at 0 no patch loses weight."),
         params::number("vehicle_weight", &JointOptions::vehicle_weight, {0.0, 1.0},
-                       "What a point of the reference weighs that belongs to a thing of a "
-                       "vehicle's size, as such things may move by themselves; others weigh 1."),
+                       "Weight of a point of the reference that belongs to a vehicle-sized object, "
+                       "which may be moving; other points have the weight 1."),
         params::number(
             "kernel_width_m", &JointOptions::kernel_width_m, {1e-6, 1e6},
-            "Residuals above it begin to lose weight; it is at least a quarter of a pass's "
-            "distance, so 0.075 m in one of 0.3 m. What is expected before any point is "
-            "seen, and whether points agree with other speeds, count by it alone."),
+            "Larger residuals lose weight. At least a quarter of a pass's distance, e.g. 0.075 m "
+            "in a pass of 0.3 m; priors, and the agreement of points with other speeds, use "
+            "exactly this value."),
     };
     rows.require([](const JointOptions& o) { return !o.max_distances_m.empty(); },
                  "max_distances_m must have a number");
@@ -222,7 +223,7 @@ JointRegistration register_jointly(const std::vector<JointScene>& scenes, JointS
   const std::size_t sensors = start.T_target_sensor.size();
   outcome.state = std::move(start);
   const Problem problem(scenes, options, sensors);
-  std::vector<StillTarget> targets = problem.targets_at(outcome.state);
+  std::vector<DeskewedTarget> targets = problem.targets_at(outcome.state);
   for (const double distance : options.max_distances_m) problem.run(outcome, targets, distance);
   return outcome;
 }

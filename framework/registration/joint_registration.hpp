@@ -11,13 +11,13 @@
 
 namespace croon {
 
-/// A scan and when each of its points was measured.
+/// A scan and the measurement times of its points.
 struct TimedScan {
   std::shared_ptr<const Cloud> cloud;
   std::vector<double> times_s;  ///< One per point, by the sensor's clock.
 };
 
-/// What a rig sees in one place: the scan of the target and those of other sensors.
+/// The scans of a rig at one moment: that of the target and those of other sensors.
 struct JointScene {
   struct Source {
     std::size_t sensor = 0;  ///< An index into JointState::T_target_sensor.
@@ -25,19 +25,19 @@ struct JointScene {
   };
   TimedScan target;
   std::vector<Source> sources;
-  double reference_s = 0.0;  ///< The points are compared where they were at this time.
-  bool is_moving = false;    ///< Whether the velocity is unknown; else it keeps its start.
-  /// Of the velocity, which is expected to be zero, before any point is seen: about the axes in
-  /// rad/s, along them in m/s. Without it JointOptions::velocity_std.
+  double reference_s = 0.0;  ///< Points are compared at their positions at this time.
+  bool is_moving = false;    ///< Whether the velocity is unknown; else it keeps its initial value.
+  /// The prior covariance of the velocity about zero: about the axes in rad/s, along them in m/s.
+  /// Without it JointOptions::velocity_std applies.
   std::optional<Matrix6d> velocity_covariance;
-  /// The velocity that a step before has removed; the unknown one is added to it.
+  /// The velocity that an earlier step has removed; the unknown one is added to it.
   Twist removed = {};
 };
 
 /// The unknowns of a joint registration.
 struct JointState {
   std::vector<RigidTransform> T_target_sensor;  ///< By sensor.
-  std::vector<double> clock_offsets_s;  ///< By sensor: added to its times, they are the target's.
+  std::vector<double> clock_offsets_s;  ///< By sensor: added to its times, yields the target's.
   std::vector<Twist> velocities;        ///< Of the target, by scene, in its own frame; constant.
 };
 
@@ -63,27 +63,26 @@ const params::Table<JointOptions>& joint_table();
 /// The result of a joint registration.
 struct JointRegistration {
   JointState state;
-  /// Root of the weighted mean of the squared residuals, of all pairs, before the last step.
+  /// Root of the weighted mean of the squared residuals of all pairs, before the last step.
   double rmse_m = 0.0;
   int iterations = 0;
   bool converged = false;
-  std::vector<std::vector<int>> correspondences;  ///< Of each scene's sources, before it too.
+  std::vector<std::vector<int>> correspondences;  ///< By scene and source, before the last step.
 };
 
-/// A source with fewer correspondences does not take part in an iteration.
-inline constexpr int kLeastJointCorrespondences = 30;
+/// A source with fewer correspondences is skipped in an iteration.
+inline constexpr int kMinJointCorrespondences = 30;
 
-/// Registers all sensors in all scenes at once, from `start`: one pose per sensor, and one velocity
-/// for each scene that moves. A point s of a sensor that was measured at time t has the residual
-/// `n . (exp(xi (t + d)) T s - exp(xi t') p)` for the nearest point p of the target, which was
+/// Registers all sensors in all scenes at once, starting at `start`: one pose per sensor, and one
+/// velocity per moving scene. A point s of a sensor, measured at time t, has the residual
+/// `n . (exp(xi (t + d)) T s - exp(xi t') p)` to the nearest point p of the target, which was
 /// measured at t' and has the normal n (point to plane, Chen & Medioni 1992, with the constant
-/// velocity xi of Zhang & Singh 2014 and the clock's offset d). Where a step before has removed the
-/// velocity xi_0 by the sensor's own clock, `exp(xi_0 d) T` stands in place of T. Gauss-Newton with
-/// a robust kernel; all unknowns are solved for together. A sensor that does not take part keeps
-/// its start.
+/// velocity xi of Zhang & Singh 2014 and the clock offset d). If an earlier step has removed the
+/// velocity xi_0 using the sensor's own clock, `exp(xi_0 d) T` replaces T. Gauss-Newton with a
+/// robust kernel, jointly over all unknowns. A sensor that is skipped keeps its initial pose.
 ///
-/// One scene cannot tell a clock's offset from a shift of its sensor along the velocity; scenes of
-/// different velocities with common poses can.
+/// A single scene cannot distinguish a clock offset from a translation of the sensor along the
+/// velocity; scenes with different velocities and common poses can.
 JointRegistration register_jointly(const std::vector<JointScene>& scenes, JointState start,
                                    const JointOptions& options);
 

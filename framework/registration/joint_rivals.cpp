@@ -10,11 +10,11 @@
 namespace croon {
 namespace {
 
-/// How well each source of a scene fits in `state`.
+/// The agreement of each source of a scene in `state`.
 std::vector<PairAgreement> agreements_in(const JointScene& scene, const JointState& state,
                                          const JointOptions& options) {
   const Twist& velocity = state.velocities.front();
-  const StillTarget target(scene, velocity, options);
+  const DeskewedTarget target(scene, velocity, options);
   std::vector<PairAgreement> pairs;
   for (const JointScene::Source& source : scene.sources) {
     pairs.push_back(pair_agreement(source, target, last_view(state, velocity, options)));
@@ -24,12 +24,12 @@ std::vector<PairAgreement> agreements_in(const JointScene& scene, const JointSta
 
 using Agreement = std::map<JointCell, double>;
 
-/// The sums over all sources that take part.
+/// The sums over all sources with enough correspondences.
 Agreement sum_by_cell(const std::vector<PairAgreement>& pairs,
                       const std::optional<Eigen::Vector3d>& axis) {
   Agreement agreement;
   for (const PairAgreement& pair : pairs) {
-    if (pair.points.size() < kLeastJointCorrespondences) continue;
+    if (pair.points.size() < kMinJointCorrespondences) continue;
     for (const auto& [cell, agreeing] : pair.by_cell(axis)) agreement[cell] += agreeing;
   }
   return agreement;
@@ -41,8 +41,8 @@ double sum_of(const Agreement& agreement) {
   return sum;
 }
 
-/// The axis in the plane of x and y along which the velocities of two states differ; nothing if
-/// they do not.
+/// The horizontal axis along which the velocities of two states differ; std::nullopt if they do
+/// not.
 std::optional<Eigen::Vector3d> axis_between(const JointState& a, const JointState& b) {
   Eigen::Vector3d apart_mps = a.velocities.front().linear_mps - b.velocities.front().linear_mps;
   apart_mps.z() = 0.0;
@@ -50,7 +50,7 @@ std::optional<Eigen::Vector3d> axis_between(const JointState& a, const JointStat
   return apart_mps.normalized();
 }
 
-/// By how many standard deviations `a` is ahead of `b`; 0 if they agree in every cube.
+/// The lead of `a` over `b` in standard deviations; 0 if they agree in every cube.
 double lead_of(const Agreement& a, const Agreement& b) {
   Agreement differences = a;
   for (const auto& [cell, agreeing] : b) differences[cell] -= agreeing;
@@ -59,7 +59,7 @@ double lead_of(const Agreement& a, const Agreement& b) {
   return squares > 0.0 ? sum_of(differences) / std::sqrt(squares) : 0.0;
 }
 
-/// Whether a sensor has another place in one state than in the other.
+/// Whether the position of a sensor differs between two states.
 bool is_elsewhere(const JointState& a, const JointState& b, std::size_t sensor) {
   const Eigen::Vector3d apart_m =
       a.T_target_sensor[sensor].translation - b.T_target_sensor[sensor].translation;
@@ -73,7 +73,7 @@ bool is_rival(const JointState& a, const JointState& b) {
   return false;
 }
 
-/// Where the registration of `scenes` ends from each of `starts`, in parallel.
+/// The results of the registration of `scenes` from each of `starts`, computed in parallel.
 std::vector<JointState> registered(const std::vector<JointScene>& scenes,
                                    const std::vector<JointState>& starts,
                                    const JointOptions& options) {
@@ -84,7 +84,7 @@ std::vector<JointState> registered(const std::vector<JointScene>& scenes,
   return ends;
 }
 
-/// Those of `states` that are rivals of `state` and of all before them.
+/// The `states` that are rivals of `state` and of all states before them.
 std::vector<JointState> different_from(const JointState& state,
                                        const std::vector<JointState>& states) {
   std::vector<JointState> seen = {state};
@@ -130,19 +130,19 @@ std::vector<std::optional<double>> leads_over_rivals(const JointScene& scene,
                                                      const JointOptions& options,
                                                      const JointOptions& coarse_options) {
   const std::vector<PairAgreement> own = agreements_in(scene, state, options);
-  std::vector<std::optional<double>> least(scene.sources.size());
+  std::vector<std::optional<double>> min_leads(scene.sources.size());
   const std::vector<JointState> near = registered({coarse}, starts, coarse_options);
   for (const JointState& fine : registered({scene}, different_from(state, near), options)) {
     if (!is_rival(fine, state)) continue;
     const std::optional<Eigen::Vector3d> axis = axis_between(state, fine);
     const double lead =
         lead_of(sum_by_cell(own, axis), sum_by_cell(agreements_in(scene, fine, options), axis));
-    for (std::size_t j = 0; j < least.size(); ++j) {
+    for (std::size_t j = 0; j < min_leads.size(); ++j) {
       if (!is_elsewhere(fine, state, scene.sources[j].sensor)) continue;
-      least[j] = std::min(lead, least[j].value_or(lead));
+      min_leads[j] = std::min(lead, min_leads[j].value_or(lead));
     }
   }
-  return least;
+  return min_leads;
 }
 
 }  // namespace croon

@@ -6,28 +6,27 @@
 
 namespace croon {
 
-/// Other starts for the registration of one scene than `state`: its speed along `axis` (a unit
-/// vector in the target's frame), with what a step before has removed, is each of `speeds_mps`. The
-/// sensors move by what the rig travels between the target's scan and theirs, so the clouds stay
-/// about where they met.
+/// Alternative starts for the registration of one scene, derived from `state`: with the speed along
+/// `axis` (a unit vector in the target's frame), including what an earlier step has removed, set to
+/// each of `speeds_mps`. The sensors move by the distance that the rig travels between the target's
+/// scan and theirs, so that the clouds still match approximately.
 std::vector<JointState> other_speeds(const JointScene& scene, const JointState& state,
                                      const Eigen::Vector3d& axis,
                                      const std::vector<double>& speeds_mps,
                                      const JointOptions& options);
 
-/// A rival of a state has a sensor farther than this from its place there.
+/// In a rival of a state, a sensor is farther than this from its position in the state.
 inline constexpr double kRivalDistance_m = 0.05;
 
-/// By how many standard deviations the agreement of all points (see PairAgreement) is larger in
-/// `state` of one scene than in its rivals: where the registration ends from `starts`, with
-/// `coarse_options` on the thinned scene `coarse` and then with `options` on `scene`. Of each
-/// source the least of the leads over rivals that have it elsewhere; nothing if none has; negative
-/// if one agrees better. Surfaces count by how much they face along the axis in which the two
-/// velocities differ.
+/// The lead, in standard deviations, of the agreement of all points (see PairAgreement) in `state`
+/// of one scene over its rivals, which are the results of the registration from `starts`: with
+/// `coarse_options` on the thinned scene `coarse`, and then with `options` on `scene`. For each
+/// source, the minimum lead over the rivals in which its position differs; std::nullopt if there
+/// are none; negative if a rival agrees better. Surfaces are weighted by how much they face along
+/// the axis in which the two velocities differ.
 ///
 /// The difference is a sum over cubes of space, which count as independent: its variance is the sum
-/// of their squares. So a rival that a few moving cars agree with is behind by little, or ahead by
-/// little.
+/// of their squares. So a rival that only a few moving cars support has a small lead or deficit.
 std::vector<std::optional<double>> leads_over_rivals(const JointScene& scene,
                                                      const JointScene& coarse,
                                                      const JointState& state,

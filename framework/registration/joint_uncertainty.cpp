@@ -22,8 +22,8 @@ struct VelocityEquations {
   Vector6d gradient = Vector6d::Zero();
 };
 
-/// The equations of the velocity that follow from the sums of each sensor, with its pose free: the
-/// Schur complement of the poses.
+/// The equations of the velocity from the sums of each sensor, with its pose eliminated (Schur
+/// complement).
 VelocityEquations velocity_equations(const std::vector<CellEquations>& sensors,
                                      const Matrix6d& prior) {
   VelocityEquations equations{prior};
@@ -41,7 +41,7 @@ VelocityEquations velocity_equations(const std::vector<CellEquations>& sensors,
 
 }  // namespace
 
-Matrix6d velocity_covariance(const StillTarget& target, const JointState& state,
+Matrix6d velocity_covariance(const DeskewedTarget& target, const JointState& state,
                              const JointOptions& options) {
   const JointScene& scene = target.scene();
   const JointView view = last_view(state, target.velocity(), options);
@@ -49,7 +49,7 @@ Matrix6d velocity_covariance(const StillTarget& target, const JointState& state,
   std::map<JointCell, std::vector<CellEquations>> cells;
   for (std::size_t j = 0; j < scene.sources.size(); ++j) {
     const Cells of_source = cell_equations(scene.sources[j], target, view);
-    if (correspondences_in(of_source) < kLeastJointCorrespondences) continue;
+    if (correspondences_in(of_source) < kMinJointCorrespondences) continue;
     for (const auto& [place, sums] : of_source) {
       all[j].hessian += sums.hessian;
       std::vector<CellEquations>& cell = cells[place];
@@ -60,7 +60,7 @@ Matrix6d velocity_covariance(const StillTarget& target, const JointState& state,
   const Matrix6d prior = velocity_information(scene, options);
   Matrix6d covariance = Matrix6d::Zero();
   if (scene.velocity_covariance) {
-    // The velocity that was given is off as well: it moves the estimate by its share in it.
+    // The error of the prior velocity moves the estimate by its share in it.
     const Matrix6d share = guarded_inverse<6>(velocity_equations(all, prior).information) * prior;
     covariance = share * *scene.velocity_covariance * share.transpose();
   }
@@ -71,19 +71,19 @@ Matrix6d velocity_covariance(const StillTarget& target, const JointState& state,
     const Vector6d step = guarded_inverse<6>(information) * gradient;
     covariance += step * step.transpose();
   }
-  // No velocity is less known than one of which nothing was seen.
+  // No velocity is less certain than one without any observations.
   const double width_m = options.kernel_width_m;
   const Matrix6d of_unknown = unknown_velocity_information(options) / (width_m * width_m);
   return guarded_inverse<6>(guarded_inverse<6>(covariance) + of_unknown);
 }
 
-std::vector<double> shift_std_m(const StillTarget& target, const Matrix6d& covariance,
+std::vector<double> shift_std_m(const DeskewedTarget& target, const Matrix6d& covariance,
                                 const JointState& state, const JointOptions& options) {
   const JointView view = last_view(state, target.velocity(), options);
   std::vector<double> std_m;
   for (const JointScene::Source& source : target.scene().sources) {
     const PairMatrix information = pair_equations(source, target, view).information;
-    // A change of the velocity leaves the least residuals at another pose.
+    // After a change of the velocity, the residuals are minimal at another pose.
     const Matrix6d pose_by_velocity =
         -guarded_inverse<6>(information.block<6, 6>(kPairPose, kPairPose)) *
         information.block<6, 6>(kPairPose, kPairVelocity);

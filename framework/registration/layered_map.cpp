@@ -11,8 +11,8 @@
 namespace croon {
 namespace {
 
-constexpr int kFull = 4;   // Of a cell that holds points; less in its neighbours.
-constexpr int kLane = 16;  // Sums in a vector register.
+constexpr int kFull = 4;   // Value of an occupied cell; neighbours have less.
+constexpr int kLane = 16;  // Sums per vector register.
 
 /// The index of (row, column) in rows of `columns` cells.
 template <class Row>
@@ -21,13 +21,13 @@ std::size_t index(Row row, int columns, int column) {
          static_cast<std::size_t>(column);
 }
 
-/// The layer of a point, a whole number: below 0 or above the last if the map does not have it.
+/// The layer of a point, a whole number: below 0 or above the last if it is outside the map.
 double layer_of(const Eigen::Vector3d& point, const LayeredMapOptions& options) {
   return std::floor((point.z() - options.min_height_m) / options.cell_m);
 }
 
-/// The centres of the cells above the ground that hold points of the source, without duplicates; at
-/// most `max_cells` of them, evenly spaced.
+/// The centres of the cells above the ground that contain points of the source, without duplicates;
+/// at most `max_cells`, evenly spaced.
 std::vector<Eigen::Vector3d> cell_centres(const Points& levelled,
                                           const LayeredMapOptions& options) {
   std::set<std::tuple<int, int, int>> cells;
@@ -49,14 +49,14 @@ std::vector<Eigen::Vector3d> cell_centres(const Points& levelled,
   return centres;
 }
 
-/// Within 3 steps of yaw and 2 cells, and a little more, so that rounding does not decide.
+/// Within 3 steps of yaw and 2 cells, with a margin for rounding.
 bool is_near(const MapPeak& a, const MapPeak& b, const LayeredMapOptions& options) {
   const double turn = std::abs(std::remainder(a.yaw_rad - b.yaw_rad, 2.0 * kPi));
   const double shift = std::max(std::abs(a.x_m - b.x_m), std::abs(a.y_m - b.y_m));
   return turn <= 3.01 * rad_from_deg(options.yaw_step_deg) && shift <= 2.01 * options.cell_m;
 }
 
-/// The best `count` of `peaks`, apart from each other.
+/// The best `count` of `peaks` that are not near each other.
 std::vector<MapPeak> best_apart(std::vector<MapPeak> peaks, int count,
                                 const LayeredMapOptions& options) {
   std::stable_sort(peaks.begin(), peaks.end(),
@@ -77,19 +77,19 @@ std::vector<MapPeak> best_apart(std::vector<MapPeak> peaks, int count,
 const params::Table<LayeredMapOptions>& layered_map_table() {
   static const params::Table<LayeredMapOptions> table = {
       params::number("cell_m", &LayeredMapOptions::cell_m, {0.2, 5.0},
-                     "Edge of a cell of the map from above."),
+                     "Edge of a cell of the map."),
       params::number("min_height_m", &LayeredMapOptions::min_height_m, {0.0, 5.0},
-                     "Points lower above the ground are not in the map."),
+                     "Minimum height above the ground of points in the map."),
       params::integer("layers", &LayeredMapOptions::layers, {1, 20},
-                      "Layers of the map, cell_m high."),
+                      "Number of layers of the map, each cell_m high."),
       params::number("radius_m", &LayeredMapOptions::radius_m, {1.0, 100.0},
-                     "Points of the sensor farther from it are not in the map."),
+                     "Maximum range of the sensor's points in the map."),
       params::number("reach_m", &LayeredMapOptions::reach_m, {0.5, 30.0},
-                     "The sensor is at most this far from the reference along x and along y."),
+                     "Maximum distance of the sensor from the reference along x and along y."),
       params::number("yaw_step_deg", &LayeredMapOptions::yaw_step_deg, {0.5, 30.0},
-                     "Yaws are tried in such steps."),
+                     "Step between the yaws that are tried."),
       params::integer("max_cells", &LayeredMapOptions::max_cells, {10, 10000},
-                      "At most this many cells of the sensor's map are used."),
+                      "Maximum number of cells of the sensor's map that are used."),
   };
   return table;
 }
@@ -126,7 +126,7 @@ void LayeredMap::spread(int layer, int row, int column, std::uint8_t value) {
   }
 }
 
-/// Adds the cells around (row, column), one for each shift.
+/// Adds the cells around (row, column), one per shift.
 void LayeredMap::add_window(Sums& sums, int layer, int row, int column) const {
   for (int shift = 0; shift < window_; ++shift) {
     const std::size_t line = index(layer, side_, row - reach_ + shift);

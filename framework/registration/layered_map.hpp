@@ -10,15 +10,15 @@
 
 namespace croon {
 
-/// How clouds are compared from above.
+/// The parameters of the comparison of clouds from above.
 struct LayeredMapOptions {
   double cell_m = 0.5;        ///< Edge of a cell, along x, y and the height.
-  double min_height_m = 0.4;  ///< Lower points are the ground and do not count.
+  double min_height_m = 0.4;  ///< Lower points belong to the ground and are ignored.
   int layers = 8;             ///< Layers of cells above min_height_m.
-  double radius_m = 40.0;     ///< Points of the source farther from it are not used.
-  double reach_m = 10.0;      ///< The largest shift along x and along y.
+  double radius_m = 40.0;     ///< Points of the source farther from it are ignored.
+  double reach_m = 10.0;      ///< Maximum shift along x and along y.
   double yaw_step_deg = 2.0;
-  int max_cells = 800;  ///< At most so many of the source's cells are used.
+  int max_cells = 800;  ///< Maximum number of the source's cells that are used.
 };
 
 /// The rows of LayeredMapOptions.
@@ -32,8 +32,8 @@ struct MapPeak {
   double score = 0.0;  ///< In [0, 1]: 1 if all cells of the source lie on cells of the target.
 };
 
-/// The cells above the ground that a levelled cloud occupies (z up, ground at 0), spread to their
-/// neighbours, so that a shift of half a cell does not decide.
+/// The cells above the ground that a levelled cloud occupies (z up, ground at 0), dilated to their
+/// neighbours for tolerance to shifts of half a cell.
 class LayeredMap {
  public:
   LayeredMap(const Points& levelled, const LayeredMapOptions& options);
@@ -45,7 +45,7 @@ class LayeredMap {
  private:
   using Sums = std::vector<std::uint16_t>;
   void spread(int layer, int row, int column, std::uint8_t value);
-  /// The shifts (row, column) whose sums are not less than those of their four neighbours.
+  /// The shifts (row, column) whose sums are not below those of their four neighbours.
   std::vector<std::pair<int, int>> local_maxima(const Sums& sums) const;
   void add_window(Sums& sums, int layer, int row, int column) const;
 

@@ -6,7 +6,7 @@
 namespace croon {
 namespace {
 
-/// The sums of a view's points in its sensor's frame, after the motion for their times.
+/// The sums of a view's points in its sensor's frame, after their motion over their times.
 PlanePatch::View displaced(const PlanePatch::View& view, const Twist& own) {
   const Eigen::Vector3d& u = own.linear_mps;
   const Eigen::Matrix3d turn = cross_matrix(own.angular_radps);
@@ -48,19 +48,20 @@ Joined joined(const PlanePatch& patch, const RigState& state) {
   return result;
 }
 
-/// The plane of a patch: its axes, the normal first, the square roots of the second derivatives by
-/// its turns about the two other axes and its motion along the normal, and the mean of its points.
+/// The plane of a patch: its axes, the normal first; the square roots of the second derivatives
+/// with respect to rotations about the two other axes and to the translation along the normal; and
+/// the mean of its points.
 struct FittedPlane {
   Eigen::Matrix3d axes;
   Eigen::Vector3d stiffness;
   Eigen::Vector3d centre;
 };
 
-/// How points move by the six of a part: a turn is a rotation, which bends their ways, or a rate of
-/// turning, which does not.
+/// How the rotational part of an unknown moves points: a rotation along arcs, or a rate of rotation
+/// along straight lines.
 enum class Turn { rotation, rate };
 
-/// The derivatives by the six of a turn about the origin of `T` and a translation of the points
+/// The derivatives with respect to a rotation about the origin of `T` and a translation, for points
 /// with these sums.
 PlaneCost::Part part_of(const PointSums& sums, const RigidTransform& T, const FittedPlane& plane,
                         Turn turn) {
@@ -79,7 +80,7 @@ PlaneCost::Part part_of(const PointSums& sums, const RigidTransform& T, const Fi
   const double distance = offset.dot(n);    // sum of r
   PlaneCost::Part part;
   part.gradient << 2.0 * arm_distance.cross(n), 2.0 * distance * n;
-  Matrix3d bend = Matrix3d::Zero();  // The second derivative of a turned arm.
+  Matrix3d bend = Matrix3d::Zero();  // The second derivative of a rotated arm.
   if (turn == Turn::rotation) {
     bend = 0.5 * (n * arm_distance.transpose() + arm_distance * n.transpose());
     bend.diagonal().array() -= n.dot(arm_distance);
@@ -133,7 +134,7 @@ PointSums moved(const PointSums& sums, const RigidTransform& T) {
   return after;
 }
 
-double least_eigenvalue(const Eigen::Matrix3d& scatter) {
+double min_eigenvalue(const Eigen::Matrix3d& scatter) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter, Eigen::EigenvaluesOnly);
   return std::max(solver.eigenvalues()(0), 0.0);
 }
@@ -144,23 +145,23 @@ Matrix6d velocity_at(const Eigen::Vector3d& origin) {
 
 double plane_cost_value(const PlanePatch& patch, const RigState& state) {
   const Joined points = joined(patch, state);
-  return std::max(least_eigenvalue(points.all.scatter()) - patch.own_cost, 0.0);
+  return std::max(min_eigenvalue(points.all.scatter()) - patch.own_cost, 0.0);
 }
 
 void plane_cost(const PlanePatch& patch, const RigState& state, PlaneCost& cost) {
   const Joined points = joined(patch, state);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(points.all.scatter());
   const Eigen::Vector3d& variances = solver.eigenvalues();
-  const double least = std::max(variances(0), 0.0);
-  cost.value = std::max(least - patch.own_cost, 0.0);
+  const double minimum = std::max(variances(0), 0.0);
+  cost.value = std::max(minimum - patch.own_cost, 0.0);
   cost.normal = solver.eigenvectors().col(0);
   cost.centre = points.all.sum / points.all.weight;
-  // The plane turns about the two other eigenvectors and moves along n. The second derivatives by
-  // these three are 2 (l_1 - l_0), 2 (l_2 - l_0) and 2 w; they do not mix.
-  const double smallest_gap = 1e-12 * variances(2) + 1e-300;
+  // The plane rotates about the two other eigenvectors and moves along n. The second derivatives
+  // with respect to these three are 2 (l_1 - l_0), 2 (l_2 - l_0) and 2 w; they do not mix.
+  const double min_gap = 1e-12 * variances(2) + 1e-300;
   const Eigen::Vector3d curvature =
-      2.0 * Eigen::Vector3d(std::max(variances(1) - least, smallest_gap),
-                            std::max(variances(2) - least, smallest_gap), points.all.weight);
+      2.0 * Eigen::Vector3d(std::max(variances(1) - minimum, min_gap),
+                            std::max(variances(2) - minimum, min_gap), points.all.weight);
   const FittedPlane plane = {solver.eigenvectors(), curvature.cwiseSqrt(), cost.centre};
   cost.views.clear();
   cost.view_velocity.clear();
@@ -169,7 +170,7 @@ void plane_cost(const PlanePatch& patch, const RigState& state, PlaneCost& cost)
     const RigidTransform& T = state.poses[view.sensor];
     cost.views.push_back(part_of(view.sums, T, plane, Turn::rotation));
     if (!state.velocity) continue;
-    // For its time t a point moves by the velocity as it does by a step of the pose t times that.
+    // The velocity moves a point with time t like a step of the pose by t times the velocity.
     const Matrix6d from_common = velocity_at(T.translation);
     const PlaneCost::Part once = part_of(view.timed, T, plane, Turn::rotation);
     const PlaneCost::Part twice = part_of(view.timed_twice, T, plane, Turn::rate);

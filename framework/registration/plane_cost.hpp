@@ -9,8 +9,8 @@
 
 namespace croon {
 
-/// The sums over points of one sensor, in its frame (m, m^2): all that the distances of the points
-/// to any plane follow from.
+/// The sums over points of one sensor, in its frame (m, m^2), from which their distances to any
+/// plane can be computed.
 struct PointSums {
   double weight = 0.0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -28,42 +28,42 @@ struct PointSums {
 /// The sums of the same points after the motion `T`.
 PointSums moved(const PointSums& sums, const RigidTransform& T);
 
-/// The least eigenvalue of a scatter, not below zero: the weighted sum of squared distances to the
-/// plane that fits best.
-double least_eigenvalue(const Eigen::Matrix3d& scatter);
+/// The minimum eigenvalue of a scatter, clamped to zero: the weighted sum of squared distances to
+/// the best-fitting plane.
+double min_eigenvalue(const Eigen::Matrix3d& scatter);
 
 /// A piece of a plane that several sensors see, the sensors in ascending order.
 struct PlanePatch {
   struct View {
     std::size_t sensor = 0;
     PointSums sums;
-    /// The same with each weight times the point's time, s, and times its square; zero if the times
-    /// are not known.
+    /// The same with each weight multiplied by the point's time, s, and by its square; zero if the
+    /// times are unknown.
     PointSums timed = {};
     PointSums timed_twice = {};
   };
   std::vector<View> views;
-  /// The sum of what each sensor leaves on a plane of its own: no poses make the cost smaller.
+  /// The cost of separate planes for all sensors; a lower bound for any poses.
   double own_cost = 0.0;
 };
 
-/// The sensors of a rig in a common frame, by which they see planes.
+/// The poses and velocity of a rig's sensors in a common frame.
 struct RigState {
   std::vector<RigidTransform> poses;  ///< T_common_sensor, by sensor.
-  /// If the rig moves while it scans: by how much the common frame's velocity differs from that by
-  /// which the points were corrected to be of the time zero. A point p moves by t (u + w x p).
+  /// If the rig moves while scanning: the difference of the common frame's velocity from the one
+  /// for which the points were corrected to time zero. A point p moves by t (u + w x p).
   std::optional<Twist> velocity = std::nullopt;
 };
 
-/// The cost of a patch, and its derivatives. With `n` the normal and `c` the mean of all its points
-/// the cost is `min over planes of sum w (n . (p - c))^2`, the least eigenvalue of the scatter,
-/// less PlanePatch::own_cost. The plane is eliminated in closed form (BALM: Liu and Zhang, RA-L
+/// The cost of a patch and its derivatives. With the normal `n` and the mean `c` of all its points,
+/// the cost is `min over planes of sum w (n . (p - c))^2`, the minimum eigenvalue of the scatter,
+/// minus PlanePatch::own_cost. The plane is eliminated in closed form (BALM: Liu and Zhang, RA-L
 /// 2021; Liu, Liu and Zhang, T-RO 2023).
 struct PlaneCost {
-  /// The part of one unknown of six: the pose of a view's sensor, as a turn about its own origin
-  /// from the left (rad) and a translation (m), in the order of Dof; or the velocity. The Hessian
-  /// by two unknowns a and b is `mixed_ab - to_plane_a to_plane_b^T`, where mixed_ab is not zero
-  /// for an unknown with itself (`direct`), and for a pose with the velocity.
+  /// The part of one six-dimensional unknown: the pose of a view's sensor, as a rotation about its
+  /// own origin from the left (rad) and a translation (m), in the order of Dof; or the velocity.
+  /// The Hessian with respect to two unknowns a and b is `mixed_ab - to_plane_a to_plane_b^T`,
+  /// where mixed_ab is non-zero only if a = b (`direct`), and for a pose and the velocity.
   struct Part {
     Vector6d gradient = Vector6d::Zero();
     Matrix6d direct = Matrix6d::Zero();
@@ -78,15 +78,14 @@ struct PlaneCost {
   std::vector<Matrix6d> view_velocity;  ///< By view: mixed_ab with the velocity.
 };
 
-/// The matrix that takes the velocity (w, u) of the common frame, about its axes and along them, to
-/// that of a sensor at `origin` in the same axes: `(w, u + w x origin)`.
+/// The matrix that maps the velocity (w, u) of the common frame, about its axes and along them, to
+/// the velocity of a sensor at `origin` in the same axes: `(w, u + w x origin)`.
 Matrix6d velocity_at(const Eigen::Vector3d& origin);
 
 /// Only the value of the cost.
 double plane_cost_value(const PlanePatch& patch, const RigState& state);
 
-/// The cost with its derivatives; writes into `cost` to use its memory again. To first order in the
-/// velocity.
+/// The cost with its derivatives, to first order in the velocity. The memory of `cost` is reused.
 void plane_cost(const PlanePatch& patch, const RigState& state, PlaneCost& cost);
 
 }  // namespace croon

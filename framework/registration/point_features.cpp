@@ -14,17 +14,17 @@ constexpr int kBins = 11;
 constexpr int kAngles = 3;
 using Shares = std::array<double, kAngles * kBins>;
 
-/// The bin of a share in [0, 1] of an angle's range.
+/// The bin of a fraction in [0, 1] of an angle's range.
 int bin_of(double share) { return std::clamp(static_cast<int>(share * kBins), 0, kBins - 1); }
 
-/// The three angles between two points with normals (equation 1), as bins. False if the points or
-/// the directions coincide.
+/// The bins of the three angles between two points with normals (equation 1). Returns false if the
+/// points or the directions coincide.
 bool pair_bins(const Eigen::Vector3d& offset, Eigen::Vector3d first, Eigen::Vector3d second,
                std::array<int, kAngles>& bins) {
   const double distance_m = offset.norm();
   if (!(distance_m > 0.0)) return false;
   Eigen::Vector3d along = offset / distance_m;
-  // The source of the pair is the point whose normal is nearer to the line between them.
+  // The source of the pair is the point whose normal is closer to the line between them.
   if (std::abs(first.dot(along)) < std::abs(second.dot(along))) {
     std::swap(first, second);
     along = -along;
@@ -40,7 +40,7 @@ bool pair_bins(const Eigen::Vector3d& offset, Eigen::Vector3d first, Eigen::Vect
   return true;
 }
 
-/// A cloud with normals, and the neighbours by which each point is described.
+/// A cloud with normals, and the neighbours that describe each point.
 struct Surface {
   Points points;
   Points normals;
@@ -69,14 +69,14 @@ Surface surface_of(const Cloud& cloud, const FeatureOptions& options) {
                                        neighbour.squared_distance_m2 > radius_m2;
                               }),
                near.end());
-    // Sums over them are in the order of the points, not in that of the search.
+    // Sums over neighbours are in the order of the points, not in that of the search.
     std::sort(near.begin(), near.end(),
               [](const Neighbour& a, const Neighbour& b) { return a.index < b.index; });
   }
   return surface;
 }
 
-/// The histogram of the pairs of a point and each of its neighbours, each angle's with the sum 1
+/// The histogram over the pairs of a point and each of its neighbours, normalised to 1 per angle
 /// (simplified point feature histogram).
 Shares simplified(const Surface& surface, std::size_t index) {
   Shares shares{};
@@ -95,7 +95,7 @@ Shares simplified(const Surface& surface, std::size_t index) {
   return shares;
 }
 
-/// Equation 3: a point's histogram and the mean of its neighbours', the near ones with more weight.
+/// Equation 3: a point's histogram and the mean of its neighbours', weighted by inverse distance.
 Shares weighted(const Surface& surface, const std::vector<Shares>& simple, std::size_t index) {
   Shares around{};
   double weights = 0.0;
@@ -132,14 +132,14 @@ int squared_distance(const FeatureHistogram& a, const FeatureHistogram& b) {
   return sum;
 }
 
-/// The histogram of a point on a plane: all normals are parallel, and upright on all lines.
+/// The histogram of a point on a plane: all normals are parallel, and perpendicular to all lines.
 FeatureHistogram plane_histogram() {
   Shares shares{};
   for (int k = 0; k < kAngles; ++k) shares[k * kBins + kBins / 2] = 1.0;
   return whole_numbers(shares);
 }
 
-/// Indices of the `count` histograms that are the least like a plane's, in their order.
+/// Indices of the `count` histograms that differ most from a plane's, in their order.
 std::vector<std::size_t> most_distinct(const std::vector<FeatureHistogram>& histograms,
                                        std::size_t count) {
   const FeatureHistogram plane = plane_histogram();
@@ -164,10 +164,10 @@ std::vector<double> ranges_of(const PointFeatures& features) {
   return ranges_m;
 }
 
-/// The features that are most like one feature; of equals those that were added first.
-class MostAlike {
+/// The features most similar to one feature; in case of ties those that were added first.
+class MostSimilar {
  public:
-  explicit MostAlike(int count) : count_(static_cast<std::size_t>(count)) {}
+  explicit MostSimilar(int count) : count_(static_cast<std::size_t>(count)) {}
   void add(int index, int distance) {
     if (distances_.size() == count_) {
       if (distance >= distances_.back()) return;
@@ -178,7 +178,7 @@ class MostAlike {
     indices_.insert(indices_.begin() + (at - distances_.begin()), index);
     distances_.insert(at, distance);
   }
-  /// Of these features, the most alike first.
+  /// The indices of these features, most similar first.
   const std::vector<int>& indices() const { return indices_; }
 
  private:
@@ -197,9 +197,9 @@ PointFeatures point_features(const Cloud& cloud, const FeatureOptions& options) 
   for (std::size_t i = 0; i < surface.points.size(); ++i) simple.push_back(simplified(surface, i));
   std::vector<FeatureHistogram> histograms;
   std::vector<std::size_t> described;
-  constexpr std::size_t kFewest = 5;  // Fewer neighbours say nothing of a surface.
+  constexpr std::size_t kMinNeighbours = 5;  // Fewer neighbours do not describe a surface.
   for (std::size_t i = 0; i < surface.points.size(); ++i) {
-    if (surface.neighbours[i].size() < kFewest) continue;
+    if (surface.neighbours[i].size() < kMinNeighbours) continue;
     histograms.push_back(whole_numbers(weighted(surface, simple, i)));
     described.push_back(i);
   }
@@ -217,8 +217,8 @@ std::vector<FeatureMatch> mutual_matches(const PointFeatures& target, const Poin
                                          const MatchOptions& options) {
   const std::vector<double> target_ranges_m = ranges_of(target);
   const std::vector<double> source_ranges_m = ranges_of(source);
-  std::vector<MostAlike> of_target(target.points.size(), MostAlike(options.candidates));
-  std::vector<MostAlike> of_source(source.points.size(), MostAlike(options.candidates));
+  std::vector<MostSimilar> of_target(target.points.size(), MostSimilar(options.candidates));
+  std::vector<MostSimilar> of_source(source.points.size(), MostSimilar(options.candidates));
   for (std::size_t i = 0; i < target.points.size(); ++i) {
     for (std::size_t j = 0; j < source.points.size(); ++j) {
       if (std::abs(target_ranges_m[i] - source_ranges_m[j]) > options.reach_m) continue;

@@ -8,12 +8,12 @@
 namespace croon {
 namespace {
 
-// When points agree, and when they contradict.
+// Criteria for agreement and contradiction.
 constexpr double kMaxDistance_m = 0.5;       // To the nearest point of the other cloud.
 constexpr double kMaxPlaneDistance_m = 0.1;  // To the plane through it.
 constexpr double kMaxNormalAngle_deg = 30.0;
-constexpr double kRangeMargin_m = 0.4;  // Ranges agree that differ by at most this.
-constexpr double kRangeRatio = 0.02;    // So do those that differ by at most this share of them.
+constexpr double kRangeMargin_m = 0.4;  // Ranges that differ by at most this agree,
+constexpr double kRangeRatio = 0.02;    // or by at most this fraction of the range.
 
 bool is_visible(Sight sight) { return sight != Sight::unseen && sight != Sight::hidden; }
 
@@ -58,7 +58,7 @@ double visible(const std::vector<Sight>& sights) {
 
 double ratio(double part, double all) { return all > 0.0 ? part / all : 0.0; }
 
-/// The share of the points that are visible which are `sight`, both ways.
+/// The fraction of the visible points that are `sight`, in both directions.
 double visible_share(const PoseEvidence& evidence, Sight sight) {
   return ratio(count(evidence.source, sight) + count(evidence.target, sight),
                visible(evidence.source) + visible(evidence.target));
@@ -67,7 +67,7 @@ double visible_share(const PoseEvidence& evidence, Sight sight) {
 /// The points that are visible at both of two poses.
 struct Common {
   double points = 0.0;
-  double first_alone = 0.0, other_alone = 0.0;  ///< Those that agree at one of them alone.
+  double first_alone = 0.0, other_alone = 0.0;  ///< Those that agree at only one of them.
 
   void add(const std::vector<Sight>& first, const std::vector<Sight>& other) {
     for (std::size_t i = 0; i < first.size(); ++i) {

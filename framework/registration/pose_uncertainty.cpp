@@ -20,24 +20,24 @@
 namespace croon {
 namespace {
 
-constexpr std::size_t kFewestContacts = 12;
+constexpr std::size_t kMinContacts = 12;
 constexpr int kDofCount = 6;
 
 /// A source point on a surface of the target.
 struct Contact {
-  Eigen::Vector3d arm;                   ///< As Correspondence has it.
+  Eigen::Vector3d arm;                   ///< As in Correspondence.
   Eigen::Vector3d offset;                ///< Likewise.
   Eigen::Vector3d point;                 ///< The source point in the target's frame.
-  Eigen::Vector3d of_target, of_source;  ///< Normals in the target's axes, to the same side.
+  Eigen::Vector3d of_target, of_source;  ///< Normals in the target's axes, on the same side.
   SurfaceKey surface;
-  double delay_s;  ///< Of the source point's measurement against the target point's.
-  bool is_grazed;  ///< One of the sensors sees its surface at a grazing angle.
-  /// How broad the line is on which the neighbours of one of the points lie, the narrower one;
-  /// infinite if those of neither lie on a line.
+  double delay_s;  ///< Measurement time of the source point minus that of the target point.
+  bool is_grazed;  ///< Whether a sensor sees its surface at a grazing angle.
+  /// The breadth of the line formed by the neighbours of one of the points, the minimum of the two;
+  /// infinite if neither neighbourhood is a line.
   double line_breadth_m;
 };
 
-/// As Contact has it, of one point.
+/// As in Contact, for one point.
 double line_breadth_m(const LocalShape& shape, double line_breadth_ratio) {
   return shape.breadth_m < line_breadth_ratio * shape.length_m
              ? shape.breadth_m
@@ -62,11 +62,11 @@ class ContactFinder {
     require_near(source_times_, reference_s);
   }
 
-  /// Of at most `most` points, evenly through the source.
-  std::vector<Contact> contacts(const RigidTransform& T, std::size_t most) const {
+  /// The contacts of at most `max_points` points, evenly spaced in the source.
+  std::vector<Contact> contacts(const RigidTransform& T, std::size_t max_points) const {
     std::vector<Contact> found;
     const std::size_t size = source_.points().size();
-    const std::size_t count = std::min(size, most);
+    const std::size_t count = std::min(size, max_points);
     Contact contact;
     for (std::size_t i = 0; i < count; ++i) {
       const auto index = static_cast<int>(evenly_spaced_index(i, size, count));
@@ -117,11 +117,11 @@ class ContactFinder {
 struct Quadratic {
   Vector6d gradient = Vector6d::Zero();
   Matrix6d hessian = Matrix6d::Zero();  ///< With the curvature of the robust kernel.
-  /// Of contacts whose normals are evidence: along the mean of the two,
+  /// Of contacts whose normals are evidence: along the mean of the two normals,
   Matrix6d information = Matrix6d::Zero();
-  Matrix6d noise = Matrix6d::Zero();   ///< and half of what they differ by.
-  Vector6d grazed = Vector6d::Zero();  ///< What the gradient gains if grazed surfaces are 1 m off.
-  /// The same if the target turned at 1 rad/s about each axis, or moved at 1 m/s along it.
+  Matrix6d noise = Matrix6d::Zero();   ///< and along half of their difference.
+  Vector6d grazed = Vector6d::Zero();  ///< The change of the gradient per metre of grazing error.
+  /// The change of the gradient per rad/s about each axis of the target and per m/s along it.
   Matrix6d moved = Matrix6d::Zero();
 
   void add(const Quadratic& other) {
@@ -134,12 +134,12 @@ struct Quadratic {
   }
 };
 
-/// Half of `weight * rho(r^T Omega r)` with Omega of Generalized-ICP, which weighs a distance
-/// across two planes that agree by one, and rho of Geman and McClure. Distances across surfaces
-/// have the standard deviation `noise_m`.
+/// Half of `weight * rho(r^T Omega r)` with Omega of Generalized-ICP, which weights a distance
+/// across two parallel planes by one, and rho of Geman and McClure. Distances across surfaces have
+/// the standard deviation `noise_m`.
 Quadratic quadratic_of(const Contact& contact, double weight, double kernel_width_m,
                        double noise_m) {
-  constexpr double kEpsilon = 0.001;  // The variance across a surface over that along it.
+  constexpr double kEpsilon = 0.001;  // The variance across a surface over the one along it.
   const Eigen::Vector3d &a = contact.of_target, &b = contact.of_source;
   const Eigen::Matrix3d Omega = plane_to_plane_information(a, b, kEpsilon);
   const Eigen::Matrix<double, 3, 6> J = point_jacobian(contact.arm);
@@ -148,7 +148,7 @@ Quadratic quadratic_of(const Contact& contact, double weight, double kernel_widt
   const double inverse_width = 1.0 / (kernel_width_m * kernel_width_m);
   const double share = 1.0 / (1.0 + inverse_width * contact.offset.dot(Omega * contact.offset));
   const double w = weight * share * share;
-  // By the offset and by the pose: the gradient as the kernel lets it change.
+  // The derivative of the gradient with respect to the offset, including the kernel's curvature.
   const Eigen::Matrix<double, 6, 3> by_offset =
       w * OJ.transpose() -
       (4.0 * w * share * inverse_width) * (slope * (Omega * contact.offset).transpose());
@@ -159,7 +159,7 @@ Quadratic quadratic_of(const Contact& contact, double weight, double kernel_widt
     sums.moved = contact.delay_s * (by_offset * point_jacobian(contact.point));
   }
   if (contact.is_grazed) sums.grazed = by_offset * a;
-  // About a line that is no broader than the noise, the noise turns both normals alike.
+  // The noise rotates both normals alike about a line that is no broader than the noise.
   if (contact.line_breadth_m < noise_m) return sums;
   const Eigen::Vector3d normal = (a + b).normalized();
   const double along = w * normal.dot(Omega * normal);
@@ -170,30 +170,30 @@ Quadratic quadratic_of(const Contact& contact, double weight, double kernel_widt
   return sums;
 }
 
-/// What is known of any pose, in the units of the contacts' Hessian: information times the variance
-/// of a residual, the square of `noise_m`.
+/// The prior information about any pose, in the units of the contacts' Hessian: information times
+/// the variance of a residual, the square of `noise_m`.
 Matrix6d prior_information(double noise_m) {
   return (noise_m * noise_m * unknown_variances().cwiseInverse()).asDiagonal();
 }
 
-/// `F^-1 H` by the eigenvectors of `F v = lambda H v`, with each lambda at least 1/4: a direction
-/// that contacts hardly hold has an F of noise, which may be negative, and would hide all others.
+/// `F^-1 H` by the eigenvectors of `F v = lambda H v`, with each lambda at least 1/4: in a weakly
+/// constrained direction F consists of noise, may be negative, and would dominate all others.
 Matrix6d bounded_ratio(const Matrix6d& F, const Matrix6d& H) {
-  constexpr double kLeast = 0.25;  // In ordinary scenes 0.4 to 1.2.
+  constexpr double kMinRatio = 0.25;  // In ordinary scenes 0.4 to 1.2.
   const Matrix6d L = guarded_inverse<6>(H).llt().matrixL();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(symmetric<6>(L.transpose() * F * L));
   const Matrix6d V = L * solver.eigenvectors();  // V^T H V is the identity.
-  return V * solver.eigenvalues().cwiseMax(kLeast).cwiseInverse().asDiagonal() * V.inverse();
+  return V * solver.eigenvalues().cwiseMax(kMinRatio).cwiseInverse().asDiagonal() * V.inverse();
 }
 
-/// What the contacts say of a pose.
+/// The quadratic model of all contacts at a pose.
 class ContactModel {
  public:
   ContactModel(const ContactFinder& finder, const RigidTransform& T,
                const UncertaintyOptions& options)
       : finder_(finder), pose_(T), options_(options) {
-    constexpr std::size_t kMost = 20000;
-    const std::vector<Contact> contacts = finder.contacts(T, kMost);
+    constexpr std::size_t kMaxContacts = 20000;
+    const std::vector<Contact> contacts = finder.contacts(T, kMaxContacts);
     count_ = contacts.size();
     DirectionCounts counts{};
     for (const Contact& contact : contacts) ++counts.at(contact.surface.second);
@@ -202,7 +202,7 @@ class ContactModel {
     for (const Contact& contact : contacts) {
       across_m.push_back(std::abs(contact.of_target.dot(contact.offset)));
     }
-    constexpr double kStdOfMedian = 1.4826;  // Of the magnitude of a normal variable.
+    constexpr double kStdOfMedian = 1.4826;  // Standard deviation over median absolute deviation.
     if (!across_m.empty()) noise_m_ = kStdOfMedian * median(std::move(across_m));
     for (const Contact& contact : contacts) {
       const Quadratic one = quadratic(contact);
@@ -216,8 +216,8 @@ class ContactModel {
   double noise_m() const { return noise_m_; }
   const Quadratic& all() const { return all_; }
 
-  /// The jackknife over surfaces: the sum of the squares of the steps that the pose makes if one
-  /// surface is left out.
+  /// The jackknife over surfaces: the sum of the squared steps of the pose when one surface is left
+  /// out.
   Matrix6d jackknife() const {
     Matrix6d sum = Matrix6d::Zero();
     for (const auto& [key, surface] : surfaces_) {
@@ -227,30 +227,31 @@ class ContactModel {
     return sum;
   }
 
-  /// The step that the pose makes if grazed surfaces are off by the noise.
+  /// The step of the pose if grazed surfaces are off by the noise.
   Vector6d grazing_step() const {
     return noise_m_ * (guarded_inverse<6>(all_.hessian) * all_.grazed);
   }
 
-  /// The covariance of the step that the pose makes for a motion that is not known.
+  /// The covariance of the step of the pose due to the uncertain motion.
   Matrix6d covariance_of_motion() const {
     const Matrix6d steps = guarded_inverse<6>(all_.hessian) * all_.moved;
     return steps * options_.motion_covariance * steps.transpose();
   }
 
-  /// How much farther a pose moves than contacts that stay the same let it: `F^-1 H` of the
-  /// Hessian H with the same contacts and F of differences of gradients with new contacts.
+  /// The ratio by which a pose moves farther than with constant contacts: `F^-1 H` of the Hessian H
+  /// with constant contacts and F from differences of gradients with new contacts.
   Matrix6d stretch() const {
-    constexpr std::size_t kMost = 4000;
+    constexpr std::size_t kMaxContacts = 4000;
     constexpr double kStep_rad = 0.0005, kStep_m = 0.01;
     Matrix6d same = prior_information(noise_m_);
-    for (const Contact& contact : finder_.contacts(pose_, kMost)) {
+    for (const Contact& contact : finder_.contacts(pose_, kMaxContacts)) {
       same += quadratic(contact).hessian;
     }
     Matrix6d found;
     for (int i = 0; i < kDofCount; ++i) {
       const double step = i < 3 ? kStep_rad : kStep_m;
-      found.col(i) = (gradient_at(i, step, kMost) - gradient_at(i, -step, kMost)) / (2.0 * step);
+      found.col(i) =
+          (gradient_at(i, step, kMaxContacts) - gradient_at(i, -step, kMaxContacts)) / (2.0 * step);
     }
     return bounded_ratio(found, same);
   }
@@ -261,10 +262,10 @@ class ContactModel {
                         noise_m_);
   }
 
-  Vector6d gradient_at(int dof, double step, std::size_t most) const {
+  Vector6d gradient_at(int dof, double step, std::size_t max_points) const {
     Vector6d sum = Vector6d::Zero();
     for (const Contact& contact :
-         finder_.contacts(moved(pose_, step * Vector6d::Unit(dof)), most)) {
+         finder_.contacts(moved(pose_, step * Vector6d::Unit(dof)), max_points)) {
       sum += quadratic(contact).gradient;
     }
     return sum;
@@ -280,12 +281,12 @@ class ContactModel {
   Quadratic all_;
 };
 
-/// Gives each degree of freedom its word, and those that noise alone holds the variance of an
-/// unknown pose.
+/// Sets the observability of each degree of freedom, and adds the variance of an unknown pose to
+/// those that only noise constrains.
 void judge_dofs(const Quadratic& all, double noise_m, const UncertaintyOptions& options,
                 PoseCovariance& covariance) {
-  const auto held = held_dofs(all.information, all.noise, prior_information(noise_m),
-                              options.weak_ratio, options.unobservable_ratio);
+  const auto held = dof_constraints(all.information, all.noise, prior_information(noise_m),
+                                    options.weak_ratio, options.unobservable_ratio);
   for (std::size_t dof = 0; dof < held.size(); ++dof) {
     const auto& [word, motion] = held[dof];
     covariance.dofs[dof] = word;
@@ -306,7 +307,7 @@ PoseCovariance pose_uncertainty(const Cloud& target, const Cloud& source,
   if (target.empty() || source.empty()) return covariance;
   const ContactFinder finder(target, source, options);
   const ContactModel model(finder, T_target_source, options);
-  if (model.count() < kFewestContacts) return covariance;
+  if (model.count() < kMinContacts) return covariance;
   Matrix6d matrix = options.scale * options.scale * model.jackknife();
   const Vector6d grazing = options.grazing_error_ratio * model.grazing_step();
   matrix += grazing * grazing.transpose();
@@ -314,7 +315,7 @@ PoseCovariance pose_uncertainty(const Cloud& target, const Cloud& source,
     const Matrix6d stretch = model.stretch();
     matrix = stretch * matrix * stretch.transpose();
   }
-  // All contacts move with the car, and the pose follows them: nothing resists less.
+  // All contacts move with the car, and the pose follows them, so this is not stretched.
   matrix += model.covariance_of_motion();
   covariance.matrix = symmetric<6>(matrix);
   judge_dofs(model.all(), model.noise_m(), options, covariance);

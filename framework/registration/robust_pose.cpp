@@ -11,7 +11,7 @@ namespace {
 
 using Vectors = std::vector<Eigen::Vector3d>;
 
-/// The rotation with the least sum of `weights[i] |target[i] - R source[i]|^2`.
+/// The rotation with the minimum sum of `weights[i] |target[i] - R source[i]|^2`.
 Eigen::Matrix3d weighted_rotation(const Vectors& target, const Vectors& source,
                                   const std::vector<double>& weights) {
   Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
@@ -34,7 +34,7 @@ std::vector<double> squared_residuals(const Vectors& target, const Vectors& sour
   return residuals;
 }
 
-/// The weight of a residual in the surrogate of the truncated least squares with control `mu`
+/// The weight of a residual in the surrogate of truncated least squares with the control `mu`
 /// (equation 14 of Yang et al. 2020).
 double surrogate_weight(double squared_residual, double squared_bound, double mu) {
   if (squared_residual >= (mu + 1.0) / mu * squared_bound) return 0.0;
@@ -42,15 +42,15 @@ double surrogate_weight(double squared_residual, double squared_bound, double mu
   return std::sqrt(squared_bound / squared_residual * mu * (mu + 1.0)) - mu;
 }
 
-/// The rotation R with the least truncated squares of `target[i] - R source[i]` (lengths in m; the
-/// square of a residual beyond `bound_m` counts as that of the bound), by graduated non-convexity
-/// (Yang, Antonante, Tzoumas and Carlone, RA-L 2020) around the closed form of Horn and Arun
-/// (weighted singular value decomposition).
+/// The rotation R that minimises the truncated squares of `target[i] - R source[i]` (lengths in m;
+/// residuals beyond `bound_m` count as `bound_m`), by graduated non-convexity (Yang, Antonante,
+/// Tzoumas and Carlone, RA-L 2020) around the closed form of Horn and Arun (weighted singular value
+/// decomposition).
 Eigen::Matrix3d robust_rotation(const Vectors& target, const Vectors& source, double bound_m) {
   constexpr double kGrowth = 1.4;  // Of the control, per round (Yang et al. 2020).
   constexpr int kMaxRounds = 100;
   std::vector<double> weights(target.size(), 1.0);
-  if (target.size() < 2) throw StageError("less than two vectors give no rotation");
+  if (target.size() < 2) throw StageError("fewer than two vectors do not determine a rotation");
   Eigen::Matrix3d R = weighted_rotation(target, source, weights);
   std::vector<double> residuals = squared_residuals(target, source, R);
   const double bound_m2 = bound_m * bound_m;
@@ -80,7 +80,7 @@ double most_voted(std::vector<double> values, double bound) {
   double sum = 0.0;
   for (std::size_t last = 0; last < values.size(); ++last) {
     sum += values[last];
-    // One number is within the bound of all of them if their range is at most twice the bound.
+    // A number is within the bound of all of them if their range is at most twice the bound.
     while (values[last] - values[first] > 2.0 * bound) sum -= values[first++];
     const std::size_t count = last - first + 1;
     if (count > most) {
@@ -107,7 +107,7 @@ RigidTransform robust_pose(const Points& target, const Points& source, double bo
     }
   }
   RigidTransform T;
-  // Both ends of a difference are off by the bound.
+  // Both ends of a difference may be off by the bound.
   T.rotation = robust_rotation(target_differences, source_differences, 2.0 * bound_m);
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> votes;

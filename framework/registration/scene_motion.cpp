@@ -15,28 +15,28 @@ namespace croon {
 const params::Table<MotionOptions>& motion_table() {
   static const params::Table<MotionOptions> table = {
       params::number("min_motion", &MotionOptions::min_motion, {0.0, 1e9},
-                     "A scene stands still if its velocity's squared distance from zero, in "
-                     "standard deviations, is below; that of standing cars was 6 to 67 on "
-                     "tuning scenes."),
-      params::number("certain_speed_std_mps", &MotionOptions::certain_speed_std_mps, {0.0, 1e6},
-                     "With a pose per scene, a scene whose speed along x and y of the reference is "
-                     "less certain than this is compared with what other speeds lead to: what "
-                     "moves by itself may be taken for what stands."),
-      params::numbers(
-          "other_speeds_mps", &MotionOptions::other_speeds_mps, {-1e3, 1e3},
-          "These speeds, along the axis along which the scene moves the most, forwards."),
+                     "Minimum squared Mahalanobis distance of a velocity from zero for a scene to "
+                     "count as moving; for stationary cars it was 6 to 67 on tuning scenes."),
+      params::number(
+          "certain_speed_std_mps", &MotionOptions::certain_speed_std_mps, {0.0, 1e6},
+          "Maximum standard deviation of a certain speed along x and y of the reference. "
+          "With one pose per scene, a scene with a less certain speed is compared with "
+          "other speeds, because independently moving objects may be mistaken for "
+          "static ones."),
+      params::numbers("other_speeds_mps", &MotionOptions::other_speeds_mps, {-1e3, 1e3},
+                      "Alternative forward speeds along the dominant axis of motion."),
       params::number(
           "min_speed_lead", &MotionOptions::min_speed_lead, {-1e3, 1e3},
-          "A sensor of such a scene is rejected unless more points agree than where any of them, "
-          "or the state in which no patch loses weight, leads with the sensor more "
-          "than " +
+          "Minimum lead of the agreement of points, in standard deviations, for a sensor of such a "
+          "scene to be accepted: over every rival in which the sensor is more than " +
               fixed_number(kRivalDistance_m, 2) +
-              " m away: by so many standard deviations, with cubes of " +
-              fixed_number(kJointCell_m, 0) + " m as independent."),
+              " m away, i.e. the results from these speeds and the state without the patch "
+              "kernel; cubes of " +
+              fixed_number(kJointCell_m, 0) + " m count as independent."),
       params::number("certain_shift_m", &MotionOptions::certain_shift_m, {0.0, 1e6},
-                     "A sensor that what is not known of the velocity moves by less, one that sees "
-                     "things when the reference sees them, needs no lead: it is rejected if "
-                     "more points agree elsewhere."),
+                     "If the uncertainty of the velocity shifts a sensor by at most this, e.g. "
+                     "because it sees objects at the same time as the reference, the minimum lead "
+                     "is 0, or min_speed_lead if that is below 0."),
   };
   return table;
 }
@@ -50,32 +50,33 @@ bool SceneMotion::is_in_doubt(const MotionOptions& options) const {
 }
 
 std::string SceneMotion::rejection(std::size_t source, const MotionOptions& options) const {
-  const bool is_held = shift_std_m.at(source) <= options.certain_shift_m;
-  const double least = is_held ? std::min(options.min_speed_lead, 0.0) : options.min_speed_lead;
+  const bool is_shift_certain = shift_std_m.at(source) <= options.certain_shift_m;
+  const double min_lead =
+      is_shift_certain ? std::min(options.min_speed_lead, 0.0) : options.min_speed_lead;
   const std::optional<double>& lead = leads.at(source);
-  if (!lead || *lead >= least) return "";
+  if (!lead || *lead >= min_lead) return "";
   return "the standard deviation of the speed, m/s, is " +
          fixed_number(speed_std_mps(covariance), 3) +
          ", and the lead over another speed, in standard deviations, is " + fixed_number(*lead, 2) +
-         ", below " + fixed_number(least, 2);
+         ", below " + fixed_number(min_lead, 2);
 }
 
 SceneMotion motion_of(const JointScene& scene, std::size_t s, const JointState& state,
-                      const std::optional<JointState>& every_patch, const JointOptions& options,
-                      const MotionOptions& motion_options) {
+                      const std::optional<JointState>& state_without_patch_kernel,
+                      const JointOptions& options, const MotionOptions& motion_options) {
   SceneMotion motion;
   motion.shift_std_m.assign(scene.sources.size(), 0.0);
   motion.leads.resize(scene.sources.size());
   if (!scene.is_moving) return motion;
   const Vector6d velocity = vector_of(state.velocities[s]);
-  const StillTarget target(scene, state.velocities[s], options);
+  const DeskewedTarget target(scene, state.velocities[s], options);
   motion.covariance = velocity_covariance(target, state, options);
-  if (every_patch) {
-    const Vector6d apart = velocity - vector_of(every_patch->velocities[s]);
+  if (state_without_patch_kernel) {
+    const Vector6d apart = velocity - vector_of(state_without_patch_kernel->velocities[s]);
     motion.covariance += apart * apart.transpose();
   }
   motion.shift_std_m = shift_std_m(target, motion.covariance, state, options);
-  // The error of a velocity that was given has no reason to be zero.
+  // The error of a prior velocity need not be zero.
   motion.is_moving =
       scene.velocity_covariance.has_value() ||
       velocity.dot(guarded_inverse<6>(motion.covariance) * velocity) >= motion_options.min_motion;

@@ -9,7 +9,7 @@
 
 namespace croon {
 
-/// When a scene stands still, and when its velocity is certain.
+/// When a scene is stationary, and when its velocity is certain.
 struct MotionOptions {
   double min_motion = 100.0;
   double certain_speed_std_mps = 0.05;
@@ -25,33 +25,32 @@ const params::Table<MotionOptions>& motion_table();
 /// covariance (about the axes in rad/s, along them in m/s).
 double speed_std_mps(const Matrix6d& covariance);
 
-/// What is known of the motion of a scene.
+/// The estimated motion of a scene.
 struct SceneMotion {
-  Twist velocity;  ///< Of the target, in its own frame; zero if the scene stands still.
+  Twist velocity;  ///< Of the target, in its own frame; zero if the scene is stationary.
   Matrix6d covariance = Matrix6d::Zero();  ///< About the axes in rad/s, along them in m/s.
   bool is_moving = false;
-  /// Where the speed is not certain, of each source: by how many standard deviations more points
-  /// agree than at another speed, see leads_over_rivals. Nothing if no other speed has it
-  /// elsewhere.
+  /// By source, if the speed is uncertain: the lead, in standard deviations, of the agreement over
+  /// other speeds, see leads_over_rivals. std::nullopt if no other speed moves the source.
   std::vector<std::optional<double>> leads;
-  std::vector<double> shift_std_m;  ///< What is not known of it moves each source by so much.
+  std::vector<double> shift_std_m;  ///< By source: standard deviation due to the velocity.
 
-  /// Whether the speed has to be compared with others.
+  /// Whether the speed must be compared with others.
   bool is_in_doubt(const MotionOptions& options) const;
-  /// Why the pose of a source cannot be relied on, in words and numbers; empty if it can.
+  /// Why the pose of a source is rejected, in words and numbers; empty if it is accepted.
   std::string rejection(std::size_t source, const MotionOptions& options) const;
 };
 
-/// The motion of scene `s` in `state`. What moves by itself may decide between two velocities: that
-/// in the state `every_patch`, in which no patch loses weight, is then another, and by so much the
-/// velocity is not known.
+/// The motion of scene `s` in `state`. Moving objects may decide between two velocities: then the
+/// velocity in `state_without_patch_kernel`, the state without the patch kernel, differs, and the
+/// difference adds to the uncertainty.
 SceneMotion motion_of(const JointScene& scene, std::size_t s, const JointState& state,
-                      const std::optional<JointState>& every_patch, const JointOptions& options,
-                      const MotionOptions& motion_options);
+                      const std::optional<JointState>& state_without_patch_kernel,
+                      const JointOptions& options, const MotionOptions& motion_options);
 
-/// The axis in the plane of x and y along which a scene moves the most, for all that is known: the
-/// first of the second moment of its velocity, which has the mean `velocity` and the covariance of
-/// `motion`. A unit vector that points where the velocity does, else where x does.
+/// The horizontal axis along which a scene most likely moves: the principal axis of the second
+/// moment of its velocity, which has the mean `velocity` and the covariance of `motion`. A unit
+/// vector in the direction of the velocity, or else of x.
 Eigen::Vector3d axis_of_motion(const SceneMotion& motion, const Twist& velocity);
 
 }  // namespace croon

@@ -21,7 +21,7 @@ std::vector<int> balanced_sample(const Cloud& cloud, int normal_neighbours, int 
   }
   double all = 0.0;
   for (const int n : counts) all += std::sqrt(static_cast<double>(n));
-  // Systematic sampling inside each bin: a point is taken each time the sum of the weights passes a
+  // Systematic sampling in each bin: a point is selected each time the sum of the weights passes a
   // multiple of the step.
   const double step = std::max(1e-9, all / count);
   std::array<double, kDirectionBins> sums{};

@@ -6,7 +6,8 @@
 namespace croon {
 namespace {
 
-constexpr int kCells = 5;  // Along an edge of the three faces that hold directions up to the sign.
+constexpr int kCells =
+    5;  // Along an edge of the three cube faces that cover all unsigned directions.
 static_assert(kDirectionBins == 3 * kCells * kCells);
 
 }  // namespace

@@ -12,7 +12,7 @@ double azimuth_rad(const Eigen::Vector3f& point) {
   return std::atan2(static_cast<double>(point.y()), static_cast<double>(point.x()));
 }
 
-/// The azimuth about which the first hundredth of the points lie.
+/// The mean azimuth of the first hundredth of the points.
 double first_azimuth_rad(const Points& points) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (std::size_t i = 0; i < std::max<std::size_t>(1, points.size() / 100); ++i) {
@@ -25,7 +25,7 @@ double first_azimuth_rad(const Points& points) {
 }  // namespace
 
 Sweep sweep_of(const Points& points) {
-  // Rings that fire at different azimuths and gaps between returns are smaller steps.
+  // Rings that fire at different azimuths and gaps between returns cause smaller steps.
   constexpr double kLargeStep_rad = kPi / 3.0;
   constexpr double kMaxLargeSteps = 0.1;
   constexpr double kMinTurn_rad = kPi / 4.0, kMaxTurn_rad = 2.5 * kPi;

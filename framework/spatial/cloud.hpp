@@ -13,12 +13,12 @@
 
 namespace croon {
 
-/// The immutable cloud of one sensor with a cache of everything that is computed from it alone:
-/// kd-tree, normals, ground, a bound scorer, cropped and filtered clouds. Each is computed on first
-/// use and shared by all starts, variants and sensors until the scene is done. Thread-safe.
+/// The immutable cloud of one sensor with a cache of everything that depends only on it: kd-tree,
+/// normals, ground, a bound scorer, cropped and filtered clouds. Each is computed on first use and
+/// shared by all starts, variants and sensors until the scene is done. Thread-safe.
 class Cloud {
  public:
-  /// `key` names the random streams of the computations on this cloud alone.
+  /// `key` names the random streams of computations that depend only on this cloud.
   Cloud(PointCloud cloud, const StreamKey& key)
       : Cloud(std::move(cloud), key, std::make_shared<OnceLog>(), "") {}
   Cloud(const Cloud&) = delete;
@@ -31,11 +31,11 @@ class Cloud {
 
   /// The kd-tree over points().
   const KdTree& kd_tree() const;
-  /// Normals from the `neighbours` nearest points, see Normals.
+  /// Normals estimated from the `neighbours` nearest points, see Normals.
   const Normals& normals(int neighbours) const;
 
-  /// Anything else that depends on this cloud and on `parameters` alone, made once. `what` is its
-  /// name in timings.csv.
+  /// Any other value that depends only on this cloud and on `parameters`, computed once. `what` is
+  /// its name in timings.csv.
   template <class T>
   std::shared_ptr<const T> once(const std::string& what, const std::string& parameters,
                                 const std::function<std::shared_ptr<const T>()>& make) const {
@@ -47,20 +47,20 @@ class Cloud {
     return once_.get<T>(what, "", make);
   }
 
-  /// A cloud that was derived from this one for `purpose`: cropped, thinned, without its ground.
-  /// Its timings go to the same log.
+  /// A cloud derived from this one for `purpose`: cropped, thinned, without its ground. Its timings
+  /// go to the same log.
   std::shared_ptr<const Cloud> derived(PointCloud cloud, const std::string& purpose) const;
 
-  /// The same, of one trial alone, as it depends on a pose or a velocity of the trial. What is
-  /// computed on it is in no log: it is work of the step that asks for it.
+  /// The same for a cloud of a single trial, which depends on a pose or a velocity of the trial.
+  /// Its computations are not logged: they are work of the step that requests them.
   std::shared_ptr<const Cloud> derived_in_trial(PointCloud cloud, const std::string& purpose) const;
 
-  /// The generator for a computation on this cloud alone; the same for every trial. `purpose` names
-  /// the stage and not its parameters, so that variants of a stage draw the same numbers and a new
-  /// parameter changes no draw.
+  /// The random generator for a computation that depends only on this cloud; the same for every
+  /// trial. `purpose` names the stage and not its parameters, so that variants of a stage draw the
+  /// same numbers and a new parameter changes no draw.
   Rng rng(const std::string& purpose) const { return Rng(key_.with(purpose)); }
 
-  /// What has been made once so far, for this cloud and those derived from it.
+  /// Everything computed once so far, for this cloud and those derived from it.
   std::vector<OnceTiming> timings() const {
     return log_ ? log_->timings() : std::vector<OnceTiming>();
   }

@@ -15,7 +15,7 @@ Points deskewed(const Points& points, const std::vector<double>& times_s, const 
   moved.reserve(points.size());
   RigidTransform T_reference_now;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    // All rings fire at one time, one after the other in most clouds.
+    // All rings fire simultaneously; in most clouds their points are consecutive.
     if (i == 0 || times_s[i] != times_s[i - 1]) {
       T_reference_now = motion_over(velocity, times_s[i] - reference_s);
     }
@@ -36,14 +36,14 @@ TimeSpan span_of(const std::vector<double>& times_s) {
 }
 
 void require_near(const std::vector<double>& times_s, double reference_s) {
-  constexpr double kLongest_s = 60.0;
+  constexpr double kMaxTimeOffset_s = 60.0;
   for (const double time_s : times_s) {
-    if (std::abs(time_s - reference_s) <= kLongest_s) continue;
+    if (std::abs(time_s - reference_s) <= kMaxTimeOffset_s) continue;
     if (!std::isfinite(time_s) || !std::isfinite(reference_s)) {
       throw StageError("a point's time is not a finite number");
     }
-    throw StageError("a point's time is more than " + fixed_number(kLongest_s, 0) +
-                     " s from the reference time: is its zero that of the scan (reference_time)?");
+    throw StageError("a point's time is more than " + fixed_number(kMaxTimeOffset_s, 0) +
+                     " s from the reference time: is it relative to the scan (reference_time)?");
   }
   if (times_s.empty()) return;
   const TimeSpan span = span_of(times_s);

@@ -8,13 +8,13 @@
 namespace croon {
 
 /// The points of one scan, measured at `times_s` by a sensor with the constant `velocity` (in the
-/// sensor's own frame), where the sensor would have measured them at the time `reference_s`:
-/// `p -> T(reference, t) p` (Zhang and Singh, LOAM, 2014, section V.B). One time per point,
-/// seconds.
+/// sensor's own frame), moved to where the sensor would have measured them at the time
+/// `reference_s`: `p -> T(reference, t) p` (Zhang and Singh, LOAM, 2014, section V.B). One time per
+/// point, seconds.
 Points deskewed(const Points& points, const std::vector<double>& times_s, const Twist& velocity,
                 double reference_s);
 
-/// `cloud` with these points; its channels stay.
+/// The same for a cloud; its channels stay.
 PointCloud deskewed(PointCloud cloud, const std::vector<double>& times_s, const Twist& velocity,
                     double reference_s);
 
@@ -26,8 +26,8 @@ struct TimeSpan {
 };
 TimeSpan span_of(const std::vector<double>& times_s);
 
-/// Throws StageError if `times_s` cannot be those of a scan: one is not finite or far from
-/// `reference_s`, or the first and the last are farther apart than a scan lasts.
+/// Throws StageError if `times_s` cannot belong to a scan: a time is not finite or far from
+/// `reference_s`, or they span more time than a scan can last, or less.
 void require_near(const std::vector<double>& times_s, double reference_s);
 
 }  // namespace croon

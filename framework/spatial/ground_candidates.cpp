@@ -15,20 +15,21 @@ Points within_range(const Points& cloud, double max_range_m) {
   return near;
 }
 
-/// The plane refitted to its points near the sensor, where a road is flattest; towards the sensor.
+/// The plane refitted to its inliers near the sensor, where a road is flattest; its normal points
+/// to the sensor.
 Plane refitted(const Points& points, const Plane& plane, double threshold_m) {
   constexpr double kNear_m = 12.0;
   std::vector<int> near;
   for (const int i : points_within(points, plane, threshold_m)) {
     if (points[i].cast<double>().norm() <= kNear_m) near.push_back(i);
   }
-  constexpr std::size_t kFewest = 50;
+  constexpr std::size_t kMinNearPoints = 50;
   Plane fitted = plane;
-  if (near.size() >= kFewest) {
+  if (near.size() >= kMinNearPoints) {
     try {
       fitted = fit_plane(points, near);
     } catch (const StageError&) {
-    }  // The points are on a line; the plane stays as it is.
+    }  // The points are collinear; keep the plane.
   }
   return fitted.offset_m < 0.0 ? fitted.flipped() : fitted;
 }
@@ -63,7 +64,7 @@ std::vector<GroundCandidate> ground_candidates(const Points& thinned,
     try {
       plane = plane_ransac(rest, ransac, rng);
     } catch (const StageError&) {
-      break;  // What is left lies on one line.
+      break;  // The remaining points are collinear.
     }
     plane = plane.offset_m < 0.0 ? plane.flipped() : plane;
     Points left;

@@ -14,23 +14,23 @@
 namespace croon {
 namespace {
 
-/// A zone of the concentric zone model: rings between two ranges, cut into sectors.
+/// A zone of the concentric zone model: rings between two ranges, divided into sectors.
 struct Zone {
-  double share = 1.0;  ///< Of the range between min_range_m and max_range_m, where it ends.
+  double share = 1.0;  ///< Outer radius, as a fraction of the way from min_range_m to max_range_m.
   int rings = 1;
   int sectors = 1;
 };
-/// The zones of the source: sectors are wide near the sensor, where a narrow one has few rays, and
-/// far from it, where points are few.
+/// The zones of Patchwork: sectors are wide near the sensor, where a narrow one has few rays, and
+/// far from it, where points are sparse.
 constexpr std::array<Zone, 4> kZones = {
     {{0.125, 2, 16}, {0.25, 4, 32}, {0.5, 4, 54}, {1.0, 4, 32}}};
 
-/// A region whose points, by index, lie on a plane.
+/// A region's points on its plane, by index, and the plane.
 struct Region {
   std::vector<int> on_plane;
   Plane plane;
-  double elevation_m = 0.0;  ///< The mean of its points.
-  double flatness_m = 0.0;   ///< Root mean square of their distances from the plane.
+  double elevation_m = 0.0;  ///< Mean elevation of its points.
+  double flatness_m = 0.0;   ///< Root mean square distance of the points from the plane.
   bool is_near = false;      ///< In one of the two inner zones.
 };
 
@@ -38,7 +38,7 @@ class GroundRegions {
  public:
   explicit GroundRegions(const GroundRegionOptions& options) : options_(options) {}
 
-  /// The points of the regions that are ground; z is up.
+  /// The points of the ground regions; z points up.
   std::vector<int> ground_points(const Points& level) const {
     std::vector<Region> upright;
     for (const auto& [points, is_near] : regions_of(level)) {
@@ -53,7 +53,7 @@ class GroundRegions {
     std::vector<int> ground;
     for (const Region& region : upright) {
       const bool is_level = std::abs(region.elevation_m - road_m) <= options_.max_elevation_m;
-      // In the inner zones a flat region that is high is a roof or a bonnet and no slope.
+      // In the inner zones, an elevated flat region is a roof or a bonnet, not a slope.
       const bool is_slope = !region.is_near && region.flatness_m <= options_.max_flatness_m;
       if (!is_level && !is_slope) continue;
       ground.insert(ground.end(), region.on_plane.begin(), region.on_plane.end());
@@ -64,7 +64,7 @@ class GroundRegions {
   }
 
  private:
-  /// The indices of the points of each region, and whether it is near.
+  /// The indices of the points in each region, and whether the region is near.
   std::vector<std::pair<std::vector<int>, bool>> regions_of(const Points& level) const {
     std::vector<std::pair<std::vector<int>, bool>> regions;
     std::array<std::size_t, kZones.size()> first{};
@@ -95,9 +95,9 @@ class GroundRegions {
     return regions;
   }
 
-  /// The upright plane at the bottom of a region; a plane that is not upright is a wall, and the
-  /// region is fitted again without its points (region-wise vertical plane fitting). No points if
-  /// there is none.
+  /// The upright plane at the bottom of a region. A plane that is not upright is a wall; the region
+  /// is then refitted without its points (region-wise vertical plane fitting). Empty if no upright
+  /// plane is found.
   Region fitted(const Points& level, std::vector<int> points) const {
     constexpr int kWalls = 3;
     const double min_cosine = std::cos(rad_from_deg(options_.max_tilt_deg));
@@ -107,7 +107,7 @@ class GroundRegions {
       try {
         region = lowest_plane(level, points);
       } catch (const StageError&) {
-        return {};  // The points are on one line: of one ring.
+        return {};  // The points are collinear, e.g. of one ring.
       }
       if (static_cast<int>(region.on_plane.size()) < options_.min_points) return {};
       if (region.plane.normal.z() >= min_cosine) return region;
@@ -119,8 +119,8 @@ class GroundRegions {
     return {};
   }
 
-  /// The plane of the lowest points of a region, then of those near it (region-wise plane fitting).
-  /// No points if fewer than three are near it.
+  /// The plane fitted to the lowest points of a region, then to the points near it (region-wise
+  /// plane fitting). Empty if fewer than three are near it.
   Region lowest_plane(const Points& level, const std::vector<int>& points) const {
     constexpr int kRounds = 3;
     Region region;
@@ -132,7 +132,7 @@ class GroundRegions {
     return region;
   }
 
-  /// The points that are not higher than the mean of the lowest few by more than `seed_height_m`.
+  /// The points at most `seed_height_m` above the mean height of the lowest few.
   std::vector<int> lowest_points(const Points& level, const std::vector<int>& points) const {
     constexpr std::size_t kLowest = 20;
     std::vector<float> heights_m;
@@ -150,7 +150,7 @@ class GroundRegions {
     return lowest;
   }
 
-  /// The plane through the points `on_plane`, with its normal up, and those of `points` near it.
+  /// The plane through the points `on_plane`, with its normal up, and the points near it.
   Region refitted(const Points& level, const std::vector<int>& points,
                   const std::vector<int>& on_plane) const {
     Region region;
@@ -172,8 +172,8 @@ class GroundRegions {
     return region;
   }
 
-  /// The median elevation of the regions near the sensor, or of all if none is near. The source
-  /// learns it from scan to scan; here there is one scan.
+  /// The median elevation of the regions near the sensor, or of all regions if none is near.
+  /// Patchwork learns it from scan to scan; here there is only one scan.
   static double road_elevation_m(const std::vector<Region>& regions) {
     std::vector<double> near_m;
     std::vector<double> all_m;

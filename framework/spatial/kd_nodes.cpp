@@ -8,7 +8,7 @@
 namespace croon {
 namespace {
 
-/// Divides the points until a leaf holds them.
+/// Divides the points recursively until they fit into leaves.
 class KdBuilder {
  public:
   KdBuilder(const Points& points, KdNodes& tree) : tree_(tree) {
@@ -45,7 +45,7 @@ class KdBuilder {
     return box;
   }
 
-  /// Near the median of the longest edge, so that all leaves of the first part are full.
+  /// Splits near the median of the longest edge, such that all leaves of the first part are full.
   int split(Range range) {
     Eigen::Index axis = 0;
     box_of(range).sizes().maxCoeff(&axis);
@@ -74,7 +74,7 @@ class KdBuilder {
     return ~static_cast<int>(tree_.leaves.size() - 1);
   }
 
-  /// The halves of each range that is no leaf.
+  /// The halves of each range that is not a leaf.
   std::vector<Range> halves(const std::vector<Range>& ranges) {
     std::vector<Range> parts;
     for (const Range range : ranges) {
@@ -89,7 +89,7 @@ class KdBuilder {
     return parts;
   }
 
-  /// The place of the subtree over a range, as in Node.
+  /// Adds the subtree over a range; returns its index, as in Node.
   int subtree(Range range) {
     if (range.is_leaf()) return leaf(range);
     std::vector<Range> parts = {range};

@@ -21,17 +21,17 @@ using Node = KdNodes::Node;
 constexpr int kChildren = KdNodes::kChildren;
 constexpr int kLeafSize = KdNodes::kLeafSize;
 
-/// Beyond every point, and nearer than a place of a leaf without a point.
+/// Beyond every point, and nearer than an unused entry of a leaf.
 constexpr float kUnbounded = std::numeric_limits<float>::max();
 
-/// Whether a point is nearer than the best one so far. If there is none, the best distance is the
-/// bound of the search, which is within.
+/// Whether a point is nearer than the best one so far. Initially, the best distance is the bound of
+/// the search, which is inclusive.
 bool is_nearer(float squared_distance, int index, float best_squared_distance, int best_index) {
   return squared_distance < best_squared_distance ||
          (squared_distance == best_squared_distance && (best_index < 0 || index < best_index));
 }
 
-/// The bits of floats that are not negative are in the order of the floats.
+/// The bits of non-negative floats have the same order as the floats.
 std::uint32_t bits_of(float value) {
   std::uint32_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);
@@ -54,9 +54,9 @@ class Waiting {
   bool empty() const { return count_ == 0; }
   Place pop() { return places_[--count_]; }
 
-  /// Adds the children of a node that are within the bound, the nearest last.
+  /// Adds the children of a node that are within the bound, nearest last.
   void push(const Node& node, const Node::PerChild& squared, float bound_m2) {
-    // Mostly it is one. What the processor cannot guess costs more than what it computes in vain.
+    // Usually there is one. A mispredicted branch costs more than the unnecessary computation.
     unsigned within = 0;
     for (int i = 0; i < kChildren; ++i) {
       within |= squared.data()[i] <= bound_m2 ? 1U << i : 0U;
@@ -74,12 +74,13 @@ class Waiting {
   void push(const Place& place) { places_[count_++] = place; }
 
  private:
-  // Each level leaves seven siblings at most, and 2^31 points have ten levels.
+  // Each level leaves at most seven siblings, and 2^31 points have ten levels.
   std::array<Place, 10 * kChildren> places_;
   int count_ = 0;
 };
 
-/// Shows `result` the leaves that have points within `result.bound_m2()`, nearest box first.
+/// Passes all leaves that may have points within `result.bound_m2()` to `result`, nearest box
+/// first.
 template <class Result>
 void search(const KdNodes& tree, const Eigen::Vector3f& query, Result& result) {
   Waiting waiting;
@@ -87,8 +88,8 @@ void search(const KdNodes& tree, const Eigen::Vector3f& query, Result& result) {
   while (!waiting.empty()) {
     const Waiting::Place next = waiting.pop();
     if (next.squared_distance > result.bound_m2()) continue;
-    // The same operations in the same order for a box as for a point: rounding never makes a box
-    // farther off than a point in it.
+    // The same operations in the same order for boxes and points, so that rounding never makes a
+    // box more distant than a point in it.
     if (next.place < 0) {
       const KdNodes::Leaf& leaf = tree.leaves[~next.place];
       Distances squared = (leaf.coordinates[0] - query.x()).square();
@@ -115,15 +116,16 @@ class NearestResult {
   const Neighbour& best() const { return best_; }
 
   void visit(const Distances& squared, const Indices& indices) {
-    const float least = squared.minCoeff();
-    if (least > best_.squared_distance_m2) return;
+    const float min_squared = squared.minCoeff();
+    if (min_squared > best_.squared_distance_m2) return;
     constexpr int kNone = std::numeric_limits<int>::max();
     int first = kNone;
     for (int i = 0; i < kLeafSize; ++i) {
-      const int index = squared.data()[i] == least ? indices.data()[i] : kNone;
+      const int index = squared.data()[i] == min_squared ? indices.data()[i] : kNone;
       first = index < first ? index : first;
     }
-    if (is_nearer(least, first, best_.squared_distance_m2, best_.index)) best_ = {first, least};
+    if (is_nearer(min_squared, first, best_.squared_distance_m2, best_.index))
+      best_ = {first, min_squared};
   }
 
  private:
@@ -159,11 +161,11 @@ class NearestTwoResult {
   NearestAndRest found_;
 };
 
-/// Candidates are collected unordered, and from time to time all but the nearest are dropped.
+/// Collects candidates unordered, and occasionally drops all but the nearest.
 class NearestManyResult {
  public:
   NearestManyResult(int wanted, float bound_m2) : wanted_(wanted), bound_m2_(bound_m2) {
-    const auto room = static_cast<std::size_t>(most()) + kLeafSize;
+    const auto room = static_cast<std::size_t>(max_candidates()) + kLeafSize;
     if (squared().size() < room) {
       squared().resize(room);
       indices().resize(room);
@@ -180,7 +182,7 @@ class NearestManyResult {
       indices[count_] = places[i];
       count_ += static_cast<int>(squared_distances[i] <= bound_m2_);
     }
-    if (count_ > most()) drop_farthest();
+    if (count_ > max_candidates()) drop_farthest();
   }
 
   void write(std::vector<Neighbour>& neighbours) {
@@ -192,7 +194,7 @@ class NearestManyResult {
   }
 
  private:
-  int most() const { return wanted_ + 2 * kLeafSize; }
+  int max_candidates() const { return wanted_ + 2 * kLeafSize; }
   static std::vector<float>& squared() {
     thread_local std::vector<float> memory;
     return memory;
@@ -202,7 +204,7 @@ class NearestManyResult {
     return memory;
   }
 
-  /// Leaves the wanted number of candidates, of more than these.
+  /// Reduces the candidates, of which there are more, to the wanted number.
   void drop_farthest() {
     float* const squared = this->squared().data();
     const auto within = [&](float bound_m2) {
@@ -210,9 +212,9 @@ class NearestManyResult {
       for (int i = 0; i < count_; ++i) count += static_cast<int>(squared[i] <= bound_m2);
       return count;
     };
-    // The least distance within which enough of them are, from `low` to `high`. On a surface their
-    // number grows with the squared distance, so every other step interpolates; the ones between
-    // halve the bits, which ends for any points.
+    // Finds the minimum distance that includes enough of them, between `low` and `high`. On a
+    // surface their number grows with the squared distance, so every other step interpolates; the
+    // others bisect the bits, which terminates for any points.
     std::uint32_t low = 0, high = bits_of(Eigen::Map<Eigen::ArrayXf>(squared, count_).maxCoeff());
     int below = 0, enough = count_;
     for (bool interpolates = true; low < high && enough != wanted_; interpolates = !interpolates) {
@@ -234,7 +236,7 @@ class NearestManyResult {
     }
     bound_m2_ = float_of(high);
     keep([&](int i) { return squared[i] <= bound_m2_; });
-    // Of those at the same distance the ones with the greatest indices go.
+    // Of those at the same distance, the ones with the largest indices are dropped.
     while (count_ > wanted_) {
       const int* const indices = this->indices().data();
       int last = -1;

@@ -29,7 +29,7 @@ std::int64_t count_new(const FarLeaves& leaves, const FarLeaves& others) {
 
 namespace {
 
-/// What a key needs of the pose and of the window.
+/// The inputs of a key that depend on the pose and the window.
 struct Pose {
   Eigen::Matrix3d rotation;
   Eigen::Vector3d translation;
@@ -37,15 +37,15 @@ struct Pose {
   Eigen::Vector3d shift;  ///< kToBits minus the window's corner.
 };
 
-/// 1.5 * 2^52: a sum with a smaller number is rounded to an integer.
+/// 1.5 * 2^52: adding a smaller number rounds it to an integer.
 constexpr double kToInteger = 6755399441055744.0;
-/// 2^52: a sum with a natural number below it has this number in its low bits.
+/// 2^52: the low bits of the sum with a smaller natural number contain that number.
 constexpr double kToBits = 4503599627370496.0;
 
 #define CROON_INLINE inline __attribute__((always_inline))
 
-/// floor(scaled) minus the window's corner, in [0, 2^21). Without conversions to int, which are
-/// half as wide as doubles, and without a floor, which SSE2 does not have.
+/// floor(scaled) minus the window's corner, in [0, 2^21). Avoids conversions to int, which have
+/// half the vector width of doubles, and floor, which SSE2 lacks.
 CROON_INLINE std::uint64_t offset_of(double scaled, double shift) {
   const double nearest = (scaled + kToInteger) - kToInteger;
   const double shifted = nearest + shift;
@@ -54,8 +54,8 @@ CROON_INLINE std::uint64_t offset_of(double scaled, double shift) {
   return (bits - static_cast<std::uint64_t>(nearest > scaled)) & 0x1fffff;
 }
 
-/// The compiler makes vector instructions of this loop. The sums have the order in which Eigen
-/// computes `rotation * point + translation`, so the bits are those of `RigidTransform`.
+/// The compiler vectorises this loop. The order of the sums is that in which Eigen computes
+/// `rotation * point + translation`, so the result is bitwise that of `RigidTransform`.
 CROON_INLINE void transform_and_key(const float* xs, const float* ys, const float* zs,
                                     std::size_t count, const Pose& pose, std::uint64_t* keys) {
   const Eigen::Matrix3d R = pose.rotation;
@@ -88,7 +88,7 @@ void transform_and_key_sse2(const float* xs, const float* ys, const float* zs, s
 #define CROON_AVX2
 #endif
 
-/// The same code with instructions that are twice as wide.
+/// The same code with instructions of twice the width.
 CROON_AVX2 void transform_and_key_avx2(const float* xs, const float* ys, const float* zs,
                                        std::size_t count, const Pose& pose, std::uint64_t* keys) {
   transform_and_key(xs, ys, zs, count, pose, keys);
@@ -112,20 +112,20 @@ LeafWindow::LeafWindow(const LeafGrid& grid, const PointColumns& points,
                            ? Eigen::Vector3d::Zero().eval()
                            : (T_grid_points * points.point(points.size() / 2)).eval()) {}
 
-bool LeafWindow::holds(const PointColumns& points, const RigidTransform& T_target_source) const {
+bool LeafWindow::contains(const PointColumns& points, const RigidTransform& T_target_source) const {
   if (!points.finite) return false;
   const Eigen::Matrix3d spread = T_target_source.rotation.cwiseAbs();
   const Eigen::Vector3d reach = spread * points.reach;
-  // Rounding may move a point by less than a part in 10^12 of the summands, and a leaf.
+  // Rounding moves a point by less than a part in 10^12 of the summands, plus a leaf.
   const Eigen::Vector3d rounding =
       1e-12 * (spread * points.centre.cwiseAbs() + reach + T_target_source.translation.cwiseAbs());
   const Eigen::Array3d from_centre =
       (T_target_source * points.centre).array() * grid_.leaves_per_m() -
       corner_.array().cast<double>() - 0.5 * kWidth;
   const Eigen::Array3d extent = (reach + rounding).array() * grid_.leaves_per_m() + 2.0;
-  // The window of a cloud at the end of the grid reaches beyond it.
+  // The window of a cloud at the border of the grid extends beyond it.
   const Eigen::Array3d from_zero = (T_target_source * points.centre).array() * grid_.leaves_per_m();
-  // NaN is not less.
+  // Comparisons with NaN are false.
   return (from_centre.abs() + extent < 0.5 * kWidth).all() &&
          (from_zero.abs() + extent < LeafGrid::kMaxIndex).all();
 }

@@ -11,7 +11,7 @@
 
 namespace croon {
 
-/// The points of a cloud, one array per coordinate, for code that computes several points at once.
+/// The points of a cloud with one array per coordinate, for vectorised code.
 struct PointColumns {
   explicit PointColumns(const Points& points);
   std::size_t size() const { return x.size(); }
@@ -20,38 +20,38 @@ struct PointColumns {
   std::vector<float> x, y, z;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< Of the bounding box.
   Eigen::Vector3d reach = Eigen::Vector3d::Zero();   ///< From the centre to a face of the box.
-  bool finite = true;                                ///< Whether all coordinates are.
+  bool finite = true;                                ///< Whether all coordinates are finite.
 };
 
-/// Leaves outside of a window, in order, each once.
+/// Leaves outside a window, sorted, without duplicates.
 using FarLeaves = std::vector<LeafKey>;
 
-/// How many of `leaves` are not among `others`.
+/// The number of `leaves` that are not among `others`.
 std::int64_t count_new(const FarLeaves& leaves, const FarLeaves& others);
 
-/// 2^21 leaves per axis of a LeafGrid (with leaves of 5 cm, 52 km to each side of the centre),
-/// whose leaves have keys of 63 bits. A brick is a cube of 4 x 4 x 4 leaves; a key is that of the
-/// brick, shifted by kLeafBits, and the leaf's number in the brick. The leaves are exactly those
-/// that LeafGrid::leaf_of finds.
+/// A window of 2^21 leaves per axis of a LeafGrid (with leaves of 5 cm, 52 km to each side of the
+/// centre), whose leaves have keys of 63 bits. A brick is a cube of 4 x 4 x 4 leaves; a key is the
+/// brick's key, shifted by kLeafBits, and the leaf's number in the brick. The leaves are exactly
+/// those of LeafGrid::leaf_of.
 class LeafWindow {
  public:
   static constexpr int kLeafBits = 6;
-  /// Keys are computed in blocks of this size, which stay in the nearest cache.
+  /// Keys are computed in blocks of this size, which fit into the L1 cache.
   static constexpr std::size_t kBlock = 256;
 
-  /// Which code computes the keys. The bits are the same.
+  /// The implementation that computes the keys; all compute the same bits.
   enum class Instructions { any_processor, avx2 };
-  /// The widest that this processor has.
+  /// The widest instructions of this processor.
   static Instructions best_instructions();
 
-  /// The window around the leaf of `centre` (metres). Throws StageError outside of the grid.
+  /// The window around the leaf of `centre` (metres). Throws StageError outside the grid.
   LeafWindow(const LeafGrid& grid, const Eigen::Vector3d& centre);
-  /// The window around the leaf of the point in the middle of the list, at `T_grid_points`.
+  /// The window around the leaf of the middle element of the list, at `T_grid_points`.
   LeafWindow(const LeafGrid& grid, const PointColumns& points, const RigidTransform& T_grid_points);
 
   const LeafGrid& grid() const { return grid_; }
 
-  /// The key of a leaf; nothing outside of the window.
+  /// The key of a leaf; std::nullopt outside the window.
   std::optional<std::uint64_t> key_of(const Eigen::Vector3i& leaf) const {
     const Eigen::Vector3i offset = leaf - corner_;
     if ((offset.array() < 0).any() || (offset.array() >= kWidth).any()) return std::nullopt;
@@ -59,12 +59,12 @@ class LeafWindow {
                static_cast<std::uint64_t>(offset.z()));
   }
 
-  /// The key of the leaf with these numbers (0 .. 2^21 - 1) from the window's corner.
+  /// The key of the leaf with these offsets (0 .. 2^21 - 1) from the window's corner.
   static constexpr std::uint64_t key(std::uint64_t i, std::uint64_t j, std::uint64_t k) {
     return (i & 3) | (j & 3) << 2 | (k & 3) << 4 | i >> 2 << 6 | j >> 2 << 25 | k >> 2 << 44;
   }
 
-  /// The numbers of the leaf from the window's corner, of a key.
+  /// The inverse of `key`: the leaf's offsets from the window's corner.
   static std::array<std::uint64_t, 3> offsets(std::uint64_t key) {
     return {(key >> 6 & kBrickMask) << 2 | (key & 3),
             (key >> 25 & kBrickMask) << 2 | (key >> 2 & 3),
@@ -72,13 +72,13 @@ class LeafWindow {
   }
 
   /// Calls `use(keys, count)` for blocks of the keys of all points at `T_target_source`, one key
-  /// per point, and returns the leaves outside of the window. Throws StageError for a point outside
-  /// of the grid, after any number of calls.
+  /// per point, and returns the leaves outside the window. Throws StageError for a point outside
+  /// the grid, possibly after some of the calls.
   template <class Use>
   FarLeaves for_each_block(const PointColumns& points, const RigidTransform& T_target_source,
                            const Use& use) const {
     std::array<std::uint64_t, kBlock> keys{};
-    if (!holds(points, T_target_source)) return one_by_one(points, T_target_source, use);
+    if (!contains(points, T_target_source)) return one_by_one(points, T_target_source, use);
     const Instructions instructions = best_instructions();
     for (std::size_t first = 0; first < points.size(); first += kBlock) {
       const std::size_t count = std::min(kBlock, points.size() - first);
@@ -88,11 +88,11 @@ class LeafWindow {
     return {};
   }
 
-  /// Whether all points at `T_target_source` are surely inside of the window. May be false if they
+  /// Whether all points at `T_target_source` are certainly inside the window. May be false if they
   /// are near its border.
-  bool holds(const PointColumns& points, const RigidTransform& T_target_source) const;
+  bool contains(const PointColumns& points, const RigidTransform& T_target_source) const;
 
-  /// The keys of `count` points from the index `first`; the window holds them.
+  /// Computes the keys of `count` points from the index `first`, all of which are in the window.
   void compute_keys(const PointColumns& points, const RigidTransform& T_target_source,
                     std::size_t first, std::size_t count, Instructions instructions,
                     std::uint64_t* keys) const;

@@ -45,7 +45,7 @@ double NearestDistanceCost::operator()(const RigidTransform& T_target_source) co
   return mean_of(points_.size(), T_target_source);
 }
 
-double NearestDistanceCost::glance(const RigidTransform& T_target_source) const {
+double NearestDistanceCost::cheap_estimate(const RigidTransform& T_target_source) const {
   constexpr std::size_t kFew = 48;
   return mean_of(std::min(points_.size(), kFew), T_target_source);
 }

@@ -14,30 +14,28 @@ namespace croon {
 /// because a point that the target does not see carries no information about the pose.
 class NearestDistanceCost {
  public:
-  /// Uses at most `max_points` of the source, evenly spaced through the cloud.
+  /// Uses at most `max_points` of the source, evenly spaced.
   NearestDistanceCost(std::shared_ptr<const Cloud> target, const Cloud& source, int max_points,
                       double max_distance_m);
 
-  /// The mean over the points, m^2. It is the sum divided by a constant, so costs of different
-  /// clouds can be compared.
+  /// The mean over the points, m^2, so that costs of different clouds are comparable.
   double operator()(const RigidTransform& T_target_source) const;
 
-  /// The points of the source that are used, in its frame, m.
+  /// The source's points that are used, in its frame, m.
   const Points& points() const { return points_; }
-  /// An estimate of the cost from a few of the points, evenly spaced.
-  double glance(const RigidTransform& T_target_source) const;
+  /// An estimate of the cost from a few evenly spaced points.
+  double cheap_estimate(const RigidTransform& T_target_source) const;
 
-  /// The point of the target that is nearest to `point_in_target`, within `reach_m`. `near` is the
-  /// index of a point of the target that is known to be near, or -1: it bounds the search and
-  /// changes nothing else.
+  /// The point of the target nearest to `point_in_target`, within `reach_m`. `near` is the index of
+  /// a target point that is known to be near, or -1; it bounds the search and does not change the
+  /// result.
   Neighbour nearest(const Eigen::Vector3f& point_in_target, float reach_m, int near = -1) const;
-  /// What a point adds to the sum whose nearest neighbour is this: its squared truncated distance,
-  /// m^2.
+  /// The summand of a point with this nearest neighbour: its squared truncated distance, m^2.
   double addend_m2(const Neighbour& nearest) const;
   float max_distance_m() const { return max_distance_m_; }
 
  private:
-  /// The mean over `count` of the points, evenly spaced.
+  /// The mean over `count` evenly spaced points.
   double mean_of(std::size_t count, const RigidTransform& T_target_source) const;
 
   std::shared_ptr<const Cloud> target_;

@@ -11,15 +11,15 @@
 namespace croon {
 namespace {
 
-/// Rounds the offsets within a radius so that sums of the products of two are exact: 21 bits each,
-/// and double precision has 53, so up to 2^11 products are.
+/// Rounds offsets within a radius to 21 bits, so that sums of their products are exact: double
+/// precision has 53 bits, which leaves room for 2^11 products.
 class OffsetRounding {
  public:
   explicit OffsetRounding(float radius) {
     constexpr int kBits = 21, kSinglePrecision = 24;
     int exponent = 0;
     std::frexp(radius, &exponent);
-    // A float of this size has no room for what is less than the radius over 2^21.
+    // A float of this size cannot represent anything below the radius over 2^21.
     shift_ = std::ldexp(1.5F, exponent - kBits + kSinglePrecision - 1);
   }
   double operator()(float offset) const { return (offset + shift_) - shift_; }
@@ -37,8 +37,8 @@ float radius_m(const std::vector<Neighbour>& neighbours) {
   return std::sqrt(farthest_m2);
 }
 
-/// The covariance of the neighbours, summed from `centre` on so that no digits are lost far from
-/// the sensor. The sums are exact, so the order of the neighbours does not matter.
+/// The covariance of the neighbours, summed relative to `centre` so that no digits are lost far
+/// from the sensor. The sums are exact, so the order of the neighbours does not matter.
 Eigen::Matrix3d covariance(const Points& points, const Eigen::Vector3f& centre,
                            const std::vector<Neighbour>& neighbours, float radius_m) {
   const OffsetRounding rounded(radius_m);
@@ -63,12 +63,12 @@ Eigen::Matrix3d covariance(const Points& points, const Eigen::Vector3f& centre,
   return products / count - mean * mean.transpose();
 }
 
-/// How far the neighbours of a point are expected, from those of the point before it: points are
-/// mostly asked for one near the other, and as many neighbours are within the radius of the last
-/// point and the way from it. Another cloud's radius costs time and changes nothing.
+/// Predicts the radius of a point's neighbourhood from that of the previous point: consecutive
+/// queries are mostly near each other, and the old radius plus the distance between the points
+/// contains as many neighbours. A radius from another cloud costs time but changes no result.
 class ExpectedRadius {
  public:
-  /// In metres, 0 if nothing is known.
+  /// In metres; 0 if unknown.
   float at(const Eigen::Vector3f& point) const {
     return radius_m_ > 0.0F ? radius_m_ + (point - last_).norm() : 0.0F;
   }
@@ -129,8 +129,8 @@ LocalShape Normals::computed(int index) const {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(covariance(points_, point, neighbours, radius));
   const Eigen::Vector3d variances = solver.eigenvalues().cwiseMax(0.0);
-  // Neighbours on one line have no normal; the closed form knows small eigenvalues to about 1e-8 of
-  // the greatest.
+  // Collinear neighbours have no normal; the closed form is accurate to about 1e-8 of the maximum
+  // eigenvalue.
   if (!(variances(1) > 1e-6 * variances(2))) return shape;
   const Eigen::Vector3f normal = solver.eigenvectors().col(0).normalized().cast<float>();
   shape.normal = normal.dot(point) > 0.0F ? Eigen::Vector3f(-normal) : normal;

@@ -40,7 +40,7 @@ std::any OnceTable::get_any(const std::string& what, const std::string& paramete
   const double start = now_s();
   std::call_once(entry->once, [&] {
     try {
-      // Isolated: a thread that waits inside `make` must not pick up a task that asks for this
+      // Isolated: a thread that waits inside `make` must not pick up a task that requests this
       // entry.
       tbb::this_task_arena::isolate([&] { entry->value = make(); });
     } catch (...) {
@@ -48,7 +48,7 @@ std::any OnceTable::get_any(const std::string& what, const std::string& paramete
     }
     if (log_) log_->add({prefix_ + what, now_s() - start - (shared_work_s - spent_before)});
   });
-  // All of the wall time was shared work, that inside nested calls too.
+  // All of the wall time was shared work, including nested calls.
   if (log_) shared_work_s = spent_before + (now_s() - start);
   if (entry->error) std::rethrow_exception(entry->error);
   return entry->value;

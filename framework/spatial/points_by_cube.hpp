@@ -8,11 +8,11 @@
 
 namespace croon {
 
-/// Points sorted by cubes of space, for sums over all within a distance of a place, in an order
-/// that depends on the points alone.
+/// Points sorted by cubes of space, for sums over all points within a distance, in an order that
+/// depends only on the points.
 class PointsByCube {
  public:
-  /// Throws StageError for a point beyond the cubes (see LeafGrid).
+  /// Throws StageError for a point outside the grid (see LeafGrid).
   PointsByCube(const Points& points, double reach_m) : cubes_(reach_m) {
     for (const Eigen::Vector3f& point : points) {
       points_.push_back({cube_of(point.cast<double>()), point.cast<double>()});
@@ -31,7 +31,7 @@ class PointsByCube {
     const LeafKey middle = cube_of(place);
     for (int i = middle[0] - 1; i <= middle[0] + 1; ++i) {
       for (int j = middle[1] - 1; j <= middle[1] + 1; ++j) {
-        // The cubes of a column follow each other.
+        // The cubes of a column are consecutive.
         const LeafKey last = {i, j, middle[2] + 1};
         auto entry =
             std::lower_bound(points_.begin(), points_.end(), LeafKey{i, j, middle[2] - 1},

@@ -7,9 +7,9 @@
 
 namespace croon {
 
-/// What a sensor sees in each direction: the nearest and the farthest return of each cell of the
-/// six faces of a cube around the sensor. A point in front of the nearest return contradicts the
-/// sensor, whose ray passed through the point.
+/// The returns of a sensor by direction: the nearest and the farthest of each cell of the six faces
+/// of a cube around the sensor. A point in front of the nearest return contradicts the
+/// measurement, because the sensor's ray passed through it.
 class RangeImage {
  public:
   /// Ranges of returns in and around one cell, m.
@@ -18,12 +18,12 @@ class RangeImage {
     float farthest_m = 0.0F;
   };
 
-  /// `cells` along each edge of a face: 90 are about one degree each. `points` in the sensor's
-  /// frame.
+  /// `cells` is the number along each edge of a face: 90 are about one degree each. `points` in the
+  /// sensor's frame.
   RangeImage(const Points& points, int cells);
 
-  /// What is seen in the direction of `point` (the sensor's frame): the cell's returns and those of
-  /// its neighbours on the same face. std::nullopt if the cell itself has no return.
+  /// The returns in the direction of `point` (in the sensor's frame): those of the cell and of its
+  /// neighbours on the same face. std::nullopt if the cell itself has no return.
   std::optional<Seen> at(const Eigen::Vector3d& point) const;
 
  private:
@@ -36,7 +36,7 @@ class RangeImage {
   std::size_t index_of(const Cell& cell) const;
 
   int cells_;
-  std::vector<Seen> returns_;  ///< Of the cells by index; farthest 0: no return.
+  std::vector<Seen> returns_;  ///< By cell index; farthest_m is 0 without a return.
 };
 
 }  // namespace croon

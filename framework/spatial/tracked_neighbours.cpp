@@ -7,10 +7,10 @@
 namespace croon {
 namespace {
 
-/// More than the rounding of a distance in single precision, so that a margin is never too wide.
+/// More than the rounding of a distance in single precision, so that margins are conservative.
 constexpr float kRounding = 1e-5F;
 
-/// A search looks farther than it is asked to, so that a point without a neighbour has a margin
+/// Searches extend beyond the requested distance, so that a point without a neighbour has a margin
 /// too.
 constexpr float kReach = 1.1F;
 

@@ -14,11 +14,11 @@ namespace {
 /// More than the relative error of a few operations in single precision.
 constexpr float kSingleRounding = 1e-6F;
 
-/// A search looks this many times as far as the cost's largest distance.
+/// The search radius over the cost's maximum distance.
 constexpr float kLooksFarther = 1.5F;
 
-/// Of the most points at all angles together it is kept what is known: 64 MB, 12 bytes of each.
-constexpr std::size_t kMostKnown = 5'300'000;
+/// Bounds are kept for at most this many points, summed over all angles: 64 MB, 12 bytes each.
+constexpr std::size_t kMaxKnownPoints = 5'300'000;
 
 }  // namespace
 
@@ -76,7 +76,7 @@ TurningCost::Known TurningCost::known_at(double angle_rad) const {
 }
 
 void TurningCost::keep(double angle_rad, Known known) {
-  if (known_.size() * points_.size() < kMostKnown) known_[angle_rad] = std::move(known);
+  if (known_.size() * points_.size() < kMaxKnownPoints) known_[angle_rad] = std::move(known);
 }
 
 double TurningCost::addend_at_least_m2(const Known& known, std::size_t i) const {
@@ -85,8 +85,8 @@ double TurningCost::addend_at_least_m2(const Known& known, std::size_t i) const 
 }
 
 std::vector<std::size_t> TurningCost::promising_first(const Known& known) const {
-  // A few classes do: the order within a class decides little, and a full sort costs as much as a
-  // hundred searches.
+  // A few classes suffice: the order within a class matters little, and a full sort costs as much
+  // as a hundred searches.
   constexpr std::size_t kClasses = 16;
   const float most_m2 = cost_.max_distance_m() * cost_.max_distance_m();
   std::vector<std::uint8_t> classes(points_.size());
@@ -104,7 +104,7 @@ std::vector<std::size_t> TurningCost::promising_first(const Known& known) const 
   return places;
 }
 
-double TurningCost::below(double angle_rad, double enough_m2) {
+double TurningCost::below(double angle_rad, double upper_bound_m2) {
   if (points_.empty()) return 0.0;
   const RigidTransform T = turned(angle_rad);
   const Eigen::Matrix3f R = T.rotation.cast<float>();
@@ -112,15 +112,15 @@ double TurningCost::below(double angle_rad, double enough_m2) {
   const double count = static_cast<double>(points_.size());
   Known here = known_at(angle_rad);
 
-  // The sum is at least this much: what has been searched, and the bounds of all other points. It
-  // is compared with a little more than enough, because it is summed in another order than a mean.
+  // A lower bound of the sum: the searched points, and the bounds of all others. It is compared
+  // with slightly more than the limit, because the order of summation differs from that of a mean.
   double at_least_m2 = 0.0;
   for (std::size_t i = 0; i < points_.size(); ++i) at_least_m2 += addend_at_least_m2(here, i);
-  const double enough = enough_m2 * count * (1.0 + 1e-9);
+  const double upper_bound = upper_bound_m2 * count * (1.0 + 1e-9);
   const float reach_m = kLooksFarther * cost_.max_distance_m();
   std::vector<double> addends_m2(points_.size());
   for (const std::size_t i : promising_first(here)) {
-    if (at_least_m2 >= enough) {
+    if (at_least_m2 >= upper_bound) {
       keep(angle_rad, std::move(here));
       return at_least_m2 / count;
     }
@@ -140,6 +140,8 @@ double TurningCost::below(double angle_rad, double enough_m2) {
   return std::accumulate(addends_m2.begin(), addends_m2.end(), 0.0) / count;
 }
 
-double TurningCost::glance(double angle_rad) const { return cost_.glance(turned(angle_rad)); }
+double TurningCost::cheap_estimate(double angle_rad) const {
+  return cost_.cheap_estimate(turned(angle_rad));
+}
 
 }  // namespace croon

@@ -11,7 +11,7 @@ namespace {
 
 using GroundCell = std::array<int, 2>;
 
-/// What is in a cell of the ground plane.
+/// The points in a cell of the ground plane.
 struct GroundColumn {
   std::vector<int> points;
   double height_m = 0.0;  ///< Of its highest point.
@@ -19,22 +19,22 @@ struct GroundColumn {
 };
 
 /// The points of neighbouring columns, and the height of the highest.
-struct Thing {
+struct GroundObject {
   std::vector<int> points;
   double height_m = 0.0;
 };
 
-/// The thing that reaches from column `first` over all its neighbours.
-Thing thing_from(std::map<GroundCell, GroundColumn>& columns, const GroundCell& first) {
-  Thing thing;
+/// The object that extends from column `first` over all its neighbours.
+GroundObject object_from(std::map<GroundCell, GroundColumn>& columns, const GroundCell& first) {
+  GroundObject object;
   std::vector<GroundCell> open = {first};
   columns.at(first).is_seen = true;
   while (!open.empty()) {
     const GroundCell cell = open.back();
     open.pop_back();
     const GroundColumn& column = columns.at(cell);
-    thing.points.insert(thing.points.end(), column.points.begin(), column.points.end());
-    thing.height_m = std::max(thing.height_m, column.height_m);
+    object.points.insert(object.points.end(), column.points.begin(), column.points.end());
+    object.height_m = std::max(object.height_m, column.height_m);
     for (int du = -1; du <= 1; ++du) {
       for (int dv = -1; dv <= 1; ++dv) {
         const auto next = columns.find({cell[0] + du, cell[1] + dv});
@@ -44,10 +44,10 @@ Thing thing_from(std::map<GroundCell, GroundColumn>& columns, const GroundCell& 
       }
     }
   }
-  return thing;
+  return object;
 }
 
-/// How long and how wide the points are, along the axes of their spread.
+/// The length and width of the points, along their principal axes.
 Eigen::Vector2d extent_m(const std::vector<int>& points, const std::vector<Eigen::Vector2d>& plan) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const int i : points) mean += plan[i] / static_cast<double>(points.size());
@@ -86,14 +86,14 @@ std::vector<bool> is_vehicle_sized(const Points& points, const Plane& ground,
   std::vector<bool> result(points.size(), false);
   for (const auto& [cell, column] : columns) {
     if (column.is_seen) continue;
-    const Thing thing = thing_from(columns, cell);
-    if (thing.height_m > options.max_height_m) continue;
-    const Eigen::Vector2d size_m = extent_m(thing.points, plan);
+    const GroundObject object = object_from(columns, cell);
+    if (object.height_m > options.max_height_m) continue;
+    const Eigen::Vector2d size_m = extent_m(object.points, plan);
     if (size_m(0) < options.min_length_m || size_m(0) > options.max_length_m ||
         size_m(1) > options.max_width_m) {
       continue;
     }
-    for (const int i : thing.points) result[i] = true;
+    for (const int i : object.points) result[i] = true;
   }
   return result;
 }

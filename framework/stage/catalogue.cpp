@@ -9,13 +9,13 @@
 namespace croon {
 namespace {
 
-/// "a step", "an icp".
+/// The kind with its indefinite article: "a step", "an icp".
 std::string with_article(const std::string& kind) {
   const bool has_vowel = std::string("aeiou").find(kind.front()) != std::string::npos;
   return (has_vowel ? "an " : "a ") + kind;
 }
 
-/// Builds the stages in the slots of a stage and notes their versions and their flows.
+/// Builds the stages in the slots of a stage and collects their versions and data flows.
 class SlotBuilder final : public params::StageBuilder {
  public:
   explicit SlotBuilder(const Catalogue& catalogue) : catalogue_(catalogue) {}

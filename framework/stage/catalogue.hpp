@@ -7,15 +7,15 @@
 
 namespace croon {
 
-/// The stages that exist, and how to build them from JSON. Plain data, filled once; a test may fill
-/// its own.
+/// All known stages, and how to build them from JSON. Plain data, filled once; a test may fill its
+/// own.
 class Catalogue final : public params::StageBuilder {
  public:
-  /// Adds a stage. A second stage of the same kind and name is a std::logic_error, and so is a
-  /// second description of a kind.
+  /// Adds a stage. Throws std::logic_error for a duplicate kind and name, and for a second
+  /// description of a kind.
   void add(StageEntry entry);
 
-  /// The kinds that have a stage, in their order, kinds of equal order by name.
+  /// The kinds that have a stage, by their order number, then by name.
   std::vector<StageKind> kinds() const;
   /// All entries, in the order of kinds() and then by name.
   const std::vector<StageEntry>& entries() const { return entries_; }
@@ -24,8 +24,8 @@ class Catalogue final : public params::StageBuilder {
   /// The names of a kind's stages.
   std::vector<std::string> names(const std::string& kind) const;
 
-  /// The stage that `node` describes. Faults (not an object, no such stage, wrong parameters) are
-  /// noted in the node.
+  /// Builds the stage that `node` describes. Notes faults (not an object, unknown stage, invalid
+  /// parameters) in the node.
   params::BuiltStage build(const std::string& kind, const params::Node& node) const override;
 
   /// The same, as a slot of the kind `Kind`.

@@ -16,20 +16,19 @@ namespace croon {
 /// One sensor's cloud in one scene, read on demand, with the known poses `T_reference_sensor`.
 struct SensorScan {
   std::string sensor;  ///< The sensor's name, "front".
-  std::string file;    ///< For messages and digests; empty if there is no file.
-  /// Throws InputError if the file is damaged, UnavailableFile if it cannot be read now.
+  std::string file;    ///< For messages and digests; empty without a file.
+  /// Throws InputError if the file is damaged, UnavailableFile if it cannot be read at the moment.
   std::function<LoadedCloud()> load;
   std::optional<RigidTransform> truth;    ///< Ground truth.
-  std::optional<RigidTransform> nominal;  ///< The pose of the rig's design.
+  std::optional<RigidTransform> nominal;  ///< The pose according to the rig's design.
   std::optional<RigidTransform> initial;  ///< The initial pose in the recording.
-  /// The channels of the cloud; std::nullopt if they are not known before it is read.
+  /// The channels of the cloud; std::nullopt if they are unknown before it is read.
   std::optional<std::vector<std::string>> channels = {};
-  /// The sensor's true velocity during the scan, constant and in its own frame; empty if it is not
-  /// known.
+  /// The sensor's true velocity during the scan, constant and in its own frame; empty if unknown.
   std::function<Twist()> velocity = {};
 };
 
-/// A pose in a file of poses whose sensor the scene does not have: not recorded, or misspelt.
+/// A pose in a file for a sensor that the scene lacks: not recorded, or misspelt.
 struct UnusedPose {
   std::string file;
   std::string sensor;
@@ -38,10 +37,10 @@ struct UnusedPose {
 /// One recording of the rig: the reference LiDAR and the sensors to be calibrated to it.
 struct Scene {
   std::string name;
-  std::string kind;  ///< The kind of scene, "urban"; empty if it is not known.
+  std::string kind;  ///< The type of scene, "urban"; empty if unknown.
   SensorScan reference;
   std::vector<SensorScan> sensors;
-  /// Of the files of true and of nominal poses, for messages; empty if there are no files.
+  /// Of the files of true and nominal poses, for messages; empty without files.
   std::vector<UnusedPose> unused_truth = {}, unused_nominal = {};
   /// Draws the scene from behind and above the car; empty if the dataset cannot draw.
   std::function<Image()> draw = {};

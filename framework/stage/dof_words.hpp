@@ -5,7 +5,7 @@
 
 namespace croon {
 
-/// The names of the degrees of freedom, for parameters that list some.
+/// The words for the degrees of freedom, for parameters that list some.
 inline const params::Words<Dof>& dof_words() {
   static const params::Words<Dof> words = [] {
     params::Words<Dof> all;

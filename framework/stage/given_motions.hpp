@@ -11,25 +11,25 @@
 
 namespace croon {
 
-/// No car is faster, nor does it turn faster: larger numbers have another unit.
-inline constexpr double kFastest_mps = 1000.0;
-inline constexpr double kFastest_degps = 3600.0;
+/// Upper bounds for a car's speed and rate of rotation; larger numbers indicate a wrong unit.
+inline constexpr double kMaxSpeed_mps = 1000.0;
+inline constexpr double kMaxTurnRate_degps = 3600.0;
 
-/// What another device measured of the velocity of the car in one scene.
+/// The velocity of the car in one scene, as measured by another device.
 struct GivenMotion {
   Twist velocity;
-  /// Standard deviations: about the axes in rad/s, along them in m/s. None if they are not known.
+  /// Standard deviations: about the axes in rad/s, along them in m/s; std::nullopt if unknown.
   std::optional<Vector6d> stds;
 };
 
-/// By the name of the scene.
+/// The velocities by scene name.
 using GivenMotions = std::map<std::string, GivenMotion>;
 
-/// A step that corrects clouds by velocities of the reference's car, which may be in a file. Steps
-/// read no files: who runs an experiment reads it once, before the run, and hands its content over.
+/// A step that corrects clouds with velocities of the reference's car, which may come from a file.
+/// Steps do not read files: the caller reads it once, before the run, and passes on its content.
 class GivenMotionStep : public RigStep {
  public:
-  /// The file as the experiment names it, and its SHA-256 if the experiment gives one.
+  /// The file named in the experiment, and its SHA-256 if the experiment states one.
   struct File {
     std::string name;  ///< Empty if the velocity is a parameter.
     std::string sha256;
@@ -37,7 +37,7 @@ class GivenMotionStep : public RigStep {
 
   virtual File file() const = 0;
 
-  /// The same step with the content of its file.
+  /// A copy of the step that uses the content of its file.
   virtual std::shared_ptr<const Step> with(GivenMotions motions) const = 0;
 };
 

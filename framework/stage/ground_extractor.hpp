@@ -9,10 +9,10 @@
 
 namespace croon {
 
-/// The ground of a cloud: its plane in the sensor's frame and the points that lie on it.
+/// The ground of a cloud: its plane in the sensor's frame and the points on it.
 struct Ground {
   Plane plane;
-  std::vector<std::uint8_t> is_ground;  ///< One per point of the cloud: 1 if it is ground.
+  std::vector<std::uint8_t> is_ground;  ///< One per point of the cloud: 1 for ground.
 };
 
 /// Finds the ground of one cloud (paper, rough calibration: the plane with the most points).

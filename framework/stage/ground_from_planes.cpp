@@ -9,7 +9,7 @@
 namespace croon {
 namespace {
 
-/// The points near that plane of `planes` which has the most points near it; of equals the first.
+/// The points near the plane of `planes` with the most points near it; the first in case of ties.
 Points fullest_slab(const Points& cloud, const std::vector<Plane>& planes, double threshold_m) {
   std::vector<int> most;
   for (const Plane& plane : planes) {
@@ -22,8 +22,8 @@ Points fullest_slab(const Points& cloud, const std::vector<Plane>& planes, doubl
   return slab;
 }
 
-/// The plane with the most points of a slab. A least-squares fit to the whole slab would follow a
-/// kerb in it, also after the slab is made narrower.
+/// The plane with the most points in a slab. A least-squares fit to the whole slab would follow a
+/// kerb in it, even after narrowing the slab.
 Plane narrowed(const Points& slab, double threshold_m, Rng& rng) {
   constexpr int kMaxRounds = 30;
   PlaneRansacOptions options;
@@ -44,13 +44,13 @@ Plane narrowed(const Points& slab, double threshold_m, Rng& rng) {
 const params::Table<GroundRule>& ground_rule_table() {
   static const params::Table<GroundRule> table = {
       params::number("threshold_m", &GroundRule::threshold_m, {1e-4, 10.0},
-                     "A point within this distance of the plane is ground; the authors' 0.2."),
+                     "Maximum distance of ground points from the plane; the authors use 0.2."),
       params::number(
           "refit_threshold_m", &GroundRule::refit_threshold_m, {1e-4, 10.0},
-          "The final fit of the plane uses the points within this distance, without kerbs "
-          "and wheels; never more than threshold_m."),
+          "Maximum distance of the points for the final fit of the plane, which excludes kerbs and "
+          "wheels; limited to threshold_m."),
       params::number("min_inlier_ratio", &GroundRule::min_inlier_ratio, {0.0, 1.0},
-                     "The stage fails if no plane holds this share of the points."),
+                     "Minimum share of the points on the ground; with fewer the stage fails."),
   };
   return table;
 }
@@ -66,8 +66,8 @@ Ground ground_from_planes(const Points& cloud, const std::vector<Plane>& planes,
   if (static_cast<double>(indices.size()) <
       rule.min_inlier_ratio * static_cast<double>(cloud.size())) {
     std::ostringstream message;
-    message << "no plane holds " << 100.0 * rule.min_inlier_ratio << " % of the " << cloud.size()
-            << " points; the largest holds " << indices.size();
+    message << "no plane contains " << 100.0 * rule.min_inlier_ratio << " % of the " << cloud.size()
+            << " points; the largest contains " << indices.size();
     throw StageError(message.str());
   }
   return ground;

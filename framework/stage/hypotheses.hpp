@@ -8,7 +8,7 @@
 
 namespace croon {
 
-/// A pose that a global search found, and how well the clouds agree there (PoseEvidence::score).
+/// A pose that a global search found, and the agreement of the clouds there (PoseEvidence::score).
 struct Hypothesis {
   RigidTransform T_target_source;
   double score = 0.0;
@@ -17,8 +17,8 @@ struct Hypothesis {
 /// Poses that agree within these bounds are one hypothesis.
 inline const PoseBounds kSameHypothesis = {rad_from_deg(1.0), 0.3};
 
-/// The poses between which a global search chose, best first, no two of them near each other.
+/// The candidate poses of a global search, best first, no two of them near each other.
 inline constexpr Extra<std::vector<Hypothesis>> kHypotheses{
-    "hypotheses", "the poses between which a global search chose"};
+    "hypotheses", "the candidate poses of a global search"};
 
 }  // namespace croon

@@ -15,8 +15,7 @@ class Icp {
   static constexpr int kKindOrder = 50;
   virtual ~Icp() = default;
 
-  /// The pose of the source near `start`. Throws StageError if there are too few
-  /// correspondences.
+  /// The pose of the source near `start`. Throws StageError for too few correspondences.
   virtual Registration align(const Cloud& target, const Cloud& source,
                              const RigidTransform& start) const = 0;
 };

@@ -10,7 +10,7 @@
 namespace croon {
 namespace {
 
-/// The weighted sums of points around a place: of ones, of offsets and of their products.
+/// The weighted sums over points around a position: of ones, of offsets and of their products.
 struct Moments {
   double weight = 0.0;
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
@@ -33,7 +33,7 @@ Moments moments_around(const PointsByCube& points, const Eigen::Vector3d& place)
   return moments;
 }
 
-/// A place in the source and the source's own points around it, in the source's frame.
+/// A position in the source and the source's own points around it, in the source's frame.
 struct Sample {
   Eigen::Vector3d place;
   Moments own;
@@ -61,12 +61,12 @@ std::shared_ptr<const PointsByCube> bound(const Cloud& cloud, double radius_m) {
 const params::Table<NeighbourhoodOptions>& neighbourhood_table() {
   static const params::Table<NeighbourhoodOptions> table = {
       params::number("radius_m", &NeighbourhoodOptions::radius_m, {1e-3, 100.0},
-                     "Points within this distance are neighbours."),
+                     "Maximum distance between neighbours."),
       params::number("noise_m", &NeighbourhoodOptions::noise_m, {1e-6, 100.0},
-                     "Standard deviation that is added to every neighbourhood: none is thinner."),
+                     "Standard deviation added to every neighbourhood, a minimum thickness."),
       params::integer("max_points", &NeighbourhoodOptions::max_points, {1, 1e9},
-                      "At most this many neighbourhoods, around points of the sensor, evenly "
-                      "spaced."),
+                      "Maximum number of neighbourhoods, around evenly spaced points of the "
+                      "sensor."),
   };
   return table;
 }

@@ -8,21 +8,21 @@
 namespace croon {
 namespace {
 
-/// A grid of leaves and where its origin is in the target's frame.
+/// A grid of leaves and the position of its origin in the target's frame.
 struct Lattice {
   LeafGrid grid;
   Eigen::Vector3d origin_m;
 
-  /// A pose in the target's frame as one in the grid's.
+  /// Converts a pose from the target's frame to the grid's.
   RigidTransform from_target(RigidTransform T_target_points) const {
     T_target_points.translation -= origin_m;
     return T_target_points;
   }
 };
 
-/// The shares of a leaf by which lattice `k` is moved: `k` times powers of 1 / 1.2207, the root of
-/// x^4 = x + 1, modulo 1. However many there are, they fill the leaf evenly, and along each axis
-/// too (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
+/// The offset of lattice `k` as fractions of a leaf: `k` times powers of 1 / 1.2207, the root of
+/// x^4 = x + 1, modulo 1. Any number of these fills the leaf evenly, also along each axis (Roberts,
+/// The unreasonable effectiveness of quasirandom sequences, 2018).
 Eigen::Vector3d evenly_spread(int k) {
   const Eigen::Array3d steps(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
   const Eigen::Array3d shares = k * steps;
@@ -41,7 +41,7 @@ std::vector<Lattice> lattices_of(const LeafOptions& options) {
   return lattices;
 }
 
-/// The points in leaves that hold at least `min_points` of them, in any order.
+/// The points in leaves that contain at least `min_points` of them, in any order.
 PointColumns in_full_leaves(const PointColumns& points, const RigidTransform& T_grid_points,
                             const LeafGrid& grid, int min_points) {
   std::vector<std::pair<LeafKey, std::size_t>> by_leaf;
@@ -80,18 +80,17 @@ struct BoundLattice {
 const params::Table<LeafOptions>& leaf_table() {
   using params::integer;
   static const params::Table<LeafOptions> table = {
-      params::number("leaf_size_m", &LeafOptions::leaf_size_m, {1e-3, 1e3},
-                     "Edge of the leaves that are counted."),
+      params::number("leaf_size_m", &LeafOptions::leaf_size_m, {1e-3, 1e3}, "Leaf size."),
       integer("leaf_sizes", &LeafOptions::leaf_sizes, {1, 10},
-              "The volume is the mean over this many leaf sizes, each twice the one before."),
+              "Number of leaf sizes, each twice the previous one; the volume is their mean."),
       integer("lattices", &LeafOptions::lattices, {1, 64},
-              "The volume is the mean over this many lattices of leaves, which are spread evenly: "
-              "surfaces along the borders of leaves count less by chance. Each costs a pose."),
+              "Number of evenly spread lattices of leaves; the volume is their mean. Averages out "
+              "aliasing at leaf borders; cost grows linearly."),
       params::per_axis("lattice_offset_ratio", &LeafOptions::lattice_offset_ratio, {0.0, 1.0},
-                       "The lattices are moved by this share of a leaf along x, y and z."),
+                       "Offset of the lattices along x, y and z, as a share of the leaf size."),
       integer("min_points", &LeafOptions::min_points, {1, 10000},
-              "A cloud occupies the leaves that hold at least this many of its points. More than "
-              "one costs a pose several times as much."),
+              "Minimum number of points of a cloud in an occupied leaf. Values above 1 make a pose "
+              "several times as expensive."),
   };
   return table;
 }

@@ -10,7 +10,7 @@
 
 namespace croon {
 
-/// Which leaves count: the parameters of every scorer that counts leaves.
+/// The parameters common to all scorers that count leaves.
 struct LeafOptions {
   double leaf_size_m = 0.05;
   int leaf_sizes = 1;
@@ -22,12 +22,12 @@ struct LeafOptions {
 /// The rows of LeafOptions.
 const params::Table<LeafOptions>& leaf_table();
 
-/// The leaves of a LeafGrid that the points of a target occupy, kept to count those that a source
-/// adds. What a scorer of its own is. Thread-safe.
+/// The set of leaves of a LeafGrid that the points of a target occupy, for counting the leaves that
+/// a source adds. Each scorer implements its own. Thread-safe.
 ///
-/// It is made from the grid, the target's points and their pose in the grid's frame. A point
-/// outside of the grid throws StageError: a point of the target when the set is made, one of the
-/// source when it is asked. `kName` is the name of the stage.
+/// It is constructed from the grid, the target's points and their pose in the grid's frame. A point
+/// outside the grid throws StageError: a point of the target in the constructor, one of the source
+/// in leaves_with. `kName` is the name of the stage.
 class LeafSet {
  public:
   LeafSet() = default;
@@ -35,19 +35,19 @@ class LeafSet {
   LeafSet& operator=(const LeafSet&) = delete;
   virtual ~LeafSet() = default;
 
-  /// How many leaves hold a point of the target, or of the source at `T_grid_source`.
+  /// The number of leaves with a point of the target, or of the source at `T_grid_source`.
   virtual std::int64_t leaves_with(const PointColumns& source,
                                    const RigidTransform& T_grid_source) const = 0;
 };
 
 /// Measures the volume by counting leaves: the mean over all lattices and leaf sizes of
-/// LeafOptions. All that the scorers have in common is here, so they differ in how they count only.
+/// LeafOptions. Contains everything that the scorers share; they differ only in how they count.
 class LeafScorer : public VolumeScorer {
  public:
   explicit LeafScorer(const LeafOptions& options) : options_(options) {}
 
-  /// The leaves are those of LeafGrid in the target's frame, moved by the offset of the lattice, so
-  /// all scorers count the same. A point outside of the grid throws StageError: a point of the
+  /// The leaves are those of LeafGrid in the target's frame, shifted by the offset of the lattice,
+  /// so all scorers count the same. A point outside the grid throws StageError: a point of the
   /// target here, one of the source in the function.
   VolumeFunction bind(std::shared_ptr<const Cloud> target,
                       std::shared_ptr<const Cloud> source) const final;
@@ -74,7 +74,7 @@ class LeafScorerWith final : public LeafScorer {
   }
 };
 
-/// The entry of the scorer that counts with `Set`. The rest is as in stage_entry.
+/// The entry of the scorer that counts with `Set`. The other arguments are as in stage_entry.
 template <class Set>
 StageEntry leaf_scorer_entry(const std::string& summary, const std::string& source,
                              int version = 1) {

@@ -6,9 +6,9 @@
 
 namespace croon {
 
-/// The velocity of the target's sensor while it scanned, as a step estimated it or knew it.
+/// The velocity of the target's sensor during its scan, estimated or known by a step.
 inline constexpr Extra<Twist> kMotion{
-    "motion", "the velocity of the target's sensor, by which the clouds were corrected"};
+    "motion", "the velocity of the target's sensor for which the clouds were corrected"};
 
 /// Its covariance: about the axes in rad/s, along them in m/s.
 inline constexpr Extra<Matrix6d> kMotionCovariance{"motion_covariance",

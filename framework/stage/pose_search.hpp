@@ -9,23 +9,23 @@
 
 namespace croon {
 
-/// Cost of a pose; never NaN.
+/// Cost function of a pose; never NaN.
 class PoseCost {
  public:
   using OfPose = std::function<double(const RigidTransform&)>;
   using OfPoses = std::function<std::vector<double>(const std::vector<RigidTransform>&)>;
 
-  /// From a function of one pose, and one of many that gives the same costs and may use threads.
-  /// Without it they are computed one after the other.
+  /// From a function of one pose, and one of many poses that returns the same costs and may use
+  /// threads. Without the latter they are computed sequentially.
   template <class Function, class = std::enable_if_t<std::is_invocable_r_v<double, const Function&,
                                                                            const RigidTransform&>>>
-  // A function is converted where one is expected.
+  // Implicit on purpose: callables convert.
   PoseCost(Function of_pose, OfPoses of_poses = {})  // NOLINT(*-explicit-*)
       : of_pose_(std::move(of_pose)), of_poses_(std::move(of_poses)) {}
 
   double operator()(const RigidTransform& pose) const { return of_pose_(pose); }
 
-  /// The costs of poses that are all needed, in their order.
+  /// The costs of several poses, in their order.
   std::vector<double> at(const std::vector<RigidTransform>& poses) const {
     if (of_poses_) return of_poses_(poses);
     std::vector<double> costs;
@@ -38,7 +38,7 @@ class PoseCost {
   OfPoses of_poses_;
 };
 
-/// The pose of least cost that a search found.
+/// The pose of minimum cost that a search found.
 struct PoseMinimum {
   RigidTransform pose;
   double cost = 0.0;
@@ -54,7 +54,7 @@ class PoseSearch {
   static constexpr int kKindOrder = 70;
   virtual ~PoseSearch() = default;
 
-  /// The pose of least cost near `start`; its cost is never higher than that of `start`.
+  /// The pose of minimum cost near `start`; its cost is never higher than that of `start`.
   virtual PoseMinimum minimise(const PoseCost& cost, const RigidTransform& start) const = 0;
 };
 

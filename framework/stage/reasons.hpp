@@ -5,14 +5,14 @@
 
 namespace croon {
 
-/// Why a pose must not be trusted: the reasons of steps before, if there are any, and then
-/// `reason`.
+/// Appends `reason` to the reasons of earlier steps, if any, to reject a pose.
 inline std::string with_reason(const std::optional<std::string>& before,
                                const std::string& reason) {
   return before ? *before + "; " + reason : reason;
 }
 
-/// The reasons `after` a step that had `before`: what the step adds begins with its `name`.
+/// The reasons `after` a step that had `before`: the part that the step added is prefixed with its
+/// `name`.
 inline std::string with_name(const std::optional<std::string>& before, const std::string& after,
                              const std::string& name) {
   if (after == before) return after;

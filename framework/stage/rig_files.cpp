@@ -33,11 +33,11 @@ RigidTransform pose_of(const Eigen::Vector3d& rpy_deg, const Eigen::Vector3d& tr
 /// Notes a fault for each element of the position `translation_m` of `pose` that is too large.
 void check_position(const params::Node& pose, const Eigen::Vector3d& translation_m) {
   for (int i = 0; i < 3; ++i) {
-    if (std::abs(translation_m(i)) <= kLargestCoordinate_m) continue;
+    if (std::abs(translation_m(i)) <= kMaxCoordinate_m) continue;
     pose.member("translation_m")
         .element(static_cast<std::size_t>(i))
-        .expected("a number from -" + fixed_number(kLargestCoordinate_m, 0) + " to " +
-                  fixed_number(kLargestCoordinate_m, 0) + " m");
+        .expected("a number from -" + fixed_number(kMaxCoordinate_m, 0) + " to " +
+                  fixed_number(kMaxCoordinate_m, 0) + " m");
   }
 }
 
@@ -50,7 +50,7 @@ RigidTransform read_pose(const params::Node& pose) {
   return pose_of(rpy_deg, translation_m);
 }
 
-/// Roll, pitch and yaw in whole billionths of a degree: the digits that a file has.
+/// Roll, pitch and yaw rounded to billionths of a degree, the precision of a file.
 Eigen::Vector3d rounded_rpy_deg(const Eigen::Matrix3d& rotation) {
   constexpr double kPerDegree = 1e9;
   Eigen::Vector3d rpy_deg = rpy_from_rotation(rotation) / rad_from_deg(1.0);
@@ -73,7 +73,7 @@ bool is_word(const std::string& text) {
 
 void read_kind(const params::Node& node, std::string& kind) {
   const std::string text = node.value().is_string() ? node.value().get<std::string>() : "";
-  // Spreadsheets take what begins with a minus sign for a formula.
+  // Spreadsheets treat a text that begins with a minus sign as a formula.
   if (!is_word(text) || text.front() == '-') {
     node.expected("a word of letters, digits, \"_\" and \"-\" that does not begin with \"-\"");
     return;

@@ -15,10 +15,10 @@ void require_usable(const Cloud& cloud) {
   if (cloud.empty()) throw StageError("a cloud is empty");
   for (const Eigen::Vector3f& point : cloud.points()) {
     // Negated, so that NaN is refused too.
-    if ((point.array().abs() <= static_cast<float>(kLargestCoordinate_m)).all()) continue;
+    if ((point.array().abs() <= static_cast<float>(kMaxCoordinate_m)).all()) continue;
     std::ostringstream message;
     message << "a point at (" << point.x() << ", " << point.y() << ", " << point.z()
-            << ") m is farther off than " << kLargestCoordinate_m << " m";
+            << ") m exceeds the maximum coordinate of " << kMaxCoordinate_m << " m";
     throw StageError(message.str());
   }
 }

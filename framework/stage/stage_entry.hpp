@@ -10,30 +10,30 @@
 
 namespace croon {
 
-/// A kind of stage, as the class that declares it describes it (see `stage_entry`).
+/// A kind of stage, as described by its class (see `stage_entry`).
 struct StageKind {
   std::string name;     ///< "ground_extractor", "icp", ...
-  std::string summary;  ///< What its stages do; one sentence.
-  int order = 0;  ///< Kinds are listed in this order, that in which they act in a calibration.
+  std::string summary;  ///< The purpose of its stages; one sentence.
+  int order = 0;        ///< Position in lists of kinds, which follow the order of a calibration.
 };
 
-/// What the registry knows of one stage: its kind and name, its purpose, its parameters, and how to
+/// The registry's entry for one stage: its kind and name, its purpose, its parameters, and how to
 /// build it.
 struct StageEntry {
   std::string kind;          ///< The kind's name.
   std::string name;          ///< The JSON "type" ("step" for a step), the file's name.
   std::string summary;       ///< One sentence.
-  std::string source;        ///< Where it comes from: the paper and section, or "croon".
+  std::string source;        ///< Its origin: the paper and section, or "croon".
   std::string kind_summary;  ///< See StageKind; the same for all stages of the kind.
   int kind_order = 0;        ///< Likewise.
   std::vector<params::ParameterDoc> parameters;
   std::function<params::BuiltStage(const params::Node&, const params::StageBuilder&)> build;
   int version = 1;        ///< See stage_entry.
-  params::DataFlow flow;  ///< With default parameters; of the stage alone.
+  params::DataFlow flow;  ///< With default parameters; without the stages in its slots.
 };
 
-/// What a stage of the class `Stage` with the parameters `params` states that it needs and
-/// provides; std::nullopt if it states nothing.
+/// The data flow that the class `Stage` declares for the parameters `params`; std::nullopt if it
+/// declares none.
 template <class Stage, class P>
 auto stated_flow(const P& params, int) -> decltype(std::optional(Stage::data_flow(params))) {
   return Stage::data_flow(params);
@@ -46,8 +46,8 @@ std::optional<params::DataFlow> stated_flow(const P&, long) {
 /// The JSON key that names a stage of `kind`: "step" for steps, else "type".
 inline std::string name_key(const std::string& kind) { return kind == "step" ? "step" : "type"; }
 
-/// The keys of a stage's JSON object that are not its parameters: its name, and for a step the
-/// optional "name" that variants and timings call it by.
+/// The keys of a stage's JSON object that are not parameters: its name, and for a step the optional
+/// "name" used in variants and timings.
 inline std::vector<std::string> reserved_keys(const std::string& kind) {
   return kind == "step" ? std::vector<std::string>{"step", "name"}
                         : std::vector<std::string>{"type"};
@@ -55,15 +55,15 @@ inline std::vector<std::string> reserved_keys(const std::string& kind) {
 
 /// The entry of the stage class `Stage`, whose constructor takes the struct `P` that `table` reads.
 /// `Stage` derives from the class of its kind, which declares the kind: `Kind` (itself), `kKind`,
-/// `kKindSummary` and `kKindOrder`, see StageKind. Nothing else knows the kinds, so a header with
-/// such a class is a new kind of stage.
+/// `kKindSummary` and `kKindOrder`, see StageKind. The kinds are not listed anywhere else, so a
+/// header with such a class defines a new kind of stage.
 ///
-/// A stage that needs a channel of its clouds, or takes or gives an extra, says so in
-/// `static params::DataFlow data_flow(const P&)`. A stage without this function needs and gives
+/// A stage that needs a channel of its clouds, or reads or provides an extra, declares so in
+/// `static params::DataFlow data_flow(const P&)`. A stage without this function needs and provides
 /// what the stages in its slots do.
 ///
-/// `version` is raised with a change by which the stage gives other results: trials of two versions
-/// do not go into one store. A test compares test/house/stage_versions.txt with the sources.
+/// Increment `version` with every change that alters the stage's results: a store never contains
+/// trials of two versions. A test compares test/house/stage_versions.txt with the sources.
 template <class Stage, class P>
 StageEntry stage_entry(const std::string& name, const std::string& summary,
                        const std::string& source, const params::Table<P>& table, int version = 1) {

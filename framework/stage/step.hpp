@@ -21,28 +21,29 @@ struct GroundSplit {
   std::shared_ptr<const Cloud> non_ground;  ///< The points off the ground, in the sensor's frame.
 };
 
-/// `Estimate::covariance`, for the data flow of steps that give one or cannot do without.
+/// `Estimate::covariance`, for the data flow of steps that provide or require one.
 inline constexpr Extra<PoseCovariance> kCovariance{"covariance", "the covariance of the pose"};
 
-/// A number that a step reports of its work: ("inlier_ratio", 0.83).
+/// A number that a step reports about its work: ("inlier_ratio", 0.83).
 using Diagnostic = std::pair<std::string, double>;
 
 /// The estimate of one sensor's pose, passed from step to step of a pipeline.
 struct Estimate {
-  std::shared_ptr<const Cloud> target;  ///< The reference's cloud, preprocessed so far.
-  std::shared_ptr<const Cloud> source;  ///< The sensor's cloud, preprocessed so far.
+  std::shared_ptr<const Cloud>
+      target;  ///< The reference's cloud, as preprocessed by earlier steps.
+  std::shared_ptr<const Cloud> source;  ///< The sensor's cloud, likewise.
   RigidTransform T_target_source;
   std::shared_ptr<const GroundSplit> target_ground;  ///< Null until a step has found it.
   std::shared_ptr<const GroundSplit> source_ground;  ///< Null until a step has found it.
   std::optional<Matrix6d> information;               ///< See Registration::information.
   /// Of T_target_source, if a step has estimated it.
   std::optional<PoseCovariance> covariance = std::nullopt;
-  std::optional<std::string> rejection;  ///< Why the pose must not be trusted, if so.
-  std::vector<Diagnostic> diagnostics;   ///< What the last step reports of its work.
-  Extras extras;                         ///< What steps put here for later ones.
+  std::optional<std::string> rejection;  ///< The reason if the pose is rejected.
+  std::vector<Diagnostic> diagnostics;   ///< Reported by the last step.
+  Extras extras;                         ///< Values that steps provide for later ones.
 
-  /// Moves the pose to `T`. The information and the covariance of another pose go: a step sets
-  /// those of the new pose afterwards.
+  /// Sets the pose to `T`. If it differs, information and covariance of the old pose are reset; a
+  /// step sets those of the new pose afterwards.
   void set_pose(const RigidTransform& T) {
     const bool is_moved =
         T.rotation != T_target_source.rotation || T.translation != T_target_source.translation;
@@ -52,7 +53,7 @@ struct Estimate {
     covariance.reset();
   }
 
-  /// Goes on with other clouds. The grounds that were found are those of the clouds before.
+  /// Replaces the clouds, and resets the grounds, which belong to the old clouds.
   void take_clouds(std::shared_ptr<const Cloud> new_target,
                    std::shared_ptr<const Cloud> new_source) {
     target = std::move(new_target);
@@ -61,7 +62,7 @@ struct Estimate {
     source_ground = nullptr;
   }
 
-  /// The axis of yaw: the normal of the target's ground, or z if the ground is not known.
+  /// The axis of yaw: the normal of the target's ground, or z if the ground is unknown.
   Eigen::Vector3d up() const {
     return target_ground ? target_ground->plane.normal : Eigen::Vector3d::UnitZ();
   }
@@ -77,7 +78,7 @@ class Step {
   static constexpr int kKindOrder = 80;
   virtual ~Step() = default;
 
-  /// The better estimate. Draws only from `rng`. Throws StageError if the data defeat it.
+  /// Returns the improved estimate. Draws only from `rng`. Throws StageError if the data defeat it.
   virtual Estimate advance(Estimate estimate, Rng& rng) const = 0;
 };
 

@@ -9,7 +9,7 @@
 
 namespace croon {
 
-/// One number of a velocity, as files and diagnostics have it.
+/// One component of a velocity, as named in files and diagnostics.
 struct VelocityNumber {
   const char* name;  ///< "yaw_rate".
   const char* unit;  ///< "degps".
@@ -19,15 +19,15 @@ struct VelocityNumber {
   std::string std_column() const { return std::string(name) + "_std_" + unit; }
 };
 
-/// Along x, y, z of the body's frame, then about them.
+/// The components along x, y, z of the body's frame, then about them.
 const std::array<VelocityNumber, 6>& velocity_numbers();
 
-/// What a step reports of the velocity that it estimated or knew, that of the target's sensor: how
-/// fast it moves and turns, and its six numbers.
+/// The diagnostics of a step for the estimated or known velocity of the target's sensor: its speed
+/// and rate of rotation, and its six components.
 std::vector<Diagnostic> velocity_diagnostics(const Twist& velocity);
 
-/// The standard deviations of the six numbers, from the `covariance` of a velocity: about the axes
-/// in rad/s, along them in m/s.
+/// The standard deviations of the six components, from the `covariance` of a velocity: about the
+/// axes in rad/s, along them in m/s.
 std::vector<Diagnostic> velocity_std_diagnostics(const Matrix6d& covariance);
 
 }  // namespace croon

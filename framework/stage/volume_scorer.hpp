@@ -16,9 +16,9 @@ namespace croon {
 /// The volume that two clouds occupy together.
 struct OccupiedVolume {
   double m3 = 0.0;
-  std::int64_t leaves = 0;  ///< How many were counted for it, over all lattices.
+  std::int64_t leaves = 0;  ///< Number of leaves counted, over all lattices.
 
-  /// That of leaves of one size.
+  /// The volume of leaves of one size.
   static OccupiedVolume of_leaves(std::int64_t leaves, double leaf_size_m) {
     return {static_cast<double>(leaves) * (leaf_size_m * leaf_size_m * leaf_size_m), leaves};
   }
@@ -34,10 +34,10 @@ class VolumeFunction {
   using OfPose = std::function<OccupiedVolume(const RigidTransform& T_target_source)>;
 
   VolumeFunction() = default;
-  /// From a function of one pose. Lists of poses are computed by tasks of their own if it says so.
+  /// From a function of one pose; `poses` selects whether lists of poses are computed in parallel.
   template <class Function, class = std::enable_if_t<std::is_invocable_r_v<
                                 OccupiedVolume, const Function&, const RigidTransform&>>>
-  // A function is converted where one is expected.
+  // Implicit on purpose: callables convert.
   VolumeFunction(Function of_pose, Poses poses = Poses::one_by_one)  // NOLINT(*-explicit-*)
       : of_pose_(std::move(of_pose)), poses_(poses) {}
 
@@ -45,8 +45,8 @@ class VolumeFunction {
     return of_pose_(T_target_source);
   }
 
-  /// The volumes at many poses, in their order. Uses the threads that the caller's trial may use
-  /// (TBB's), and takes up no other work while it waits. The bits are those of one pose after the
+  /// The volumes at several poses, in their order. Uses the threads available to the caller's trial
+  /// (TBB's), and starts no other work while waiting. The same bits as for one pose after the
   /// other.
   std::vector<OccupiedVolume> at(const std::vector<RigidTransform>& poses) const;
 
@@ -55,11 +55,11 @@ class VolumeFunction {
   Poses poses_ = Poses::one_by_one;
 };
 
-/// The volume in cubic metres as the cost of a search. Keeps a copy of `volume`.
+/// The volume in cubic metres as a cost function. Keeps a copy of `volume`.
 PoseCost volume_cost(const VolumeFunction& volume);
 
 /// Measures the alignment of two clouds by the volume that they occupy together (paper, refinement:
-/// aligned clouds occupy the least).
+/// it is minimal for aligned clouds).
 class VolumeScorer {
  public:
   using Kind = VolumeScorer;
@@ -69,8 +69,8 @@ class VolumeScorer {
   static constexpr int kKindOrder = 60;
   virtual ~VolumeScorer() = default;
 
-  /// The volume as a function of pose. What depends on the target alone is computed once
-  /// (`Cloud::once`). A cloud without points occupies nothing. A scorer that counts leaves derives
+  /// The volume as a function of pose. Everything that depends only on the target is computed once
+  /// (`Cloud::once`). A cloud without points occupies no volume. Scorers that count leaves derive
   /// from LeafScorer.
   virtual VolumeFunction bind(std::shared_ptr<const Cloud> target,
                               std::shared_ptr<const Cloud> source) const = 0;

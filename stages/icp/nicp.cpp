@@ -76,7 +76,7 @@ class Nicp final : public Icp {
     CorrespondenceRule rule;
     rule.target_normals = params_.normal_neighbours;
     rule.source_normals = params_.normal_neighbours;
-    rule.min_normal_cosine = least_cosine(params_.max_normal_angle_deg);
+    rule.min_normal_cosine = min_cosine_within(params_.max_normal_angle_deg);
     return iterate_icp(
         target, source, start, params_, rule,
         for_each_correspondence(

@@ -19,7 +19,7 @@ struct Params {
 const params::Table<Params>& table() {
   static const params::Table<Params> table = [] {
     params::Table<Params> rows = {
-        params::numbers("linear_mps", &Params::linear_mps, {-kFastest_mps, kFastest_mps},
+        params::numbers("linear_mps", &Params::linear_mps, {-kMaxSpeed_mps, kMaxSpeed_mps},
                         "The sensor's velocity along x, y, z of its own frame."),
         params::numbers("angular_degps", &Params::angular_degps, {-kFastest_degps, kFastest_degps},
                         "Its angular velocity about x, y, z of its own frame."),

@@ -124,7 +124,7 @@ class AzimuthCalibrationStep final : public RigStep {
     const AzimuthCalibration found = calibrate_azimuth(views, params_);
     for (std::size_t v = 0; v < views.size(); ++v) {
       const int correspondences = found.correspondences[v];
-      if (correspondences < kFewestAzimuthCorrespondences) {
+      if (correspondences < kMinAzimuthCorrespondences) {
         estimates[v]->failure = "only " + std::to_string(correspondences) + " points correspond";
         continue;
       }

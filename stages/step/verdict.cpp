@@ -80,7 +80,8 @@ class Verdict final : public Step {
     const RigidTransform T = estimate.T_target_source;
     const PoseEvidence evidence = pose_evidence(*target, *source, T);
     constexpr double kContact_m = 0.3;
-    const std::vector<HeldDirection> held = held_directions(*target, *source, T, kContact_m);
+    const std::vector<ConstraintDirection> held =
+        constraint_directions(*target, *source, T, kContact_m);
     const Halves halves = halves_of(*target, *source, T, held);
     const std::optional<double> lead = min_lead_over_rivals(evidence, estimate, *target, *source);
     const double strength = held.empty() ? 0.0 : held.front().strength;
@@ -126,14 +127,14 @@ class Verdict final : public Step {
     }
   };
 
-  void add_loose(const std::vector<HeldDirection>& held, Reasons& reasons) const {
+  void add_loose(const std::vector<ConstraintDirection>& held, Reasons& reasons) const {
     if (held.empty()) return reasons.add("no surfaces touch, so nothing is constrained");
-    std::vector<HeldDirection> loose;
-    for (const HeldDirection& direction : held) {
+    std::vector<ConstraintDirection> loose;
+    for (const ConstraintDirection& direction : held) {
       if (direction.strength < params_.min_strength) loose.push_back(direction);
     }
     if (loose.empty()) return;
-    reasons.add("not constrained: " + words_of(loose) + " (strength " +
+    reasons.add("not constrained: " + dof_names_of(loose) + " (strength " +
                 fixed_number(loose.front().strength, 4) + ", below " +
                 fixed_number(params_.min_strength, 4) + ")");
   }
@@ -151,7 +152,7 @@ class Verdict final : public Step {
   /// Registers two halves of the points, started on either side of the pose along its least
   /// constrained directions.
   Halves halves_of(const SensorView& target, const SensorView& source, const RigidTransform& T,
-                   const std::vector<HeldDirection>& held) const {
+                   const std::vector<ConstraintDirection>& held) const {
     constexpr double kNever = 1e3;
     Halves worst;
     const auto first = part(source, 0, 2);

@@ -49,7 +49,7 @@ class Binary final : public YawSearch {
     for (const int i : yaw_grid(params_.range_deg, params_.step_deg)) {
       evaluated.insert(i * first_step);
     }
-    const GridMinimum on_first = least_on_grid(cost, params_.range_deg, params_.step_deg);
+    const GridMinimum on_first = min_on_grid(cost, params_.range_deg, params_.step_deg);
     std::int64_t best = on_first.multiple * first_step;
     double min_cost = on_first.cost;
     for (int level = 1; level < params_.levels; ++level) {

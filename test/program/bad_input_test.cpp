@@ -213,7 +213,7 @@ TEST_F(BadInput, UnknownParameter) {
 
 TEST_F(BadInput, DuplicateKeyAndAnotherFault) {
   edit("\"trials\": 1", "\"trials\": 1, \"trials\": 0");
-  expect_refused({": /starts/trials: the key \"trials\" stands here twice",
+  expect_refused({": /starts/trials: duplicate key \"trials\"",
                   ": /starts/trials: expected a whole number from 1 to 1000000, found 0"});
 }
 

@@ -241,7 +241,7 @@ TEST_F(OddInput, AFarPointIsDescribedInOneLine) {
                 "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nDATA ascii\n1e32 0 0\n");
   const Answer answer = croon("describe " + experiment(kNominal) + " --data " + path("data"));
   EXPECT_EQ(answer.code, 2);
-  EXPECT_NE(answer.text.find("other.pcd: a point at (1e+32, 0, 0) m is outside of the grid"),
+  EXPECT_NE(answer.text.find("other.pcd: a point at (1e+32, 0, 0) m is outside the grid"),
             std::string::npos)
       << answer.text;
 }

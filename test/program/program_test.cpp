@@ -201,7 +201,7 @@ TEST(Program, RefusesWhatCanOnlyFailWhenItValidates) {
   };
   EXPECT_EQ(validate(R"("pipeline": [{"step": "consensus", "weights": "covariance"}])"),
             "/pipeline/0: the step \"consensus\" needs the extra \"covariance\" (the covariance of "
-            "the pose), which no step before it gives, in variant \"base\"\n");
+            "the pose), which no earlier step provides, in variant \"base\"\n");
   for (const char* before : {"covariance", "bundle_adjustment"}) {
     const std::string steps = std::string(R"({"step": ")") + before +
                               R"("}, {"step": "consensus", "weights": "covariance"})";

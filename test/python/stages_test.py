@@ -82,7 +82,7 @@ class Steps(TestCase):
     def test_give_and_take_extras(self):
         pipeline = croon.Pipeline([{"step": "test_nudge", "note": "beware"}, {"step": "test_needs_note"}])
         self.assertEqual(pipeline.run(TOP, LEFT).rejection, "test_needs_note: beware")
-        self.assertIn("which no step before it gives",
+        self.assertIn("which no earlier step provides",
                       self.line_of(croon.InputError, croon.Pipeline, [{"step": "test_needs_note"}]))
 
     def test_reject_with_a_reason_alone(self):

@@ -149,8 +149,7 @@ TEST(Experiment, NamesTheFileOfAFault) {
     load_experiment(path, test::fake_catalogue());
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_EQ(error.faults()[0].line(),
-              path.string() + ": /name: the key \"name\" stands here twice");
+    EXPECT_EQ(error.faults()[0].line(), path.string() + ": /name: duplicate key \"name\"");
   }
   EXPECT_THROW(load_experiment(folder.path() / "none.json", test::fake_catalogue()), InputError);
 }

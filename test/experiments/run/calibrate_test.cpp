@@ -66,7 +66,7 @@ TEST(Pipelines, ThatAreWrongAreRefusedWithEveryFault) {
   EXPECT_NE(fault("3").find("list"), std::string::npos);
   EXPECT_NE(fault(R"({"pipeline": [{"step": "drfit"}]})").find("did you mean \"drift\"?"),
             std::string::npos);
-  EXPECT_NE(fault(R"([{"step": "take"}])").find("which no step before it gives"),
+  EXPECT_NE(fault(R"([{"step": "take"}])").find("which no earlier step provides"),
             std::string::npos);
   const std::string two = fault(R"([{"step": "drift", "size": 1}, {"step": "give", "value": 99}])");
   EXPECT_NE(two.find("/0/size"), std::string::npos) << two;

@@ -64,11 +64,11 @@ TEST(Extras, AStepReadsWhatAnEarlierOnePut) {
 TEST(Extras, AnUnmetNeedIsRefusedWhereTheStepIsWritten) {
   EXPECT_THAT(need_faults(R"([{"step": "take"}])"),
               ElementsAre("/pipeline/0: the step \"take\" needs the extra \"token\" (a distance in "
-                          "metres), which no step before it gives, in variant \"base\""));
+                          "metres), which no earlier step provides, in variant \"base\""));
   EXPECT_THAT(need_faults(R"([{"step": "take"}, {"step": "give"}])"),
               ElementsAre(HasSubstr("/pipeline/0: the step \"take\" needs")));
   EXPECT_THAT(need_faults(R"([{"step": "give_other"}, {"step": "take"}])"),
-              ElementsAre(HasSubstr("which a step before it gives with another type")));
+              ElementsAre(HasSubstr("which an earlier step provides with another type")));
   EXPECT_THAT(need_faults(R"([{"step": "give"}, {"step": "take"}])"), ElementsAre());
 }
 

@@ -35,7 +35,7 @@ TEST(PoseCovariance, IsSymmetricFiniteBoundedAndNotNegative) {
   EXPECT_FALSE(is_one_with(1, 1, -1e-9));
   EXPECT_FALSE(is_one_with(2, 2, std::numeric_limits<double>::quiet_NaN()));
   EXPECT_FALSE(is_one_with(2, 3, std::numeric_limits<double>::infinity()));
-  EXPECT_FALSE(is_one_with(4, 4, 2.0 * kLargestVariance));
+  EXPECT_FALSE(is_one_with(4, 4, 2.0 * kMaxVariance));
   EXPECT_FALSE(is_one_with(0, 1, 2.0 * std::sqrt(good(0, 0) * good(1, 1))));
   EXPECT_FALSE(is_one_with(5, 5, 0.0));  // Others still vary with it.
   // Every pair may vary together, but not all three.

@@ -99,7 +99,7 @@ TEST(Table, NotesEveryFaultWithItsPlace) {
       "f: /flag: expected true or false, found 1",
       "f: /word: expected one of one, two, found \"tow\"; did you mean \"two\"?",
       "f: /steps/1: expected a number from 0.1 to 2, found 5",
-      "f: /words/1: \"x\" stands in this list twice",
+      "f: /words/1: duplicate \"x\" in this list",
       "f: /count: expected a whole number, found 1.5",
   };
   EXPECT_EQ(lines, expected);

@@ -32,7 +32,7 @@ PlanesInView planes_in_view(Rng& rng, int count, double noise_m) {
         point.z() *= noise_m;
         view.sums.add(made.poses[k].inverse() * (T_common_plane * point));
       }
-      patch.own_cost += least_eigenvalue(view.sums.scatter());
+      patch.own_cost += min_eigenvalue(view.sums.scatter());
       patch.views.push_back(view);
     }
     made.patches.push_back(patch);

@@ -164,12 +164,12 @@ TEST(HeldDirections, AreLooseAlongATunnelOnly) {
     }
   }
   const SensorView view = view_of(tunnel, 1);
-  const std::vector<HeldDirection> held = held_directions(view, view, {}, 0.3);
+  const std::vector<ConstraintDirection> held = constraint_directions(view, view, {}, 0.3);
   ASSERT_EQ(held.size(), 6U);
   EXPECT_LT(held[0].strength, 0.03);
   EXPECT_GT(held[1].strength, 0.05);
   EXPECT_NEAR(std::abs(held[0].motion(3)), 1.0, 0.05);
-  EXPECT_EQ(words_of({held[0]}), "x");
+  EXPECT_EQ(dof_names_of({held[0]}), "x");
 }
 
 TEST(DirectionBalance, WeighsDirectionsAlikeAtOne) {

@@ -97,7 +97,7 @@ double agreement_at(double off_m, const std::optional<Eigen::Vector3d>& axis = s
   scene.target = scan_of(plate, 0.0);
   scene.sources = {{0, scan_of(plate, 0.0)}};
   const JointOptions options;
-  const StillTarget target(scene, Twist{}, options);
+  const DeskewedTarget target(scene, Twist{}, options);
   const JointState state = sensor_at(off_m);
   double sum = 0.0;
   const PairAgreement pair =
@@ -168,7 +168,7 @@ TEST(OtherSpeeds, KeepTheCloudsWhereTheyMet) {
   }
 }
 
-TEST(StillTarget, HasItsPointsAtTheVelocityAndFindsThemToTheShift) {
+TEST(DeskewedTarget, HasItsPointsAtTheVelocityAndFindsThemToTheShift) {
   Rng rng = test::test_rng(3);
   Points points;
   std::vector<double> times_s;
@@ -182,13 +182,13 @@ TEST(StillTarget, HasItsPointsAtTheVelocityAndFindsThemToTheShift) {
   scene.reference_s = 0.05;
   const JointOptions options;
   Twist velocity{{0.0, 0.02, -0.1}, {12.0, 0.5, -0.1}};
-  StillTarget target(scene, velocity, options);
+  DeskewedTarget target(scene, velocity, options);
   constexpr double kShift_m = 0.02;
   for (int i = 0; i < 30; ++i) {
     for (double& part : velocity.linear_mps) part += rng.uniform(-0.1, 0.1);
     for (double& part : velocity.angular_radps) part += rng.uniform(-0.005, 0.005);
     target.set_velocity(velocity, kShift_m);
-    const StillTarget fresh(scene, velocity, options);
+    const DeskewedTarget fresh(scene, velocity, options);
     const Eigen::Vector3d query = test::random_point(rng, 15.0);
     const int found = target.nearest(query, 100.0).index;
     const int nearest = fresh.nearest(query, 100.0).index;
@@ -207,7 +207,7 @@ TEST(ShiftOfAnUnknownVelocity, IsTheWayBetweenTheTwoScans) {
   const auto shift = [&](double later_s) {
     const JointScene scene = street(10, 0.0F, later_s);
     const JointOptions options;
-    const StillTarget target(scene, Twist{}, options);
+    const DeskewedTarget target(scene, Twist{}, options);
     return shift_std_m(target, covariance, sensor_at(0.0), options).front();
   };
   EXPECT_NEAR(shift(0.05), 0.05 * std::sqrt(5.0), 1e-3);

@@ -113,17 +113,17 @@ TEST(LeafWindow, LeavesOutsideAreFarAndEachIsThereOnce) {
 TEST(LeafWindow, HoldsNoCloudThatIsNotFiniteAndNoneAtItsBorder) {
   const LeafWindow window(LeafGrid(1.0), {0, 0, 0});
   const Points near = {{1, 2, 3}, {-4, 5, -6}};
-  EXPECT_TRUE(window.holds(PointColumns(near), RigidTransform{}));
-  EXPECT_FALSE(window.holds(PointColumns(near), shifted({1 << 20, 0, 0})));
+  EXPECT_TRUE(window.contains(PointColumns(near), RigidTransform{}));
+  EXPECT_FALSE(window.contains(PointColumns(near), shifted({1 << 20, 0, 0})));
   for (const float wrong :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     const PointColumns points({{1, 2, 3}, {0, wrong, 0}, {1, 1, 1}});
-    EXPECT_FALSE(window.holds(points, RigidTransform{}));
+    EXPECT_FALSE(window.contains(points, RigidTransform{}));
     EXPECT_THROW(window.for_each_block(points, {}, [](const std::uint64_t*, std::size_t) {}),
                  StageError);
   }
   const double not_a_number = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(window.holds(PointColumns(near), shifted({0, not_a_number, 0})));
+  EXPECT_FALSE(window.contains(PointColumns(near), shifted({0, not_a_number, 0})));
 }
 
 }  // namespace

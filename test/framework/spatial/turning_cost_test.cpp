@@ -75,11 +75,11 @@ TEST(TurningCost, AGlanceIsTheCostOfFewPointsAndChangesNothing) {
     double squares = 0.0, errors = 0.0;
     for (int i = 0; i < 40; ++i) {
       const double angle_rad = turn.rng.uniform(-3.0, 3.0);
-      const double glance = glanced.glance(angle_rad);
+      const double cheap_estimate = glanced.cheap_estimate(angle_rad);
       const double cost = turning(angle_rad);
       EXPECT_EQ(glanced(angle_rad), cost);
       squares += cost * cost;
-      errors += (glance - cost) * (glance - cost);
+      errors += (cheap_estimate - cost) * (cheap_estimate - cost);
     }
     EXPECT_LT(std::sqrt(errors / squares), 0.5);
     EXPECT_GT(errors, 0.0);
@@ -92,7 +92,7 @@ TEST(TurningCost, OfNoPointsIsZero) {
   TurningCost turning(NearestDistanceCost(target, source, 10, 1.0), {}, Eigen::Vector3d::UnitZ());
   EXPECT_EQ(turning(0.1), 0.0);
   EXPECT_EQ(turning.below(0.1, 0.0), 0.0);
-  EXPECT_EQ(turning.glance(0.1), 0.0);
+  EXPECT_EQ(turning.cheap_estimate(0.1), 0.0);
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST(GroundFromPlanes, SaysHowFewPointsTheLargestPlaneHolds) {
     FAIL() << "a tenth of the points passed for a quarter";
   } catch (const StageError& error) {
     EXPECT_EQ(std::string(error.what()),
-              "no plane holds 25 % of the 1000 points; the largest holds 100");
+              "no plane contains 25 % of the 1000 points; the largest contains 100");
   }
   EXPECT_NO_THROW(ground_from_planes(cloud, {level(60.0)}, {0.2, 0.05, 0.1}, rng));
 }

@@ -236,7 +236,7 @@ TEST(BundleAdjustment, ACloudThatDefeatsItFailsAlone) {
   cloud.points.front().x() = 1e30F;
   stray.estimate.source = std::make_shared<const Cloud>(std::move(cloud), StreamKey(1));
   adjust_bundle(rig.estimates);
-  EXPECT_THAT(stray.failure, HasSubstr("m is farther off than 1e+06 m"));
+  EXPECT_THAT(stray.failure, HasSubstr("m exceeds the maximum coordinate of 1e+06 m"));
   for (const RigEstimate& one : rig.estimates) {
     EXPECT_EQ(one.failure.empty(), &one != &stray) << one.source;
   }
@@ -432,7 +432,7 @@ TEST(BundleAdjustment, APoseThatKeepsItsStartHasOneWordInAllScenes) {
   adjust_bundle(rig);
   for (const RigEstimate& one : rig) {
     ASSERT_EQ(one.failure, "");
-    const DofWords& words = one.estimate.covariance->dofs;
+    const DofObservability& words = one.estimate.covariance->dofs;
     EXPECT_EQ(words.front(), Observability::determined) << one.scene;
     EXPECT_EQ(words.back(), Observability::determined) << one.scene;
     EXPECT_EQ(words[1], Observability::weak) << one.scene;
