@@ -82,11 +82,20 @@ def values_of(text):
         return text.split(",")
 
 
-def start(main, usage):
-    """Calls `main` with the arguments of the script, CROON, OUT and options, or ends it with its usage without them."""
-    if len(sys.argv) < 3:
-        sys.exit(usage)
-    main(*sys.argv[1:])
+def head(*names):
+    """Prints the first two lines of a Markdown table."""
+    row(*names)
+    print("|---" * len(names) + "|")
+
+
+def row(*values):
+    """Prints a line of one."""
+    print("| " + " | ".join(map(str, values)) + " |", flush=True)
+
+
+def study(name):
+    """The path of an experiment beside this file."""
+    return os.path.join(HERE, name)
 
 
 def main(croon, out, *rest):
@@ -101,4 +110,6 @@ def main(croon, out, *rest):
 
 
 if __name__ == "__main__":
-    start(main, __doc__)
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    main(*sys.argv[1:])
