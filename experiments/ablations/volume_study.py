@@ -52,7 +52,8 @@ def by_choice(results):
 
 def in_words(one):
     """A cell: the median difference and its mark, and the trials that are won and lost."""
-    marks = [r"\*\*" if one[f"{what}_significant"] == 1 == one[f"{what}_by_scene"] else "" for what in ("translation", "success")]
+    marks = [r"\*\*" if one[f"{what}_significant"] == 1 == one[f"{what}_by_scene"] else ""
+             for what in ("translation", "success")]
     return (f"{1000 * one['translation_paired_difference_m']:+.1f}{marks[0]}; "
             f"{one['only_variant']:.0f}, {one['only_base']:.0f}{marks[1]}")
 
@@ -96,7 +97,8 @@ def main(program, out, *options):
     studies = {key: by_choice(results) for key, results in found.items()}
     head("noise", "after", "without", *SEARCHES.values())
     for (noise, before), chosen in studies.items():
-        row(f"`{noise}`", before, without(found[noise, before]), *(in_words(chosen[8, 0.1, label]) for label in SEARCHES.values()))
+        row(f"`{noise}`", before, without(found[noise, before]),
+            *(in_words(chosen[8, 0.1, label]) for label in SEARCHES.values()))
     print()
     head("option", "difference; won, lost")
     for name, one in compared(croon.load(run(program, out, [study("volume_study_options.json")], {}, options))).items():
