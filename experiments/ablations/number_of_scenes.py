@@ -100,6 +100,7 @@ def draw(found, path):
             panel.loglog(list(TOTALS), medians(found, noise, name, scale), line, marker="o", label=noise)
         panel.set(title=f"median error, {what}", xlabel="number of scenes")
         panel.set_xticks(list(TOTALS), list(map(str, TOTALS)))
+        panel.minorticks_off()
         panel.grid(alpha=0.3)
     panels[0].legend()
     figure.savefig(path, bbox_inches="tight", metadata={"Date": None})
