@@ -41,7 +41,7 @@ if(CROON_BUILD_TOOLS)
   install(FILES experiments/best.json experiments/demo.json experiments/demo_car.json experiments/driving.json
     experiments/rig.json experiments/standing.json
     DESTINATION "${CMAKE_INSTALL_DATADIR}/croon/experiments" COMPONENT runtime)
-  install(DIRECTORY experiments/paper experiments/ablations experiments/evaluation
+  install(DIRECTORY experiments/paper experiments/ablations experiments/evaluation experiments/workloads
     DESTINATION "${CMAKE_INSTALL_DATADIR}/croon/experiments" COMPONENT runtime
     FILES_MATCHING PATTERN "*.json" PATTERN "*.csv")
 endif()

@@ -6,16 +6,22 @@ each shape, SCENES times, writes the clouds to OUT/data, runs best.json on them 
 5 cm, its steps without the search and the verdict, and prints a Markdown table: how many poses were accepted and right
 (within 0.5 degrees and 0.1 m), accepted and wrong, and rejected, and per degree of freedom how many were called
 determined, weak and unobservable. Once more a plane, whose points have 7 mm of noise across it instead. What is in OUT
-already is not made or run again.
+already is not made or run again. Needs the Python package.
 """
 import json
 import math
 import os
 import random
-import struct
+import sys
 from collections import Counter
 
-from runs import HERE, head, row, rows_of, run_experiment, start
+if len(sys.argv) < 3:
+    sys.exit(__doc__)
+
+import numpy as np  # noqa: E402
+
+import croon  # noqa: E402
+from sweep import head, merged, row, run, study  # noqa: E402
 
 SCENES = 10
 NOISE_M = 0.02
@@ -73,42 +79,30 @@ def write_recording(folder, name):
     draws = random.Random(1)
     for scene in range(SCENES):
         for sensor, pose in POSES.items():
-            points = scan(name, *pose, draws)
             os.makedirs(os.path.join(folder, sensor), exist_ok=True)
-            with open(os.path.join(folder, sensor, f"{scene:06}.pcd"), "wb") as file:
-                file.write(f"VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH {len(points)}\n"
-                           f"HEIGHT 1\nPOINTS {len(points)}\nDATA binary\n".encode())
-                file.write(b"".join(struct.pack("<3f", *point) for point in points))
+            croon.write_cloud(os.path.join(folder, sensor, f"{scene:06}.pcd"), np.float32(scan(name, *pose, draws)))
     with open(os.path.join(folder, "truth.json"), "w", encoding="utf-8") as file:
         json.dump({sensor: {"rotation_rpy_deg": rpy_deg, "translation_m": origin}
                    for sensor, (rpy_deg, origin) in POSES.items()}, file)
 
 
-def main(croon, out, *options):
+def main(program, out, *options):
     """Makes and runs what is missing and prints the table."""
     head("shape", "pipeline", "accepted and right", "accepted and wrong", "rejected", *DOFS)
-    data = os.path.join(out, "data")
+    best, data = study("../best.json"), os.path.join(out, "data")
+    steps = [step for step in merged(best)["pipeline"] if step["step"] not in ("global_alignment", "verdict")]
+    near = {"starts": {"around": "truth", "rotation_deg": 1, "translation_m": 0.05, "trials": 1}, "pipeline": steps}
     for name in SHAPES:
         if not os.path.exists(os.path.join(data, name, "truth.json")):
             write_recording(os.path.join(data, name), name)
-        near = {"around": "truth", "rotation_deg": 1, "translation_m": 0.05, "trials": 1}
-        for what, keys in (("best.json", {}), ("near, no verdict", {"starts": near})):
-            experiment = os.path.join(out, f"{name}_{'near' if keys else 'best'}.json")
-            best = os.path.join(HERE, "..", "best.json")
-            if keys:
-                with open(best, encoding="utf-8") as file:
-                    steps = json.load(file)["pipeline"]
-                keys["pipeline"] = [step for step in steps if step["step"] not in ("global_alignment", "verdict")]
-            with open(experiment, "w", encoding="utf-8") as file:
-                json.dump({"extends": os.path.relpath(best, out), "name": "bare_shapes", **keys,
-                           "dataset": {"type": "sensor_folders", "path": name, "reference": "top"}}, file)
-            results = experiment[:-len(".json")]
-            run_experiment(croon, experiment, results, ["--data", data, *options])
-            statuses = Counter(one["status"] for one in rows_of(results, "trials.csv"))
-            words = rows_of(results, "covariance.csv")
+        dataset = {"type": "sensor_folders", "path": name, "reference": "top"}
+        for what, keys in (("best.json", {}), ("near, no verdict", near)):
+            results = croon.load(run(program, out, [best], {"dataset": dataset, **keys}, ["--data", data, *options],
+                                     f"{name.replace(', ', '_').replace(' ', '_')}_{'near' if keys else 'best'}"))
+            statuses = Counter(map(str, results.trials["status"]))
             row(name, what, statuses["success"], statuses["inaccurate"], statuses["rejected"] + statuses["failed"],
-                *(", ".join(str(sum(one[dof] == word for one in words)) for word in WORDS) for dof in DOFS))
+                *(", ".join(str(np.sum(results.covariances[dof] == word)) for word in WORDS) for dof in DOFS))
 
 
 if __name__ == "__main__":
-    start(main, __doc__)
+    main(*sys.argv[1:])

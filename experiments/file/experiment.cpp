@@ -169,7 +169,7 @@ Experiment read_merged_experiment(const MergedFile& merged, const fs::path& path
     if (keys.pipeline) keys.variants = make_variants(keys, root, catalogue, faults);
     experiment = std::move(keys);
     check_variants(root, experiment);
-    const std::string too_long = why_too_long(experiment.name, kMostFileNameBytes);
+    const std::string too_long = why_too_long(experiment.name, kMaxFileNameBytes);
     if (!too_long.empty()) root.member(kName).fault(too_long);
   }
   if (!faults.empty()) throw InputError(without_repeats(faults));

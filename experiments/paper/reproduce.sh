@@ -12,21 +12,22 @@ results=${RESULTS:-results/paper}
 page=docs/notebook/$(date +%F)-which-numbers-of-the-paper-hold.md
 
 folders=()
-# run NAME: with code 3 some trial failed, a result like others, or its files could not be read just then; a second run
-# runs the latter alone.
+# run NAME ARGUMENTS...: croon run ARGUMENTS into $results/NAME. With code 3 some trial failed, a result like others, or
+# its files could not be read just then; a second run runs the latter alone.
 run() {
-  local code=3
+  local name=$1 code=3
+  shift
   for _ in 1 2; do
     if [[ $code != 3 ]]; then break; fi
     code=0
-    "$croon" run "experiments/paper/$1.json" --data "$data" --out "$results/$1" || code=$?
+    "$croon" run "$@" --data "$data" --out "$results/$name" || code=$?
   done
   if [[ $code != 0 && $code != 3 ]]; then exit "$code"; fi
 }
 
 # run_experiment NAME: one whose numbers the page compares with the paper's.
 run_experiment() {
-  run "$1"
+  run "$1" "experiments/paper/$1.json"
   folders+=("$results/$1")
 }
 
@@ -38,7 +39,7 @@ if [[ -d $data/opencalib/carla ]]; then run_experiment carla_samples; fi
 
 noises=()
 for noise in none real_still real; do
-  run "noise_$noise"
+  run "noise_$noise" experiments/paper/pipeline.json --with "experiments/workloads/noise_$noise.json" --trials 1
   noises+=("$results/noise_$noise")
 done
 

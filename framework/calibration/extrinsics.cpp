@@ -67,9 +67,9 @@ bool recognises(const ExtrinsicsFormat& format, const std::string& text) {
 }
 
 /// The observability of each new axis is the worst of the old axes that contribute to it.
-DofWords turned_observability(const DofWords& observability, const Eigen::Matrix3d& R_new_parent) {
+DofObservability turned_observability(const DofObservability& observability, const Eigen::Matrix3d& R_new_parent) {
   constexpr double kMinShare = 0.1;
-  DofWords turned = observability;
+  DofObservability turned = observability;
   for (const std::size_t block : {0, 3}) {
     for (int i = 0; i < 3; ++i) {
       Observability worst = Observability::determined;

@@ -91,7 +91,7 @@ Eigen::Matrix3d checked_quaternion(const Eigen::Vector4d& xyzw, const FilePlace&
 Eigen::Matrix3d checked_matrix(const Eigen::Matrix3d& matrix, const FilePlace& place);
 /// `rotation_from_rpy`, but throws for angles beyond a full turn, which are probably degrees.
 Eigen::Matrix3d checked_radians(const Eigen::Vector3d& rpy_rad, const FilePlace& place);
-/// The position, whose coordinates must be finite and at most kLargestCoordinate_m.
+/// The position, whose coordinates must be finite and at most kMaxCoordinate_m.
 Eigen::Vector3d checked_position(const Eigen::Vector3d& position_m, const FilePlace& place);
 /// The pose from three or four rows of four numbers, in row-major order.
 RigidTransform checked_pose(const std::vector<double>& rows, const FilePlace& place);

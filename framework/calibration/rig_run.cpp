@@ -78,8 +78,8 @@ std::vector<MemberResult> results_of(const std::vector<CalibrationMember>& membe
 std::string why_unusable(const Estimate& estimate) {
   const RigidTransform& T = estimate.T_target_source;
   if (!T.rotation.allFinite() || !T.translation.allFinite()) return "the pose is not finite";
-  if (T.translation.cwiseAbs().maxCoeff() > kLargestDistance_m) {
-    return "the distance of the pose exceeds " + fixed_number(kLargestDistance_m, 0) + " m";
+  if (T.translation.cwiseAbs().maxCoeff() > kMaxPoseDistance_m) {
+    return "the distance of the pose exceeds " + fixed_number(kMaxPoseDistance_m, 0) + " m";
   }
   if (!is_rotation_matrix(T.rotation)) {
     return "the rotation of the pose is invalid: the columns of its matrix are not orthonormal";

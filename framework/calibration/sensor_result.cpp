@@ -46,10 +46,10 @@ bool is_same(const RigidTransform& a, const RigidTransform& b) {
 }
 
 /// For each degree of freedom, the best observability among the averaged poses.
-DofWords combined_observability(const std::vector<const MemberResult*>& results) {
-  DofWords observability = results.front()->estimate.covariance->dofs;
+DofObservability combined_observability(const std::vector<const MemberResult*>& results) {
+  DofObservability observability = results.front()->estimate.covariance->dofs;
   for (const MemberResult* const result : results) {
-    observability = better_words(observability, result->estimate.covariance->dofs);
+    observability = best_observability(observability, result->estimate.covariance->dofs);
   }
   return observability;
 }

@@ -145,7 +145,7 @@ bool SceneOrder::operator()(const std::string& a, const std::string& b) const {
 }
 
 std::string why_no_scan_name(const std::string& name, const std::string& what) {
-  constexpr std::size_t kMaxStemBytes = kMostFileNameBytes - std::string_view(".pcd").size();
+  constexpr std::size_t kMaxStemBytes = kMaxFileNameBytes - std::string_view(".pcd").size();
   const std::string too_long = why_too_long(name, kMaxStemBytes, what + " with a name");
   if (!too_long.empty()) return too_long;
   const bool is_fine = !name.empty() && printable(name) == name &&

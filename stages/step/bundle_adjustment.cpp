@@ -37,8 +37,8 @@ const params::Table<Params>& table() {
   return table;
 }
 
-DofWords all_of(Observability observability) {
-  DofWords dofs;
+DofObservability all_of(Observability observability) {
+  DofObservability dofs;
   dofs.fill(observability);
   return dofs;
 }
@@ -50,7 +50,7 @@ struct RigBundle {
   std::vector<BundleScene> scenes;
   std::vector<InformedPose> start;  ///< By sensor, the reference first.
   /// By sensor: the best observability over its scenes, from the covariances of earlier steps.
-  std::vector<DofWords> start_observability;
+  std::vector<DofObservability> start_observability;
 };
 
 class BundleAdjustmentStep final : public RigStep {
@@ -131,12 +131,12 @@ class BundleAdjustmentStep final : public RigStep {
 
   /// The best observability of each degree of freedom over a sensor's estimates, one per scene,
   /// near `centre`.
-  static DofWords start_observability_of(const std::vector<const Estimate*>& estimates,
+  static DofObservability start_observability_of(const std::vector<const Estimate*>& estimates,
                                          const RigidTransform& centre) {
-    DofWords observability = all_of(Observability::unobservable);
+    DofObservability observability = all_of(Observability::unobservable);
     for (const Estimate* const member : estimates) {
       if (!member->covariance || !agree(member->T_target_source, centre, kNearStart)) continue;
-      observability = better_words(observability, member->covariance->dofs);
+      observability = best_observability(observability, member->covariance->dofs);
     }
     return observability;
   }
@@ -238,9 +238,9 @@ class BundleAdjustmentStep final : public RigStep {
       estimate.covariance = result.covariances[sensor];
       // Planes or registrations must constrain it well enough.
       const bool start_counts = params_.start_weight > 0.0 && !start.information.isZero(0.0);
-      DofWords constrained = result.plane_words[sensor];
-      if (start_counts) constrained = better_words(constrained, rig.start_observability[sensor]);
-      estimate.covariance->dofs = worse_words(estimate.covariance->dofs, constrained);
+      DofObservability constrained = result.plane_observability[sensor];
+      if (start_counts) constrained = best_observability(constrained, rig.start_observability[sensor]);
+      estimate.covariance->dofs = worst_observability(estimate.covariance->dofs, constrained);
     } else {
       // All scenes share one pose, hence one covariance.
       estimate.covariance = {guarded_inverse<6>(start.information),

@@ -87,7 +87,7 @@ class ConsensusStep final : public RigStep {
       covariance->matrix = guarded_inverse<6>(mean.information);
       // A scene that does not constrain a direction has no weight in it, so the best class counts.
       for (const RigEstimate* const member : agreeing) {
-        covariance->dofs = better_words(covariance->dofs, member->estimate.covariance->dofs);
+        covariance->dofs = best_observability(covariance->dofs, member->estimate.covariance->dofs);
       }
     } else if (agreeing.size() > 1) {
       // consensus_pose averages the poses near a medoid; the poses near that mean may differ.

@@ -219,7 +219,7 @@ class JointRegistrationStep final : public RigStep {
     for (std::size_t j = 0; j < scene.sources.size(); ++j) {
       const JointScene::Source& source = scene.sources[j];
       RigEstimate& member = *group.estimates[s][j];
-      if (result.correspondences[s][j] < kLeastJointCorrespondences) {
+      if (result.correspondences[s][j] < kMinJointCorrespondences) {
         member.failure =
             "only " + std::to_string(result.correspondences[s][j]) + " points correspond";
         continue;

@@ -30,14 +30,14 @@ const params::Table<Params>& table() {
         params::optional(params::text("file", &Params::file,
                                       "A CSV file with a velocity for each scene; without it, "
                                       "linear_mps and angular_degps apply to all.")),
-        params::numbers("linear_mps", &Params::linear_mps, {-kFastest_mps, kFastest_mps},
+        params::numbers("linear_mps", &Params::linear_mps, {-kMaxSpeed_mps, kMaxSpeed_mps},
                         "The velocity along x, y, z of the velocity frame."),
-        params::numbers("angular_degps", &Params::angular_degps, {-kFastest_degps, kFastest_degps},
+        params::numbers("angular_degps", &Params::angular_degps, {-kMaxTurnRate_degps, kMaxTurnRate_degps},
                         "The angular velocity about x, y, z of that frame."),
-        params::number("linear_std_mps", &Params::linear_std_mps, {0.0, kFastest_mps},
+        params::number("linear_std_mps", &Params::linear_std_mps, {0.0, kMaxSpeed_mps},
                        "Standard deviation along each axis, for velocities without one in the "
                        "file; 0: exact."),
-        params::number("angular_std_degps", &Params::angular_std_degps, {0.0, kFastest_degps},
+        params::number("angular_std_degps", &Params::angular_std_degps, {0.0, kMaxTurnRate_degps},
                        "The same about each axis; either both are 0 or neither."),
         params::numbers("rotation_rpy_deg", &Params::rotation_rpy_deg, {-360.0, 360.0},
                         "Roll, pitch and yaw of the velocity frame in the reference frame, R = "

@@ -30,7 +30,7 @@ class YawAlignment final : public Step {
     const YawMinimum minimum = params_.search->minimise(
         {[&](double yaw_rad) { return cost(yaw_rad); },
          [&](double yaw_rad, double upper_bound) { return cost.below(yaw_rad, upper_bound); },
-         [&](double yaw_rad) { return cost.glance(yaw_rad); }});
+         [&](double yaw_rad) { return cost.cheap_estimate(yaw_rad); }});
     estimate.set_pose(cost.turned(minimum.yaw_rad));
     estimate.diagnostics = {{"cost_m2", minimum.cost},
                             {"evaluations", static_cast<double>(minimum.evaluations)}};

@@ -24,7 +24,7 @@ class Exhaustive final : public YawSearch {
   explicit Exhaustive(const Params& params) : params_(params) {}
 
   YawMinimum minimise(const YawCost& cost) const override {
-    const GridMinimum minimum = least_on_grid(cost, params_.range_deg, params_.step_deg);
+    const GridMinimum minimum = min_on_grid(cost, params_.range_deg, params_.step_deg);
     return {rad_from_deg(minimum.multiple * params_.step_deg), minimum.cost, minimum.evaluations};
   }
 

@@ -41,7 +41,7 @@ class GoldenSection final : public YawSearch {
   explicit GoldenSection(const Params& params) : params_(params) {}
 
   YawMinimum minimise(const YawCost& cost) const override {
-    const GridMinimum on_grid = least_on_grid(cost, params_.range_deg, params_.bracket_step_deg);
+    const GridMinimum on_grid = min_on_grid(cost, params_.range_deg, params_.bracket_step_deg);
     YawMinimum best = {rad_from_deg(on_grid.multiple * params_.bracket_step_deg), on_grid.cost,
                        on_grid.evaluations};
     const double tolerance_rad = rad_from_deg(params_.tolerance_deg);

@@ -3,77 +3,55 @@
 
 separation.py RESULTS...: folders of runs with truth whose pipeline ends with `verdict`. Prints Markdown: the
 counts of right and wrong against accepted and rejected, and quantiles of each measure. Right means within
-the bounds of success of the run. A pose without a rival has no lead.
+the bounds of success of the run. A pose without a rival has no lead. Needs the Python package.
 """
-import csv
-import json
-import os
 import sys
 
-MEASURES = ("overlap_ratio", "violation_ratio", "lead", "strength", "halves_rotation_deg",
-            "halves_translation_m")
+if len(sys.argv) < 2:
+    sys.exit(__doc__)
 
+import numpy as np  # noqa: E402
 
-def read(folder, name):
-    """The lines of a CSV file of results."""
-    with open(os.path.join(folder, name), encoding="utf-8") as file:
-        return list(csv.DictReader(file))
+import croon  # noqa: E402
 
-
-def key_of(row):
-    """What names a trial."""
-    return row["variant"], row["scene"], row["sensor"], row["trial"]
-
-
-def bounds_of(folder):
-    """The largest errors of a right pose."""
-    with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
-        return json.load(file)["experiment"]["success"]
-
-
-def is_right(row, bounds):
-    """Whether the pose of a trial is within the bounds. The status does not say it of a rejected pose."""
-    return (float(row["rotation_error_deg"]) <= bounds["rotation_deg"]
-            and float(row["translation_error_m"]) <= bounds["translation_m"])
+MEASURES = ("overlap_ratio", "violation_ratio", "lead", "strength", "halves_rotation_deg", "halves_translation_m")
+KEY = ("variant", "scene", "sensor", "trial")
 
 
 def quantiles(values, shares):
     """The values at shares of the sorted list, in words."""
     values = sorted(values)
-    picked = [values[min(len(values) - 1, int(share * len(values)))] for share in shares]
-    return ", ".join(f"{value:.3f}" for value in picked)
+    return ", ".join(f"{values[min(len(values) - 1, int(share * len(values)))]:.3f}" for share in shares) or "-"
+
+
+def judged(folder):
+    """Of each trial of the variant base with measures: whether its pose is right, its status, and its measures."""
+    results = croon.load(folder)
+    bounds = results.manifest["experiment"]["success"]
+    measures = {}
+    for row in results.diagnostics[np.isin(results.diagnostics["name"], MEASURES)]:
+        measures.setdefault(row[list(KEY)].item(), {})[row["name"]] = row["value"]
+    for trial in results.trials:
+        values = measures.get(trial[list(KEY)].item())
+        if trial["variant"] == "base" and values and not np.isnan(trial["rotation_error_deg"]):
+            yield (trial["rotation_error_deg"] <= bounds["rotation_deg"]
+                   and trial["translation_error_m"] <= bounds["translation_m"]), trial["status"], values
 
 
 def main(*folders):
     """Prints the tables."""
-    counts = {}
-    measured = {True: {name: [] for name in MEASURES}, False: {name: [] for name in MEASURES}}
-    for folder in folders:
-        bounds = bounds_of(folder)
-        values = {}
-        for row in read(folder, "diagnostics.csv"):
-            if row["name"] in MEASURES:
-                values.setdefault(key_of(row), {})[row["name"]] = float(row["value"])
-        for row in read(folder, "trials.csv"):
-            measures = values.get(key_of(row))
-            if row["variant"] != "base" or measures is None or not row["rotation_error_deg"]:
-                continue
-            right = is_right(row, bounds)
-            state = "rejected" if row["status"] == "rejected" else "accepted"
-            counts[right, state] = counts.get((right, state), 0) + 1
-            for name, value in measures.items():
-                measured[right][name].append(value)
+    trials = [trial for folder in folders for trial in judged(folder)]
     print("| | accepted | rejected |\n|---|---|---|")
-    for right, word in ((True, "right"), (False, "wrong")):
-        print(f"| {word} | {counts.get((right, 'accepted'), 0)} | {counts.get((right, 'rejected'), 0)} |")
+    for name, is_right in (("right", True), ("wrong", False)):
+        statuses = [status == "rejected" for right, status, _ in trials if right == is_right]
+        print(f"| {name} | {len(statuses) - sum(statuses)} | {sum(statuses)} |")
     print("\n| measure | right: 0, 1, 50, 99, 100 % | wrong: 0, 5, 50, 95, 100 % |\n|---|---|---|")
     for name in MEASURES:
-        right, wrong = measured[True][name], measured[False][name]
-        print(f"| `{name}` | {quantiles(right, (0, 0.01, 0.5, 0.99, 1)) if right else '-'} | "
-              f"{quantiles(wrong, (0, 0.05, 0.5, 0.95, 1)) if wrong else '-'} |")
+        right, wrong = ([values[name] for is_right, _, values in trials if is_right == which and name in values]
+                        for which in (True, False))
+        print(f"| `{name}` | {quantiles(right, (0, 0.01, 0.5, 0.99, 1) if right else ())} | "
+              f"{quantiles(wrong, (0, 0.05, 0.5, 0.95, 1) if wrong else ())} |")
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
     main(*sys.argv[1:])
