@@ -319,7 +319,8 @@ Page page_of(const std::vector<BenchmarkRun>& runs) {
   Page page;
   page.markdown =
       "# What it costs\n\n`benchmarks/report.sh` generated this page from the files of Google "
-      "Benchmark; [benchmarks](../../benchmarks/README.md) describes what each program measures and "
+      "Benchmark; [benchmarks](../../benchmarks/README.md) describes what each program measures "
+      "and "
       "what it verifies first. Times are medians of wall time.\n\n";
   for (const BenchmarkRun& run : runs) add_run(page, run);
   while (page.markdown.size() > 1 && page.markdown[page.markdown.size() - 2] == '\n') {

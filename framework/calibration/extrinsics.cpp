@@ -67,7 +67,8 @@ bool recognises(const ExtrinsicsFormat& format, const std::string& text) {
 }
 
 /// The observability of each new axis is the worst of the old axes that contribute to it.
-DofObservability turned_observability(const DofObservability& observability, const Eigen::Matrix3d& R_new_parent) {
+DofObservability turned_observability(const DofObservability& observability,
+                                      const Eigen::Matrix3d& R_new_parent) {
   constexpr double kMinShare = 0.1;
   DofObservability turned = observability;
   for (const std::size_t block : {0, 3}) {

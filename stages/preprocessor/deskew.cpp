@@ -21,7 +21,8 @@ const params::Table<Params>& table() {
     params::Table<Params> rows = {
         params::numbers("linear_mps", &Params::linear_mps, {-kMaxSpeed_mps, kMaxSpeed_mps},
                         "The sensor's velocity along x, y, z of its own frame."),
-        params::numbers("angular_degps", &Params::angular_degps, {-kMaxTurnRate_degps, kMaxTurnRate_degps},
+        params::numbers("angular_degps", &Params::angular_degps,
+                        {-kMaxTurnRate_degps, kMaxTurnRate_degps},
                         "Its angular velocity about x, y, z of its own frame."),
         params::choice(
             "reference_time", &Params::reference_time,

@@ -132,7 +132,7 @@ class BundleAdjustmentStep final : public RigStep {
   /// The best observability of each degree of freedom over a sensor's estimates, one per scene,
   /// near `centre`.
   static DofObservability start_observability_of(const std::vector<const Estimate*>& estimates,
-                                         const RigidTransform& centre) {
+                                                 const RigidTransform& centre) {
     DofObservability observability = all_of(Observability::unobservable);
     for (const Estimate* const member : estimates) {
       if (!member->covariance || !agree(member->T_target_source, centre, kNearStart)) continue;
@@ -239,7 +239,8 @@ class BundleAdjustmentStep final : public RigStep {
       // Planes or registrations must constrain it well enough.
       const bool start_counts = params_.start_weight > 0.0 && !start.information.isZero(0.0);
       DofObservability constrained = result.plane_observability[sensor];
-      if (start_counts) constrained = best_observability(constrained, rig.start_observability[sensor]);
+      if (start_counts)
+        constrained = best_observability(constrained, rig.start_observability[sensor]);
       estimate.covariance->dofs = worst_observability(estimate.covariance->dofs, constrained);
     } else {
       // All scenes share one pose, hence one covariance.

@@ -32,7 +32,8 @@ const params::Table<Params>& table() {
                                       "linear_mps and angular_degps apply to all.")),
         params::numbers("linear_mps", &Params::linear_mps, {-kMaxSpeed_mps, kMaxSpeed_mps},
                         "The velocity along x, y, z of the velocity frame."),
-        params::numbers("angular_degps", &Params::angular_degps, {-kMaxTurnRate_degps, kMaxTurnRate_degps},
+        params::numbers("angular_degps", &Params::angular_degps,
+                        {-kMaxTurnRate_degps, kMaxTurnRate_degps},
                         "The angular velocity about x, y, z of that frame."),
         params::number("linear_std_mps", &Params::linear_std_mps, {0.0, kMaxSpeed_mps},
                        "Standard deviation along each axis, for velocities without one in the "
