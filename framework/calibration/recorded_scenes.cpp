@@ -184,8 +184,7 @@ bool is_numbered(const std::string& name) {
   return name.find_first_not_of("0123456789._-") == std::string::npos;
 }
 
-/// Whether the folders are scenes with a file per sensor: folders with numbers as names, whose
-/// files have other names.
+/// Whether the folders are scenes: their names are numbers and those of their files are not.
 bool are_scenes(const std::vector<Input>& folders) {
   return std::all_of(folders.begin(), folders.end(), [](const Input& folder) {
     const std::vector<fs::path> files = clouds_in(folder.path);
@@ -267,8 +266,7 @@ std::vector<std::string> parts_of_topic(const std::string& topic) {
   return parts;
 }
 
-/// Names sensors after the parts in which their topics differ: /top/points is "top" next to
-/// /left/points.
+/// Names sensors after the parts in which their topics differ: "top" for /top/points.
 std::vector<std::string> names_of_topics(const std::vector<std::string>& topics) {
   std::map<std::string, std::size_t> topics_with;
   std::vector<std::string> names;
@@ -370,8 +368,7 @@ Recording recording_of(const std::vector<Input>& inputs) {
                    "reference, to which the others are calibrated");
 }
 
-/// The index of the sensor `reference`. Throws InputError, with the nearest name, if it does not
-/// exist.
+/// The index of the sensor `reference`. Throws InputError, with the nearest name, if missing.
 std::size_t reference_index(const Recording& recording, const std::string& reference) {
   if (reference.empty()) return 0;
   std::vector<std::string> names;

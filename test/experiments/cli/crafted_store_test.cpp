@@ -27,8 +27,7 @@ constexpr const char* kExperiment = R"({
   "name": "x", "dataset": {"type": "fake", "sensors": 1}, "starts": {"trials": 3},
   "pipeline": [{"step": "drift"}, {"step": "behave", "how": "judge"}]})";
 
-/// Runs SQL without SQLite's defences. Returns false if the database has a value of another type
-/// than its column, or none, even so: a program that wrote such a file would not use SQLite.
+/// Runs SQL without SQLite's defences. Returns false if even so the types of columns refuse it.
 bool run_sql(const fs::path& path, const std::string& sql) {
   sqlite3* database = nullptr;
   EXPECT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);

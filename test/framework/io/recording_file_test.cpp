@@ -178,7 +178,7 @@ TEST(RecordingFile, NamesTheWayToConvertOthers) {
   EXPECT_THAT(error_of(folder.write("drive.db3.zstd", "x")),
               HasSubstr("\"zstd -d drive.db3.zstd -o drive.db3\""));
   EXPECT_THAT(error_of(stored("ros1.mcap")), HasSubstr("rosbags-convert"));
-  EXPECT_THAT(error_of(stored("livox.mcap")), HasSubstr("xfer_format 0"));
+  EXPECT_THAT(error_of(stored("livox.mcap")), HasSubstr("xfer_format is 0"));
   EXPECT_THAT(error_of(stored("json.mcap")),
               HasSubstr("/points: expected messages in cdr, found \"json\""));
   EXPECT_THAT(error_of(folder.write("text.mcap", "text")), HasSubstr("is not an MCAP file"));

@@ -37,7 +37,7 @@ TEST(RigPoses, ReadStrictly) {
        "/a/translation_m/1: expected a number from -1000000 to 1000000 m, found -2000000.0"},
       {R"({"a": {"rotation_rpy_deg": [0, 0, 0], "translation": [0, 0, 0], "translation_m": [0, 0, 0]}})",
        "did you mean \"translation_m\""},
-      {R"({"a": {}, "a": {}})", "twice"}};
+      {R"({"a": {}, "a": {}})", "duplicate key"}};
   for (const auto& [json, message] : cases) {
     const auto path = folder.write("truth.json", json);
     EXPECT_THAT(test::input_error([&] { read_rig_poses(path); }), HasSubstr(message)) << json;

@@ -167,7 +167,7 @@ TEST_F(MadeUpRig, SaysWhatIsWrongWithAScene) {
       {"device_id: 0\npath: top-1.pcd\ndevice_id: 1\npath: top-9.pcd\n",
        "lidar_cloud_path.txt: line 4: duplicate sensor name \"top\""},
       {"device_id: 0\npath: top-1.pcd\ndevice_id: 1\npath: x/right.pcd\n",
-       "lidar_cloud_path.txt: line 4: the cloud \"x/right.pcd\" is not"},
+       "lidar_cloud_path.txt: line 4: the cloud \"x/right.pcd\" is neither"},
       {"device_id: 0\npath: top-1.pcd\ndevice_id: 1\npath: ../../../secret.pcd\n",
        "line 4: the cloud"},
       {"device_id: 0\npath: top-1.pcd\ndevice_id: 1\npath: bad.pcd\n", "bad.pcd: the header ends"},

@@ -61,7 +61,7 @@ TEST(Simulated, TakesARigFromJson) {
 TEST(Simulated, SaysWhatIsWrongAndWhere) {
   const std::pair<const char*, const char*> cases[] = {
       {R"("rig": "croon_fiv")", "/rig"},
-      {R"("mix": {"urban": 0})", "/mix: one weight"},
+      {R"("mix": {"urban": 0})", "/mix: at least one weight"},
       {R"("mix": {"urbn": 1})", "/mix/urbn"},
       {R"("noise": {"range_std_m": -1})", "/noise/range_std_m"},
       {R"("scenes": 0)", "/scenes"},
