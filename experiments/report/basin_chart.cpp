@@ -10,12 +10,12 @@
 namespace croon::experiments {
 namespace {
 
-/// Where things are, in units of the sheet.
+/// The layout, in units of the sheet.
 struct BasinLayout {
   Plot plot;
   double width, height;
-  std::size_t legend_columns;  ///< Entries beside each other below the plot; 0: right of it.
-  double legend_width;         ///< Of an entry.
+  std::size_t legend_columns;  ///< Entries per row below the plot; 0: right of the plot.
+  double legend_width;         ///< Width of an entry.
 };
 
 constexpr double kScreenWidth = 890.0;
@@ -67,9 +67,9 @@ void draw_frame(Drawing& drawing, const Plot& plot, const Axis& sizes, const Swe
   }
   const std::string what = sweep.of == SweepOf::rotation ? "rotation" : "translation";
   drawing.text(plot.left + plot.width / 2.0, plot.top + plot.height + 2.8 * text,
-               what + " of the start from its centre, " + size_unit(sweep), Anchor::middle,
+               what + " of the initial guess from its centre, " + size_unit(sweep), Anchor::middle,
                "small");
-  // Without a title the axis says what it is.
+  // Without a title the axis needs a label.
   if (drawing.sheet().has_title) return;
   drawing.text(text, plot.top + plot.height / 2.0, "success, %", Anchor::middle, "small", -90.0);
 }
@@ -106,7 +106,7 @@ void draw_legend(Drawing& drawing, const BasinLayout& layout, std::size_t index,
 }  // namespace
 
 Drawing basin_chart(const Basin& basin, const FigureOptions& options) {
-  constexpr const char* kTitle = "Success in % over the size of the start's perturbation";
+  constexpr const char* kTitle = "Success in % over the perturbation of the initial guess";
   std::vector<const BasinRow*> rows;
   std::vector<std::string> names;
   for (const BasinRow& row : basin.rows) {

@@ -7,13 +7,13 @@
 namespace croon::experiments {
 namespace {
 
-constexpr double kWidestPitch = 22.0;  ///< From which on dots have their full size.
+constexpr double kWidestPitch = 22.0;  ///< Dots have their full size from this pitch on.
 
 bool is_inside(double value, const Interval& axis) {
   return value >= axis.low && value <= axis.high;
 }
 
-/// Draws an arrowhead at the end of the axis beyond which `count` values are, and the number.
+/// Draws an arrowhead at the end of the axis, with the number `count` of values beyond it.
 void draw_beyond(Drawing& drawing, double x, double pitch, double border, std::size_t count,
                  bool is_up, std::size_t series) {
   if (count == 0) return;
@@ -30,7 +30,7 @@ void draw_beyond(Drawing& drawing, double x, double pitch, double border, std::s
   }
 }
 
-/// Draws the quartiles, without the sides that lie beyond the axis.
+/// Draws the box of the quartiles, without the sides beyond the axis.
 void draw_quartiles(Drawing& drawing, const Plot& plot, double left, double width,
                     const BoxPlot& box, const std::string& style) {
   const double top = plot.y_inside(box.upper_quartile);
@@ -40,7 +40,7 @@ void draw_quartiles(Drawing& drawing, const Plot& plot, double left, double widt
   if (has_top && has_bottom) {
     return drawing.rectangle(left, top, width, bottom - top, "box" + style);
   }
-  if (bottom <= top) return;  // All of it lies beyond.
+  if (bottom <= top) return;  // Entirely beyond the axis.
   const double right = left + width;
   drawing.rectangle(left, top, width, bottom - top, "inside" + style);
   if (!has_top && !has_bottom) {
@@ -53,7 +53,7 @@ void draw_quartiles(Drawing& drawing, const Plot& plot, double left, double widt
   drawing.polyline({{left, open}, {left, closed}, {right, closed}, {right, open}}, "line" + style);
 }
 
-/// Draws the whiskers, with an end where they do not go on beyond the axis.
+/// Draws the whiskers; a whisker that extends beyond the axis has no cap.
 void draw_whiskers(Drawing& drawing, const Plot& plot, double x, double width, const BoxPlot& box,
                    const std::string& style) {
   for (const auto& [quartile, whisker] : {std::pair(box.lower_quartile, box.lower_whisker),
@@ -66,8 +66,8 @@ void draw_whiskers(Drawing& drawing, const Plot& plot, double x, double width, c
   }
 }
 
-/// Draws values as dots. Of dots that look the same one is enough, or a long run makes a file of
-/// many megabytes.
+/// Draws values as dots, indistinguishable dots only once: otherwise the file of a long run would
+/// have many megabytes.
 void draw_dots(Drawing& drawing, const Plot& plot, double x, double pitch,
                const std::vector<double>& values, const std::string& style) {
   std::set<double> rows;

@@ -11,7 +11,7 @@
 namespace croon::experiments {
 namespace {
 
-/// "1.2, 0.4, 3.0" for three standard deviations, each times `scale`.
+/// "1.2, 0.4, 3.0": three standard deviations, each multiplied by `scale`.
 std::string stds_text(const Matrix6d& covariance, int first, double scale, int decimals) {
   std::string text;
   for (int i = first; i < first + 3; ++i) {
@@ -41,7 +41,8 @@ std::string pose_text(const RigidTransform& T, const std::optional<PoseCovarianc
   return text + "\n";
 }
 
-/// A line with the degrees of freedom that are not well determined; empty if all are.
+/// A line with the degrees of freedom that are weakly constrained or unobservable; empty if all are
+/// determined.
 std::string observability_text(const std::optional<PoseCovariance>& covariance,
                                const std::string& indent) {
   if (!covariance) return "";
@@ -64,7 +65,7 @@ std::string apart_text(const RigidTransform& a, const RigidTransform& b) {
          fixed_number(1e3 * apart.translation_m, 0) + " mm";
 }
 
-/// In how many scenes the pose was accepted, and how far their own poses are apart.
+/// The number of scenes in which the pose was accepted, and how much their poses differ from it.
 std::string scenes_text(const CalibratedSensor& sensor) {
   if (sensor.scenes.size() < 2 || !sensor.T_reference_sensor) return "";
   std::size_t accepted = 0;

@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t kWidestName = 44;
 
-/// Claim, source, expected, band, found and verdict; the band is in the brackets of the format.
+/// Claim, source, expected, band, found and verdict; `open` and `close` are the brackets of the
+/// band.
 View claims_view(const std::string& open, const std::string& close) {
   return {{{"claim"},
            {"source"},
@@ -27,8 +28,8 @@ View claims_view(const std::string& open, const std::string& close) {
           2};
 }
 
-/// The quoted rows, the DOFs in the paper's order; after those of each statistic, ours: that of
-/// this run's first variant over all sensors.
+/// The quoted rows, DOFs in the paper's order. The rows of each statistic are followed by the
+/// result of this run's first variant over all sensors.
 Table quoted_table(const std::vector<Quoted>& quoted, const Summary& summary) {
   constexpr int kDecimals = 5;
   Table table{{{"method"}, {"source"}, {"statistic"}}, {}};
@@ -53,10 +54,12 @@ Table quoted_table(const std::vector<Quoted>& quoted, const Summary& summary) {
   return table;
 }
 
-/// What the verdicts mean that are no verdict on a number.
+/// Explains the columns and the verdicts other than "in" and "out".
 std::string verdicts_explained() {
-  return "trials, scenes: what the number is over; share: of all trials, those that succeed (no "
-         "truth: that agree).\nshown: no result within the success bounds could be outside the "
+  return "trials, scenes: those that the number is computed over; share: percentage of all trials "
+         "that "
+         "succeed (no ground truth: that agree).\nshown: no result within the success bounds could "
+         "be outside the "
          "band. not enough trials: fewer than " +
          std::to_string(kLeastClaimTrials) + " trials or " + std::to_string(kLeastScenes) +
          " scenes.\n";
@@ -75,7 +78,7 @@ std::string verdict_counts(const std::vector<ClaimResult>& results) {
   return text;
 }
 
-/// The table of claims, with the numbers of the reasons below it.
+/// The table of claims, followed by the numbered reasons.
 std::string results_markdown(const std::vector<ClaimResult>& results) {
   std::vector<std::string> reasons;
   Columns<ClaimResult> columns = claim_columns();
@@ -98,7 +101,7 @@ std::string results_markdown(const std::vector<ClaimResult>& results) {
   return text;
 }
 
-/// What was run, as a table of one row.
+/// The run, as a table of one row.
 std::string run_markdown(const Results& results) {
   const std::string trials =
       std::to_string(results.records.size()) + " of " + std::to_string(results.planned);
@@ -126,8 +129,7 @@ std::string claims_text(const std::vector<ClaimResult>& results, const std::vect
     const Table table = quoted_table(quoted, summary);
     View view = whole_view(table, 3);
     view.max_name_columns = kWidestName;
-    text += "\nother methods, as their sources have them, and ours\n" +
-            text_table(table, view, style.colours);
+    text += "\nother methods as published, and ours\n" + text_table(table, view, style.colours);
   }
   return text;
 }
@@ -138,8 +140,7 @@ std::string claims_markdown(const std::vector<ClaimResult>& results,
   if (!results.empty()) text += results_markdown(results);
   if (!quoted.empty()) {
     const Table table = quoted_table(quoted, summary);
-    text += std::string(text.empty() ? "" : "\n") +
-            "Other methods, as their sources have them, and ours:\n\n" +
+    text += std::string(text.empty() ? "" : "\n") + "Other methods as published, and ours:\n\n" +
             markdown_table(table, whole_view(table, table.columns.size()));
   }
   return text;
@@ -153,7 +154,7 @@ std::string claims_section(const Results& results) {
     text += markdown_escaped(sentence) + "\n\n";
   }
   const std::string tables = claims_markdown(results.claims, results.quoted, results.summary);
-  return text + (tables.empty() ? "The experiment expects nothing.\n" : tables);
+  return text + (tables.empty() ? "The experiment makes no claims.\n" : tables);
 }
 
 }  // namespace croon::experiments

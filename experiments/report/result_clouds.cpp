@@ -121,8 +121,7 @@ std::string draw_before_after(const Experiment& experiment, const std::vector<Sc
     } catch (const UnavailableFile&) {
       throw;
     } catch (const InputError&) {
-      continue;  // Of a group, the poses may be those of other scenes, and this one's clouds
-                 // damaged.
+      continue;  // The poses of a group may come from other scenes; this one's clouds are damaged.
     }
     write_png(path, *image);
     return group.name;

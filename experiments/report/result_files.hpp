@@ -73,8 +73,8 @@ std::set<std::string> last_timed_trials(const std::filesystem::path& path);
 /// What a row of timings.csv says of which trial it is.
 std::string timed_trial(const TrialId& id);
 
-/// The bytes of timings.csv of merged results: the rows of all `folders` that have the file, each
-/// row once, without lines of another form. Throws InputError if one of them is no file.
+/// The bytes of timings.csv of merged results: the rows of all `folders` that have the file,
+/// without duplicates and malformed lines. Throws InputError if one of them is not a file.
 std::string merged_timings(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace croon::experiments

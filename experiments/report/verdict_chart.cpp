@@ -9,7 +9,7 @@
 namespace croon::experiments {
 namespace {
 
-/// A panel: what it counts.
+/// A panel and the number that it shows.
 struct VerdictPanel {
   const char* title;
   int (*count)(const VerdictCounts& counts);
@@ -26,7 +26,7 @@ constexpr std::array kVerdictPanels = {
                    return counts.rejected_wrong + counts.failed;
                  }}};
 
-/// The rows with a line, each with its name.
+/// The rows drawn as lines, each with its name.
 std::vector<std::pair<std::string, const VerdictRow*>> verdict_lines(const Verdicts& verdicts) {
   const bool is_one_variant = has_one_variant(verdicts.rows);
   std::vector<std::pair<std::string, const VerdictRow*>> lines;
@@ -46,8 +46,8 @@ std::vector<double> percents(const VerdictRow& row, const VerdictPanel& panel) {
   return shares;
 }
 
-/// Draws the frame of a panel: to the right the decimal logarithm of the threshold in bounds,
-/// upwards the share of all trials.
+/// Draws the frame of a panel: the decimal logarithm of the threshold divided by the bounds on the
+/// x axis, the share of all trials on the y axis.
 void draw_verdict_panel(Drawing& drawing, const Plot& plot, const Axis& axis, const char* title) {
   const double text = drawing.sheet().small();
   for (const double tick : axis.ticks) {
@@ -71,9 +71,9 @@ Drawing verdict_chart(const Verdicts& verdicts, const SuccessBounds& bounds,
   for (const auto& line : lines) names.push_back(line.first);
   const std::vector<std::string> labels = line_labels(names);
   const std::string explanation =
-      "A pose is wrong beyond a threshold, in multiples of the bounds " +
+      "A pose is wrong if its error exceeds the threshold, a multiple of the bounds " +
       shortest_number(bounds.rotation_deg) + " deg and " + shortest_number(bounds.translation_m) +
-      " m (vertical line); a trial without a pose is rejected and wrong";
+      " m (vertical line); a trial without a pose counts as rejected and wrong";
   const Sheet& sheet = options.sheet;
   const FigureTitle title(kTitle, explanation, sheet, figure_width(sheet));
   const PanelGrid grid = panel_grid(sheet, kVerdictPanels.size(), 2, is_wide(sheet) ? 0.62 : 1.0,
@@ -87,13 +87,13 @@ Drawing verdict_chart(const Verdicts& verdicts, const SuccessBounds& bounds,
     exponents.push_back(std::log10(threshold.rotation_deg / bounds.rotation_deg));
   }
   for (std::size_t p = 0; p < kVerdictPanels.size(); ++p) {
-    // What is rare has an axis of its own: a share of a thousandth is what matters most.
-    double largest = 1.0;
+    // Each panel has its own axis: rare outcomes matter most.
+    double max_share = 1.0;
     for (const auto& [name, row] : lines) {
       const std::vector<double> shares = percents(*row, kVerdictPanels[p]);
-      largest = std::max(largest, *std::max_element(shares.begin(), shares.end()));
+      max_share = std::max(max_share, *std::max_element(shares.begin(), shares.end()));
     }
-    const Axis axis = round_axis(0.0, largest, kTicks);
+    const Axis axis = round_axis(0.0, max_share, kTicks);
     const Plot plot =
         plot_of(grid, p, {exponents.front(), exponents.back()}, {axis.low, axis.high});
     draw_verdict_panel(drawing, plot, axis, kVerdictPanels[p].title);

@@ -177,7 +177,7 @@ TEST(Basin, IsTheseBytes) {
 
 TEST(Basin, IsATable) {
   const std::string table = basin_text(*basin_of(records_of({"left"}), kSweep, {}));
-  EXPECT_NE(table.find("95 % at each level"), std::string::npos);
+  EXPECT_NE(table.find("each level has at least 95 %"), std::string::npos);
   EXPECT_NE(table.find("variant    0   10  20  30  radius deg  95 % interval"), std::string::npos)
       << table;
   EXPECT_NE(table.find("base     100  100  95  92          20        [0, 30]"), std::string::npos)

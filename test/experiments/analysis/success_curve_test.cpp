@@ -126,7 +126,7 @@ TEST(SuccessCurve, HasABandOfTheIntervalOverScenes) {
     // The dashes of the edges are those of the line, so they differ without colours.
     EXPECT_EQ(look_of(edges[2 * i].style, {}).dashes, look_of(curves[i].style, {}).dashes);
   }
-  EXPECT_NE(drawing.description().find("a band is the 95 % interval over scenes"),
+  EXPECT_NE(drawing.description().find("bands: 95 % interval over scenes"),
             std::string::npos);
 }
 
@@ -138,12 +138,12 @@ TEST(SuccessCurve, HasNoBandForTooFewScenesAndOneForManyLines) {
   EXPECT_EQ(bands(variants_in(2, kLeastScenes - 1)), 0U);
   EXPECT_EQ(bands(variants_in(4, 8)), 2U * 4U);
   EXPECT_EQ(bands(variants_in(5, 8)), 2U);
-  EXPECT_NE(success_curve_chart(variants_in(5, 8).curve).description().find("the band, of v0,"),
+  EXPECT_NE(success_curve_chart(variants_in(5, 8).curve).description().find("band of v0:"),
             std::string::npos);
   // Sensors of one variant: all together.
   EXPECT_EQ(bands(variants_in(1, 8)), 2U);
   EXPECT_NE(
-      success_curve_chart(variants_in(1, 8).curve).description().find("the band, of all sensors,"),
+      success_curve_chart(variants_in(1, 8).curve).description().find("band of all sensors:"),
       std::string::npos);
 }
 

@@ -273,7 +273,7 @@ TEST(RunCommand, SaysThatTheStoreHasLostTrials) {
   fs::copy_file(bench.folder().path() / "before.sqlite", store,
                 fs::copy_options::overwrite_existing);
   EXPECT_NE(
-      said().find("store.sqlite: trials that were stored are not in it: it is lost, or its log "
+      said().find("store.sqlite: stored trials are missing: the store is lost, or its log "
                   "store.sqlite-wal"),
       std::string::npos);
   EXPECT_EQ(said(), "");

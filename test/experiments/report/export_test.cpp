@@ -276,7 +276,7 @@ TEST(ExportCaption, NamesWhatTheNumbersAreOf) {
             "2 scenes, 2 sensors, 2 variants, 4 starts of each: 29 of 32 trials; a row has 6 to 15 "
             "of 2 scenes.");
   EXPECT_EQ(sentences.at(2),
-            "Success: within 0.5 deg and 0.1 m of the truth; errors are those of these trials.");
+            "Success: within 0.5 deg and 0.1 m of ground truth; errors are over these trials.");
 }
 
 TEST(ExportCaption, KeepsThatTheProgramHadBeenChanged) {
