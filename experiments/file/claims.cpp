@@ -312,8 +312,8 @@ const params::ParameterDoc& claims_doc() {
 std::vector<Claim> read_claims(const Node& node) {
   std::vector<Claim> claims;
   if (!node.is_array()) return claims;
-  if (node.value().size() > kMostClaims) {
-    node.fault("expected at most " + std::to_string(kMostClaims) + " claims, found " +
+  if (node.value().size() > kMaxClaims) {
+    node.fault("expected at most " + std::to_string(kMaxClaims) + " claims, found " +
                std::to_string(node.value().size()));
     return claims;
   }
@@ -333,8 +333,8 @@ std::vector<Claim> read_claims(const Node& node) {
     const std::vector<Claim> expanded = ClaimExpander(keys, element).expand();
     claims.insert(claims.end(), expanded.begin(), expanded.end());
   });
-  if (claims.size() > kMostClaims) {
-    node.fault("expected at most " + std::to_string(kMostClaims) + " claims, found " +
+  if (claims.size() > kMaxClaims) {
+    node.fault("expected at most " + std::to_string(kMaxClaims) + " claims, found " +
                std::to_string(claims.size()) + " with all values of tables");
   }
   return claims;

@@ -19,7 +19,7 @@ enum class Over {
 inline constexpr const char* kAllSensors = "all";
 
 /// More elements than "claims" has; a table of claims is one of them.
-inline constexpr std::size_t kMostClaims = 10000;
+inline constexpr std::size_t kMaxClaims = 10000;
 
 /// The name of `sensor` in files and tables; "" is all sensors together.
 inline std::string name_of_sensor(const std::string& sensor) {

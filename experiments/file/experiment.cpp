@@ -236,9 +236,9 @@ Experiment read_experiment_json(const std::string& text, const std::string& file
   std::vector<Fault> faults;
   const json parsed = json::parse(text, nullptr, false);
   if (!parsed.is_object()) throw InputError(file, "/experiment", "expected an object");
-  if (parsed.contains("variants") && parsed["variants"].size() > kMostVariants) {
+  if (parsed.contains("variants") && parsed["variants"].size() > kMaxVariants) {
     throw InputError(file, "/experiment/variants",
-                     "expected at most " + std::to_string(kMostVariants) + " variants");
+                     "expected at most " + std::to_string(kMaxVariants) + " variants");
   }
   Experiment experiment =
       kept_table().read(Node(parsed, file, faults), {"variants"}, UnbuiltStages());

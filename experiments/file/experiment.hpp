@@ -18,7 +18,7 @@ namespace croon::experiments {
 inline constexpr const char* kPosesStep = "poses";
 
 /// More variants than an experiment has.
-inline constexpr std::size_t kMostVariants = 10000;
+inline constexpr std::size_t kMaxVariants = 10000;
 
 /// A file of poses `T_reference_sensor`, as a variant names it.
 struct PosesFile {

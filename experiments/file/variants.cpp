@@ -65,9 +65,9 @@ PosesFile poses_of(const VariantKeys& keys, const Node& node, const PatchedPipel
 std::vector<NamedPipeline> read_pipelines(const ExperimentKeys& keys, const Node& root,
                                           const Catalogue& catalogue) {
   std::vector<NamedPipeline> pipelines = {{"base", read_steps(*keys.pipeline)}};
-  if (keys.variant_keys.size() >= kMostVariants) {
+  if (keys.variant_keys.size() >= kMaxVariants) {
     root.member("variants")
-        .fault("expected at most " + std::to_string(kMostVariants - 1) +
+        .fault("expected at most " + std::to_string(kMaxVariants - 1) +
                " variants beside the base, found " + std::to_string(keys.variant_keys.size()));
     return pipelines;
   }
@@ -213,7 +213,7 @@ std::vector<GridAxis> read_grid(const Node& grid) {
 void multiply_out(const NamedPipeline& point, const std::vector<GridAxis>& axes, std::size_t axis,
                   const Catalogue& catalogue, std::vector<bool>& is_used,
                   std::vector<NamedPipeline>& out) {
-  if (out.size() > kMostVariants) return;
+  if (out.size() > kMaxVariants) return;
   if (axis == axes.size()) {
     out.push_back(point);
     return;
@@ -245,8 +245,8 @@ std::vector<NamedPipeline> apply_grid(const std::vector<NamedPipeline>& pipeline
   for (const NamedPipeline& named : pipelines) {
     multiply_out(named, axes, 0, catalogue, is_used, points);
   }
-  if (points.size() > kMostVariants) {
-    grid.fault("expected at most " + std::to_string(kMostVariants) + " variants, found more");
+  if (points.size() > kMaxVariants) {
+    grid.fault("expected at most " + std::to_string(kMaxVariants) + " variants, found more");
     points.clear();
   }
   for (std::size_t i = 0; i < axes.size(); ++i) {

@@ -61,8 +61,8 @@ void end_python() {
   is_ending = true;
   ++depth;  // This thread comes back, and needs Python until the end.
   const WithoutGil no_gil;
-  constexpr int kMostWaits = 500;
-  for (int i = 0; i < kMostWaits && threads_inside > 0; ++i) {
+  constexpr int kMaxWaits = 500;
+  for (int i = 0; i < kMaxWaits && threads_inside > 0; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
 }

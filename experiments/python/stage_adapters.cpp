@@ -225,8 +225,8 @@ class PythonVolumeScorer final : public VolumeScorer, Caller {
  private:
   static std::int64_t leaves_from(const py::object& result) {
     const double leaves = py::cast<double>(py::float_(result));
-    constexpr double kMost = 9007199254740992.0;  // 2^53
-    if (!(leaves >= 0.0 && leaves <= kMost)) {
+    constexpr double kMaxExactDouble = 9007199254740992.0;  // 2^53
+    if (!(leaves >= 0.0 && leaves <= kMaxExactDouble)) {
       throw InputError("", "bind", "expected a number of leaves, found " + text_of(result));
     }
     return static_cast<std::int64_t>(leaves);

@@ -7,7 +7,7 @@
 namespace croon::experiments {
 namespace {
 
-constexpr double kWidestPitch = 22.0;  ///< Dots have their full size from this pitch on.
+constexpr double kFullDotPitch = 22.0;  ///< Dots have their full size from this pitch on.
 
 bool is_inside(double value, const Interval& axis) {
   return value >= axis.low && value <= axis.high;
@@ -75,7 +75,7 @@ void draw_dots(Drawing& drawing, const Plot& plot, double x, double pitch,
     if (is_inside(value, plot.y_range)) rows.insert(std::round(2.0 * plot.y(value)) / 2.0);
   }
   for (const double y : rows) {
-    drawing.dot(x, y, 1.8 * std::min(1.0, pitch / kWidestPitch + 0.2), "dot" + style);
+    drawing.dot(x, y, 1.8 * std::min(1.0, pitch / kFullDotPitch + 0.2), "dot" + style);
   }
 }
 
@@ -91,7 +91,7 @@ Beyond count_beyond(const std::vector<double>& values, const Interval& axis) {
 }
 
 bool is_cut(const std::vector<double>& values, const Interval& axis) {
-  if (values.size() < kLeastBoxValues) return false;
+  if (values.size() < kMinBoxValues) return false;
   const BoxPlot box = box_plot(values);
   return !is_inside(box.lower_whisker, axis) || !is_inside(box.upper_whisker, axis);
 }
@@ -109,7 +109,7 @@ void draw_box(Drawing& drawing, const Plot& plot, double x, double pitch, std::s
   const Beyond beyond = count_beyond(values, plot.y_range);
   draw_beyond(drawing, x, pitch, plot.top, beyond.above, true, series);
   draw_beyond(drawing, x, pitch, plot.top + plot.height, beyond.below, false, series);
-  if (values.size() < kLeastBoxValues) return draw_dots(drawing, plot, x, pitch, values, style);
+  if (values.size() < kMinBoxValues) return draw_dots(drawing, plot, x, pitch, values, style);
   const BoxPlot box = box_plot(values);
   const double width = 0.6 * pitch;
   const double left = x - width / 2.0;

@@ -11,7 +11,7 @@ namespace croon::experiments {
 // One box of a figure.
 
 /// Fewer values than this are drawn as dots: they are too few for quartiles.
-inline constexpr std::size_t kLeastBoxValues = 5;
+inline constexpr std::size_t kMinBoxValues = 5;
 
 /// The numbers of values above and below an axis.
 struct Beyond {
@@ -28,7 +28,7 @@ bool is_cut(const std::vector<double>& values, const Interval& axis);
 double beyond_height(const Sheet& sheet, double pitch, std::size_t count);
 
 /// Draws the values of the series `series` at `x` as a box, or as dots if there are fewer than
-/// `kLeastBoxValues`. A box or whisker that extends beyond the axis is cut there and left open,
+/// `kMinBoxValues`. A box or whisker that extends beyond the axis is cut there and left open,
 /// without a side or a cap; an arrowhead shows the number of values beyond. `pitch` is the width
 /// available to the box.
 void draw_box(Drawing& drawing, const Plot& plot, double x, double pitch, std::size_t series,

@@ -73,7 +73,7 @@ std::vector<BoxGroup> box_groups(const Summary& summary, BoxOf of) {
 
 double robust_limit(const std::vector<BoxGroup>& groups, std::size_t measure) {
   constexpr double kWhiskers = 3.0;
-  constexpr double kMostWhiskers = 10.0;
+  constexpr double kMaxWhiskers = 10.0;
   std::vector<double> reaches;
   double of_sensors = 0.0;  // Keeps the best box of each sensor visible.
   for (const BoxGroup& group : groups) {
@@ -90,7 +90,7 @@ double robust_limit(const std::vector<BoxGroup>& groups, std::size_t measure) {
   if (reaches.empty()) return min_limit;
   std::sort(reaches.begin(), reaches.end());
   const double median = reaches[(reaches.size() - 1) / 2];
-  return std::max({min_limit, kWhiskers * median, std::min(of_sensors, kMostWhiskers * median)});
+  return std::max({min_limit, kWhiskers * median, std::min(of_sensors, kMaxWhiskers * median)});
 }
 
 void shorten_labels(std::vector<BoxGroup>& groups, std::size_t columns) {

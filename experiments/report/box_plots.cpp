@@ -304,7 +304,7 @@ std::string explanation_of(BoxOf of, const std::vector<BoxGroup>& groups,
     for_each_box(groups, [&](const BoxSeries& box) {
       const std::vector<double> values = scaled_values(box, panel);
       const Beyond beyond = count_beyond(values, axis);
-      has_few = has_few || values.size() < kLeastBoxValues;
+      has_few = has_few || values.size() < kMinBoxValues;
       has_beyond = has_beyond || beyond.above + beyond.below > 0;
       has_cut = has_cut || is_cut(values, axis);
     });
@@ -313,7 +313,7 @@ std::string explanation_of(BoxOf of, const std::vector<BoxGroup>& groups,
                      ": quartiles and median; dots lie beyond 1.5 interquartile ranges; n/N: "
                      "n of N trials in the box";
   if (has_few) {
-    text += "; fewer than " + std::to_string(kLeastBoxValues) + " values are drawn as dots";
+    text += "; fewer than " + std::to_string(kMinBoxValues) + " values are drawn as dots";
   }
   if (has_beyond) text += "; arrowheads show the number of values beyond the axis";
   if (has_cut) text += "; a box or whisker that extends beyond the axis is open there";

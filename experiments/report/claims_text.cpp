@@ -11,7 +11,7 @@ namespace croon::experiments {
 
 namespace {
 
-constexpr std::size_t kWidestName = 44;
+constexpr std::size_t kMaxNameColumns = 44;
 
 /// Claim, source, expected, band, found and verdict; `open` and `close` are the brackets of the
 /// band.
@@ -55,25 +55,25 @@ Table quoted_table(const std::vector<Quoted>& quoted, const Summary& summary) {
 }
 
 /// Explains the columns and the verdicts other than "in" and "out".
-std::string verdicts_explained() {
+std::string outcomes_explained() {
   return "trials, scenes: those that the number is computed over; share: percentage of all trials "
          "that "
          "succeed (no ground truth: that agree).\nshown: no result within the success bounds could "
          "be outside the "
          "band. not enough trials: fewer than " +
-         std::to_string(kLeastClaimTrials) + " trials or " + std::to_string(kLeastScenes) +
+         std::to_string(kMinClaimTrials) + " trials or " + std::to_string(kMinScenes) +
          " scenes.\n";
 }
 
 /// "50 in, 2 out, 1 not measured".
-std::string verdict_counts(const std::vector<ClaimResult>& results) {
+std::string outcome_counts(const std::vector<ClaimResult>& results) {
   std::string text;
-  for (const Verdict verdict : kVerdicts) {
+  for (const ClaimOutcome outcome : kClaimOutcomes) {
     const auto count = std::count_if(results.begin(), results.end(), [&](const ClaimResult& one) {
-      return one.verdict == verdict;
+      return one.outcome == outcome;
     });
     if (count == 0) continue;
-    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + verdict_name(verdict);
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + name_of(outcome);
   }
   return text;
 }
@@ -92,7 +92,7 @@ std::string results_markdown(const std::vector<ClaimResult>& results) {
   View view = claims_view("\\[", "\\]");
   view.columns.push_back({"why ours may differ"});
   view.names = view.columns.size();
-  std::string text = "Claims: " + verdict_counts(results) + ".\n\n" + verdicts_explained() + "\n" +
+  std::string text = "Claims: " + outcome_counts(results) + ".\n\n" + outcomes_explained() + "\n" +
                      markdown_table(columns.table(results), view);
   if (!reasons.empty()) text += "\nWhy ours may differ:\n\n";
   for (std::size_t i = 0; i < reasons.size(); ++i) {
@@ -118,17 +118,17 @@ std::string claims_text(const std::vector<ClaimResult>& results, const std::vect
   std::string text;
   if (!results.empty()) {
     View view = claims_view("[", "]");
-    view.max_name_columns = kWidestName;
+    view.max_name_columns = kMaxNameColumns;
     const std::string table = text_table(claim_columns().table(results), view, style.colours);
     const std::regex out("out\n");  // In red.
-    text += "\nclaims: " + verdict_counts(results) + "\n";
+    text += "\nclaims: " + outcome_counts(results) + "\n";
     text += style.colours ? std::regex_replace(table, out, "\033[31mout\033[0m\n") : table;
-    text += verdicts_explained();
+    text += outcomes_explained();
   }
   if (!quoted.empty()) {
     const Table table = quoted_table(quoted, summary);
     View view = whole_view(table, 3);
-    view.max_name_columns = kWidestName;
+    view.max_name_columns = kMaxNameColumns;
     text += "\nother methods as published, and ours\n" + text_table(table, view, style.colours);
   }
   return text;

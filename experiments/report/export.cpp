@@ -106,7 +106,8 @@ void mark_best_of_each_sensor(Table& table, const std::set<VariantSensor>& below
 
 std::string mark_of(const PairedTest& test) {
   if (!is_significant(test)) return "";
-  return std::string(test.favours_variant ? "+" : "-") + (holds_by_scene(test) ? "**" : "*");
+  return std::string(test.favours_variant ? "+" : "-") +
+         (is_significant_by_scene(test) ? "**" : "*");
 }
 
 /// The name of a column with the paired difference of a distance, or with an end of its interval.
@@ -310,7 +311,7 @@ std::vector<std::string> caption_sentences(const ExportTable& table) {
   }
   if (shows_column(table, "_percent", "_low")) {
     sentences.push_back("Interval: 95 %, over scenes (Wilson); requires at least " +
-                        std::to_string(kLeastScenes) + " scenes.");
+                        std::to_string(kMinScenes) + " scenes.");
   }
   if (table.variants.size() > 1) {
     // The complete rule of `mark_best`.

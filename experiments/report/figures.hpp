@@ -14,7 +14,7 @@ struct Figure {
   const char* name;
   /// std::nullopt if these results have no such figure.
   std::optional<Drawing> (*draw)(const Results& results, const FigureOptions& options);
-  const char* wants;  ///< What results must have for it.
+  const char* requirement;  ///< What results must have for it.
 };
 
 /// All figures, by name. A new one is a row here.

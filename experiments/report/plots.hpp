@@ -80,8 +80,8 @@ Drawing coverage_chart(const Coverage& coverage, const FigureOptions& options = 
 /// over the threshold from which on a pose is wrong, in multiples of `bounds`. A panel for each of
 /// the four, with an axis of its own. A line per variant, all sensors together; of one variant
 /// alone a line per sensor.
-Drawing verdict_chart(const Verdicts& verdicts, const SuccessBounds& bounds,
-                      const FigureOptions& options = {});
+Drawing acceptance_chart(const AcceptanceCurve& acceptance, const SuccessBounds& bounds,
+                         const FigureOptions& options = {});
 
 /// The largest size that the axis of a measure has to show: three times the lower median of the
 /// boxes' longer whiskers, so that the boxes of bad variants do not flatten those of good ones, but

@@ -76,10 +76,10 @@ Points points_of(const SensorScan& scan) {
 
 /// The path `name`; a part that is too long for the name of a file is its beginning and a digest.
 fs::path short_path(const fs::path& name) {
-  constexpr std::size_t kMostBytes = 200, kShownColumns = 40, kDigits = 16;
+  constexpr std::size_t kMaxPartBytes = 200, kShownColumns = 40, kDigits = 16;
   fs::path path;
   for (const std::string part : name) {
-    const bool is_short = part.size() <= kMostBytes;
+    const bool is_short = part.size() <= kMaxPartBytes;
     path /= is_short
                 ? part
                 : cut_to_columns(part, kShownColumns) + sha256_of_text(part).substr(0, kDigits);

@@ -77,12 +77,12 @@ const std::vector<ResultFile>& result_files() {
        }},
       {"verdicts.csv",
        [](const R& r) {
-         return has_curve(r.verdicts) ? Bytes(verdicts_csv(r.verdicts)) : std::nullopt;
+         return has_curve(r.acceptance) ? Bytes(verdicts_csv(r.acceptance)) : std::nullopt;
        }},
       {"verdicts.svg",
        [](const R& r) -> Bytes {
-         if (!has_curve(r.verdicts)) return std::nullopt;
-         return svg_bytes(verdict_chart(r.verdicts, r.summary.bounds));
+         if (!has_curve(r.acceptance)) return std::nullopt;
+         return svg_bytes(acceptance_chart(r.acceptance, r.summary.bounds));
        }},
       {"covariance.csv",
        [](const R& r) -> Bytes {
@@ -280,14 +280,14 @@ bool is_timing(const std::string& line) {
 /// Calls `use` with each whole line of the file `path`, if there is one. A line is at most as long
 /// as names of `kMaxNameBytes` make it; a longer one, of a damaged file, is left out.
 void for_each_line(const fs::path& path, const std::function<void(const std::string&)>& use) {
-  constexpr std::streamsize kMostBytes = 10 * kMaxNameBytes;
+  constexpr std::streamsize kMaxLineBytes = 10 * kMaxNameBytes;
   std::error_code error;
   if (!fs::exists(fs::symlink_status(path, error))) return;
   std::ifstream stream;
   if (fs::is_regular_file(path, error)) stream.open(path, std::ios::binary);
   if (!stream.is_open()) throw UnavailableFile(path.string(), "", "expected a readable file");
-  std::string line(kMostBytes, '\0');
-  while (stream.getline(line.data(), kMostBytes) || stream.gcount() > 0) {
+  std::string line(kMaxLineBytes, '\0');
+  while (stream.getline(line.data(), kMaxLineBytes) || stream.gcount() > 0) {
     if (stream.eof()) return;  // Its end was not written.
     if (stream.good()) {
       use(line.substr(0, static_cast<std::size_t>(stream.gcount()) - 1));

@@ -151,7 +151,7 @@ Columns<PairedTest> test_columns(const std::string& name, const std::string& pat
       .add({name + "_p_by_scene_holm", "", path + "/p_by_scene_holm", 3},
            &PairedTest::p_by_scene_holm)
       .add({name + "_significant", "", path + "/is_significant"}, is_significant)
-      .add({name + "_by_scene", "", path + "/holds_by_scene"}, holds_by_scene);
+      .add({name + "_by_scene", "", path + "/holds_by_scene"}, is_significant_by_scene);
 }
 
 Columns<ErrorComparison> error_columns(const Measure& measure) {
@@ -309,7 +309,7 @@ Columns<ClaimResult> claim_columns() {
   Columns<R> columns;
   return columns.add(of_claim, &R::claim)
       .add({"found", "", "", kDecimals}, found)
-      .add({"verdict"}, [](const R& result) { return verdict_name(result.verdict); })
+      .add({"verdict"}, [](const R& result) { return name_of(result.outcome); })
       .add({"trials"}, &R::trials)
       .add({"scenes"}, &R::scenes)
       .add({"success", "percent", "", 1}, &R::success_percent)

@@ -173,7 +173,7 @@ std::string success_curve_csv(const SuccessCurve& curve);
 
 /// verdicts.csv: a row per variant, sensor ("all" for all sensors together) and threshold of
 /// rotation and translation, above which a pose is wrong.
-std::string verdicts_csv(const Verdicts& verdicts);
+std::string verdicts_csv(const AcceptanceCurve& acceptance);
 
 /// covariance.csv: a row per trial with a covariance.
 std::string covariance_csv(const std::vector<TrialRecord>& records);

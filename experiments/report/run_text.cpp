@@ -53,10 +53,10 @@ std::string result_text(const Results& results, bool colours) {
            " scenes; a \"scene\" below is such a group\n";
   }
   text += summary_text(results.summary, style);
-  if (!results.verdicts.rows.empty()) {
+  if (!results.acceptance.rows.empty()) {
     text += "\nverdicts: poses that the program accepts and rejects; right: within " +
             bounds_text(results.summary.bounds) + "ground truth\n" +
-            verdicts_text(results.verdicts, style);
+            verdicts_text(results.acceptance, style);
   }
   if (!results.coverage.rows.empty()) {
     text +=
@@ -73,7 +73,7 @@ std::string result_text(const Results& results, bool colours) {
   return text;
 }
 
-std::string verdicts_text(const Verdicts& verdicts, const TableStyle& style) {
+std::string verdicts_text(const AcceptanceCurve& acceptance, const TableStyle& style) {
   Table table{{{"variant"},
                {"sensor"},
                {"accepted, right"},
@@ -82,8 +82,8 @@ std::string verdicts_text(const Verdicts& verdicts, const TableStyle& style) {
                {"rejected, wrong"},
                {"failed"}},
               {}};
-  for (const VerdictRow& row : verdicts.rows) {
-    const VerdictCounts& counts = row.at_bounds;
+  for (const AcceptanceRow& row : acceptance.rows) {
+    const AcceptanceCounts& counts = row.at_bounds;
     table.rows.push_back(cell_row(row.variant, name_of_sensor(row.sensor), counts.accepted_right,
                                   counts.accepted_wrong, counts.rejected_right,
                                   counts.rejected_wrong, counts.failed));
@@ -167,7 +167,7 @@ std::string basin_text(const Basin& basin, const TableStyle& style) {
          "; radius: maximum size up to which each level has at least " +
          fixed_number(100.0 * kBasinRatio, 0) +
          " %\n  of the success at the first level; its interval: over scenes (requires at least " +
-         std::to_string(kLeastScenes) + " scenes)\n" + text_table(table, view, style.colours);
+         std::to_string(kMinScenes) + " scenes)\n" + text_table(table, view, style.colours);
 }
 
 std::string clouds_text(const std::vector<CloudDescription>& clouds) {

@@ -29,7 +29,7 @@ std::string summary_text(const Summary& summary, const TableStyle& style = {});
 
 /// The numbers of right and wrong poses, accepted and rejected, per variant and sensor, at the
 /// success bounds. Ends with a newline.
-std::string verdicts_text(const Verdicts& verdicts, const TableStyle& style = {});
+std::string verdicts_text(const AcceptanceCurve& acceptance, const TableStyle& style = {});
 
 /// How often intervals of covariances contain ground truth, per variant and degree of freedom, over
 /// all sensors. Ends with a newline.

@@ -44,7 +44,7 @@ Columns<SummaryRow> row_columns() {
 
 /// The corrected p value of a test, with its mark.
 std::string p_text(const PairedTest& test) {
-  const char* mark = holds_by_scene(test) ? "**" : is_significant(test) ? "*" : "";
+  const char* mark = is_significant_by_scene(test) ? "**" : is_significant(test) ? "*" : "";
   return (test.p_holm < 0.001 ? "<0.001" : fixed_number(test.p_holm, 3)) + mark;
 }
 
@@ -311,7 +311,7 @@ class SummaryText {
     std::string text = "\n" + text_by_variant(table_, outcomes_view(table_), summary_, style_);
     if (any_row([](const SummaryRow& row) { return !main_share(row).interval; })) {
       text += "no interval: trials of one scene are dependent, and there are fewer than " +
-              std::to_string(kLeastScenes) + " scenes\n";
+              std::to_string(kMinScenes) + " scenes\n";
     }
     if (!has_scenes_ || summary_.frames.empty()) return text;
     return text + "\nframes: scenes in which every trial of every sensor succeeds\n" +

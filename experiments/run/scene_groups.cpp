@@ -73,9 +73,9 @@ std::vector<CalibratedPair> pairs_of(const Scene& scene, bool loops) {
 void check_number_of_pairs(const Scene& scene, const std::string& file) {
   const std::size_t sensors = scene.sensors.size();
   const std::size_t with_pairs = sensors + sensors * (sensors - 1) / 2;
-  if (sensors == 0 || with_pairs <= kMostVariants) return;
+  if (sensors == 0 || with_pairs <= kMaxVariants) return;
   throw InputError(file, "/loops",
-                   "expected at most " + std::to_string(kMostVariants) +
+                   "expected at most " + std::to_string(kMaxVariants) +
                        " sensors and pairs of them, found " + std::to_string(with_pairs) +
                        " in scene " + in_quotes(scene.name));
 }

@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFramework = "framework";
-constexpr unsigned kLargestVersion = std::numeric_limits<int>::max();
+constexpr unsigned kMaxVersion = std::numeric_limits<int>::max();
 
 auto key_of(const Build& build) {
   return std::tie(build.version, build.commit, build.program_sha256);
@@ -158,7 +158,7 @@ params::StageVersions read_versions(const std::string& text) {
   params::StageVersions versions;
   if (!json.is_object()) throw std::runtime_error("its versions are no JSON object");
   for (const auto& [stage, version] : json.items()) {
-    const bool is_version = version.is_number_unsigned() && version <= kLargestVersion;
+    const bool is_version = version.is_number_unsigned() && version <= kMaxVersion;
     if (!is_version) throw std::runtime_error("a version of " + stage + " is no whole number");
     versions[stage] = version;
   }

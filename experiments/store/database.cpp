@@ -39,7 +39,7 @@ namespace fs = std::filesystem;
 }
 
 /// The largest text or blob of a store, in bytes: the manifest of ten thousand variants is smaller.
-constexpr int kLargestValue = 1 << 28;
+constexpr int kMaxValueBytes = 1 << 28;
 
 /// The URI by which SQLite opens `path` as `option` says.
 std::string uri_of(const fs::path& path, const std::string& option) {
@@ -106,7 +106,7 @@ void defend(sqlite3* database) {
   sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, &ignored);
   sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, &ignored);
   sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, &ignored);
-  sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kLargestValue);
+  sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kMaxValueBytes);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ std::vector<const SensorScan*> scans_with_files(const std::vector<SceneGroup>& g
 }
 
 /// The most bytes of clouds that are kept from recording to running: a few dozen scans.
-constexpr std::size_t kMostKeptBytes = std::size_t{64} << 20;
+constexpr std::size_t kMaxKeptBytes = std::size_t{64} << 20;
 
 std::size_t bytes_of(const PointCloud& cloud) {
   std::size_t bytes = cloud.points.size() * sizeof(Eigen::Vector3f);
@@ -60,7 +60,7 @@ class KeptClouds {
   void keep(const std::string& file, LoadedCloud cloud) {
     const std::size_t bytes = bytes_of(cloud);
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (bytes > kMostKeptBytes - bytes_) return;
+    if (bytes > kMaxKeptBytes - bytes_) return;
     bytes_ += bytes;
     clouds_.emplace(file, std::move(cloud));
   }

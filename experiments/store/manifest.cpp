@@ -49,7 +49,7 @@ Json listed_inputs(const std::vector<InputFile>& inputs) {
 constexpr const char* kWithoutTruth = "sensors_without_truth";
 
 /// More trials than any run has; products with it do not overflow.
-constexpr std::size_t kMostPlanned = 1'000'000'000'000;
+constexpr std::size_t kMaxPlanned = 1'000'000'000'000;
 
 /// The input to the digest of the pipelines, for one variant.
 std::string pipeline_line(const std::string& name, const std::string& resolved) {
@@ -181,7 +181,7 @@ std::string manifest_json(const Experiment& experiment, const std::vector<SceneG
 
 std::size_t planned_trials(const std::string& manifest) {
   const Json planned = parse_bounded<Json>(manifest).at("planned");
-  if (!planned.is_number_unsigned() || planned > kMostPlanned) {
+  if (!planned.is_number_unsigned() || planned > kMaxPlanned) {
     throw std::runtime_error("\"planned\" of its manifest is no number of trials");
   }
   return planned;

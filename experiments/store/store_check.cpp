@@ -77,9 +77,9 @@ void check_names(const Database& database, const std::string& table, const std::
   places.next();
   if (places.integer(0) != places.integer(1)) refuse(database, table + ": a place is missing");
   // An experiment has fewer sensors too; time grows with the square of their number.
-  if (places.integer(1) > std::int64_t{kMostVariants} && table != "scenes") {
+  if (places.integer(1) > std::int64_t{kMaxVariants} && table != "scenes") {
     refuse(database, "it has " + std::to_string(places.integer(1)) + " " + table +
-                         ", expected at most " + std::to_string(kMostVariants));
+                         ", expected at most " + std::to_string(kMaxVariants));
   }
   Statement select = database.prepare("SELECT name, " + detail + " FROM " + table);
   while (select.next()) {

@@ -119,7 +119,7 @@ TEST(Basin, TheIntervalOfTheRadiusHoldsTheTrueOne) {
       truth.levels.push_back({static_cast<int>(1e6 * success), 1000000, success, {}});
     }
     const double radius = *basin_radius(sweep, truth);
-    for (const int scenes : {kLeastScenes, 12, 40}) {
+    for (const int scenes : {kMinScenes, 12, 40}) {
       int held = 0;
       for (int i = 0; i < kExperiments; ++i) {
         std::vector<double> reaches;

@@ -156,7 +156,7 @@ TEST(Box, OfFewValuesIsDots) {
     for (std::size_t i = 0; i < n; ++i) values.push_back(static_cast<double>(i));
     Drawing drawing(100.0, 100.0);
     draw_box(drawing, {0.0, 0.0, 100.0, 100.0, {0.0, 1.0}, {-1.0, 9.0}}, 50.0, 20.0, 0, values);
-    const bool is_box = n >= kLeastBoxValues;
+    const bool is_box = n >= kMinBoxValues;
     EXPECT_EQ(elements_of<Drawing::Dot>(drawing, "dot").size(), is_box ? 0U : n);
     EXPECT_EQ(elements_of<Drawing::Rectangle>(drawing, "box").size(), is_box ? 1U : 0U);
     EXPECT_EQ(elements_of<Drawing::Line>(drawing, "median").size(), is_box ? 1U : 0U);
