@@ -7,9 +7,9 @@
 namespace croon::experiments {
 namespace {
 
-constexpr double kLine = 1.3;  // Of the size of the title's text.
+constexpr double kLine = 1.3;  // Line height, in multiples of the title's font size.
 
-/// Lines of at most `columns` columns, broken at spaces.
+/// Breaks the text at spaces into lines of at most `columns` columns.
 std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
   std::vector<std::string> lines = {""};
   std::istringstream words(text);
@@ -33,7 +33,7 @@ FigureTitle::FigureTitle(const std::string& title, const std::string& explanatio
     : sheet_(sheet) {
   if (!sheet.has_title) return;
   const auto columns = static_cast<std::size_t>(width / text_width("x", sheet.small()));
-  title_ = wrapped(title, columns * 3 / 4);  // It is larger, or bold.
+  title_ = wrapped(title, columns * 3 / 4);  // The title is larger or bold.
   explanation_ = wrapped(explanation, columns);
 }
 

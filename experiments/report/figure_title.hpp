@@ -7,14 +7,14 @@
 
 namespace croon::experiments {
 
-/// The title of a figure and the explanation below it, in lines that fit its width. A sheet without
-/// a title has neither: they are in the description of the drawing.
+/// The title of a figure and the explanation below it, broken into lines that fit its width. Sheets
+/// without titles show neither; both are then only in the description of the drawing.
 class FigureTitle {
  public:
   FigureTitle(const std::string& title, const std::string& explanation, const Sheet& sheet,
               double width);
 
-  /// Of the lines; 0 if the sheet has no title.
+  /// The height of the lines; 0 if the sheet has no title.
   double height() const;
 
   /// Draws the lines from `top` downwards.

@@ -15,7 +15,7 @@ bool contains(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The order of the reports that `summary` is of.
+/// The order of the reports that `summary` was computed for.
 ReportOrder order_of(const Summary& summary) {
   ReportOrder order;
   order.variants = variants_of(summary);
@@ -37,8 +37,8 @@ ReportOrder order_of(const Summary& summary) {
   return order;
 }
 
-/// The names of `all` that are chosen, in their order; all if none is. Throws InputError for a
-/// chosen name that is not there.
+/// The chosen `names`, in the order of `all`; all if no names are given. Throws InputError for a
+/// name that is not in `all`.
 Names chosen(const std::string& option, const Names& names, const Names& all) {
   refuse_unknown(option, names, all);
   if (names.empty()) return all;
@@ -58,7 +58,7 @@ const std::vector<Figure>& figures() {
          if (!results.basin) return std::nullopt;
          return basin_chart(*results.basin, options);
        },
-       "a sweep of starts with truth"},
+       "a sweep of starts and ground truth"},
       {"box_plots",
        [](const Results& results, const FigureOptions& options) -> std::optional<Drawing> {
          return box_plots(results.summary, options);
@@ -69,19 +69,19 @@ const std::vector<Figure>& figures() {
          if (results.coverage.rows.empty()) return std::nullopt;
          return coverage_chart(results.coverage, options);
        },
-       "covariances and a dataset with truth"},
+       "covariances and a dataset with ground truth"},
       {"success_curve",
        [](const Results& results, const FigureOptions& options) -> std::optional<Drawing> {
          if (results.summary.curve.rows.empty()) return std::nullopt;
          return success_curve_chart(results.summary.curve, options);
        },
-       "a dataset with truth"},
+       "a dataset with ground truth"},
       {"verdicts",
        [](const Results& results, const FigureOptions& options) -> std::optional<Drawing> {
          if (!has_curve(results.acceptance)) return std::nullopt;
          return acceptance_chart(results.acceptance, results.summary.bounds, options);
        },
-       "a step that rejects trials, and a dataset with truth"}};
+       "a step that rejects trials, and a dataset with ground truth"}};
   return figures;
 }
 
@@ -133,7 +133,7 @@ Results restricted(Results results, const TrialChoice& choice) {
   results.steps.numbers = std::move(numbers);
   results.diagnostics = summarise_diagnostics(results.records, results.steps);
   results.scenes = std::min(results.scenes, order.scenes.size());
-  // Not every scene need have every sensor.
+  // Some scenes may lack sensors.
   results.planned = is_whole ? results.records.size()
                              : order.variants.size() * order.sensors.size() * order.scenes.size() *
                                    static_cast<std::size_t>(results.trials);

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether the file `path` is JSON with a key that experiments, or what they extend, have.
+/// Whether the file `path` is JSON with a key of experiments or of the files that they extend.
 bool is_experiment(const fs::path& path) {
   if (path.extension() != ".json") return false;
   const nlohmann::json json = parsed_or_discarded(read_whole_file(path));
@@ -26,8 +26,8 @@ bool is_experiment(const fs::path& path) {
          (json.contains("dataset") || json.contains("extends") || json.contains("pipeline"));
 }
 
-/// Which kind of file that an experiment names is at the path of `file`, unless the new bytes are
-/// one too: "a file of starts"; else empty.
+/// The kind of input file of experiments that exists at the path of `file`, such as "a file of
+/// starts"; empty if there is none, or if the new bytes are of the same kind.
 std::string named_by_experiments(const OutputFile& file) {
   for (const auto& [header, what] :
        {std::pair(velocity_header().c_str(), "a file of velocities"),
@@ -37,15 +37,15 @@ std::string named_by_experiments(const OutputFile& file) {
   return "";
 }
 
-/// What is at the path of `file` and must not be replaced, or belongs there; empty if nothing, or
-/// another file.
+/// Describes the existing or reserved file at the path of `file` that must not be replaced; empty
+/// if it may be written.
 std::string what_must_stay(const OutputFile& file, const std::vector<fs::path>& inputs) {
   const fs::path& path = file.path;
   static const std::set<std::string> of_datasets = {
       "truth.json",      "nominal.json",         "scene_kinds.json",
       "simulation.json", "lidar_cloud_path.txt", "initial_extrinsic.txt"};
   std::error_code error;
-  // Also if it is not there: SQLite would take it for a part of the store.
+  // Even if it does not exist: SQLite would treat it as part of the store.
   if (is_result_of_run(path)) return "a file of the results of a run";
   const fs::file_status status = fs::symlink_status(path, error);
   if (!fs::exists(status)) return "";
@@ -85,7 +85,7 @@ void write_output_files(const std::vector<OutputFile>& files) {
     } else if (!file_has(file.path, file.bytes)) {
       throw InputError("", "--out",
                        "expected a new file, found " + file.path.string() +
-                           ", which is there; delete it first, or write to another");
+                           ", which exists; delete it first, or write to another file");
     }
   }
   for (const OutputFile* file : missing) write_whole_file(file->path, file->bytes);

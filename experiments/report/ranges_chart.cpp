@@ -10,9 +10,9 @@
 namespace croon::experiments {
 namespace {
 
-constexpr double kTopShare = 0.25;  // Of the points in one bin.
+constexpr double kTopShare = 0.25;  // Share of points in one bin, at the top of the axis.
 
-/// Where panels are, in units of the sheet.
+/// The layout of the panels, in units of the sheet.
 struct RangesLayout {
   std::size_t columns;
   double left, top, gap, plot_width, plot_height, panel_width, width, height;
@@ -20,7 +20,7 @@ struct RangesLayout {
 
 using Shares = std::array<double, kRangeBins>;
 
-/// The mean histogram of each dataset and sensor, in the order in which they come first.
+/// The mean histogram of each dataset and sensor, in order of first appearance.
 struct Histograms {
   std::vector<std::string> datasets, sensors;
   std::map<std::pair<std::string, std::string>, std::pair<Shares, int>> sums;
@@ -56,8 +56,8 @@ RangesLayout layout_of(const Sheet& sheet, std::size_t sensors) {
   return layout;
 }
 
-/// Draws the frame of the `index`-th panel and returns its plot: bins to the right, upwards shares
-/// of `kTopShare`.
+/// Draws the frame of the `index`-th panel and returns its plot: bins on the x axis, shares of
+/// points, in multiples of `kTopShare`, on the y axis.
 Plot draw_panel(Drawing& drawing, const RangesLayout& layout, std::size_t index,
                 const std::string& sensor) {
   const double text = drawing.sheet().small();
@@ -78,7 +78,7 @@ Plot draw_panel(Drawing& drawing, const RangesLayout& layout, std::size_t index,
   return plot;
 }
 
-/// Draws a mean histogram: the sum of `count` of them. Markers of several stand at other bins.
+/// Draws a mean histogram from the sum of `count` of them. Series have markers at different bins.
 void draw_line(Drawing& drawing, const Plot& plot, const Shares& sum, int count,
                std::size_t series) {
   constexpr std::size_t kMarkerEvery = 5;

@@ -19,12 +19,13 @@ namespace fs = std::filesystem;
 
 using Pose = std::optional<RigidTransform>;
 
-/// The scene of `group` that is shown under the group's name: clouds of several scenes are not of
-/// one place.
+/// The scene of `group` that is shown under the group's name: clouds of different scenes were
+/// recorded at different places.
 const Scene& shown(const SceneGroup& group) { return group.scenes.front(); }
 
-/// The pose that all scenes agree on, of each sensor of the shown scene; std::nullopt for a sensor
-/// without a usable pose in this group, whose cloud may not be readable, or if no two trials agree.
+/// For each sensor of the shown scene the pose that all scenes agree on; std::nullopt if no two
+/// trials agree, or for a sensor without a usable pose in this group, whose cloud may be
+/// unreadable.
 std::vector<Pose> agreed_poses(const Summary& summary, const Variant& variant,
                                const SceneGroup& group) {
   std::vector<Pose> poses;
@@ -43,7 +44,7 @@ std::vector<Pose> agreed_poses(const Summary& summary, const Variant& variant,
   return poses;
 }
 
-/// The picture of the shown scene, whose sensors are at `poses`.
+/// The picture of the shown scene with its sensors at `poses`.
 Image drawn(const Experiment& experiment, const SceneGroup& group, const std::vector<Pose>& poses) {
   const Scene& scene = shown(group);
   std::vector<ColouredCloud> before = {{scene.reference.sensor, scene.reference.load().points, {}}};
@@ -59,11 +60,11 @@ Image drawn(const Experiment& experiment, const SceneGroup& group, const std::ve
   std::vector<std::string> sensors;
   for (const ColouredCloud& cloud : after) sensors.push_back(cloud.sensor);
   return with_legend({draw_view(before, view), draw_view(after, view)},
-                     {"before: the starts", "after: the results"}, sensors, view.pixel_m);
+                     {"before: initial guesses", "after: results"}, sensors, view.pixel_m);
 }
 
-/// The points of `scan`; none if they are damaged, which is the reason of its failed trials. Throws
-/// UnavailableFile.
+/// The points of `scan`; empty if its file is damaged, which is the reason of its failed trials.
+/// Throws UnavailableFile.
 Points points_of(const SensorScan& scan) {
   try {
     return scan.load().points;
@@ -74,7 +75,8 @@ Points points_of(const SensorScan& scan) {
   }
 }
 
-/// The path `name`; a part that is too long for the name of a file is its beginning and a digest.
+/// Replaces parts of the path `name` that are too long for a file name by their beginning and a
+/// digest.
 fs::path short_path(const fs::path& name) {
   constexpr std::size_t kMaxPartBytes = 200, kShownColumns = 40, kDigits = 16;
   fs::path path;
@@ -87,13 +89,13 @@ fs::path short_path(const fs::path& name) {
   return path;
 }
 
-/// Throws InputError if a file that `write_clouds` would replace is not one of its own.
+/// Throws InputError if a file that `write_clouds` would replace was not written by croon.
 void refuse_foreign_clouds(const fs::path& stem) {
   std::error_code error;
   const fs::path ply = stem.string() + ".ply";
   for (const fs::path& path : {ply, fs::path(stem.string() + ".vdb")}) {
     if (!fs::exists(fs::symlink_status(path, error)) || is_fused_ply(ply)) continue;
-    throw InputError(path.string(), "", "not written: croon did not write what is there");
+    throw InputError(path.string(), "", "not written: the existing file is not from croon");
   }
 }
 
@@ -162,7 +164,7 @@ FusedClouds write_fused_clouds(const Experiment& experiment, const std::vector<S
       } catch (const InputError& error) {
         complaints.emplace_back(error.what());
       } catch (const StageError& error) {
-        // A pose may be farther off than leaves can be.
+        // A pose may be farther away than the coordinates of leaves allow.
         complaints.push_back(stem.string() + ".vdb: not written: " + error.what());
       }
     }

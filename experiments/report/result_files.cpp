@@ -37,14 +37,14 @@ struct ResultFile {
 
 constexpr const char* kManifest = "manifest.json";
 
-/// `bytes` of `what` if `rows` is not empty.
+/// `bytes` of `what`; std::nullopt if `rows` is empty.
 template <class Rows, class What>
 Bytes if_any(const Rows& rows, std::string (*bytes)(const What&), const What& what) {
   return rows.empty() ? std::nullopt : Bytes(bytes(what));
 }
 
-/// Every file that a run writes beside its store: what it must be able to write, and what `--fresh`
-/// deletes. A new one is a row here.
+/// All files that a run writes in addition to its store: they must be writable, and `--fresh`
+/// deletes them. A new file is a row here.
 const std::vector<ResultFile>& result_files() {
   using R = Results;
   static const std::vector<ResultFile> files = {
@@ -110,7 +110,7 @@ const std::vector<ResultFile>& result_files() {
   return files;
 }
 
-/// The files of the store, and of the one that a merge was killed while it made.
+/// The files of the store, and of the one left by a merge that was killed.
 std::vector<fs::path> store_paths_in(const fs::path& folder) {
   std::vector<fs::path> paths = store_files(store_path(folder));
   const std::vector<fs::path> merged = store_files(merged_store_path(folder));
@@ -118,14 +118,14 @@ std::vector<fs::path> store_paths_in(const fs::path& folder) {
   return paths;
 }
 
-/// The paths of the store and of all other files of a folder of results.
+/// The paths of the store and of all other files in a folder of results.
 std::vector<fs::path> paths_in(const fs::path& folder) {
   std::vector<fs::path> paths = store_paths_in(folder);
   for (const ResultFile& file : result_files()) paths.push_back(folder / file.name);
   return paths;
 }
 
-/// Whether `path` is a manifest that croon wrote.
+/// Whether `path` is a manifest written by croon.
 bool is_manifest(const fs::path& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return false;
@@ -133,21 +133,21 @@ bool is_manifest(const fs::path& path) {
   return manifest.is_object() && manifest.contains("croon") && manifest.contains("experiment");
 }
 
-/// Whether an earlier run or merge wrote to the folder. Throws InputError if its store is something
-/// else.
+/// Whether an earlier run or merge wrote to the folder. Throws InputError if its store file is
+/// something else.
 bool has_results(const fs::path& folder) {
   const bool has_manifest = is_manifest(folder / kManifest);
   try {
     return has_store(store_path(folder)) || has_manifest;
   } catch (const UnreadableDatabase&) {
-    // A damaged store is replaced by --fresh, but only if it is known to be one.
+    // --fresh replaces a damaged store, but only if a manifest shows that it is one.
     if (!has_manifest) throw;
     return true;
   }
 }
 
-/// Throws InputError if a file that a run changes in its place, and does not replace, has another
-/// name: what that name is of, a backup made of hard links, would change too.
+/// Throws InputError if a file that a run modifies in place has another hard link: the other file,
+/// perhaps a backup, would change too.
 void refuse_hard_links(const fs::path& folder) {
   std::vector<fs::path> changed = store_paths_in(folder);
   changed.push_back(folder / kTimings);
@@ -155,13 +155,14 @@ void refuse_hard_links(const fs::path& folder) {
   for (const fs::path& path : changed) {
     const std::uintmax_t names = fs::hard_link_count(path, error);
     if (error || names <= 1) continue;
-    throw InputError(path.string(), "",
-                     "expected a file with one name, found a hard link: another file would change "
-                     "too; copy the folder without links, or --out names another folder");
+    throw InputError(
+        path.string(), "",
+        "expected a file with one name, found a hard link: the other file would change "
+        "too; copy the folder without links, or choose another folder with --out");
   }
 }
 
-/// Throws InputError if a run would write through a link or over a file that is not its own.
+/// Throws InputError if a run would write through a link or over a file that is not from croon.
 void refuse_files_of_others(const fs::path& folder) {
   std::vector<fs::path> paths = paths_in(folder);
   paths.push_back(folder / kClouds);
@@ -174,23 +175,23 @@ void refuse_files_of_others(const fs::path& folder) {
   if (has_results(folder)) {
     if (fs::exists(folder / kManifest, error) && !is_manifest(folder / kManifest)) {
       throw InputError((folder / kManifest).string(), "",
-                       "is damaged or no manifest of croon; delete it, or restore it");
+                       "is damaged or not a manifest of croon; delete it, or restore it");
     }
     return;
   }
   const std::vector<fs::path> of_store = store_paths_in(folder);
   for (const fs::path& path : paths) {
     if (!fs::exists(path, error)) continue;
-    // A run that was killed before it had a store leaves no manifest.
+    // A run killed before it created a store leaves no manifest.
     const bool is_of_store = std::find(of_store.begin(), of_store.end(), path) != of_store.end();
     if (is_of_store && is_left_by_sqlite(path)) continue;
     throw InputError(path.string(), "",
-                     "would be overwritten, but the folder has no results of croon; --out names "
-                     "another folder");
+                     "would be overwritten, but the folder has no results of croon; choose another "
+                     "folder with --out");
   }
 }
 
-/// The folder, made if it is missing. Throws InputError if a run cannot write to it.
+/// The folder, created if missing. Throws InputError if a run cannot write to it.
 fs::path writable(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
@@ -198,7 +199,7 @@ fs::path writable(const fs::path& path) {
     throw InputError(path.string(), "", "expected a folder to write to: " + error.message());
   }
   if (::access(path.c_str(), W_OK | X_OK) != 0) {
-    throw InputError(path.string(), "", "expected a folder that may be written to");
+    throw InputError(path.string(), "", "expected a writable folder");
   }
   for (const fs::path& to_write : paths_in(path)) {
     const fs::file_status status = fs::status(to_write, error);
@@ -210,15 +211,15 @@ fs::path writable(const fs::path& path) {
   return path;
 }
 
-/// Deletes the file or folder `path` if there is one.
+/// Deletes the file or folder `path` if it exists.
 void delete_path(const fs::path& path) {
   std::error_code error;
   fs::remove_all(path, error);
   if (error) throw InputError(path.string(), "", "cannot be deleted: " + error.message());
 }
 
-/// Deletes the clouds that `write_fused_clouds` left in `folder` or in folders in it, and folders
-/// that are then empty.
+/// Deletes the clouds that `write_fused_clouds` left in `folder` and its subfolders, and folders
+/// that become empty.
 void delete_clouds(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(fs::symlink_status(folder, error))) return;
@@ -229,7 +230,7 @@ void delete_clouds(const fs::path& folder) {
   for (const fs::path& path : paths) {
     delete_clouds(path);
     if (!is_fused_ply(path)) continue;
-    // The PLY says whose both are, so it goes last.
+    // The PLY file identifies both as croon's, so it is deleted last.
     fs::path occupancy = path;
     if (fs::is_regular_file(fs::symlink_status(occupancy.replace_extension(".vdb"), error))) {
       delete_path(occupancy);
@@ -239,13 +240,13 @@ void delete_clouds(const fs::path& folder) {
   if (fs::is_empty(folder, error)) delete_path(folder);
 }
 
-/// Whether the file `path` has these bytes, or is missing if there are none.
+/// Whether the file `path` has these bytes, or is missing if there are no bytes.
 bool is_unchanged(const fs::path& path, const Bytes& bytes) {
   std::error_code error;
   return bytes ? file_has(path, *bytes) : !fs::exists(fs::symlink_status(path, error));
 }
 
-/// The cells of a line of a CSV file, as they are written.
+/// The cells of a line of a CSV file, as written.
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells(1);
   bool is_quoted = false;
@@ -256,8 +257,8 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-/// Whether `line` is a row of timings.csv as croon writes it. The file is no part of the store, and
-/// nothing else checks it.
+/// Whether `line` is a row of timings.csv as croon writes it. The file is outside the store and not
+/// checked elsewhere.
 bool is_timing(const std::string& line) {
   constexpr std::size_t kTrial = 3, kSeconds = 5;
   const std::vector<std::string> cells = cells_of(line);
@@ -277,8 +278,8 @@ bool is_timing(const std::string& line) {
   return is_number(cells[kTrial], 0) && is_number(cells[kSeconds], 0.0);
 }
 
-/// Calls `use` with each whole line of the file `path`, if there is one. A line is at most as long
-/// as names of `kMaxNameBytes` make it; a longer one, of a damaged file, is left out.
+/// Calls `use` with each complete line of the file `path`, if it exists. Lines longer than names of
+/// `kMaxNameBytes` allow, as in a damaged file, are skipped.
 void for_each_line(const fs::path& path, const std::function<void(const std::string&)>& use) {
   constexpr std::streamsize kMaxLineBytes = 10 * kMaxNameBytes;
   std::error_code error;
@@ -288,7 +289,7 @@ void for_each_line(const fs::path& path, const std::function<void(const std::str
   if (!stream.is_open()) throw UnavailableFile(path.string(), "", "expected a readable file");
   std::string line(kMaxLineBytes, '\0');
   while (stream.getline(line.data(), kMaxLineBytes) || stream.gcount() > 0) {
-    if (stream.eof()) return;  // Its end was not written.
+    if (stream.eof()) return;  // Incomplete line.
     if (stream.good()) {
       use(line.substr(0, static_cast<std::size_t>(stream.gcount()) - 1));
       continue;
@@ -298,8 +299,8 @@ void for_each_line(const fs::path& path, const std::function<void(const std::str
   }
 }
 
-/// The number of bytes of the whole lines of the file `path`, which has `size` bytes. Reads its end
-/// alone: millions of trials have a file of gigabytes.
+/// The number of bytes of the complete lines of the file `path`, which has `size` bytes. Reads only
+/// its end: for millions of trials the file has gigabytes.
 std::uintmax_t bytes_of_whole_lines(const fs::path& path, std::uintmax_t size) {
   std::ifstream stream(path, std::ios::binary);
   std::string block(1U << 16U, '\0');
@@ -314,12 +315,12 @@ std::uintmax_t bytes_of_whole_lines(const fs::path& path, std::uintmax_t size) {
   return 0;
 }
 
-/// The cells of a row of timings.csv that name its trial.
+/// The cells of a row of timings.csv that identify its trial.
 std::string trial_cells(const std::string& row) {
   return row.substr(0, row.rfind(',', row.rfind(',') - 1));
 }
 
-/// Makes timings.csv end after its last whole line, or hold the header alone.
+/// Truncates timings.csv after its last complete line; writes the header if there is none.
 void repair(const fs::path& path) {
   const std::string header = timings_csv({});
   if (!file_begins_with(path, header)) return write_whole_file(path, header);
@@ -348,8 +349,8 @@ OutputFolder::OutputFolder(const fs::path& path) : path_(writable(path)), lock_(
 
 void OutputFolder::clear() const {
   delete_clouds(file(kClouds));
-  // The manifest last: where it is, the other files are croon's (is_result_of_run), also after a
-  // kill in between.
+  // The manifest last: its presence marks the other files as croon's (is_result_of_run), also after
+  // a kill in between.
   const fs::path manifest = file(kManifest);
   for (const fs::path& path : paths_in(path_)) {
     if (path != manifest) delete_path(path);
@@ -363,7 +364,7 @@ void OutputFolder::write_reports(const Results& results, const std::string& mani
     if (result.bytes == nullptr) continue;
     const Bytes bytes = result.bytes(results);
     if (is_same && !is_unchanged(file(result.name), bytes)) {
-      // Before the first table changes: a run that is killed here leaves none of other results.
+      // Before the first table changes: a run killed here leaves no pictures of other results.
       is_same = false;
       delete_clouds(file(kClouds));
       delete_path(file(kPicture));
@@ -398,7 +399,7 @@ std::set<std::string> last_timed_trials(const fs::path& path) {
   if (error || !stream) return trials;
   stream.seekg(static_cast<std::streamoff>(size - std::min(size, kEnd)));
   std::string line;
-  std::getline(stream, line);  // The header, or a part of a line.
+  std::getline(stream, line);  // The header or a partial line.
   while (std::getline(stream, line) && !stream.eof()) {
     if (is_timing(line)) trials.insert(trial_cells(line));
   }

@@ -39,7 +39,7 @@ Columns<PoseCovariance> covariance_columns(const std::string& path) {
   using C = PoseCovariance;
   Columns<C> columns;
   for (int i = 0; i < 6; ++i) {
-    // JSON has both triangles, so that a reader needs not know which.
+    // JSON has both triangles, so that readers need not know which one is stored.
     for (int j = path.empty() ? i : 0; j < 6; ++j) {
       const std::string index = std::to_string(i) + "/" + std::to_string(j);
       columns.add({"c" + std::to_string(i) + std::to_string(j), "",
