@@ -159,7 +159,7 @@ TEST_F(AvailableClouds, ThatChangeDuringARunAreNotStored) {
   const Answer answer = run("out");
   EXPECT_EQ(answer.code, 3);
   EXPECT_EQ(answer.complaints,
-            "croon: b_left.bin: is another file than at the start of the run; its trials are not "
+            "croon: b_left.bin: has changed since the start of the run; its trials are not "
             "stored, the next run repeats them\n");
   EXPECT_EQ(count_of(trials("out"), "\nagain,a,"), 3U);
   EXPECT_EQ(count_of(trials("out"), "\nagain,b,"), 0U);
@@ -173,7 +173,7 @@ TEST_F(AvailableClouds, ThatChangeDuringARunAreNotFused) {
   options.clouds = true;
   const Answer answer = run("out", options);
   EXPECT_EQ(answer.code, 3);
-  EXPECT_NE(answer.complaints.find("croon: b_left.bin: is another file than at the start of the "
+  EXPECT_NE(answer.complaints.find("croon: b_left.bin: has changed since the start of the "
                                    "run; the clouds of scene b are not written\n"),
             std::string::npos)
       << answer.complaints;
