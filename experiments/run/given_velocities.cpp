@@ -91,7 +91,7 @@ void resolve_step(Experiment& experiment, Variant& variant, NamedStep& named, Ta
   const params::Slot<Step> kept = named.step;
   const auto* const step = dynamic_cast<const GivenMotionStep*>(&*kept);
   if (step == nullptr) return;
-  const Fault at = {experiment.file, place_of(experiment, variant, named), ""};
+  const Fault at = {experiment.file, location_of(experiment, variant, named), ""};
   const GivenMotionStep::File file = step->file();
   if (file.name.empty()) return;
   const std::filesystem::path path =

@@ -55,7 +55,7 @@ void check_sensors_of_steps(const Experiment& experiment, const std::vector<Scen
     for (const NamedStep& step : variant.pipeline) {
       for (const std::string& sensor : step.step.flow().named_sensors) {
         if (known.count(sensor) > 0 || !reported.emplace(step.name, sensor).second) continue;
-        faults.push_back({experiment.file, place_of(experiment, variant, step),
+        faults.push_back({experiment.file, location_of(experiment, variant, step),
                           "expected a sensor of the dataset, found " + in_quotes(sensor) +
                               name_hint(sensor, sensors)});
       }

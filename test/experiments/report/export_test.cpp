@@ -152,8 +152,8 @@ TEST(ExportTable, WithoutTruthTellsOfTheConsensus) {
   EXPECT_EQ(number(table, 0, "agreement"), 3);
   EXPECT_EQ(number(table, 0, "agreement_percent"), 75.0);
   const std::string text = export_markdown(table);
-  EXPECT_TRUE(has(text, "if there is no truth"));
-  EXPECT_FALSE(has(text, "of the truth"));
+  EXPECT_TRUE(has(text, "no ground truth"));
+  EXPECT_FALSE(has(text, "of ground truth"));
   EXPECT_FALSE(has(text, "uccess"));
   EXPECT_TRUE(has(export_latex(table), "agreement (\\%)"));
 }
