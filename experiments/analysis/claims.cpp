@@ -95,7 +95,7 @@ void set_counts(ClaimResult& result, const Rows& rows, const TrialSummary& all) 
 
 /// The maximum std of values of magnitude up to 1, pooled over groups of these sizes: half of each
 /// group's values are at either end. 1 if no group has two values.
-double largest_std(const std::vector<int>& groups) {
+double max_std(const std::vector<int>& groups) {
   double squares = 0.0, freedom = 0.0;
   for (const int n : groups) {
     if (n < 2) continue;
@@ -121,7 +121,7 @@ std::vector<int> spread_groups(const std::string& statistic, const Rows& rows) {
 }
 
 /// The maximum magnitude of the measure of a counted trial.
-double largest_size(const Claim& claim, const SuccessBounds& bounds, bool has_truth) {
+double max_size(const Claim& claim, const SuccessBounds& bounds, bool has_truth) {
   const std::size_t measure = measure_index(claim.measure);
   const bool is_angle = kMeasures[measure].unit == std::string("deg");
   if (has_truth && (is_spread(claim) || claim.over == Over::successful)) {
@@ -135,11 +135,11 @@ double largest_size(const Claim& claim, const SuccessBounds& bounds, bool has_tr
 /// The range of numbers that the trials of a claim can lead to; `n` of them are counted.
 Interval attainable(const Claim& claim, const SuccessBounds& bounds, const Rows& rows, int n) {
   if (is_share(claim.statistic)) return {0.0, 100.0};
-  const double limit = largest_size(claim, bounds, have_truth(rows));
-  if (is_spread(claim)) return {0.0, limit * largest_std(spread_groups(claim.statistic, rows))};
+  const double limit = max_size(claim, bounds, have_truth(rows));
+  if (is_spread(claim)) return {0.0, limit * max_std(spread_groups(claim.statistic, rows))};
   // The two distances are not negative, so their range is half as wide.
   const bool is_distance = measure_index(claim.measure) >= kDofs;
-  if (claim.statistic == "std") return {0.0, (is_distance ? 0.5 : 1.0) * limit * largest_std({n})};
+  if (claim.statistic == "std") return {0.0, (is_distance ? 0.5 : 1.0) * limit * max_std({n})};
   const bool is_signed = !is_distance && kStatistics[statistic_index(claim.statistic)].is_signed;
   return {is_signed ? -limit : 0.0, limit};
 }

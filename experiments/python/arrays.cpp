@@ -283,7 +283,7 @@ RigidTransform pose_from(const py::object& object, const std::string& what) {
   }
   const bool has_last_row =
       view(3, 0) == 0.0 && view(3, 1) == 0.0 && view(3, 2) == 0.0 && view(3, 3) == 1.0;
-  if (!has_last_row) refuse(what, kWords, "another last row");
+  if (!has_last_row) refuse(what, kWords, "a different last row");
   if (!is_rotation_matrix(pose.rotation)) {
     refuse(what, kWords, "a matrix whose columns are not orthonormal and right-handed");
   }

@@ -20,14 +20,14 @@ namespace {
 using namespace experiments;  // NOLINT(google-build-using-namespace): used throughout.
 
 /// Runs an experiment. Returns the folder and the complaints.
-py::tuple run(const RunRequest& request, const FolderRun& asked) {
+py::tuple run(const RunRequest& request, const FolderRun& requested) {
   const std::shared_ptr<const Catalogue> stages = catalogue();
   std::string folder;
   std::vector<std::string> complaints;
   interruptible([&](const std::function<void()>& check) {
     CheckedRun run = check_run(request, *stages);
     StoreHeader header = header_of(run);
-    FolderRun how = asked;
+    FolderRun how = requested;
     how.check = check;
     check();
     const OutputFolder output(run.out);

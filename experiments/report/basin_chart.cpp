@@ -44,9 +44,10 @@ BasinLayout layout_of(const Sheet& sheet, const Axis& sizes, const std::vector<s
   }
   plot.width = sheet.width - plot.left - 1.5 * text;
   plot.height = std::min(0.6 * plot.width, 170.0);
-  double widest = 0.0;
-  for (const std::string& label : labels) widest = std::max(widest, text_width(label, text));
-  layout.legend_width = legend_line(sheet) + widest + 1.5 * text;
+  double max_label_width = 0.0;
+  for (const std::string& label : labels)
+    max_label_width = std::max(max_label_width, text_width(label, text));
+  layout.legend_width = legend_line(sheet) + max_label_width + 1.5 * text;
   layout.legend_columns = static_cast<std::size_t>(
       std::clamp(std::floor(plot.width / layout.legend_width), 1.0, std::max(rows, 1.0)));
   layout.width = sheet.width;

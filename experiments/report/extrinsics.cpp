@@ -146,7 +146,7 @@ std::string extrinsics_json(const Summary& summary,
         "covariance of the error (roll, pitch, yaw of T_estimate T_truth^-1, t_estimate - "
         "t_truth), rad and "
         "m, "
-        "in the reference frame; for the pose of all scenes that of the mean of independent scenes "
+        "in the reference frame; for the pose of all scenes, of the mean of independent scenes "
         "(docs/how_it_works.md)";
   }
   json["extrinsics"] = json_rows(extrinsics_columns(has_covariances).table(extrinsics));

@@ -44,12 +44,12 @@ bool has_damage(const CheckedRun& run, const Scene& scene) {
 /// The damage of clouds in the requested groups. Their trials use the other scenes, so stored
 /// trials do not record it and every run has to report it.
 std::set<std::string> damage_in_groups(const CheckedRun& run) {
-  std::set<std::size_t> asked;
+  std::set<std::size_t> requested;
   for (const PlannedStart& start : plan_trials(run.experiment, run.groups, run.selection).starts) {
-    if (run.groups[start.scene].scenes.size() > 1) asked.insert(start.scene);
+    if (run.groups[start.scene].scenes.size() > 1) requested.insert(start.scene);
   }
   std::set<std::string> damage;
-  for (const std::size_t group : asked) {
+  for (const std::size_t group : requested) {
     for (const Scene& scene : run.groups[group].scenes) {
       if (!has_damage(run, scene)) continue;
       std::set<std::string> sensors;

@@ -17,8 +17,8 @@ struct CurvePanel {
 };
 
 constexpr std::array kCurvePanels = {
-    CurvePanel{CurveOf::rotation, "rotation error at most, deg", &SuccessBounds::rotation_deg},
-    CurvePanel{CurveOf::translation, "translation error at most, m",
+    CurvePanel{CurveOf::rotation, "maximum rotation error, deg", &SuccessBounds::rotation_deg},
+    CurvePanel{CurveOf::translation, "maximum translation error, m",
                &SuccessBounds::translation_m}};
 
 /// The rows of one panel that are drawn as lines, each with its name.

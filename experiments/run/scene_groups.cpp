@@ -90,7 +90,7 @@ void check_names_for_pairs(const std::vector<Scene>& scenes, const std::string& 
       if (!checked.insert(scan.sensor).second) continue;
       faults.push_back({file, "/loops",
                         std::string("expected sensors without \"") + kBetweenSensors +
-                            "\" in their names, which is that of pairs of sensors, found " +
+                            "\" in their names, which separates the sensors of a pair, found " +
                             in_quotes(scan.sensor)});
     }
   }

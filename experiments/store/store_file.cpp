@@ -56,8 +56,8 @@ bool is_sqlite_file(const FileHeader& bytes) {
 std::string found_instead_of_store(const fs::path& path) {
   if (!fs::is_regular_file(path)) return "none";
   if (fs::is_empty(path)) return "an empty file";
-  return "a database without the tables of a store; a run that was killed has them in " +
-         path.string() + "-wal, which was beside it";
+  return "a database without the tables of a store; those of a killed run are in " + path.string() +
+         "-wal beside it";
 }
 
 void refuse_unless_file(const fs::path& path) {

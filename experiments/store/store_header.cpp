@@ -111,10 +111,10 @@ std::string readable(std::string pointer) {
 
 /// Adds the differences of two JSON texts, with pointers below `where`.
 void add_differences(std::vector<std::string>& to, const std::string& where,
-                     const std::string& stored, const std::string& asked) {
-  if (stored == asked) return;
+                     const std::string& stored, const std::string& requested) {
+  if (stored == requested) return;
   const json was = parsed_or_discarded(stored);
-  const json is = parsed_or_discarded(asked);
+  const json is = parsed_or_discarded(requested);
   if (was.is_discarded() || is.is_discarded()) {
     to.push_back(where + " differs");
     return;
@@ -246,25 +246,25 @@ StoreHeader united(StoreHeader a, const StoreHeader& b) {
   return continued(b, std::move(a));
 }
 
-StoreHeader continued(const StoreHeader& stored, StoreHeader asked) {
-  asked.versions.insert(stored.versions.begin(), stored.versions.end());
-  asked.builds = united(std::move(asked.builds), stored.builds);
-  return asked;
+StoreHeader continued(const StoreHeader& stored, StoreHeader requested) {
+  requested.versions.insert(stored.versions.begin(), stored.versions.end());
+  requested.builds = united(std::move(requested.builds), stored.builds);
+  return requested;
 }
 
-std::vector<std::string> differences(const StoreHeader& stored, const StoreHeader& asked) {
+std::vector<std::string> differences(const StoreHeader& stored, const StoreHeader& requested) {
   std::vector<std::string> found;
-  Provenance names = asked.provenance;
+  Provenance names = requested.provenance;
   names.insert(stored.provenance.begin(), stored.provenance.end());
   const auto value = [](const Provenance& of, const std::string& name) {
     const auto entry = of.find(name);
     return entry == of.end() ? std::string("null") : entry->second;
   };
   for (const auto& [name, any] : names) {
-    const std::string was = value(stored.provenance, name), is = value(asked.provenance, name);
+    const std::string was = value(stored.provenance, name), is = value(requested.provenance, name);
     add_differences(found, "/" + name, was, is);
   }
-  for (const auto& [stage, version] : asked.versions) {
+  for (const auto& [stage, version] : requested.versions) {
     const auto was = stored.versions.find(stage);
     if (was == stored.versions.end() || was->second == version) continue;
     found.push_back("version of " + stage + " was " + std::to_string(was->second) + " and is " +
@@ -274,7 +274,7 @@ std::vector<std::string> differences(const StoreHeader& stored, const StoreHeade
   for (const StoredName& variant : stored.variants) {
     pipelines.emplace(variant.name, &variant.detail);
   }
-  for (const StoredName& variant : asked.variants) {
+  for (const StoredName& variant : requested.variants) {
     const auto was = pipelines.find(variant.name);
     if (was == pipelines.end()) continue;
     add_differences(found, "/variants/" + variant.name, *was->second, variant.detail);
@@ -283,8 +283,8 @@ std::vector<std::string> differences(const StoreHeader& stored, const StoreHeade
 }
 
 void refuse_differences(const std::string& file, const StoreHeader& stored,
-                        const StoreHeader& asked, const std::string& remedy) {
-  const std::vector<std::string> found = differences(stored, asked);
+                        const StoreHeader& requested, const std::string& remedy) {
+  const std::vector<std::string> found = differences(stored, requested);
   if (found.empty()) return;
   std::string text;
   for (std::size_t i = 0; i < found.size() && i < kShownDifferences; ++i) {
@@ -297,12 +297,12 @@ void refuse_differences(const std::string& file, const StoreHeader& stored,
 }
 
 void refuse_other_builds(const std::string& file, const StoreHeader& stored,
-                         const StoreHeader& asked, const std::string& remedy) {
-  if (stored.builds.empty() || is_same(stored.builds, asked.builds)) return;
+                         const StoreHeader& requested, const std::string& remedy) {
+  if (stored.builds.empty() || is_same(stored.builds, requested.builds)) return;
   // One of several builds may be the requested one.
   const auto other =
       std::find_if(stored.builds.begin(), stored.builds.end(), [&](const Build& build) {
-        return std::none_of(asked.builds.begin(), asked.builds.end(),
+        return std::none_of(requested.builds.begin(), requested.builds.end(),
                             [&](const Build& same) { return is_same({build}, {same}); });
       });
   const Build& shown = other == stored.builds.end() ? stored.builds.front() : *other;

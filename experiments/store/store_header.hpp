@@ -57,9 +57,9 @@ bool is_same(const StoreHeader& a, const StoreHeader& b);
 /// `a`, followed by the variants, scenes and sensors that only `b` has.
 StoreHeader united(StoreHeader a, const StoreHeader& b);
 
-/// `asked` with the versions and builds of `stored`: the header of a store in which a run that
-/// requests `asked` continues.
-StoreHeader continued(const StoreHeader& stored, StoreHeader asked);
+/// `requested` with the versions and builds of `stored`: the header of a store in which a run that
+/// requests `requested` continues.
+StoreHeader continued(const StoreHeader& stored, StoreHeader requested);
 
 /// The ids of the names in `table`: variants, scenes or sensors.
 std::map<std::string, std::int64_t> ids_of(const Database& database, const std::string& table);
@@ -81,10 +81,10 @@ class StoredIndices {
   Indices variants_, scenes_, sensors_;
 };
 
-/// The differences that prevent trials of `stored` and of `asked` from sharing a store, each as
+/// The differences that prevent trials of `stored` and of `requested` from sharing a store, each as
 /// "/starts/rotation_deg was 45 and is 30". A variant or stage that only one of them has is not a
 /// difference, nor is the build.
-std::vector<std::string> differences(const StoreHeader& stored, const StoreHeader& asked);
+std::vector<std::string> differences(const StoreHeader& stored, const StoreHeader& requested);
 
 /// How to proceed if the results in a folder were made from different inputs.
 inline constexpr const char* kFreshRemedy =
@@ -93,10 +93,10 @@ inline constexpr const char* kFreshRemedy =
 /// Throws InputError if there are `differences`. `file` is the store; `remedy` tells the user how
 /// to proceed.
 void refuse_differences(const std::string& file, const StoreHeader& stored,
-                        const StoreHeader& asked, const std::string& remedy);
+                        const StoreHeader& requested, const std::string& remedy);
 
-/// Throws InputError if the trials of `stored` were made by other builds than those of `asked`.
+/// Throws InputError if the trials of `stored` were made by other builds than those of `requested`.
 void refuse_other_builds(const std::string& file, const StoreHeader& stored,
-                         const StoreHeader& asked, const std::string& remedy);
+                         const StoreHeader& requested, const std::string& remedy);
 
 }  // namespace croon::experiments
