@@ -121,7 +121,7 @@ std::vector<int> spread_groups(const std::string& statistic, const Rows& rows) {
 }
 
 /// The maximum magnitude of the measure of a counted trial.
-double max_size(const Claim& claim, const SuccessBounds& bounds, bool has_truth) {
+double max_magnitude(const Claim& claim, const SuccessBounds& bounds, bool has_truth) {
   const std::size_t measure = measure_index(claim.measure);
   const bool is_angle = kMeasures[measure].unit == std::string("deg");
   if (has_truth && (is_spread(claim) || claim.over == Over::successful)) {
@@ -135,7 +135,7 @@ double max_size(const Claim& claim, const SuccessBounds& bounds, bool has_truth)
 /// The range of numbers that the trials of a claim can lead to; `n` of them are counted.
 Interval attainable(const Claim& claim, const SuccessBounds& bounds, const Rows& rows, int n) {
   if (is_share(claim.statistic)) return {0.0, 100.0};
-  const double limit = max_size(claim, bounds, have_truth(rows));
+  const double limit = max_magnitude(claim, bounds, have_truth(rows));
   if (is_spread(claim)) return {0.0, limit * max_std(spread_groups(claim.statistic, rows))};
   // The two distances are not negative, so their range is half as wide.
   const bool is_distance = measure_index(claim.measure) >= kDofs;

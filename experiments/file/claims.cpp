@@ -100,8 +100,8 @@ Table<TableBand> band_table() {
           params::Words<BandRule>{{"no_worse", BandRule::no_worse},
                                   {"around_zero", BandRule::around_zero}},
           "no_worse: a mean is at most as far from zero as the value plus twice its standard "
-          "error, "
-          "any other statistic is at most the value; around_zero: within half_width of zero."),
+          "error, any other statistic is at most the value; around_zero: within half_width of "
+          "zero."),
       params::integer("samples", &P::samples, {0, 1e9},
                       "Number of errors behind the source's values, for the standard error."),
       params::integer(

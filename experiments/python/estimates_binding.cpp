@@ -171,9 +171,9 @@ void bind_estimates(py::module_& module) {
           "and the covariance are then None until they are assigned, too.")
       .def_property(
           "information", [](const E& e) { return object_from(e.information); }, set_information,
-          "The information matrix that this step computed, 6×6: roll, pitch, yaw (rad), x, y, z "
+          "The information matrix computed by this step, 6×6: roll, pitch, yaw (rad), x, y, z "
           "(m);\n"
-          "None if it has not been computed.")
+          "None if it computed none.")
       .def_property("covariance", covariance_object, set_covariance,
                     "The covariance of the pose, 6×6: roll, pitch, yaw (rad), x, y, z (m) in the\n"
                     "target's frame; None if no step estimated it. Assign it after the pose.")

@@ -56,10 +56,9 @@ Table quoted_table(const std::vector<Quoted>& quoted, const Summary& summary) {
 
 /// Explains the columns and the verdicts other than "in" and "out".
 std::string outcomes_explained() {
-  return "trials, scenes: those that the number is computed over; share: percentage of all trials "
+  return "trials, scenes: included in the number; share: trials that succeed (no ground truth: "
          "that "
-         "succeed (no ground truth: that agree).\nshown: no result within the success bounds could "
-         "be outside the "
+         "agree), in % of all.\nshown: no result within the success bounds could be outside the "
          "band. not enough trials: fewer than " +
          std::to_string(kMinClaimTrials) + " trials or " + std::to_string(kMinScenes) +
          " scenes.\n";

@@ -61,8 +61,7 @@ std::string result_text(const Results& results, bool colours) {
   if (!results.coverage.rows.empty()) {
     text +=
         "\ncovariances: intervals that contain ground truth, in % of accepted trials [95 % "
-        "interval "
-        "over scenes];\n  nees: normalised squared error (expected median: 5.35)\n" +
+        "interval over scenes];\n  nees: normalised squared error (expected median: 5.35)\n" +
         coverage_text(results.coverage, style);
   }
   if (results.basin) text += "\n" + basin_text(*results.basin, style);

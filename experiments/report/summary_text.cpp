@@ -92,8 +92,7 @@ std::string loop_text(const Summary& summary, const TableStyle& style) {
   view.columns.push_back({"agreed deg, m", "<agreed_rotation_deg>, <agreed_translation_m>"});
   return text_by_variant(loop_columns().table(summary.loops), view, summary, style) +
          "scenes: loops over each scene's consensus that close; agreed: the loop over the "
-         "consensus "
-         "of all scenes\n";
+         "consensus of all scenes\n";
 }
 
 /// Adds a column for each title; titles may coincide with names of other columns.
@@ -301,8 +300,7 @@ class SummaryText {
     if (has_consensus_) {
       text += "agreement (no ground truth): " + bounds_ +
               "the consensus of the scene's trials;\n  deviations of these trials from the "
-              "consensus of all "
-              "scenes\n";
+              "consensus of all scenes\n";
     }
     return text + "rotation, translation: median, 95th percentile\n";
   }
@@ -337,8 +335,7 @@ class SummaryText {
     if (has_consensus_) {
       text +=
           "  (no ground truth: distances to the consensus of the variant's own trials of the "
-          "scene, which\n  "
-          "measure repeatability, not accuracy)\n";
+          "scene, which\n  measure repeatability, not accuracy)\n";
     }
     return text + comparison_text(summary_, style_);
   }
@@ -348,7 +345,7 @@ class SummaryText {
     std::string text;
     if (!summary_.loops.empty()) {
       text += "\nloops: T_reference_target T_target_source " + bounds_ +
-              "T_reference_source; deviations of the loops from it\n" + loop_text(summary_, style_);
+              "T_reference_source; deviations of loops from it\n" + loop_text(summary_, style_);
     }
     if (!summary_.scene_kinds.empty()) {
       text += "\nby kind of scene: " + share_ + " in %\n" + scene_kind_text(summary_, style_);
