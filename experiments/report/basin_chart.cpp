@@ -98,7 +98,7 @@ void draw_legend(Drawing& drawing, const BasinLayout& layout, std::size_t index,
                       plot.top + 8.0 + line * static_cast<double>(index), index, label);
     return;
   }
-  const auto [row, column] = place_in_grid(index, layout.legend_columns);
+  const auto [row, column] = position_in_grid(index, layout.legend_columns);
   draw_legend_entry(drawing, plot.left + layout.legend_width * column,
                     plot.top + plot.height + 4.0 * drawing.sheet().small() + line * row, index,
                     label);

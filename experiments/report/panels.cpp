@@ -42,7 +42,7 @@ PanelGrid panel_grid(const Sheet& sheet, std::size_t panels, std::size_t columns
 
 Plot plot_of(const PanelGrid& grid, std::size_t index, const Interval& x_range,
              const Interval& y_range) {
-  const auto [row, column] = place_in_grid(index, grid.columns);
+  const auto [row, column] = position_in_grid(index, grid.columns);
   return {grid.left + column * grid.panel_width,
           grid.top + row * grid.panel_height,
           grid.plot_width,
@@ -86,7 +86,7 @@ void draw_series(Drawing& drawing, const Plot& plot, const std::vector<double>& 
 void draw_panel_legend(Drawing& drawing, const PanelGrid& grid,
                        const std::vector<std::string>& labels) {
   for (std::size_t i = 0; i < labels.size(); ++i) {
-    const auto [row, column] = place_in_grid(i, grid.legend_columns);
+    const auto [row, column] = position_in_grid(i, grid.legend_columns);
     draw_legend_entry(drawing, grid.left + grid.legend_width * column,
                       grid.legend_top + grid.legend_line * row, i, labels[i]);
   }

@@ -13,12 +13,12 @@
 namespace croon::experiments {
 
 /// The position of an entry in a grid that is filled row by row, both counted from zero.
-struct GridPlace {
+struct GridPosition {
   double row;
   double column;
 };
 
-inline GridPlace place_in_grid(std::size_t index, std::size_t columns) {
+inline GridPosition position_in_grid(std::size_t index, std::size_t columns) {
   const std::size_t row = index / columns;
   return {static_cast<double>(row), static_cast<double>(index - row * columns)};
 }

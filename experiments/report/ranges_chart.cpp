@@ -61,7 +61,7 @@ RangesLayout layout_of(const Sheet& sheet, std::size_t sensors) {
 Plot draw_panel(Drawing& drawing, const RangesLayout& layout, std::size_t index,
                 const std::string& sensor) {
   const double text = drawing.sheet().small();
-  const auto [row, column] = place_in_grid(index, layout.columns);
+  const auto [row, column] = position_in_grid(index, layout.columns);
   const double left = layout.left + column * layout.panel_width;
   const double top = layout.top + row * (layout.plot_height + layout.gap);
   const Plot plot = {left,      top, layout.plot_width, layout.plot_height, {0.0, kRangeBins},
