@@ -5,7 +5,7 @@ CLANG_FORMAT ?= $(shell command -v clang-format-14 || echo clang-format)
 RUN_CLANG_TIDY ?= $(shell command -v run-clang-tidy-14 || echo run-clang-tidy)
 SOURCES = git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp'
 
-.PHONY: help packages sanitizer_packages release demo test benchmark docs package package-test format lint fuzz sanitize threads clean
+.PHONY: help packages sanitizer_packages release demo demo_time test benchmark docs package package-test format lint fuzz sanitize threads clean
 
 help:
 	@echo 'make demo       the paper on twelve simulated scenes, and the calibration of a simulated car'
@@ -27,7 +27,7 @@ packages:
 release: packages
 	$(call PRESET_BUILD,release)
 
-demo: release
+demo: demo_time release
 	build/release/bin/croon run experiments/demo.json --out results/demo --fresh --png
 	rm -rf results/demo_car
 	build/release/bin/croon simulate experiments/demo_car.json --out results/demo_car --quiet
@@ -46,6 +46,9 @@ benchmark: packages
 
 docs: release
 	.ci/generate_docs build/release/bin/croon docs
+
+demo_time:
+	@echo 'The first build takes about four minutes on two cores, and the packages before it a few more; the demo itself takes seconds.'
 
 # dpkg-shlibdeps finds the packages of the libraries, in files that `file` tells from others.
 package: packages

@@ -5,6 +5,8 @@
 #include <memory>
 #include <mutex>
 
+#include "experiments/cli/command.hpp"
+#include "experiments/cli/options.hpp"
 #include "experiments/cli/requested_calibration.hpp"
 #include "experiments/report/calibration_text.hpp"
 #include "experiments/report/staged_folder.hpp"
@@ -212,5 +214,59 @@ int calibrate_command(const CalibrateOptions& given, const Catalogue& catalogue,
                   [](const CalibratedSensor& sensor) { return !sensor.is_accepted; });
   return is_any_rejected ? 3 : 0;
 }
+
+namespace {
+
+/// "ros2, urdf, ...".
+std::string format_names() {
+  std::string names;
+  for (const std::string& name : extrinsics_format_names()) {
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  return names;
+}
+
+class CalibrateCommand final : public Command {
+ public:
+  std::string sentence() const override {
+    return "Calibrate a vehicle's LiDARs to each other, from recordings.";
+  }
+
+  void add_options(CLI::App& command) override {
+    CalibrateOptions& o = options_;
+    add_path(command, "INPUT", o.inputs,
+             "A file or folder of clouds per sensor, PATH or NAME=PATH; a recording (.mcap, .db3) "
+             "and its topics; or a rig.json.")
+        ->required();
+    add_path(command, "--nominal", o.nominal,
+             "Poses to compare with, and to try near if a sensor is rejected.");
+    command.add_flag("--from-scratch", o.from_scratch, "Only compare with the nominal poses.");
+    add_text(command, "--base", o.base,
+             "The reference's pose in the vehicle frame: x,y,z,roll,pitch,yaw in m and degrees, or "
+             "a file of extrinsics; then files are written for base_link too.",
+             "a pose or a path");
+    add_path(command, "--out", o.out, "Folder to write to; default results/calibration.");
+    add_text(command, "--format", o.formats,
+             "Further formats of extrinsics, separated by commas: " + format_names() + ".",
+             "a format")
+        ->delimiter(',');
+    command.add_flag("--with-rejected", o.with_rejected, "Write rejected poses too, marked.");
+    command.add_flag("--clouds", o.clouds, "Write the clouds in the reference's frame.");
+    command.add_flag("--no-pictures", o.no_pictures, "Do not draw.");
+    add_rig_options(command, o);
+  }
+
+  int run(const Console& console) override {
+    options_.colours = console.colours;
+    return calibrate_command(options_, console.catalogue, console.out, console.err);
+  }
+
+ private:
+  CalibrateOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_calibrate_command() { return std::make_unique<CalibrateCommand>(); }
 
 }  // namespace croon::experiments

@@ -1,7 +1,10 @@
 #include "experiments/cli/check_command.hpp"
 
 #include <algorithm>
+#include <memory>
 
+#include "experiments/cli/command.hpp"
+#include "experiments/cli/options.hpp"
 #include "experiments/cli/requested_calibration.hpp"
 #include "framework/base/text.hpp"
 #include "framework/calibration/check_rig.hpp"
@@ -79,5 +82,34 @@ int check_command(const CalibrateOptions& given, const Catalogue& catalogue, std
       [](const CheckedSensor& sensor) { return sensor.judgement == PoseJudgement::right; });
   return is_all_right ? 0 : 3;
 }
+
+namespace {
+
+class CheckCommand final : public Command {
+ public:
+  std::string sentence() const override {
+    return "Check given extrinsics: right, wrong or undecidable.";
+  }
+
+  void add_options(CLI::App& command) override {
+    add_path(command, "EXTRINSICS", options_.nominal,
+             "The poses, in any format that --nominal accepts.")
+        ->required();
+    add_path(command, "INPUT", options_.inputs, "Clouds, as of calibrate.")->required();
+    add_rig_options(command, options_);
+  }
+
+  int run(const Console& console) override {
+    options_.colours = console.colours;
+    return check_command(options_, console.catalogue, console.out, console.err);
+  }
+
+ private:
+  CalibrateOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_check_command() { return std::make_unique<CheckCommand>(); }
 
 }  // namespace croon::experiments

@@ -1,9 +1,12 @@
 #include "experiments/cli/commands.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <string>
 
 #include "experiments/analysis/results.hpp"
+#include "experiments/cli/command.hpp"
+#include "experiments/cli/options.hpp"
 #include "experiments/report/run_text.hpp"
 
 namespace croon::experiments {
@@ -31,5 +34,27 @@ int claims_command(const std::vector<std::filesystem::path>& folders, std::ostre
   out << text;
   return are_met ? 0 : 3;
 }
+
+namespace {
+
+class ClaimsCommand final : public Command {
+ public:
+  std::string sentence() const override {
+    return "Check results against the claims of their experiments.";
+  }
+
+  void add_options(CLI::App& command) override {
+    add_path(command, "DIR", folders_, "Folders of results.")->required();
+  }
+
+  int run(const Console& console) override { return claims_command(folders_, console.out); }
+
+ private:
+  std::vector<std::filesystem::path> folders_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_claims_command() { return std::make_unique<ClaimsCommand>(); }
 
 }  // namespace croon::experiments

@@ -4,9 +4,12 @@
 #include <unistd.h>
 
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "experiments/cli/command.hpp"
+#include "experiments/cli/options.hpp"
 #include "experiments/file/experiment.hpp"
 #include "experiments/report/output_files.hpp"
 #include "experiments/report/plots.hpp"
@@ -194,5 +197,36 @@ int describe_command(const DescribeOptions& options, const Catalogue& catalogue,
       << clouds_text(clouds) << empty_clouds_text(scenes, by_scene);
   return 0;
 }
+
+namespace {
+
+class DescribeCommand final : public Command {
+ public:
+  std::string sentence() const override { return "Describe the clouds of experiments' datasets."; }
+
+  void add_options(CLI::App& command) override {
+    add_path(command, "EXPERIMENT", options_.experiments, "Experiments, JSON files.")->required();
+    add_data(command, options_.data);
+    add_path(command, "--out", options_.out, "Folder for clouds.csv and ranges.svg.");
+    add_text(command, "--format", options_.format,
+             "Of the figure of ranges: " + names_of(drawing_formats()) + "; default svg.",
+             "a format");
+    add_width(command, options_.width);
+    command.add_option("--scenes", options_.scenes, "Use only the first N scenes of each dataset.")
+        ->check(CLI::Range(1, 1000000));
+    add_jobs(command, options_.jobs);
+  }
+
+  int run(const Console& console) override {
+    return describe_command(options_, console.catalogue, console.out);
+  }
+
+ private:
+  DescribeOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_describe_command() { return std::make_unique<DescribeCommand>(); }
 
 }  // namespace croon::experiments

@@ -1,9 +1,13 @@
 #include "experiments/cli/commands.hpp"
 
+#include <memory>
 #include <vector>
 
 #include "experiments/analysis/results.hpp"
+#include "experiments/cli/command.hpp"
+#include "experiments/cli/options.hpp"
 #include "experiments/report/build_text.hpp"
+#include "experiments/report/export.hpp"
 #include "experiments/report/export_choice.hpp"
 #include "experiments/report/figures.hpp"
 #include "experiments/report/output_files.hpp"
@@ -141,5 +145,44 @@ int export_command(const ExportOptions& options, std::ostream& out) {
   replace_output_files({{options.out, text}});
   return 0;
 }
+
+namespace {
+
+class ExportCommand final : public Command {
+ public:
+  std::string sentence() const override {
+    return "Write results as a table or a figure for a paper.";
+  }
+
+  void add_options(CLI::App& command) override {
+    ExportOptions& o = options_;
+    add_path(command, "DIR", o.folders, "Folders of results, for one table.")->required();
+    add_text(command, "--format", o.format,
+             names_of(export_formats()) +
+                 "; default md. With --figure: " + names_of(drawing_formats()) + "; default pdf.",
+             "a format");
+    add_path(command, "--out", o.out, "The file to write; default the output.");
+    add_text(command, "--figure", o.figure, "A figure: " + names_of(figures()) + ".", "a figure");
+    add_width(command, o.width);
+    add_text(command, "--units", o.units, "Of lengths: m, mm.", "m or mm");
+    add_text(command, "--variants", o.variants, "Only these variants.", "a variant");
+    add_text(command, "--sensors", o.sensors,
+             "Only these sensors; all: all together, a row of a table.", "a sensor");
+    add_text(command, "--kinds", o.kinds, "Only scenes of these kinds.", "a kind of scene");
+    add_text(command, "--columns", o.columns,
+             "Columns of a table: success, rotation_median, x, x_p95, ...", "a column");
+    command.add_flag("--compact", o.compact, "One row per variant, narrow enough for a page.");
+    command.add_flag("--title", o.title, "A figure with its title.");
+  }
+
+  int run(const Console& console) override { return export_command(options_, console.out); }
+
+ private:
+  ExportOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_export_command() { return std::make_unique<ExportCommand>(); }
 
 }  // namespace croon::experiments

@@ -4,6 +4,8 @@
 #include <memory>
 
 #include "experiments/analysis/results.hpp"
+#include "experiments/cli/command.hpp"
+#include "experiments/cli/options.hpp"
 #include "experiments/report/result_files.hpp"
 #include "experiments/report/run_text.hpp"
 #include "experiments/store/manifest.hpp"
@@ -186,5 +188,30 @@ int merge_command(const MergeOptions& options, std::ostream& out) {
       << printable(options.out.string()) << "\n";
   return has_failed_trials(results) || !missing.empty() ? 3 : 0;
 }
+
+namespace {
+
+class MergeCommand final : public Command {
+ public:
+  std::string sentence() const override { return "Merge the results of shards."; }
+
+  void add_options(CLI::App& command) override {
+    add_path(command, "DIR", options_.folders, "Folders of results.")->required();
+    add_path(command, "--out", options_.out, "Folder to write to.")->required();
+    command.add_flag("--same-build", options_.same_build, "Refuse trials of different builds.");
+  }
+
+  int run(const Console& console) override {
+    options_.colours = console.colours;
+    return merge_command(options_, console.out);
+  }
+
+ private:
+  MergeOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_merge_command() { return std::make_unique<MergeCommand>(); }
 
 }  // namespace croon::experiments

@@ -8,7 +8,14 @@
 #include "framework/calibration/calibrated_rig.hpp"
 #include "framework/calibration/recorded_scenes.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace croon::experiments {
+
+/// Adds the options of the commands that calibrate.
+void add_rig_options(CLI::App& command, CalibrateOptions& options);
 
 // What the commands that calibrate have in common.
 

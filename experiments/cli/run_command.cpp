@@ -1,5 +1,9 @@
 #include "experiments/cli/commands.hpp"
 
+#include <memory>
+
+#include "experiments/cli/command.hpp"
+#include "experiments/cli/options.hpp"
 #include "experiments/report/result_clouds.hpp"
 #include "experiments/report/run_in_folder.hpp"
 #include "experiments/report/run_text.hpp"
@@ -69,5 +73,45 @@ int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostr
       << clouds << picture;
   return complaints.empty() && !has_failed_trials(results) ? 0 : 3;
 }
+
+namespace {
+
+class RunCommand final : public Command {
+ public:
+  std::string sentence() const override { return "Run an experiment; finished trials are kept."; }
+
+  void add_options(CLI::App& command) override {
+    add_experiment(command, options_.experiment, options_.with);
+    add_path(command, "--out", options_.out, "Folder to write to; default results/<name>.");
+    add_data(command, options_.data);
+    add_jobs(command, options_.jobs);
+    add_trials(command, options_.trials, "Starts per variant, scene and sensor.");
+    add_text(command, "--only", options_.only, "Run only these variants.", "a variant");
+    add_text(command, "--shard", options_.shard, "Run part K of N of the trials, K/N.",
+             "K/N with 1 <= K <= N");
+    command.add_flag("--plan", options_.plan,
+                     "Only show the trials to run, and how much variants share.");
+    command.add_flag("--no-share", options_.no_share, "Run the variants one by one, to compare.");
+    command.add_flag("--fresh", options_.fresh, "Delete what is in the folder and start over.");
+    command.add_flag("--same-build", options_.same_build,
+                     "Refuse to continue trials of another build of croon.");
+    command.add_flag("--quiet", options_.quiet, "Do not show progress.");
+    command.add_flag("--clouds", options_.clouds,
+                     "Write the rig's clouds, fused by the poses that trials agree on.");
+    command.add_flag("--png", options_.png, "Draw the first scene from above, before and after.");
+  }
+
+  int run(const Console& console) override {
+    options_.colours = console.colours;
+    return run_command(options_, console.catalogue, console.out, console.err);
+  }
+
+ private:
+  RunOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_run_command() { return std::make_unique<RunCommand>(); }
 
 }  // namespace croon::experiments

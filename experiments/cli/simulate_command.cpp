@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "experiments/cli/command.hpp"
+#include "experiments/cli/options.hpp"
 #include "experiments/file/experiment.hpp"
 #include "experiments/report/output_files.hpp"
 #include "experiments/run/given_csv.hpp"
@@ -324,5 +327,33 @@ int simulate_command(const SimulateOptions& options, const Catalogue& catalogue,
       << " --data " << folder << "\n";
   return 0;
 }
+
+namespace {
+
+class SimulateCommand final : public Command {
+ public:
+  std::string sentence() const override {
+    return "Write the simulated scenes of an experiment as a dataset.";
+  }
+
+  void add_options(CLI::App& command) override {
+    add_experiment(command, options_.experiment, options_.with);
+    add_path(command, "--out", options_.out, "Folder to write the dataset to.")->required();
+    add_jobs(command, options_.jobs);
+    command.add_flag("--png", options_.png, "Draw each scene, from behind the car and from above.");
+    command.add_flag("--quiet", options_.quiet, "Do not show progress.");
+  }
+
+  int run(const Console& console) override {
+    return simulate_command(options_, console.catalogue, console.out, console.err);
+  }
+
+ private:
+  SimulateOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_simulate_command() { return std::make_unique<SimulateCommand>(); }
 
 }  // namespace croon::experiments

@@ -1,5 +1,9 @@
 #include "experiments/cli/commands.hpp"
 
+#include <memory>
+
+#include "experiments/cli/command.hpp"
+#include "experiments/cli/options.hpp"
 #include "experiments/file/experiment.hpp"
 #include "experiments/report/output_files.hpp"
 #include "experiments/run/starts.hpp"
@@ -111,5 +115,30 @@ int starts_command(const StartsOptions& options, const Catalogue& catalogue, std
   }
   return 0;
 }
+
+namespace {
+
+class StartsCommand final : public Command {
+ public:
+  std::string sentence() const override { return "Write the list of an experiment's starts."; }
+
+  void add_options(CLI::App& command) override {
+    add_experiment(command, options_.experiment, options_.with);
+    add_path(command, "--out", options_.out, "File to write; default standard output.");
+    add_data(command, options_.data);
+    add_trials(command, options_.trials, "Starts per scene and sensor.");
+  }
+
+  int run(const Console& console) override {
+    return starts_command(options_, console.catalogue, console.out);
+  }
+
+ private:
+  StartsOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_starts_command() { return std::make_unique<StartsCommand>(); }
 
 }  // namespace croon::experiments

@@ -1,7 +1,10 @@
 #include "experiments/cli/commands.hpp"
 
 #include <algorithm>
+#include <memory>
 
+#include "experiments/cli/command.hpp"
+#include "experiments/cli/options.hpp"
 #include "experiments/file/experiment.hpp"
 #include "experiments/run/pose_file.hpp"
 #include "framework/base/text.hpp"
@@ -80,5 +83,29 @@ int validate_command(const std::vector<fs::path>& paths, const Catalogue& catalo
   }
   return code;
 }
+
+namespace {
+
+class ValidateCommand final : public Command {
+ public:
+  std::string sentence() const override {
+    return "Check experiment files and workloads; the data need not be there.";
+  }
+
+  void add_options(CLI::App& command) override {
+    add_path(command, "PATH", paths_, "Files, or folders of *.json.")->required();
+  }
+
+  int run(const Console& console) override {
+    return validate_command(paths_, console.catalogue, console.out, console.err);
+  }
+
+ private:
+  std::vector<fs::path> paths_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_validate_command() { return std::make_unique<ValidateCommand>(); }
 
 }  // namespace croon::experiments

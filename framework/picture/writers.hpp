@@ -17,9 +17,6 @@ std::string svg_bytes(const Drawing& drawing);
 /// One page of the drawing's size.
 std::string pdf_bytes(const Drawing& drawing);
 
-/// A pgfpicture for \input with text in the font of the document; requires the package pgf.
-std::string pgf_bytes(const Drawing& drawing);
-
 /// A format of figures.
 struct DrawingFormat {
   const char* name;

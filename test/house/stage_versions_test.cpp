@@ -21,8 +21,9 @@ constexpr const char* kVariable = "CROON_WRITE_STAGE_VERSIONS";
 constexpr std::size_t kDigits = 16;
 
 constexpr const char* kHead =
-    "# What decides results: its version, and a digest of its source files without comments and "
-    "spaces.\n"
+    "# The versions that stages and the framework declare, and a digest of each stage's source "
+    "files "
+    "without comments and spaces.\n"
     "# Written by CROON_WRITE_STAGE_VERSIONS=1 build/test/bin/test_house "
     "--gtest_filter='StageVersions.*'\n";
 
@@ -54,36 +55,27 @@ struct Versioned {
   std::vector<std::string> sources;
 };
 
-/// Pictures and tables show results; they decide none.
-bool decides_results(const std::string& file) {
-  return (ends_with(file, ".cpp") || ends_with(file, ".hpp")) &&
-         !starts_with(file, "framework/picture/") && !starts_with(file, "framework/table/");
-}
-
-/// The stages of the tree, the simulation with the dataset that it makes, and all else as one.
+/// The stages of the tree, the simulation with the dataset that it makes, and all else as one,
+/// without a digest: it changes in most commits, and seldom the results.
 std::map<std::string, Versioned> versioned() {
-  const std::string simulation = "framework/simulation/";
   std::map<std::string, Versioned> all;
   all["framework"].version = kFrameworkVersion;
-  for (const std::string& file : tree_files()) {
-    const bool is_framework =
-        starts_with(file, "framework/") || starts_with(file, "experiments/run/");
-    if (!is_framework || starts_with(file, simulation)) continue;
-    if (decides_results(file)) all["framework"].sources.push_back(file);
-  }
   for (const StageEntry& entry : registry().entries()) {
     const std::string name = entry.kind + "/" + entry.name;
     const std::string source = "stages/" + name + ".cpp";
     if (tree_files(source, "").empty()) continue;
     all[name] = {entry.version, {source}};
   }
-  for (const std::string& file : tree_files(simulation, "")) {
-    if (decides_results(file)) all["dataset/simulated"].sources.push_back(file);
+  for (const std::string& file : tree_files("framework/simulation/", "")) {
+    if (ends_with(file, ".cpp") || ends_with(file, ".hpp")) {
+      all["dataset/simulated"].sources.push_back(file);
+    }
   }
   return all;
 }
 
 std::string digest_of(const std::vector<std::string>& sources) {
+  if (sources.empty()) return "-";
   std::string code;
   for (const std::string& file : sources) {
     code += file + "\n" + code_of(read_whole_file(source_root() / file)) + "\n";

@@ -170,21 +170,6 @@ TEST_P(ExportedLatex, ColumnsThatAreNotRefusedFit) {
   }
 }
 
-TEST(ExportedPgf, CompilesWithPgfAlone) {
-  if (!runs("pdflatex --version") || !runs("kpsewhich pgf.sty")) {
-    GTEST_SKIP() << "LaTeX is not here: texlive-pictures";
-  }
-  std::vector<TrialRecord> records = test::few_records();
-  for (TrialRecord& record : records) {
-    if (record.id.variant != "base") record.id.variant = "a_b & 100 % #1 ~x ^2 {c $d \\par …";
-  }
-  const Summary summary = summarise(records, {0.5, 0.1}, {});
-  const std::string log =
-      log_of(pgf_bytes(box_plots(summary, {kOneColumn})), "\\usepackage{pgf}\n");
-  EXPECT_EQ(log.find("failed"), std::string::npos) << log;
-  EXPECT_EQ(log.find("Missing character"), std::string::npos) << log;
-}
-
 INSTANTIATE_TEST_SUITE_P(Siunitx, ExportedLatex,
                          testing::Values("\\usepackage{siunitx}\n",
                                          "\\usepackage{siunitx}[=v2]\n"));

@@ -104,27 +104,6 @@ TEST(Svg, OfAPaperIsInPointsAndHasNoDarkColours) {
   EXPECT_EQ(svg.find("prefers-color-scheme"), std::string::npos);
 }
 
-TEST(Pgf, HasEveryPrimitiveWithYUp) {
-  const std::string pgf = pgf_bytes(with_every_primitive(kOneColumn));
-  EXPECT_EQ(count(pgf, "\\begin{pgfscope}"), 6U);
-  EXPECT_EQ(count(pgf, "\\end{pgfscope}"), 6U);
-  EXPECT_NE(pgf.find("{\\pgfpointorigin}{\\pgfqpoint{100bp}{50bp}}"), std::string::npos);
-  EXPECT_NE(pgf.find("\\pgftext[right,base,at={\\pgfqpoint{1bp}{48bp}},rotate=90]"),
-            std::string::npos);
-  EXPECT_NE(pgf.find("\\fontsize{8}{9.6}"), std::string::npos);
-  EXPECT_NE(pgf.find("a\\textless{}b \\& \"c\""), std::string::npos);
-  EXPECT_NE(pgf.find("\\pgfpathmoveto{\\pgfqpoint{0bp}{49bp}}\\pgfpathlineto{"
-                     "\\pgfqpoint{2.04bp}{47bp}}\\pgfusepath{stroke}"),
-            std::string::npos);
-  EXPECT_NE(pgf.find("\\pgfpathrectangle{\\pgfqpoint{0bp}{49bp}}{\\pgfqpoint{1bp}{1bp}}"
-                     "\\pgfusepath{fill,stroke}"),
-            std::string::npos);
-  EXPECT_NE(pgf.find("\\pgfpathcircle{\\pgfqpoint{5bp}{45bp}}{1.5bp}\\pgfusepath{fill}"),
-            std::string::npos);
-  EXPECT_NE(pgf.find("\\pgfpathclose\\pgfusepath{fill}"), std::string::npos);
-  EXPECT_NE(pgf.find("\\pgfsetdash{{4bp}{2bp}}{0pt}"), std::string::npos);
-}
-
 /// The page of a PDF file in points: width and height.
 std::array<double, 2> page_of(const std::string& pdf) {
   const std::size_t at = pdf.find("/MediaBox [ 0 0 ");

@@ -27,14 +27,14 @@ TEST(PointJacobian, IsTheDerivativeOfTheMovedPoint) {
 
 TEST(NormalEquations, StepSolvesALinearProblem) {
   Rng rng = test::test_rng();
-  const Vector6d wanted = Vector6d::Random();
+  const Vector6d expected = test::pose_vector(rng);
   NormalEquations equations;
   for (int i = 0; i < 50; ++i) {
     Vector6d J;
     for (int k = 0; k < 6; ++k) J(k) = rng.normal();
-    equations.add(J, -J.dot(wanted), rng.uniform(0.1, 1.0));
+    equations.add(J, -J.dot(expected), rng.uniform(0.1, 1.0));
   }
-  EXPECT_LT((equations.step() - wanted).norm(), 1e-9);
+  EXPECT_LT((equations.step() - expected).norm(), 1e-9);
 }
 
 TEST(NormalEquations, ScalarAndVectorResidualsAgree) {

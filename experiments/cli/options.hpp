@@ -1,0 +1,57 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace croon::experiments {
+
+// Options that several commands have, and how options refuse what they do not expect.
+
+/// Why `text` is not what the option `name` expects; empty if it is. Empty text is refused: an
+/// unset variable of a script must not mean the default. So is the next option, which such a
+/// variable without quotes leaves in the place of a value.
+std::string why_no_text(const std::string& name, const std::string& text, const std::string& what);
+
+/// Adds an option for text, or for a list of texts. `what` says what is expected: "a path".
+template <class T>
+CLI::Option* add_text(CLI::App& command, const std::string& name, T& option,
+                      const std::string& sentence, const std::string& what) {
+  return command.add_option(name, option, sentence)->check([name, what](const std::string& text) {
+    return why_no_text(name, text, what);
+  });
+}
+
+/// Adds an option for a path, or for a list of paths.
+template <class T>
+CLI::Option* add_path(CLI::App& command, const std::string& name, T& option,
+                      const std::string& sentence) {
+  return add_text(command, name, option, sentence, "a path");
+}
+
+template <class Number>
+void add_number(CLI::App& command, const std::string& name, std::optional<Number>& option,
+                Number min, Number max, const std::string& sentence) {
+  command.add_option(name, option, sentence)->check(CLI::Range(min, max));
+}
+
+/// EXPERIMENT and --with.
+void add_experiment(CLI::App& command, std::filesystem::path& experiment,
+                    std::vector<std::filesystem::path>& workloads);
+void add_data(CLI::App& command, std::filesystem::path& option);
+void add_jobs(CLI::App& command, int& option);
+void add_trials(CLI::App& command, int& option, const std::string& sentence);
+/// --width, the width of a figure.
+void add_width(CLI::App& command, std::string& option);
+
+/// The names of `rows`: "csv, json".
+template <class Row>
+std::string names_of(const std::vector<Row>& rows) {
+  std::string names;
+  for (const Row& row : rows) names += (names.empty() ? "" : ", ") + std::string(row.name);
+  return names;
+}
+
+}  // namespace croon::experiments
