@@ -7,8 +7,7 @@
 namespace croon::experiments {
 namespace {
 
-/// The sensors that are known to have no truth, and those with a trial that finished and has no
-/// error.
+/// Sensors known to have no ground truth, and sensors with a trial that finished without an error.
 std::set<std::string> sensors_left_out(const std::vector<TrialRecord>& records,
                                        const ReportOrder& order) {
   std::set<std::string> sensors = order.without_truth;
@@ -18,7 +17,7 @@ std::set<std::string> sensors_left_out(const std::vector<TrialRecord>& records,
   return sensors;
 }
 
-/// The largest size up to which every level `is_inside`; std::nullopt if the first is not.
+/// The maximum size up to which every level `is_inside`; std::nullopt if the first is not.
 template <class F>
 std::optional<double> reach(const Sweep& sweep, const BasinRow& row, const F& is_inside) {
   std::optional<double> size;
@@ -61,9 +60,9 @@ std::optional<Basin> basin_of(const std::vector<TrialRecord>& records, const Swe
 std::optional<double> basin_radius(const Sweep& sweep, const BasinRow& row) {
   const Share& first = row.levels.front();
   return reach(sweep, row, [&](const Share& share) {
-    // Both ratios times both numbers of trials.
-    const double least = kBasinRatio * first.count * share.trials;
-    return share.count > 0 && static_cast<double>(share.count) * first.trials >= least;
+    // Both ratios multiplied by both numbers of trials.
+    const double min_count = kBasinRatio * first.count * share.trials;
+    return share.count > 0 && static_cast<double>(share.count) * first.trials >= min_count;
   });
 }
 
@@ -72,7 +71,7 @@ std::optional<Interval> basin_radius_interval(const Sweep& sweep, const BasinRow
   if (first.count == 0 || !first.interval) return std::nullopt;
   const auto reach_by = [&](double Interval::*end) {
     return *reach(sweep, row, [&](const Share& share) {
-      // The first level is in the basin by definition.
+      // The first level is always in the basin.
       return &share == &first ||
              (share.interval && (*share.interval).*end >= kBasinRatio * first.ratio);
     });

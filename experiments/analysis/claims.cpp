@@ -17,7 +17,7 @@ std::optional<double> percent_of(const Share& share) {
   return percent_of(share.count, share.trials);
 }
 
-/// Whether success is known of all rows: none was summed up without truth.
+/// Whether success is known for all rows, that is, all have ground truth.
 bool have_success(const Rows& rows) {
   return std::none_of(rows.begin(), rows.end(),
                       [](const SummaryRow* row) { return lacks_truth(*row); });
@@ -27,7 +27,7 @@ bool is_spread(const Claim& claim) {
   return claim.statistic == kWithinSceneStd || claim.statistic == kAcrossScenesStd;
 }
 
-/// The spread of all rows together: variances weighted by their degrees of freedom.
+/// The pooled spread of all rows: variances weighted by their degrees of freedom.
 std::optional<DofValues> pooled_spread(const Rows& rows,
                                        std::optional<DofValues> SummaryRow::*spread,
                                        double SummaryRow::*freedom_of) {
@@ -44,7 +44,7 @@ std::optional<DofValues> pooled_spread(const Rows& rows,
   return pooled;
 }
 
-/// The spread of a DOF, or for `rotation` and `translation` that of their three DOFs together.
+/// The spread of a DOF; for `rotation` and `translation` the combined spread of their three DOFs.
 double spread_of(const DofValues& spread, std::size_t measure) {
   if (measure < kDofs) return spread[measure];
   const std::size_t first = measure == kRotation ? 0 : 3;
@@ -74,13 +74,13 @@ std::optional<double> found(const Claim& claim, const Rows& rows, const TrialSum
   return value_of(statistics, measure, statistic);
 }
 
-/// Sets the trials and scenes that the number of a claim is over.
+/// Sets the numbers of trials and scenes that a claim is computed over.
 void set_counts(ClaimResult& result, const Rows& rows, const TrialSummary& all) {
   const bool is_over_usable = !is_spread(result.claim) && result.claim.over == Over::usable;
   const auto trials_of = [&](const SceneSummary& scene) {
     if (result.claim.statistic == "agreement") return scene.agreement.trials;
     if (is_share(result.claim.statistic)) return scene.outcomes.trials;
-    // One trial has no spread.
+    // A single trial has no spread.
     if (result.claim.statistic == kWithinSceneStd && scene.counted < 2) return 0;
     return is_over_usable ? scene.usable : scene.counted;
   };
@@ -93,9 +93,9 @@ void set_counts(ClaimResult& result, const Rows& rows, const TrialSummary& all) 
   result.scenes = static_cast<int>(scenes.size());
 }
 
-/// The largest std of values of sizes up to 1, pooled over groups of so many values: half of each
+/// The maximum std of values of magnitude up to 1, pooled over groups of these sizes: half of each
 /// group's values are at either end. 1 if no group has two values.
-double largest_std(const std::vector<int>& groups) {
+double max_std(const std::vector<int>& groups) {
   double squares = 0.0, freedom = 0.0;
   for (const int n : groups) {
     if (n < 2) continue;
@@ -105,8 +105,8 @@ double largest_std(const std::vector<int>& groups) {
   return freedom > 0.0 ? std::sqrt(squares / freedom) : 1.0;
 }
 
-/// The numbers of values that the spread `statistic` is pooled over: for each scene its trials, or
-/// for each sensor its scenes.
+/// The numbers of values that the spread `statistic` is pooled over: trials per scene, or scenes
+/// per sensor.
 std::vector<int> spread_groups(const std::string& statistic, const Rows& rows) {
   std::vector<int> groups;
   for (const SummaryRow* row : rows) {
@@ -120,8 +120,8 @@ std::vector<int> spread_groups(const std::string& statistic, const Rows& rows) {
   return groups;
 }
 
-/// The largest size of the measure of a trial that counts.
-double largest_size(const Claim& claim, const SuccessBounds& bounds, bool has_truth) {
+/// The maximum magnitude of the measure of a counted trial.
+double max_magnitude(const Claim& claim, const SuccessBounds& bounds, bool has_truth) {
   const std::size_t measure = measure_index(claim.measure);
   const bool is_angle = kMeasures[measure].unit == std::string("deg");
   if (has_truth && (is_spread(claim) || claim.over == Over::successful)) {
@@ -132,29 +132,29 @@ double largest_size(const Claim& claim, const SuccessBounds& bounds, bool has_tr
   return std::numeric_limits<double>::infinity();
 }
 
-/// The least and the greatest number that the trials of a claim can lead to; `n` of them count.
+/// The range of numbers that the trials of a claim can lead to; `n` of them are counted.
 Interval attainable(const Claim& claim, const SuccessBounds& bounds, const Rows& rows, int n) {
   if (is_share(claim.statistic)) return {0.0, 100.0};
-  const double most = largest_size(claim, bounds, have_truth(rows));
-  if (is_spread(claim)) return {0.0, most * largest_std(spread_groups(claim.statistic, rows))};
-  // The two distances are not negative: what they can differ by is half as large.
+  const double limit = max_magnitude(claim, bounds, have_truth(rows));
+  if (is_spread(claim)) return {0.0, limit * max_std(spread_groups(claim.statistic, rows))};
+  // The two distances are not negative, so their range is half as wide.
   const bool is_distance = measure_index(claim.measure) >= kDofs;
-  if (claim.statistic == "std") return {0.0, (is_distance ? 0.5 : 1.0) * most * largest_std({n})};
+  if (claim.statistic == "std") return {0.0, (is_distance ? 0.5 : 1.0) * limit * max_std({n})};
   const bool is_signed = !is_distance && kStatistics[statistic_index(claim.statistic)].is_signed;
-  return {is_signed ? -most : 0.0, most};
+  return {is_signed ? -limit : 0.0, limit};
 }
 
-bool is_verdict_possible(const ClaimResult& result) {
+bool has_enough_trials(const ClaimResult& result) {
   const bool needs_scenes = result.claim.statistic != kWithinSceneStd;
-  return result.trials >= kLeastClaimTrials && (!needs_scenes || result.scenes >= kLeastScenes);
+  return result.trials >= kMinClaimTrials && (!needs_scenes || result.scenes >= kMinScenes);
 }
 
-Verdict verdict_of(const ClaimResult& result) {
-  if (!result.found) return Verdict::not_measured;
-  if (!result.can_fail) return Verdict::shown;
-  if (!is_verdict_possible(result)) return Verdict::not_enough;
+ClaimOutcome outcome_of(const ClaimResult& result) {
+  if (!result.found) return ClaimOutcome::not_measured;
+  if (!result.can_fail) return ClaimOutcome::shown;
+  if (!has_enough_trials(result)) return ClaimOutcome::not_enough;
   const auto& [low, high] = result.claim.band;
-  return *result.found >= low && *result.found <= high ? Verdict::in : Verdict::out;
+  return *result.found >= low && *result.found <= high ? ClaimOutcome::in : ClaimOutcome::out;
 }
 
 ClaimResult check(const Claim& claim, const Summary& summary) {
@@ -167,7 +167,7 @@ ClaimResult check(const Claim& claim, const Summary& summary) {
   result.success_percent = percent_of(main_share(all));
   const Interval possible = attainable(claim, summary.bounds, rows, result.trials);
   result.can_fail = claim.band.front() > possible.low || claim.band.back() < possible.high;
-  result.verdict = verdict_of(result);
+  result.outcome = outcome_of(result);
   return result;
 }
 
@@ -179,9 +179,9 @@ std::vector<ClaimResult> check_claims(const std::vector<Claim>& claims, const Su
   return results;
 }
 
-const char* verdict_name(Verdict verdict) {
+const char* name_of(ClaimOutcome outcome) {
   return std::array{"in", "out", "shown", "not enough trials", "not measured"}.at(
-      static_cast<std::size_t>(verdict));
+      static_cast<std::size_t>(outcome));
 }
 
 const char* unit_of(const Claim& claim) {

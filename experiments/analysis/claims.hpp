@@ -9,53 +9,54 @@
 
 namespace croon::experiments {
 
-/// Whether a number lies in its band.
-enum class Verdict {
+/// The outcome of a claim: whether the number found lies in its band.
+enum class ClaimOutcome {
   in,
   out,
-  shown,        ///< The band cannot fail, see `ClaimResult::can_fail`.
-  not_enough,   ///< Fewer than `kLeastClaimTrials` trials or `kLeastScenes` scenes.
-  not_measured  ///< The run has no such variant or sensor, or no trial that counts.
+  shown,        ///< No number outside the band is possible, see `ClaimResult::can_fail`.
+  not_enough,   ///< Fewer than `kMinClaimTrials` trials or `kMinScenes` scenes.
+  not_measured  ///< The run lacks the variant, the sensor or counted trials.
 };
 
-/// All verdicts, in the order of reports.
-inline constexpr std::array kVerdicts = {Verdict::in, Verdict::out, Verdict::shown,
-                                         Verdict::not_enough, Verdict::not_measured};
+/// All outcomes, in the order of reports.
+inline constexpr std::array kClaimOutcomes = {ClaimOutcome::in, ClaimOutcome::out,
+                                              ClaimOutcome::shown, ClaimOutcome::not_enough,
+                                              ClaimOutcome::not_measured};
 
 /// "in", "out", "shown", "not enough trials" or "not measured".
-const char* verdict_name(Verdict verdict);
+const char* name_of(ClaimOutcome outcome);
 
-/// With fewer trials a number is not held against its band. The standard error of a std is then 13
-/// % of it.
-inline constexpr int kLeastClaimTrials = 30;
+/// With fewer trials a number is not compared with its band. For this number the standard error of
+/// a std is 13 % of it.
+inline constexpr int kMinClaimTrials = 30;
 
-/// A claim and the number that a run has for it.
+/// A claim and the corresponding number of a run.
 struct ClaimResult {
   Claim claim;
   std::optional<double> found;  ///< In the unit of the claim.
-  Verdict verdict = Verdict::not_measured;
-  int trials = 0;  ///< That the number is over.
-  int scenes = 0;  ///< Of these trials.
-  /// Whether trials could end so that the number is outside the band. Errors of successful trials
-  /// are within the success bounds, and so are their mean, median, RMSE and percentile.
+  ClaimOutcome outcome = ClaimOutcome::not_measured;
+  int trials = 0;  ///< Number of trials that `found` is computed over.
+  int scenes = 0;  ///< Number of their scenes.
+  /// Whether trials could have led to a number outside the band. Errors of successful trials are
+  /// within the success bounds, and so are their mean, median, RMSE and percentile.
   bool can_fail = true;
-  std::optional<double> success_percent = {};  ///< Of all trials; without truth their agreement.
+  std::optional<double> success_percent = {};  ///< Of all trials; without truth, of agreeing ones.
 };
 
-/// "%", "deg" or "m": the unit of the numbers of a claim.
+/// The unit of the numbers of a claim: "%", "deg" or "m".
 const char* unit_of(const Claim& claim);
 
 /// Checks the claims against the summary, in their order.
 ///
-/// Without a sensor, the trials of all sensors are pooled: one mean of all their errors; spreads by
-/// degrees of freedom. Success needs truth, agreement does not. The spread within scenes is not
-/// held against `kLeastScenes`. The spread of `rotation` (`translation`) is the root of the sum of
-/// the squares of those of its three degrees of freedom. Without truth, statistics that need it
-/// (`kStatistics`) are not measured.
+/// Without a sensor, the trials of all sensors are pooled: one mean of all their errors; spreads
+/// weighted by degrees of freedom. Success requires ground truth, agreement does not.
+/// `kMinScenes` does not apply to the spread within scenes. The spread of `rotation`
+/// (`translation`) is the root of the sum of the squares of the spreads of its three degrees of
+/// freedom. Without ground truth, statistics that require it (`kStatistics`) are not measured.
 std::vector<ClaimResult> check_claims(const std::vector<Claim>& claims, const Summary& summary);
 
 /// The statistic of roll to z, pooled over all sensors of the summary's first variant, in the units
-/// of reports; std::nullopt if no trial counts or there is no truth.
+/// of reports; std::nullopt if no trial is counted or there is no ground truth.
 std::optional<DofValues> row_beside(const Quoted& quoted, const Summary& summary);
 
 }  // namespace croon::experiments

@@ -1,4 +1,4 @@
-// Variants against the base, trial by trial.
+// Compares variants with the base, trial by trial.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,19 +15,19 @@ namespace {
 
 constexpr double kLevel = 0.05;
 
-/// A variant that succeeds in so many trials less, as a share of all, is below the best even if too
-/// few trials were run for a significant difference.
+/// A variant is below the best if its share of successful trials is smaller by more than this, even
+/// if there are too few trials for a significant difference.
 constexpr double kLargeDifference = 0.05;
 
-/// The numbers of a trial that are compared.
+/// The compared numbers of a trial.
 struct TrialResult {
-  std::optional<Measures> errors;  ///< std::nullopt if it has no usable result.
+  std::optional<Measures> errors;  ///< std::nullopt without a usable result.
   double success = 0.0;            ///< 1 if it succeeded.
 };
 
-/// The trials that both of two variants have, pair by pair.
+/// The trials that two variants have in common, paired.
 struct PairedTrials {
-  Clusters scenes;  ///< The index of each pair's scene.
+  Clusters scenes;  ///< The scene index of each pair.
   std::vector<TrialResult> base;
   std::vector<TrialResult> variant;
 };
@@ -42,9 +42,9 @@ TrialResult result_of(const TrialRecord& record, const SceneSummary& scene,
   return {measures_of(error), is_success ? 1.0 : 0.0};
 }
 
-/// The trials of `rows`, which are of one variant, that the base has too; where a sensor or a scene
-/// has truth, those of others do not count. `base` are all rows of the base: scenes are numbered as
-/// they come in them.
+/// The trials of `rows`, which are of one variant, that the base also has. If any scene of a sensor
+/// has ground truth, scenes without it are not counted. `base` are all rows of the base; scenes are
+/// numbered in the order of these rows.
 PairedTrials paired(const Rows& base, const Rows& rows, const RecordGroups& groups,
                     const PoseBounds& bounds) {
   std::map<std::string, std::size_t> numbers;
@@ -74,7 +74,7 @@ PairedTrials paired(const Rows& base, const Rows& rows, const RecordGroups& grou
   return pairs;
 }
 
-/// The number `of` each trial of both sides.
+/// The numbers `of` the trials of both sides.
 template <class Number>
 Pairs pairs_of(const PairedTrials& trials, const Number& of) {
   Pairs pairs;
@@ -83,7 +83,7 @@ Pairs pairs_of(const PairedTrials& trials, const Number& of) {
   return pairs;
 }
 
-/// The sizes of the errors in `measure`; infinite for a trial without a usable result.
+/// The absolute errors in `measure`; infinite for a trial without a usable result.
 ErrorComparison compared_errors(const PairedTrials& trials, std::size_t measure) {
   const Pairs pairs = pairs_of(trials, [measure](const TrialResult& result) {
     return result.errors ? std::abs((*result.errors)[measure])
@@ -96,7 +96,7 @@ ErrorComparison compared_errors(const PairedTrials& trials, std::size_t measure)
   comparison.difference = difference(comparison.variant_median, comparison.base_median);
   const std::vector<double> paired = differences(pairs);
   comparison.paired_difference = median_with_failures(paired);
-  if (std::set<std::size_t>(scenes.begin(), scenes.end()).size() >= kLeastScenes) {
+  if (std::set<std::size_t>(scenes.begin(), scenes.end()).size() >= kMinScenes) {
     comparison.interval = median_difference_interval(pairs, scenes);
     const std::vector<double> zeros(paired.size(), 0.0);
     comparison.paired_interval = median_difference_interval({zeros, paired}, scenes);
@@ -109,10 +109,10 @@ ErrorComparison compared_errors(const PairedTrials& trials, std::size_t measure)
   return comparison;
 }
 
-/// Success alone, without errors.
+/// Compares only success, not errors.
 Comparison compared_success(const PairedTrials& trials) {
   Comparison comparison;
-  // 1 if the variant alone won, -1 if the base did, else 0.
+  // 1 if only the variant succeeded, -1 if only the base did, else 0.
   const auto success = [](const TrialResult& result) { return result.success; };
   const std::vector<double> wins = differences(pairs_of(trials, success));
   const auto count = [&](double outcome) {
@@ -126,7 +126,7 @@ Comparison compared_success(const PairedTrials& trials) {
   return comparison;
 }
 
-/// How many trials and scenes are compared.
+/// The numbers of compared trials and scenes.
 ComparedTrials counts_of(const PairedTrials& trials) {
   const std::set<std::size_t> scenes(trials.scenes.begin(), trials.scenes.end());
   return {{}, {}, {}, static_cast<int>(trials.scenes.size()), static_cast<int>(scenes.size())};
@@ -140,7 +140,7 @@ void correct(const std::vector<PairedTest*>& family, double PairedTest::*p,
   for (std::size_t i = 0; i < family.size(); ++i) family[i]->*p_holm = corrected[i];
 }
 
-/// The tests of each sensor are corrected together.
+/// Collects the tests of each sensor, which are corrected together.
 class TestFamilies {
  public:
   void add(const std::string& sensor, PairedTest& test) { families_[sensor].push_back(&test); }
@@ -156,7 +156,7 @@ class TestFamilies {
   std::map<std::string, std::vector<PairedTest*>> families_;
 };
 
-/// The share that counts, of all `rows`.
+/// The success of all `rows`, or their agreement without ground truth.
 double success_ratio(const Rows& rows) { return main_share(pooled_counts(scenes_of(rows))).ratio; }
 
 bool is_below(const Rows& best, const Rows& rows, const RecordGroups& groups,
@@ -175,7 +175,7 @@ bool is_below(const Rows& best, const Rows& rows, const RecordGroups& groups,
 
 bool is_significant(const PairedTest& test) { return test.p_holm < kLevel; }
 
-bool holds_by_scene(const PairedTest& test) {
+bool is_significant_by_scene(const PairedTest& test) {
   return is_significant(test) && test.p_by_scene_holm < kLevel;
 }
 
@@ -187,7 +187,7 @@ void compare_with_base(const std::string& base, Summary& summary, const RecordGr
     if (variant == base) continue;
     std::vector<std::string> sensors;
     for (const SummaryRow* row : rows_of(summary, variant)) sensors.push_back(row->sensor);
-    sensors.emplace_back();  // All together.
+    sensors.emplace_back();  // All sensors together.
     for (const std::string& sensor : sensors) {
       const auto trials = paired(base_rows, rows_of(summary, variant, sensor), groups, bounds);
       if (trials.scenes.empty()) continue;
@@ -219,7 +219,7 @@ std::set<VariantSensor> below_best(const Summary& summary, const RecordGroups& g
                                    const PoseBounds& bounds) {
   std::set<VariantSensor> below;
   std::vector<std::string> sensors = sensors_of(summary);
-  sensors.emplace_back();  // All together.
+  sensors.emplace_back();  // All sensors together.
   const std::vector<std::string> variants = variants_of(summary);
   for (const std::string& sensor : sensors) {
     Rows best;

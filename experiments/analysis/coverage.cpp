@@ -13,17 +13,17 @@
 namespace croon::experiments {
 namespace {
 
-/// The index of "all six" among the rows of a sensor.
+/// The index of the ellipsoid of all six among the rows of a sensor.
 constexpr std::size_t kAllSix = 6;
 
-/// The level of the ellipsoid on which a normalised squared error of six degrees of freedom lies:
-/// the chi-squared distribution, in closed form for an even number of them.
+/// The level of the ellipsoid that contains a normalised squared error of six degrees of freedom on
+/// its surface: the chi-squared distribution, in closed form for an even number of degrees.
 double level_of(double squared) {
   const double half = 0.5 * squared;
   return std::isfinite(half) ? 1.0 - std::exp(-half) * (1.0 + half + 0.5 * half * half) : 1.0;
 }
 
-/// The trials of one variant and sensor.
+/// The accepted trials of one variant and sensor.
 class Held {
  public:
   void add(const TrialRecord& record) {
@@ -43,7 +43,7 @@ class Held {
       }
       counts_[kAllSix][k].add(record.id.scene, level_of(squared) <= kCoverageLevels[k] ? 1 : 0, 1);
     }
-    // A covariance that denies the error is a miss above; no mean has a value with it.
+    // An error where the covariance is zero is outside every interval, and has no finite mean.
     if (!std::isfinite(squared)) return;
     squared_.push_back(squared);
     const std::size_t next = scenes_.size();
@@ -61,7 +61,7 @@ class Held {
     NormalisedErrors errors{variant, sensor, static_cast<int>(squared_.size()), 0.0, 0.0, {}};
     errors.mean = mean(squared_);
     errors.median = median_with_failures(squared_);
-    if (scenes_.size() >= static_cast<std::size_t>(kLeastScenes)) {
+    if (scenes_.size() >= static_cast<std::size_t>(kMinScenes)) {
       const Pairs against_zero = {std::vector<double>(squared_.size(), 0.0), squared_};
       errors.interval = median_difference_interval(against_zero, clusters_);
     }
@@ -75,7 +75,7 @@ class Held {
   std::map<std::string, std::size_t> scenes_;
 };
 
-/// Whether the program trusts the pose, and its truth and covariance are known.
+/// Whether the program accepts the pose, and its ground truth and covariance are known.
 bool is_covered(const TrialRecord& record) {
   return record.status != Status::rejected && record.error && record.covariance;
 }
@@ -91,7 +91,7 @@ double half_width_of(double level) {
 }
 
 double normalised_squared_error(const Vector6d& error, const Matrix6d& covariance) {
-  // Of errors in standard deviations, because rotations and translations have other units.
+  // In standard deviations, because rotations and translations have different units.
   Vector6d scale = Vector6d::Zero();
   for (int i = 0; i < 6; ++i) {
     if (covariance(i, i) > 0.0) scale(i) = 1.0 / std::sqrt(covariance(i, i));
@@ -103,7 +103,7 @@ double normalised_squared_error(const Vector6d& error, const Matrix6d& covarianc
   double sum = 0.0;
   for (int i = 0; i < 6; ++i) {
     const double along = solver.eigenvectors().col(i).dot(scaled);
-    // A rounding error is no information.
+    // Keeps rounding errors from counting as information.
     sum += along * along / std::max(solver.eigenvalues()(i), 1e-9);
   }
   return sum;

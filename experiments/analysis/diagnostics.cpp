@@ -10,7 +10,7 @@ namespace croon::experiments {
 
 std::vector<DiagnosticSummary> summarise_diagnostics(const std::vector<TrialRecord>& records,
                                                      const StepNumbers& steps) {
-  // Records are by variant, so summaries come in the order in which they are first met.
+  // Records are ordered by variant, so summaries are in order of first appearance.
   std::map<std::tuple<std::string, std::uint32_t, std::uint32_t>, std::size_t> indices;
   std::vector<DiagnosticSummary> summaries;
   std::vector<std::vector<double>> finite;

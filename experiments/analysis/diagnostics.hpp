@@ -9,17 +9,17 @@
 
 namespace croon::experiments {
 
-/// One number that the steps of a variant report, over all its trials.
+/// A number reported by a step of a variant, summarised over all trials.
 struct DiagnosticSummary {
   std::string variant;
   std::string step;
   std::string name;              ///< "inlier_ratio".
-  int trials = 0;                ///< That reported it.
-  std::optional<double> median;  ///< Of the finite values; nothing if there is none.
+  int trials = 0;                ///< Number of trials that reported it.
+  std::optional<double> median;  ///< Median of the finite values, if there are any.
 };
 
-/// The numbers of `steps`, which are of `records`: by variant, then in the order in which steps
-/// first report them.
+/// Summarises the numbers of `steps`, the steps of `records`: by variant, then in the order in
+/// which steps first report them.
 std::vector<DiagnosticSummary> summarise_diagnostics(const std::vector<TrialRecord>& records,
                                                      const StepNumbers& steps);
 

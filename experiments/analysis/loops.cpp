@@ -5,7 +5,7 @@
 namespace croon::experiments {
 namespace {
 
-/// The poses of a loop; null if one is not known.
+/// The poses of a loop; null for an unknown pose.
 struct Links {
   const RigidTransform* T_target_source = nullptr;
   const RigidTransform* T_reference_source = nullptr;
@@ -33,8 +33,8 @@ const SceneSummary* find_scene(const SummaryRow& row, const std::string& name) {
   return found == row.scenes.end() ? nullptr : &*found;
 }
 
-/// Closes the loop over the poses that all scenes agree on, and those over the poses that the
-/// trials of each scene agree on.
+/// Closes the loop over the poses that all scenes agree on, and for each scene the loop over the
+/// poses that its trials agree on.
 void close_over_agreed_poses(LoopClosure& closure, const Rows& rows, const PoseBounds& bounds) {
   const SummaryRow* const pair = find_row(rows, closure.pair.name);
   const SummaryRow* const source = find_row(rows, closure.pair.source);

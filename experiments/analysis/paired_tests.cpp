@@ -17,18 +17,19 @@
 namespace croon::experiments {
 namespace {
 
-/// Wilcoxon's test is exact for so many ranks; beyond, the normal distribution is off by less than
-/// 0.01.
-constexpr std::size_t kMostExactRanks = 25;
+/// The maximum number of ranks for Wilcoxon's exact test; for more, the normal approximation is off
+/// by less than 0.01.
+constexpr std::size_t kMaxExactRanks = 25;
 
-/// The sign-flip test is exact for so many sums: 2^16 signs take a fraction of a millisecond.
-constexpr std::size_t kMostExactSums = 16;
+/// The maximum number of sums for the exact sign-flip test: 2^16 signs take a fraction of a
+/// millisecond.
+constexpr std::size_t kMaxExactSums = 16;
 
-/// Resamples that share a stream of random numbers; seeding a stream costs as much as some hundred
-/// draws.
+/// The number of resamples per stream of random numbers; seeding a stream costs as much as some
+/// hundred draws.
 constexpr std::size_t kBlock = 50;
 
-/// The indices of `values` in ascending order of the values; equal ones by index.
+/// The indices of `values` in ascending order of the values; equal values by index.
 std::vector<std::size_t> ascending(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -37,7 +38,7 @@ std::vector<std::size_t> ascending(const std::vector<double>& values) {
   return order;
 }
 
-/// The indices of the pairs of each cluster that has any.
+/// The indices of the pairs of each non-empty cluster.
 using Members = std::vector<std::vector<std::size_t>>;
 
 Members members_of(const Clusters& clusters) {
@@ -48,20 +49,20 @@ Members members_of(const Clusters& clusters) {
   return members;
 }
 
-/// The number of times that a resample has each pair.
+/// How often a resample contains each pair.
 struct Resample {
   std::vector<std::uint32_t> counts;
   std::size_t size = 0;
 };
 
-/// Halfway between the two middle values of a median. Between a failure of one side and a failure
-/// of the other, -inf and inf, that is no difference.
+/// The mean of the two middle values of a median. Halfway between -inf and inf, a failure of either
+/// side, is no difference: 0.
 double halfway(double lower, double upper) {
   if (lower == upper) return lower;
   return std::isinf(lower) && std::isinf(upper) ? 0.0 : 0.5 * (lower + upper);
 }
 
-/// The median of one side of the pairs of a resample; `order` is that of `values`, ascending.
+/// The median of one side of the pairs of a resample; `order` sorts `values` in ascending order.
 double median_of(const std::vector<double>& values, const std::vector<std::size_t>& order,
                  const Resample& drawn) {
   std::size_t index = 0;
@@ -73,7 +74,8 @@ double median_of(const std::vector<double>& values, const std::vector<std::size_
   return halfway(lower, upper);
 }
 
-/// Below `n` even after rounding, and 53 bits leave no bias; `Rng::below` would take twice as long.
+/// Below `n` even after rounding; the bias of 53 bits is negligible. `Rng::below` would take twice
+/// as long.
 std::size_t draw_below(Rng& rng, std::size_t n) {
   return static_cast<std::size_t>(rng.uniform() * static_cast<double>(n));
 }
@@ -90,10 +92,10 @@ void draw(Rng& rng, const Members& members, Resample& drawn) {
   }
 }
 
-/// The share of all signs of `magnitudes` that bring their sum at least as far from 0 as `sum`;
+/// The share of all sign combinations of `magnitudes` whose sum is at least as far from 0 as `sum`;
 /// both are doubled, so that mean ranks are whole numbers.
 double exact_p(const std::vector<long long>& magnitudes, long long sum) {
-  std::map<long long, double> ways = {{0, 1.0}};  // How many signs lead to each sum.
+  std::map<long long, double> ways = {{0, 1.0}};  // Number of sign combinations by sum.
   for (const long long magnitude : magnitudes) {
     std::map<long long, double> longer;
     for (const auto& [shorter_sum, count] : ways) {
@@ -109,7 +111,8 @@ double exact_p(const std::vector<long long>& magnitudes, long long sum) {
   return std::ldexp(extreme, -static_cast<int>(magnitudes.size()));
 }
 
-/// How many of the signs from `from` on bring `sum` at least as far from 0 as `bound`.
+/// The number of sign combinations, from `from` on, for which `sum` ends at least as far from 0 as
+/// `bound`.
 double count_extreme(const std::vector<double>& sums, std::size_t from, double sum, double bound) {
   if (from == sums.size()) return std::abs(sum) >= bound ? 1.0 : 0.0;
   return count_extreme(sums, from + 1, sum + sums[from], bound) +
@@ -128,7 +131,7 @@ std::vector<double> differences(const Pairs& pairs) {
 }
 
 double median_with_failures(std::vector<double> values) {
-  if (values.empty()) throw std::logic_error("a median of no values");
+  if (values.empty()) throw std::logic_error("median of no values");
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   if (values.size() % 2 == 1) return *middle;
@@ -137,7 +140,7 @@ double median_with_failures(std::vector<double> values) {
 
 Interval median_difference_interval(const Pairs& pairs, const Clusters& clusters) {
   const std::size_t n = pairs.base.size();
-  if (n == 0) throw std::logic_error("a bootstrap of no pairs");
+  if (n == 0) throw std::logic_error("bootstrap of no pairs");
   const std::vector<std::size_t> base = ascending(pairs.base);
   const std::vector<std::size_t> variant = ascending(pairs.variant);
   const Members members = members_of(clusters);
@@ -152,13 +155,13 @@ Interval median_difference_interval(const Pairs& pairs, const Clusters& clusters
     }
   });
   std::sort(all.begin(), all.end());
-  // Order statistics, not between them: an end may be infinite.
+  // Order statistics without interpolation, because an end may be infinite.
   const std::size_t low = all.size() / 40 - 1;
   return {all[low], all[all.size() - 1 - low]};
 }
 
 double mcnemar_p(int only_base, int only_variant) {
-  if (only_base < 0 || only_variant < 0) throw std::logic_error("a negative number of pairs");
+  if (only_base < 0 || only_variant < 0) throw std::logic_error("negative number of pairs");
   if (only_base == only_variant) return 1.0;
   const double trials = static_cast<double>(only_base) + only_variant;
   const boost::math::binomial lesser(trials, 0.5);
@@ -186,7 +189,7 @@ double wilcoxon_p(const std::vector<double>& ranks) {
   long long sum = 0;
   for (const double rank : ranks) {
     if (rank == 0.0) continue;
-    if (magnitudes.size() == kMostExactRanks) return normal_sign_p(ranks);
+    if (magnitudes.size() == kMaxExactRanks) return normal_sign_p(ranks);
     magnitudes.push_back(std::llround(2.0 * std::abs(rank)));
     sum += std::llround(2.0 * rank);
   }
@@ -205,14 +208,14 @@ std::vector<double> cluster_sums(const std::vector<double>& scores, const Cluste
 double normal_sign_p(const std::vector<double>& scores) {
   double sum = 0.0;
   double squares = 0.0;
-  double least = std::numeric_limits<double>::infinity();
+  double min_step = std::numeric_limits<double>::infinity();
   for (const double score : scores) {
     sum += score;
     squares += score * score;
-    if (score != 0.0) least = std::min(least, std::abs(score));
+    if (score != 0.0) min_step = std::min(min_step, std::abs(score));
   }
   if (squares == 0.0) return 1.0;
-  const double z = std::max(0.0, std::abs(sum) - least) / std::sqrt(squares);
+  const double z = std::max(0.0, std::abs(sum) - min_step) / std::sqrt(squares);
   return 2.0 * boost::math::cdf(boost::math::complement(boost::math::normal(), z));
 }
 
@@ -221,9 +224,9 @@ double sign_flip_p(const std::vector<double>& sums) {
   std::copy_if(sums.begin(), sums.end(), std::back_inserter(flipped),
                [](double sum) { return sum != 0.0; });
   if (flipped.empty()) return 1.0;
-  if (flipped.size() > kMostExactSums) return normal_sign_p(flipped);
+  if (flipped.size() > kMaxExactSums) return normal_sign_p(flipped);
   const double observed = std::abs(std::accumulate(flipped.begin(), flipped.end(), 0.0));
-  // All signs turned round give the same |sum|, so the first may keep its own.
+  // Flipping all signs gives the same |sum|, so the first sign can stay fixed.
   const double extreme = count_extreme(flipped, 1, flipped.front(), observed);
   return std::ldexp(extreme, 1 - static_cast<int>(flipped.size()));
 }
@@ -231,11 +234,11 @@ double sign_flip_p(const std::vector<double>& sums) {
 std::vector<double> holm(const std::vector<double>& p_values) {
   const std::vector<std::size_t> order = ascending(p_values);
   std::vector<double> corrected(p_values.size());
-  double largest = 0.0;
+  double max_p = 0.0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const auto left = static_cast<double>(order.size() - i);
-    largest = std::max(largest, std::min(1.0, left * p_values[order[i]]));
-    corrected[order[i]] = largest;
+    max_p = std::max(max_p, std::min(1.0, left * p_values[order[i]]));
+    corrected[order[i]] = max_p;
   }
   return corrected;
 }

@@ -40,8 +40,9 @@ ReportOrder report_order(const StoreHeader& header) {
   return order;
 }
 
-/// The trials that were asked for. A variant that has none at all was not: `--only` left it out.
-std::size_t asked_trials(const std::string& manifest, const Summary& summary) {
+/// The number of requested trials. A variant without any trial was not requested: `--only` excluded
+/// it.
+std::size_t requested_trials(const std::string& manifest, const Summary& summary) {
   const std::size_t run = variants_of(summary).size();
   return run == 0 ? planned_trials(manifest) : planned_trials_of_variant(manifest) * run;
 }
@@ -68,10 +69,10 @@ Results results_of(StoredRun run, const std::string& file) {
   results.steps = std::move(run.steps);
   results.diagnostics = summarise_diagnostics(results.records, results.steps);
   results.summary = summarise(results.records, experiment.success, order);
-  results.planned = asked_trials(run.header.manifest, results.summary);
+  results.planned = requested_trials(run.header.manifest, results.summary);
   const std::optional<Sweep>& sweep = experiment.starts.sweep;
   if (sweep) results.basin = basin_of(results.records, *sweep, order);
-  results.verdicts = verdicts_of(results.records, results.summary);
+  results.acceptance = acceptance_of(results.records, results.summary);
   results.coverage = coverage_of(results.records, results.summary);
   results.claims = check_claims(experiment.claims, results.summary);
   results.quoted = experiment.quoted;

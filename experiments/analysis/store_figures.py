@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Numbers of docs/notebook and docs/store.md that no table of croon has, from stores of results.
+"""Computes numbers of docs/notebook and docs/store.md that are in no table of croon from stores of results.
 
 store_figures.py QUESTION DIR...: prints a Markdown table of each folder of results. The questions:
-  moved VARIANT  of the trials that succeed with VARIANT, and of the others: how many end elsewhere in another variant,
-                 how many of these farther from the truth, and by how many millimetres (median, largest)
-  far_off DEG    successes by kind of scene and variant, and in brackets the trials that end more than DEG degrees off
-                 and are not rejected
-  information    the median of e' H e / s^2, the squared error e normalised by the information matrix H of the last
+  moved VARIANT  for the trials that succeed with VARIANT, and for the others: how many end at another pose in each
+                 variant, how many of these farther from ground truth, and by how many millimetres (median, maximum)
+  far_off DEG    successes by kind of scene and variant, and in brackets the accepted trials with a rotation error
+                 above DEG degrees
+  information    the median of e' H e / s^2, the squared error e normalised with the information matrix H of the last
                  registration and by the variance s^2 of its residuals, over the trials that succeed; 5.35 if the scaled inverse
                  of H were the covariance of e (the median of a chi-square with six degrees of freedom)
 """
@@ -23,7 +23,7 @@ SAME = 1e-9  # Metres, and sines of angles.
 
 
 def rows_of(folder, query):
-    """The rows that `query` finds in the store of a folder of results."""
+    """Returns the rows of `query` in the store of a folder of results."""
     store = sqlite3.connect(f"file:{os.path.join(folder, 'store.sqlite')}?mode=ro", uri=True)
     store.row_factory = sqlite3.Row
     try:
@@ -38,7 +38,7 @@ def names_in_order(folder):
 
 
 def table(head, rows):
-    """A Markdown table."""
+    """Prints a Markdown table."""
     print("| " + " | ".join(head) + " |")
     print("|---" * len(head) + "|")
     for row in rows:
@@ -46,7 +46,7 @@ def table(head, rows):
 
 
 def moved_cell(pairs):
-    """What `moved` says of pairs of trials, each (without, with)."""
+    """A cell of the table of `moved`, for pairs of trials (base, variant)."""
     elsewhere = [(before, after) for before, after in pairs
                  if any(abs(before[name] - after[name]) > SAME for name in POSE)]
     farther = sorted(1000 * (after["translation_error_m"] - before["translation_error_m"]) for before, after in elsewhere

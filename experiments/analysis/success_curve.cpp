@@ -10,9 +10,9 @@ namespace {
 
 constexpr std::array kCurves = {CurveOf::rotation, CurveOf::translation, CurveOf::both};
 
-/// A hundredth to a hundred times the bounds, six thresholds per decade.
+/// From a hundredth to a hundred times the bounds, six thresholds per decade.
 std::vector<SuccessBounds> thresholds_of(const SuccessBounds& bounds) {
-  // Twelve digits: without the last bits, which a product of round numbers does not have.
+  // Rounded to twelve digits, to remove rounding errors of products of round numbers.
   const auto rounded = [](double value) {
     double scale = 1.0;
     while (scale * value < 1e11) scale *= 10.0;
@@ -45,7 +45,7 @@ struct Thresholds {
   std::size_t size() const { return rotation_rad.size(); }
 };
 
-/// The index of the first threshold that `value` is within; their number if there is none.
+/// The index of the first threshold that `value` does not exceed; their number if there is none.
 std::size_t first_within(double value, const std::vector<double>& thresholds) {
   return static_cast<std::size_t>(std::lower_bound(thresholds.begin(), thresholds.end(), value) -
                                   thresholds.begin());
@@ -56,7 +56,7 @@ using CountsWithin = std::array<std::vector<int>, kCurves.size()>;
 
 CountsWithin counts_within(const SceneRecords& records, const Thresholds& thresholds) {
   CountsWithin counts;
-  // One more, for the records beyond all thresholds.
+  // One additional element for records beyond all thresholds.
   for (std::vector<int>& count : counts) count.resize(thresholds.size() + 1);
   for (const TrialRecord* record : records) {
     if (usable_pose(*record) == nullptr || !record->error) continue;
@@ -72,7 +72,7 @@ CountsWithin counts_within(const SceneRecords& records, const Thresholds& thresh
   return counts;
 }
 
-/// The curves of `rows`, which are of one variant, as one.
+/// The curves of all `rows`, which are of one variant, together.
 std::vector<CurveRow> curves_of(const Rows& rows, const std::string& sensor,
                                 const RecordGroups& groups, const Thresholds& thresholds) {
   std::array<std::vector<SceneCounts>, kCurves.size()> counts;

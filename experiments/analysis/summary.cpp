@@ -6,7 +6,7 @@
 namespace croon::experiments {
 namespace {
 
-/// The names that rows have, in their order.
+/// The distinct names of the rows, in their order.
 std::vector<std::string> each_once(const Summary& summary, std::string SummaryRow::*name) {
   std::vector<std::string> names;
   for (const SummaryRow& row : summary.rows) {
@@ -17,7 +17,7 @@ std::vector<std::string> each_once(const Summary& summary, std::string SummaryRo
   return names;
 }
 
-/// The trials of all `rows`, which are of one variant, in the scenes of one kind.
+/// Summarises the trials of all `rows`, which are of one variant, in the scenes of one kind.
 SceneKindSummary summary_of_kind(const Rows& rows, const std::string& kind,
                                  const std::string& sensor) {
   std::vector<const SceneSummary*> scenes;
@@ -27,8 +27,8 @@ SceneKindSummary summary_of_kind(const Rows& rows, const std::string& kind,
   return {pooled(scenes), rows.front()->variant, kind, sensor};
 }
 
-/// By variant, kind (alphabetically; scenes without one have the kind "") and sensor as in the
-/// rows, all sensors together last. Empty if no scene has a kind.
+/// By variant, kind (alphabetically; "" for scenes without a kind) and sensor as in the rows, all
+/// sensors together last. Empty if no scene has a kind.
 std::vector<SceneKindSummary> summarise_scene_kinds(const Summary& summary) {
   std::vector<SceneKindSummary> summaries;
   bool has_kinds = false;

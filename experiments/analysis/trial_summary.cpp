@@ -12,11 +12,12 @@ namespace {
 
 constexpr std::size_t kMean = statistic_index("mean");
 
-/// The numbers of trials by their status, in the order of Status.
+/// The numbers of trials by status, in the order of Status.
 constexpr std::array kByStatus = {&Outcomes::success, &Outcomes::inaccurate, &Outcomes::finished,
                                   &Outcomes::rejected, &Outcomes::failed};
 
-/// Whether the usable pose of a trial is within `bounds` of `pose`; std::nullopt if it has none.
+/// Whether the usable pose of a trial is within `bounds` of `pose`; std::nullopt without a usable
+/// pose.
 std::optional<bool> is_near(const TrialRecord& record, const RigidTransform& pose,
                             const PoseBounds& bounds) {
   const RigidTransform* const usable = usable_pose(record);
@@ -24,7 +25,7 @@ std::optional<bool> is_near(const TrialRecord& record, const RigidTransform& pos
   return agree(*usable, pose, bounds);
 }
 
-/// The trials of `records` that are near `pose`; `is_alone` is whether there is no other trial.
+/// The trials of `records` that are near `pose`; `is_alone` tells that there is no other trial.
 Agreeing agreeing_with(const RigidTransform& pose, const SceneRecords& records,
                        const PoseBounds& bounds, bool is_alone) {
   std::vector<double> rotations, translations;
@@ -34,20 +35,19 @@ Agreeing agreeing_with(const RigidTransform& pose, const SceneRecords& records,
     rotations.push_back(distances[kRotation]);
     translations.push_back(distances[kTranslation]);
   }
-  // A pose that is near no other than itself agrees with none.
+  // A pose that is near no pose but itself does not agree with any.
   if (rotations.empty() || (rotations.size() == 1 && !is_alone)) return {};
   return {static_cast<int>(rotations.size()), root_mean_square(rotations),
           root_mean_square(translations)};
 }
 
-/// The covariances of the poses that agree on a consensus; std::nullopt if one of them is not
-/// known.
+/// The covariances of the poses that agree on a consensus; std::nullopt if one is unknown.
 std::optional<std::vector<PoseCovariance>> covariances_of_members(
     const std::vector<RigidTransform>& poses,
     const std::vector<std::optional<PoseCovariance>>& covariances, const PoseBounds& bounds,
     const std::vector<double>& votes = {}) {
   const auto is_known = [](const std::optional<PoseCovariance>& one) { return one.has_value(); };
-  // Which poses are members takes as long as the consensus.
+  // Finding the members takes as long as the consensus.
   if (std::none_of(covariances.begin(), covariances.end(), is_known)) return std::nullopt;
   std::vector<PoseCovariance> members;
   for (const std::size_t i : consensus_members(poses, bounds, votes)) {
@@ -57,8 +57,7 @@ std::optional<std::vector<PoseCovariance>> covariances_of_members(
   return members;
 }
 
-/// The outcomes of a scene and the pose that its trials agree on: all that does not need the other
-/// scenes.
+/// The outcomes of a scene and its consensus: everything that does not depend on other scenes.
 SceneSummary without_deviations(const SceneRecords& records, const PoseBounds& bounds) {
   SceneSummary scene;
   scene.scene = records.front()->id.scene;
@@ -84,7 +83,7 @@ SceneSummary without_deviations(const SceneRecords& records, const PoseBounds& b
   return scene;
 }
 
-/// Whether the trial counts (see `SummaryRow`).
+/// Whether the trial is counted (see `SummaryRow`).
 bool counts(const TrialRecord& record, const SceneSummary& scene, const PoseBounds& bounds) {
   if (lacks_truth(scene)) {
     const bool is_alone = scene.outcomes.trials == 1 && usable_pose(record) != nullptr;
@@ -93,7 +92,7 @@ bool counts(const TrialRecord& record, const SceneSummary& scene, const PoseBoun
   return record.status == Status::success && record.error;
 }
 
-/// Adds the deviations of the trials that count from the truth or from `consensus`, that of all
+/// Adds the deviations of the counted trials from ground truth or from `consensus`, that of all
 /// scenes.
 void add_deviations(SceneSummary& scene, const SceneRecords& records,
                     const std::optional<RigidTransform>& consensus, const PoseBounds& bounds) {
@@ -109,7 +108,7 @@ void add_deviations(SceneSummary& scene, const SceneRecords& records,
     scene.deviations.push_back(deviations);
   }
   if (poses.empty()) return;
-  // With truth trials may count that do not agree with most others.
+  // With ground truth, counted trials need not agree with most others.
   const RigidTransform centre =
       lacks_truth(scene) ? *scene.consensus : consensus_pose(poses, bounds);
   for (const RigidTransform& pose : poses) {
@@ -117,7 +116,7 @@ void add_deviations(SceneSummary& scene, const SceneRecords& records,
   }
 }
 
-/// See `SummaryRow::within_scene_std`; the scenes of `row` are complete.
+/// Sets `SummaryRow::within_scene_std`; the scenes of `row` must be complete.
 void set_within_scene_std(SummaryRow& row) {
   std::array<std::vector<double>, kDofs> squares;
   for (const SceneSummary& scene : row.scenes) {
@@ -135,7 +134,7 @@ void set_within_scene_std(SummaryRow& row) {
   }
 }
 
-/// See `SummaryRow::across_scenes_std`; the scenes and the consensus of `row` are complete.
+/// Sets `SummaryRow::across_scenes_std`; the scenes and the consensus of `row` must be complete.
 void set_across_scenes_std(SummaryRow& row) {
   std::vector<Measures> centres;
   for (const SceneSummary& scene : row.scenes) {
@@ -153,7 +152,7 @@ void set_across_scenes_std(SummaryRow& row) {
   for (std::size_t k = 0; k < kDofs; ++k) spread[k] = standard_deviation(values_of(centres, k));
 }
 
-/// The deviations of all scenes, one scene after the other.
+/// The deviations of all scenes, concatenated.
 std::vector<Measures> joined(const std::vector<const SceneSummary*>& scenes,
                              std::vector<Measures> SceneSummary::*deviations) {
   std::vector<Measures> all;
@@ -163,7 +162,7 @@ std::vector<Measures> joined(const std::vector<const SceneSummary*>& scenes,
   return all;
 }
 
-/// Sets what the scenes of `row` agree on, by their consensus, of which `scenes` has the trials.
+/// Sets the consensus of all scenes of `row` from those of the scenes; `scenes` has their trials.
 void set_consensus(SummaryRow& row, const std::vector<SceneRecords>& scenes,
                    const PoseBounds& bounds) {
   std::vector<RigidTransform> consensus;
@@ -183,8 +182,8 @@ void set_consensus(SummaryRow& row, const std::vector<SceneRecords>& scenes,
   if (consensus.empty()) return;
   row.consensus = consensus_pose(consensus, bounds, votes);
   const bool is_alone = all.size() == 1;
-  // Trials that agree with no other one of their scene may be near those of another by chance: they
-  // make no pose.
+  // Trials that agree with no other trial of their scene may be near trials of another scene by
+  // chance; they do not form a consensus.
   if (agreeing_with(*row.consensus, of_agreeing_scenes, bounds, is_alone).count > 0) {
     row.agreeing = agreeing_with(*row.consensus, all, bounds, is_alone);
   }
@@ -213,7 +212,7 @@ Share SceneCounts::share() const {
   if (share.trials == 0) return share;
   const double trials = share.trials;
   share.ratio = share.count / trials;
-  if (scenes >= kLeastScenes) {
+  if (scenes >= kMinScenes) {
     share.interval = wilson_interval(share.ratio, trials * trials / squares);
   }
   return share;
@@ -261,7 +260,7 @@ TrialSummary pooled_counts(const std::vector<const SceneSummary*>& scenes) {
     names.insert(scene->scene);
     sum.outcomes.trials += scene->outcomes.trials;
     for (const auto count : kByStatus) sum.outcomes.*count += scene->outcomes.*count;
-    // One trial alone has none to agree with.
+    // A single trial has no other to agree with.
     if (scene->outcomes.trials > 1) {
       agreements.add(scene->scene, scene->agreeing.count, scene->outcomes.trials);
     }
@@ -279,7 +278,7 @@ TrialSummary pooled_counts(const std::vector<const SceneSummary*>& scenes) {
 TrialSummary pooled(const std::vector<const SceneSummary*>& scenes) {
   TrialSummary sum = pooled_counts(scenes);
   if (scenes.size() == 1 && scenes.front()->usable_statistics) {
-    // The statistics of one scene are those that it has.
+    // The statistics of one scene are already computed.
     sum.statistics = scenes.front()->statistics;
     sum.usable_statistics = scenes.front()->usable_statistics;
     return sum;
@@ -291,7 +290,7 @@ TrialSummary pooled(const std::vector<const SceneSummary*>& scenes) {
   if (sum.usable > sum.counted) {
     sum.usable_statistics = statistics_of(joined(judged, &SceneSummary::usable_deviations));
   } else {
-    // All usable trials count.
+    // All usable trials are counted.
     sum.usable_statistics = sum.statistics;
   }
   return sum;
@@ -353,7 +352,7 @@ SummaryRow summary_row(const std::vector<SceneRecords>& scenes, const PoseBounds
     row.scenes.push_back(without_deviations(records, bounds));
   }
   set_consensus(row, scenes, bounds);
-  // Truth if one trial of any scene has it.
+  // Ground truth if a trial of any scene has it.
   DeviationsFrom from = pooled_counts(scenes_of({&row})).deviations_from;
   if (without_truth) from = std::min(from, DeviationsFrom::consensus);
   for (std::size_t i = 0; i < scenes.size(); ++i) {

@@ -10,7 +10,7 @@
 namespace croon::experiments {
 namespace {
 
-VerdictCounts& operator+=(VerdictCounts& sum, const VerdictCounts& other) {
+AcceptanceCounts& operator+=(AcceptanceCounts& sum, const AcceptanceCounts& other) {
   sum.accepted_right += other.accepted_right;
   sum.accepted_wrong += other.accepted_wrong;
   sum.rejected_right += other.rejected_right;
@@ -19,7 +19,7 @@ VerdictCounts& operator+=(VerdictCounts& sum, const VerdictCounts& other) {
   return sum;
 }
 
-void add(VerdictCounts& counts, const TrialRecord& record, const SuccessBounds& threshold) {
+void add(AcceptanceCounts& counts, const TrialRecord& record, const SuccessBounds& threshold) {
   if (!record.error) {
     ++counts.failed;
     return;
@@ -32,7 +32,7 @@ void add(VerdictCounts& counts, const TrialRecord& record, const SuccessBounds& 
   }
 }
 
-void add(VerdictRow& row, const TrialRecord& record, const SuccessBounds& bounds,
+void add(AcceptanceRow& row, const TrialRecord& record, const SuccessBounds& bounds,
          const std::vector<SuccessBounds>& thresholds) {
   add(row.at_bounds, record, bounds);
   row.at_thresholds.resize(thresholds.size());
@@ -41,7 +41,7 @@ void add(VerdictRow& row, const TrialRecord& record, const SuccessBounds& bounds
   }
 }
 
-/// The sensors and scenes of which the truth is not known.
+/// Sensors and scenes without ground truth.
 using WithoutTruth = std::set<std::pair<std::string, std::string>>;
 
 WithoutTruth without_truth(const Summary& summary) {
@@ -56,37 +56,37 @@ WithoutTruth without_truth(const Summary& summary) {
 
 }  // namespace
 
-Verdicts verdicts_of(const std::vector<TrialRecord>& records, const Summary& summary) {
-  Verdicts verdicts{summary.curve.thresholds, {}};
+AcceptanceCurve acceptance_of(const std::vector<TrialRecord>& records, const Summary& summary) {
+  AcceptanceCurve acceptance{summary.curve.thresholds, {}};
   const bool has_rejected = std::any_of(
       records.begin(), records.end(),
       [](const TrialRecord& record) { return record.status == Status::rejected && record.error; });
-  if (!has_rejected) return verdicts;
+  if (!has_rejected) return acceptance;
   const WithoutTruth without = without_truth(summary);
-  std::map<std::pair<std::string, std::string>, VerdictRow> rows;
+  std::map<std::pair<std::string, std::string>, AcceptanceRow> rows;
   for (const TrialRecord& record : records) {
-    // A trial without a pose has no error, with truth or without.
+    // A trial without a pose has no error, with or without ground truth.
     const bool is_judged = record.error || record.status == Status::failed;
     if (!is_judged || without.count({record.id.sensor, record.id.scene}) > 0) continue;
-    add(rows[{record.id.variant, record.id.sensor}], record, summary.bounds, verdicts.thresholds);
+    add(rows[{record.id.variant, record.id.sensor}], record, summary.bounds, acceptance.thresholds);
   }
   for (const std::string& variant : variants_of(summary)) {
-    VerdictRow all{variant, "", {}, std::vector<VerdictCounts>(verdicts.thresholds.size())};
+    AcceptanceRow all{variant, "", {}, std::vector<AcceptanceCounts>(acceptance.thresholds.size())};
     for (const std::string& sensor : sensors_of(summary)) {
       const auto found = rows.find({variant, sensor});
       if (found == rows.end()) continue;
-      VerdictRow& row = found->second;
+      AcceptanceRow& row = found->second;
       row.variant = variant;
       row.sensor = sensor;
       all.at_bounds += row.at_bounds;
       for (std::size_t i = 0; i < all.at_thresholds.size(); ++i) {
         all.at_thresholds[i] += row.at_thresholds[i];
       }
-      verdicts.rows.push_back(std::move(row));
+      acceptance.rows.push_back(std::move(row));
     }
-    if (all.at_bounds.trials() > 0) verdicts.rows.push_back(std::move(all));
+    if (all.at_bounds.trials() > 0) acceptance.rows.push_back(std::move(all));
   }
-  return verdicts;
+  return acceptance;
 }
 
 }  // namespace croon::experiments

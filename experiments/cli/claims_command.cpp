@@ -17,7 +17,7 @@ constexpr const char* kHead =
     "in degrees, lengths in\nmetres. \"All sensors\" pools the trials of all of them.\n";
 
 bool is_met(const ClaimResult& claim) {
-  return claim.verdict == Verdict::in || claim.verdict == Verdict::shown;
+  return claim.outcome == ClaimOutcome::in || claim.outcome == ClaimOutcome::shown;
 }
 
 }  // namespace

@@ -77,9 +77,9 @@ std::string figure_bytes(const ExportOptions& options) {
       restricted(read_results(folder), {options.variants, options.sensors, options.kinds});
   const std::optional<Drawing> drawing = figure.draw(results, figure_options);
   if (!drawing) {
-    throw InputError(
-        folder.string(), "",
-        std::string("expected results with ") + figure.wants + " for the figure " + figure.name);
+    throw InputError(folder.string(), "",
+                     std::string("expected results with ") + figure.requirement +
+                         " for the figure " + figure.name);
   }
   return writer.bytes(*drawing);
 }

@@ -19,7 +19,7 @@ using params::optional;
 using params::Parameter;
 using params::Table;
 
-/// Claims hold no stages.
+/// Claims contain no stages.
 class NoStages final : public params::StageBuilder {
  public:
   params::BuiltStage build(const std::string&, const Node&) const override {
@@ -31,10 +31,10 @@ const std::vector<std::string> kShares = {kSuccess, kAgreement, kScenes};
 
 const params::Words<Over> kOver = {{"successful", Over::successful}, {"usable", Over::usable}};
 
-/// How the bands of a table of claims follow from its values.
+/// How the bands of a table of claims are computed from its values.
 enum class BandRule {
-  no_worse,    ///< No farther from zero than the source's value and its uncertainty.
-  around_zero  ///< Within a half width of zero, which the file gives for each measure.
+  no_worse,    ///< At most as far from zero as the source's value plus its uncertainty.
+  around_zero  ///< Within a half width of zero, given in the file for each measure.
 };
 
 struct TableBand {
@@ -44,7 +44,7 @@ struct TableBand {
   std::vector<double> half_width;
 };
 
-/// The values of one sensor: for each statistic a list, one number per measure of the table.
+/// The values of one sensor: a list for each statistic, with one number per measure of the table.
 struct TableValues {
   std::array<std::vector<double>, kStatistics.size()> by_statistic;
 };
@@ -60,22 +60,21 @@ const Table<Claim>& claim_table() {
   static const Table<Claim> table = [] {
     using P = Claim;
     Table<P> rows = {
-        params::text("claim", &P::claim, "What the number is, in words."),
-        params::text("source", &P::source, "Where it stands."),
-        optional(params::text("variant", &P::variant,
-                              "The variant that is meant; the first if none is named.")),
-        optional(params::text("sensor", &P::sensor,
-                              "The sensor that is meant; all together if none is named.")),
+        params::text("claim", &P::claim, "What the number means, in words."),
+        params::text("source", &P::source, "Source of the number, e.g. \"paper, Table 1\"."),
+        optional(params::text("variant", &P::variant, "Variant; default: the first.")),
+        optional(params::text("sensor", &P::sensor, "Sensor; default: all sensors together.")),
         optional(params::choice("measure", &P::measure, measure_names(),
-                                "What is measured, in deg or m; shares have none.")),
+                                "Measure, in deg or m; none for shares.")),
         optional(params::choice("statistic", &P::statistic, claim_statistics(),
-                                "Which statistic; success, agreement and scenes are shares in %.")),
-        params::choice("over", &P::over, kOver,
-                       "The trials of a mean, std, median, rmse or p95: the successful ones (no "
-                       "truth: those that agree), or all usable ones, which finished and were not "
-                       "rejected."),
-        optional(params::number("value", &P::value, {}, "What the source says, in deg, m or %.")),
-        optional(params::interval("band", &P::band, {}, "Lowest and highest of ours.")),
+                                "Statistic; success, agreement and scenes are shares in %.")),
+        params::choice(
+            "over", &P::over, kOver,
+            "Trials of a mean, std, median, rmse or p95: the successful ones (without "
+            "ground truth: those that agree), or all usable ones, which finished and were not "
+            "rejected."),
+        optional(params::number("value", &P::value, {}, "Number in the source, in deg, m or %.")),
+        optional(params::interval("band", &P::band, {}, "Minimum and maximum of our number.")),
         optional(params::text("why", &P::why, "Why ours may differ.")),
     };
     rows.rule({"statistic", kShares, true, {"measure"}, {}});
@@ -100,14 +99,16 @@ Table<TableBand> band_table() {
           "rule", &P::rule,
           params::Words<BandRule>{{"no_worse", BandRule::no_worse},
                                   {"around_zero", BandRule::around_zero}},
-          "no_worse: a mean no farther from zero than the value and twice its standard error, "
-          "any other statistic no larger than the value; around_zero: within half_width of zero."),
+          "no_worse: a mean is at most as far from zero as the value plus twice its standard "
+          "error, any other statistic is at most the value; around_zero: within half_width of "
+          "zero."),
       params::integer("samples", &P::samples, {0, 1e9},
-                      "How many errors the source's values are over; for the standard error."),
-      params::integer("decimals", &P::decimals, {0, 9},
-                      "Bands of means are rounded up to this many decimals, those of the source."),
+                      "Number of errors behind the source's values, for the standard error."),
+      params::integer(
+          "decimals", &P::decimals, {0, 9},
+          "Number of decimals, as in the source, to which bands of means are rounded up."),
       optional(params::numbers("half_width", &P::half_width, {0.0, 1e9},
-                               "Half of the width of the band of each measure.")),
+                               "Half width of the band of each measure.")),
   };
   table.rule({"rule",
               {"around_zero"},
@@ -119,7 +120,7 @@ Table<TableBand> band_table() {
   return table;
 }
 
-/// The row of one statistic of a table of values.
+/// The row of one statistic in a table of values.
 Parameter<TableValues> values_row(std::size_t statistic) {
   const std::string name = kStatistics[statistic].name;
   params::ParameterDoc doc{name, params::ParameterType::numbers,     "", {}, {},
@@ -143,13 +144,8 @@ Table<TableValues> values_table() {
 }
 
 Parameter<ClaimKeys> measures_row() {
-  params::ParameterDoc doc{"measures",
-                           params::ParameterType::choices,
-                           "",
-                           {},
-                           measure_names(),
-                           "",
-                           "The measures that the values of a table are of."};
+  params::ParameterDoc doc{"measures", params::ParameterType::choices,      "", {}, measure_names(),
+                           "",         "Measures of the values in a table."};
   doc.is_optional = true;
   return {doc,
           [](ClaimKeys& keys, const Node& node, const params::StageBuilder&) {
@@ -168,7 +164,7 @@ const Table<ClaimKeys>& claim_keys_table() {
                                   "A table of claims: for each sensor the statistics, each a list "
                                   "with one number per measure.")));
     rows.add(optional(params::group("band_rule", &P::band_rule, band_table(), {},
-                                    "How the bands of a table follow from its values.")));
+                                    "How the bands of a table are computed from its values.")));
     const std::vector<std::string> of_one = {"sensor", "measure", "statistic", "value", "band"};
     const std::vector<std::string> of_table = {"measures", "band_rule"};
     rows.rule(
@@ -183,7 +179,7 @@ const Table<ClaimKeys>& claim_keys_table() {
   return table;
 }
 
-/// Notes a fault for each list that has not one number per measure.
+/// Notes a fault for each list whose length is not the number of measures.
 void check_sizes(const ClaimKeys& keys, const Node& node) {
   const std::string expected =
       "one number for each of the " + std::to_string(keys.measures.size()) + " measures";
@@ -202,12 +198,12 @@ void check_sizes(const ClaimKeys& keys, const Node& node) {
   }
 }
 
-/// The half width of the band of a mean: |value| and twice its standard error, rounded up.
+/// The half width of the band of a mean: |value| plus twice its standard error, rounded up.
 double half_width_of_mean(double value, double std, const TableBand& band) {
   double scale = 1.0;
   for (int i = 0; i < band.decimals; ++i) scale *= 10.0;
   const double half_width = std::abs(value) + 2.0 * std / std::sqrt(band.samples);
-  // Without the subtrahend a half width that has these decimals would be rounded to the next.
+  // The subtrahend keeps a half width that already has these decimals.
   return std::ceil(half_width * scale - 1e-6) / scale;
 }
 
@@ -302,7 +298,7 @@ const params::ParameterDoc& claims_doc() {
   static const params::ParameterDoc doc = [] {
     params::ParameterDoc claims = params::object_doc(
         "claims", params::ParameterType::list, claim_keys_table(),
-        "Numbers of a source, and the bands in which ours must lie; they decide no trial.");
+        "Numbers of a source, and the bands in which ours must lie; they do not affect trials.");
     claims.default_json = "[]";
     return claims;
   }();
@@ -312,8 +308,8 @@ const params::ParameterDoc& claims_doc() {
 std::vector<Claim> read_claims(const Node& node) {
   std::vector<Claim> claims;
   if (!node.is_array()) return claims;
-  if (node.value().size() > kMostClaims) {
-    node.fault("expected at most " + std::to_string(kMostClaims) + " claims, found " +
+  if (node.value().size() > kMaxClaims) {
+    node.fault("expected at most " + std::to_string(kMaxClaims) + " claims, found " +
                std::to_string(node.value().size()));
     return claims;
   }
@@ -333,8 +329,8 @@ std::vector<Claim> read_claims(const Node& node) {
     const std::vector<Claim> expanded = ClaimExpander(keys, element).expand();
     claims.insert(claims.end(), expanded.begin(), expanded.end());
   });
-  if (claims.size() > kMostClaims) {
-    node.fault("expected at most " + std::to_string(kMostClaims) + " claims, found " +
+  if (claims.size() > kMaxClaims) {
+    node.fault("expected at most " + std::to_string(kMaxClaims) + " claims, found " +
                std::to_string(claims.size()) + " with all values of tables");
   }
   return claims;
@@ -351,13 +347,13 @@ std::string claims_json(const std::vector<Claim>& claims) {
 const Table<Quoted>& quoted_table() {
   using P = Quoted;
   const auto error = [](const char* key, double P::*value, const std::string& dof) {
-    return params::required(params::number(key, value, {}, "Its error in " + dof + "."));
+    return params::required(params::number(key, value, {}, "Error in " + dof + "."));
   };
   static const Table<P> table = {
-      params::text("method", &P::method, "The method's name."),
-      params::text("source", &P::source, "Where its numbers stand."),
+      params::text("method", &P::method, "Name of the method."),
+      params::text("source", &P::source, "Source of the numbers."),
       params::required(params::choice("statistic", &P::statistic, statistic_names(),
-                                      "Which statistic the numbers are.")),
+                                      "Statistic of the numbers.")),
       error("pitch_deg", &P::pitch_deg, "pitch"),
       error("roll_deg", &P::roll_deg, "roll"),
       error("yaw_deg", &P::yaw_deg, "yaw"),

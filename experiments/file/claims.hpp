@@ -9,44 +9,44 @@
 
 namespace croon::experiments {
 
-/// The trials that a statistic is over.
+/// The trials included in a statistic.
 enum class Over {
-  successful,  ///< Those that count: with truth the successful ones, else those that agree.
-  usable       ///< All that finished and were not rejected.
+  successful,  ///< Counted trials: with ground truth the successful ones, else the agreeing ones.
+  usable       ///< All trials that finished and were not rejected.
 };
 
-/// What files and tables call all sensors together; no sensor has this name.
+/// The name of all sensors together in files and tables; no sensor has this name.
 inline constexpr const char* kAllSensors = "all";
 
-/// More elements than "claims" has; a table of claims is one of them.
-inline constexpr std::size_t kMostClaims = 10000;
+/// The maximum number of claims, including those in tables of claims.
+inline constexpr std::size_t kMaxClaims = 10000;
 
 /// The name of `sensor` in files and tables; "" is all sensors together.
 inline std::string name_of_sensor(const std::string& sensor) {
   return sensor.empty() ? kAllSensors : sensor;
 }
 
-/// A number that a source claims, and the band in which ours must lie. Units are those of reports:
-/// deg, m, and % for shares. A claim decides no trial.
+/// A number claimed by a source, and the band in which ours must lie. Units are those of reports:
+/// deg, m, and % for shares. A claim does not affect trials.
 struct Claim {
-  std::string claim;      ///< What the number is, in words.
+  std::string claim;      ///< What the number means, in words.
   std::string source;     ///< "paper, Table 1".
   std::string variant;    ///< A variant of the experiment; the first if the file names none.
   std::string sensor;     ///< Empty for all sensors together.
   std::string measure;    ///< One of measure_names(); empty for shares.
   std::string statistic;  ///< One of claim_statistics().
   Over over = Over::successful;
-  double value = std::numeric_limits<double>::quiet_NaN();  ///< What the source says.
-  /// Closed: the lowest and the highest value of ours.
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< Number in the source.
+  /// Minimum and maximum of our number, inclusive.
   std::array<double, 2> band = {std::numeric_limits<double>::quiet_NaN(),
                                 std::numeric_limits<double>::quiet_NaN()};
   std::string why;  ///< Why ours may differ; may be empty.
 
-  /// Where the experiment file names the sensor.
+  /// The position of the sensor's name in the experiment file.
   std::string sensor_file = {}, sensor_pointer = {};
 };
 
-/// Mean errors of a method that this program does not run, as a source has them.
+/// Mean errors of a method that this program does not run, as given by a source.
 struct Quoted {
   std::string method;
   std::string source;
@@ -59,37 +59,37 @@ struct Quoted {
   double z_m = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Percent of the trials that succeed, of those that agree with the consensus of their scene, and
-/// percent of the scenes in which every trial succeeds.
+/// Percentage of trials that succeed, of trials that agree with the consensus of their scene, and
+/// of scenes in which every trial succeeds.
 inline constexpr const char* kSuccess = "success";
 inline constexpr const char* kAgreement = "agreement";
 inline constexpr const char* kScenes = "scenes";
-/// Standard deviation inside scenes and between them, as in the summary.
+/// Standard deviations within and across scenes, as in the summary.
 inline constexpr const char* kWithinSceneStd = "within_scene_std";
 inline constexpr const char* kAcrossScenesStd = "across_scenes_std";
 
-/// What a claim may be about: the shares, the statistics of trials, the two spreads.
+/// The possible statistics of claims: the shares, the statistics of trials, the two spreads.
 const std::vector<std::string>& claim_statistics();
 
 /// "successful" or "usable".
 const std::string& word_of_over(Over over);
 
-/// True for the statistics that are shares of trials or scenes and have no measure.
+/// Whether a statistic is a share of trials or scenes, which has no measure.
 bool is_share(const std::string& statistic);
 
-/// The row "claims" of the experiment `P`. In the file an element is one claim, or a table of
-/// values that is expanded to one claim per sensor, measure and statistic. Canonical JSON has the
-/// single claims.
+/// The row "claims" of the experiment `P`. In the file an element is a single claim, or a table of
+/// values that is expanded to one claim per sensor, measure and statistic. Canonical JSON contains
+/// the single claims.
 template <class P>
 params::Parameter<P> claims_row(std::vector<Claim> P::*claims);
 
-/// What is known of the key "claims".
+/// The documentation of the key "claims".
 const params::ParameterDoc& claims_doc();
 
-/// The claims of the list `node`, tables expanded. Notes faults in the node.
+/// The claims of the list `node`, with tables expanded. Notes faults in the node.
 std::vector<Claim> read_claims(const params::Node& node);
 
-/// JSON text of the list of single claims.
+/// The list of single claims as JSON.
 std::string claims_json(const std::vector<Claim>& claims);
 
 /// The keys of an element of "quoted".

@@ -23,23 +23,22 @@ constexpr const char* kName = "name";
 constexpr const char* kPipeline = "pipeline";
 constexpr std::size_t kMaxFiles = 16;
 
-/// The keys of an experiment file and of those that it extends.
+/// The keys of an experiment file and of the files that it extends.
 struct MergedFile {
   json keys;
   params::MemberOrigins origins;
   std::vector<ExperimentFile> files;
 };
 
-/// A file that another one extends: where it is, as the other file writes it, and where it writes
-/// it.
+/// A file that another file extends: its path, the path as written there, and its position there.
 struct Extension {
   fs::path path;
   std::string written;
   std::string pointer;
 };
 
-/// The files that `keys` of the file `path` extend, in their order. Appends a fault if they are not
-/// a path or a list of paths.
+/// The files that `keys` of the file `path` extend, in order. Appends a fault if the value is not a
+/// path or a list of paths.
 std::vector<Extension> extensions_of(const json& keys, const fs::path& path,
                                      std::vector<Fault>& faults) {
   std::vector<Extension> extensions;
@@ -47,7 +46,7 @@ std::vector<Extension> extensions_of(const json& keys, const fs::path& path,
   const auto add = [&](const Node& node) {
     std::string written;
     if (!node.read(written)) return;
-    // The name of a file ends at a null character.
+    // A file name ends at a null character.
     if (written.empty() || written.find('\0') != std::string::npos) {
       node.expected("the path of an experiment file");
       return;
@@ -64,7 +63,7 @@ std::vector<Extension> extensions_of(const json& keys, const fs::path& path,
   return extensions;
 }
 
-/// Adds the keys of `over`, which replace those of the same names. Names of experiments are joined.
+/// Adds the keys of `over`, replacing existing keys. The names of the experiments are joined.
 void overlay(MergedFile& merged, MergedFile over) {
   if (!merged.keys.is_object()) merged.keys = json::object();
   const auto name = merged.keys.find(kName);
@@ -80,9 +79,9 @@ void overlay(MergedFile& merged, MergedFile over) {
 MergedFile read_merged(const std::string& text, const fs::path& path, std::vector<fs::path> chain,
                        std::vector<Fault>& faults);
 
-/// Reads a file that the file `path` extends. Throws InputError if it cannot be read: its keys are
-/// then unknown, so the others cannot be checked. `chain` are the files that led here, `path` the
-/// last of them.
+/// Reads a file that the file `path` extends. Throws InputError if it cannot be read, because
+/// without its keys the others cannot be checked. `chain` are the files that led here, ending with
+/// `path`.
 MergedFile read_extension(const Extension& extension, const fs::path& path,
                           const std::vector<fs::path>& chain, std::vector<Fault>& faults) {
   const fs::path& extended = extension.path;
@@ -93,7 +92,7 @@ MergedFile read_extension(const Extension& extension, const fs::path& path,
   std::error_code error;
   const fs::path canonical = fs::weakly_canonical(extended, error);
   const bool is_file = !error && fs::is_regular_file(extended, error);
-  // A name that is too long, a loop of links.
+  // The name is too long, or links form a loop.
   if (error && error != std::errc::no_such_file_or_directory) {
     refuse("expected an experiment file, found " + extended.string() + ": " + error.message());
   }
@@ -123,7 +122,7 @@ MergedFile read_merged(const std::string& text, const fs::path& path, std::vecto
   const ExperimentFile file = {path.filename().string(), sha256_of_text(text)};
   const json own = params::parse_json(text, path.string(), faults);
   if (!own.is_object()) return {own, {}, {file}};
-  std::error_code ignored;  // The file has been read.
+  std::error_code ignored;  // The file has already been read.
   chain.push_back(fs::weakly_canonical(path, ignored));
   const std::size_t faults_before = faults.size();
   const std::vector<Extension> extensions = extensions_of(own, path, faults);
@@ -141,8 +140,8 @@ MergedFile read_merged(const std::string& text, const fs::path& path, std::vecto
   return merged;
 }
 
-/// Gives claims that name no variant the first one, and notes a fault for each that names one that
-/// does not exist.
+/// Sets the variant of claims without one to the first variant, and notes a fault for each claim
+/// with an unknown variant.
 void check_variants(const Node& root, Experiment& experiment) {
   std::vector<std::string> names;
   for (const Variant& variant : experiment.variants) names.push_back(variant.name);
@@ -181,7 +180,7 @@ Experiment read_merged_experiment(const MergedFile& merged, const fs::path& path
   return experiment;
 }
 
-/// Keeps the JSON of stages and builds none.
+/// Keeps the JSON of stages without building them.
 class UnbuiltStages final : public params::StageBuilder {
  public:
   params::BuiltStage build(const std::string&, const Node& node) const override {
@@ -217,10 +216,10 @@ void validate_experiment(const fs::path& path, const Catalogue& catalogue) {
   if (!faults.empty()) throw InputError(without_repeats(faults));
 }
 
-std::string place_of(const Experiment& experiment, const Variant& variant, const NamedStep& step) {
-  const std::string place = "the step \"" + step.name + "\"";
-  return experiment.variants.size() > 1 ? place + " of the variant \"" + variant.name + "\""
-                                        : place;
+std::string location_of(const Experiment& experiment, const Variant& variant,
+                        const NamedStep& step) {
+  const std::string text = "the step \"" + step.name + "\"";
+  return experiment.variants.size() > 1 ? text + " of the variant \"" + variant.name + "\"" : text;
 }
 
 std::string experiment_json(const Experiment& experiment) {
@@ -236,9 +235,9 @@ Experiment read_experiment_json(const std::string& text, const std::string& file
   std::vector<Fault> faults;
   const json parsed = json::parse(text, nullptr, false);
   if (!parsed.is_object()) throw InputError(file, "/experiment", "expected an object");
-  if (parsed.contains("variants") && parsed["variants"].size() > kMostVariants) {
+  if (parsed.contains("variants") && parsed["variants"].size() > kMaxVariants) {
     throw InputError(file, "/experiment/variants",
-                     "expected at most " + std::to_string(kMostVariants) + " variants");
+                     "expected at most " + std::to_string(kMaxVariants) + " variants");
   }
   Experiment experiment =
       kept_table().read(Node(parsed, file, faults), {"variants"}, UnbuiltStages());

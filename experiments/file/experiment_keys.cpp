@@ -14,18 +14,17 @@ using params::text;
 Table<SuccessBounds> success_table() {
   return {
       params::number("rotation_deg", &SuccessBounds::rotation_deg, {0.0, 180.0},
-                     "Largest angle between the estimate and the truth."),
+                     "Maximum angle between the estimate and ground truth."),
       params::number("translation_m", &SuccessBounds::translation_m, {0.0, 1e6},
-                     "Largest distance between the estimate and the truth."),
+                     "Maximum distance between the estimate and ground truth."),
   };
 }
 
 Table<Insertion> insertion_table() {
   Table<Insertion> table = {
-      optional(text("before", &Insertion::before, "The name of the step that comes next.")),
-      optional(text("after", &Insertion::after, "The name of the step that comes before it.")),
-      params::required(
-          json_value("step", &Insertion::step, kStepDefinition, "The step that is inserted.")),
+      optional(text("before", &Insertion::before, "Name of the following step.")),
+      optional(text("after", &Insertion::after, "Name of the preceding step.")),
+      params::required(json_value("step", &Insertion::step, kStepDefinition, "Step to insert.")),
   };
   params::KeyRule one_anchor;
   one_anchor.one_of = {"before", "after"};
@@ -36,27 +35,26 @@ Table<VariantKeys> variant_table() {
   using P = VariantKeys;
   return {
       params::name("name", &P::name, kVariantName,
-                   "What the variant is called; \"base\" is the base pipeline."),
+                   "Name of the variant; \"base\" is the base pipeline."),
       optional(text("poses", &P::poses,
-                    "A file of poses of another program, as croon starts writes it, with or "
-                    "without the column trial: they are judged like results. A pipeline beside it "
-                    "goes on from them.")),
+                    "File of poses from another program, in the format of croon starts, with or "
+                    "without the column trial: they are judged like results. A pipeline of the "
+                    "variant starts from them.")),
       json_value("pipeline", &P::pipeline, kPipelineDefinition,
-                 "A whole pipeline, in place of the base pipeline."),
-      list("insert", &P::insert, insertion_table(),
-           "Steps that are inserted, one after the other."),
-      params::texts("remove", &P::remove, "The names of steps that are left out."),
+                 "Complete pipeline that replaces the base pipeline."),
+      list("insert", &P::insert, insertion_table(), "Steps to insert, in order."),
+      params::texts("remove", &P::remove, "Names of steps to remove."),
       json_value("replace", &P::replace, kReplacementsDefinition,
-                 "STEP or STEP.SLOT, and what stands there instead."),
+                 "STEP or STEP.SLOT, and its replacement."),
   };
 }
 
-/// An object that start_table reads, or kNoStarts.
+/// An object for start_table, or kNoStarts.
 params::Parameter<Experiment> starts_row() {
   params::Parameter<Experiment> row = params::group(
       "starts", &Experiment::starts, start_table(), {},
-      "How starts are drawn: a pose (R, t) moved to (R_d R, t + d); or a file of them; or "
-      "\"none\": "
+      "How initial guesses are drawn: a pose (R, t) moved to (R_d R, t + d); or a file of "
+      "starts; or \"none\": "
       "one trial of each scene and sensor, from the identity, for methods that need no initial "
       "guess.");
   row.doc.choices = {kNoStarts};
@@ -78,21 +76,23 @@ const Table<Experiment>& kept_table() {
   static const Table<P> table = {
       params::name("name", &P::name, kFolderName,
                    "The experiment's name; its results go to results/NAME."),
-      params::free_text("description", &P::description, "The question it answers."),
+      params::free_text("description", &P::description, "Question that it answers."),
       params::required_slot("dataset", &P::dataset, "The scenes, the sensors and their clouds."),
       starts_row(),
-      params::integer("seed", &P::seed, "Every start is drawn from (seed, scene, sensor, trial)."),
+      params::integer("seed", &P::seed,
+                      "Seed of the experiment; starts depend on (seed, scene, sensor, trial)."),
       params::group("success", &P::success, success_table(), {},
-                    "How near the truth a trial must end to count as a success."),
-      params::integer("scenes_per_trial", &P::scenes_per_trial, {1.0, 1000.0},
-                      "A trial calibrates the rig from a group of so many scenes. The seed draws "
-                      "the groups, no two of which share a scene."),
+                    "Maximum error of a successful trial."),
+      params::integer(
+          "scenes_per_trial", &P::scenes_per_trial, {1.0, 1000.0},
+          "Number of scenes from which a trial calibrates the rig. Groups of scenes are "
+          "drawn with the seed; no two groups share a scene."),
       params::boolean("loops", &P::loops,
-                      "Each two sensors of a scene are calibrated to each other too, which shows "
-                      "how far the loop over the reference is from closing."),
+                      "Also calibrates every pair of sensors in a scene to each other, to measure "
+                      "the loop closure over the reference."),
       claims_row(&P::claims),
       list("quoted", &P::quoted, quoted_table(),
-           "Rows of other methods, which are printed beside the row of this one."),
+           "Published results of other methods, printed beside ours."),
   };
   return table;
 }
@@ -113,16 +113,16 @@ const Table<Experiment>& workload_table() {
 const Table<ExperimentKeys>& experiment_table() {
   using P = ExperimentKeys;
   static const Table<P> table = [] {
-    Table<P> rows = {
-        json_value("extends", &P::extends, kExtendsDefinition,
-                   "Another experiment file, relative to this one, whose keys are defaults, or a "
-                   "list of files, the later of which replace keys of the earlier. A key that is "
-                   "given here replaces the whole key.")};
+    Table<P> rows = {json_value(
+        "extends", &P::extends, kExtendsDefinition,
+        "Another experiment file, relative to this one, whose keys are the defaults, or a "
+        "list of files, of which later ones replace keys of earlier ones. A key that is "
+        "given here replaces the complete value.")};
     rows.inherit(kept_table());
     rows.add(params::required(json_value("pipeline", &P::pipeline, kPipelineDefinition,
                                          "The steps of the method, in order.")));
     rows.add(list("variants", &P::variant_keys, variant_table(),
-                  "Other pipelines, described by how they differ from the base pipeline."));
+                  "Other pipelines, described by their differences from the base pipeline."));
     return rows.add(json_value("grid", &P::grid, kGridDefinition,
                                "The product of these lists, on the base pipeline and each "
                                "variant."));

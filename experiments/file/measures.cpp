@@ -31,7 +31,7 @@ std::size_t measure_index(std::string_view name) {
   for (std::size_t k = 0; k < kMeasures.size(); ++k) {
     if (name == kMeasures[k].name) return k;
   }
-  throw std::logic_error("no measure is called \"" + std::string(name) + "\"");
+  throw std::logic_error("unknown measure \"" + std::string(name) + "\"");
 }
 
 }  // namespace croon::experiments

@@ -9,8 +9,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// What may replace the value at a path of the pipeline that ends in a parameter's key: that
-/// parameter of any stage.
+/// The possible replacements for a value at a path of the pipeline, by the last key of the path:
+/// the parameter of that name in any stage.
 std::map<std::string, ordered_json> values_by_key(const Catalogue& catalogue) {
   std::map<std::string, ordered_json> values;
   for (const StageEntry& entry : catalogue.entries()) {
@@ -28,7 +28,7 @@ ordered_json list_of(const ordered_json& items) {
 }
 
 /// An object whose keys are paths of a pipeline: "STEP", "STEP.KEY" or "STEP.KEY.KEY". If
-/// `are_lists`, its values are lists of what may stand there.
+/// `are_lists`, its values are lists of possible values.
 ordered_json paths_schema(const Catalogue& catalogue, bool are_lists) {
   const auto value = [are_lists](const ordered_json& one) {
     return are_lists ? list_of(one) : one;
@@ -40,7 +40,7 @@ ordered_json paths_schema(const Catalogue& catalogue, bool are_lists) {
   return {{"type", "object"}, {"patternProperties", patterns}, {"additionalProperties", false}};
 }
 
-/// The keys that must be there, unless the file extends another that may have them.
+/// The required keys, unless the file extends another that may have them.
 ordered_json required_unless_extended(const ordered_json& required) {
   return {{{"required", {"extends"}}}, {{"required", required}}};
 }

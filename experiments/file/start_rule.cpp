@@ -10,10 +10,10 @@ namespace {
 using params::Node;
 using params::Parameter;
 
-/// The row of the range [smallest, largest] of `of`. A sweep has one of two such keys.
-Parameter<Sweep> swept_range(const std::string& key, SweepOf of, double largest,
+/// The row of the range [min, max] of `of`. A sweep has one of two such keys.
+Parameter<Sweep> swept_range(const std::string& key, SweepOf of, double limit,
                              const std::string& sentence) {
-  params::ParameterDoc doc{key,     params::ParameterType::interval, "", {0.0, largest}, {}, "",
+  params::ParameterDoc doc{key,     params::ParameterType::interval, "", {0.0, limit}, {}, "",
                            sentence};
   doc.is_optional = true;
   const auto read = [doc, of](Sweep& sweep, const Node& node, const params::StageBuilder&) {
@@ -21,7 +21,7 @@ Parameter<Sweep> swept_range(const std::string& key, SweepOf of, double largest,
     std::array<double, 2> ends = {};
     params::read_value(node, doc, ends);
     if (node.fault_count() > faults_before) return;
-    if (ends[0] == ends[1]) return node.expected("two numbers, the smaller first");
+    if (ends[0] == ends[1]) return node.expected("two different numbers, the smaller first");
     sweep.of = of;
     sweep.first = ends[0];
     sweep.last = ends[1];
@@ -37,11 +37,11 @@ const params::Table<Sweep>& sweep_table() {
   static const params::Table<Sweep> table = [] {
     params::Table<Sweep> rows = {
         swept_range("rotation_deg", SweepOf::rotation, 180.0,
-                    "Smallest and largest angle, about an axis uniform on the sphere."),
+                    "Minimum and maximum angle, about an axis uniform on the sphere."),
         swept_range("translation_m", SweepOf::translation, kMaxCoordinate_m,
-                    "Smallest and largest length, along a direction uniform on the sphere."),
+                    "Minimum and maximum length, along a direction uniform on the sphere."),
         params::integer("levels", &Sweep::levels, {2, 1000},
-                        "Sizes from the smallest to the largest, in equal steps."),
+                        "Number of sizes from minimum to maximum, in equal steps."),
     };
     params::KeyRule one_range;
     one_range.one_of = {"rotation_deg", "translation_m"};
@@ -50,12 +50,12 @@ const params::Table<Sweep>& sweep_table() {
   return table;
 }
 
-/// The number of trials, which starts in a file do not need.
+/// The number of trials, optional with a file of starts.
 Parameter<StartRule> trials_row() {
   Parameter<StartRule> row = params::integer(
       "trials", &StartRule::trials, {1, kMaxTrials},
-      "Starts per variant, scene and sensor; of a sweep per level; of a file the first so many, "
-      "and all if the key is missing.");
+      "Number of starts per variant, scene and sensor: per level in a sweep; from a file, the "
+      "first N (default: all).");
   row.json = [](const StartRule& rule) {
     return rule.trials == 0 ? std::string() : params::value_json(rule.trials);
   };
@@ -64,7 +64,7 @@ Parameter<StartRule> trials_row() {
 
 int level_count(const StartRule& rule) { return rule.sweep ? rule.sweep->levels : 1; }
 
-/// Why the rule has too many trials; empty if it has not.
+/// Why the rule has too many trials; empty if it does not.
 std::string excess_text(const StartRule& rule) {
   if (rule.is_none && rule.trials > 1) {
     return "expected 1, because trials without an initial guess (\"starts\": \"none\") do not "
@@ -86,7 +86,7 @@ void finish_reading(StartRule& rule, const Node& node) {
   (node.has("trials") ? node.member("trials") : node).fault(excess);
 }
 
-/// A range beside a sweep of it.
+/// The rule against a range that is also swept.
 params::KeyRule swept(const std::string& key) {
   return {"sweep/" + key, {}, false, {}, {key}, "no \"" + key + "\" beside a sweep of it"};
 }
@@ -94,22 +94,22 @@ params::KeyRule swept(const std::string& key) {
 params::Table<StartRule> make_start_table() {
   using P = StartRule;
   params::Table<P> table = {
-      params::choice("around", &P::around, kStartCentres, "The pose that starts are drawn around."),
+      params::choice("around", &P::around, kStartCentres, "Pose that starts are drawn around."),
       params::per_axis(
           "rotation_deg", &P::rotation_deg, {0.0, 180.0},
-          "Half range of roll, pitch and yaw, or of each; 180 is any rotation, uniform "
+          "Half range of roll, pitch and yaw, or one for each; 180 is any rotation, uniform "
           "on SO(3)."),
       params::per_axis("translation_m", &P::translation_m, {0.0, kMaxCoordinate_m},
-                       "Half range of x, y and z in reference axes, or of each."),
+                       "Half range of x, y and z in reference axes, or one for each."),
       trials_row(),
       params::optional_group("sweep", &P::sweep, sweep_table(),
-                             "Starts whose perturbation grows, to measure how far a method "
-                             "converges from."),
+                             "Starts with increasing perturbation, to measure the basin of "
+                             "convergence."),
       params::optional(params::text("file", &P::file,
-                                    "A file of starts, as croon starts writes it: below the data "
-                                    "root, else beside the experiment.")),
+                                    "File of starts, in the format of croon starts: below the data "
+                                    "root, else relative to the experiment file.")),
       params::optional(
-          params::text("sha256", &P::sha256, "The digest that the file of starts must have.")),
+          params::text("sha256", &P::sha256, "Required digest of the file of starts.")),
   };
   table.rule({"file",
               {},

@@ -13,7 +13,7 @@
 
 namespace croon::experiments {
 
-/// As many as a plan of several variants, scenes and sensors can hold.
+/// The maximum number of trials per variant, scene and sensor.
 inline constexpr int kMaxTrials = 1000000;
 
 /// The pose that starts are drawn around.
@@ -24,11 +24,11 @@ inline const params::Words<StartCentre> kStartCentres = {{"truth", StartCentre::
                                                          {"nominal", StartCentre::nominal},
                                                          {"initial", StartCentre::initial}};
 
-/// What a sweep makes larger from level to level.
+/// The quantity that a sweep increases from level to level.
 enum class SweepOf { rotation, translation };
 
-/// A series of starts whose perturbation grows: level k of n has the size
-/// `first + (last - first) k / (n - 1)`.
+/// A series of starts with increasing perturbation: level k of n has the size `first + (last -
+/// first) k / (n - 1)`.
 struct Sweep {
   SweepOf of = SweepOf::rotation;
   double first = 0.0;  ///< deg of rotation, m of translation.
@@ -36,7 +36,7 @@ struct Sweep {
   int levels = 11;
 };
 
-/// A start `T_reference_sensor` as files have it; the rotation is of unit length.
+/// A start `T_reference_sensor` in the form used by files; the rotation has unit length.
 struct Start {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
@@ -47,48 +47,49 @@ struct Start {
 /// The starts of a file by scene and sensor, in the order of their trials.
 struct StartTable {
   std::map<std::pair<std::string, std::string>, std::vector<Start>> starts;
-  int trials = 0;  ///< Of each scene and sensor.
+  int trials = 0;  ///< Per scene and sensor.
   std::string sha256;
 };
 
-/// Where starts come from. They are drawn: the pose (R, t) moved to (R_d R, t + d) with
-/// R_d = Rz Ry Rx of three uniform draws and d of three more, in reference axes. Or a file lists
-/// them. Or there are none: each trial starts at the identity.
+/// The origin of starts. They are drawn: the pose (R, t) moved to (R_d R, t + d) with R_d = Rz Ry
+/// Rx of three uniform draws and d of three more, in reference axes. Or a file lists them. Or there
+/// are none: each trial starts at the identity.
 struct StartRule {
   StartCentre around = StartCentre::truth;
   /// Half ranges of roll, pitch and yaw of R_d; all three 180 is uniform on SO(3).
   params::PerAxis rotation_deg = 45.0;
   params::PerAxis translation_m = 0.1;  ///< Half ranges of the elements of d.
-  /// Per variant, scene and sensor, and per level of a sweep; 0 is all that a file lists.
+  /// Per variant, scene and sensor, and per level of a sweep; 0: all starts in a file.
   int trials = 50;
-  std::optional<Sweep> sweep = {};               ///< Replaces the range of what it sweeps.
-  std::string file = {};                         ///< Of starts that are not drawn; else empty.
-  std::string sha256 = {};                       ///< That the file must have; empty for any.
-  std::shared_ptr<const StartTable> table = {};  ///< The file's content, once it is read.
-  bool is_none = false;                          ///< No initial guess; then there is one trial.
+  std::optional<Sweep> sweep = {};               ///< Replaces the range of the swept quantity.
+  std::string file = {};                         ///< File of starts; empty if they are drawn.
+  std::string sha256 = {};                       ///< Required digest of the file; empty for any.
+  std::shared_ptr<const StartTable> table = {};  ///< Content of the file, once read.
+  bool is_none = false;                          ///< No initial guess; there is then one trial.
 };
 
-/// The word in the place of the object "starts" if trials have no initial guess.
+/// The value of "starts" for trials without an initial guess.
 inline constexpr const char* kNoStarts = "none";
 
 /// The keys of "starts".
 const params::Table<StartRule>& start_table();
 
-/// Canonical JSON of the rule, without the keys of `without`.
+/// Canonical JSON of the rule, without the keys `without`.
 std::string starts_json(const StartRule& rule, const std::vector<std::string>& without = {});
 
-/// The number of trials per variant, scene and sensor: over all levels of a sweep.
+/// The number of trials per variant, scene and sensor, including all levels of a sweep.
 int total_trials(const StartRule& rule);
 
 /// Replaces the rule's number of trials (per level of a sweep); 0 keeps it. Throws InputError if
-/// there are more than kMaxTrials in total.
+/// the total exceeds kMaxTrials.
 void set_trials(StartRule& rule, int trials);
 
-/// Canonical JSON of all that decides a start: neither the number of trials nor a file's name.
+/// Canonical JSON of everything that determines a start: without the number of trials and the name
+/// of the file.
 std::string deciding_starts_json(const StartRule& rule);
 
-/// The level of a trial: level l has the trials l, l + levels, l + 2 levels, ..., so that more
-/// trials renumber none.
+/// The level of a trial: level l has the trials l, l + levels, l + 2 levels, ..., so that
+/// additional trials do not change the numbers of others.
 inline int level_of(const Sweep& sweep, int trial) { return trial % sweep.levels; }
 
 /// The size of the perturbation at `level`, deg or m.

@@ -17,7 +17,7 @@ double p95_of_magnitudes(const std::vector<double>& values) {
 Statistics statistics_of(const std::vector<double>& values) {
   Statistics statistics;
   for (std::size_t k = 0; k < kStatistics.size(); ++k) {
-    statistics[k] = values.size() < kStatistics[k].least_values
+    statistics[k] = values.size() < kStatistics[k].min_values
                         ? std::numeric_limits<double>::quiet_NaN()
                         : kStatistics[k].function(values);
   }

@@ -23,8 +23,9 @@ void note(const Node& node, const std::string& why_not) {
   if (!why_not.empty()) node.fault(why_not);
 }
 
-/// The base pipeline `base` as the variant `keys` changes it: steps are inserted, then removed,
-/// then replaced. Poses of a file take the place of the base pipeline. `node` is the variant's.
+/// Applies the changes `keys` of a variant to the pipeline `base`: steps are inserted, then
+/// removed, then replaced. For poses from a file the base pipeline is empty. `node` is the
+/// variant's.
 PatchedPipeline changed(const PatchedPipeline& base, const VariantKeys& keys, const Node& node,
                         const Catalogue& catalogue) {
   PatchedPipeline pipeline = base;
@@ -50,8 +51,8 @@ PatchedPipeline changed(const PatchedPipeline& base, const VariantKeys& keys, co
   return pipeline;
 }
 
-/// The file of poses that the variant at `node` names; notes a fault if `pipeline` has a step of
-/// the name that the step of the poses gets.
+/// The file of poses of the variant at `node`; notes a fault if `pipeline` already has a step with
+/// the name of the step for poses.
 PosesFile poses_of(const VariantKeys& keys, const Node& node, const PatchedPipeline& pipeline) {
   if (keys.poses.empty()) return {};
   for (const PatchedStep& step : pipeline) {
@@ -61,13 +62,13 @@ PosesFile poses_of(const VariantKeys& keys, const Node& node, const PatchedPipel
   return {keys.poses, at.file(), at.pointer()};
 }
 
-/// The base pipeline and that of each variant.
+/// The base pipeline and the pipelines of the variants.
 std::vector<NamedPipeline> read_pipelines(const ExperimentKeys& keys, const Node& root,
                                           const Catalogue& catalogue) {
   std::vector<NamedPipeline> pipelines = {{"base", read_steps(*keys.pipeline)}};
-  if (keys.variant_keys.size() >= kMostVariants) {
+  if (keys.variant_keys.size() >= kMaxVariants) {
     root.member("variants")
-        .fault("expected at most " + std::to_string(kMostVariants - 1) +
+        .fault("expected at most " + std::to_string(kMaxVariants - 1) +
                " variants beside the base, found " + std::to_string(keys.variant_keys.size()));
     return pipelines;
   }
@@ -88,18 +89,18 @@ std::vector<NamedPipeline> read_pipelines(const ExperimentKeys& keys, const Node
 
 /// One value of an axis of a grid.
 struct GridPoint {
-  std::string label;  ///< Different for each point of the axis.
+  std::string label;  ///< Unique among the points of the axis.
   Node value;
 };
 
-/// A part of the pipeline and the values that the grid gives it, one after the other.
+/// A part of the pipeline and the values that the grid assigns to it.
 struct GridAxis {
   std::string path;
   Node node;  ///< The list in the file.
   std::vector<GridPoint> points;
 };
 
-/// The name of the stage that `value` describes; empty if it describes none.
+/// The type of the stage that `value` describes; empty if it describes none.
 std::string type_of(const json& value) {
   for (const char* key : {"type", "step"}) {
     if (value.is_object() && value.contains(key) && value.at(key).is_string()) {
@@ -109,7 +110,7 @@ std::string type_of(const json& value) {
   return "";
 }
 
-/// A value as a part of a variant's name: what may not stand in one becomes `_`.
+/// A value as part of a variant's name; characters not allowed there become `_`.
 std::string text_of(const json& value) {
   std::string text = type_of(value);
   if (value.is_string()) text = value.get<std::string>();
@@ -124,7 +125,7 @@ std::string text_of(const json& value) {
   return text;
 }
 
-/// The keys in which stages of one type differ on an axis, sorted; by type.
+/// The keys in which stages of the same type differ on an axis, sorted; by type.
 std::map<std::string, std::vector<std::string>> differing_keys(const json& values) {
   std::map<std::string, std::map<std::string, std::size_t>> counts;
   std::map<std::string, std::map<std::string, std::set<json>>> differing_values;
@@ -148,7 +149,7 @@ std::map<std::string, std::vector<std::string>> differing_keys(const json& value
   return keys;
 }
 
-/// The label of `value` on the axis `key`; stages show the parameters `differing`.
+/// The label of `value` on the axis `key`; labels of stages include the parameters `differing`.
 std::string label_of(const std::string& key, const json& value,
                      const std::vector<std::string>& differing) {
   const std::string type = type_of(value);
@@ -163,14 +164,14 @@ std::string label_of(const std::string& key, const json& value,
 
 std::string last_key(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
-/// The shortest key that no other axis has.
+/// The last key of the path, or the whole path if another axis has the same last key.
 std::string axis_key(const json& grid, const std::string& path) {
   int axes = 0;
   for (const auto& [other, values] : grid.items()) axes += last_key(other) == last_key(path);
   return axes == 1 ? last_key(path) : path;
 }
 
-/// `label`, or if it is in `labels` the label with an index that is not, from `index` on.
+/// `label`, or if it is in `labels`, the label with the first free index starting at `index`.
 std::string free_label(const std::string& label, std::size_t index,
                        const std::set<std::string>& labels) {
   std::string free = label;
@@ -178,9 +179,10 @@ std::string free_label(const std::string& label, std::size_t index,
   return free;
 }
 
-/// The axes of the object `grid`, by path. A stage is labelled by its type ("pointer_octree"), with
-/// the parameters in which it differs from others of that type ("pointer_octree(leaf_size_m=0.1)");
-/// any other value by its key ("leaf_size_m=0.1"). Notes faults in the node.
+/// The axes of the object `grid`, by path. The label of a stage is its type ("pointer_octree"),
+/// with the parameters in which it differs from others of that type
+/// ("pointer_octree(leaf_size_m=0.1)"); the label of any other value is its key and value
+/// ("leaf_size_m=0.1"). Notes faults in the node.
 std::vector<GridAxis> read_grid(const Node& grid) {
   std::vector<GridAxis> axes;
   if (!grid.is_object()) return axes;
@@ -196,9 +198,9 @@ std::vector<GridAxis> read_grid(const Node& grid) {
       GridPoint point{label_of(key, values[i], differing[type_of(values[i])]),
                       axis.node.element(i)};
       if (!known.insert(values[i]).second) {
-        point.value.fault("\"" + point.label + "\" stands in this list twice");
+        point.value.fault("\"" + point.label + "\" is in this list twice");
       }
-      // Lists of stages may differ in what a label does not show. Then the index is added.
+      // Lists of stages may differ in something that labels do not show. The index is then added.
       point.label = free_label(point.label, i + 1, labels);
       labels.insert(point.label);
       axis.points.push_back(point);
@@ -208,12 +210,12 @@ std::vector<GridAxis> read_grid(const Node& grid) {
   return axes;
 }
 
-/// The product of the axes from `axis` on, applied to `point`. An axis whose path leads nowhere in
-/// this pipeline is left out; `is_used` notes which axes were not.
+/// Applies the product of the axes, starting at `axis`, to `point`. Skips axes whose path does not
+/// exist in this pipeline; `is_used` records the others.
 void multiply_out(const NamedPipeline& point, const std::vector<GridAxis>& axes, std::size_t axis,
                   const Catalogue& catalogue, std::vector<bool>& is_used,
                   std::vector<NamedPipeline>& out) {
-  if (out.size() > kMostVariants) return;
+  if (out.size() > kMaxVariants) return;
   if (axis == axes.size()) {
     out.push_back(point);
     return;
@@ -233,7 +235,7 @@ void multiply_out(const NamedPipeline& point, const std::vector<GridAxis>& axes,
   }
   if (!fits) return multiply_out(point, axes, axis + 1, catalogue, is_used, out);
   is_used[axis] = true;
-  // The path is there, so each of these is wrong by itself.
+  // The path exists, so each of these values is invalid by itself.
   for (const auto& [value, why] : refused) value->value.fault(why);
 }
 
@@ -245,8 +247,8 @@ std::vector<NamedPipeline> apply_grid(const std::vector<NamedPipeline>& pipeline
   for (const NamedPipeline& named : pipelines) {
     multiply_out(named, axes, 0, catalogue, is_used, points);
   }
-  if (points.size() > kMostVariants) {
-    grid.fault("expected at most " + std::to_string(kMostVariants) + " variants, found more");
+  if (points.size() > kMaxVariants) {
+    grid.fault("expected at most " + std::to_string(kMaxVariants) + " variants, found more");
     points.clear();
   }
   for (std::size_t i = 0; i < axes.size(); ++i) {
@@ -257,20 +259,21 @@ std::vector<NamedPipeline> apply_grid(const std::vector<NamedPipeline>& pipeline
   return points;
 }
 
-/// Adds a fault for each extra that a step of `built` takes and no step gives, and, with `loops`,
-/// for each step that knows the velocity of the reference alone.
+/// Adds a fault for each extra that a step of `built` needs and no step provides, and, with
+/// `loops`, for each step that only knows the velocity of the reference.
 void check_steps(const NamedPipeline& named, const Pipeline& built, bool loops,
                  std::vector<Fault>& faults) {
   for (Fault fault : unmet_needs(named.pipeline, built)) {
-    // The step may be written in the base, and what gives the extra be removed by the variant.
+    // The step may be in the base, while the variant removes the step that provides the extra.
     fault.message += ", in variant \"" + named.name + "\"";
     faults.push_back(std::move(fault));
   }
   for (std::size_t i = 0; loops && i < built.size(); ++i) {
     if (dynamic_cast<const GivenMotionStep*>(&*built[i].step) == nullptr) continue;
-    faults.push_back(fault_of_step(named.pipeline[i],
-                                   "expects no \"loops\": the velocity is that of the reference, "
-                                   "and pairs have another"));
+    faults.push_back(
+        fault_of_step(named.pipeline[i],
+                      "cannot be used with \"loops\": the velocity is that of the reference, "
+                      "not of other targets"));
   }
 }
 

@@ -31,7 +31,7 @@ std::string array_words(const py::array& array) {
   return "an array of shape " + shape + " and type " + type;
 }
 
-/// A masked array says of some of its numbers that they are none; an array of it has them all.
+/// A masked array marks some of its numbers as invalid; converting it to an array loses the mask.
 bool is_masked_array(const py::object& object) {
   return py::isinstance(object, py::module_::import("numpy").attr("ma").attr("MaskedArray"));
 }
@@ -46,7 +46,7 @@ py::array any_array(const py::object& object, const std::string& what, const std
   return array;
 }
 
-/// Numbers of type double, of the shape rows×columns or rows.
+/// Converts to an array of double with the shape rows×columns or rows.
 py::array_t<double> numbers(const py::object& object, const std::string& what,
                             const std::string& words, const std::vector<py::ssize_t>& shape) {
   const py::array array = any_array(object, what, words);
@@ -64,7 +64,7 @@ py::array_t<double> numbers(const py::object& object, const std::string& what,
 void copy_points(const py::array& array, Points& points) {
   points.resize(static_cast<std::size_t>(array.shape(0)));
   if (py::isinstance<py::array_t<float>>(array)) {
-    const py::array_t<float, kToNative> values(array);  // The same array if it is contiguous.
+    const py::array_t<float, kToNative> values(array);  // No copy if it is contiguous.
     std::memcpy(static_cast<void*>(points.data()), values.data(), values.nbytes());
     return;
   }
@@ -75,7 +75,7 @@ void copy_points(const py::array& array, Points& points) {
   }
 }
 
-/// The field `name` as C-contiguous little-endian numbers.
+/// The field `name` as contiguous little-endian numbers.
 py::array contiguous_field(const py::array& array, const std::string& name) {
   const py::object numpy = py::module_::import("numpy");
   const py::object field = array[py::str(name)];
@@ -83,7 +83,7 @@ py::array contiguous_field(const py::array& array, const std::string& name) {
   return numpy.attr("ascontiguousarray")(field, type);
 }
 
-/// Fields of one number type or another, but not of text or objects.
+/// The type of a field's numbers; throws InputError for text and objects.
 ScalarType scalar_type_from(const py::dtype& type, const std::string& what,
                             const std::string& field) {
   const char kind = type.kind();
@@ -126,7 +126,7 @@ PointCloud structured_cloud(const py::array& array, const std::string& what) {
     }
     const py::array values = contiguous_field(array, name);
     const ScalarType type = scalar_type_from(values.dtype(), what, name);
-    // Of an array of no points, the count does not matter.
+    // For an array without points, the count is irrelevant.
     const py::ssize_t count = cloud.empty() ? 1 : values.size() / array.shape(0);
     if (count == 0) refuse(what, "numbers in the field \"" + name + "\"", "none");
     cloud.channels.push_back({name, type, static_cast<std::size_t>(count),
@@ -169,7 +169,7 @@ py::array_t<double> matrix_array(const Eigen::Matrix<double, rows, columns>& mat
   return array;
 }
 
-/// The cloud in an array, whose points need not be finite.
+/// Converts an array to a cloud, without checking that the points are finite.
 PointCloud unchecked_cloud(const py::object& object, const std::string& what) {
   const py::array array = any_array(object, what, kCloudWords);
   PointCloud cloud;
@@ -283,7 +283,7 @@ RigidTransform pose_from(const py::object& object, const std::string& what) {
   }
   const bool has_last_row =
       view(3, 0) == 0.0 && view(3, 1) == 0.0 && view(3, 2) == 0.0 && view(3, 3) == 1.0;
-  if (!has_last_row) refuse(what, kWords, "another last row");
+  if (!has_last_row) refuse(what, kWords, "a different last row");
   if (!is_rotation_matrix(pose.rotation)) {
     refuse(what, kWords, "a matrix whose columns are not orthonormal and right-handed");
   }

@@ -4,7 +4,7 @@
 
 namespace croon::python {
 
-// What the module has, each in a file of its own.
+// The parts of the module, one per file.
 
 void bind_errors();
 void bind_clouds(pybind11::module_& module);

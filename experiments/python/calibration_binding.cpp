@@ -1,4 +1,4 @@
-// Rigs that are calibrated from clouds in memory.
+// Calibration of rigs from clouds in memory.
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -19,7 +19,7 @@ namespace {
 
 using Poses = std::map<std::string, RigidTransform>;
 
-/// The scan of one sensor whose cloud is in memory.
+/// The scan of one sensor from a cloud in memory.
 SensorScan scan_of(const std::string& sensor, LoadedCloud cloud, const Poses& nominal) {
   SensorScan scan;
   scan.sensor = sensor;
@@ -33,7 +33,7 @@ SensorScan scan_of(const std::string& sensor, LoadedCloud cloud, const Poses& no
   return scan;
 }
 
-/// One scene of the Python list: its name, and tuples (sensor, words for errors, array), the
+/// Converts one scene of the Python list: its name, and tuples (sensor, name in errors, array), the
 /// reference first.
 Scene scene_from(const py::handle& item, const Poses& nominal) {
   const auto parts = py::cast<py::tuple>(item);
@@ -64,7 +64,8 @@ Poses poses_from(const py::dict& dict) {
   return poses;
 }
 
-/// The poses T_reference_sensor: with one of the reference, they are given in another frame.
+/// Converts the poses to T_reference_sensor: if the reference has a pose too, they are in another
+/// frame.
 Poses in_reference(Poses poses, const std::string& reference) {
   const auto own = poses.find(reference);
   if (own == poses.end()) return poses;
@@ -111,7 +112,7 @@ py::object matrix_or_none(const std::optional<PoseCovariance>& covariance) {
   return covariance ? py::object(array_from(covariance->matrix)) : py::none();
 }
 
-/// scene, pose, covariance, observability, reason.
+/// For each scene its name, pose, covariance, observability and reason.
 py::list scene_estimates(const std::vector<SceneEstimate>& estimates) {
   py::list list;
   for (const SceneEstimate& estimate : estimates) {
@@ -122,7 +123,7 @@ py::list scene_estimates(const std::vector<SceneEstimate>& estimates) {
   return list;
 }
 
-/// Per sensor the fields of croon.CalibratedSensor, in its order.
+/// For each sensor the fields of croon.CalibratedSensor, in their order.
 py::list sensors(const CalibratedRig& rig) {
   py::list list;
   for (const CalibratedSensor& sensor : rig.sensors) {
@@ -134,7 +135,7 @@ py::list sensors(const CalibratedRig& rig) {
   return list;
 }
 
-/// Per scene its name, the velocity (six numbers) and its covariance.
+/// For each scene its name, the velocity (six numbers) and its covariance.
 py::list motion(const CalibratedRig& rig) {
   py::list list;
   for (const SceneMotionEstimate& scene : rig.motion) {
@@ -153,8 +154,8 @@ py::object ground(const CalibratedRig& rig) {
                         pose.pitch_std_rad, pose.height_std_m);
 }
 
-/// The text by file name; if `T_parent_reference` is not None, in the frame `parent`, with the
-/// reference as its first sensor.
+/// The texts of the files by file name; if `T_parent_reference` is not None, poses are in the frame
+/// `parent`, and the reference is the first sensor.
 py::dict files(const CalibratedRig& rig, const std::string& format, bool with_rejected,
                const std::string& parent, const py::object& T_parent_reference) {
   Extrinsics extrinsics = extrinsics_of(rig);

@@ -1,4 +1,4 @@
-// Clouds as stages see them, and the readers and writers of files.
+// Clouds as stages see them, and reading and writing of cloud files.
 #include <cmath>
 #include <limits>
 #include <set>
@@ -26,7 +26,7 @@ py::array read_cloud(const std::string& path) {
   return array_of_file(cloud, path);
 }
 
-/// Writes .pcd or .ply; croon._clouds has checked the words.
+/// Writes .pcd or .ply; croon._clouds has already checked the arguments.
 void write_cloud(const std::string& path, const py::object& array, const std::string& suffix,
                  const std::string& encoding) {
   const PointCloud cloud = cloud_or_empty_from(array, "cloud");
@@ -50,7 +50,8 @@ py::dict channels(const py::object& self) {
   return views;
 }
 
-/// Indices of the nearest points of `cloud`, -1 if none is within `max_distance_m`, and distances.
+/// The indices of the nearest points of `cloud` (-1 if none is within `max_distance_m`), and
+/// distances.
 py::tuple nearest(const Cloud& cloud, const py::object& queries, double max_distance_m) {
   const Points points = cloud_or_empty_from(queries, "points").points;
   if (!(max_distance_m >= 0.0)) throw InputError("", "max_distance_m", "expected a distance");
@@ -74,7 +75,7 @@ py::tuple nearest(const Cloud& cloud, const py::object& queries, double max_dist
   return py::make_tuple(indices, distances);
 }
 
-/// A unit normal per point, zero if it is not defined.
+/// A unit normal per point, zero if undefined.
 py::array normals(const Cloud& cloud, int neighbours) {
   if (neighbours < 3) {
     throw InputError("", "neighbours", "expected at least 3, found " + std::to_string(neighbours));
@@ -90,8 +91,8 @@ py::array normals(const Cloud& cloud, int neighbours) {
   return array;
 }
 
-/// Marks that this thread computes the value `key` of `cloud`: to ask for it meanwhile would wait
-/// forever. Throws StageError for that.
+/// Marks that this thread is computing the value `key` of `cloud`, whose recursive use would wait
+/// forever. Throws StageError in that case.
 class Computing {
  public:
   Computing(const Cloud& cloud, const std::string& key) : mark_(&cloud, key) {
@@ -110,7 +111,7 @@ class Computing {
   Mark mark_;
 };
 
-/// What `make` returns, called once for this cloud and `key`.
+/// The result of `make`, which is called only once for this cloud and `key`.
 py::object once(const Cloud& cloud, const std::string& key, const py::object& make) {
   const Computing computing(cloud, key);
   std::shared_ptr<const ObjectRef> value;
@@ -129,7 +130,7 @@ py::object once(const Cloud& cloud, const std::string& key, const py::object& ma
 void bind_clouds(py::module_& module) {
   py::class_<Cloud, SharedCloud>(module, "Cloud",
                                  "The cloud of one sensor as a stage sees it, in the sensor's "
-                                 "frame, metres. It never changes.")
+                                 "frame, metres. Immutable.")
       .def("__len__", [](const Cloud& cloud) { return cloud.points().size(); })
       .def_property_readonly(
           "points",
@@ -144,19 +145,16 @@ void bind_clouds(py::module_& module) {
           "A structured array with x, y, z and the channels; a copy.")
       .def("nearest", nearest, py::arg("points"),
            py::arg("max_distance_m") = std::numeric_limits<double>::infinity(),
-           "Of each of points (N×3) the index of the nearest point of this cloud within the "
-           "distance,\n"
-           "-1 if there is none, and its distance in metres: (indices, distances).")
+           "For each of points (N×3) the index of the nearest point of this cloud within\n"
+           "max_distance_m (-1 if there is none) and its distance in metres: (indices, distances).")
       .def("normals", normals, py::arg("neighbours"),
-           "A unit normal per point, N×3, towards the sensor, from so many nearest neighbours; "
-           "zero\n"
-           "where it is not defined. Computed once for the cloud.")
-      .def("once", once, py::arg("name"), py::arg("make"),
-           "What make() returns, computed at the first call for this cloud and name and then kept "
-           "for\n"
-           "all trials, variants and threads. The name says all that the value depends on besides "
-           "the\n"
-           "cloud.");
+           "A unit normal per point, N×3, towards the sensor, from this number of nearest\n"
+           "neighbours; zero where undefined. Computed once per cloud.")
+      .def(
+          "once", once, py::arg("name"), py::arg("make"),
+          "The result of make(), computed at the first call for this cloud and name and shared by\n"
+          "all trials, variants and threads. The name must identify everything that the value\n"
+          "depends on besides the cloud.");
   module.def("read_cloud", read_cloud);
   module.def("write_cloud", write_cloud);
 }

@@ -7,7 +7,7 @@
 namespace croon::python {
 namespace {
 
-/// A cost function that goes away with the call that it is made for.
+/// A cost function that becomes invalid when the call for which it was made returns.
 template <class Cost>
 struct BorrowedCost {
   explicit BorrowedCost(const Cost& function) : cost(&function) {}
@@ -16,7 +16,7 @@ struct BorrowedCost {
   double operator()(const Argument& argument) {
     const Cost* const now = cost;
     if (now == nullptr) {
-      throw std::runtime_error("the cost function is that of a search that has returned");
+      throw std::runtime_error("the search of this cost function has already returned");
     }
     ++evaluations;
     const WithoutGil no_gil;

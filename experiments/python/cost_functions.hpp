@@ -9,8 +9,8 @@
 
 namespace croon::python {
 
-/// The cost function of a search as a function of Python, for as long as this object lives: a call
-/// after that is a RuntimeError. It counts its calls. Needs the interpreter's lock.
+/// The cost function of a search as a Python function, valid while this object lives; a later call
+/// raises RuntimeError. It counts its calls. Requires the interpreter's lock.
 class CallableYawCost {
  public:
   explicit CallableYawCost(const YawCost& cost);
@@ -19,7 +19,7 @@ class CallableYawCost {
   CallableYawCost& operator=(const CallableYawCost&) = delete;
 
   py::object function() const { return function_; }
-  /// The minimum at the yaw that the search returned. Throws InputError if it is no finite number.
+  /// The minimum at the yaw returned by the search. Throws InputError if it is not a finite number.
   YawMinimum minimum(const py::object& result) const;
 
  private:
@@ -37,8 +37,8 @@ class CallablePoseCost {
   CallablePoseCost& operator=(const CallablePoseCost&) = delete;
 
   py::object function() const { return function_; }
-  /// The minimum at the pose that the search returned, or at the start if that has a lower cost.
-  /// Throws InputError if it is no pose.
+  /// The minimum at the pose returned by the search, or at the start if that has a lower cost.
+  /// Throws InputError if the result is not a pose.
   PoseMinimum minimum(const py::object& result) const;
 
  private:

@@ -1,4 +1,4 @@
-// The scenes of datasets, simulated ones too.
+// The scenes of datasets, including simulated ones.
 #include <nlohmann/json.hpp>
 
 #include "experiments/python/arrays.hpp"
@@ -36,7 +36,7 @@ py::array cloud_of(const Scene& scene, const std::string& sensor) {
   return array_of_file(cloud, scan->file);
 }
 
-/// The poses of the sensors that have one.
+/// The known poses of sensors.
 template <std::optional<RigidTransform> SensorScan::*pose>
 py::dict poses_of(const Scene& scene) {
   py::dict poses;
@@ -52,7 +52,7 @@ py::list sensors_of(const Scene& scene) {
   return names;
 }
 
-/// The scenes of the dataset that the JSON `text` describes.
+/// The scenes of the dataset described by the JSON `text`.
 py::list scenes(const std::string& text, const std::string& name, const std::string& data) {
   const std::shared_ptr<const Catalogue> stages = catalogue();
   std::vector<Scene> scenes;

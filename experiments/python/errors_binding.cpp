@@ -6,7 +6,7 @@
 namespace croon::python {
 namespace {
 
-/// Raises croon.InputError, which has the faults as tuples (file, where, message).
+/// Raises croon.InputError with the faults as tuples (file, where, message).
 void raise_input_error(const InputError& error) {
   py::list faults;
   for (const Fault& fault : error.faults()) {

@@ -10,10 +10,10 @@ namespace croon::python {
 namespace {
 
 std::shared_ptr<Cloud> python_cloud(const std::shared_ptr<const Cloud>& cloud) {
-  return std::const_pointer_cast<Cloud>(cloud);  // Python has no way to change it.
+  return std::const_pointer_cast<Cloud>(cloud);  // Python cannot change it.
 }
 
-/// The plane's normal and offset and the points off the ground; None if there is none.
+/// The plane's normal and offset and the non-ground points; None without a ground.
 py::object ground_object(const std::shared_ptr<const GroundSplit>& ground) {
   if (!ground) return py::none();
   return py::module_::import("croon._stages")
@@ -85,7 +85,7 @@ void set_covariance(Estimate& estimate, const py::object& matrix) {
 
 void set_observability(Estimate& estimate, const py::object& words) {
   if (!estimate.covariance) {
-    throw InputError("", "observability", "expected a covariance before the words, found none");
+    throw InputError("", "observability", "expected a covariance to be assigned first, found none");
   }
   if (!py::isinstance<py::dict>(words)) {
     throw InputError("", "observability", "expected a dict, found " + type_words(words));
@@ -103,7 +103,7 @@ void set_observability(Estimate& estimate, const py::object& words) {
   }
 }
 
-/// The text of a str; nothing of None. `rejection = False` is a mistake, and no text.
+/// The text of a str; nothing for None. Other values, such as `rejection = False`, are errors.
 std::optional<std::string> reason_from(const py::object& reason, const char* attribute) {
   if (reason.is_none()) return std::nullopt;
   if (!py::isinstance<py::str>(reason) || py::len(reason) == 0) {
@@ -167,26 +167,25 @@ void bind_estimates(py::module_& module) {
       .def_property(
           "pose", [](const E& e) { return array_from(e.T_target_source); },
           [](E& e, const py::object& pose) { e.set_pose(pose_from(pose, "pose")); },
-          "The pose T_target_source, 4×4, float64: a copy. Assign the changed one: its "
-          "information\n"
-          "and its covariance are then None, until they are assigned too.")
+          "The pose T_target_source, 4×4, float64: a copy. Assign a changed pose; the information\n"
+          "and the covariance are then None until they are assigned, too.")
       .def_property(
           "information", [](const E& e) { return object_from(e.information); }, set_information,
-          "The information matrix that this step computed, 6×6: roll, pitch, yaw (rad), x, y, z "
+          "The information matrix computed by this step, 6×6: roll, pitch, yaw (rad), x, y, z "
           "(m);\n"
-          "None if it computes none.")
+          "None if it computed none.")
       .def_property("covariance", covariance_object, set_covariance,
                     "The covariance of the pose, 6×6: roll, pitch, yaw (rad), x, y, z (m) in the\n"
-                    "target's frame; None if no step has estimated it. Assign it after the pose.")
+                    "target's frame; None if no step estimated it. Assign it after the pose.")
       .def_property(
           "observability", [](const E& e) { return words_from(e.covariance); }, set_observability,
-          "How well the data hold each degree of freedom, by its name: determined, weak or\n"
+          "How well the data constrain each degree of freedom, by name: determined, weak or\n"
           "unobservable; None without a covariance. Assign a dict after the covariance.")
       .def_property(
           "rejection", [](const E& e) { return text_object(e.rejection); }, set_rejection,
-          "Why the pose must not be trusted; None if it may be.")
+          "Reason to reject the pose; None if it is not rejected.")
       .def_property("diagnostics", diagnostics_dict, set_diagnostics,
-                    "What this step reports of its work, numbers by name: a copy. Assign a dict.")
+                    "Diagnostics of this step, numbers by name: a copy. Assign a dict.")
       .def_property_readonly(
           "target_ground", [](const E& e) { return ground_object(e.target_ground); },
           "The ground of the target, a GroundSplit; None until a step has found it.")
@@ -195,27 +194,29 @@ void bind_estimates(py::module_& module) {
           "The ground of the source, a GroundSplit; None until a step has found it.")
       .def_property_readonly(
           "up", [](const E& e) { return array_from(e.up()); },
-          "The axis of yaw in the target's frame: the ground's normal, or z if it is not known.")
-      .def_property_readonly("trial", trial_object,
-                             "Which Trial of an experiment this is; None outside one. What a step\n"
-                             "computes must not depend on it.")
+          "The axis of yaw in the target's frame: the ground's normal, or z if unknown.")
+      .def_property_readonly(
+          "trial", trial_object,
+          "The Trial of this estimate; None outside experiments. The results of a\n"
+          "step must not depend on it.")
       .def("put", put_extra, py::arg("name"), py::arg("value"),
-           "Puts a value for later steps, see croon.extra.")
+           "Stores a value for later steps, see croon.extra.")
       .def("get", get_extra, py::arg("name"),
-           "The value that an earlier step has put. Raises StageError if there is none.");
+           "The value stored by an earlier step. Raises StageError if there is none.");
   py::class_<RigEstimate>(module, "RigEstimate",
                           "The estimate of one sensor's pose in one scene of a trial.")
       .def_readonly("scene", &RigEstimate::scene, "The scene's name.")
-      .def_readonly("target", &RigEstimate::target,
-                    "The sensor in whose frame the pose is: the reference, or one of a pair.")
+      .def_readonly(
+          "target", &RigEstimate::target,
+          "The sensor that defines the frame of the pose: the reference, or one of a pair.")
       .def_readonly("source", &RigEstimate::source, "The sensor whose pose is estimated.")
       .def_readonly("scenes", &RigEstimate::scenes,
                     "The number of scenes of the trial that have the sensor.")
       .def_readonly("estimate", &RigEstimate::estimate,
-                    "Its Estimate, which may be changed in place.")
+                    "The Estimate, which may be changed in place.")
       .def_property(
           "failure", [](const RigEstimate& e) { return e.failure; }, set_failure,
-          "Empty, or why the step cannot go on with this estimate.");
+          "Empty, or why the step cannot continue with this estimate.");
 }
 
 }  // namespace croon::python

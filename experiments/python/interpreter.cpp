@@ -9,16 +9,16 @@
 namespace croon::python {
 namespace {
 
-/// Set when the interpreter is about to end.
+/// Set when the interpreter is about to shut down.
 std::atomic<bool> is_ending{false};
-/// Threads that wait for the lock, or have it through a WithGil.
+/// Threads that wait for the lock, or hold it through a WithGil.
 std::atomic<int> threads_inside{0};
-/// How many WithGil this thread has.
+/// The number of nested WithGil objects in this thread.
 thread_local int depth = 0;
 thread_local CauseOfFailure* innermost_cause = nullptr;
 
-/// Counts this thread as one inside Python. Does not return if the interpreter ends: to take its
-/// lock would then end the thread inside C++ code, and with it the process.
+/// Counts this thread as being inside Python. Never returns during shutdown of the interpreter:
+/// acquiring its lock would then terminate the thread inside C++ code, and the process with it.
 void enter() {
   if (depth > 0) return;
   ++threads_inside;
@@ -59,10 +59,10 @@ WithoutGil::~WithoutGil() {
 
 void end_python() {
   is_ending = true;
-  ++depth;  // This thread comes back, and needs Python until the end.
+  ++depth;  // This thread returns to Python and needs it until the end.
   const WithoutGil no_gil;
-  constexpr int kMostWaits = 500;
-  for (int i = 0; i < kMostWaits && threads_inside > 0; ++i) {
+  constexpr int kMaxWaits = 500;
+  for (int i = 0; i < kMaxWaits && threads_inside > 0; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
 }
@@ -95,7 +95,7 @@ std::string text_of(const py::handle& object) {
   const auto bytes = py::reinterpret_steal<py::object>(
       text ? PyUnicode_AsEncodedString(text.ptr(), "utf-8", "backslashreplace") : nullptr);
   if (bytes) return py::cast<std::string>(bytes);
-  PyErr_Clear();  // Its str() raises an exception.
+  PyErr_Clear();  // Its str() raised an exception.
   return "";
 }
 

@@ -12,8 +12,8 @@ namespace croon::python {
 
 namespace py = pybind11;
 
-/// Holds the interpreter's lock (GIL) while it lives; may be nested. A thread that asks for it
-/// while the interpreter ends never gets it: it waits until the process is gone.
+/// Holds the interpreter's lock (GIL) during its lifetime; may be nested. A thread that requests
+/// the lock during shutdown never gets it: it waits until the process ends.
 class WithGil {
  public:
   WithGil();
@@ -25,7 +25,7 @@ class WithGil {
   PyGILState_STATE state_;
 };
 
-/// Lets other threads have the interpreter's lock while it lives.
+/// Releases the interpreter's lock during its lifetime.
 class WithoutGil {
  public:
   WithoutGil() : state_(PyEval_SaveThread()) {}
@@ -37,18 +37,18 @@ class WithoutGil {
   PyThreadState* state_;
 };
 
-/// Called when the interpreter is about to end, with its lock: waits for threads that are inside
-/// Python code, and lets no other enter it.
+/// Called before shutdown of the interpreter, with its lock: waits for threads inside Python code,
+/// and prevents others from entering it.
 void end_python();
 
-/// A Python object that C++ code holds. It may be copied and released on any thread, with or
-/// without the interpreter's lock. An object that outlives the interpreter is never released.
+/// A Python object held by C++ code. It may be copied and released on any thread, with or without
+/// the interpreter's lock. An object that outlives the interpreter is never released.
 class ObjectRef {
  public:
   ObjectRef() = default;
   explicit ObjectRef(py::object object);
 
-  /// The object; needs the lock.
+  /// The object; requires the lock.
   py::object get() const;
   explicit operator bool() const { return object_ != nullptr; }
 
@@ -56,8 +56,8 @@ class ObjectRef {
   std::shared_ptr<PyObject> object_;
 };
 
-/// While it lives, a Python exception that becomes a StageError on this thread is kept here, to be
-/// the cause of the exception that the caller gets.
+/// While it lives, records the Python exception of a StageError raised on this thread, to make it
+/// the cause of the exception raised for the caller.
 class CauseOfFailure {
  public:
   CauseOfFailure();
@@ -66,15 +66,15 @@ class CauseOfFailure {
   CauseOfFailure& operator=(const CauseOfFailure&) = delete;
 
   ObjectRef exception;
-  std::string message;  ///< Of the StageError that it became, which C++ may have handled since.
+  std::string message;  ///< Message of the StageError, which C++ may have handled since.
 
  private:
   CauseOfFailure* outer_;
 };
 
-/// Throws what the Python exception `error` is for the code that called Python: a StageError with
-/// its message; `error` itself if it is KeyboardInterrupt, SystemExit or MemoryError, which end a
-/// run.
+/// Converts the Python exception `error` for the code that called Python and throws it: a
+/// StageError with its message, or `error` itself for KeyboardInterrupt, SystemExit and
+/// MemoryError, which end a run.
 [[noreturn]] void throw_from_python(py::error_already_set& error);
 
 /// Calls `work`, which uses Python, with the interpreter's lock. Its result must not be a Python
@@ -87,16 +87,16 @@ auto in_python(const Work& work) {
   } catch (py::error_already_set& error) {
     throw_from_python(error);
   } catch (const InputError& error) {
-    throw StageError(error.what());  // Of what the stage returned.
+    throw StageError(error.what());  // About the value returned by the stage.
   } catch (const py::builtin_exception& error) {
     throw StageError(error.what());
   }
 }
 
-/// What str() of Python gives; empty if that raises an exception.
+/// The result of Python's str(); empty if it raises an exception.
 std::string text_of(const py::handle& object);
 
-/// "a list", "a Step": the type of an object, for messages.
+/// The type of an object in words for messages: "a list", "a Step".
 std::string type_words(const py::handle& object);
 
 }  // namespace croon::python

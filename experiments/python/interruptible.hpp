@@ -11,11 +11,11 @@
 
 namespace croon::python {
 
-/// Ends a run that was interrupted; the interpreter has the reason.
+/// Ends an interrupted run; the interpreter has the reason.
 struct Interrupted : std::exception {};
 
-/// Calls `work(check)` on a thread of its own while this one looks for signals, such as Ctrl-C:
-/// after one, `check` throws, and the exception of Python is raised when `work` has ended.
+/// Calls `work(check)` on another thread while this one checks for signals, such as Ctrl-C. After a
+/// signal `check` throws, and the Python exception is raised when `work` has ended.
 template <class Work>
 void interruptible(const Work& work) {
   std::atomic<bool> is_interrupted{false};

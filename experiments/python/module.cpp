@@ -1,4 +1,4 @@
-// The module croon._core: what croon/*.py needs of C++. Its users see croon alone.
+// The module croon._core: the C++ parts used by croon/*.py. Users only see croon.
 #include "experiments/python/bindings.hpp"
 #include "experiments/python/interpreter.hpp"
 #include "experiments/store/version.hpp"

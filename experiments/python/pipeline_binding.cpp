@@ -10,8 +10,8 @@
 namespace croon::python {
 namespace {
 
-/// Raises croon.StageError; its cause is the exception of Python that it came from, if so: then the
-/// failure ends with what that said.
+/// Raises croon.StageError. If the failure ends with the message of the recorded Python exception,
+/// that exception is its cause.
 [[noreturn]] void raise_failure(const std::string& failure, const CauseOfFailure& cause) {
   const py::object type = py::module_::import("croon._errors").attr("StageError");
   const py::object error = type(failure);
@@ -39,7 +39,7 @@ py::dict seconds_dict(const std::vector<StepRecord>& records) {
   return seconds;
 }
 
-/// A pipeline is not changed by running: threads may share it.
+/// A pipeline that threads may share, because running does not change it.
 class SharedPipeline {
  public:
   explicit SharedPipeline(Pipeline pipeline) : pipeline_(std::move(pipeline)) {}

@@ -9,14 +9,14 @@
 
 namespace croon::python {
 
-/// Gathers the rows of a table as a structured array: a field per column, called as in CSV files.
-/// Text is of type str; a number, count or verdict is float64, int64 or bool. In a column in which
-/// a row has no value, they are float64 with NaN, and text is empty, or "all" where nothing stands
-/// for all. Rows may be added without the interpreter's lock.
+/// Collects the rows of a table in a structured array: a field per column, named as in CSV files.
+/// Text has the type str; numbers, counts and truth values are float64, int64 or bool. If a row has
+/// no value, its column is float64 with NaN, or for text contains an empty string, or "all" where
+/// an empty value means all. Rows may be added without the interpreter's lock.
 class ArrayOfRows {
  public:
   void add(const CellRow& row);
-  /// The rows so far, whose columns these are. Needs the lock.
+  /// The array of the rows so far, which have these columns. Requires the lock.
   pybind11::object array(const std::vector<Column>& columns) const;
 
  private:

@@ -17,17 +17,17 @@
 namespace croon::python {
 namespace {
 
-using namespace experiments;  // NOLINT(google-build-using-namespace): this file is about them.
+using namespace experiments;  // NOLINT(google-build-using-namespace): used throughout.
 
-/// The folder and the complaints.
-py::tuple run(const RunRequest& request, const FolderRun& asked) {
+/// Runs an experiment. Returns the folder and the complaints.
+py::tuple run(const RunRequest& request, const FolderRun& requested) {
   const std::shared_ptr<const Catalogue> stages = catalogue();
   std::string folder;
   std::vector<std::string> complaints;
   interruptible([&](const std::function<void()>& check) {
     CheckedRun run = check_run(request, *stages);
     StoreHeader header = header_of(run);
-    FolderRun how = asked;
+    FolderRun how = requested;
     how.check = check;
     check();
     const OutputFolder output(run.out);
@@ -84,7 +84,7 @@ py::list starts(const py::dict& options) {
   return list;
 }
 
-/// What `rows` gives as a structured array.
+/// The rows passed by `rows` as a structured array.
 template <class Rows>
 py::object array_of(const Rows& rows) {
   ArrayOfRows array;
@@ -96,7 +96,7 @@ py::object array_of(const Rows& rows) {
   return array.array(columns);
 }
 
-/// The pose of each trial, N×4×4, NaN if it has none.
+/// The pose of each trial, N×4×4; NaN without a pose.
 py::array poses(const Results& results) {
   const auto size = static_cast<py::ssize_t>(results.records.size());
   py::array_t<double> array({size, py::ssize_t{4}, py::ssize_t{4}});
@@ -156,8 +156,8 @@ void bind_runs(py::module_& module) {
       .def("poses", poses)
       .def("extrinsics", [](const R& r) { return extrinsics_json(r.summary, r.references); })
       .def("text", [](const R& r) { return result_text(r, false); });
-  module.attr("MOST_JOBS") = kMaxJobs;
-  module.attr("MOST_TRIALS") = kMaxTrials;
+  module.attr("MAX_JOBS") = kMaxJobs;
+  module.attr("MAX_TRIALS") = kMaxTrials;
   module.def("run", run_from);
   module.def("load", load);
   module.def("starts", starts);

@@ -17,13 +17,13 @@
 namespace croon::python {
 namespace {
 
-/// A stage that calls methods of its object.
+/// A stage that calls methods of a Python object.
 class Caller {
  public:
   explicit Caller(ObjectRef instance) : instance_(std::move(instance)) {}
 
  protected:
-  /// Needs the interpreter's lock.
+  /// Requires the interpreter's lock.
   template <class... Arguments>
   py::object call(const char* method, Arguments&&... arguments) const {
     return instance_.get().attr(method)(std::forward<Arguments>(arguments)...);
@@ -37,7 +37,7 @@ std::shared_ptr<Cloud> python_cloud(const std::shared_ptr<const Cloud>& cloud) {
   return std::const_pointer_cast<Cloud>(cloud);
 }
 
-/// A copy for Python, which may keep it: the owner of `cloud` promises it for a call alone.
+/// A copy that Python may keep; `cloud` itself is only valid during the call.
 std::shared_ptr<Cloud> copied(const Cloud& cloud) {
   return std::make_shared<Cloud>(cloud.with_channels(), StreamKey(0));
 }
@@ -60,7 +60,7 @@ class PythonRigStep final : public RigStep, Caller {
     in_python([&] {
       py::list list;
       for (const RigEstimate& estimate : rig) list.append(py::cast(estimate));
-      const py::tuple kept(list);  // Whatever becomes of the list.
+      const py::tuple kept(list);  // Independent of changes to the list.
       const py::object result = call("adjust", list, PythonRng{rng});
       if (!result.is_none()) {
         throw InputError("", "adjust",
@@ -137,7 +137,7 @@ class PythonGroundExtractor final : public GroundExtractor, Caller {
     Ground ground;
     ground.plane.normal = vector_from(parts[0], "extract: the normal");
     const double length = ground.plane.normal.norm();
-    if (!(length > 0.0)) throw InputError("", "extract", "expected a normal, found zero");
+    if (!(length > 0.0)) throw InputError("", "extract", "expected a normal, found a zero vector");
     ground.plane.normal /= length;
     ground.plane.offset_m = py::cast<double>(py::float_(parts[1])) / length;
     const py::array_t<bool, py::array::forcecast> mask(parts[2]);
@@ -145,7 +145,7 @@ class PythonGroundExtractor final : public GroundExtractor, Caller {
       throw InputError("", "extract", "expected true or false for each point");
     }
     if (!std::isfinite(ground.plane.offset_m)) {
-      throw InputError("", "extract", "expected an offset that is finite");
+      throw InputError("", "extract", "expected a finite offset");
     }
     for (py::ssize_t i = 0; i < mask.size(); ++i) ground.is_ground.push_back(mask.at(i) ? 1 : 0);
     return ground;
@@ -164,7 +164,7 @@ class PythonIcp final : public Icp, Caller {
   }
 
  private:
-  /// The same object for the same cloud, whose derived data are computed once.
+  /// The same object for the same cloud, so that derived data are computed once.
   static py::object python_copy(const Cloud& cloud) {
     const auto copy = [&] {
       const WithoutGil no_gil;
@@ -225,8 +225,8 @@ class PythonVolumeScorer final : public VolumeScorer, Caller {
  private:
   static std::int64_t leaves_from(const py::object& result) {
     const double leaves = py::cast<double>(py::float_(result));
-    constexpr double kMost = 9007199254740992.0;  // 2^53
-    if (!(leaves >= 0.0 && leaves <= kMost)) {
+    constexpr double kMaxExactDouble = 9007199254740992.0;  // 2^53
+    if (!(leaves >= 0.0 && leaves <= kMaxExactDouble)) {
       throw InputError("", "bind", "expected a number of leaves, found " + text_of(result));
     }
     return static_cast<std::int64_t>(leaves);

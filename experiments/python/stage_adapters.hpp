@@ -7,9 +7,9 @@
 
 namespace croon::python {
 
-/// The stage of the kind `kind` that calls the methods of the Python object `instance`; points at
-/// the class of the kind. `is_rig_step` is for a step whose method is `adjust`. Null for a kind
-/// that Python has no class for.
+/// The stage of the kind `kind` that calls the methods of the Python object `instance`, as a
+/// pointer to the class of the kind. `is_rig_step` selects a step whose method is `adjust`. Null
+/// for a kind without a Python class.
 std::shared_ptr<const void> python_stage(const std::string& kind, bool is_rig_step,
                                          const ObjectRef& instance);
 

@@ -16,10 +16,10 @@
 namespace croon::python {
 namespace {
 
-/// The stages of Python. Never destroyed: it has objects of the interpreter, which ends before.
+/// The Python stages. Never destroyed, because it has objects of the interpreter, which ends first.
 struct Stages {
   std::mutex mutex;
-  std::vector<std::pair<StageEntry, std::string>> entries;  ///< Each with the name of its class.
+  std::vector<std::pair<StageEntry, std::string>> entries;  ///< With the names of their classes.
   std::shared_ptr<const Catalogue> all = std::make_shared<const Catalogue>(registry());
 };
 
@@ -28,7 +28,7 @@ Stages& stages() {
   return *stages;
 }
 
-/// An object of the class with the parameters as attributes. Notes a fault if it cannot be made.
+/// An object of the class with the parameters as attributes. Notes a fault if construction fails.
 ObjectRef instance_of(const ObjectRef& type, const PythonParameters& parameters,
                       const params::Node& node) {
   try {
@@ -41,7 +41,7 @@ ObjectRef instance_of(const ObjectRef& type, const PythonParameters& parameters,
       return ObjectRef(made);
     });
   } catch (const StageError& error) {
-    node.fault(std::string("the stage cannot be made: ") + error.what());
+    node.fault(std::string("the stage cannot be constructed: ") + error.what());
     return {};
   }
 }
@@ -70,7 +70,7 @@ StageKind kind_called(const std::string& name) {
   for (const StageKind& kind : registry().kinds()) {
     if (kind.name == name) return kind;
   }
-  throw InputError("", "kind", "there is no kind of stage \"" + name + "\"");
+  throw InputError("", "kind", "unknown kind of stage \"" + name + "\"");
 }
 
 StageEntry entry_of(const PythonStage& stage) {
@@ -97,7 +97,7 @@ void register_stage(const PythonStage& stage) {
   StageEntry entry = entry_of(stage);
   const std::string class_name =
       text_of(stage.type.attr("__module__")) + "." + text_of(stage.type.attr("__qualname__"));
-  // What is replaced is released after the lock: that may run code of Python.
+  // Replaced entries are released after the lock, because that may run Python code.
   std::vector<std::pair<StageEntry, std::string>> entries;
   std::shared_ptr<const Catalogue> old;
   {
@@ -113,8 +113,9 @@ void register_stage(const PythonStage& stage) {
                                                : found->second != class_name;
   if (is_taken) {
     throw InputError("", entry.kind + "/" + entry.name,
-                     found == entries.end() ? "croon has a stage of this name"
-                                            : "the class " + found->second + " has this name");
+                     found == entries.end()
+                         ? "croon already has a stage of this name"
+                         : "the class " + found->second + " already has this name");
   }
   if (found == entries.end()) {
     entries.emplace_back(std::move(entry), class_name);

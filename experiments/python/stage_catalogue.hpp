@@ -7,11 +7,11 @@
 
 namespace croon::python {
 
-/// The stages of croon and those that were registered in Python so far. What is built from it keeps
-/// its stages, whatever is registered later. Thread-safe.
+/// The stages of croon and those registered in Python so far. Pipelines built from it keep their
+/// stages, regardless of later registrations. Thread-safe.
 std::shared_ptr<const Catalogue> catalogue();
 
-/// What a Python class says of the stage that it is; see the decorator croon.stage.
+/// The properties of a Python class as a stage; see the decorator croon.stage.
 struct PythonStage {
   std::string kind;
   std::string name;
@@ -19,14 +19,14 @@ struct PythonStage {
   std::string source;
   int version = 1;
   py::object type;      ///< The class.
-  py::list parameters;  ///< Of croon._stages.Parameter.
+  py::list parameters;  ///< A list of croon._stages.Parameter.
   params::DataFlow flow;
-  bool is_rig_step = false;  ///< A step whose method is `adjust`.
+  bool is_rig_step = false;  ///< Whether it is a step with the method `adjust`.
 };
 
-/// Adds the stage, or replaces an earlier one of the same class: the cell of a notebook may run
-/// twice. Throws InputError if there is another stage of this kind and name, and for parameters
-/// that are not right.
+/// Adds the stage, or replaces an earlier one of the same class, because a notebook cell may run
+/// twice. Throws InputError if there is another stage of this kind and name, and for invalid
+/// parameters.
 void register_stage(const PythonStage& stage);
 
 }  // namespace croon::python

@@ -14,7 +14,7 @@ using params::ParameterDoc;
 using params::ParameterType;
 using Row = params::Parameter<PythonParameters>;
 
-/// The row of a parameter whose values are of type T.
+/// The row of a parameter with values of type T.
 template <class T>
 Row row_of(ParameterDoc doc, const T& value) {
   doc.default_json = params::value_json(value);
@@ -28,7 +28,7 @@ Row row_of(ParameterDoc doc, const T& value) {
   return {doc, read, json, false};
 }
 
-/// The words for types in croon._stages.
+/// The parameter types by their names in croon._stages.
 const std::map<std::string, ParameterType>& types() {
   static const std::map<std::string, ParameterType> types = {
       {"boolean", ParameterType::boolean}, {"integer", ParameterType::integer},
@@ -53,7 +53,7 @@ ParameterDoc doc_of(const py::handle& parameter) {
   return doc;
 }
 
-/// Some value of the type of `doc`.
+/// A value of the given type.
 ParameterValue value_of_type(ParameterType type) {
   switch (type) {
     case ParameterType::boolean:
@@ -84,7 +84,7 @@ DeclaredParameters declared_parameters(const py::list& parameters, const std::st
     if (declared.defaults.values.count(doc.key) > 0) {
       faults.push_back({stage, where, "expected each key once"});
     }
-    // The default is read as a value in a file would be.
+    // The default is parsed like a value in a file.
     const nlohmann::json json = nlohmann::json::parse(text_of(parameter.attr("json")));
     std::vector<Fault> of_default;
     std::visit(

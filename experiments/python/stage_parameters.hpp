@@ -18,17 +18,17 @@ struct PythonParameters {
   std::map<std::string, ParameterValue> values;
 };
 
-/// The parameters of a stage as croon.stage declares them: their table, and their defaults.
+/// The parameters of a stage as declared by croon.stage: their table, and their defaults.
 struct DeclaredParameters {
   params::Table<PythonParameters> table;
   PythonParameters defaults;
 };
 
-/// Reads a list of croon._stages.Parameter. Throws InputError for a key that is there twice or is
-/// no name, and for a default that its own range forbids.
+/// Reads a list of croon._stages.Parameter. Throws InputError for a duplicate or invalid key, and
+/// for a default outside its own range.
 DeclaredParameters declared_parameters(const py::list& parameters, const std::string& stage);
 
-/// The value as an object of Python.
+/// The value as a Python object.
 py::object object_of(const ParameterValue& value);
 
 }  // namespace croon::python

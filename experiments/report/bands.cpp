@@ -11,8 +11,8 @@ std::vector<std::optional<Interval>> intervals_of(const std::vector<Share>& shar
 }
 
 std::vector<std::size_t> lines_with_band(std::size_t lines) {
-  constexpr std::size_t kMostBands = 4;
-  std::vector<std::size_t> all(lines > kMostBands ? 1 : lines);
+  constexpr std::size_t kMaxBands = 4;
+  std::vector<std::size_t> all(lines > kMaxBands ? 1 : lines);
   std::iota(all.begin(), all.end(), std::size_t{0});
   return all;
 }
@@ -20,9 +20,8 @@ std::vector<std::size_t> lines_with_band(std::size_t lines) {
 std::string band_sentence(const std::vector<std::string>& names,
                           const std::vector<std::size_t>& with_band) {
   const bool have_all = with_band.size() == names.size();
-  return (have_all ? "a band" : "the band, of " + names[with_band.front()] + ",") +
-         " is the 95 % interval over scenes, none for fewer than " + std::to_string(kLeastScenes) +
-         " scenes";
+  return (have_all ? "bands:" : "band of " + names[with_band.front()] + ":") +
+         " 95 % interval over scenes (requires at least " + std::to_string(kMinScenes) + " scenes)";
 }
 
 }  // namespace croon::experiments

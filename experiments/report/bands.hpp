@@ -8,16 +8,16 @@
 
 namespace croon::experiments {
 
-// The bands about the lines of a figure: the intervals of shares.
+// Bands around the lines of a figure: the intervals of shares.
 
-/// The intervals of shares; std::nullopt for a share that has none.
+/// The intervals of shares; std::nullopt for a share without an interval.
 std::vector<std::optional<Interval>> intervals_of(const std::vector<Share>& shares);
 
-/// The lines that have a band: all of `lines` up to four, else the first alone. More bands, which
-/// overlap, would hide the lines.
+/// Indices of the lines drawn with a band: all of `lines` if there are at most four, otherwise only
+/// the first, because more overlapping bands would hide the lines.
 std::vector<std::size_t> lines_with_band(std::size_t lines);
 
-/// What the bands are, of those `with_band` of the lines called `names`.
+/// Describes the bands of the lines `with_band`; `names` are the names of all lines.
 std::string band_sentence(const std::vector<std::string>& names,
                           const std::vector<std::size_t>& with_band);
 

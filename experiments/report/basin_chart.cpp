@@ -10,12 +10,12 @@
 namespace croon::experiments {
 namespace {
 
-/// Where things are, in units of the sheet.
+/// The layout, in units of the sheet.
 struct BasinLayout {
   Plot plot;
   double width, height;
-  std::size_t legend_columns;  ///< Entries beside each other below the plot; 0: right of it.
-  double legend_width;         ///< Of an entry.
+  std::size_t legend_columns;  ///< Entries per row below the plot; 0: right of the plot.
+  double legend_width;         ///< Width of an entry.
 };
 
 constexpr double kScreenWidth = 890.0;
@@ -44,9 +44,10 @@ BasinLayout layout_of(const Sheet& sheet, const Axis& sizes, const std::vector<s
   }
   plot.width = sheet.width - plot.left - 1.5 * text;
   plot.height = std::min(0.6 * plot.width, 170.0);
-  double widest = 0.0;
-  for (const std::string& label : labels) widest = std::max(widest, text_width(label, text));
-  layout.legend_width = legend_line(sheet) + widest + 1.5 * text;
+  double max_label_width = 0.0;
+  for (const std::string& label : labels)
+    max_label_width = std::max(max_label_width, text_width(label, text));
+  layout.legend_width = legend_line(sheet) + max_label_width + 1.5 * text;
   layout.legend_columns = static_cast<std::size_t>(
       std::clamp(std::floor(plot.width / layout.legend_width), 1.0, std::max(rows, 1.0)));
   layout.width = sheet.width;
@@ -67,9 +68,9 @@ void draw_frame(Drawing& drawing, const Plot& plot, const Axis& sizes, const Swe
   }
   const std::string what = sweep.of == SweepOf::rotation ? "rotation" : "translation";
   drawing.text(plot.left + plot.width / 2.0, plot.top + plot.height + 2.8 * text,
-               what + " of the start from its centre, " + size_unit(sweep), Anchor::middle,
+               what + " of the initial guess from its centre, " + size_unit(sweep), Anchor::middle,
                "small");
-  // Without a title the axis says what it is.
+  // Without a title the axis needs a label.
   if (drawing.sheet().has_title) return;
   drawing.text(text, plot.top + plot.height / 2.0, "success, %", Anchor::middle, "small", -90.0);
 }
@@ -97,7 +98,7 @@ void draw_legend(Drawing& drawing, const BasinLayout& layout, std::size_t index,
                       plot.top + 8.0 + line * static_cast<double>(index), index, label);
     return;
   }
-  const auto [row, column] = place_in_grid(index, layout.legend_columns);
+  const auto [row, column] = position_in_grid(index, layout.legend_columns);
   draw_legend_entry(drawing, plot.left + layout.legend_width * column,
                     plot.top + plot.height + 4.0 * drawing.sheet().small() + line * row, index,
                     label);
@@ -106,7 +107,7 @@ void draw_legend(Drawing& drawing, const BasinLayout& layout, std::size_t index,
 }  // namespace
 
 Drawing basin_chart(const Basin& basin, const FigureOptions& options) {
-  constexpr const char* kTitle = "Success in % over the size of the start's perturbation";
+  constexpr const char* kTitle = "Success in % over the perturbation of the initial guess";
   std::vector<const BasinRow*> rows;
   std::vector<std::string> names;
   for (const BasinRow& row : basin.rows) {

@@ -7,13 +7,13 @@
 namespace croon::experiments {
 namespace {
 
-constexpr double kWidestPitch = 22.0;  ///< From which on dots have their full size.
+constexpr double kFullDotPitch = 22.0;  ///< Dots have their full size from this pitch on.
 
 bool is_inside(double value, const Interval& axis) {
   return value >= axis.low && value <= axis.high;
 }
 
-/// Draws an arrowhead at the end of the axis beyond which `count` values are, and the number.
+/// Draws an arrowhead at the end of the axis, with the number `count` of values beyond it.
 void draw_beyond(Drawing& drawing, double x, double pitch, double border, std::size_t count,
                  bool is_up, std::size_t series) {
   if (count == 0) return;
@@ -30,7 +30,7 @@ void draw_beyond(Drawing& drawing, double x, double pitch, double border, std::s
   }
 }
 
-/// Draws the quartiles, without the sides that lie beyond the axis.
+/// Draws the box of the quartiles, without the sides beyond the axis.
 void draw_quartiles(Drawing& drawing, const Plot& plot, double left, double width,
                     const BoxPlot& box, const std::string& style) {
   const double top = plot.y_inside(box.upper_quartile);
@@ -40,7 +40,7 @@ void draw_quartiles(Drawing& drawing, const Plot& plot, double left, double widt
   if (has_top && has_bottom) {
     return drawing.rectangle(left, top, width, bottom - top, "box" + style);
   }
-  if (bottom <= top) return;  // All of it lies beyond.
+  if (bottom <= top) return;  // Entirely beyond the axis.
   const double right = left + width;
   drawing.rectangle(left, top, width, bottom - top, "inside" + style);
   if (!has_top && !has_bottom) {
@@ -53,7 +53,7 @@ void draw_quartiles(Drawing& drawing, const Plot& plot, double left, double widt
   drawing.polyline({{left, open}, {left, closed}, {right, closed}, {right, open}}, "line" + style);
 }
 
-/// Draws the whiskers, with an end where they do not go on beyond the axis.
+/// Draws the whiskers; a whisker that extends beyond the axis has no cap.
 void draw_whiskers(Drawing& drawing, const Plot& plot, double x, double width, const BoxPlot& box,
                    const std::string& style) {
   for (const auto& [quartile, whisker] : {std::pair(box.lower_quartile, box.lower_whisker),
@@ -66,8 +66,8 @@ void draw_whiskers(Drawing& drawing, const Plot& plot, double x, double width, c
   }
 }
 
-/// Draws values as dots. Of dots that look the same one is enough, or a long run makes a file of
-/// many megabytes.
+/// Draws values as dots, indistinguishable dots only once: otherwise the file of a long run would
+/// have many megabytes.
 void draw_dots(Drawing& drawing, const Plot& plot, double x, double pitch,
                const std::vector<double>& values, const std::string& style) {
   std::set<double> rows;
@@ -75,7 +75,7 @@ void draw_dots(Drawing& drawing, const Plot& plot, double x, double pitch,
     if (is_inside(value, plot.y_range)) rows.insert(std::round(2.0 * plot.y(value)) / 2.0);
   }
   for (const double y : rows) {
-    drawing.dot(x, y, 1.8 * std::min(1.0, pitch / kWidestPitch + 0.2), "dot" + style);
+    drawing.dot(x, y, 1.8 * std::min(1.0, pitch / kFullDotPitch + 0.2), "dot" + style);
   }
 }
 
@@ -91,7 +91,7 @@ Beyond count_beyond(const std::vector<double>& values, const Interval& axis) {
 }
 
 bool is_cut(const std::vector<double>& values, const Interval& axis) {
-  if (values.size() < kLeastBoxValues) return false;
+  if (values.size() < kMinBoxValues) return false;
   const BoxPlot box = box_plot(values);
   return !is_inside(box.lower_whisker, axis) || !is_inside(box.upper_whisker, axis);
 }
@@ -109,7 +109,7 @@ void draw_box(Drawing& drawing, const Plot& plot, double x, double pitch, std::s
   const Beyond beyond = count_beyond(values, plot.y_range);
   draw_beyond(drawing, x, pitch, plot.top, beyond.above, true, series);
   draw_beyond(drawing, x, pitch, plot.top + plot.height, beyond.below, false, series);
-  if (values.size() < kLeastBoxValues) return draw_dots(drawing, plot, x, pitch, values, style);
+  if (values.size() < kMinBoxValues) return draw_dots(drawing, plot, x, pitch, values, style);
   const BoxPlot box = box_plot(values);
   const double width = 0.6 * pitch;
   const double left = x - width / 2.0;

@@ -1,4 +1,4 @@
-// What the boxes of a figure are of.
+// The groups of boxes of a figure.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,7 +19,7 @@ std::size_t index_of(std::vector<std::string>& names, const std::string& name) {
   return index;
 }
 
-/// The label of the box that the deviations of `scene` are in.
+/// The label of the box that contains the deviations of `scene`.
 std::string label_of(const SummaryRow& row, const SceneSummary& scene, BoxOf of) {
   return of == BoxOf::variant      ? row.variant
          : of == BoxOf::scene      ? scene.scene
@@ -43,7 +43,7 @@ BoxOf box_of(const Summary& summary, std::size_t max_scenes, std::size_t max_kin
 }
 
 std::vector<BoxGroup> box_groups(const Summary& summary, BoxOf of) {
-  // Kinds come in the order of their summaries, all else in that of the rows.
+  // Kinds are in the order of their summaries, everything else in that of the rows.
   std::vector<std::string> labels, sensors;
   if (of == BoxOf::scene_kind) {
     for (const SceneKindSummary& kind : summary.scene_kinds) index_of(labels, kind.scene_kind);
@@ -73,9 +73,9 @@ std::vector<BoxGroup> box_groups(const Summary& summary, BoxOf of) {
 
 double robust_limit(const std::vector<BoxGroup>& groups, std::size_t measure) {
   constexpr double kWhiskers = 3.0;
-  constexpr double kMostWhiskers = 10.0;
+  constexpr double kMaxWhiskers = 10.0;
   std::vector<double> reaches;
-  double of_sensors = 0.0;  // That the best box of each sensor is seen.
+  double of_sensors = 0.0;  // Keeps the best box of each sensor visible.
   for (const BoxGroup& group : groups) {
     double best = std::numeric_limits<double>::infinity();
     for (const BoxSeries& box : group.boxes) {
@@ -86,11 +86,11 @@ double robust_limit(const std::vector<BoxGroup>& groups, std::size_t measure) {
     }
     if (std::isfinite(best)) of_sensors = std::max(of_sensors, best);
   }
-  const double least = 10.0 * std::pow(10.0, -kMeasures[measure].decimals);
-  if (reaches.empty()) return least;
+  const double min_limit = 10.0 * std::pow(10.0, -kMeasures[measure].decimals);
+  if (reaches.empty()) return min_limit;
   std::sort(reaches.begin(), reaches.end());
   const double median = reaches[(reaches.size() - 1) / 2];
-  return std::max({least, kWhiskers * median, std::min(of_sensors, kMostWhiskers * median)});
+  return std::max({min_limit, kWhiskers * median, std::min(of_sensors, kMaxWhiskers * median)});
 }
 
 void shorten_labels(std::vector<BoxGroup>& groups, std::size_t columns) {

@@ -16,11 +16,11 @@ namespace {
 constexpr std::size_t kMaxScenes = 12;
 constexpr std::size_t kMaxKinds = 20;
 
-/// The lengths of a figure that its sheet decides, in units of the sheet.
+/// The dimensions of a figure that depend on its sheet, in units of the sheet.
 struct Lengths {
   double margin, panel_title, axis_width, right, group_gap, sensor_height;
-  double widest_pitch, least_pitch;  ///< From the middle of a box to that of the next.
-  double least_plot;                 ///< Width.
+  double max_pitch, min_pitch;  ///< Distance between the centres of neighbouring boxes.
+  double min_plot_width;
   std::size_t label_columns;
 };
 
@@ -31,28 +31,28 @@ constexpr Lengths kPaperLengths = {1, 12, 31, 5, 4, 11, 14, 9, 55, 28};
 struct Panel {
   std::size_t measure;
   std::string title;
-  double factor;  ///< From the measure's unit to that of the axis.
+  double factor;  ///< Converts the measure's unit to that of the axis.
   Axis axis;
 };
 
-/// A figure of panels that are alike.
+/// A figure of panels of equal size.
 struct BoxLayout {
   Sheet sheet;
   Lengths lengths;
   double title_height = 0.0;
-  std::size_t columns = 1;  ///< Of panels.
+  std::size_t columns = 1;  ///< Number of panels per row.
   double plot_width = 0.0;
   double plot_height = 190.0;
   double pitch = 0.0;
-  double count_height = 0.0;  ///< Of the numbers of trials below the boxes.
-  double label_height = 0.0;  ///< Of the names below these.
-  double above = 0.0;         ///< Room for the numbers of values beyond the axis.
+  double count_height = 0.0;  ///< Height of the numbers of trials below the boxes.
+  double label_height = 0.0;  ///< Height of the names below these.
+  double above = 0.0;         ///< Space for the numbers of values beyond the axis.
   double below = 0.0;
 
   std::size_t rows() const { return kDofs / columns; }
   double names_height() const { return count_height + label_height + lengths.sensor_height; }
   double panel_width() const { return lengths.axis_width + plot_width + lengths.right; }
-  /// On paper, the panels of a column share the names below the lowest.
+  /// On paper, the panels of a column share the names below the bottom panel.
   double panel_height() const {
     return lengths.panel_title + above + plot_height + below +
            (sheet.is_paper ? 0.4 * sheet.text() : names_height() + lengths.margin);
@@ -67,7 +67,7 @@ struct BoxLayout {
   }
 };
 
-/// How wide a group is: its boxes, or its name if that is longer.
+/// The width of a group: its boxes, or its name if that is wider.
 double group_width(const BoxGroup& group, const BoxLayout& layout, double pitch) {
   return std::max(pitch * static_cast<double>(group.boxes.size()),
                   text_width(group.sensor, layout.sheet.text()));
@@ -87,38 +87,38 @@ std::size_t number_of_boxes(const std::vector<BoxGroup>& groups) {
   return boxes;
 }
 
-/// Panels as wide as their boxes need. Many boxes make wide panels: two rows, three or six.
+/// Panels are as wide as their boxes need; wide panels are arranged in two, three or six rows.
 void lay_out_for_screen(BoxLayout& layout, const std::vector<BoxGroup>& groups) {
   const std::size_t boxes = number_of_boxes(groups);
   layout.columns = boxes <= 20 ? 3 : boxes <= 48 ? 2 : 1;
-  layout.pitch = layout.lengths.widest_pitch;
+  layout.pitch = layout.lengths.max_pitch;
   layout.plot_width =
-      std::max(layout.lengths.least_plot, groups_width(groups, layout, layout.pitch));
+      std::max(layout.lengths.min_plot_width, groups_width(groups, layout, layout.pitch));
 }
 
-/// As many panels beside each other as have room for their boxes.
+/// Chooses the maximum number of panels per row that fits their boxes.
 void lay_out_for_paper(BoxLayout& layout, const std::vector<BoxGroup>& groups) {
   const double page = layout.sheet.width - 2.0 * layout.lengths.margin;
   for (const std::size_t columns : {3U, 2U, 1U}) {
     layout.columns = columns;
     layout.plot_width =
         page / static_cast<double>(columns) - layout.lengths.axis_width - layout.lengths.right;
-    if (layout.plot_width < layout.lengths.least_plot) continue;
-    for (layout.pitch = layout.lengths.widest_pitch; layout.pitch >= layout.lengths.least_pitch;
+    if (layout.plot_width < layout.lengths.min_plot_width) continue;
+    for (layout.pitch = layout.lengths.max_pitch; layout.pitch >= layout.lengths.min_pitch;
          layout.pitch -= 0.25) {
       if (groups_width(groups, layout, layout.pitch) > layout.plot_width) continue;
-      // Six panels one above the other have room on a page.
+      // Six panels below each other must fit on a page.
       layout.plot_height = columns == 1 ? 46.0 : std::clamp(0.7 * layout.plot_width, 62.0, 90.0);
       return;
     }
   }
   const double width =
-      page - layout.plot_width + groups_width(groups, layout, layout.lengths.least_pitch);
+      page - layout.plot_width + groups_width(groups, layout, layout.lengths.min_pitch);
   throw InputError("", "--width",
-                   std::to_string(number_of_boxes(groups)) + " boxes with their names want " +
-                       fixed_number(std::ceil(width / kPointsPerMm), 0) + " mm, found " +
+                   std::to_string(number_of_boxes(groups)) + " boxes with their names need " +
+                       fixed_number(std::ceil(width / kPointsPerMm), 0) + " mm, the figure is " +
                        fixed_number(layout.sheet.width / kPointsPerMm, 0) +
-                       " mm; choose fewer by --sensors or --variants, or a wider figure");
+                       " mm wide; choose fewer with --sensors or --variants, or a wider figure");
 }
 
 std::vector<double> scaled_values(const BoxSeries& box, const Panel& panel) {
@@ -137,7 +137,7 @@ void for_each_box(const std::vector<BoxGroup>& groups, const F& visit) {
   }
 }
 
-/// 0 and every value of a measure, as far as the robust limit.
+/// The range of a measure: 0 and all values, clipped at the robust limit.
 Interval shown_range(const std::vector<BoxGroup>& groups, std::size_t measure) {
   const double limit = robust_limit(groups, measure);
   Interval range = {0.0, 0.0};
@@ -152,16 +152,16 @@ Interval shown_range(const std::vector<BoxGroup>& groups, std::size_t measure) {
 
 bool is_length(std::size_t measure) { return kMeasures[measure].unit == std::string("m"); }
 
-/// The six panels in the order of the paper; lengths have one unit.
+/// The six panels in the order of the paper; all lengths have the same unit.
 std::vector<Panel> panels_of(const std::vector<BoxGroup>& groups, const std::string& unit) {
-  double longest = 0.0;
+  double max_size = 0.0;
   for (const std::size_t measure : kPaperOrder) {
     if (!is_length(measure)) continue;
     const Interval range = shown_range(groups, measure);
-    longest = std::max({longest, -range.low, range.high});
+    max_size = std::max({max_size, -range.low, range.high});
   }
   constexpr double kSmall_m = 0.1;
-  const bool in_mm = unit.empty() ? longest < kSmall_m : unit == "mm";
+  const bool in_mm = unit.empty() ? max_size < kSmall_m : unit == "mm";
   std::vector<Panel> panels;
   for (const std::size_t measure : kPaperOrder) {
     const bool is_in_mm = is_length(measure) && in_mm;
@@ -177,22 +177,22 @@ std::vector<Panel> panels_of(const std::vector<BoxGroup>& groups, const std::str
 
 Interval range_of(const Axis& axis) { return {axis.low, axis.high}; }
 
-/// Makes room for the numbers of values beyond the axes.
+/// Reserves space for the numbers of values beyond the axes.
 void make_room_beyond(BoxLayout& layout, const std::vector<Panel>& panels,
                       const std::vector<BoxGroup>& groups) {
-  Beyond most;
+  Beyond max_count;
   for (const Panel& panel : panels) {
     for_each_box(groups, [&](const BoxSeries& box) {
       const Beyond beyond = count_beyond(scaled_values(box, panel), range_of(panel.axis));
-      most.above = std::max(most.above, beyond.above);
-      most.below = std::max(most.below, beyond.below);
+      max_count.above = std::max(max_count.above, beyond.above);
+      max_count.below = std::max(max_count.below, beyond.below);
     });
   }
-  layout.above = beyond_height(layout.sheet, layout.pitch, most.above);
-  layout.below = beyond_height(layout.sheet, layout.pitch, most.below);
+  layout.above = beyond_height(layout.sheet, layout.pitch, max_count.above);
+  layout.below = beyond_height(layout.sheet, layout.pitch, max_count.below);
 }
 
-/// How many of its trials a box holds: "18/20".
+/// The number of values in a box and of its trials: "18/20".
 std::string count_text(const BoxSeries& box) {
   return std::to_string(box.deviations.size()) + "/" + std::to_string(box.trials);
 }
@@ -218,7 +218,7 @@ BoxLayout layout_of(const std::vector<BoxGroup>& groups, const std::vector<Panel
 
 /// Draws the frame of `panel`, the `index`-th of six, and returns its plot.
 Plot draw_frame(Drawing& drawing, const BoxLayout& layout, std::size_t index, const Panel& panel) {
-  // With two columns, rotations stand left and translations right.
+  // With two columns, rotations are on the left and translations on the right.
   const std::size_t rows = layout.rows();
   const std::size_t row = layout.columns == 2 ? index % rows : index / layout.columns;
   const std::size_t column = layout.columns == 2 ? index / rows : index % layout.columns;
@@ -242,7 +242,7 @@ void draw_panel(Drawing& drawing, const BoxLayout& layout, const std::vector<Box
   const Plot plot = draw_frame(drawing, layout, index, panel);
   const double used = groups_width(groups, layout, layout.pitch) -
                       layout.lengths.group_gap * static_cast<double>(groups.size());
-  // What width is left over goes between the groups.
+  // Distribute the remaining width between the groups.
   const double gap = (layout.plot_width - used) / static_cast<double>(groups.size());
   const double text = layout.sheet.small();
   const double below = plot.top + plot.height + layout.below + 0.6 * text;
@@ -284,11 +284,11 @@ std::string title_of(const Summary& summary) {
   const std::string which =
       std::to_string(all.counted) + " of " + std::to_string(all.outcomes.trials) + " trials";
   return all.deviations_from == DeviationsFrom::truth
-             ? "Error of the successful trials against the truth (" + which + ")"
-             : "Deviation from what all scenes agree on (" + which + ")";
+             ? "Error of the successful trials against ground truth (" + which + ")"
+             : "Deviation from the consensus of all scenes (" + which + ")";
 }
 
-/// The meaning of a box, and of what else these boxes show.
+/// The meaning of a box and of the other marks in this figure.
 std::string explanation_of(BoxOf of, const std::vector<BoxGroup>& groups,
                            const std::vector<Panel>& panels) {
   static const std::map<BoxOf, const char*> what = {
@@ -304,19 +304,19 @@ std::string explanation_of(BoxOf of, const std::vector<BoxGroup>& groups,
     for_each_box(groups, [&](const BoxSeries& box) {
       const std::vector<double> values = scaled_values(box, panel);
       const Beyond beyond = count_beyond(values, axis);
-      has_few = has_few || values.size() < kLeastBoxValues;
+      has_few = has_few || values.size() < kMinBoxValues;
       has_beyond = has_beyond || beyond.above + beyond.below > 0;
       has_cut = has_cut || is_cut(values, axis);
     });
   }
   std::string text = std::string("A box is ") + what.at(of) +
-                     ": quartiles and median; dots lie beyond 1.5 interquartile ranges; n/N: it "
-                     "holds n of its N trials";
+                     ": quartiles and median; dots lie beyond 1.5 interquartile ranges; n/N: "
+                     "n of N trials in the box";
   if (has_few) {
-    text += "; fewer than " + std::to_string(kLeastBoxValues) + " values are dots without a box";
+    text += "; fewer than " + std::to_string(kMinBoxValues) + " values are drawn as dots";
   }
-  if (has_beyond) text += "; arrowheads have the number of values beyond the axis";
-  if (has_cut) text += "; a box or whisker that goes on beyond the axis is open there";
+  if (has_beyond) text += "; arrowheads show the number of values beyond the axis";
+  if (has_cut) text += "; a box or whisker that extends beyond the axis is open there";
   return text;
 }
 

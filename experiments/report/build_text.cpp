@@ -8,8 +8,7 @@ namespace {
 
 constexpr std::size_t kShownDigits = 12;
 
-/// "my_stages at commit 0123456789ab-dirty"; without the folders around it, which differ from
-/// machine to machine.
+/// "my_stages at commit 0123456789ab-dirty"; without parent folders, which differ between machines.
 std::string folder_text(const StageFolder& folder) {
   return std::filesystem::path(folder.folder).filename().string() + " at commit " +
          short_commit(folder.commit);
@@ -43,7 +42,7 @@ std::vector<std::string> build_sentences(const std::vector<Build>& builds) {
                         " builds of croon: " + of_builds + ".");
   }
   if (!folders.empty()) {
-    sentences.push_back("With stages from outside croon's tree: " + of_folders + ".");
+    sentences.push_back("With stages from outside the croon tree: " + of_folders + ".");
   }
   return sentences;
 }

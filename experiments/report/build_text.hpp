@@ -7,12 +7,12 @@
 
 namespace croon::experiments {
 
-/// The first digits of a commit; the suffix "-dirty" stays.
+/// The first digits of a commit; a suffix "-dirty" is kept.
 std::string short_commit(const std::string& commit);
 
-/// What a reader has to know of the builds that made the trials besides the commit of one: if there
-/// were several, each by commit and program; and the folders of stages from outside the tree. Plain
-/// text, a sentence each; none for one build without such stages.
+/// Remarks on the builds that made the trials, one plain-text sentence each: the commit and program
+/// of each build if there were several, and the folders of stages from outside the tree. Empty for
+/// one build without such stages.
 std::vector<std::string> build_sentences(const std::vector<Build>& builds);
 
 }  // namespace croon::experiments

@@ -11,7 +11,7 @@
 namespace croon::experiments {
 namespace {
 
-/// "1.2, 0.4, 3.0" for three standard deviations, each times `scale`.
+/// "1.2, 0.4, 3.0": three standard deviations, each multiplied by `scale`.
 std::string stds_text(const Matrix6d& covariance, int first, double scale, int decimals) {
   std::string text;
   for (int i = first; i < first + 3; ++i) {
@@ -41,7 +41,8 @@ std::string pose_text(const RigidTransform& T, const std::optional<PoseCovarianc
   return text + "\n";
 }
 
-/// A line with the degrees of freedom that are not well determined; empty if all are.
+/// A line with the degrees of freedom that are weakly constrained or unobservable; empty if all are
+/// determined.
 std::string observability_text(const std::optional<PoseCovariance>& covariance,
                                const std::string& indent) {
   if (!covariance) return "";
@@ -64,24 +65,24 @@ std::string apart_text(const RigidTransform& a, const RigidTransform& b) {
          fixed_number(1e3 * apart.translation_m, 0) + " mm";
 }
 
-/// In how many scenes the pose was accepted, and how far their own poses are apart.
+/// The number of scenes in which the pose was accepted, and how much their poses differ from it.
 std::string scenes_text(const CalibratedSensor& sensor) {
   if (sensor.scenes.size() < 2 || !sensor.T_reference_sensor) return "";
   std::size_t accepted = 0;
-  PoseError largest;
+  PoseError max_apart;
   for (const SceneEstimate& scene : sensor.scenes) {
     if (!scene.reason.empty() || !scene.T_reference_sensor) continue;
     ++accepted;
     const PoseError apart = pose_error(*scene.T_reference_sensor, *sensor.T_reference_sensor);
-    largest.rotation_rad = std::max(largest.rotation_rad, apart.rotation_rad);
-    largest.translation_m = std::max(largest.translation_m, apart.translation_m);
+    max_apart.rotation_rad = std::max(max_apart.rotation_rad, apart.rotation_rad);
+    max_apart.translation_m = std::max(max_apart.translation_m, apart.translation_m);
   }
   std::string text =
       "  accepted in " + std::to_string(accepted) + " of " + counted(sensor.scenes.size(), "scene");
   if (accepted > 1) {
     text += "; single scenes differ from the pose by up to " +
-            fixed_number(deg_from_rad(largest.rotation_rad), 2) + " deg and " +
-            fixed_number(1e3 * largest.translation_m, 0) + " mm";
+            fixed_number(deg_from_rad(max_apart.rotation_rad), 2) + " deg and " +
+            fixed_number(1e3 * max_apart.translation_m, 0) + " mm";
   }
   return text + "\n";
 }
@@ -126,7 +127,7 @@ std::string sensor_text(const CalibratedSensor& sensor, const std::string& refer
 std::string motion_text(const SceneMotionEstimate& motion) {
   const Eigen::Vector3d& v = motion.velocity.linear_mps;
   const double turning_degps = deg_from_rad(motion.velocity.angular_radps.norm());
-  if (v.norm() == 0.0 && turning_degps == 0.0) return "stands";
+  if (v.norm() == 0.0 && turning_degps == 0.0) return "stationary";
   return fixed_number(v.norm(), 2) + " m/s, " + fixed_number(turning_degps, 1) + " deg/s";
 }
 

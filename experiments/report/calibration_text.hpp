@@ -6,10 +6,10 @@
 
 namespace croon::experiments {
 
-/// The result of a calibration for a terminal: for each sensor the verdict first, then its pose,
-/// standard deviations and distance from the nominal pose, or the reasons for which it was
-/// rejected, what would help, and the best guess; then warnings, what took no part, and the
-/// reference's pose over the ground. With `colours`, verdicts have colours.
+/// The result of a calibration for a terminal: for each sensor the verdict, then its pose, standard
+/// deviations and distance from the nominal pose, or the reasons for rejection, advice, and the
+/// best guess; then warnings, unused inputs, and the pose of the reference above the ground. With
+/// `colours`, verdicts are coloured.
 std::string calibration_text(const CalibratedRig& rig, bool colours);
 
 }  // namespace croon::experiments

@@ -11,9 +11,10 @@ namespace croon::experiments {
 
 namespace {
 
-constexpr std::size_t kWidestName = 44;
+constexpr std::size_t kMaxNameColumns = 44;
 
-/// Claim, source, expected, band, found and verdict; the band is in the brackets of the format.
+/// Claim, source, expected, band, found and verdict; `open` and `close` are the brackets of the
+/// band.
 View claims_view(const std::string& open, const std::string& close) {
   return {{{"claim"},
            {"source"},
@@ -27,8 +28,8 @@ View claims_view(const std::string& open, const std::string& close) {
           2};
 }
 
-/// The quoted rows, the DOFs in the paper's order; after those of each statistic, ours: that of
-/// this run's first variant over all sensors.
+/// The quoted rows, DOFs in the paper's order. The rows of each statistic are followed by the
+/// result of this run's first variant over all sensors.
 Table quoted_table(const std::vector<Quoted>& quoted, const Summary& summary) {
   constexpr int kDecimals = 5;
   Table table{{{"method"}, {"source"}, {"statistic"}}, {}};
@@ -53,29 +54,30 @@ Table quoted_table(const std::vector<Quoted>& quoted, const Summary& summary) {
   return table;
 }
 
-/// What the verdicts mean that are no verdict on a number.
-std::string verdicts_explained() {
-  return "trials, scenes: what the number is over; share: of all trials, those that succeed (no "
-         "truth: that agree).\nshown: no result within the success bounds could be outside the "
+/// Explains the columns and the verdicts other than "in" and "out".
+std::string outcomes_explained() {
+  return "trials, scenes: included in the number; share: trials that succeed (no ground truth: "
+         "that "
+         "agree), in % of all.\nshown: no result within the success bounds could be outside the "
          "band. not enough trials: fewer than " +
-         std::to_string(kLeastClaimTrials) + " trials or " + std::to_string(kLeastScenes) +
+         std::to_string(kMinClaimTrials) + " trials or " + std::to_string(kMinScenes) +
          " scenes.\n";
 }
 
 /// "50 in, 2 out, 1 not measured".
-std::string verdict_counts(const std::vector<ClaimResult>& results) {
+std::string outcome_counts(const std::vector<ClaimResult>& results) {
   std::string text;
-  for (const Verdict verdict : kVerdicts) {
+  for (const ClaimOutcome outcome : kClaimOutcomes) {
     const auto count = std::count_if(results.begin(), results.end(), [&](const ClaimResult& one) {
-      return one.verdict == verdict;
+      return one.outcome == outcome;
     });
     if (count == 0) continue;
-    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + verdict_name(verdict);
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + name_of(outcome);
   }
   return text;
 }
 
-/// The table of claims, with the numbers of the reasons below it.
+/// The table of claims, followed by the numbered reasons.
 std::string results_markdown(const std::vector<ClaimResult>& results) {
   std::vector<std::string> reasons;
   Columns<ClaimResult> columns = claim_columns();
@@ -89,7 +91,7 @@ std::string results_markdown(const std::vector<ClaimResult>& results) {
   View view = claims_view("\\[", "\\]");
   view.columns.push_back({"why ours may differ"});
   view.names = view.columns.size();
-  std::string text = "Claims: " + verdict_counts(results) + ".\n\n" + verdicts_explained() + "\n" +
+  std::string text = "Claims: " + outcome_counts(results) + ".\n\n" + outcomes_explained() + "\n" +
                      markdown_table(columns.table(results), view);
   if (!reasons.empty()) text += "\nWhy ours may differ:\n\n";
   for (std::size_t i = 0; i < reasons.size(); ++i) {
@@ -98,7 +100,7 @@ std::string results_markdown(const std::vector<ClaimResult>& results) {
   return text;
 }
 
-/// What was run, as a table of one row.
+/// The run, as a table of one row.
 std::string run_markdown(const Results& results) {
   const std::string trials =
       std::to_string(results.records.size()) + " of " + std::to_string(results.planned);
@@ -115,19 +117,18 @@ std::string claims_text(const std::vector<ClaimResult>& results, const std::vect
   std::string text;
   if (!results.empty()) {
     View view = claims_view("[", "]");
-    view.max_name_columns = kWidestName;
+    view.max_name_columns = kMaxNameColumns;
     const std::string table = text_table(claim_columns().table(results), view, style.colours);
     const std::regex out("out\n");  // In red.
-    text += "\nclaims: " + verdict_counts(results) + "\n";
+    text += "\nclaims: " + outcome_counts(results) + "\n";
     text += style.colours ? std::regex_replace(table, out, "\033[31mout\033[0m\n") : table;
-    text += verdicts_explained();
+    text += outcomes_explained();
   }
   if (!quoted.empty()) {
     const Table table = quoted_table(quoted, summary);
     View view = whole_view(table, 3);
-    view.max_name_columns = kWidestName;
-    text += "\nother methods, as their sources have them, and ours\n" +
-            text_table(table, view, style.colours);
+    view.max_name_columns = kMaxNameColumns;
+    text += "\nother methods as published, and ours\n" + text_table(table, view, style.colours);
   }
   return text;
 }
@@ -138,8 +139,7 @@ std::string claims_markdown(const std::vector<ClaimResult>& results,
   if (!results.empty()) text += results_markdown(results);
   if (!quoted.empty()) {
     const Table table = quoted_table(quoted, summary);
-    text += std::string(text.empty() ? "" : "\n") +
-            "Other methods, as their sources have them, and ours:\n\n" +
+    text += std::string(text.empty() ? "" : "\n") + "Other methods as published, and ours:\n\n" +
             markdown_table(table, whole_view(table, table.columns.size()));
   }
   return text;
@@ -153,7 +153,7 @@ std::string claims_section(const Results& results) {
     text += markdown_escaped(sentence) + "\n\n";
   }
   const std::string tables = claims_markdown(results.claims, results.quoted, results.summary);
-  return text + (tables.empty() ? "The experiment expects nothing.\n" : tables);
+  return text + (tables.empty() ? "The experiment makes no claims.\n" : tables);
 }
 
 }  // namespace croon::experiments

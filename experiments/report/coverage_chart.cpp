@@ -16,7 +16,7 @@ struct CoverageLine {
   std::array<const CoverageRow*, kCoveragePanels> rows = {};
 };
 
-/// The lines, that of all sensors at the end.
+/// The lines, with that of all sensors last.
 std::vector<CoverageLine> coverage_lines(const Coverage& coverage) {
   const bool is_one_variant = has_one_variant(coverage.rows);
   std::vector<CoverageLine> lines;
@@ -29,8 +29,8 @@ std::vector<CoverageLine> coverage_lines(const Coverage& coverage) {
   return lines;
 }
 
-/// Draws the frame of the panel of a degree of freedom: to the right the level of the interval,
-/// upwards the share of trials whose truth it holds.
+/// Draws the frame of the panel of a degree of freedom: the level of the interval on the x axis,
+/// the share of trials whose interval contains ground truth on the y axis.
 void coverage_panel(Drawing& drawing, const Plot& plot, std::size_t dof) {
   const double text = drawing.sheet().small();
   for (const double ratio : {0.0, 0.25, 0.5, 0.75, 1.0}) {
@@ -45,15 +45,15 @@ void coverage_panel(Drawing& drawing, const Plot& plot, std::size_t dof) {
 }  // namespace
 
 Drawing coverage_chart(const Coverage& coverage, const FigureOptions& options) {
-  constexpr const char* kTitle = "How often intervals hold the truth, in % of accepted trials";
+  constexpr const char* kTitle = "Intervals that contain ground truth, in % of accepted trials";
   const std::vector<CoverageLine> lines = coverage_lines(coverage);
   std::vector<std::string> names;
   for (const CoverageLine& line : lines) names.push_back(line.name);
   const std::vector<std::string> labels = line_labels(names);
-  // Bands of sensors overlap: of several lines that of all sensors alone has one.
+  // Bands of sensors overlap, so only the line of all sensors has one.
   const std::vector<std::size_t> with_band = {lines.size() - 1};
-  const std::string explanation =
-      "On the diagonal intervals are right, above it too wide; " + band_sentence(labels, with_band);
+  const std::string explanation = "On the diagonal covariances are correct, above it too large; " +
+                                  band_sentence(labels, with_band);
   const Sheet& sheet = options.sheet;
   const FigureTitle title(kTitle, explanation, sheet, figure_width(sheet));
   const PanelGrid grid =

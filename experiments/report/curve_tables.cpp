@@ -45,7 +45,7 @@ std::string success_curve_csv(const SuccessCurve& curve) {
   return csv_table(table);
 }
 
-std::string verdicts_csv(const Verdicts& verdicts) {
+std::string verdicts_csv(const AcceptanceCurve& acceptance) {
   Table table{{{"variant"},
                {"sensor"},
                {"rotation", "deg"},
@@ -57,10 +57,10 @@ std::string verdicts_csv(const Verdicts& verdicts) {
                {"rejected_wrong"},
                {"failed"}},
               {}};
-  for (const VerdictRow& row : verdicts.rows) {
+  for (const AcceptanceRow& row : acceptance.rows) {
     for (std::size_t i = 0; i < row.at_thresholds.size(); ++i) {
-      const SuccessBounds& bounds = verdicts.thresholds[i];
-      const VerdictCounts& counts = row.at_thresholds[i];
+      const SuccessBounds& bounds = acceptance.thresholds[i];
+      const AcceptanceCounts& counts = row.at_thresholds[i];
       table.rows.push_back(cell_row(row.variant, name_of_sensor(row.sensor), bounds.rotation_deg,
                                     bounds.translation_m, counts.trials(), counts.accepted_right,
                                     counts.accepted_wrong, counts.rejected_right,

@@ -17,20 +17,19 @@ namespace croon::experiments {
 
 namespace {
 
-/// The columns with marks. Of the first two a row has one, see `share_column`.
+/// The columns with marks. A row has one of the first two, see `share_column`.
 constexpr const char* kSuccessColumn = "success_percent";
 constexpr const char* kAgreementColumn = "agreement_percent";
 constexpr const char* kRotationColumn = "rotation_median_deg";
 constexpr const char* kTranslationColumn = "translation_median_m";
 
-/// The index of the column with the share that counts for a row.
+/// The index of the column with the share of a row: success, or agreement without ground truth.
 std::size_t share_column(const Table& table, std::size_t row) {
   const bool lacks_truth = table.text_at(row, "reference") == name_of(DeviationsFrom::consensus);
   return table.index_of(lacks_truth ? kAgreementColumn : kSuccessColumn);
 }
 
-/// Ratio, low and high end of a share in percent; `share` is a function of a row whose result may
-/// be nothing.
+/// Adds a share in percent and the ends of its interval; `share` returns null for a row without it.
 template <class F>
 void add_percents(Columns<SummaryRow>& columns, const std::string& name, F share) {
   columns.add({name, "percent", "", 1, Better::greater}, [=](const SummaryRow& row) {
@@ -48,8 +47,8 @@ void add_percents(Columns<SummaryRow>& columns, const std::string& name, F share
   add_end("_high", &Interval::high);
 }
 
-/// Less is better. Of the digits that are shown: a reader who sees two equal numbers, one of them
-/// bold, would look for a reason.
+/// Smaller is better. Computed from the displayed digits, so that of two equal numbers never only
+/// one is bold.
 double rank(const Cell& cell, const Column& column) {
   const std::string text = shown_text(cell, column);
   double shown = 0.0;
@@ -58,7 +57,7 @@ double rank(const Cell& cell, const Column& column) {
 }
 
 /// Marks the best of each column among the rows [begin, end) of one sensor; `below` are the
-/// variants whose success is below the best.
+/// variants whose success is significantly or clearly below the best.
 void mark_best(Table& table, std::size_t begin, std::size_t end,
                const std::set<VariantSensor>& below) {
   const std::size_t success = share_column(table, begin);
@@ -70,8 +69,8 @@ void mark_best(Table& table, std::size_t begin, std::size_t end,
   for (std::size_t i = begin; i < end; ++i) {
     one_beats_base = one_beats_base || sign(i, success) == '+';
   }
-  // If a row succeeds significantly less often than another, its errors are those of the easier
-  // trials. What is neither better nor worse than the base is worse than what beats the base.
+  // If a row succeeds significantly less often than another, its errors are over easier trials. If
+  // another row beats the base, this also holds for a row that does not differ from the base.
   const auto is_of_easier_trials = [&](std::size_t row) {
     return sign(row, success) == '-' || (sign(row, success) == ' ' && one_beats_base) ||
            below.count({table.text_at(row, "variant"), table.text_at(row, "sensor")}) > 0;
@@ -79,7 +78,7 @@ void mark_best(Table& table, std::size_t begin, std::size_t end,
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
     const Column& column = table.columns[k];
     if (column.better == Better::neither) continue;
-    // Deviations without truth say how repeatable a method is, not how good.
+    // Without ground truth, deviations measure repeatability, not accuracy.
     const bool is_error = column.better != Better::greater;
     if (is_error && table.text_at(begin, "reference") != name_of(DeviationsFrom::truth)) continue;
     std::vector<Cell*> rivals;
@@ -107,7 +106,8 @@ void mark_best_of_each_sensor(Table& table, const std::set<VariantSensor>& below
 
 std::string mark_of(const PairedTest& test) {
   if (!is_significant(test)) return "";
-  return std::string(test.favours_variant ? "+" : "-") + (holds_by_scene(test) ? "**" : "*");
+  return std::string(test.favours_variant ? "+" : "-") +
+         (is_significant_by_scene(test) ? "**" : "*");
 }
 
 /// The name of a column with the paired difference of a distance, or with an end of its interval.
@@ -115,7 +115,7 @@ std::string paired_name(std::size_t measure, const std::string& what) {
   return std::string(kMeasures[measure].name) + "_paired_" + what;
 }
 
-/// Sets the paired difference of a row, and its interval.
+/// Sets the paired difference of a row and its interval.
 void set_paired(Table& table, std::size_t row, std::size_t measure,
                 const ErrorComparison& comparison) {
   const auto set = [&](const char* what, double value) {
@@ -141,7 +141,7 @@ void set_marks(Table& table, const std::vector<Comparison>& comparisons) {
       if (comparison.variant != table.text_at(i, "variant")) continue;
       if (comparison.sensor != table.text_at(i, "sensor")) continue;
       table.rows[i][share].mark = mark_of(comparison.success);
-      // Without truth these are tests of repeatability, which no column shows.
+      // Without ground truth these test repeatability, which no column shows.
       if (table.text_at(i, "reference") != name_of(DeviationsFrom::truth)) continue;
       mark(kRotationColumn, comparison.rotation_deg.test);
       mark(kTranslationColumn, comparison.translation_m.test);
@@ -151,15 +151,15 @@ void set_marks(Table& table, const std::vector<Comparison>& comparisons) {
   }
 }
 
-/// "48", or "12 to 48": the numbers of a column.
+/// The range of the numbers in a column: "48", or "12 to 48".
 std::string range_text(const Table& table, const std::string& column) {
   std::vector<long long> numbers;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     numbers.push_back(std::get<long long>(table.at(i, column).value));
   }
-  const auto [least, most] = std::minmax_element(numbers.begin(), numbers.end());
-  const std::string text = std::to_string(*least);
-  return *least == *most ? text : text + " to " + std::to_string(*most);
+  const auto [min, max] = std::minmax_element(numbers.begin(), numbers.end());
+  const std::string text = std::to_string(*min);
+  return *min == *max ? text : text + " to " + std::to_string(*max);
 }
 
 /// "2 scenes, 4 sensors, 2 variants, 10 starts of each: 160 trials; a row has 80 of 2 scenes."
@@ -182,7 +182,7 @@ std::string counts_sentence(const ExportTable& table) {
          (scenes == "1" ? " " + unit + "." : " " + unit + "s.");
 }
 
-/// The sentences of all experiments, each once; what names an experiment comes first.
+/// The sentences of all experiments, each once, beginning with those that name the experiments.
 std::vector<std::string> joined_sentences(const ExportTable& table) {
   std::vector<std::string> names, others;
   for (const ExportTable& part : table.parts) {
@@ -234,7 +234,7 @@ Columns<SummaryRow> export_columns() {
   }
   for (const std::size_t k : kDistances) {
     for (const char* what : {"difference", "low", "high"}) {
-      // Set after the comparison with the base. A digit more than the medians have, which may be
+      // Set after the comparison with the base. One digit more than the medians, which may be
       // equal.
       columns.add({paired_name(k, what), kMeasures[k].unit, "", kMeasures[k].decimals + 1},
                   [](const SummaryRow&) { return Cell(); });
@@ -276,8 +276,8 @@ ExportTable export_table(const Summary& summary, const ExportCaption& caption,
 
 namespace {
 
-/// Whether readers see a column whose full name has both parts: of a full table all, else those
-/// that were chosen.
+/// Whether readers see a column whose full name contains both parts. A full table shows all
+/// columns, otherwise only the chosen ones are shown.
 bool shows_column(const ExportTable& table, const std::string& part, const std::string& other) {
   if (table.chosen.empty()) return true;
   for (const ChosenColumn& chosen : table.chosen) {
@@ -302,38 +302,37 @@ std::vector<std::string> caption_sentences(const ExportTable& table) {
   sentences.insert(sentences.end(), builds.begin(), builds.end());
   const std::string bounds = "within " + bounds_text(table.bounds);
   if (has_deviations_from(table.table, DeviationsFrom::truth)) {
-    sentences.push_back("Success: " + bounds + "the truth; errors are those of these trials.");
+    sentences.push_back("Success: " + bounds + "ground truth; errors are over these trials.");
   }
   if (has_deviations_from(table.table, DeviationsFrom::consensus)) {
-    sentences.push_back("Agreement, if there is no truth: " + bounds +
-                        "what the trials of the scene agree on; deviations of these trials from "
-                        "what all scenes agree on.");
+    sentences.push_back("Agreement (no ground truth): " + bounds +
+                        "the consensus of the scene's trials; deviations of these trials are from "
+                        "the consensus of all scenes.");
   }
   if (shows_column(table, "_percent", "_low")) {
-    sentences.push_back("Interval: 95 %, over scenes (Wilson); none for fewer than " +
-                        std::to_string(kLeastScenes) + " scenes.");
+    sentences.push_back("Interval: 95 %, over scenes (Wilson); requires at least " +
+                        std::to_string(kMinScenes) + " scenes.");
   }
   if (table.variants.size() > 1) {
-    // The whole rule of `mark_best`.
+    // The complete rule of `mark_best`.
     const bool has_marks = !table.base.empty();
     sentences.push_back(
-        std::string("Bold: the best of the sensor") +
-        (has_marks ? " that is not marked -; for errors among those whose success is not marked -, "
-                     "is marked + if another's is, and is neither"
-                   : "; for errors among those whose success is neither") +
-        " more than 5 points nor significantly below the best; deviations without truth have "
-        "none.");
+        std::string("Bold: the best value of the sensor") +
+        (has_marks ? " not marked -; for errors among variants whose success is not marked -, "
+                     "is marked + if any is, and is neither"
+                   : "; for errors among variants whose success is neither") +
+        " more than 5 points nor significantly below the best; deviations without ground truth are "
+        "never bold.");
   }
   if (!table.base.empty()) {
     const bool has_paired = shows_column(table, "paired_low", "");
     sentences.push_back(
         "*: differs from " + table.base +
-        " over the same trials, those without a usable result as infinite errors (McNemar, "
-        "Wilcoxon; p < 0.05 after Holm over the variants of this table), + for the better, - for "
-        "the worse; **: also with scenes "
+        " over the same trials, with infinite errors for trials without a usable result (McNemar, "
+        "Wilcoxon; p < 0.05 after Holm correction over the variants of this table): + better, - "
+        "worse; **: also with scenes "
         "as units." +
-        (has_paired ? " Paired: the 95 % interval of the median difference from it, over scenes."
-                    : ""));
+        (has_paired ? " Paired: 95 % interval of the median paired difference, over scenes." : ""));
   }
   return sentences;
 }

@@ -29,8 +29,8 @@ std::string column_name(const Measure& measure, const char* statistic) {
   return statistic_column(measure, statistic).full_name();
 }
 
-/// Every column that can be chosen of a table with all statistics: counts, shares with their
-/// intervals, each measure as mean ± std, each statistic of each measure.
+/// All columns that can be chosen from a table with all statistics: counts, shares with their
+/// intervals, each measure as mean ± std, and each statistic of each measure.
 std::vector<ChosenColumn> column_choices(const Table& table) {
   std::vector<ChosenColumn> choices = {{"scenes", "", "scenes", {"scenes"}, Joint::none},
                                        {"trials", "", "trials", {"trials"}, Joint::none},
@@ -86,7 +86,7 @@ std::vector<ChosenColumn> chosen_columns(const Table& table, const Names& names)
   return chosen;
 }
 
-/// The table with these columns alone, in this order.
+/// The table with only these columns, in this order.
 Table projected(const Table& table, const Names& names) {
   Table result;
   result.rows.resize(table.rows.size());
@@ -101,7 +101,7 @@ Table projected(const Table& table, const Names& names) {
   return result;
 }
 
-/// Leaves the rows of the chosen sensors.
+/// Removes the rows of all other sensors.
 void choose_rows(ExportTable& table, const Names& sensors) {
   if (sensors.empty()) return;
   Names known = table.sensors;
@@ -142,7 +142,7 @@ std::string replaced(std::string text, const std::string& old, const std::string
   return text;
 }
 
-/// What a chosen column shows in a cell.
+/// The content of a cell in a chosen column.
 std::string content_of(const ChosenColumn& chosen, bool is_latex) {
   const std::string first = "<" + chosen.columns.front() + ">";
   if (chosen.joint == Joint::none) return first;
@@ -153,8 +153,8 @@ std::string content_of(const ChosenColumn& chosen, bool is_latex) {
   return first + (is_latex ? "\\,${}\\pm{}$\\," : " ± ") + second;
 }
 
-/// Removes the marks beside errors whose paired difference is not shown. Variants succeed in other
-/// trials, so their medians can differ the other way.
+/// Removes the marks of errors whose paired difference is not shown. Variants succeed in different
+/// trials, so their medians can differ in the opposite direction.
 void remove_unexplained_marks(ExportTable& table) {
   for (const std::size_t k : kDistances) {
     const std::string name = kMeasures[k].name;
@@ -169,7 +169,7 @@ void remove_unexplained_marks(ExportTable& table) {
   }
 }
 
-/// The names of the sensors, and of the experiments, whose rows are in the table.
+/// Whether the rows of the table differ in `column`.
 bool has_several(const Table& table, const char* column) {
   return std::any_of(table.rows.begin(), table.rows.end(), [&](const CellRow& row) {
     const std::size_t k = table.index_of(column);
@@ -181,7 +181,7 @@ bool has_several(const Table& table, const char* column) {
 
 namespace {
 
-/// Whether a row of `table` has a value in `column`, and whether all have one.
+/// Whether any, and whether all, rows of a table have a value in a column.
 struct Filled {
   bool any = false;
   bool all = true;
@@ -197,8 +197,8 @@ Filled filled(const Table& table, const std::string& column) {
   return filled;
 }
 
-/// The shares that tell how often the trials of `summaries` succeed: success, agreement for rows
-/// without truth, which have no success, or both.
+/// The shares needed to show the success of `summaries`: success, agreement for rows without ground
+/// truth (which have no success), or both.
 Names shares_of(const std::vector<Summary>& summaries) {
   std::vector<Table> tables;
   for (const Summary& summary : summaries) tables.push_back(export_table(summary, {}).table);
@@ -256,7 +256,7 @@ void choose(ExportTable& table, const TableChoice& choice) {
   table.is_one_column = choice.is_one_column;
   if (!choice.columns.empty()) {
     table.chosen = chosen_columns(table.table, choice.columns);
-    // Files have what the numbers are of, though readers may not see it as a column.
+    // Files always include the columns that identify a row, even if readers do not see them.
     Names names = {"variant", "sensor", "reference", "scenes", "trials"};
     for (const ChosenColumn& chosen : table.chosen) {
       names.insert(names.end(), chosen.columns.begin(), chosen.columns.end());
@@ -270,7 +270,7 @@ void choose(ExportTable& table, const TableChoice& choice) {
 
 namespace {
 
-/// What the rows of each experiment are called: its name; if two have one name, "NAME in FOLDER".
+/// The names of the experiments in a joined table; "NAME in FOLDER" for a duplicate name.
 Names names_of(const std::vector<ExportTable>& tables, const Names& folders) {
   Names names;
   for (std::size_t i = 0; i < tables.size(); ++i) {
@@ -295,8 +295,9 @@ ExportTable joined(std::vector<ExportTable> tables, const std::vector<std::strin
     if (table.bounds.rotation_deg != whole.bounds.rotation_deg ||
         table.bounds.translation_m != whole.bounds.translation_m) {
       throw InputError(folders[i], "",
-                       "expected success within " + bounds_text(whole.bounds) + "it, as in " +
-                           folders.front() + ", found " + bounds_text(table.bounds) + "it");
+                       "expected success within " + bounds_text(whole.bounds) +
+                           "ground truth, as in " + folders.front() + ", found " +
+                           bounds_text(table.bounds) + "ground truth");
     }
     for (CellRow& row : table.table.rows) {
       row.insert(row.begin(), to_cell(names[i]));
@@ -386,9 +387,9 @@ void refuse_too_wide(const ExportTable& table, const View& view) {
   constexpr double kDigit_mm = 4.0 / kPointsPerMm;
   constexpr double kLetter_mm = 3.5 / kPointsPerMm;
   constexpr double kSeparation_mm = 5.0 / kPointsPerMm;
-  constexpr double kJoint_mm = 8.0 / kPointsPerMm;  // "±", "--" and the space about them.
+  constexpr double kJoint_mm = 8.0 / kPointsPerMm;  // "±" or "--" with the space around it.
   const double page = table.is_one_column ? kOneColumn_mm : kTwoColumns_mm;
-  const auto widest = [&](std::size_t k, bool of_marks) {
+  const auto max_width_mm = [&](std::size_t k, bool of_marks) {
     std::size_t columns = 0;
     for (const CellRow& row : table.table.rows) {
       const std::string text = of_marks ? row[k].mark : shown_text(row[k], table.table.columns[k]);
@@ -397,15 +398,15 @@ void refuse_too_wide(const ExportTable& table, const View& view) {
     return kDigit_mm * static_cast<double>(columns);
   };
   const std::size_t name = table.table.index_of(view.columns.front().title);
-  double width = std::min(widest(name, false), kNameShare * page);
-  double of_group = 0.0;  // Neighbours with one title above them.
+  double width = std::min(max_width_mm(name, false), kNameShare * page);
+  double of_group = 0.0;  // Neighbouring columns with a common title.
   for (std::size_t i = 0; i < table.chosen.size(); ++i) {
     const ChosenColumn& chosen = table.chosen[i];
     double cells = chosen.joint == Joint::none ? 0.0 : kJoint_mm;
     for (const std::string& column : chosen.columns) {
       const std::size_t k = table.table.index_of(column);
-      const double marks = widest(k, true);
-      cells += widest(k, false) + marks + (marks > 0.0 ? kSeparation_mm : 0.0);
+      const double marks = max_width_mm(k, true);
+      cells += max_width_mm(k, false) + marks + (marks > 0.0 ? kSeparation_mm : 0.0);
     }
     const double title = kLetter_mm * static_cast<double>(text_columns(chosen.title));
     of_group += kSeparation_mm + std::max(cells, title);
@@ -414,12 +415,12 @@ void refuse_too_wide(const ExportTable& table, const View& view) {
     width += std::max(of_group, kSeparation_mm + group);
     of_group = 0.0;
   }
-  constexpr double kCertain = 0.97;  // Of the page; the estimate may be too low.
-  if (width <= kCertain * page) return;
+  constexpr double kUsablePage = 0.97;  // The estimate may be too low.
+  if (width <= kUsablePage * page) return;
   throw InputError("", "--columns",
-                   "these " + std::to_string(table.chosen.size()) + " columns want about " +
-                       fixed_number(std::ceil(width), 0) + " mm, the page has room for " +
-                       fixed_number(kCertain * page, 0) + " mm; choose fewer" +
+                   "these " + std::to_string(table.chosen.size()) + " columns need about " +
+                       fixed_number(std::ceil(width), 0) + " mm; the page is " +
+                       fixed_number(kUsablePage * page, 0) + " mm wide; choose fewer" +
                        (table.is_one_column ? " or --width two_columns" : ""));
 }
 

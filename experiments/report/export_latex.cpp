@@ -10,7 +10,7 @@ namespace croon::experiments {
 
 namespace {
 
-/// The two panels of an export, one above the other, because a page is too narrow for all columns.
+/// The two panels of an export, one below the other, because all columns do not fit the page width.
 std::vector<View> panels_of(const ExportTable& table) {
   const bool has_several = table.variants.size() > 1;
   View success{{{has_several || table.sensors.size() == 1 ? "variant" : "sensor"}}};
@@ -41,7 +41,7 @@ std::vector<View> panels_of(const ExportTable& table) {
   return {in_unit_of(table, success), in_unit_of(table, dofs)};
 }
 
-/// Letters, digits and what labels may have besides.
+/// A LaTeX label: characters that labels must not contain become "-".
 std::string label(std::string name) {
   for (char& c : name) {
     const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
@@ -52,7 +52,7 @@ std::string label(std::string name) {
   return "tab:" + name;
 }
 
-/// The first float has the caption and the label; the others have its number.
+/// Only the first float has the caption and the label; the others repeat its number.
 std::string caption_of(const ExportTable& table, bool is_first) {
   if (!is_first) {
     return "\\addtocounter{table}{-1}\n\\caption{" + latex_escaped(table.caption.name) +
@@ -77,9 +77,9 @@ std::string export_latex(const ExportTable& table) {
     panels = {chosen_view(table, true)};
     refuse_too_wide(table, panels.front());
   }
-  std::string text = "% Wants in the preamble: \\usepackage{booktabs,etoolbox,siunitx}\n";
-  text += table.is_one_column ? "% siunitx 2 or 3. For one column of a page that has two.\n"
-                              : "% siunitx 2 or 3. Spans both columns of a page that has two.\n";
+  std::string text = "% Requires in the preamble: \\usepackage{booktabs,etoolbox,siunitx}\n";
+  text += table.is_one_column ? "% siunitx 2 or 3. For one column of a two-column page.\n"
+                              : "% siunitx 2 or 3. Spans both columns of a two-column page.\n";
   const std::string environment = table.is_one_column ? "table" : "table*";
   const double name_share = table.chosen.empty() ? 0.16 : kNameShare;
   bool is_first = true;

@@ -143,9 +143,9 @@ std::string extrinsics_json(const Summary& summary,
   json["roll_pitch_yaw"] = "R = Rz(yaw) Ry(pitch) Rx(roll)";
   if (has_covariances) {
     json["covariance"] =
-        "covariance of the error (roll, pitch, yaw of T_estimate T_truth^-1, t_estimate - t_truth), rad and "
-        "m, "
-        "in the reference frame; for the pose of all scenes that of the mean of independent scenes "
+        "covariance of the error (roll, pitch, yaw of T_estimate T_truth^-1, t_estimate - "
+        "t_truth), rad and m, in the reference frame; for the pose of all scenes, of the mean of "
+        "independent scenes "
         "(docs/how_it_works.md)";
   }
   json["extrinsics"] = json_rows(extrinsics_columns(has_covariances).table(extrinsics));

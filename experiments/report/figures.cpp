@@ -78,8 +78,8 @@ const std::vector<Figure>& figures() {
        "a dataset with ground truth"},
       {"verdicts",
        [](const Results& results, const FigureOptions& options) -> std::optional<Drawing> {
-         if (!has_curve(results.verdicts)) return std::nullopt;
-         return verdict_chart(results.verdicts, results.summary.bounds, options);
+         if (!has_curve(results.acceptance)) return std::nullopt;
+         return acceptance_chart(results.acceptance, results.summary.bounds, options);
        },
        "a step that rejects trials, and a dataset with ground truth"}};
   return figures;
@@ -138,7 +138,7 @@ Results restricted(Results results, const TrialChoice& choice) {
                              : order.variants.size() * order.sensors.size() * order.scenes.size() *
                                    static_cast<std::size_t>(results.trials);
   results.summary = summarise(results.records, results.summary.bounds, order);
-  results.verdicts = verdicts_of(results.records, results.summary);
+  results.acceptance = acceptance_of(results.records, results.summary);
   results.coverage = coverage_of(results.records, results.summary);
   std::vector<Claim> claims;
   for (const ClaimResult& result : results.claims) claims.push_back(result.claim);

@@ -14,7 +14,7 @@ struct Figure {
   const char* name;
   /// std::nullopt if these results lack what the figure requires.
   std::optional<Drawing> (*draw)(const Results& results, const FigureOptions& options);
-  const char* wants;  ///< What results need for this figure, in words.
+  const char* requirement;  ///< What results need for this figure, in words.
 };
 
 /// All figures, by name. A new figure is a row here.

@@ -25,9 +25,10 @@ PanelGrid panel_grid(const Sheet& sheet, std::size_t panels, std::size_t columns
   grid.plot_width = grid.panel_width - grid.left - 1.5 * text;
   grid.plot_height = aspect * grid.plot_width;
   grid.panel_height = grid.plot_height + 5.2 * text;
-  double widest = 0.0;
-  for (const std::string& label : labels) widest = std::max(widest, text_width(label, text));
-  grid.legend_width = legend_line(sheet) + widest + 2.0 * text;
+  double max_label_width = 0.0;
+  for (const std::string& label : labels)
+    max_label_width = std::max(max_label_width, text_width(label, text));
+  grid.legend_width = legend_line(sheet) + max_label_width + 2.0 * text;
   grid.legend_line = 1.6 * text;
   const auto entries = static_cast<double>(std::max<std::size_t>(labels.size(), 1));
   const double fitting = std::floor((grid.width - grid.left) / grid.legend_width);
@@ -41,7 +42,7 @@ PanelGrid panel_grid(const Sheet& sheet, std::size_t panels, std::size_t columns
 
 Plot plot_of(const PanelGrid& grid, std::size_t index, const Interval& x_range,
              const Interval& y_range) {
-  const auto [row, column] = place_in_grid(index, grid.columns);
+  const auto [row, column] = position_in_grid(index, grid.columns);
   return {grid.left + column * grid.panel_width,
           grid.top + row * grid.panel_height,
           grid.plot_width,
@@ -85,7 +86,7 @@ void draw_series(Drawing& drawing, const Plot& plot, const std::vector<double>& 
 void draw_panel_legend(Drawing& drawing, const PanelGrid& grid,
                        const std::vector<std::string>& labels) {
   for (std::size_t i = 0; i < labels.size(); ++i) {
-    const auto [row, column] = place_in_grid(i, grid.legend_columns);
+    const auto [row, column] = position_in_grid(i, grid.legend_columns);
     draw_legend_entry(drawing, grid.left + grid.legend_width * column,
                       grid.legend_top + grid.legend_line * row, i, labels[i]);
   }

@@ -13,12 +13,12 @@
 namespace croon::experiments {
 
 /// The position of an entry in a grid that is filled row by row, both counted from zero.
-struct GridPlace {
+struct GridPosition {
   double row;
   double column;
 };
 
-inline GridPlace place_in_grid(std::size_t index, std::size_t columns) {
+inline GridPosition position_in_grid(std::size_t index, std::size_t columns) {
   const std::size_t row = index / columns;
   return {static_cast<double>(row), static_cast<double>(index - row * columns)};
 }
@@ -47,8 +47,8 @@ BoxOf box_of(const Summary& summary, std::size_t max_scenes, std::size_t max_kin
 
 /// One box per DOF: its name, colour and deviations.
 struct BoxSeries {
-  std::string label;       ///< Scene, kind or variant; empty if groups have only one box.
-  std::size_t colour = 0;  ///< Equal for equal labels in all groups.
+  std::string label;                 ///< Scene, kind or variant; empty if groups have only one box.
+  std::size_t colour = 0;            ///< Equal for equal labels in all groups.
   std::vector<Measures> deviations;  ///< Of the counted trials.
   int trials = 0;                    ///< Number of all trials.
 };
@@ -80,8 +80,8 @@ Drawing coverage_chart(const Coverage& coverage, const FigureOptions& options = 
 /// over the threshold above which a pose is wrong, in multiples of `bounds`. A panel for each of
 /// the four, with its own axis. A line per variant, over all sensors; for a single variant a line
 /// per sensor.
-Drawing verdict_chart(const Verdicts& verdicts, const SuccessBounds& bounds,
-                      const FigureOptions& options = {});
+Drawing acceptance_chart(const AcceptanceCurve& acceptance, const SuccessBounds& bounds,
+                         const FigureOptions& options = {});
 
 /// The maximum value that the axis of a measure has to show: three times the lower median of the
 /// boxes' longer whiskers, so that the boxes of bad variants do not flatten those of good ones; but

@@ -10,7 +10,7 @@
 namespace croon::experiments {
 namespace {
 
-constexpr double kMost = 0.25;  // Share of points in one bin, at the top of the axis.
+constexpr double kTopShare = 0.25;  // Share of points in one bin, at the top of the axis.
 
 /// The layout of the panels, in units of the sheet.
 struct RangesLayout {
@@ -57,18 +57,18 @@ RangesLayout layout_of(const Sheet& sheet, std::size_t sensors) {
 }
 
 /// Draws the frame of the `index`-th panel and returns its plot: bins on the x axis, shares of
-/// points, in multiples of `kMost`, on the y axis.
+/// points, in multiples of `kTopShare`, on the y axis.
 Plot draw_panel(Drawing& drawing, const RangesLayout& layout, std::size_t index,
                 const std::string& sensor) {
   const double text = drawing.sheet().small();
-  const auto [row, column] = place_in_grid(index, layout.columns);
+  const auto [row, column] = position_in_grid(index, layout.columns);
   const double left = layout.left + column * layout.panel_width;
   const double top = layout.top + row * (layout.plot_height + layout.gap);
   const Plot plot = {left,      top, layout.plot_width, layout.plot_height, {0.0, kRangeBins},
                      {0.0, 1.0}};
   drawing.text(left, top - 0.6 * text, sensor, Anchor::start, "title");
   for (const double share : {0.0, 0.05, 0.1, 0.15, 0.2, 0.25}) {
-    plot.draw_y_tick(drawing, share / kMost, fixed_number(100.0 * share, 0) + " %", 0.5 * text);
+    plot.draw_y_tick(drawing, share / kTopShare, fixed_number(100.0 * share, 0) + " %", 0.5 * text);
   }
   for (std::size_t bin = 0; bin < kRangeBins; bin += 8) {
     const double range_m = range_bin_m(bin);
@@ -85,7 +85,7 @@ void draw_line(Drawing& drawing, const Plot& plot, const Shares& sum, int count,
   std::vector<Corner> curve;
   for (std::size_t bin = 0; bin < kRangeBins; ++bin) {
     curve.push_back({plot.x(static_cast<double>(bin) + 0.5),
-                     plot.y(std::min(sum[bin] / count, kMost) / kMost)});
+                     plot.y(std::min(sum[bin] / count, kTopShare) / kTopShare)});
   }
   drawing.polyline(curve, "curve " + series_style(series));
   for (std::size_t bin = series % kMarkerEvery; bin < kRangeBins; bin += kMarkerEvery) {

@@ -78,10 +78,10 @@ Points points_of(const SensorScan& scan) {
 /// Replaces parts of the path `name` that are too long for a file name by their beginning and a
 /// digest.
 fs::path short_path(const fs::path& name) {
-  constexpr std::size_t kMostBytes = 200, kShownColumns = 40, kDigits = 16;
+  constexpr std::size_t kMaxPartBytes = 200, kShownColumns = 40, kDigits = 16;
   fs::path path;
   for (const std::string part : name) {
-    const bool is_short = part.size() <= kMostBytes;
+    const bool is_short = part.size() <= kMaxPartBytes;
     path /= is_short
                 ? part
                 : cut_to_columns(part, kShownColumns) + sha256_of_text(part).substr(0, kDigits);
@@ -123,8 +123,7 @@ std::string draw_before_after(const Experiment& experiment, const std::vector<Sc
     } catch (const UnavailableFile&) {
       throw;
     } catch (const InputError&) {
-      continue;  // The poses of a group may come from other scenes while this scene's clouds
-                // are damaged.
+      continue;  // The poses of a group may come from other scenes; this one's clouds are damaged.
     }
     write_png(path, *image);
     return group.name;

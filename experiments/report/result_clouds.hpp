@@ -23,8 +23,9 @@ std::string draw_before_after(const Experiment& experiment, const std::vector<Sc
 
 /// The outcome of write_fused_clouds.
 struct FusedClouds {
-  std::vector<std::string> complaints;  ///< A line per file that could not be written, with the reason.
-  bool is_any = false;                  ///< False if no trials agree, so that there are no clouds.
+  std::vector<std::string>
+      complaints;       ///< A line per file that could not be written, with the reason.
+  bool is_any = false;  ///< False if no trials agree, so that there are no clouds.
 };
 
 /// Writes the merged clouds of the rig for each variant and scene, in the reference frame, each

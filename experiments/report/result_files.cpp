@@ -77,12 +77,12 @@ const std::vector<ResultFile>& result_files() {
        }},
       {"verdicts.csv",
        [](const R& r) {
-         return has_curve(r.verdicts) ? Bytes(verdicts_csv(r.verdicts)) : std::nullopt;
+         return has_curve(r.acceptance) ? Bytes(verdicts_csv(r.acceptance)) : std::nullopt;
        }},
       {"verdicts.svg",
        [](const R& r) -> Bytes {
-         if (!has_curve(r.verdicts)) return std::nullopt;
-         return svg_bytes(verdict_chart(r.verdicts, r.summary.bounds));
+         if (!has_curve(r.acceptance)) return std::nullopt;
+         return svg_bytes(acceptance_chart(r.acceptance, r.summary.bounds));
        }},
       {"covariance.csv",
        [](const R& r) -> Bytes {
@@ -155,9 +155,10 @@ void refuse_hard_links(const fs::path& folder) {
   for (const fs::path& path : changed) {
     const std::uintmax_t names = fs::hard_link_count(path, error);
     if (error || names <= 1) continue;
-    throw InputError(path.string(), "",
-                     "expected a file with one name, found a hard link: the other file would change "
-                     "too; copy the folder without links, or choose another folder with --out");
+    throw InputError(
+        path.string(), "",
+        "expected a file with one name, found a hard link: the other file would change "
+        "too; copy the folder without links, or choose another folder with --out");
   }
 }
 
@@ -280,14 +281,14 @@ bool is_timing(const std::string& line) {
 /// Calls `use` with each complete line of the file `path`, if it exists. Lines longer than names of
 /// `kMaxNameBytes` allow, as in a damaged file, are skipped.
 void for_each_line(const fs::path& path, const std::function<void(const std::string&)>& use) {
-  constexpr std::streamsize kMostBytes = 10 * kMaxNameBytes;
+  constexpr std::streamsize kMaxLineBytes = 10 * kMaxNameBytes;
   std::error_code error;
   if (!fs::exists(fs::symlink_status(path, error))) return;
   std::ifstream stream;
   if (fs::is_regular_file(path, error)) stream.open(path, std::ios::binary);
   if (!stream.is_open()) throw UnavailableFile(path.string(), "", "expected a readable file");
-  std::string line(kMostBytes, '\0');
-  while (stream.getline(line.data(), kMostBytes) || stream.gcount() > 0) {
+  std::string line(kMaxLineBytes, '\0');
+  while (stream.getline(line.data(), kMaxLineBytes) || stream.gcount() > 0) {
     if (stream.eof()) return;  // Incomplete line.
     if (stream.good()) {
       use(line.substr(0, static_cast<std::size_t>(stream.gcount()) - 1));

@@ -72,8 +72,8 @@ std::set<std::string> last_timed_trials(const std::filesystem::path& path);
 /// The part of a row of timings.csv that identifies the trial.
 std::string timed_trial(const TrialId& id);
 
-/// The bytes of timings.csv of merged results: the rows of all `folders` that have the file, each
-/// row once, without lines of another form. Throws InputError if one of them is no file.
+/// The bytes of timings.csv of merged results: the rows of all `folders` that have the file,
+/// without duplicates and malformed lines. Throws InputError if one of them is not a file.
 std::string merged_timings(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace croon::experiments

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Ratio, low and high end of a share called `name`.
+/// Ratio and interval ends of a share called `name`.
 Columns<Share> share_columns(const std::string& name) {
   Columns<Share> columns;
   return columns.add({name, "ratio", "/" + name + "/ratio", 1}, &Share::ratio)
@@ -27,7 +27,7 @@ Columns<Share> share_columns(const std::string& name) {
            [](const Share& share) { return high_of(share.interval); });
 }
 
-/// `value` of a summary; nothing if it is known with truth alone and there is none.
+/// `value` of a summary; nothing if it requires ground truth and there is none.
 template <class T>
 auto with_truth(T value) {
   return [value](const TrialSummary& summary) {
@@ -36,7 +36,7 @@ auto with_truth(T value) {
   };
 }
 
-/// Trials by outcome, the shares of success and agreement.
+/// The numbers of trials by outcome, and the shares of success and agreement.
 Columns<TrialSummary> outcome_columns() {
   using S = TrialSummary;
   Columns<S> columns;
@@ -59,7 +59,7 @@ Columns<TrialSummary> outcome_columns() {
       });
 }
 
-/// Every statistic of every measure. `of` is put before the names: "usable_".
+/// Every statistic of every measure. `of` is a prefix of the names: "usable_".
 Columns<std::optional<StatisticsTable>> statistics_columns(const std::string& of = "") {
   Columns<std::optional<StatisticsTable>> columns;
   for (std::size_t k = 0; k < kMeasures.size(); ++k) {
@@ -74,7 +74,7 @@ Columns<std::optional<StatisticsTable>> statistics_columns(const std::string& of
   return columns;
 }
 
-/// The scenes of a summary by variant, sensor and scene.
+/// The scenes of a summary, found by variant, sensor and scene.
 class ScenesByName {
  public:
   explicit ScenesByName(const Summary& summary) : bounds_(pose_bounds(summary.bounds)) {
@@ -99,7 +99,7 @@ class ScenesByName {
 };
 
 Columns<TrialRecord> trial_columns(const ScenesByName& scenes) {
-  Columns<PoseError> errors;  // The two distances first, then the DOFs.
+  Columns<PoseError> errors;  // First the two distances, then the DOFs.
   for (const std::size_t k : {kRotation, kTranslation, 0UL, 1UL, 2UL, 3UL, 4UL, 5UL}) {
     errors.add({std::string(kMeasures[k].name) + "_error", kMeasures[k].unit},
                [k](const PoseError& error) { return measures_of(error)[k]; });
@@ -113,14 +113,14 @@ Columns<TrialRecord> trial_columns(const ScenesByName& scenes) {
       .add({"agrees"}, [&](const R& record) { return scenes.agrees(record); });
 }
 
-/// The trials that count, and their statistics.
+/// The number of counted trials and their statistics.
 Columns<TrialSummary> counted_columns() {
   Columns<TrialSummary> columns;
   return columns.add({"counted"}, &TrialSummary::counted)
       .add(statistics_columns(), &TrialSummary::statistics);
 }
 
-/// The columns of summary.csv; `consensus` is in JSON alone.
+/// The columns of summary.csv; `consensus` appears only in JSON.
 Columns<SummaryRow> summary_columns(const Columns<SummaryRow>& consensus = {}) {
   Columns<SummaryRow> columns;
   columns.add({"variant"}, &SummaryRow::variant)
@@ -151,7 +151,7 @@ Columns<PairedTest> test_columns(const std::string& name, const std::string& pat
       .add({name + "_p_by_scene_holm", "", path + "/p_by_scene_holm", 3},
            &PairedTest::p_by_scene_holm)
       .add({name + "_significant", "", path + "/is_significant"}, is_significant)
-      .add({name + "_by_scene", "", path + "/holds_by_scene"}, holds_by_scene);
+      .add({name + "_by_scene", "", path + "/holds_by_scene"}, is_significant_by_scene);
 }
 
 Columns<ErrorComparison> error_columns(const Measure& measure) {
@@ -197,7 +197,7 @@ Columns<DofComparison> dof_comparison_columns() {
                      [](const C& of) { return of.error.test; });
 }
 
-/// The loop over the poses that all scenes agree on.
+/// The closure of the loop over the poses that all scenes agree on.
 Columns<LoopGap> gap_columns() {
   Columns<LoopGap> columns;
   columns.add({"agreed_closed", "", "/agreed/is_closed"}, &LoopGap::is_closed);
@@ -282,8 +282,8 @@ Columns<CloudDescription> cloud_columns() {
 }
 
 Columns<ClaimResult> claim_columns() {
-  // One decimal more than the paper's tables have, so that a number at the end of its band shows on
-  // which side it is.
+  // One decimal more than the paper's tables, to show on which side of the end of its band a number
+  // lies.
   constexpr int kDecimals = 5;
   static constexpr int kPercentDecimals = 2;
   Columns<Claim> of_claim;
@@ -309,7 +309,7 @@ Columns<ClaimResult> claim_columns() {
   Columns<R> columns;
   return columns.add(of_claim, &R::claim)
       .add({"found", "", "", kDecimals}, found)
-      .add({"verdict"}, [](const R& result) { return verdict_name(result.verdict); })
+      .add({"verdict"}, [](const R& result) { return name_of(result.outcome); })
       .add({"trials"}, &R::trials)
       .add({"scenes"}, &R::scenes)
       .add({"success", "percent", "", 1}, &R::success_percent)

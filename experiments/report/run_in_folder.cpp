@@ -16,7 +16,7 @@
 namespace croon::experiments {
 namespace {
 
-/// The plan for each of the variants alone, one after the other.
+/// Splits the plan into one plan per variant, to be run one after the other.
 std::vector<Plan> one_by_one(const Plan& plan) {
   std::map<std::size_t, Plan> plans;
   for (const PlannedStart& start : plan.starts) {
@@ -32,7 +32,7 @@ std::vector<Plan> one_by_one(const Plan& plan) {
   return list;
 }
 
-/// Whether `scene` has a cloud that is damaged, or empty, in its file.
+/// Whether `scene` has a cloud whose file is damaged or empty.
 bool has_damage(const CheckedRun& run, const Scene& scene) {
   const auto is_damaged = [&](const SensorScan& scan) {
     return run.damaged_files.count(scan.file) > 0;
@@ -41,15 +41,15 @@ bool has_damage(const CheckedRun& run, const Scene& scene) {
          std::any_of(scene.sensors.begin(), scene.sensors.end(), is_damaged);
 }
 
-/// What is wrong with the clouds of the groups that are asked for. Their trials go on with the
-/// other scenes, so that no stored trial says it: each run has to.
+/// The damage of clouds in the requested groups. Their trials use the other scenes, so stored
+/// trials do not record it and every run has to report it.
 std::set<std::string> damage_in_groups(const CheckedRun& run) {
-  std::set<std::size_t> asked;
+  std::set<std::size_t> requested;
   for (const PlannedStart& start : plan_trials(run.experiment, run.groups, run.selection).starts) {
-    if (run.groups[start.scene].scenes.size() > 1) asked.insert(start.scene);
+    if (run.groups[start.scene].scenes.size() > 1) requested.insert(start.scene);
   }
   std::set<std::string> damage;
-  for (const std::size_t group : asked) {
+  for (const std::size_t group : requested) {
     for (const Scene& scene : run.groups[group].scenes) {
       if (!has_damage(run, scene)) continue;
       std::set<std::string> sensors;
@@ -62,8 +62,8 @@ std::set<std::string> damage_in_groups(const CheckedRun& run) {
   return damage;
 }
 
-/// Runs what is missing into the store. Returns a line for each cloud that was not available, and
-/// adds to `damage` what is wrong with those of groups.
+/// Runs the missing trials and stores them. Returns a line for each unavailable cloud, and adds to
+/// `damage` the damaged clouds of groups.
 std::vector<std::string> fill_store(const CheckedRun& run, const OutputFolder& folder,
                                     const Work& work, const FolderRun& how, Progress& progress,
                                     std::set<std::string>& damage) {
@@ -80,7 +80,7 @@ std::vector<std::string> fill_store(const CheckedRun& run, const OutputFolder& f
   std::vector<std::string> complaints;
   RunListener listener;
   listener.on_unavailable = [&](const Fault& fault) {
-    complaints.push_back(fault.line() + "; its trials are not stored, the next run runs them");
+    complaints.push_back(fault.line() + "; its trials are not stored, the next run repeats them");
   };
   listener.on_damaged = [&](const std::string& reason) { damage.insert(reason); };
   listener.on_scene = [&](const std::string& scene) {
@@ -103,8 +103,9 @@ std::vector<std::string> fill_store(const CheckedRun& run, const OutputFolder& f
   return complaints;
 }
 
-/// Whether a trial that is to run has a wall time, which is written after the trial is stored: the
-/// store has lost it. The last trials are looked at alone, which are in a store's log the longest.
+/// Whether a trial of the plan already has a wall time. Wall times are written after the trial is
+/// stored, so the store has lost it. Only checks the last trials, which stay longest in a store's
+/// log.
 bool has_lost_trials(const CheckedRun& run, const Plan& plan,
                      const std::filesystem::path& timings) {
   const std::set<std::string> timed = last_timed_trials(timings);
@@ -139,7 +140,7 @@ Work work_of(const CheckedRun& run, StoreHeader header, const FolderRun& how) {
   const std::vector<TrialIndex> done =
       how.fresh ? std::vector<TrialIndex>() : stored_trials(path, stored, header);
   Work work{{}, {}, plan_trials(run.experiment, run.groups, run.selection, done)};
-  // A build that adds no trial has no part in the results.
+  // A build that adds no trial does not contribute to the results.
   if (work.plan.trials == 0 && !stored.builds.empty()) header.builds.clear();
   work.header = continued(stored, std::move(header));
   work.stored = std::move(stored);
@@ -157,15 +158,15 @@ FolderResults run_in_folder(const CheckedRun& run, StoreHeader header, const Out
   std::set<std::string> damage;
   if (has_lost_trials(run, work.plan, folder.file(kTimings))) {
     progress_out << "croon: " << printable(folder.store().string())
-                 << ": trials that were stored are not in it: it is lost, or its log "
+                 << ": stored trials are missing: the store is lost, or its log "
                  << printable(folder.store().filename().string())
-                 << "-wal, which an interrupted run leaves beside it; they run again\n";
+                 << "-wal, which an interrupted run leaves beside it; the trials run again\n";
   }
   if (work.plan.trials > 0 || !is_same(work.stored, work.header)) {
     Progress progress(progress_out, how.progress, work.plan.trials + work.done);
     end.complaints = fill_store(run, folder, work, how, progress, damage);
   }
-  // Those that have just run have told of their clouds, also of such as are in no file.
+  // The trials of this run have already reported their damaged clouds, including simulated ones.
   on_threads(run.jobs, [&] { damage.merge(damage_in_groups(run)); });
   for (const std::string& reason : damage) {
     end.complaints.push_back(reason + "; its trials use the other scenes of the group");

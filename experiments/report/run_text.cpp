@@ -15,7 +15,7 @@ namespace croon::experiments {
 
 namespace {
 
-/// "21.6 (14.0 to 30.2)": the median, least and largest of the column `k` of `rows`; nothing if all
+/// "21.6 (14.0 to 30.2)": median, minimum and maximum of the column `k` of `rows`; nothing if all
 /// cells are empty.
 Cell range_cell(const std::vector<CellRow>& rows, std::size_t k, int decimals) {
   std::vector<double> values;
@@ -27,12 +27,12 @@ Cell range_cell(const std::vector<CellRow>& rows, std::size_t k, int decimals) {
   }
   if (values.empty()) return {};
   const auto text = [&](double value) { return fixed_number(value, decimals); };
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  const std::string range = " (" + text(*least) + " to " + text(*most) + ")";
+  const auto [min, max] = std::minmax_element(values.begin(), values.end());
+  const std::string range = " (" + text(*min) + " to " + text(*max) + ")";
   return to_cell(text(median(values)) + (values.size() > 1 ? range : ""));
 }
 
-/// The texts of a column, each once.
+/// The distinct texts of a column.
 std::vector<std::string> texts_of(const Table& table, const std::string& column) {
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
@@ -49,20 +49,19 @@ std::string result_text(const Results& results, bool colours) {
   style.colours = colours;
   std::string text;
   if (results.scenes_per_trial > 1) {
-    text = "a trial calibrates the rig from " + std::to_string(results.scenes_per_trial) +
-           " scenes; what is called a scene below is a group of so many\n";
+    text = "each trial calibrates the rig from " + std::to_string(results.scenes_per_trial) +
+           " scenes; a \"scene\" below is such a group\n";
   }
   text += summary_text(results.summary, style);
-  if (!results.verdicts.rows.empty()) {
-    text += "\nverdicts: what the program accepts and rejects; right: within " +
-            bounds_text(results.summary.bounds) + "the truth\n" +
-            verdicts_text(results.verdicts, style);
+  if (!results.acceptance.rows.empty()) {
+    text += "\nverdicts: poses that the program accepts and rejects; right: within " +
+            bounds_text(results.summary.bounds) + "ground truth\n" +
+            verdicts_text(results.acceptance, style);
   }
   if (!results.coverage.rows.empty()) {
     text +=
-        "\ncovariances: how often intervals hold the truth, of accepted trials, in % [95 % "
-        "interval "
-        "over scenes];\n  nees: the normalised squared error, whose median would be 5.35\n" +
+        "\ncovariances: intervals that contain ground truth, in % of accepted trials [95 % "
+        "interval over scenes];\n  nees: normalised squared error (expected median: 5.35)\n" +
         coverage_text(results.coverage, style);
   }
   if (results.basin) text += "\n" + basin_text(*results.basin, style);
@@ -73,7 +72,7 @@ std::string result_text(const Results& results, bool colours) {
   return text;
 }
 
-std::string verdicts_text(const Verdicts& verdicts, const TableStyle& style) {
+std::string verdicts_text(const AcceptanceCurve& acceptance, const TableStyle& style) {
   Table table{{{"variant"},
                {"sensor"},
                {"accepted, right"},
@@ -82,8 +81,8 @@ std::string verdicts_text(const Verdicts& verdicts, const TableStyle& style) {
                {"rejected, wrong"},
                {"failed"}},
               {}};
-  for (const VerdictRow& row : verdicts.rows) {
-    const VerdictCounts& counts = row.at_bounds;
+  for (const AcceptanceRow& row : acceptance.rows) {
+    const AcceptanceCounts& counts = row.at_bounds;
     table.rows.push_back(cell_row(row.variant, name_of_sensor(row.sensor), counts.accepted_right,
                                   counts.accepted_wrong, counts.rejected_right,
                                   counts.rejected_wrong, counts.failed));
@@ -162,12 +161,12 @@ std::string basin_text(const Basin& basin, const TableStyle& style) {
   View view = whole_view(table);
   view.columns.resize(shown);
   view.columns.push_back({"95 % interval", "[<low>, <high>]"});
-  const char* const what = basin.sweep.of == SweepOf::rotation ? "rotated by" : "moved by";
-  return "success in % of starts " + std::string(what) + " ... " + unit +
-         "; radius: up to there, at least " + fixed_number(100.0 * kBasinRatio, 0) +
-         " % at each level of the success at the first;\n  its interval: over scenes, none for "
-         "fewer than " +
-         std::to_string(kLeastScenes) + "\n" + text_table(table, view, style.colours);
+  const char* const change = basin.sweep.of == SweepOf::rotation ? "rotated by" : "moved by";
+  return "success in % for initial guesses " + std::string(change) + " ... " + unit +
+         "; radius: maximum size up to which each level has at least " +
+         fixed_number(100.0 * kBasinRatio, 0) +
+         " %\n  of the success at the first level; its interval: over scenes (requires at least " +
+         std::to_string(kMinScenes) + " scenes)\n" + text_table(table, view, style.colours);
 }
 
 std::string clouds_text(const std::vector<CloudDescription>& clouds) {

@@ -29,7 +29,7 @@ StagedFolder::StagedFolder(fs::path folder, const std::string& marker)
   }
   if (fs::is_empty(folder_) || fs::exists(folder_ / marker)) return;
   throw InputError(folder_.string(), "",
-                   "expected a new folder, or one with an earlier calibration, found one with "
+                   "expected a new folder or one with an earlier calibration, found one with "
                    "other files; choose another with --out");
 }
 

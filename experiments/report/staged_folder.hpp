@@ -6,23 +6,24 @@
 
 namespace croon::experiments {
 
-/// A folder of results whose files appear all at once: they are written to a folder beside it and
+/// A folder of results whose files appear all at once: they are written to a folder beside it, and
 /// moved when all are complete.
 class StagedFolder {
  public:
-  /// Throws InputError if `folder` cannot be used: it is a file, or it has files but not `marker`,
-  /// which earlier results have.
+  /// Throws InputError if `folder` cannot be used: it is a file, or it contains files but not
+  /// `marker`, which earlier results have.
   StagedFolder(std::filesystem::path folder, const std::string& marker);
-  /// Removes what was not published.
+  /// Deletes unpublished files.
   ~StagedFolder();
   StagedFolder(const StagedFolder&) = delete;
   StagedFolder& operator=(const StagedFolder&) = delete;
 
-  /// Makes the folder that files are written to. Throws InputError if it cannot be made.
+  /// Creates the folder that files are written to. Throws InputError if that fails.
   const std::filesystem::path& make_staging();
 
-  /// Moves all files to the folder, over files of the same names. Returns the other files of the
-  /// folder, which earlier results left, sorted. Throws InputError if one cannot be moved.
+  /// Moves all files to the folder, replacing files of the same names. Returns the sorted names of
+  /// the other files in the folder, left by earlier results. Throws InputError if one cannot be
+  /// moved.
   std::vector<std::string> publish();
 
  private:

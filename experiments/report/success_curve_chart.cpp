@@ -17,11 +17,11 @@ struct CurvePanel {
 };
 
 constexpr std::array kCurvePanels = {
-    CurvePanel{CurveOf::rotation, "rotation error at most, deg", &SuccessBounds::rotation_deg},
-    CurvePanel{CurveOf::translation, "translation error at most, m",
+    CurvePanel{CurveOf::rotation, "maximum rotation error, deg", &SuccessBounds::rotation_deg},
+    CurvePanel{CurveOf::translation, "maximum translation error, m",
                &SuccessBounds::translation_m}};
 
-/// The rows with a line, of one panel, each with its name.
+/// The rows of one panel that are drawn as lines, each with its name.
 std::vector<std::pair<std::string, const CurveRow*>> curve_lines(const SuccessCurve& curve,
                                                                  CurveOf of) {
   const bool is_one_variant = has_one_variant(curve.rows);
@@ -33,7 +33,7 @@ std::vector<std::pair<std::string, const CurveRow*>> curve_lines(const SuccessCu
   return lines;
 }
 
-/// The lines with a band: of sensors, whose bands overlap, that of all sensors alone.
+/// The lines with a band: bands of sensors overlap, so only the line of all sensors has one.
 std::vector<std::size_t> band_lines(const SuccessCurve& curve) {
   const auto lines = curve_lines(curve, CurveOf::rotation);
   if (lines.empty()) return {};
@@ -41,8 +41,8 @@ std::vector<std::size_t> band_lines(const SuccessCurve& curve) {
   return {lines.size() - 1};
 }
 
-/// Draws the frame of a panel: to the right the decimal logarithm of the threshold, upwards the
-/// share. The threshold in the middle is the success bound.
+/// Draws the frame of a panel: the decimal logarithm of the threshold on the x axis, the share on
+/// the y axis. The middle threshold is the success bound.
 void draw_curve_panel(Drawing& drawing, const Plot& plot, const std::string& title,
                       const std::vector<double>& exponents) {
   const double text = drawing.sheet().small();
@@ -60,7 +60,7 @@ void draw_curve_panel(Drawing& drawing, const Plot& plot, const std::string& tit
 }  // namespace
 
 Drawing success_curve_chart(const SuccessCurve& curve, const FigureOptions& options) {
-  constexpr const char* kTitle = "Trials within a threshold of the truth, in % of all trials";
+  constexpr const char* kTitle = "Trials within a threshold of ground truth, in % of all trials";
   constexpr double kAspect = 0.62;
   constexpr std::size_t kMarkerEvery = 4;
   std::vector<std::string> names;
@@ -68,7 +68,7 @@ Drawing success_curve_chart(const SuccessCurve& curve, const FigureOptions& opti
   const std::vector<std::string> labels = line_labels(names);
   const std::vector<std::size_t> with_band = band_lines(curve);
   const std::string explanation =
-      "The vertical line is the bound of success; " + band_sentence(labels, with_band);
+      "The vertical line is the success bound; " + band_sentence(labels, with_band);
   const Sheet& sheet = options.sheet;
   const FigureTitle title(kTitle, explanation, sheet, figure_width(sheet));
   const PanelGrid grid = panel_grid(sheet, kCurvePanels.size(), is_wide(sheet) ? 2 : 1, kAspect,

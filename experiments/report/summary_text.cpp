@@ -14,9 +14,8 @@ namespace croon::experiments {
 
 namespace {
 
-/// A table whose rows belong to variants: the variant of each row is in a
-/// column in front; in a heading if a name is long; not shown if there is one
-/// variant.
+/// A table whose rows belong to variants. The variant is in the first column, in a heading if a
+/// name is long, or omitted if there is only one variant.
 std::string text_by_variant(const Table& table, View view, const Summary& summary,
                             const TableStyle& style) {
   constexpr std::size_t kLongName = 16;
@@ -43,13 +42,13 @@ Columns<SummaryRow> row_columns() {
       .add(dof_columns("across_scenes_std"), &SummaryRow::across_scenes_std);
 }
 
-/// The p of a test, corrected, with its mark.
+/// The corrected p value of a test, with its mark.
 std::string p_text(const PairedTest& test) {
-  const char* mark = holds_by_scene(test) ? "**" : is_significant(test) ? "*" : "";
+  const char* mark = is_significant_by_scene(test) ? "**" : is_significant(test) ? "*" : "";
   return (test.p_holm < 0.001 ? "<0.001" : fixed_number(test.p_holm, 3)) + mark;
 }
 
-/// The median of the paired differences with its interval, if there is one.
+/// The median of the paired differences, with its interval if there is one.
 std::string difference_text(const ErrorComparison& error, const Measure& measure) {
   const auto text = [&](double value) { return fixed_number(value, measure.decimals + 1); };
   const std::string difference = text(error.paired_difference);
@@ -92,12 +91,11 @@ std::string loop_text(const Summary& summary, const TableStyle& style) {
   view.columns.push_back({"scenes", "<scenes_closed>/<scenes>"});
   view.columns.push_back({"agreed deg, m", "<agreed_rotation_deg>, <agreed_translation_m>"});
   return text_by_variant(loop_columns().table(summary.loops), view, summary, style) +
-         "scenes: closed over what the trials of the scene agree on; agreed: the loop over what "
-         "all "
-         "scenes agree on\n";
+         "scenes: loops over each scene's consensus that close; agreed: the loop over the "
+         "consensus of all scenes\n";
 }
 
-/// Adds a column for each title, which may be the name of another column too.
+/// Adds a column for each title; titles may coincide with names of other columns.
 void add_titled(Table& table, View& view, const std::vector<std::string>& titles, int decimals) {
   for (const std::string& title : titles) {
     const std::string name = "column " + std::to_string(table.columns.size());
@@ -106,7 +104,7 @@ void add_titled(Table& table, View& view, const std::vector<std::string>& titles
   }
 }
 
-/// The poses that all scenes agree on, of the rows without truth.
+/// The poses that all scenes agree on, for rows without ground truth.
 std::string agreed_text(const Summary& summary, const TableStyle& style) {
   Columns<SummaryRow> columns;
   columns.add({"variant"}, &SummaryRow::variant)
@@ -139,7 +137,7 @@ std::string scene_kind_text(const Summary& summary, const TableStyle& style) {
   for (const SceneKindSummary& kind : summary.scene_kinds) {
     percents[kind.sensor] = 100.0 * main_share(kind).ratio;
     if (!kind.sensor.empty()) continue;
-    // The row over all sensors is the last of its kind.
+    // The row over all sensors is the last one of its kind.
     CellRow row = cell_row(kind.variant, nothing_if_empty(kind.scene_kind), kind.scene_count,
                            kind.outcomes.trials, percents[""]);
     for (const std::string& sensor : sensors) {
@@ -152,18 +150,18 @@ std::string scene_kind_text(const Summary& summary, const TableStyle& style) {
 }
 
 /// The indices of the `count` worst scenes, ascending. `ratios` has the success of each scene by
-/// sensor; the worst has the least ratio of all sensors, then the least sum.
+/// sensor; scenes are ordered by the minimum ratio over sensors, then by the sum.
 std::vector<std::size_t> worst_of(const std::vector<std::map<std::string, double>>& ratios,
                                   std::size_t count) {
   std::vector<std::tuple<double, double, std::size_t>> order;
   for (std::size_t i = 0; i < ratios.size(); ++i) {
-    double least = std::numeric_limits<double>::infinity();
+    double min_ratio = std::numeric_limits<double>::infinity();
     double sum = 0.0;
     for (const auto& [sensor, ratio] : ratios[i]) {
-      least = std::min(least, ratio);
+      min_ratio = std::min(min_ratio, ratio);
       sum += ratio;
     }
-    order.emplace_back(least, sum, i);
+    order.emplace_back(min_ratio, sum, i);
   }
   std::sort(order.begin(), order.end());
   std::vector<std::size_t> worst;
@@ -174,8 +172,8 @@ std::vector<std::size_t> worst_of(const std::vector<std::map<std::string, double
   return worst;
 }
 
-/// Success per variant, scene (rows) and sensor (columns). Of more than `style.max_scenes` rows the
-/// worst are shown, in their order.
+/// Success per variant, scene (rows) and sensor (columns). If there are more than
+/// `style.max_scenes` rows, the worst are shown, in their original order.
 std::string scene_text(const Summary& summary, const TableStyle& style) {
   Table all{{{"variant"}, {"scene"}}, {}};
   View view{{{"scene"}}};
@@ -226,8 +224,8 @@ std::string reason_text(const Summary& summary, const TableStyle& style) {
   return text;
 }
 
-/// The columns of the rows, with the number of trials that each share is of: with ground truth in
-/// some scenes only, those of the other scenes are not judged.
+/// The columns of the rows, with the number of trials of each share: if only some scenes have
+/// ground truth, trials of the other scenes are not judged.
 Columns<SummaryRow> columns_with_trials() {
   Columns<SummaryRow> columns = row_columns();
   columns.add({"success_trials"}, [](const SummaryRow& row) { return row.success.trials; })
@@ -235,7 +233,7 @@ Columns<SummaryRow> columns_with_trials() {
   return columns;
 }
 
-/// The share, its interval, and how the other trials ended.
+/// The share, its interval, and the outcomes of the other trials.
 View outcomes_view(const Table& table) {
   View view{{{"sensor"}}};
   const auto add = [&](const std::string& title, const std::string& content = "") {
@@ -273,7 +271,7 @@ class SummaryText {
         has_scenes_(any_row([](const SummaryRow& row) { return row.scenes.size() > 1; })),
         bounds_("within " + bounds_text(summary.bounds)) {
     const std::vector<std::string> shares = share_names(table_);
-    share_ = shares.size() == 1 ? shares.front() : "success (no truth: agreement)";
+    share_ = shares.size() == 1 ? shares.front() : "success (no ground truth: agreement)";
   }
 
   std::string text() const {
@@ -295,14 +293,14 @@ class SummaryText {
     return text_by_variant(table_, view, summary_, style_);
   }
 
-  /// What the words and numbers below mean.
+  /// Explains the words and numbers below.
   std::string definitions() const {
     std::string text;
-    if (has_truth_) text += "success: " + bounds_ + "the truth; errors of those trials\n";
+    if (has_truth_) text += "success: " + bounds_ + "ground truth; errors of these trials\n";
     if (has_consensus_) {
-      text += "agreement (no truth): " + bounds_ +
-              "what the trials of the scene agree on;\n  deviations of those trials from what all "
-              "scenes agree on\n";
+      text += "agreement (no ground truth): " + bounds_ +
+              "the consensus of the scene's trials;\n  deviations of these trials from the "
+              "consensus of all scenes\n";
     }
     return text + "rotation, translation: median, 95th percentile\n";
   }
@@ -310,16 +308,16 @@ class SummaryText {
   std::string outcomes() const {
     std::string text = "\n" + text_by_variant(table_, outcomes_view(table_), summary_, style_);
     if (any_row([](const SummaryRow& row) { return !main_share(row).interval; })) {
-      text += "no interval: trials of one scene are alike, and there are fewer than " +
-              std::to_string(kLeastScenes) + " scenes\n";
+      text += "no interval: trials of one scene are dependent, and there are fewer than " +
+              std::to_string(kMinScenes) + " scenes\n";
     }
     if (!has_scenes_ || summary_.frames.empty()) return text;
-    return text + "\nframes: scenes in which every trial of all sensors succeeds\n" +
+    return text + "\nframes: scenes in which every trial of every sensor succeeds\n" +
            text_by_variant(frame_columns().table(summary_.frames), frames_view(), summary_, style_);
   }
 
   std::string deviations() const {
-    // Without truth deviations are from a mean of the trials: their own means are zero.
+    // Without ground truth deviations are from a mean of the trials, so their own means are zero.
     std::string text =
         has_truth_ ? "\nmean ± std\n" + dofs("<mean> ±<std>") : "\nstd\n" + dofs("<std>");
     if (has_scenes_ && any_row([](const SummaryRow& row) { return !!row.within_scene_std; })) {
@@ -332,12 +330,12 @@ class SummaryText {
   std::string comparisons() const {
     if (summary_.comparisons.empty()) return "";
     std::string text = "\nagainst " + summary_.comparisons.front().base +
-                       ", pair by pair: median difference [95 % interval over scenes], "
-                       "failures as infinite\n";
+                       ", paired by trial: median difference [95 % interval over scenes], "
+                       "failures are infinite errors\n";
     if (has_consensus_) {
       text +=
-          "  (no truth: of the distances to what the variant's own trials of the scene agree "
-          "on, so of how\n  repeatable it is, not how accurate)\n";
+          "  (no ground truth: distances to the consensus of the variant's own trials of the "
+          "scene, which\n  measure repeatability, not accuracy)\n";
     }
     return text + comparison_text(summary_, style_);
   }
@@ -347,7 +345,7 @@ class SummaryText {
     std::string text;
     if (!summary_.loops.empty()) {
       text += "\nloops: T_reference_target T_target_source " + bounds_ +
-              "T_reference_source; how far loops are from it\n" + loop_text(summary_, style_);
+              "T_reference_source; deviations of loops from it\n" + loop_text(summary_, style_);
     }
     if (!summary_.scene_kinds.empty()) {
       text += "\nby kind of scene: " + share_ + " in %\n" + scene_kind_text(summary_, style_);
@@ -358,7 +356,7 @@ class SummaryText {
 
   std::string agreed_poses() const {
     if (!has_consensus_) return "";
-    std::string text = "\nresult: T_reference_sensor that all scenes agree on; agreeing: trials " +
+    std::string text = "\nresult: consensus T_reference_sensor of all scenes; agreeing: trials " +
                        bounds_ +
                        "it;\n  spread: their root mean square distance from it "
                        "(extrinsics.json)\n" +
@@ -371,12 +369,12 @@ class SummaryText {
 
   const Summary& summary_;
   const TableStyle& style_;
-  Table table_;  ///< Of the rows, of which the views show parts.
+  Table table_;  ///< All rows; the views show parts of it.
   bool has_truth_;
   bool has_consensus_;
   bool has_scenes_;
   std::string bounds_;
-  std::string share_;  ///< What the shares of scenes and kinds are.
+  std::string share_;  ///< The name of the shares of scenes and kinds.
 };
 
 }  // namespace

@@ -9,28 +9,29 @@
 namespace croon::experiments {
 namespace {
 
-/// A panel: what it counts.
-struct VerdictPanel {
+/// A panel and the number that it shows.
+struct AcceptancePanel {
   const char* title;
-  int (*count)(const VerdictCounts& counts);
+  int (*count)(const AcceptanceCounts& counts);
 };
 
-constexpr std::array kVerdictPanels = {
-    VerdictPanel{"accepted and right",
-                 [](const VerdictCounts& counts) { return counts.accepted_right; }},
-    VerdictPanel{"accepted and wrong",
-                 [](const VerdictCounts& counts) { return counts.accepted_wrong; }},
-    VerdictPanel{"rejected and right",
-                 [](const VerdictCounts& counts) { return counts.rejected_right; }},
-    VerdictPanel{"rejected and wrong", [](const VerdictCounts& counts) {
-                   return counts.rejected_wrong + counts.failed;
-                 }}};
+constexpr std::array kAcceptancePanels = {
+    AcceptancePanel{"accepted and right",
+                    [](const AcceptanceCounts& counts) { return counts.accepted_right; }},
+    AcceptancePanel{"accepted and wrong",
+                    [](const AcceptanceCounts& counts) { return counts.accepted_wrong; }},
+    AcceptancePanel{"rejected and right",
+                    [](const AcceptanceCounts& counts) { return counts.rejected_right; }},
+    AcceptancePanel{"rejected and wrong", [](const AcceptanceCounts& counts) {
+                      return counts.rejected_wrong + counts.failed;
+                    }}};
 
-/// The rows with a line, each with its name.
-std::vector<std::pair<std::string, const VerdictRow*>> verdict_lines(const Verdicts& verdicts) {
-  const bool is_one_variant = has_one_variant(verdicts.rows);
-  std::vector<std::pair<std::string, const VerdictRow*>> lines;
-  for (const VerdictRow& row : verdicts.rows) {
+/// The rows drawn as lines, each with its name.
+std::vector<std::pair<std::string, const AcceptanceRow*>> acceptance_lines(
+    const AcceptanceCurve& acceptance) {
+  const bool is_one_variant = has_one_variant(acceptance.rows);
+  std::vector<std::pair<std::string, const AcceptanceRow*>> lines;
+  for (const AcceptanceRow& row : acceptance.rows) {
     const std::string name = line_name(row, is_one_variant);
     if (!name.empty()) lines.emplace_back(name, &row);
   }
@@ -38,17 +39,18 @@ std::vector<std::pair<std::string, const VerdictRow*>> verdict_lines(const Verdi
 }
 
 /// The share of the trials in the panel, over the thresholds, in %.
-std::vector<double> percents(const VerdictRow& row, const VerdictPanel& panel) {
+std::vector<double> percents(const AcceptanceRow& row, const AcceptancePanel& panel) {
   std::vector<double> shares;
-  for (const VerdictCounts& counts : row.at_thresholds) {
+  for (const AcceptanceCounts& counts : row.at_thresholds) {
     shares.push_back(100.0 * panel.count(counts) / counts.trials());
   }
   return shares;
 }
 
-/// Draws the frame of a panel: to the right the decimal logarithm of the threshold in bounds,
-/// upwards the share of all trials.
-void draw_verdict_panel(Drawing& drawing, const Plot& plot, const Axis& axis, const char* title) {
+/// Draws the frame of a panel: the decimal logarithm of the threshold divided by the bounds on the
+/// x axis, the share of all trials on the y axis.
+void draw_acceptance_panel(Drawing& drawing, const Plot& plot, const Axis& axis,
+                           const char* title) {
   const double text = drawing.sheet().small();
   for (const double tick : axis.ticks) {
     plot.draw_y_tick(drawing, tick, fixed_number(tick, axis.decimals), 0.7 * text,
@@ -61,45 +63,45 @@ void draw_verdict_panel(Drawing& drawing, const Plot& plot, const Axis& axis, co
 
 }  // namespace
 
-Drawing verdict_chart(const Verdicts& verdicts, const SuccessBounds& bounds,
-                      const FigureOptions& options) {
+Drawing acceptance_chart(const AcceptanceCurve& acceptance, const SuccessBounds& bounds,
+                         const FigureOptions& options) {
   constexpr const char* kTitle = "Right and wrong poses, accepted and rejected, in % of all trials";
   constexpr int kTicks = 4;
   constexpr std::size_t kMarkerEvery = 4;
-  const auto lines = verdict_lines(verdicts);
+  const auto lines = acceptance_lines(acceptance);
   std::vector<std::string> names;
   for (const auto& line : lines) names.push_back(line.first);
   const std::vector<std::string> labels = line_labels(names);
   const std::string explanation =
-      "A pose is wrong beyond a threshold, in multiples of the bounds " +
+      "A pose is wrong if its error exceeds the threshold, a multiple of the bounds " +
       shortest_number(bounds.rotation_deg) + " deg and " + shortest_number(bounds.translation_m) +
-      " m (vertical line); a trial without a pose is rejected and wrong";
+      " m (vertical line); a trial without a pose counts as rejected and wrong";
   const Sheet& sheet = options.sheet;
   const FigureTitle title(kTitle, explanation, sheet, figure_width(sheet));
-  const PanelGrid grid = panel_grid(sheet, kVerdictPanels.size(), 2, is_wide(sheet) ? 0.62 : 1.0,
+  const PanelGrid grid = panel_grid(sheet, kAcceptancePanels.size(), 2, is_wide(sheet) ? 0.62 : 1.0,
                                     labels, title.height());
   Drawing drawing(grid.width, grid.height, sheet);
   drawing.describe(std::string(kTitle) + ". " + explanation + ".");
   drawing.rectangle(0.0, 0.0, grid.width, grid.height, "page");
   title.draw(drawing, 0.5 * sheet.small(), 0.3 * sheet.small());
   std::vector<double> exponents;
-  for (const SuccessBounds& threshold : verdicts.thresholds) {
+  for (const SuccessBounds& threshold : acceptance.thresholds) {
     exponents.push_back(std::log10(threshold.rotation_deg / bounds.rotation_deg));
   }
-  for (std::size_t p = 0; p < kVerdictPanels.size(); ++p) {
-    // What is rare has an axis of its own: a share of a thousandth is what matters most.
-    double largest = 1.0;
+  for (std::size_t p = 0; p < kAcceptancePanels.size(); ++p) {
+    // Each panel has its own axis: rare outcomes matter most.
+    double max_share = 1.0;
     for (const auto& [name, row] : lines) {
-      const std::vector<double> shares = percents(*row, kVerdictPanels[p]);
-      largest = std::max(largest, *std::max_element(shares.begin(), shares.end()));
+      const std::vector<double> shares = percents(*row, kAcceptancePanels[p]);
+      max_share = std::max(max_share, *std::max_element(shares.begin(), shares.end()));
     }
-    const Axis axis = round_axis(0.0, largest, kTicks);
+    const Axis axis = round_axis(0.0, max_share, kTicks);
     const Plot plot =
         plot_of(grid, p, {exponents.front(), exponents.back()}, {axis.low, axis.high});
-    draw_verdict_panel(drawing, plot, axis, kVerdictPanels[p].title);
+    draw_acceptance_panel(drawing, plot, axis, kAcceptancePanels[p].title);
     draw_side_text(drawing, grid, p, plot, "share of all trials, %");
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      draw_series(drawing, plot, exponents, percents(*lines[i].second, kVerdictPanels[p]), i,
+      draw_series(drawing, plot, exponents, percents(*lines[i].second, kAcceptancePanels[p]), i,
                   kMarkerEvery);
     }
   }

@@ -8,7 +8,7 @@
 namespace croon::experiments {
 namespace {
 
-/// The channels that are needed of a cloud, each with the step and variant that needs it first.
+/// The channels needed from a cloud, each with the first step and variant that needs it.
 using Needs = std::map<std::string, std::string>;
 
 struct NeedsOfClouds {
@@ -32,12 +32,13 @@ NeedsOfClouds needs_of(const Experiment& experiment, const Selection& selection)
   return needs;
 }
 
-/// What clouds lack: the first of each sensor and channel, and how many more.
+/// Collects missing channels: the first cloud for each sensor and channel, and the number of
+/// clouds.
 class Lacking {
  public:
   explicit Lacking(std::string file) : file_(std::move(file)) {}
 
-  /// Notes which of `needs` the cloud of `scan` does not have.
+  /// Notes which of `needs` the cloud of `scan` lacks.
   void look_at(const SensorScan& scan, const Needs& needs) {
     if (!scan.channels) return;
     const std::vector<std::string>& found = *scan.channels;
@@ -71,12 +72,12 @@ class Lacking {
     Fault fault;
     std::size_t clouds = 0;
   };
-  std::string file_;  ///< Of the experiment.
+  std::string file_;  ///< The experiment file.
   std::map<std::pair<std::string, std::string>, Entry> entries_;
 };
 
-/// Notes what the clouds of `group` lack. With pairs of sensors the cloud of one is also a target:
-/// of all but the last sensor of a scene.
+/// Notes the channels missing in the clouds of `group`. With pairs of sensors, the clouds of all
+/// but the last sensor of a scene are also targets.
 void look_at(const SceneGroup& group, bool loops, const NeedsOfClouds& needs, Lacking& lacking) {
   Needs both = needs.source;
   both.insert(needs.target.begin(), needs.target.end());

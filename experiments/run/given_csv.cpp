@@ -15,8 +15,8 @@
 namespace croon::experiments {
 namespace {
 
-/// The field of a line of RFC 4180 that begins at `at`, without its quotes; `at` is then behind it,
-/// at a comma or the end. A quote is the first and the last character of a field or none.
+/// Reads the field of a line (RFC 4180) that begins at `at`, without its quotes, and moves `at`
+/// behind it, to a comma or the end. A field has quotes at both ends or none.
 std::string next_field(const std::string& line, std::size_t& at) {
   if (at >= line.size() || line[at] != '"') {
     const std::size_t end = std::min(line.find(',', at), line.size());
@@ -33,7 +33,7 @@ std::string next_field(const std::string& line, std::size_t& at) {
   }
   if (at >= line.size()) refuse("a second quote", in_quotes(line));
   if (++at < line.size() && line[at] != ',') {
-    refuse("a comma behind the quotes around a field", in_quotes(line.substr(at)));
+    refuse("a comma after a quoted field", in_quotes(line.substr(at)));
   }
   return field;
 }
@@ -45,7 +45,7 @@ std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
-/// Spreadsheets write it before the first line.
+/// Spreadsheets write this before the first line.
 const std::string kByteOrderMark = "\xef\xbb\xbf";
 
 std::string_view without_byte_order_mark(std::string_view bytes) {
@@ -61,7 +61,7 @@ std::string any_of(const std::vector<std::string>& headers) {
   return text;
 }
 
-/// The hint at the nearest path to `name` below one of `folders`; empty if none is near.
+/// A hint at the path below one of `folders` that is nearest to `name`; empty if none is near.
 std::string nearest_of(const std::string& name, const std::vector<std::filesystem::path>& folders) {
   for (const std::filesystem::path& folder : folders) {
     const std::string hint = missing_path_hint(folder.empty() ? "." : folder, name);
@@ -85,10 +85,10 @@ bool begins_with_header(const std::filesystem::path& path, const std::string& he
   return file_begins_with(path, header) || file_begins_with(path, kByteOrderMark + header);
 }
 
-double bounded_number(const std::string& text, double most, const std::string& unit) {
+double bounded_number(const std::string& text, double max_size, const std::string& unit) {
   const double number = finite_number(text);
-  if (std::abs(number) <= most) return number;
-  const std::string bound = fixed_number(most, 0);
+  if (std::abs(number) <= max_size) return number;
+  const std::string bound = fixed_number(max_size, 0);
   refuse("a number from -" + bound + " to " + bound + " " + unit, in_quotes(text));
 }
 

@@ -12,10 +12,10 @@
 namespace croon::experiments {
 namespace {
 
-/// The poses of a file by scene, sensor and trial; trial -1 is any trial.
+/// The poses of a file by scene, sensor and trial; -1 stands for all trials.
 using PoseTable = std::map<std::tuple<std::string, std::string, int>, RigidTransform>;
 
-/// Takes the pose of the trial from a table.
+/// Sets the pose to that of the trial in a table.
 class GivenPoses final : public Step {
  public:
   explicit GivenPoses(PoseTable poses) : poses_(std::move(poses)) {}
@@ -35,7 +35,7 @@ class GivenPoses final : public Step {
   PoseTable poses_;
 };
 
-/// The step that takes the poses of a file, and the digest of the file.
+/// The step with the poses of a file, and the digest of the file.
 struct PosesStep {
   std::shared_ptr<const Step> step;
   std::string sha256;
@@ -54,7 +54,7 @@ PosesStep read_step(const std::filesystem::path& path, const DatasetNames& names
   return {std::make_shared<const GivenPoses>(std::move(table)), sha256};
 }
 
-/// Puts the step before the other steps of `variant`.
+/// Inserts the step before the other steps of `variant`.
 void add_step(Variant& variant, const PosesStep& poses) {
   const std::string members = "\"step\":\"poses\",\"sha256\":\"" + poses.sha256 + "\"}";
   variant.pipeline.insert(
@@ -71,7 +71,7 @@ void resolve_poses(Experiment& experiment, const std::vector<SceneGroup>& groups
                    const std::filesystem::path& data_root) {
   const DatasetNames names(groups);
   std::vector<Fault> faults;
-  std::map<std::filesystem::path, PosesStep> steps;  // Of the files that were read.
+  std::map<std::filesystem::path, PosesStep> steps;  // By the path of the file.
   for (Variant& variant : experiment.variants) {
     if (variant.poses.name.empty()) continue;
     collect_faults(faults, [&] {

@@ -7,8 +7,8 @@
 
 namespace croon::experiments {
 
-/// Reads the files of poses that variants of `experiment` name. Each such variant gets a first step
-/// "poses", which takes the pose of the trial from the file; the trial fails if the file has none.
+/// Reads the files of poses named by variants of `experiment`. Each such variant gets a first step
+/// "poses", which sets the pose of the trial from the file; the trial fails if the file has none.
 /// The step's parameter is the digest of the file. The files are added to Experiment::files. Throws
 /// InputError with the faults of all files.
 void resolve_poses(Experiment& experiment, const std::vector<SceneGroup>& groups,

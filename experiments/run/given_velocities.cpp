@@ -12,14 +12,14 @@
 namespace croon::experiments {
 namespace {
 
-/// A field along (0 to 2) or about (3 to 5) an axis, at most as large as those of a car.
+/// The velocity along (0 to 2) or about (3 to 5) an axis, limited to the velocities of cars.
 double velocity(const std::string& text, int index) {
   return index < 3 ? bounded_number(text, kMaxSpeed_mps, "m/s")
                    : bounded_number(text, kMaxTurnRate_degps, "deg/s");
 }
 
-/// The six numbers from the field `first` on: along the axes, then about them in degrees per
-/// second. The result begins with those about them, in radians per second.
+/// Reads six numbers starting at field `first`: velocities along the axes, then about them in
+/// degrees per second. In the result the latter come first, in radians per second.
 Vector6d six_numbers(const std::vector<std::string>& fields, std::size_t first) {
   Vector6d numbers;
   for (int i = 0; i < 6; ++i) {
@@ -43,7 +43,7 @@ GivenMotion motion_of(const CsvLine& line) {
   return motion;
 }
 
-/// The faults of a file that lacks scenes.
+/// The faults of a file with missing scenes.
 std::vector<Fault> missing(const GivenMotions& motions, const std::vector<std::string>& scenes,
                            const std::string& file) {
   std::vector<Fault> faults;
@@ -55,7 +55,8 @@ std::vector<Fault> missing(const GivenMotions& motions, const std::vector<std::s
   return faults;
 }
 
-/// Hands `table` to the step `named` of `variant`, whose parameters then have its digest.
+/// Passes `table` to the step `named` of `variant`, and adds the digest of the file to the
+/// parameters of the step.
 void hand_over(Variant& variant, NamedStep& named, const GivenMotionStep& step,
                const VelocityTable& table) {
   const std::string before = named.step.resolved();
@@ -66,8 +67,8 @@ void hand_over(Variant& variant, NamedStep& named, const GivenMotionStep& step,
   named.step =
       params::Slot<Step>(params::BuiltStage{step.with(table.motions), named.step.name(), after,
                                             named.step.versions(), named.step.flow()});
-  // In the list of steps the name of the step comes first: a step of these parameters may be there
-  // twice.
+  // In the list of steps, the step's name comes first, because another step may have the same
+  // parameters.
   const std::string head = "{\"name\":\"" + named.name + "\",";
   const std::size_t at = variant.resolved.find(head + before.substr(1));
   if (at != std::string::npos) {
@@ -81,16 +82,16 @@ std::vector<std::string> names_of(const std::vector<Scene>& scenes) {
   return names;
 }
 
-/// The files that were read, by their paths.
+/// The files already read, by path.
 using Tables = std::map<std::filesystem::path, VelocityTable>;
 
 void resolve_step(Experiment& experiment, Variant& variant, NamedStep& named, Tables& tables,
                   const std::vector<SceneGroup>& groups, const std::filesystem::path& data_root) {
-  // Keeps the step while its successor is made.
+  // Keeps the step alive while its replacement is created.
   const params::Slot<Step> kept = named.step;
   const auto* const step = dynamic_cast<const GivenMotionStep*>(&*kept);
   if (step == nullptr) return;
-  const Fault at = {experiment.file, place_of(experiment, variant, named), ""};
+  const Fault at = {experiment.file, location_of(experiment, variant, named), ""};
   const GivenMotionStep::File file = step->file();
   if (file.name.empty()) return;
   const std::filesystem::path path =
@@ -113,7 +114,7 @@ void resolve_step(Experiment& experiment, Variant& variant, NamedStep& named, Ta
   hand_over(variant, named, *step, table);
 }
 
-/// `first`, then a column for each number of a velocity.
+/// `first`, followed by a column for each number of a velocity.
 std::string with_columns(std::string first, std::string (VelocityNumber::*column)() const) {
   for (const VelocityNumber& number : velocity_numbers()) first += "," + (number.*column)();
   return first;

@@ -3,7 +3,7 @@
 namespace croon::experiments {
 namespace {
 
-/// The index of the scan of `sensor` in LoadedScene::scans; their number if there is none.
+/// The index of the scan of `sensor` in LoadedScene::scans; the number of scans if there is none.
 std::size_t scan_index(const Scene& scene, const std::string& sensor) {
   return scene.reference.sensor == sensor ? 0 : 1 + index_of(scene, sensor);
 }
@@ -13,7 +13,7 @@ std::size_t scan_index(const Scene& scene, const std::string& sensor) {
 std::optional<CloudPair> cloud_pair(const LoadedScene& loaded, const SensorPair& pair) {
   const std::size_t target = scan_index(*loaded.scene, pair.target);
   const std::size_t source = scan_index(*loaded.scene, pair.source);
-  // A sensor is calibrated to those before it, in the order of the scene.
+  // Targets of a sensor are the sensors before it in the scene.
   if (source == loaded.scans.size() || target >= source) return std::nullopt;
   return CloudPair{&loaded.scans[target], &loaded.scans[source]};
 }

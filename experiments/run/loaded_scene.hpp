@@ -9,14 +9,14 @@
 
 namespace croon::experiments {
 
-/// The clouds of `pair`; std::nullopt if the scene does not have the pair.
+/// The clouds of `pair`; std::nullopt if the scene lacks one of its sensors.
 struct CloudPair {
   const LoadedScan* target = nullptr;
   const LoadedScan* source = nullptr;
 };
 std::optional<CloudPair> cloud_pair(const LoadedScene& loaded, const SensorPair& pair);
 
-/// The times of what was done once for the clouds.
+/// The times of computations done once per cloud.
 std::vector<TimingRow> scene_timings(const LoadedScene& loaded);
 
 }  // namespace croon::experiments

@@ -9,7 +9,7 @@ bool is_same(const NamedStep& a, const NamedStep& b) {
   return a.name == b.name && a.step.resolved() == b.step.resolved();
 }
 
-/// The branch of `tree` that begins with `step`; adds it if there is none.
+/// The branch of `tree` that begins with `step`; added if missing.
 PipelineTree& branch_of(PipelineTree& tree, const NamedStep& step) {
   const auto found =
       std::find_if(tree.branches.begin(), tree.branches.end(),

@@ -22,8 +22,8 @@ int trial_number(const std::string& text) {
   return static_cast<int>(*number);
 }
 
-/// The quaternion with unit length. If only rounding keeps it from unit length it keeps its bits,
-/// so that a start is read as it was written.
+/// Normalises the quaternion; one that has unit length except for rounding keeps its bits, so that
+/// a start is read exactly as written.
 Eigen::Quaterniond unit(const Eigen::Quaterniond& q) {
   const double length = q.norm();
   if (std::abs(length - 1.0) > kUnitTolerance) {
@@ -33,7 +33,7 @@ Eigen::Quaterniond unit(const Eigen::Quaterniond& q) {
   return std::abs(length - 1.0) <= kRounding ? q : q.normalized();
 }
 
-/// The parts of a line. Throws InputError: expected ..., found ...
+/// Parses a line. Throws InputError("expected ..., found ...").
 PoseLine read_line(const CsvLine& csv) {
   const bool has_trial = csv.header == kStartHeader;
   const std::vector<std::string>& fields = csv.fields;

@@ -10,11 +10,11 @@
 
 namespace croon::experiments {
 
-/// The first line of a file of poses `T_reference_sensor`; each line after it is one pose. `croon
+/// The header of a file of poses `T_reference_sensor`; each further line is one pose. `croon
 /// starts` writes this format.
 inline constexpr const char* kStartHeader = "scene,sensor,trial,tx_m,ty_m,tz_m,qx,qy,qz,qw";
 
-/// The first line of a file with one pose for all trials of a sensor in a scene.
+/// The header of a file with one pose per scene and sensor for all trials.
 inline constexpr const char* kPoseHeader = "scene,sensor,tx_m,ty_m,tz_m,qx,qy,qz,qw";
 
 /// A line of a file of poses.
@@ -25,16 +25,16 @@ struct PoseLine {
   Start pose;
 };
 
-/// The scenes or groups of a dataset and what is calibrated in them, by name.
+/// The names of the scenes or groups of a dataset and of the sensors or pairs calibrated in them.
 class DatasetNames {
  public:
   explicit DatasetNames(const std::vector<SceneGroup>& groups);
 
-  /// Whether the dataset has the scene, and the scene the sensor.
+  /// Whether the dataset has the scene, and the scene has the sensor.
   bool has(const std::string& scene, const std::string& sensor) const;
 
-  /// Throws InputError, with the nearest name, unless `has`. Finding the nearest of many names
-  /// takes long.
+  /// Throws InputError, with the nearest name, unless `has`. Finding the nearest of many names is
+  /// slow.
   void check(const std::string& scene, const std::string& sensor) const;
 
  private:
@@ -44,7 +44,7 @@ class DatasetNames {
 
 /// Reads the file of poses `path` of the dataset with `names`, whose first line must be one of
 /// `headers`, and calls `add` for each pose. Returns the SHA-256 of the file. Throws one InputError
-/// with the first faults of the lines; an InputError of `add` is a fault of its line.
+/// with the first faults of the lines; an InputError thrown by `add` is a fault of its line.
 std::string read_pose_file(const std::filesystem::path& path,
                            const std::vector<std::string>& headers, const DatasetNames& names,
                            const std::function<void(const PoseLine&)>& add);

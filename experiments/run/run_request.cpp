@@ -18,7 +18,7 @@
 namespace croon::experiments {
 namespace {
 
-/// Throws InputError if a claim names a sensor that does not exist: it would never be measured.
+/// Throws InputError if a claim names an unknown sensor: the claim would never be measured.
 void check_claimed_sensors(const Experiment& experiment, const std::vector<std::string>& sensors) {
   std::vector<Fault> faults;
   for (const Claim& claim : experiment.claims) {
@@ -33,8 +33,8 @@ void check_claimed_sensors(const Experiment& experiment, const std::vector<std::
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
-/// Throws InputError if a parameter of a step is of a sensor that no scene has: it would do
-/// nothing.
+/// Throws InputError if a parameter of a step is for a sensor that no scene has: it would have no
+/// effect.
 void check_sensors_of_steps(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                             const Selection& selection) {
   std::vector<std::string> sensors;
@@ -49,13 +49,13 @@ void check_sensors_of_steps(const Experiment& experiment, const std::vector<Scen
     }
   }
   std::vector<Fault> faults;
-  std::set<std::pair<std::string, std::string>> said;  // Most variants share their steps.
+  std::set<std::pair<std::string, std::string>> reported;  // Most variants share their steps.
   for (const std::size_t index : selection.variants) {
     const Variant& variant = experiment.variants[index];
     for (const NamedStep& step : variant.pipeline) {
       for (const std::string& sensor : step.step.flow().named_sensors) {
-        if (known.count(sensor) > 0 || !said.emplace(step.name, sensor).second) continue;
-        faults.push_back({experiment.file, place_of(experiment, variant, step),
+        if (known.count(sensor) > 0 || !reported.emplace(step.name, sensor).second) continue;
+        faults.push_back({experiment.file, location_of(experiment, variant, step),
                           "expected a sensor of the dataset, found " + in_quotes(sensor) +
                               name_hint(sensor, sensors)});
       }
@@ -66,8 +66,8 @@ void check_sensors_of_steps(const Experiment& experiment, const std::vector<Scen
 
 }  // namespace
 
-std::filesystem::path data_root(const std::filesystem::path& asked) {
-  if (!asked.empty()) return asked;
+std::filesystem::path data_root(const std::filesystem::path& requested) {
+  if (!requested.empty()) return requested;
   const char* const set = std::getenv("CROON_DATA");
   return set != nullptr && *set != '\0' ? set : "data";
 }
@@ -87,7 +87,7 @@ CheckedRun check_run(const RunRequest& request, const Catalogue& catalogue) {
   });
   collect_faults(faults, [&] {
     run.groups = scene_groups(run.experiment, run.data_root);
-    // Each says what is wrong whatever the others find.
+    // Each check reports its faults independently of the others.
     collect_faults(faults, [&] {
       resolve_starts(run.experiment, run.groups, run.data_root);
       check_plan_size(run.experiment, run.groups, run.selection);

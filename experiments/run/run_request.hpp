@@ -11,14 +11,14 @@
 
 namespace croon::experiments {
 
-/// The data root: `asked`; if it is empty, the folder CROON_DATA, else data/.
-std::filesystem::path data_root(const std::filesystem::path& asked);
+/// The data root: `requested`; if it is empty, the folder CROON_DATA, else data/.
+std::filesystem::path data_root(const std::filesystem::path& requested);
 
-/// Which trials of which experiment are asked for.
+/// The requested trials of an experiment.
 struct RunRequest {
   std::filesystem::path experiment;
   std::vector<std::filesystem::path> with = {};  ///< Workloads, see load_experiment.
-  std::optional<std::string> text = {};  ///< JSON in the place of the file's; see parse_experiment.
+  std::optional<std::string> text = {};  ///< JSON to use instead of the file; see parse_experiment.
   std::filesystem::path out;             ///< Empty: results/<name>.
   std::filesystem::path data;            ///< Empty: CROON_DATA, else data/.
   int jobs = 0;                          ///< 0: all cores.
@@ -27,7 +27,7 @@ struct RunRequest {
   std::string shard;  ///< "K/N"; empty: all.
 };
 
-/// A run that was checked as far as possible before anything is written.
+/// A run whose request has been checked as far as possible without writing.
 struct CheckedRun {
   Experiment experiment;
   Selection selection;
@@ -35,7 +35,7 @@ struct CheckedRun {
   std::vector<SceneGroup> groups;
   std::filesystem::path out;
   int jobs = 1;
-  std::set<std::string> damaged_files = {};  ///< Of clouds; known when all have been read once.
+  std::set<std::string> damaged_files = {};  ///< Clouds; known once all have been read.
 };
 
 /// Reads and checks the request. Throws InputError with all faults.

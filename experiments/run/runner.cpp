@@ -22,14 +22,14 @@
 namespace croon::experiments {
 namespace {
 
-/// The part of a plan that is one scene's, or one group's.
+/// The part of a plan for one scene or one group of scenes.
 struct ScenePlan {
   const PlannedStart* begin = nullptr;
   const PlannedStart* end = nullptr;
 };
 
 /// Planned starts of one trial that run together: those of all its sensors if a step sees the whole
-/// rig, else a single one.
+/// rig, otherwise a single one.
 using Unit = std::vector<const PlannedStart*>;
 
 /// A group of scenes with its clouds.
@@ -38,17 +38,17 @@ struct LoadedGroup {
   std::vector<LoadedScene> scenes;
 };
 
-/// What all scenes of a run have in common.
+/// Data shared by all scenes of a run.
 struct Run {
   const Experiment& experiment;
   const std::vector<SceneGroup>& groups;
   const Plan& plan;
-  std::vector<PipelineTree> trees;  ///< By PlannedStart::variants.
-  std::set<std::string> channels;   ///< That a step of a variant needs.
-  bool sees_rig = false;            ///< Whether a step does.
+  std::vector<PipelineTree> trees;  ///< Indexed by PlannedStart::variants.
+  std::set<std::string> channels;   ///< Channels that a step of a variant needs.
+  bool sees_rig = false;            ///< Whether a step sees the whole rig.
 };
 
-/// Calls a run's listener, one call at a time. Makes no calls after an error has ended the run: the
+/// Calls a run's listener, one call at a time. Stops after an error has ended the run, because
 /// results that still arrive may be incomplete.
 class SerialListener {
  public:
@@ -79,8 +79,8 @@ std::vector<Unit> units_of(const ScenePlan& plan, bool sees_rig) {
   return units;
 }
 
-/// The names of the sensors whose clouds the trials of `plan` need: with a step that sees the rig
-/// also those whose results are known, because the others may depend on them.
+/// The names of the sensors whose clouds the trials of `plan` need. With a step that sees the whole
+/// rig this includes sensors whose results are known, because the others may depend on them.
 std::set<std::string> needed_sensors(const SceneGroup& group, const ScenePlan& plan,
                                      bool sees_rig) {
   std::set<std::string> names;
@@ -104,14 +104,14 @@ LoadedGroup load_group(const Run& run, const ScenePlan& plan) {
   return loaded;
 }
 
-/// The sensors of one trial in all scenes of its group, from one start for each sensor.
+/// The sensors of one trial in all scenes of its group, with one start per sensor.
 struct Trial {
   Rig rig;
-  std::vector<std::size_t> pairs;  ///< Of the members of the rig, as indices in SceneGroup::pairs.
-  bool is_available = true;        ///< Whether all clouds can be read now.
+  std::vector<std::size_t> pairs;  ///< For each member of the rig its index in SceneGroup::pairs.
+  bool is_available = true;        ///< Whether all clouds are readable.
 };
 
-/// Adds the pair with the index `index` in one scene of the group, if the scene has it.
+/// Adds the pair with index `index` in one scene of the group, if the scene has it.
 void add_member(Trial& trial, const Run& run, const SceneGroup& group, std::size_t index,
                 const LoadedScene& loaded, int number) {
   const CalibratedPair& pair = group.pairs[index];
@@ -145,7 +145,8 @@ Trial trial_at_start(const Run& run, const LoadedGroup& loaded, const Unit& unit
   return trial;
 }
 
-/// In how many scenes of a group the sensor failed, and why in the first of them; empty if in none.
+/// The number of scenes in which a sensor failed, and the reason in the first of them; empty if
+/// none.
 std::string lost_scenes(const std::vector<const RigMember*>& members) {
   const auto failed = [](const RigMember* member) { return !member->result.failure.empty(); };
   const auto first = std::find_if(members.begin(), members.end(), failed);
@@ -155,8 +156,8 @@ std::string lost_scenes(const std::vector<const RigMember*>& members) {
          (*first)->result.failure;
 }
 
-/// What the members of `rig` come to that are the pair with the index `pair` of `pairs`. A reason
-/// says in which of several scenes.
+/// The result of the members of `rig` that are the pair with index `pair` of `pairs`. For several
+/// scenes, the reason names the scene.
 PipelineResult result_of(const SceneGroup& group, const Rig& rig,
                          const std::vector<std::size_t>& pairs, std::size_t pair) {
   std::vector<const RigMember*> members;
@@ -173,7 +174,7 @@ PipelineResult result_of(const SceneGroup& group, const Rig& rig,
   return result;
 }
 
-/// The variants that a start of `unit` is planned for, in order.
+/// The variants planned for a start of `unit`, in order.
 std::vector<std::size_t> variants_of(const Plan& plan, const Unit& unit) {
   std::set<std::size_t> variants;
   for (const PlannedStart* const planned : unit) {
@@ -207,7 +208,7 @@ void run_unit(const Run& run, const LoadedGroup& loaded, const Unit& unit,
   if (unit.size() == 1) {
     run_tree(run.trees[unit.front()->variants], std::move(trial.rig), key, record_variant);
   } else {
-    // The sensors of a trial may miss different variants after a kill.
+    // After a kill, different variants may be missing for the sensors of a trial.
     run_tree(pipeline_tree(run.experiment, variants_of(run.plan, unit)), std::move(trial.rig), key,
              record_variant);
   }
@@ -241,7 +242,7 @@ void run_scene(const Run& run, const ScenePlan& plan, SerialListener& notify) {
   const std::vector<Unit> units = units_of(plan, run.sees_rig);
   for_each_in_parallel(units.size(), [&](std::size_t i) {
     // Isolated: a thread that waits inside a step must not start another trial, whose time would
-    // count as this one's.
+    // be added to this one's.
     tbb::this_task_arena::isolate([&] { run_unit(run, loaded, units[i], notify_trial); });
   });
   for (const LoadedScene& scene : loaded.scenes) {
@@ -249,7 +250,7 @@ void run_scene(const Run& run, const ScenePlan& plan, SerialListener& notify) {
   }
 }
 
-/// The parts of the plan, one per scene.
+/// Splits the plan into one part per scene.
 std::vector<ScenePlan> split_by_scene(const std::vector<PlannedStart>& starts) {
   std::vector<ScenePlan> scenes;
   const PlannedStart* const end = starts.data() + starts.size();
@@ -262,7 +263,7 @@ std::vector<ScenePlan> split_by_scene(const std::vector<PlannedStart>& starts) {
   return scenes;
 }
 
-/// Calls `use` for each scene, for at most `in_flight` of them at a time.
+/// Calls `use` for each scene, for at most `in_flight` scenes at a time.
 template <class Use>
 void for_each_scene(const std::vector<ScenePlan>& plans, std::size_t in_flight, const Use& use) {
   auto next = plans.begin();
@@ -276,7 +277,7 @@ void for_each_scene(const std::vector<ScenePlan>& plans, std::size_t in_flight, 
                      tbb::make_filter<ScenePlan, void>(tbb::filter_mode::parallel, use));
 }
 
-/// Whether a step of a planned variant sees the whole rig.
+/// Whether any step of a planned variant sees the whole rig.
 bool sees_rig(const Experiment& experiment, const Plan& plan) {
   return std::any_of(plan.variants.begin(), plan.variants.end(), [&](const auto& variants) {
     return std::any_of(variants.begin(), variants.end(), [&](std::size_t variant) {

@@ -12,10 +12,10 @@
 namespace croon::experiments {
 namespace {
 
-/// Poses of one rig that differ by rounding are the same.
+/// Tolerance within which two poses of a rig are the same.
 constexpr double kSamePose = 1e-9;
 
-/// Indices below `count` in the order that `seed` draws.
+/// The indices below `count` in an order drawn with `seed`.
 std::vector<std::size_t> drawn_order(std::size_t count, std::uint64_t seed) {
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -26,7 +26,7 @@ std::vector<std::size_t> drawn_order(std::size_t count, std::uint64_t seed) {
   return order;
 }
 
-/// The groups, each a list of indices in ascending order, by their first.
+/// The groups, each a list of ascending indices, ordered by their first index.
 std::vector<std::vector<std::size_t>> drawn_groups(std::size_t scenes, std::size_t size,
                                                    std::uint64_t seed) {
   const std::vector<std::size_t> order = drawn_order(scenes, seed);
@@ -52,8 +52,8 @@ std::optional<RigidTransform> between(const std::optional<RigidTransform>& T_ref
   return T_reference_target->inverse() * *T_reference_source;
 }
 
-/// What is calibrated in one scene: each sensor to the reference and, with `loops`, to those before
-/// it.
+/// The pairs calibrated in one scene: each sensor to the reference and, with `loops`, to the
+/// sensors before it.
 std::vector<CalibratedPair> pairs_of(const Scene& scene, bool loops) {
   const std::vector<SensorScan>& scans = scene.sensors;
   std::vector<CalibratedPair> pairs;
@@ -69,13 +69,13 @@ std::vector<CalibratedPair> pairs_of(const Scene& scene, bool loops) {
   return pairs;
 }
 
-/// Throws InputError if the sensors of `scene` and their pairs are more than a store may have.
+/// Throws InputError if `scene` has more sensors and pairs of them than a store allows.
 void check_number_of_pairs(const Scene& scene, const std::string& file) {
   const std::size_t sensors = scene.sensors.size();
   const std::size_t with_pairs = sensors + sensors * (sensors - 1) / 2;
-  if (sensors == 0 || with_pairs <= kMostVariants) return;
+  if (sensors == 0 || with_pairs <= kMaxVariants) return;
   throw InputError(file, "/loops",
-                   "expected at most " + std::to_string(kMostVariants) +
+                   "expected at most " + std::to_string(kMaxVariants) +
                        " sensors and pairs of them, found " + std::to_string(with_pairs) +
                        " in scene " + in_quotes(scene.name));
 }
@@ -90,14 +90,15 @@ void check_names_for_pairs(const std::vector<Scene>& scenes, const std::string& 
       if (!checked.insert(scan.sensor).second) continue;
       faults.push_back({file, "/loops",
                         std::string("expected sensors without \"") + kBetweenSensors +
-                            "\" in their names, which is that of pairs of sensors, found " +
+                            "\" in their names, which separates the sensors of a pair, found " +
                             in_quotes(scan.sensor)});
     }
   }
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
-/// Throws InputError if the scenes have different references: their poses are in different frames.
+/// Throws InputError if scenes have different references, because their poses are in different
+/// frames.
 void require_one_reference(const Experiment& experiment, const std::vector<Scene>& scenes) {
   for (const Scene& scene : scenes) {
     const std::string& first = scenes.front().reference.sensor;
@@ -109,21 +110,21 @@ void require_one_reference(const Experiment& experiment, const std::vector<Scene
   }
 }
 
-/// Throws InputError unless `pair` of `scene` has the poses that the first scene gave it: `known`.
+/// Throws InputError unless `pair` of `scene` has the poses `known` from the first scene.
 void require_one_rig(const Experiment& experiment, const SceneGroup& group,
                      const CalibratedPair& known, const Scene& scene, const CalibratedPair& pair) {
   for (const auto& [pose, what] : {std::pair(&CalibratedPair::truth, "true"),
                                    std::pair(&CalibratedPair::nominal, "nominal")}) {
     if (is_same(known.*pose, pair.*pose)) continue;
-    throw InputError(experiment.file, "/scenes_per_trial",
-                     std::string("expected one rig in all scenes of a trial, found another ") +
-                         what + " pose of sensor " + in_quotes(pair.name) + " in scene " +
-                         in_quotes(scene.name) + " than in " +
-                         in_quotes(group.scenes.front().name));
+    throw InputError(
+        experiment.file, "/scenes_per_trial",
+        std::string("expected the same rig in all scenes of a trial, found different ") + what +
+            " poses of sensor " + in_quotes(pair.name) + " in scenes " + in_quotes(scene.name) +
+            " and " + in_quotes(group.scenes.front().name));
   }
 }
 
-/// Adds what `scene` has and the group has not.
+/// Adds the pairs of `scene` that the group lacks.
 void add_pairs(const Experiment& experiment, SceneGroup& group, const Scene& scene) {
   for (CalibratedPair& pair : pairs_of(scene, experiment.loops)) {
     const auto is_it = [&](const CalibratedPair& known) { return known.name == pair.name; };

@@ -15,16 +15,16 @@ void check_name(const std::string& what, const std::string& name, const std::str
   if (!why_not.empty()) faults.push_back({file, "", why_not});
 }
 
-/// Notes a fault for a name that tables have for something else, and for one that `scene` has
-/// twice.
+/// Notes a fault for a name that has another meaning in tables, and for a duplicate name in
+/// `scene`.
 void check_meanings(const Scene& scene, const std::string& file, std::vector<Fault>& faults) {
   std::set<std::string> names = {scene.reference.sensor};
   for (const SensorScan& scan : scene.sensors) {
     const std::string& at = scan.file.empty() ? file : scan.file;
     if (scan.sensor == kAllSensors) {
       faults.push_back({file, "/dataset",
-                        "expected a sensor with another name than " + in_quotes(kAllSensors) +
-                            ", which is that of all sensors together"});
+                        "expected a sensor name other than " + in_quotes(kAllSensors) +
+                            ", which means all sensors together"});
     }
     if (names.insert(scan.sensor).second) continue;
     faults.push_back({at, "",

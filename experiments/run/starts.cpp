@@ -36,15 +36,15 @@ Eigen::Vector3d uniform_direction(Rng& rng) {
   return {radius * std::cos(angle), radius * std::sin(angle), height};
 }
 
-/// Which centres `pair` has, for the message.
+/// The centres that `pair` has, for the message.
 std::string centres_of(const CalibratedPair& pair) {
   std::string known;
   for (const auto& [word, centre] : kStartCentres) {
     if (!centre_pose(centre, pair)) continue;
     known += (known.empty() ? "\"" : ", \"") + word + "\"";
   }
-  return known.empty() ? "it has none at all: truth.json or nominal.json gives the poses of a "
-                         "recording by the names of the sensors, and \"starts\": \"none\" needs no "
+  return known.empty() ? "it has no poses: truth.json or nominal.json gives the poses of a "
+                         "recording by sensor name, and \"starts\": \"none\" needs no "
                          "pose"
                        : "it has " + known;
 }
@@ -55,7 +55,7 @@ struct MissingPose {
   std::string instead;
 };
 
-/// The pose among `unused` whose name `sensor` is most like; null if none is near.
+/// The pose among `unused` whose name is most similar to `sensor`; null if none is similar.
 const UnusedPose* misspelt(const std::string& sensor, const std::vector<UnusedPose>& unused) {
   std::vector<std::string> names;
   for (const UnusedPose& pose : unused) names.push_back(pose.sensor);
@@ -75,15 +75,15 @@ std::string scene_list(const std::vector<std::string>& scenes) {
   return text;
 }
 
-/// The poses of one name that no sensor has.
+/// Poses under a name that no sensor has.
 struct MisspeltPose {
-  std::string sensor;  ///< That may be meant.
-  std::string kind;    ///< What the sensor has none of.
+  std::string sensor;  ///< The sensor that was probably meant.
+  std::string kind;    ///< The kind of pose that this sensor lacks.
   std::vector<std::string> scenes;
 };
 
-/// Throws InputError, with a line per name, if poses have a name like that of a sensor without one:
-/// its errors would be measured against nothing, without a word.
+/// Throws InputError, with a line per name, if the name of a pose resembles that of a sensor
+/// without one: otherwise the pose would be silently ignored.
 void check_names(const std::vector<SceneGroup>& groups) {
   std::set<std::string> sensors;
   for (const SceneGroup& group : groups) {
@@ -108,8 +108,8 @@ void check_names(const std::vector<SceneGroup>& groups) {
     }
   }
   std::vector<Fault> faults;
-  for (const auto& [place, pose] : found) {
-    const auto& [file, name] = place;
+  for (const auto& [position, pose] : found) {
+    const auto& [file, name] = position;
     faults.push_back({file, "/" + name,
                       "expected a sensor of " + scene_list(pose.scenes) + ", found " +
                           in_quotes(name) + "; did you mean " + in_quotes(pose.sensor) +
@@ -118,7 +118,7 @@ void check_names(const std::vector<SceneGroup>& groups) {
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
-/// Throws InputError, with a line per sensor, if a scene has no pose to draw starts around.
+/// Throws InputError, with a line per sensor, if a scene lacks the pose to draw starts around.
 void check_centres(const Experiment& experiment, const std::vector<SceneGroup>& groups) {
   const StartCentre around = experiment.starts.around;
   std::map<std::string, MissingPose> missing;
@@ -159,7 +159,8 @@ class StartLines {
     trials_ = std::max(trials_, line.trial + 1);
   }
 
-  /// The starts, the same number for each sensor. Notes a fault for each sensor that misses one.
+  /// The starts, the same number for each sensor. Notes a fault for each sensor with missing
+  /// starts.
   StartTable table(const std::string& file, std::vector<Fault>& faults) const {
     StartTable table;
     table.trials = trials_;

@@ -12,14 +12,14 @@
 namespace croon::experiments {
 namespace {
 
-/// The whole number that `text` consists of; 0 if it is not one.
+/// The whole number in `text`; 0 if it is not a whole number.
 int whole_number(const std::string& text) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc() && end == text.data() + text.size() ? number : 0;
 }
 
-/// Trials from `begin` to before `end`.
+/// Trials from `begin` up to, but excluding, `end`.
 struct TrialRange {
   std::int64_t begin = 0;
   std::int64_t end = 0;
@@ -36,13 +36,13 @@ TrialRange trials_of(const Shard& shard, std::size_t scene, std::size_t scenes, 
           std::clamp<std::int64_t>(begin_of(shard.part) - first, 0, trials)};
 }
 
-/// A cursor over the trials of one variant, scene and sensor that are done.
+/// A cursor over the finished trials of one variant, scene and sensor.
 class DoneTrials {
  public:
   DoneTrials(const std::vector<TrialIndex>& done, const TrialIndex& first)
       : next_(std::lower_bound(done.begin(), done.end(), first)), end_(done.end()) {}
 
-  /// Whether `trial` is done. Calls must be in ascending order.
+  /// Whether `trial` is finished. Calls must be in ascending order.
   bool has(const TrialIndex& trial) {
     while (next_ != end_ && *next_ < trial) ++next_;
     return next_ != end_ && *next_ == trial;
@@ -52,9 +52,9 @@ class DoneTrials {
   std::vector<TrialIndex>::const_iterator next_, end_;
 };
 
-/// The index of `variants` in the plan's lists; adds it if it is not there.
+/// The index of `variants` in the plan's lists; added if missing.
 std::size_t list_of(Plan& plan, const std::vector<std::size_t>& variants) {
-  // From the end: neighbouring trials mostly miss the same variants.
+  // Searched from the end: neighbouring trials usually miss the same variants.
   const auto found = std::find(plan.variants.rbegin(), plan.variants.rend(), variants);
   if (found != plan.variants.rend()) {
     return static_cast<std::size_t>(plan.variants.rend() - found) - 1;
@@ -134,7 +134,7 @@ std::vector<std::string> sensor_names(const std::vector<SceneGroup>& groups) {
 
 void check_plan_size(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                      const Selection& selection) {
-  // Results are in memory when they are summarised: a record has about a kilobyte with its steps.
+  // All results are in memory when they are summarised: about a kilobyte per record with its steps.
   constexpr double kRecordBytes = 1000.0;
   double starts = 0.0;
   for (std::size_t scene = 0; scene < groups.size(); ++scene) {
@@ -146,7 +146,7 @@ void check_plan_size(const Experiment& experiment, const std::vector<SceneGroup>
   const double trials = starts * static_cast<double>(selection.variants.size());
   require_memory(starts * sizeof(PlannedStart) + trials * kRecordBytes,
                  "a plan of " + fixed_number(trials, 0) + " trials",
-                 "run fewer --trials or --only some variants, or run it in parts by --shard",
+                 "use fewer --trials or --only some variants, or run it in parts with --shard",
                  {experiment.file, "", ""});
 }
 

@@ -12,7 +12,7 @@
 
 namespace croon::experiments {
 
-/// Which trial: one start of one variant on one sensor of one scene.
+/// Identifies a trial: one start of one variant on one sensor of one scene.
 struct TrialId {
   std::string variant;
   std::string scene;
@@ -20,24 +20,24 @@ struct TrialId {
   int trial = 0;
 };
 
-/// Which trial an estimate belongs to; of no variant. For steps that take results from a file: what
-/// a step computes must not depend on it.
+/// Identifies the trial of an estimate, without the variant. For steps that read results from a
+/// file; computations of a step must not depend on it.
 inline constexpr Extra<TrialId> kTrialId{"trial id", "which trial it is"};
 
-/// A trial by the indices of its variant, scene and sensor in an experiment, and its number.
-/// Reports are in this order.
+/// A trial by the indices of its variant, scene and sensor in an experiment, and its number; the
+/// order of reports.
 using TrialIndex = std::tuple<std::size_t, std::size_t, std::size_t, int>;
 
 /// How a trial ended.
 enum class Status {
-  success,     ///< Finished within the success bounds of the truth.
-  inaccurate,  ///< Finished outside them.
-  finished,    ///< Finished, and there is no truth to judge the pose by.
-  rejected,    ///< The program itself says not to trust the pose.
-  failed       ///< A stage could not go on.
+  success,     ///< Finished within the success bounds of ground truth.
+  inaccurate,  ///< Finished outside these bounds.
+  finished,    ///< Finished; there is no ground truth to judge the pose.
+  rejected,    ///< The program rejected its own pose.
+  failed       ///< A stage could not continue.
 };
 
-/// The words for Status, in its order, as files, tables and the store have them.
+/// The names of Status, in its order, as used in files, tables and the store.
 inline constexpr std::array<const char*, 5> kStatusNames = {"success", "inaccurate", "finished",
                                                             "rejected", "failed"};
 
@@ -49,18 +49,19 @@ inline const char* status_name(Status status) {
 struct TrialRecord {
   TrialId id;
   Status status = Status::failed;
-  /// Why it is rejected or failed; of an accepted one, in which of its scenes a step failed and
-  /// why.
+  /// Why the trial was rejected or failed; for an accepted trial, the scene in which a step failed
+  /// and why.
   std::string reason;
-  std::optional<PoseError> error;                    ///< If there is truth and the trial finished.
-  std::optional<RigidTransform> T_reference_sensor;  ///< If it finished.
-  std::optional<PoseCovariance> covariance;          ///< Of that pose, if a step has estimated it.
-  std::vector<StepRecord> steps;  ///< Figures of each step (its seconds go to timings.csv alone).
+  std::optional<PoseError> error;  ///< Only with ground truth, if the trial finished.
+  std::optional<RigidTransform> T_reference_sensor;  ///< Only if the trial finished.
+  std::optional<PoseCovariance> covariance;  ///< Covariance of that pose, if a step estimated it.
+  std::vector<StepRecord>
+      steps;  ///< Diagnostics of each step; its seconds are only in timings.csv.
 };
 
 /// One row of timings.csv.
 struct TimingRow {
-  TrialId id;  ///< Trial -1 and no variant for work that was done once per scene.
+  TrialId id;  ///< Trial -1 and no variant for work done once per scene.
   std::string step;
   double seconds = 0.0;
 };

@@ -9,7 +9,7 @@ template <class Json>
 Json parse_bounded(const std::string& text) {
   constexpr int kDeepest = 100;
   return Json::parse(text, [](int depth, typename Json::parse_event_t, Json&) {
-    if (depth > kDeepest) throw std::runtime_error("JSON of it is nested too deeply");
+    if (depth > kDeepest) throw std::runtime_error("its JSON is nested too deeply");
     return true;
   });
 }

@@ -22,13 +22,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFramework = "framework";
-constexpr unsigned kLargestVersion = std::numeric_limits<int>::max();
+constexpr unsigned kMaxVersion = std::numeric_limits<int>::max();
 
 auto key_of(const Build& build) {
   return std::tie(build.version, build.commit, build.program_sha256);
 }
 
-/// What a manifest has under "croon".
+/// The content of "croon" in a manifest.
 Json program_json(const Build& build) {
   Json json = {{"version", build.version},
                {"commit", build.commit},
@@ -51,7 +51,7 @@ Json build_json(const Build& build) {
   return json;
 }
 
-/// A text of a build as reports can show it: the store may come from anywhere.
+/// A text of a build made safe for reports, because the store may come from anywhere.
 std::string shown(const Json& text) { return printable(text.get<std::string>()); }
 
 Build read_build(const Json& program, const Json& libraries) {
@@ -82,7 +82,7 @@ std::string text_of(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-/// The file that this code was loaded from: the program, or the module of another program.
+/// The file that contains this code: the program, or the module of another program.
 std::string loaded_file() {
   const std::string program = "/proc/self/exe";
   const auto address = reinterpret_cast<std::uintptr_t>(&loaded_file);
@@ -156,10 +156,10 @@ std::string versions_json(const params::StageVersions& versions) {
 params::StageVersions read_versions(const std::string& text) {
   const Json json = parse_bounded<Json>(text);
   params::StageVersions versions;
-  if (!json.is_object()) throw std::runtime_error("its versions are no JSON object");
+  if (!json.is_object()) throw std::runtime_error("its versions are not a JSON object");
   for (const auto& [stage, version] : json.items()) {
-    const bool is_version = version.is_number_unsigned() && version <= kLargestVersion;
-    if (!is_version) throw std::runtime_error("a version of " + stage + " is no whole number");
+    const bool is_version = version.is_number_unsigned() && version <= kMaxVersion;
+    if (!is_version) throw std::runtime_error("a version of " + stage + " is not a whole number");
     versions[stage] = version;
   }
   return versions;

@@ -9,39 +9,39 @@
 
 namespace croon::experiments {
 
-/// A build of the program: what it was made from. It is information. Whether trials of two builds
-/// go into one store is decided by the versions that stages and the framework declare.
+/// A build of the program and its sources. For information only: whether trials of two builds may
+/// share a store depends on the versions declared by the stages and the framework.
 struct Build {
   std::string version;  ///< croon's, "0.1.0".
   std::string commit;
-  std::string program_sha256;              ///< Of the program, or of the Python module.
-  std::vector<StageFolder> stage_folders;  ///< Of stages from outside the tree.
+  std::string program_sha256;              ///< Digest of the program or the Python module.
+  std::vector<StageFolder> stage_folders;  ///< Folders of stages from outside the tree.
   std::vector<std::pair<std::string, std::string>> libraries;
 };
 
-/// Begins to digest the program on a thread of its own; this takes as long as reading a scan.
+/// Starts digesting the program on another thread; this takes as long as reading a scan.
 void begin_this_build();
-/// The build that is running.
+/// The running build.
 Build this_build();
 
-/// The versions of all stages that the experiment uses, and that of the framework.
+/// The versions of the framework and of all stages that the experiment uses.
 params::StageVersions versions_of(const Experiment& experiment);
 
-/// Both lists, each build once, in an order that depends on the builds alone.
+/// The distinct builds of both lists, in an order that depends only on the builds.
 std::vector<Build> united(std::vector<Build> a, const std::vector<Build>& b);
 
 bool is_same(const std::vector<Build>& a, const std::vector<Build>& b);
 
-/// JSON of the list, and its reader, which throws std::exception if the text is damaged.
+/// The list as JSON, and its parser, which throws std::exception for damaged text.
 std::string builds_json(const std::vector<Build>& builds);
 std::vector<Build> read_builds(const std::string& text);
 
-/// JSON of the versions, and its reader, likewise.
+/// The versions as JSON, and their parser, which throws std::exception for damaged text.
 std::string versions_json(const params::StageVersions& versions);
 params::StageVersions read_versions(const std::string& text);
 
-/// The JSON of a manifest with the builds and versions in it: "croon" and "libraries" are those of
-/// the first build, and "builds" lists all if there are several.
+/// The JSON of a manifest with builds and versions added: "croon" and "libraries" are those of the
+/// first build, and "builds" lists all if there are several.
 std::string manifest_with_builds(const std::string& manifest, const std::vector<Build>& builds,
                                  const params::StageVersions& versions);
 

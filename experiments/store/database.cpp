@@ -30,18 +30,19 @@ namespace fs = std::filesystem;
   std::error_code error;
   if ((code == SQLITE_CANTOPEN || code == SQLITE_READONLY) && fs::exists(file + "-wal", error)) {
     throw InputError(file, "",
-                     "was left by a run that was interrupted, and its folder cannot be written to, "
-                     "which reading it needs once; a copy of the folder that can be written to is "
-                     "read as well");
+                     "was left by an interrupted run, and its folder is not writable, "
+                     "which is necessary for the first reading; copy the folder to a writable "
+                     "place and read the copy");
   }
-  const char* words = database == nullptr ? "out of memory" : sqlite3_errmsg(database);
-  throw InputError(file, "", std::string("expected a readable and writable store: ") + words);
+  const char* reason = database == nullptr ? "out of memory" : sqlite3_errmsg(database);
+  throw InputError(file, "", std::string("expected a readable and writable store: ") + reason);
 }
 
-/// The largest text or blob of a store, in bytes: the manifest of ten thousand variants is smaller.
-constexpr int kLargestValue = 1 << 28;
+/// The maximum size of a text or blob in a store, in bytes: more than the manifest of ten thousand
+/// variants.
+constexpr int kMaxValueBytes = 1 << 28;
 
-/// The URI by which SQLite opens `path` as `option` says.
+/// The URI with which SQLite opens `path` with `option`.
 std::string uri_of(const fs::path& path, const std::string& option) {
   constexpr const char* kDigits = "0123456789ABCDEF";
   std::string uri = "file:";
@@ -64,12 +65,12 @@ int open_flags(Access access) {
     case Access::create:
       return SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
   }
-  throw std::logic_error("no such access");
+  throw std::logic_error("invalid access");
 }
 
 /// Whether the rollback journal `path` ends with the name of a super-journal
-/// (https://www.sqlite.org/fileformat.html, 3). Only transactions over several files have one,
-/// which croon never writes. SQLite deletes the file of that name when it rolls the journal back.
+/// (https://www.sqlite.org/fileformat.html, 3). Only transactions over several files have one, and
+/// croon never writes any. SQLite deletes the file of that name when it rolls back the journal.
 bool names_super_journal(const fs::path& path) {
   constexpr std::array<unsigned char, 8> kMagic = {0xD9, 0xD5, 0x05, 0xF9, 0x20, 0xA1, 0x63, 0xD7};
   std::ifstream stream(path, std::ios::binary);
@@ -80,10 +81,10 @@ bool names_super_journal(const fs::path& path) {
                     [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
 }
 
-/// Throws InputError if SQLite must not see what is beside the database `path`.
+/// Throws InputError if a file beside the database `path` is unsafe for SQLite to open.
 void refuse_unsafe_siblings(const fs::path& path) {
   std::error_code error;
-  // SQLite follows a link and looks beside the file that it leads to.
+  // SQLite follows a link and looks beside the file that the link points to.
   const bool is_link = fs::is_symlink(fs::symlink_status(path, error));
   const fs::path file = is_link ? fs::canonical(path, error) : path;
   for (const char* ending : {"-journal", "-wal", "-shm"}) {
@@ -100,13 +101,13 @@ void refuse_unsafe_siblings(const fs::path& path) {
                    "to delete; croon writes no such journal");
 }
 
-/// What SQLite offers against a file that was made to do harm.
+/// Enables SQLite's defences against malicious files.
 void defend(sqlite3* database) {
   int ignored = 0;
   sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, &ignored);
   sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, &ignored);
   sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, &ignored);
-  sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kLargestValue);
+  sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kMaxValueBytes);
 }
 
 }  // namespace
@@ -199,7 +200,7 @@ Statement Database::prepare(const std::string& sql) const {
 }
 
 Transaction::~Transaction() {
-  // An error may have rolled it back already.
+  // An error may already have rolled it back.
   if (is_open_) sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
 }
 

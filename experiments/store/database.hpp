@@ -22,9 +22,9 @@ class Statement {
   void bind(int parameter, double number);
   void bind_bytes(int parameter, const std::string& bytes);
 
-  /// Steps to the next row; returns false after the last one.
+  /// Advances to the next row; returns false after the last one.
   bool next();
-  /// Prepares the statement to run again; parameters become null.
+  /// Resets the statement for another run; parameters become null.
   void reset();
 
   bool is_null(int column) const;
@@ -43,31 +43,31 @@ class Statement {
   std::unique_ptr<sqlite3_stmt, Finalise> statement_;
 };
 
-/// The file is no SQLite database, or a damaged one.
+/// The file is not an SQLite database, or is damaged.
 class UnreadableDatabase : public InputError {
   using InputError::InputError;
 };
 
 /// How a Database opens its file.
 enum class Access {
-  read,      ///< Reads it, and what SQLite keeps beside it.
-  snapshot,  ///< Reads the bytes of the file alone; creates and locks nothing.
+  read,      ///< Reads the file and SQLite's files beside it.
+  snapshot,  ///< Reads only the bytes of the file; creates and locks nothing.
   memory,    ///< No file: an empty database in memory.
-  write,     ///< Changes a file that exists.
-  create     ///< Changes it; creates it if it does not exist.
+  write,     ///< Modifies an existing file.
+  create     ///< Modifies the file; creates it if missing.
 };
 
 /// An SQLite file. If SQLite fails (no space, no permission, not a database, in use by another
-/// process), functions throw InputError with the file's name.
+/// process), functions throw InputError with the name of the file.
 class Database {
  public:
-  /// Opens `path`. The file may come from anywhere: functions that its schema names have no side
-  /// effects, its triggers do not run, and values are limited in size. Throws InputError if what
-  /// SQLite keeps beside it (-journal, -wal, -shm) is no file, or is a journal that makes SQLite
-  /// delete another file.
+  /// Opens `path`. The file is not trusted: functions named in its schema have no side effects, its
+  /// triggers do not run, and values are limited in size. Throws InputError if one of SQLite's
+  /// files beside it (-journal, -wal, -shm) is not a regular file, or is a journal that would make
+  /// SQLite delete another file.
   Database(const std::filesystem::path& path, Access access);
 
-  /// Runs statements that return nothing.
+  /// Runs statements that return no rows.
   void run(const std::string& sql);
   const std::string& file() const { return file_; }
   sqlite3* handle() const { return database_.get(); }
@@ -81,7 +81,7 @@ class Database {
   std::unique_ptr<sqlite3, Close> database_;
 };
 
-/// A transaction; rolled back unless it is committed.
+/// A transaction; rolled back unless committed.
 class Transaction {
  public:
   explicit Transaction(Database& database) : database_(database) {
@@ -97,8 +97,8 @@ class Transaction {
   bool is_open_ = true;
 };
 
-/// Another SQLite file, attached to a database under a name during the lifetime of this object, to
-/// be read.
+/// Attaches another SQLite file to a database under a name, for reading, during the lifetime of
+/// this object.
 class Attachment {
  public:
   Attachment(Database& database, const std::filesystem::path& path, const std::string& name);

@@ -18,11 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// `file` relative to the data root if it is below it; else unchanged.
+/// `file` relative to the data root if it is below it; otherwise unchanged.
 std::string relative_path(const std::string& file, const fs::path& data_root) {
   std::error_code error;
   const fs::path root = fs::canonical(data_root, error);
-  // By the names alone: a link in the data root may lead out of it.
+  // Compares only the names: a link in the data root may point outside it.
   const fs::path relative = fs::path(file).lexically_relative(root);
   const bool is_below = !error && !relative.empty() && *relative.begin() != "..";
   return is_below ? relative.generic_string() : file;
@@ -44,8 +44,8 @@ std::vector<const SensorScan*> scans_with_files(const std::vector<SceneGroup>& g
   return scans;
 }
 
-/// The most bytes of clouds that are kept from recording to running: a few dozen scans.
-constexpr std::size_t kMostKeptBytes = std::size_t{64} << 20;
+/// The maximum number of bytes of clouds kept from recording to running: a few dozen scans.
+constexpr std::size_t kMaxKeptBytes = std::size_t{64} << 20;
 
 std::size_t bytes_of(const PointCloud& cloud) {
   std::size_t bytes = cloud.points.size() * sizeof(Eigen::Vector3f);
@@ -53,18 +53,18 @@ std::size_t bytes_of(const PointCloud& cloud) {
   return bytes;
 }
 
-/// Clouds that were read to be recorded, each until it is asked for. Thread-safe.
+/// Clouds read for recording, kept until they are first needed. Thread-safe.
 class KeptClouds {
  public:
-  /// Keeps the cloud of `file` if there is room.
+  /// Keeps the cloud of `file` if there is space.
   void keep(const std::string& file, LoadedCloud cloud) {
     const std::size_t bytes = bytes_of(cloud);
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (bytes > kMostKeptBytes - bytes_) return;
+    if (bytes > kMaxKeptBytes - bytes_) return;
     bytes_ += bytes;
     clouds_.emplace(file, std::move(cloud));
   }
-  /// The cloud of `file`, once; std::nullopt if it is not kept or not any more.
+  /// Returns the cloud of `file` and forgets it; std::nullopt if it is not kept.
   std::optional<LoadedCloud> take(const std::string& file) {
     const std::lock_guard<std::mutex> lock(mutex_);
     auto node = clouds_.extract(file);
@@ -78,8 +78,8 @@ class KeptClouds {
   std::map<std::string, LoadedCloud> clouds_;
 };
 
-/// The file of `scan`: what is counted and what is digested are the same bytes, and those that
-/// `kept` gets.
+/// The file of `scan`. Its counts, its digest and the cloud added to `kept` come from the same
+/// bytes.
 InputFile input_file(const SensorScan& scan, const fs::path& data_root, KeptClouds& kept) {
   InputFile input{relative_path(scan.file, data_root), "", {}, {}, scan.file};
   try {
@@ -91,7 +91,7 @@ InputFile input_file(const SensorScan& scan, const fs::path& data_root, KeptClou
   } catch (const UnavailableFile&) {
     throw;
   } catch (const DamagedCloud& damaged) {
-    // The trials fail and give the reason.
+    // The trials fail and report the reason.
     input.sha256 = damaged.sha256();
   } catch (const InputError&) {
   }
@@ -99,10 +99,10 @@ InputFile input_file(const SensorScan& scan, const fs::path& data_root, KeptClou
   return input;
 }
 
-/// SensorScan::load for a scan of the file `input`: takes the cloud that is `kept`, if any, or
-/// throws UnavailableFile if the bytes that it reads are others than those of `input`. Faults end
-/// with the path in the manifest, for the reason of a failed trial has no path that depends on the
-/// data root.
+/// SensorScan::load for a scan of the file `input`: returns the `kept` cloud, if any, and throws
+/// UnavailableFile if the bytes that it reads differ from those of `input`. Faults end with the
+/// path in the manifest, because the reason of a failed trial must not contain a path that depends
+/// on the data root.
 std::function<LoadedCloud()> held_to(const InputFile& input, const SensorScan& scan,
                                      const std::shared_ptr<KeptClouds>& kept) {
   return [path = input.path, sha256 = input.sha256, file = scan.file, load = scan.load, kept] {
@@ -111,7 +111,7 @@ std::function<LoadedCloud()> held_to(const InputFile& input, const SensorScan& s
     }
     const auto check = [&](const std::string& found) {
       if (found.empty() || found == sha256) return;
-      throw UnavailableFile(path, "", "is another file than at the start of the run");
+      throw UnavailableFile(path, "", "has changed since the start of the run");
     };
     try {
       LoadedCloud cloud = load();
@@ -142,7 +142,7 @@ std::vector<InputFile> record_inputs(std::vector<SceneGroup>& groups, const fs::
   const auto hold = [&](SensorScan& scan) {
     if (scan.file.empty()) return;
     const std::size_t i = by_file.at(scan.file);
-    // Another scan of the file may load it in another way.
+    // Another scan of the file may load it differently.
     scan.load = held_to(inputs[i], scan, &scan == scans[i] ? kept : nullptr);
   };
   for (SceneGroup& group : groups) {

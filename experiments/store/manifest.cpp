@@ -48,10 +48,10 @@ Json listed_inputs(const std::vector<InputFile>& inputs) {
 
 constexpr const char* kWithoutTruth = "sensors_without_truth";
 
-/// More trials than any run has; products with it do not overflow.
-constexpr std::size_t kMostPlanned = 1'000'000'000'000;
+/// More trials than any run has; products with this number do not overflow.
+constexpr std::size_t kMaxPlanned = 1'000'000'000'000;
 
-/// The input to the digest of the pipelines, for one variant.
+/// The input for the digest of the pipelines, for one variant.
 std::string pipeline_line(const std::string& name, const std::string& resolved) {
   return name + "\n" + resolved + "\n";
 }
@@ -84,7 +84,7 @@ std::string cpu_model() {
   return "unknown";
 }
 
-/// Now, "2024-05-01T12:00:00Z".
+/// The current time, "2024-05-01T12:00:00Z".
 std::string utc_time() {
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   std::tm utc{};
@@ -109,7 +109,7 @@ Json host_json(const std::filesystem::path& data_root, int jobs) {
 namespace fs = std::filesystem;
 using params::value_json;
 
-/// The numbers of a pose, exact; "none" if there is no pose.
+/// The exact numbers of a pose; "none" if there is no pose.
 std::string pose_text(const std::optional<RigidTransform>& T) {
   if (!T) return "none";
   std::string text;
@@ -135,11 +135,11 @@ std::string deciding_inputs_json(const std::vector<SceneGroup>& groups,
     }
   }
   json["poses"] = sha256_of_text(poses);
-  // A path may hold bytes that are not UTF-8.
+  // A path may contain bytes that are not UTF-8.
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// The names of the scenes of each group.
+/// The names of the scenes in each group.
 Json groups_json(const std::vector<SceneGroup>& groups) {
   Json json = Json::object();
   for (const SceneGroup& group : groups) {
@@ -148,7 +148,7 @@ Json groups_json(const std::vector<SceneGroup>& groups) {
   return json;
 }
 
-/// The sensors of which no scene has the truth.
+/// The sensors without ground truth in any scene.
 std::vector<std::string> without_truth(const std::vector<SceneGroup>& groups) {
   std::set<std::string> with_truth;
   for (const SceneGroup& group : groups) {
@@ -181,8 +181,8 @@ std::string manifest_json(const Experiment& experiment, const std::vector<SceneG
 
 std::size_t planned_trials(const std::string& manifest) {
   const Json planned = parse_bounded<Json>(manifest).at("planned");
-  if (!planned.is_number_unsigned() || planned > kMostPlanned) {
-    throw std::runtime_error("\"planned\" of its manifest is no number of trials");
+  if (!planned.is_number_unsigned() || planned > kMaxPlanned) {
+    throw std::runtime_error("\"planned\" of its manifest is not a number of trials");
   }
   return planned;
 }
@@ -236,9 +236,10 @@ std::string hosts_json(const std::vector<std::filesystem::path>& folders) {
     // Results of a merge already list several hosts.
     const bool is_list = host != other.end() && host->is_object() && host->contains("merged");
     if (host == other.end() || !host->is_object() || (is_list && !host->at("merged").is_array())) {
-      throw InputError((folder / "manifest.json").string(), "",
-                       "is damaged: expected the manifest of a run, with its \"host\"; a merge "
-                       "without this file loses on which machine the run was");
+      throw InputError(
+          (folder / "manifest.json").string(), "",
+          "is damaged: expected the manifest of a run, with its \"host\"; without this "
+          "file a merge loses the machine of the run");
     }
     const Json hosts = is_list ? host->at("merged") : Json::array({*host});
     for (const Json& one : hosts) merged.push_back(one);
@@ -259,7 +260,7 @@ Provenance provenance_of(const Experiment& experiment, const std::vector<SceneGr
                            {"seed", std::to_string(experiment.seed)},
                            {"starts", deciding_starts_json(experiment.starts)},
                            {"success", success_json(experiment.success)}};
-  // Stores that were written before there were groups go on.
+  // Keeps stores compatible that were written before groups existed.
   if (experiment.scenes_per_trial > 1) {
     provenance["scenes_per_trial"] = std::to_string(experiment.scenes_per_trial);
   }

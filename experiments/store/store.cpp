@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The tables that map ids to names, and the columns of `trials` that hold these ids.
+/// The tables that map ids to names, and the columns of `trials` with these ids.
 struct IdColumn {
   const char* table;
   const char* column;
@@ -22,9 +22,9 @@ struct IdColumn {
 constexpr IdColumn kIdColumns[] = {
     {"variants", "variant"}, {"scenes", "scene"}, {"sensors", "sensor"}};
 
-/// Opens the store `path` for this process alone. Its header is `header`, or it has none yet.
+/// Opens the store `path` exclusively for this process. Its header is `header`, or it has none yet.
 Database open_store(const fs::path& path, StoreHeader header) {
-  // Compare before opening the file for writing: a store that is refused keeps its bytes.
+  // Compares before opening the file for writing: a refused store keeps its bytes.
   if (has_store(path)) {
     const StoreHeader stored = reading(path, [&] { return read_header(open_to_read(path)); });
     if (!stored.provenance.empty()) refuse_differences(path.string(), stored, header, kFreshRemedy);
@@ -35,7 +35,7 @@ Database open_store(const fs::path& path, StoreHeader header) {
   return database;
 }
 
-/// SQL that fills temporary tables `map_TABLE(old, new)`: the ids of the same names in `from` and
+/// SQL that fills temporary tables `map_TABLE(old, new)` with the ids of equal names in `from` and
 /// in main.
 std::string id_maps(const std::string& from) {
   std::string sql;
@@ -50,7 +50,7 @@ std::string id_maps(const std::string& from) {
   return sql;
 }
 
-/// SQL that selects the rows of `from`'s `table` with the ids of main.
+/// SQL that selects the rows of `table` in `from`, with the ids of main.
 std::string with_main_ids(const std::string& from, const std::string& table,
                           const std::string& columns) {
   std::string ids, joins;
@@ -68,7 +68,7 @@ constexpr const char* kStepColumns = "place, step, figures, information";
 /// A table with a row per trial or step, and its columns after the key.
 using StoredTable = std::pair<std::string, std::string>;
 
-/// Throws InputError if `rows`, which are of `table` in `shard`, and main have other values of
+/// Throws InputError if `rows` of `table` in `shard` and the rows of main have different values of
 /// `columns` for the same trial.
 void refuse_doubled(const Database& database, const fs::path& shard, const std::string& table,
                     const std::string& rows, const std::string& columns) {
@@ -115,7 +115,7 @@ std::vector<IndexedRecord> records_in(const Database& database, const StoreHeade
   return rows;
 }
 
-/// The index of the record of a trial in `rows`, which are sorted; std::nullopt if it has none.
+/// The index of the record of a trial in the sorted `rows`; std::nullopt if there is none.
 std::optional<std::size_t> find_record(const std::vector<IndexedRecord>& rows,
                                        const TrialIndex& index) {
   const auto is_before = [](const IndexedRecord& row, const TrialIndex& wanted) {
@@ -126,7 +126,7 @@ std::optional<std::size_t> find_record(const std::vector<IndexedRecord>& rows,
   return static_cast<std::size_t>(found - rows.begin());
 }
 
-/// Gives `rows`, which are sorted, their covariances.
+/// Adds the covariances to the sorted `rows`.
 void add_covariances(const Database& database, const StoreHeader& header,
                      std::vector<IndexedRecord>& rows) {
   const StoredIndices indices(database, header);
@@ -141,16 +141,16 @@ void add_covariances(const Database& database, const StoreHeader& header,
   }
 }
 
-/// Reads the numbers of the steps of `rows`, which are sorted.
+/// Reads the diagnostics of the steps of the sorted `rows`.
 class StepReader {
  public:
   StepReader(const Database& database, const StoreHeader& header,
              const std::vector<IndexedRecord>& rows)
-      : indices_(database, header), rows_(rows), select_(select_figures(database)) {}
+      : indices_(database, header), rows_(rows), select_(select_diagnostics(database)) {}
 
   StepNumbers read() {
     while (select_.next()) add_row();
-    // A store in order is sorted already.
+    // A store in order is already sorted.
     const auto is_before = [](const StepNumber& a, const StepNumber& b) {
       return a.record < b.record;
     };
@@ -165,8 +165,8 @@ class StepReader {
     const std::optional<std::size_t> found = find_record(rows_, index);
     if (!found) return;
     const auto record = static_cast<std::uint32_t>(*found);
-    const auto [step, figures] = figures_of(select_);
-    for (const auto& [name, value] : figures) {
+    const auto [step, diagnostics] = diagnostics_of(select_);
+    for (const auto& [name, value] : diagnostics) {
       steps_.numbers.push_back({record, index_of(step), index_of(name), value});
     }
   }
@@ -185,7 +185,7 @@ class StepReader {
   std::map<std::string, std::uint32_t> known_;
 };
 
-/// All that reports need of a store.
+/// Reads everything that reports need from a store.
 StoredRun run_in(const Database& database, Content content) {
   check_content(database);
   StoredRun run{read_header(database), {}, {}};
@@ -193,7 +193,7 @@ StoredRun run_in(const Database& database, Content content) {
     throw InputError(database.file(), "", "expected the store of a run, found none");
   }
   std::vector<IndexedRecord> rows = records_in(database, run.header);
-  // A store in order is sorted already.
+  // A store in order is already sorted.
   const auto is_before = [](const auto& a, const auto& b) { return a.first < b.first; };
   if (!std::is_sorted(rows.begin(), rows.end(), is_before)) {
     std::sort(rows.begin(), rows.end(), is_before);
@@ -223,8 +223,8 @@ void refuse_store(const fs::path& path) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const nlohmann::json::exception&) {
-    // What the library says names neither the file nor what is in it.
-    throw InputError(path.string(), "", "is damaged: JSON in it is not that of a store");
+    // The library's message names neither the file nor its content.
+    throw InputError(path.string(), "", "is damaged: its JSON is not that of a store");
   } catch (const std::exception& error) {
     throw InputError(path.string(), "", std::string("is damaged: ") + error.what());
   }
@@ -250,7 +250,7 @@ void Store::add(const std::vector<const TrialRecord*>& records) {
 
 void Store::merge(const fs::path& shard, const StoreHeader& from) {
   refuse_differences(shard.string(), from, read_header(database_),
-                     "stores of one experiment alone can be merged");
+                     "only stores of the same experiment can be merged");
   const Attachment attachment(database_, shard, "shard");
   Transaction transaction(database_);
   database_.run(id_maps("shard"));
@@ -271,7 +271,7 @@ StoreHeader stored_header(const fs::path& path) {
     check_content(database);
     check_rotations(database);
     check_covariances(database);
-    check_figures(database);
+    check_diagnostics(database);
     return read_header(database);
   });
 }

@@ -17,7 +17,7 @@
 namespace croon::experiments {
 namespace {
 
-/// A table, view or index: its type and name, and the statement that made it.
+/// A table, view or index: its type and name, and the statement that created it.
 using SchemaEntry = std::pair<std::string, std::string>;
 
 [[noreturn]] void refuse(const Database& database, const std::string& why) {
@@ -56,15 +56,16 @@ void check_conditions(const Database& database) {
 
 void check_references(const Database& database) {
   Statement check = database.prepare("PRAGMA foreign_key_check");
-  if (check.next()) refuse(database, "a row of " + check.text(0) + " has none in " + check.text(2));
+  if (check.next())
+    refuse(database, "a row of " + check.text(0) + " refers to a missing row of " + check.text(2));
   Statement orphan = database.prepare(
       "SELECT 1 FROM covariances JOIN trials USING(variant, scene, sensor, trial) "
       "WHERE r00 IS NULL LIMIT 1");
   if (orphan.next()) refuse(database, "a covariance has no pose");
 }
 
-/// Whether `text` does no harm in a terminal or a table: it is UTF-8 without control characters and
-/// does not begin with a sign by which spreadsheets recognise a formula.
+/// Whether `text` is safe in a terminal and a table: UTF-8 without control characters, and not
+/// beginning with a sign that spreadsheets interpret as the start of a formula.
 bool is_harmless(const std::string& text) {
   return printable(text) == text && std::string(kFormulaSigns).find(text[0]) == std::string::npos;
 }
@@ -72,14 +73,15 @@ bool is_harmless(const std::string& text) {
 /// Checks the texts of `table` that reports show: the names and `detail`, which may be empty.
 void check_names(const Database& database, const std::string& table, const std::string& detail) {
   check_by(database, "integrity_check(" + table + ")");
-  Statement places =
+  Statement positions =
       database.prepare("SELECT ifnull(max(place) + 1, 0), count(place) FROM " + table);
-  places.next();
-  if (places.integer(0) != places.integer(1)) refuse(database, table + ": a place is missing");
-  // An experiment has fewer sensors too; time grows with the square of their number.
-  if (places.integer(1) > std::int64_t{kMostVariants} && table != "scenes") {
-    refuse(database, "it has " + std::to_string(places.integer(1)) + " " + table +
-                         ", expected at most " + std::to_string(kMostVariants));
+  positions.next();
+  if (positions.integer(0) != positions.integer(1))
+    refuse(database, table + ": a position is missing");
+  // Experiments also have fewer sensors than this; run time grows with the square of their number.
+  if (positions.integer(1) > std::int64_t{kMaxVariants} && table != "scenes") {
+    refuse(database, "it has " + std::to_string(positions.integer(1)) + " " + table +
+                         ", expected at most " + std::to_string(kMaxVariants));
   }
   Statement select = database.prepare("SELECT name, " + detail + " FROM " + table);
   while (select.next()) {
@@ -101,8 +103,8 @@ void check_pipelines(const Database& database) {
   }
 }
 
-/// Throws InputError if a sensor has the name of all sensors together, or if one whose reference is
-/// another sensor does not have the name of this pair.
+/// Throws InputError if a sensor has the name of all sensors together, or if a sensor whose
+/// reference is another sensor does not have the name of this pair.
 void check_sensors(const Database& database) {
   Statement all = database.prepare("SELECT 1 FROM sensors WHERE name = ?");
   all.bind(0, kAllSensors);
@@ -135,12 +137,12 @@ void check_schema(const Database& database) {
       difference.first != expected.end() &&
       (difference.second == found.end() || difference.first->first <= difference.second->first);
   refuse(database, is_missing
-                       ? "it has no " + difference.first->first + " as this version of croon has it"
+                       ? "it lacks the " + difference.first->first + " of this version of croon"
                        : "it has a " + difference.second->first + ", which no store has");
 }
 
 void check_rotation(const Database& database, const Eigen::Matrix3d& rotation) {
-  if (!is_rotation_matrix(rotation)) refuse(database, "trials: a pose has no rotation");
+  if (!is_rotation_matrix(rotation)) refuse(database, "trials: the rotation of a pose is invalid");
 }
 
 void check_rotations(const Database& database) {
@@ -164,10 +166,10 @@ void check_covariances(const Database& database) {
   while (select.next()) check_covariance(database, stored_covariance_of(select).matrix);
 }
 
-void check_figures(const Database& database) {
-  Statement select = select_figures(database);
+void check_diagnostics(const Database& database) {
+  Statement select = select_diagnostics(database);
   try {
-    while (select.next()) figures_of(select);
+    while (select.next()) diagnostics_of(select);
   } catch (const std::exception& error) {
     refuse(database, std::string("steps: ") + error.what());
   }
@@ -177,7 +179,7 @@ void check_content(const Database& database) {
   check_by(database, "quick_check(1)");
   const std::string has_header = "EXISTS (SELECT 1 FROM meta)";
   if (database.prepare("SELECT 1 FROM trials WHERE NOT " + has_header + " LIMIT 1").next()) {
-    refuse(database, "it has trials, but no header that says what they were made from");
+    refuse(database, "it has trials, but no header with their provenance");
   }
   check_conditions(database);
   check_references(database);

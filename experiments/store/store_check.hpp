@@ -7,32 +7,32 @@
 
 namespace croon::experiments {
 
-// A store is input like any other file: it may be damaged, or made to do harm.
+// A store is untrusted input like any other file: it may be damaged or malicious.
 
-/// Throws InputError unless the database has the tables and views of a store and nothing else. Runs
-/// in constant time.
+/// Throws InputError unless the database has exactly the tables and views of a store. Runs in
+/// constant time.
 void check_schema(const Database& database);
 
-/// Throws InputError unless the store is whole: its pages, and the type and range of every value,
-/// but neither the rotations of its poses nor its covariances. Runs in time proportional to the
-/// size of the file. Call check_schema before.
+/// Throws InputError unless the store is intact: its pages, and the type and range of every value,
+/// but not the rotations of its poses nor its covariances. Runs in time proportional to the size of
+/// the file. Call check_schema first.
 void check_content(const Database& database);
 
-/// Throws InputError unless the figures and names of all steps can be read, for who does not read
-/// them.
-void check_figures(const Database& database);
+/// Throws InputError unless the diagnostics and names of all steps can be read; for callers that do
+/// not read them.
+void check_diagnostics(const Database& database);
 
-/// Throws InputError unless `rotation`, of a pose of the store, is a rotation. SQL takes several
-/// times as long.
+/// Throws InputError unless `rotation`, of a pose in the store, is a rotation matrix. SQL would
+/// take several times as long.
 void check_rotation(const Database& database, const Eigen::Matrix3d& rotation);
 
-/// The same for all poses, for who does not read them.
+/// The same for all poses; for callers that do not read them.
 void check_rotations(const Database& database);
 
-/// Throws InputError unless `matrix`, of the table `covariances`, is a covariance.
+/// Throws InputError unless `matrix`, of the table `covariances`, is a covariance matrix.
 void check_covariance(const Database& database, const Matrix6d& matrix);
 
-/// The same for all covariances, for who does not read them.
+/// The same for all covariances; for callers that do not read them.
 void check_covariances(const Database& database);
 
 }  // namespace croon::experiments

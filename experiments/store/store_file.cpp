@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The numbers in the header of an SQLite file that say which program it belongs to ("croo"), and
-/// whether it has a write-ahead log (https://www.sqlite.org/fileformat.html, 1.3).
+/// The numbers in the header of an SQLite file that identify its program ("croo") and tell whether
+/// it has a write-ahead log (https://www.sqlite.org/fileformat.html, 1.3).
 constexpr std::uint32_t kApplicationId = 0x63726F6F;
 constexpr std::size_t kApplicationIdOffset = 68;
 constexpr std::size_t kWriteVersionOffset = 18;
@@ -25,12 +25,12 @@ using FileHeader = std::array<char, 100>;
 
 fs::path beside(const fs::path& path, const char* ending) { return path.string() + ending; }
 
-/// The first bytes of the file `path`; zeros after its end.
+/// The first bytes of the file `path`, padded with zeros.
 FileHeader header_bytes(const fs::path& path) {
   FileHeader bytes{};
   std::ifstream stream(path, std::ios::binary);
   if (!stream)
-    throw InputError(path.string(), "", "expected a readable store, found one that is not");
+    throw InputError(path.string(), "", "expected a readable store, found an unreadable one");
   stream.read(bytes.data(), bytes.size());
   return bytes;
 }
@@ -52,17 +52,17 @@ bool is_sqlite_file(const FileHeader& bytes) {
   throw InputError(path.string(), "", "expected the store of a run, found " + found);
 }
 
-/// What is at `path`, which has no store, for a message.
+/// Describes the file at `path`, which is not a store, for a message.
 std::string found_instead_of_store(const fs::path& path) {
   if (!fs::is_regular_file(path)) return "none";
   if (fs::is_empty(path)) return "an empty file";
-  return "a database without the tables of a store; a run that was killed has them in " +
-         path.string() + "-wal, which was beside it";
+  return "a database without the tables of a store; those of a killed run are in " + path.string() +
+         "-wal beside it";
 }
 
 void refuse_unless_file(const fs::path& path) {
   std::error_code error;
-  // Before it is opened: opening a pipe would wait for a writer.
+  // Checked before opening: opening a pipe would wait for a writer.
   if (!fs::is_regular_file(path, error)) refuse_other_file(path, found_instead_of_file(path));
 }
 
@@ -79,9 +79,9 @@ void remove_files(const std::vector<fs::path>& files) {
   }
 }
 
-/// Throws InputError if the database `path`, whose own pages alone are looked at, is of another
-/// program. Returns whether it has the tables of a store, and so much of their columns that no
-/// other program has them by chance.
+/// Throws InputError if the database `path`, of which only its own pages are read, belongs to
+/// another program. Returns whether it has the tables of a store and enough of their columns to
+/// exclude a coincidence.
 bool has_store_tables(const fs::path& path, Access access) {
   const Database database(path, access);
   Statement tables = database.prepare("SELECT count(*) FROM sqlite_master WHERE type = 'table'");
@@ -99,7 +99,7 @@ bool has_store_tables(const fs::path& path, Access access) {
 }
 
 /// Whether a process of an earlier version was killed while it changed the journal mode of `path`.
-/// Throws InputError if the file is the database of another program.
+/// Throws InputError if the file is a database of another program.
 bool has_old_journal(const fs::path& path) {
   if (!has_bytes(beside(path, "-journal"))) return false;
   try {
@@ -107,12 +107,12 @@ bool has_old_journal(const fs::path& path) {
       has_store_tables(path, Access::snapshot);
     }
   } catch (const UnreadableDatabase&) {
-    // A page is half-written, which the journal repairs.
+    // A page is half-written; the journal repairs it.
   }
   return true;
 }
 
-/// Moves all that is in the log of the store `path` into its file.
+/// Moves the content of the log of the store `path` into its file.
 void empty_log(const fs::path& path) {
   const Database database(path, Access::write);
   Statement checkpoint = database.prepare("PRAGMA wal_checkpoint(TRUNCATE)");
@@ -121,7 +121,7 @@ void empty_log(const fs::path& path) {
   }
 }
 
-/// Calls `write`, which makes a file beside the store `path`, and renames that file to `path`.
+/// Calls `write`, which creates a file beside the store `path`, and renames that file to `path`.
 void replace_by(const fs::path& path, const std::function<void(const fs::path&)>& write) {
   const fs::path working = beside(path, ".new");
   const std::vector<fs::path> files = store_files(working);
@@ -142,7 +142,8 @@ void copy_to(const fs::path& from, const fs::path& to) {
   if (error) throw InputError(to.string(), "", "cannot be written: " + error.message());
 }
 
-/// From memory: what is not on disk when the process is killed is thrown away with the file.
+/// Switches to a write-ahead log without a journal on disk: if the process is killed, the
+/// incomplete file is discarded.
 void begin_log(Database& database) {
   database.run("PRAGMA journal_mode = MEMORY; PRAGMA journal_mode = WAL;");
 }
@@ -169,7 +170,7 @@ bool is_left_by_sqlite(const fs::path& path) {
   if (is_sqlite_file(bytes)) return application_id(bytes) == kApplicationId;
   // A rollback journal, a write-ahead log and its index
   // (https://www.sqlite.org/fileformat.html, 3 and 4; https://www.sqlite.org/walformat.html, 2.1).
-  // A journal that is not needed any more begins with zeros.
+  // A journal that is no longer needed begins with zeros.
   const std::string_view first(bytes.data(), 4);
   using namespace std::string_view_literals;
   return first == "\xD9\xD5\x05\xF9"sv || first == "\x37\x7F\x06\x82"sv ||
@@ -199,11 +200,11 @@ bool has_store(const fs::path& path) {
   }
   if (!has_bytes(path)) return false;
   const FileHeader bytes = header_bytes(path);
-  if (!is_sqlite_file(bytes)) refuse_other_file(path, "a file that is no database");
+  if (!is_sqlite_file(bytes)) refuse_other_file(path, "a file that is not a database");
   const std::uint32_t id = application_id(bytes);
   if (id == kApplicationId) return true;
   if (id != 0) refuse_other_file(path, "the database of another program");
-  // The store of an earlier version. All of it may still be in its log.
+  // A store of an earlier version. Its whole content may still be in its log.
   return has_store_tables(path, Access::snapshot) || has_store_tables(path, Access::read);
 }
 
@@ -224,7 +225,7 @@ Database open_to_write(const fs::path& path) {
 
 void build_store(const fs::path& path, const std::function<void(Database&)>& fill) {
   replace_by(path, [&](const fs::path& working) {
-    // SQLite would create it with other permissions than those that the umask leaves.
+    // SQLite would create it with permissions that differ from those of the umask.
     write_whole_file(working, "");
     Database database(working, Access::create);
     database.run(
@@ -236,7 +237,7 @@ void build_store(const fs::path& path, const std::function<void(Database&)>& fil
 
 void replace_store(const fs::path& path, const fs::path& by) {
   if (has_store(path)) empty_log(path);
-  // Else SQLite would take the log of the old store for the log of the new one.
+  // Otherwise SQLite would use the log of the old store for the new one.
   for (const char* ending : {"-journal", "-wal", "-shm"}) remove_files({beside(path, ending)});
   std::error_code error;
   fs::rename(by, path, error);

@@ -17,10 +17,10 @@ namespace croon::experiments {
 namespace {
 
 constexpr const char* kFormat = "5";
-/// The entry of `meta` that marks a store as not in order.
+/// The entry of `meta` that marks an unordered store.
 constexpr const char* kUnordered = "unordered";
 
-/// A table of names, and the member of the header that it is read into.
+/// A table of names, and the corresponding member of the header.
 struct NameTable {
   const char* name;
   const char* detail;
@@ -40,12 +40,12 @@ void write_names(Database& database, const NameTable& table, const StoreHeader& 
       database.prepare("INSERT INTO " + name + "(name, " + detail +
                        ", place) VALUES(?1, ?2, ?3) ON CONFLICT(name) DO UPDATE SET " + detail +
                        " = ?2, place = ?3");
-  std::int64_t place = 0;
+  std::int64_t position = 0;
   for (const StoredName& stored : header.*table.names) {
     upsert.reset();
     upsert.bind(0, stored.name);
     upsert.bind(1, stored.detail);
-    if (stored.is_current) upsert.bind(2, place++);
+    if (stored.is_current) upsert.bind(2, position++);
     upsert.next();
   }
 }
@@ -59,27 +59,27 @@ std::vector<StoredName> read_names(const Database& database, const NameTable& ta
   return names;
 }
 
-/// Removes `name` from `meta` and returns its value; empty if it was not there.
+/// Removes `name` from `meta` and returns its value; empty if missing.
 std::string taken(Provenance& meta, const std::string& name) {
   const auto node = meta.extract(name);
   return node.empty() ? "" : node.mapped();
 }
 
 void add_missing(std::vector<StoredName>& to, const std::vector<StoredName>& from) {
-  std::unordered_map<std::string, std::size_t> places;
-  for (std::size_t i = 0; i < to.size(); ++i) places.emplace(to[i].name, i);
+  std::unordered_map<std::string, std::size_t> indices;
+  for (std::size_t i = 0; i < to.size(); ++i) indices.emplace(to[i].name, i);
   for (const StoredName& stored : from) {
-    const auto [place, is_new] = places.emplace(stored.name, to.size());
+    const auto [entry, is_new] = indices.emplace(stored.name, to.size());
     if (is_new) {
       to.push_back(stored);
     } else if (stored.is_current) {
-      // Whatever the order of folders, what is current in one of them is current.
-      to[place->second].is_current = true;
+      // Regardless of the order of folders, a name that is current in any of them is current.
+      to[entry->second].is_current = true;
     }
   }
 }
 
-/// The number of trials that `text` is.
+/// The number of trials in `text`.
 int trials_of(const std::string& text) {
   int trials = 0;
   const char* const end = text.data() + text.size();
@@ -95,13 +95,13 @@ using nlohmann::json;
 constexpr std::size_t kShownDifferences = 3;
 constexpr std::size_t kShownCharacters = 60;
 
-/// `value` on one line, cut if it is long.
+/// `value` on one line, truncated if it is long.
 std::string shown(const json& value) {
   const std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
   return text.size() <= kShownCharacters ? text : text.substr(0, kShownCharacters) + "...";
 }
 
-/// A JSON pointer as the user knows it: "~1" is a slash in a file name.
+/// A JSON pointer in readable form: "~1" is a slash in a file name.
 std::string readable(std::string pointer) {
   for (std::size_t at = pointer.find("~1"); at != std::string::npos; at = pointer.find("~1", at)) {
     pointer.replace(at, 2, "/");
@@ -111,10 +111,10 @@ std::string readable(std::string pointer) {
 
 /// Adds the differences of two JSON texts, with pointers below `where`.
 void add_differences(std::vector<std::string>& to, const std::string& where,
-                     const std::string& stored, const std::string& asked) {
-  if (stored == asked) return;
+                     const std::string& stored, const std::string& requested) {
+  if (stored == requested) return;
   const json was = parsed_or_discarded(stored);
-  const json is = parsed_or_discarded(asked);
+  const json is = parsed_or_discarded(requested);
   if (was.is_discarded() || is.is_discarded()) {
     to.push_back(where + " differs");
     return;
@@ -122,8 +122,8 @@ void add_differences(std::vector<std::string>& to, const std::string& where,
   for (const json& change : json::diff(was, is)) {
     const json::json_pointer pointer(change["path"].get<std::string>());
     std::string text = where + readable(pointer.to_string());
-    if (change["op"] == "add") text += " was not there and is " + shown(change["value"]);
-    if (change["op"] == "remove") text += " was " + shown(was[pointer]) + " and is not there";
+    if (change["op"] == "add") text += " was missing and is  " + shown(change["value"]);
+    if (change["op"] == "remove") text += " was " + shown(was[pointer]) + " and is missing";
     if (change["op"] == "replace") {
       text += " was " + shown(was[pointer]) + " and is " + shown(change["value"]);
     }
@@ -168,7 +168,7 @@ bool StoredIndices::find(const TrialRow& row, TrialIndex& index) const {
 
 StoreHeader read_header(const Database& database) {
   StoreHeader header;
-  // A store that was killed before its first commit has no tables.
+  // A store killed before its first commit has no tables.
   if (!database.prepare("SELECT 1 FROM sqlite_master WHERE name = 'meta'").next()) return header;
   Statement select = database.prepare("SELECT name, value FROM meta");
   while (select.next()) header.provenance[select.text(0)] = select.text(1);
@@ -185,7 +185,7 @@ StoreHeader read_header(const Database& database) {
   header.trials = trials_of(taken(header.provenance, "trials"));
   taken(header.provenance, kUnordered);
   if (header.provenance.empty()) {
-    throw std::runtime_error("its header does not say what its trials were made from");
+    throw std::runtime_error("its header has no provenance of its trials");
   }
   for (const NameTable& table : kNameTables) header.*table.names = read_names(database, table);
   return header;
@@ -246,25 +246,25 @@ StoreHeader united(StoreHeader a, const StoreHeader& b) {
   return continued(b, std::move(a));
 }
 
-StoreHeader continued(const StoreHeader& stored, StoreHeader asked) {
-  asked.versions.insert(stored.versions.begin(), stored.versions.end());
-  asked.builds = united(std::move(asked.builds), stored.builds);
-  return asked;
+StoreHeader continued(const StoreHeader& stored, StoreHeader requested) {
+  requested.versions.insert(stored.versions.begin(), stored.versions.end());
+  requested.builds = united(std::move(requested.builds), stored.builds);
+  return requested;
 }
 
-std::vector<std::string> differences(const StoreHeader& stored, const StoreHeader& asked) {
+std::vector<std::string> differences(const StoreHeader& stored, const StoreHeader& requested) {
   std::vector<std::string> found;
-  Provenance names = asked.provenance;
+  Provenance names = requested.provenance;
   names.insert(stored.provenance.begin(), stored.provenance.end());
   const auto value = [](const Provenance& of, const std::string& name) {
     const auto entry = of.find(name);
     return entry == of.end() ? std::string("null") : entry->second;
   };
   for (const auto& [name, any] : names) {
-    const std::string was = value(stored.provenance, name), is = value(asked.provenance, name);
+    const std::string was = value(stored.provenance, name), is = value(requested.provenance, name);
     add_differences(found, "/" + name, was, is);
   }
-  for (const auto& [stage, version] : asked.versions) {
+  for (const auto& [stage, version] : requested.versions) {
     const auto was = stored.versions.find(stage);
     if (was == stored.versions.end() || was->second == version) continue;
     found.push_back("version of " + stage + " was " + std::to_string(was->second) + " and is " +
@@ -274,7 +274,7 @@ std::vector<std::string> differences(const StoreHeader& stored, const StoreHeade
   for (const StoredName& variant : stored.variants) {
     pipelines.emplace(variant.name, &variant.detail);
   }
-  for (const StoredName& variant : asked.variants) {
+  for (const StoredName& variant : requested.variants) {
     const auto was = pipelines.find(variant.name);
     if (was == pipelines.end()) continue;
     add_differences(found, "/variants/" + variant.name, *was->second, variant.detail);
@@ -283,8 +283,8 @@ std::vector<std::string> differences(const StoreHeader& stored, const StoreHeade
 }
 
 void refuse_differences(const std::string& file, const StoreHeader& stored,
-                        const StoreHeader& asked, const std::string& remedy) {
-  const std::vector<std::string> found = differences(stored, asked);
+                        const StoreHeader& requested, const std::string& remedy) {
+  const std::vector<std::string> found = differences(stored, requested);
   if (found.empty()) return;
   std::string text;
   for (std::size_t i = 0; i < found.size() && i < kShownDifferences; ++i) {
@@ -293,16 +293,16 @@ void refuse_differences(const std::string& file, const StoreHeader& stored,
   if (found.size() > kShownDifferences) {
     text += "; and " + std::to_string(found.size() - kShownDifferences) + " more";
   }
-  throw InputError(file, "", "its trials were made from something else: " + text + "; " + remedy);
+  throw InputError(file, "", "its trials were made from different inputs: " + text + "; " + remedy);
 }
 
 void refuse_other_builds(const std::string& file, const StoreHeader& stored,
-                         const StoreHeader& asked, const std::string& remedy) {
-  if (stored.builds.empty() || is_same(stored.builds, asked.builds)) return;
-  // Of several builds that of `asked` may be one.
+                         const StoreHeader& requested, const std::string& remedy) {
+  if (stored.builds.empty() || is_same(stored.builds, requested.builds)) return;
+  // One of several builds may be the requested one.
   const auto other =
       std::find_if(stored.builds.begin(), stored.builds.end(), [&](const Build& build) {
-        return std::none_of(asked.builds.begin(), asked.builds.end(),
+        return std::none_of(requested.builds.begin(), requested.builds.end(),
                             [&](const Build& same) { return is_same({build}, {same}); });
       });
   const Build& shown = other == stored.builds.end() ? stored.builds.front() : *other;

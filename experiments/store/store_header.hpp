@@ -13,38 +13,39 @@
 
 namespace croon::experiments {
 
-/// What decides the result of every trial of a run, by name ("starts", "inputs"), as JSON or as a
-/// digest. Pipelines are not in it: a pipeline decides the results of its variant only.
+/// Everything that determines the result of every trial of a run, by name ("starts", "inputs"), as
+/// JSON or as a digest. Pipelines are not included: a pipeline affects only the results of its
+/// variant.
 using Provenance = std::map<std::string, std::string>;
 
-/// The name of a variant, scene or sensor, with one property of it.
+/// The name of a variant, scene or sensor, with one property.
 struct StoredName {
   std::string name;
   std::string detail;
-  bool is_current = true;  ///< Else the experiment no longer has it, and no report shows it.
+  bool is_current = true;  ///< If not, the experiment no longer has it and reports omit it.
 };
 
-/// What a store has beside its trials: all that a report needs.
+/// The data of a store besides its trials: everything else that a report needs.
 struct StoreHeader {
   Provenance provenance;
-  params::StageVersions versions;  ///< Of the stages that decided the trials; see versions_of.
-  std::vector<Build> builds;       ///< That wrote to it.
-  std::string manifest;  ///< JSON of manifest.json, without "host" and what the builds say.
-  int trials = 0;  ///< Per variant, scene and sensor. Trials with larger numbers are not current.
+  params::StageVersions versions;  ///< Versions of the stages of the trials; see versions_of.
+  std::vector<Build> builds;       ///< Builds that wrote to the store.
+  std::string manifest;            ///< JSON of manifest.json, without "host" and the builds.
+  int trials = 0;  ///< Per variant, scene and sensor; larger trial numbers are not current.
   std::vector<StoredName> variants;  ///< In report order, with the JSON of their pipelines.
   std::vector<StoredName> scenes;    ///< In report order, with their kinds.
   std::vector<StoredName>
       sensors;  ///< In report order, with the sensors that they are calibrated to.
 };
 
-/// Reads the header; without provenance if none was written yet.
+/// Reads the header; without provenance if none has been written.
 StoreHeader read_header(const Database& database);
 
-/// Writes the header. A variant, scene or sensor that is only in the store stays there, but is no
-/// longer current. After this the store is not in order.
+/// Writes the header. A variant, scene or sensor that is only in the store remains there, but is no
+/// longer current. Afterwards the store is not in order.
 void write_header(Database& database, const StoreHeader& header);
 
-/// Whether the store is in order: nothing was written since it was sorted.
+/// Whether the store is in order: unchanged since it was sorted.
 bool is_in_order(const Database& database);
 
 /// SQL that fills the empty header of main from the attached store `from`, in order.
@@ -56,11 +57,11 @@ bool is_same(const StoreHeader& a, const StoreHeader& b);
 /// `a`, followed by the variants, scenes and sensors that only `b` has.
 StoreHeader united(StoreHeader a, const StoreHeader& b);
 
-/// `asked` with the versions and the builds of `stored`: what the header becomes when a run that
-/// asks for `asked` goes on in a store.
-StoreHeader continued(const StoreHeader& stored, StoreHeader asked);
+/// `requested` with the versions and builds of `stored`: the header of a store in which a run that
+/// requests `requested` continues.
+StoreHeader continued(const StoreHeader& stored, StoreHeader requested);
 
-/// The ids of the names in `table`, which is variants, scenes or sensors.
+/// The ids of the names in `table`: variants, scenes or sensors.
 std::map<std::string, std::int64_t> ids_of(const Database& database, const std::string& table);
 
 /// Maps rows of a store to indices in its header.
@@ -72,7 +73,7 @@ class StoredIndices {
   bool find(const TrialRow& row, TrialIndex& index) const;
 
  private:
-  /// The indices of current names by their ids.
+  /// The indices of current names, by id.
   using Indices = std::unordered_map<std::int64_t, std::size_t>;
   static Indices indices_of(const Database& database, const std::string& table,
                             const std::vector<StoredName>& names);
@@ -80,22 +81,22 @@ class StoredIndices {
   Indices variants_, scenes_, sensors_;
 };
 
-/// The differences that keep the trials of `stored` and of `asked` apart, each as
-/// "/starts/rotation_deg was 45 and is 30". A variant or a stage that only one of them has is no
-/// difference, and neither is the build.
-std::vector<std::string> differences(const StoreHeader& stored, const StoreHeader& asked);
+/// The differences that prevent trials of `stored` and of `requested` from sharing a store, each as
+/// "/starts/rotation_deg was 45 and is 30". A variant or stage that only one of them has is not a
+/// difference, nor is the build.
+std::vector<std::string> differences(const StoreHeader& stored, const StoreHeader& requested);
 
-/// What a user can do about results of something else.
+/// How to proceed if the results in a folder were made from different inputs.
 inline constexpr const char* kFreshRemedy =
     "--fresh deletes them and starts over, --out writes elsewhere";
 
-/// Throws InputError if there are `differences`. `file` is the store;
-/// `remedy` says what the user can do.
+/// Throws InputError if there are `differences`. `file` is the store; `remedy` tells the user how
+/// to proceed.
 void refuse_differences(const std::string& file, const StoreHeader& stored,
-                        const StoreHeader& asked, const std::string& remedy);
+                        const StoreHeader& requested, const std::string& remedy);
 
-/// Throws InputError if the trials of `stored` were made by other builds than those of `asked`.
+/// Throws InputError if the trials of `stored` were made by other builds than those of `requested`.
 void refuse_other_builds(const std::string& file, const StoreHeader& stored,
-                         const StoreHeader& asked, const std::string& remedy);
+                         const StoreHeader& requested, const std::string& remedy);
 
 }  // namespace croon::experiments

@@ -12,11 +12,11 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// The maximum number of bytes of a name, or of what reports show beside it.
+/// The maximum number of bytes of a name, or of its detail.
 constexpr const char* kMaxTextBytes = "65536";
-/// More names than a store has.
+/// More names than a store can have.
 constexpr const char* kMaxId = "1000000000";
-/// A rotation or a distance beyond this is in no result, and its square is finite.
+/// No result has a rotation or distance beyond this, and its square is finite.
 constexpr const char* kMaxNumber = "1e15";
 
 std::string joined(const Names& names, const std::string& between) {
@@ -37,7 +37,7 @@ std::string is_short(const std::string& column) {
   return "length(CAST(" + column + " AS BLOB)) <= " + kMaxTextBytes;
 }
 
-/// A condition: each of `columns` is a number in range, or each of them is null.
+/// A condition: all `columns` are numbers in range, or all are null.
 std::string numbers_or_nulls(const Names& columns) {
   Names nulls, numbers;
   for (const std::string& column : columns) {
@@ -100,7 +100,7 @@ Names numbers_of_covariance() {
   return names;
 }
 
-// Numbers are of the type ANY: SQLite then keeps the bits of a double, also of -0.0.
+// Numbers have the type ANY: SQLite then keeps all bits of a double, including those of -0.0.
 TableSchema trial_table() {
   return {"trials",
           std::string(kTrialColumns) + "status TEXT NOT NULL, reason TEXT NOT NULL, " +
@@ -154,7 +154,7 @@ std::vector<TableSchema> tables() {
           covariance_table()};
 }
 
-/// A view of `table` with the names of variants, scenes and sensors in place of their ids.
+/// A view of `table` with the names of variants, scenes and sensors instead of their ids.
 std::string named_view(const std::string& table, const std::string& columns) {
   return "CREATE VIEW named_" + table +
          " AS SELECT variants.name AS variant, scenes.name AS scene, sensors.name AS sensor, "

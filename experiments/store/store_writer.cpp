@@ -5,7 +5,7 @@
 namespace croon::experiments {
 namespace {
 
-constexpr std::size_t kMostWaiting = 4096;
+constexpr std::size_t kMaxQueued = 4096;
 
 void store_records(Store& store, const std::vector<Done>& batch) {
   std::vector<const TrialRecord*> records;
@@ -31,7 +31,7 @@ StoreWriter::~StoreWriter() {
 
 void StoreWriter::add(Done done) {
   std::unique_lock<std::mutex> lock(mutex_);
-  changed_.wait(lock, [&] { return queue_.size() < kMostWaiting || error_; });
+  changed_.wait(lock, [&] { return queue_.size() < kMaxQueued || error_; });
   if (error_) std::rethrow_exception(error_);
   queue_.push_back(std::move(done));
   changed_.notify_all();

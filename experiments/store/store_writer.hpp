@@ -12,27 +12,28 @@
 
 namespace croon::experiments {
 
-/// A result of a run: a trial with its timings, or the timings of what was done once for a scene.
+/// A result of a run: a trial with its timings, or the timings of computations done once for a
+/// scene.
 struct Done {
   std::optional<TrialRecord> record;
   std::vector<TimingRow> timings;
 };
 
-/// Writes to a store from a thread of its own, so that trials do not wait for the disk. Results
-/// that arrive during a commit are written in the next one. A kill loses what is not committed,
-/// some milliseconds of work.
+/// Writes to a store from its own thread, so that trials do not wait for the disk. Results that
+/// arrive during a commit are written in the next one. A kill loses uncommitted results, some
+/// milliseconds of work.
 class StoreWriter {
  public:
-  /// Calls `on_stored`, on the writer's thread, with results that are on disk.
+  /// Calls `on_stored` on the writer's thread with results that are on disk.
   StoreWriter(Store& store, std::function<void(const std::vector<Done>&)> on_stored);
-  /// Writes what is queued. Errors are lost, so call finish() before.
+  /// Writes the queued results. Errors are lost, so call finish() first.
   ~StoreWriter();
   StoreWriter(const StoreWriter&) = delete;
   StoreWriter& operator=(const StoreWriter&) = delete;
 
-  /// Queues `done`; waits if the queue is long. Throws what writing threw.
+  /// Queues `done`; waits if the queue is full. Throws errors of writing.
   void add(Done done);
-  /// Returns when all is on disk. Throws what writing threw.
+  /// Returns when everything is on disk. Throws errors of writing.
   void finish();
 
  private:

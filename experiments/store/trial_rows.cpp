@@ -30,7 +30,7 @@ Status status_of(const std::string& word) {
   for (std::size_t i = 0; i < kStatusNames.size(); ++i) {
     if (word == kStatusNames[i]) return static_cast<Status>(i);
   }
-  throw std::logic_error("the store has a status \"" + word + "\"");
+  throw std::logic_error("invalid status in the store: \"" + word + "\"");
 }
 
 /// JSON has no infinities and no NaN; they are written as strings.
@@ -40,23 +40,23 @@ ordered_json json_of(double value) {
   return value;
 }
 
-/// The number that `json_of` wrote. Throws std::exception if it is another value.
+/// The number written by `json_of`. Throws std::exception for other values.
 double number_of(const ordered_json& stored) {
   if (stored == "nan") return std::numeric_limits<double>::quiet_NaN();
   if (stored == "inf") return std::numeric_limits<double>::infinity();
   if (stored == "-inf") return -std::numeric_limits<double>::infinity();
-  if (!stored.is_number()) throw std::runtime_error("what a step reports is no number");
+  if (!stored.is_number()) throw std::runtime_error("a diagnostic is not a number");
   return stored.get<double>();
 }
 
 /// `{"rmse_m": 0.02, ...}`
-std::string figures_text(const std::vector<Diagnostic>& figures) {
+std::string diagnostics_text(const std::vector<Diagnostic>& diagnostics) {
   ordered_json object = ordered_json::object();
-  for (const auto& [name, value] : figures) object[name] = json_of(value);
+  for (const auto& [name, value] : diagnostics) object[name] = json_of(value);
   return object.dump();
 }
 
-/// The 36 numbers by rows, as they are in memory: little-endian on every supported machine.
+/// The 36 numbers by rows, as in memory: little-endian on all supported machines.
 std::string bytes_of(const Matrix6d& information) {
   const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> rows = information;
   return {reinterpret_cast<const char*>(rows.data()), sizeof(double) * 36};
@@ -119,7 +119,7 @@ void RecordInserter::add(const TrialRow& row, const TrialRecord& record) {
     bind_key(step_, row);
     step_.bind(kKeyColumns, index++);
     step_.bind(kKeyColumns + 1, step.name);
-    step_.bind(kKeyColumns + 2, figures_text(step.diagnostics));
+    step_.bind(kKeyColumns + 2, diagnostics_text(step.diagnostics));
     if (step.information) step_.bind_bytes(kKeyColumns + 3, bytes_of(*step.information));
     step_.next();
     step_.reset();
@@ -140,7 +140,7 @@ TrialRecord result_of(const Statement& select) {
   TrialRecord record;
   int column = kKeyColumns;
   record.status = status_of(select.text(column++));
-  // A reason may quote the name of a file, and a store may come from anybody.
+  // A reason may quote the name of a file, and a store may come from anywhere.
   record.reason = printable(select.text(column++));
   if (!select.is_null(column)) {
     record.error.emplace();
@@ -178,25 +178,26 @@ PoseCovariance stored_covariance_of(const Statement& select) {
   return covariance;
 }
 
-Statement select_figures(const Database& database) {
+Statement select_diagnostics(const Database& database) {
   return database.prepare("SELECT variant, scene, sensor, trial, step, figures FROM steps");
 }
 
-std::pair<std::string, std::vector<Diagnostic>> figures_of(const Statement& select) {
+std::pair<std::string, std::vector<Diagnostic>> diagnostics_of(const Statement& select) {
   const auto shown = [](const std::string& name) {
     if (name.empty() || printable(name) != name ||
         std::string(kFormulaSigns).find(name.front()) != std::string::npos) {
-      throw std::runtime_error("a step or what it reports has a name that cannot be shown");
+      throw std::runtime_error("the name of a step or diagnostic is not printable");
     }
     return name;
   };
-  std::vector<Diagnostic> figures;
+  std::vector<Diagnostic> diagnostics;
   const auto object = parsed_or_discarded<ordered_json>(select.text(kKeyColumns + 1));
-  if (!object.is_object()) throw std::runtime_error("what a step reports is no JSON object");
+  if (!object.is_object())
+    throw std::runtime_error("the diagnostics of a step are not a JSON object");
   for (const auto& item : object.items()) {
-    figures.emplace_back(shown(item.key()), number_of(item.value()));
+    diagnostics.emplace_back(shown(item.key()), number_of(item.value()));
   }
-  return {shown(select.text(kKeyColumns)), std::move(figures)};
+  return {shown(select.text(kKeyColumns)), std::move(diagnostics)};
 }
 
 }  // namespace croon::experiments

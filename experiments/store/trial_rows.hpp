@@ -9,7 +9,7 @@
 
 namespace croon::experiments {
 
-/// A trial in the store: the ids of its variant, scene and sensor, and its number.
+/// The key of a trial in the store: the ids of its variant, scene and sensor, and its number.
 struct TrialRow {
   std::int64_t variant = 0;
   std::int64_t scene = 0;
@@ -40,10 +40,10 @@ TrialRecord result_of(const Statement& select);
 Statement select_covariances(const Database& database);
 PoseCovariance stored_covariance_of(const Statement& select);
 
-/// The statement whose rows `row_of` and `figures_of` read, in the order of the store.
-Statement select_figures(const Database& database);
-/// The name of the step and the numbers that it reported. Throws std::exception if they are
+/// The statement whose rows `row_of` and `diagnostics_of` read, in the order of the store.
+Statement select_diagnostics(const Database& database);
+/// The name of the step and the diagnostics that it reported. Throws std::exception if they are
 /// damaged.
-std::pair<std::string, std::vector<Diagnostic>> figures_of(const Statement& select);
+std::pair<std::string, std::vector<Diagnostic>> diagnostics_of(const Statement& select);
 
 }  // namespace croon::experiments

@@ -96,7 +96,7 @@ TEST_F(GivenVelocities, AreReadStrictly) {
                  "v.csv: line 3: expected a scene of the dataset, found \"000002\"; did you mean");
   write_velocities(kRows);
   expect_refusal(run(R"("file": "v.csv")", R"("loops": true, )"),
-                 "x.json: /pipeline/0: the step \"known_velocity\" expects no \"loops\"");
+                 "x.json: /pipeline/0: the step \"known_velocity\" cannot be used with \"loops\"");
   expect_refusal(run(R"("file": "v.csv", "linear_mps": [1, 0, 0])"),
                  "no such key together with \"file\"");
   expect_refusal(run(R"("linear_std_mps": 1)"), "must both be 0 or both be positive");

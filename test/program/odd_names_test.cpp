@@ -92,7 +92,7 @@ TEST_F(OddInput, AScenesNameIsPrintable) {
 
 TEST_F(OddInput, ASensorIsNotCalledAllSensors) {
   write_scene("s1", "all");
-  EXPECT_NE(refusal(kNominal).find("x.json: /dataset: expected a sensor with another name than "
+  EXPECT_NE(refusal(kNominal).find("x.json: /dataset: expected a sensor name other than "
                                    "\"all\""),
             std::string::npos);
 }
@@ -202,7 +202,7 @@ TEST_F(OddInput, APlanIsEstimatedBeforeItIsMade) {
   EXPECT_EQ(answer.code, 2);
   EXPECT_NE(answer.text.find("a plan of 400000000000 trials takes about "), std::string::npos)
       << answer.text;
-  EXPECT_NE(answer.text.find("or run it in parts by --shard"), std::string::npos) << answer.text;
+  EXPECT_NE(answer.text.find("or run it in parts with --shard"), std::string::npos) << answer.text;
 }
 
 TEST_F(OddInput, ASensorsRaysAreEstimatedBeforeTheyAreCast) {

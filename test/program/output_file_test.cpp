@@ -143,7 +143,7 @@ TEST_F(OutputFile, OfSimulatedScenesThatAUserHasChangedStays) {
     const std::string before = read_whole_file(path(name));
     folder_.write(name, "mine");
     expect_refused("simulate " + path("x.json") + " --quiet --out " + path("data"), path(name),
-                   "which is there; delete it first, or write to another");
+                   "which exists; delete it first, or write to another file");
     folder_.write(name, before);
   }
 }

@@ -210,8 +210,8 @@ TEST(Program, RefusesWhatCanOnlyFailWhenItValidates) {
   EXPECT_EQ(
       validate(R"("loops": true, "pipeline": [{"step": "identity"}], "variants": [{"name": "v",
                         "replace": {"identity": {"step": "known_velocity"}}}])"),
-      "/variants/0/replace/identity: the step \"identity\" expects no \"loops\": the velocity "
-      "is that of the reference, and pairs have another\n");
+      "/variants/0/replace/identity: the step \"identity\" cannot be used with \"loops\": the "
+      "velocity is that of the reference, not of other targets\n");
   EXPECT_EQ(validate(R"("pipeline": [{"step": "identity", "name": "-x"}])"),
             "/pipeline/0/name: expected a name of letters, digits, _ and -, not starting with -, "
             "found \"-x\"\n");

@@ -73,7 +73,7 @@ class SimulatedScenes(TestCase):
 
     def test_with_wrong_parameters_are_refused(self):
         for wrong, expected in (({"rig": "croon_fiv"}, 'did you mean "croon_five"?'), ({"scens": 1}, 'did you mean "scenes"?'),
-                                ({"scenes": 0}, "from 1"), ({"scenes": float("nan")}, "expected what JSON has"),
+                                ({"scenes": 0}, "from 1"), ({"scenes": float("nan")}, "expected JSON values"),
                                 ({"scenes": 10**9}, "from 1")):
             self.assertIn(expected, self.line_of(croon.InputError, croon.simulate, **wrong))
         scene, = croon.simulate()

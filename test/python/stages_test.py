@@ -257,9 +257,9 @@ class OtherKinds(TestCase):
         result = croon.Pipeline(steps).run(TOP, LEFT, turn @ TRUTH)
         self.assertLess(np.abs(result.pose - TRUTH).max(), 0.1)
         self.assertEqual(result.diagnostics["yaw_alignment"]["evaluations"], 92)
-        with self.assertRaisesRegex(RuntimeError, "a search that has returned"):
+        with self.assertRaisesRegex(RuntimeError, "the search of this cost function has already returned"):
             kept[0](0.0)
-        with self.assertRaisesRegex(RuntimeError, "a search that has returned"):
+        with self.assertRaisesRegex(RuntimeError, "the search of this cost function has already returned"):
             kept[1](np.eye(4))
 
     def test_preprocessors_and_extractors(self):
@@ -377,7 +377,7 @@ class Registering(TestCase):
         number = croon.number("a", 1, help="It.")
         for wrong, expected in (({"kind": "stepp"}, "expected one of step"), ({"base": croon.Icp}, "derives from croon.Step"),
                                 ({"base": object}, "derives from croon.Step"), ({"name": "a b"}, "expected a name"),
-                                ({"name": ""}, "expected a name"), ({"name": "registration"}, "croon has a stage"),
+                                ({"name": ""}, "expected a name"), ({"name": "registration"}, "croon already has a stage"),
                                 ({"name": "test_nudge"}, "has this name"), ({"version": 0}, "version"),
                                 ({"parameters": [number, number]}, "each key once"), ({"summary": 3}, "summary"),
                                 ({"parameters": [number._replace(key="a.b")]}, "another key"),
@@ -422,7 +422,7 @@ class Registering(TestCase):
             def __init__(self):
                 raise OSError("no model")
 
-        self.assertIn("/0: the stage cannot be made: OSError: no model",
+        self.assertIn("/0: the stage cannot be constructed: OSError: no model",
                       self.line_of(croon.InputError, croon.Pipeline, [{"step": "test_unmade"}]))
 
     def test_by_many_threads(self):

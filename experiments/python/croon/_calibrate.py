@@ -40,7 +40,7 @@ class CalibratedSensor:
     accepted: bool
     """The verdict. The pose of a rejected sensor must not be used."""
     pose: Optional[numpy.ndarray]
-    """The pose `T_reference_sensor`, 4×4, float64; of a rejected sensor the best guess, or None."""
+    """The pose `T_reference_sensor`, 4×4, float64; for a rejected sensor the best guess, or None."""
     covariance: Optional[numpy.ndarray]
     """The covariance of the pose's error, 6×6: roll, pitch, yaw (rad), x, y, z (m) in the reference's frame; or None."""
     observability: Optional[Dict[str, str]]
@@ -49,7 +49,7 @@ class CalibratedSensor:
     reasons: List[str]
     """Why the sensor was rejected; empty if accepted."""
     advice: List[str]
-    """What would help; empty if accepted."""
+    """What could help; empty if accepted."""
     nominal: Optional[numpy.ndarray]
     """The given nominal pose `T_reference_sensor`, 4×4; or None."""
     scenes: List[SceneEstimate]
@@ -60,7 +60,7 @@ class CalibratedSensor:
 
 
 class GroundPose(NamedTuple):
-    """The reference's pose over the road, from its own ground plane, with standard deviations."""
+    """The reference's pose above the road, from its own ground plane, with standard deviations."""
 
     roll_rad: float
     pitch_rad: float
@@ -116,7 +116,7 @@ class Calibration:
 
     @property
     def warnings(self):
-        """What is suspicious about the clouds or the result, one sentence each."""
+        """Suspicious properties of the clouds or the result, one sentence each."""
         return self._rig.warnings()
 
     @property
@@ -131,22 +131,22 @@ class Calibration:
 
     @property
     def ground(self):
-        """The reference's pose over the road, a `GroundPose`; None if it does not see the ground."""
+        """The reference's pose above the road, a `GroundPose`; None if no ground was found."""
         ground = self._rig.ground()
         return None if ground is None else GroundPose(*ground)
 
     def to_format(self, format, *, with_rejected=False, base=None, base_name="base_link"):
         """The extrinsics as files of a format, a dict of texts by file name.
 
-        `format` is one of those of ``croon calibrate --format``: "ros2", "urdf", "autoware", "kalibr", "csv" and others.
-        Rejected sensors are left out unless `with_rejected`, and then marked where the format can hold a mark; "csv"
-        always has them, with their verdict. `base` is the reference's pose in the vehicle frame `base_name`, 4×4: the
+        `format` is a format of ``croon calibrate --format``: "ros2", "urdf", "autoware", "kalibr", "csv" and others.
+        Rejected sensors are left out unless `with_rejected` is true, and then marked if the format supports it; "csv"
+        always includes them, with their verdict. `base` is the reference's pose in the vehicle frame `base_name`, 4×4:
         poses are then in that frame, and the reference is one of the sensors. Raises InputError.
         """
         return self._rig.files(word(format, "format"), bool(with_rejected), word(base_name, "base_name"), base)
 
     def save(self, folder, formats=("csv",), *, with_rejected=False, base=None, base_name="base_link"):
-        """Writes the files of `formats` and ``report.txt``, which has ``str()`` of this object, to `folder`.
+        """Writes the files of `formats` and ``report.txt``, the ``str()`` of this object, to `folder`.
 
         The folder is created if it does not exist. The arguments are those of `to_format`. Returns the paths of the
         files. Raises InputError before anything is written for a wrong argument, and OSError if a file cannot be written.
@@ -175,17 +175,17 @@ def calibrate(clouds, *, reference="", nominal=None, pipeline="best", from_scrat
     `clouds` is one scene, a dict of clouds by the sensor's name; or several scenes of the same rig, a list of such dicts
     or a dict of lists with a cloud per scene, None for a missing one. Several scenes give one pose per sensor.
 
-    A cloud is an N×3 or N×4 array (x, y, z and intensity) of float32 or float64; an N×k array whose columns `columns`
-    names, "_" for one to ignore; a structured array or a dict of arrays with x, y, z and channels (intensity, ring,
+    A cloud is an N×3 or N×4 array (x, y, z and intensity) of float32 or float64; an N×k array with the column names
+    `columns` ("_" to ignore a column); a structured array or a dict of arrays with x, y, z and channels (intensity, ring,
     time); a `Cloud`; or the path of a file. Points that are not finite, or exactly zero, are dropped. Times are seconds,
-    or nanoseconds if they are integers. An array of the shape H×W×k is read as N×k. `columns` may be a dict by sensor.
+    or nanoseconds if they are integers. An array of shape H×W×k is read as N×k. `columns` may be a dict by sensor.
 
     `reference` names the sensor that the others are calibrated to, the first one by default. No initial guess is needed.
-    `nominal` has known poses `T_reference_sensor` by sensor, 4×4, to compare with, and to try near if a sensor is rejected
-    without a guess; with `from_scratch` they are only compared. If it has the reference's too, all are poses in another
-    frame, such as the vehicle's.
+    `nominal` is a dict of known poses `T_reference_sensor` by sensor, 4×4, for comparison, and as initial guesses for
+    sensors rejected without one; with `from_scratch` only for comparison. If it includes the reference, all its poses are
+    in another frame, such as the vehicle's.
     `pipeline` is a name of `pipelines`, the path of a file, or a pipeline as `Pipeline` accepts it. `jobs` is the number
-    of threads, 0 for all cores; the result has the same bits for any number. Other threads of Python run meanwhile.
+    of threads, 0 for all cores; the result has the same bits for any number. Other Python threads can run meanwhile.
 
     Returns a `Calibration`. Raises InputError for wrong arguments and if no scene has two usable clouds.
 
@@ -207,7 +207,7 @@ def calibrate(clouds, *, reference="", nominal=None, pipeline="best", from_scrat
     rig = _core.calibrate_rig(usable, _nominal(nominal, sensors), {
         "reference": reference, "unused": unused,
         "pipeline": name, "text": text, "from_scratch": bool(from_scratch), "seed": whole(seed, "seed", 0, 2**64 - 1),
-        "jobs": whole(jobs, "jobs", 0, _core.MOST_JOBS)})
+        "jobs": whole(jobs, "jobs", 0, _core.MAX_JOBS)})
     return Calibration(rig)
 
 
@@ -217,7 +217,7 @@ def pipelines():
 
 
 def _scenes(clouds):
-    """A list of dicts from all that `clouds` may be."""
+    """Converts all supported forms of `clouds` to a list of dicts."""
     if isinstance(clouds, collections.abc.Mapping):
         lists = [isinstance(cloud, (list, tuple)) for cloud in clouds.values()]
         if not any(lists):
@@ -263,7 +263,7 @@ def _usable(scenes, reference, columns):
 
 
 def _array(cloud, columns, where):
-    """What _core reads as a cloud: an N×3 or a structured array."""
+    """Converts a cloud to a form that _core accepts: an N×3 or a structured array."""
     if isinstance(cloud, (str, os.PathLike)):
         return read_cloud(cloud)
     if isinstance(cloud, _core.Cloud):
@@ -275,7 +275,7 @@ def _array(cloud, columns, where):
     if cloud.dtype.names:
         return cloud.reshape(-1)
     if isinstance(cloud, numpy.ma.MaskedArray) or cloud.dtype.kind != "f" or cloud.ndim not in (2, 3):
-        return cloud  # _core says what is wrong.
+        return cloud  # _core reports the error.
     rows = cloud.reshape(-1, cloud.shape[-1]) if cloud.ndim == 3 else cloud
     if columns is not None and not isinstance(columns, (list, tuple)):
         raise refusal("columns", f"expected a list of names, found {with_article(columns)}")
@@ -291,7 +291,7 @@ def _array(cloud, columns, where):
 
 
 def _joined(columns, where):
-    """A structured array of arrays of the same length, by name."""
+    """A structured array made from named arrays of the same length."""
     lengths = {len(values) if values.ndim == 1 else -1 for values in columns.values()}
     if not {"x", "y", "z"} <= set(columns) or len(lengths) != 1 or -1 in lengths:
         raise refusal(where, "expected arrays of the same length with x, y and z, found "

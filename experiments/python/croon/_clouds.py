@@ -7,10 +7,10 @@ from ._json import path_of, refusal
 
 
 def read_cloud(path):
-    """Reads the cloud in a file: .pcd, .ply, or .bin as KITTI writes it.
+    """Reads the cloud in a file: .pcd, .ply, or .bin in the format of KITTI.
 
     Returns a structured array with the fields x, y and z (float32, metres, in the sensor's frame) and a field per
-    channel of the file: intensity, ring, time and others, each in its type. Points that are not finite are left out.
+    channel of the file: intensity, ring, time and others, each with its own type. Points that are not finite are dropped.
     Raises InputError if the file cannot be read or is damaged, or if the name of a field is not UTF-8.
     """
     return _core.read_cloud(path_of(path, "path"))
@@ -19,9 +19,9 @@ def read_cloud(path):
 def write_cloud(path, cloud, encoding="binary"):
     """Writes a cloud, N×3 or structured, as .pcd or .ply.
 
-    `encoding` is binary, ascii or, for PCD, binary_compressed. What `read_cloud` then returns is the same cloud to the
-    last byte. Raises InputError for another suffix, for a field whose name `read_cloud` would change ("t", "timestamp" and
-    "time_stamp" are read as "time", "i" as "intensity", "_" is padding), and if the file cannot be written.
+    `encoding` is binary, ascii or, for PCD, binary_compressed. `read_cloud` then returns exactly the same cloud. Raises
+    InputError for another suffix, for a field whose name `read_cloud` would change ("t", "timestamp" and "time_stamp" are
+    read as "time", "i" as "intensity", "_" is padding), and if the file cannot be written.
     """
     path = path_of(path, "path")
     known = {".pcd": ("binary", "ascii", "binary_compressed"), ".ply": ("binary", "ascii")}
@@ -34,7 +34,7 @@ def write_cloud(path, cloud, encoding="binary"):
 
 
 def xyz(cloud):
-    """The points of a structured array, as `read_cloud` returns it, as an N×3 array of float32; a copy."""
+    """Returns the points of a structured array, such as one from `read_cloud`, as an N×3 array of float32; a copy."""
     points = numpy.empty((len(cloud), 3), numpy.float32)
     for axis, name in enumerate("xyz"):
         points[:, axis] = cloud[name]

@@ -5,7 +5,7 @@ from ._json import path_of, text_of, word
 
 
 class Scene:
-    """One recording of a rig: a cloud per sensor, and what is known of the sensors' poses.
+    """One recording of a rig: a cloud per sensor, and the known poses of the sensors.
 
     A pose is `T_reference_sensor`, which maps a point of the sensor to the reference's frame.
     """
@@ -20,7 +20,7 @@ class Scene:
 
     @property
     def kind(self):
-        """The kind of scene, "urban"; empty if it is not known."""
+        """The kind of scene, "urban"; empty if unknown."""
         return self._scene.kind
 
     @property
@@ -35,21 +35,21 @@ class Scene:
 
     @property
     def truth(self):
-        """The true poses by sensor; a sensor whose pose is not known is not in it."""
+        """The ground truth poses by sensor; sensors without a known pose are omitted."""
         return self._scene.truth
 
     @property
     def nominal(self):
-        """The poses of the rig's design, likewise."""
+        """The nominal poses of the rig's design by sensor."""
         return self._scene.nominal
 
     @property
     def initial(self):
-        """The initial poses of the recording, likewise."""
+        """The initial poses of the recording by sensor."""
         return self._scene.initial
 
     def cloud(self, sensor):
-        """The cloud of a sensor, or of the reference, as `read_cloud` returns it. It is read, or simulated, at each call."""
+        """The cloud of a sensor, or of the reference, in the form of `read_cloud`. It is read or simulated at each call."""
         return self._scene.cloud(word(sensor, "sensor"))
 
     @property
@@ -62,19 +62,19 @@ class Scene:
 
 
 def scenes(dataset, data=""):
-    """The scenes of a dataset, given as in an experiment: {"type": "opencalib", "path": "opencalib/real"}.
+    """Returns the scenes of a dataset, described as in an experiment: {"type": "opencalib", "path": "opencalib/real"}.
 
-    `data` is the data root; without it, it is the folder CROON_DATA, else data. Raises InputError.
+    `data` is the data root; by default the folder CROON_DATA, else data. Raises InputError.
     """
     data = path_of(data, "data") if data else ""
     return [Scene(scene) for scene in _core.scenes(text_of(dataset, "dataset"), "dataset", data)]
 
 
 def simulate(scenes=1, **parameters):
-    """Simulated road scenes, as the dataset "simulated" of an experiment has them: the same points to the last bit.
+    """Simulates road scenes, with the same points, to the last bit, as the dataset "simulated" of an experiment.
 
     The parameters are those of the dataset: rig, mix, noise, seed, first_scene; ``print(croon.help_on("dataset/simulated"))``
-    lists them. A scene is built when its first cloud is asked for. Returns a list of `Scene`. Raises InputError.
+    lists them. A scene is built when its first cloud is requested. Returns a list of `Scene`. Raises InputError.
 
         scene, = croon.simulate(rig="croon_five", mix={"urban": 1}, noise="real", seed=3)
         top, left = scene.cloud("top"), scene.cloud("left")

@@ -4,10 +4,10 @@ from typing import List, NamedTuple, Sequence, Tuple
 
 
 class Fault(NamedTuple):
-    """One mistake in what croon was given."""
+    """One error in an argument or a file."""
 
     file: str
-    """The file, or the name of the argument; empty if there is none."""
+    """The file, or the name of the argument; empty if neither applies."""
     where: str
     """The position in it: a JSON pointer, a line, a byte."""
     message: str
@@ -15,7 +15,7 @@ class Fault(NamedTuple):
 
 
 class InputError(ValueError):
-    """What croon was given is wrong. The message has a line for each fault."""
+    """Invalid arguments or files. The message has a line for each fault."""
 
     def __init__(self, message: str, faults: Sequence[Tuple[str, str, str]] = ()):
         super().__init__(message)
@@ -23,7 +23,7 @@ class InputError(ValueError):
 
 
 class StageError(RuntimeError):
-    """The data defeat a stage: there is no ground, there are too few correspondences.
+    """A stage cannot process the data: there is no ground, or there are too few correspondences.
 
-    A stage raises it if it cannot go on. In an experiment, the trial is then recorded as failed with this message.
+    Stages raise it if they cannot continue. In an experiment, the trial is then recorded as failed with this message.
     """

@@ -1,4 +1,4 @@
-"""What users give as JSON: dicts, text and files; and whole numbers."""
+"""Arguments given as JSON (dicts, text and files), and checks of arguments."""
 
 import json
 import operator
@@ -10,26 +10,26 @@ from ._errors import InputError
 
 
 def _plain(value):
-    """What json does not write by itself: numbers and arrays of NumPy, and paths."""
+    """Converts values that json cannot write: NumPy numbers and arrays, and paths."""
     if isinstance(value, numpy.generic):
         return value.item()
     if isinstance(value, numpy.ndarray):
         return value.tolist()
     if isinstance(value, os.PathLike):
         return os.fspath(value)
-    raise TypeError(f"a {type(value).__name__} is nothing that JSON has")
+    raise TypeError(f"{type(value).__name__} is not a JSON type")
 
 
 def text_of(value, name):
-    """The JSON text of `value`; `name` is what errors call it."""
+    """The JSON text of `value`; errors call it `name`."""
     try:
         return json.dumps(value, default=_plain, allow_nan=False)
     except (TypeError, ValueError, RecursionError) as error:
-        raise refusal(name, f"expected what JSON has, but {error}") from None
+        raise refusal(name, f"expected JSON values, but {error}") from None
 
 
 def text_and_name(value, name):
-    """(text, name) of a dict, a list or JSON text; (None, path) of a path."""
+    """Returns (text, name) for a dict, a list or JSON text; (None, path) for a path."""
     if isinstance(value, (dict, list, tuple)):
         return text_of(value, name), name
     if isinstance(value, str) and value.lstrip()[:1] in ("{", "["):
@@ -40,7 +40,7 @@ def text_and_name(value, name):
 
 
 def path_of(value, name):
-    """The path `value` as text."""
+    """Returns the path `value` as text, or raises InputError."""
     try:
         path = os.fspath(value)
     except TypeError:
@@ -51,7 +51,7 @@ def path_of(value, name):
 
 
 def whole(value, name, low, high):
-    """The whole number `value`, from `low` to `high`."""
+    """Returns the whole number `value`; raises InputError unless it is from `low` to `high`."""
     try:
         number = operator.index(value)
     except TypeError:
@@ -62,16 +62,16 @@ def whole(value, name, low, high):
 
 
 def word(value, name):
-    """The text `value`."""
+    """Returns the text `value`, or raises InputError."""
     if not isinstance(value, str):
         raise refusal(name, f"expected a string, found {with_article(value)}")
     if not _is_utf8(value):
-        raise refusal(name, f"expected text that UTF-8 has, found {value!r:.60}")
+        raise refusal(name, f"expected text that UTF-8 can encode, found {value!r:.60}")
     return value
 
 
 def refusal(where, message):
-    """The InputError of one fault."""
+    """An InputError with one fault."""
     return InputError(f"{where}: {message}", [("", where, message)])
 
 

@@ -12,7 +12,7 @@ from ._json import text_and_name, whole, word
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Result:
-    """What a pipeline found."""
+    """The result of a pipeline."""
 
     pose: numpy.ndarray
     """The pose `T_target_source`, 4×4, float64: it maps a point of the source to the target's frame."""
@@ -23,22 +23,22 @@ class Result:
     """The covariance of the error of the pose, 6×6: roll, pitch, yaw (rad), x, y, z (m) in the target's frame; None if no
     step estimated it."""
     observability: Optional[Dict[str, str]]
-    """How well the data hold "roll", "pitch", "yaw", "x", "y" and "z": "determined", "weak" or "unobservable"; None without
-    a covariance."""
+    """How well the data constrain "roll", "pitch", "yaw", "x", "y" and "z": "determined", "weak" or "unobservable"; None
+    without a covariance."""
     diagnostics: Dict[str, Dict[str, float]]
-    """What each step reports of its work, by the step's name."""
+    """The diagnostics of each step, by the step's name."""
     rejection: Optional[str]
-    """Why the pose must not be trusted; None if a pipeline does not say so."""
+    """Why the pose was rejected; None if it was not."""
     seconds: Dict[str, float]
-    """The wall time of each step, without what was computed once for a cloud."""
+    """The wall time of each step, without computations done once per cloud."""
 
 
 class Pipeline:
     """The steps of a method.
 
     `pipeline` is a list of steps, or a dict with such a list as "pipeline" (an experiment), as Python values, as JSON
-    text, or as the path of a JSON file. Raises InputError with all faults. A pipeline is not changed by running:
-    threads may share it. Stages in Python are known if they were registered before.
+    text, or as the path of a JSON file. Raises InputError with all faults. Running does not change a pipeline:
+    threads may share it. Stages in Python must be registered first.
     """
 
     def __init__(self, pipeline):
@@ -47,7 +47,7 @@ class Pipeline:
 
     @property
     def steps(self):
-        """The steps with all their parameters, as a list of dicts that makes the same pipeline again."""
+        """The steps with all their parameters, as a list of dicts from which the same pipeline can be constructed."""
         names = self._pipeline.names()
         return [{"name": name, **json.loads(step)} for name, step in zip(names, self._pipeline.resolved())]
 
@@ -55,12 +55,12 @@ class Pipeline:
         """Calibrates the sensor of the cloud `source` to that of the cloud `target`.
 
         A cloud is an N×3 array of float32 or float64, or a structured array with x, y, z and channels; all points must
-        be finite. An array of float32 is copied once. `initial` is a 4×4 pose `T_target_source`, the identity if it is
-        None. With the seed of an experiment, and the names of its scene, sensors and trial, the result has the same
-        bits as that of `croon run`. Other threads of Python run meanwhile.
+        be finite. An array of float32 is copied once. `initial` is a 4×4 pose `T_target_source`; None is the identity.
+        With the seed of an experiment, and the names of its scene, sensors and trial, the result has the same bits as
+        that of `croon run`. Other Python threads can run meanwhile.
 
-        Returns a `Result`. Raises InputError for wrong arguments, and StageError if a step cannot go on; its
-        ``__cause__`` is the exception of the stage, if that is one in Python.
+        Returns a `Result`. Raises InputError for wrong arguments, and StageError if a step cannot continue; its
+        ``__cause__`` is the exception of the stage, if it is a Python stage.
         """
         names = [word(value, name) for name, value in
                  (("scene", scene), ("reference", reference), ("sensor", sensor))]

@@ -10,9 +10,9 @@ from ._json import path_of, text_and_name, whole, word
 
 
 class Results:
-    """A folder of results, read from its store alone.
+    """A folder of results, read only from its store.
 
-    Tables are structured arrays with the columns of the files of the same name; a number that is not there is NaN. The
+    Tables are structured arrays with the columns of the files of the same name; missing numbers are NaN. The
     methods that end in `_frame` return them as pandas.DataFrame.
     """
 
@@ -38,27 +38,27 @@ class Results:
 
     @property
     def planned(self):
-        """The number of trials of the whole experiment; fewer may be there."""
+        """The number of trials of the complete experiment; some may be missing."""
         return self._results.planned
 
     @functools.cached_property
     def manifest(self):
-        """What was run, as a dict: the experiment with all defaults, versions, digests of the inputs."""
+        """The description of the run, a dict: the experiment with all defaults, versions, digests of the inputs."""
         return json.loads(self._results.manifest)
 
     @functools.cached_property
     def extrinsics(self):
-        """What extrinsics.json has, as a dict: the poses that trials agree on."""
+        """The content of extrinsics.json, a dict: the poses that trials agree on."""
         return json.loads(self._results.extrinsics())
 
     @functools.cached_property
     def trials(self):
-        """The trials, as in trials.csv, and the reason why one failed or was rejected."""
+        """The trials, as in trials.csv, with the reasons of failures and rejections."""
         return self._results.trials()
 
     @functools.cached_property
     def poses(self):
-        """The pose `T_reference_sensor` of each of `trials`, N×4×4, float64; NaN if it has none."""
+        """The pose `T_reference_sensor` of each of `trials`, N×4×4, float64; NaN without a pose."""
         return self._results.poses()
 
     @functools.cached_property
@@ -68,12 +68,12 @@ class Results:
 
     @functools.cached_property
     def comparisons(self):
-        """Every variant against the first one, as in comparison.csv."""
+        """Every variant compared with the first one, as in comparison.csv."""
         return self._results.comparisons()
 
     @functools.cached_property
     def diagnostics(self):
-        """What steps report of their work, as in diagnostics.csv."""
+        """The diagnostics reported by steps, as in diagnostics.csv."""
         return self._results.diagnostics()
 
     @functools.cached_property
@@ -109,7 +109,7 @@ class Results:
 
 
 def _frame(array):
-    import pandas  # Only those who ask for a frame need it.
+    import pandas  # Only required for frames.
 
     return pandas.DataFrame({name: array[name] for name in array.dtype.names})
 
@@ -123,24 +123,24 @@ def _request(experiment, out="", data="", jobs=0, trials=0, only=(), shard=""):
         "text": text,
         "out": path_of(out, "out") if out else "",
         "data": path_of(data, "data") if data else "",
-        "jobs": whole(jobs, "jobs", 0, _core.MOST_JOBS),
-        "trials": whole(trials, "trials", 0, _core.MOST_TRIALS),
+        "jobs": whole(jobs, "jobs", 0, _core.MAX_JOBS),
+        "trials": whole(trials, "trials", 0, _core.MAX_TRIALS),
         "only": [word(variant, "only") for variant in only],
         "shard": word(shard, "shard"),
     }
 
 
 def run(experiment, out="", data="", jobs=0, trials=0, only=(), shard="", fresh=False, same_build=False, progress=False):
-    """Runs an experiment, or what of it is missing in its folder, as the command `croon run` does.
+    """Runs the trials of an experiment that are missing in its folder, as the command `croon run` does.
 
     `experiment` is a dict, JSON text, or the path of a file; paths in a dict are relative to the working directory. The
     other arguments are the options of the command: `out` is the folder (default results/<name>), `data` the data root
     (default CROON_DATA, else data), `jobs` the number of threads (0: all cores), `trials` the number of starts (0: as in
-    the experiment), `only` names of variants, `shard` a part "K/N". The files in the folder are those of the command,
-    to the last byte, for any number of jobs.
+    the experiment), `only` names of variants, `shard` a part "K/N". The files in the folder are identical to those of
+    the command, for any number of jobs.
 
     Returns the `Results` of the folder. `complaints` has a line for each cloud that could not be read. Raises
-    InputError. After KeyboardInterrupt, what is done is in the store, and the same call goes on with the rest.
+    InputError. After KeyboardInterrupt, finished trials are in the store, and the same call continues with the rest.
     """
     request = _request(experiment, out, data, jobs, trials, only, shard)
     request.update(fresh=bool(fresh), same_build=bool(same_build), progress=bool(progress))
@@ -149,15 +149,15 @@ def run(experiment, out="", data="", jobs=0, trials=0, only=(), shard="", fresh=
 
 
 def load(folder):
-    """The results in a folder, which `run` or the command `croon run` or `croon merge` filled. Raises InputError."""
+    """Reads the results in a folder written by `run`, `croon run` or `croon merge`. Raises InputError."""
     folder = path_of(folder, "folder")
     return Results(_core.load(folder), folder)
 
 
 def starts(experiment, data="", trials=0):
-    """The starts of an experiment, as a structured array: scene, sensor, trial, and the pose, 4×4.
+    """Returns the starts of an experiment, a structured array: scene, sensor, trial, and the pose, 4×4.
 
-    From such a start, and with the seed and the names of its trial, `Pipeline.run` gives the same bits as `run`.
+    From such a start, with the seed and the names of its trial, `Pipeline.run` computes the same bits as `run`.
     """
     rows = _core.starts(_request(experiment, data=data, trials=trials))
     width = [max((len(row[k]) for row in rows), default=1) for k in (0, 1)]

@@ -11,13 +11,13 @@ from ._json import refusal, text_of, whole, word
 
 
 class _Stage:
-    """What all kinds have in common."""
+    """The base class of all kinds."""
 
     kind = ""
 
 
 class Step(_Stage):
-    """An element of a pipeline: takes an estimate and returns a better one."""
+    """An element of a pipeline: improves an estimate."""
 
     kind = "step"
 
@@ -32,8 +32,8 @@ class RigStep(_Stage):
     kind = "step"
 
     def adjust(self, rig, rng):
-        """Improves the estimates of a trial in place: a list of `RigEstimate`, by scene and then by sensor. Draws only
-        from `rng`."""
+        """Improves the estimates of a trial in place: a list of `RigEstimate`, by scene, then sensor. Draws only from
+        `rng`."""
         raise NotImplementedError(f"{type(self).__name__} has no method adjust")
 
 
@@ -43,29 +43,29 @@ class YawSearch(_Stage):
     kind = "yaw_search"
 
     def minimise(self, cost):
-        """Returns the yaw of least cost near zero, rad. `cost(yaw_rad)` may be called until this returns."""
+        """Returns the yaw of minimum cost near zero, rad. `cost(yaw_rad)` may be called until this returns."""
         raise NotImplementedError(f"{type(self).__name__} has no method minimise")
 
 
 class PoseSearch(_Stage):
-    """Minimises a function of pose near a start. It never sees clouds."""
+    """Minimises a function of pose near an initial pose. It never sees clouds."""
 
     kind = "pose_search"
 
     def minimise(self, cost, start):
-        """Returns the pose of least cost near `start`, both 4×4. `cost(pose)` may be called until this returns. If the
-        result costs more than the start, the start is kept."""
+        """Returns the pose of minimum cost near `start`, both 4×4. `cost(pose)` may be called until this returns. If the
+        cost of the result exceeds that of `start`, `start` is used."""
         raise NotImplementedError(f"{type(self).__name__} has no method minimise")
 
 
 class Preprocessor(_Stage):
-    """Filters a cloud: crops it or thins it."""
+    """Filters a cloud, for example crops or downsamples it."""
 
     kind = "preprocessor"
 
     def apply(self, cloud):
-        """Returns the cloud, a structured array, without some of its points: another array, or true for each point
-        that stays."""
+        """Returns the filtered cloud of a structured array: another array, or a mask that is true for each point to
+        keep."""
         raise NotImplementedError(f"{type(self).__name__} has no method apply")
 
 
@@ -76,12 +76,12 @@ class GroundExtractor(_Stage):
 
     def extract(self, cloud, rng):
         """Returns (normal, offset_m, is_ground) of the cloud, a structured array: the plane `normal . p + offset_m = 0`,
-        and true for each point that is ground. The sign of the normal does not matter. Draws only from `rng`."""
+        and a mask that is true for ground points. The sign of the normal is irrelevant. Draws only from `rng`."""
         raise NotImplementedError(f"{type(self).__name__} has no method extract")
 
 
 class Icp(_Stage):
-    """Registers a source cloud to a target cloud from a start."""
+    """Registers a source cloud to a target cloud from an initial pose."""
 
     kind = "icp"
 
@@ -91,32 +91,32 @@ class Icp(_Stage):
 
 
 class VolumeScorer(_Stage):
-    """Measures the volume that two clouds occupy together, as a function of pose."""
+    """Measures the volume occupied by two clouds together, as a function of pose."""
 
     kind = "volume_scorer"
 
     def bind(self, target, source):
         """Returns (leaves, leaf_size_m) for two clouds of type `Cloud`: a function from a pose, 4×4, to the number of
-        leaves that hold a point, and the edge of a leaf."""
+        occupied leaves, and the edge length of a leaf."""
         raise NotImplementedError(f"{type(self).__name__} has no method bind")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Registration:
-    """What an `Icp` found."""
+    """The result of an `Icp`."""
 
     pose: numpy.ndarray
     """The pose `T_target_source`, 4×4."""
     rmse_m: float = 0.0
     """Root mean square of the residuals."""
     inlier_ratio: float = 0.0
-    """Correspondences over the source points that took part."""
+    """Number of correspondences divided by the number of source points used."""
     correspondences: int = 0
     """The number of correspondences."""
     iterations: int = 0
     """The number of iterations."""
     converged: bool = False
-    """Whether it ended by itself."""
+    """Whether the iteration converged."""
     information: Optional[numpy.ndarray] = None
     """The information matrix, 6×6: roll, pitch, yaw (rad), x, y, z (m)."""
 
@@ -125,7 +125,7 @@ class GroundSplit(NamedTuple):
     """The ground plane of a cloud, and the points off the ground."""
 
     normal: numpy.ndarray
-    """The unit normal, up."""
+    """The unit normal, pointing up."""
     offset_m: float
     """The plane is `normal . p + offset_m = 0`."""
     non_ground: Any
@@ -133,7 +133,7 @@ class GroundSplit(NamedTuple):
 
 
 class Trial(NamedTuple):
-    """Which trial of an experiment is calibrated. What a step computes must not depend on it."""
+    """Identifies a trial of an experiment. The results of a step must not depend on it."""
 
     scene: str
     """The scene's name."""
@@ -153,26 +153,26 @@ class Parameter(NamedTuple):
     json: str
     """The default as JSON text."""
     range: Tuple[Optional[float], Optional[float]]
-    """The least and the largest value; None if there is none."""
+    """Minimum and maximum; None for no bound."""
     choices: Tuple[str, ...]
-    """The words of a choice."""
+    """The options of a choice."""
     help: str
-    """What it does; one sentence."""
+    """A description; one sentence."""
 
 
 class Extra(NamedTuple):
-    """A named value that one step puts into the estimate and a later one reads; see `extra`."""
+    """A named value that one step stores in the estimate and a later one reads; see `extra`."""
 
     name: str
-    """Its name."""
+    """The name."""
     meaning: str
-    """What it is."""
+    """The meaning, in words."""
     type: type
     """float, or object for anything else."""
 
 
 def words(several, what):
-    """The words of a list; a str is one word, not a list of its letters."""
+    """Returns the words of a list; rejects a str, which would be a list of its letters."""
     if isinstance(several, str):
         raise refusal(what, f"expected a list of words, found {several!r:.60}")
     return tuple(word(one, what) for one in several)
@@ -186,13 +186,13 @@ def _parameter(key, kind, default, help, range=(None, None), choices=()):
         low, high = range
         ends = tuple(None if end is None or math.isinf(end) else float(end) for end in (low, high))
     except (TypeError, ValueError):
-        raise refusal(what, f"expected a range (least, largest), found {range!r:.60}") from None
+        raise refusal(what, f"expected a range (min, max), found {range!r:.60}") from None
     choices = words(choices, what)
     return Parameter(word(key, "key"), kind, text_of(default, what), ends, choices, help)
 
 
 def number(key, default, range=(None, None), *, help):
-    """A number; `range` is (least, largest), None for no bound."""
+    """A number; `range` is (min, max), None for no bound."""
     return _parameter(key, "number", default, help, range)
 
 
@@ -207,24 +207,24 @@ def boolean(key, default, *, help):
 
 
 def text(key, default, *, help):
-    """A string that is not empty: a path, a name."""
+    """A non-empty string, such as a path or a name."""
     return _parameter(key, "text", default, help)
 
 
 def choice(key, default, choices, *, help):
-    """One of a few words."""
+    """One of several words."""
     return _parameter(key, "choice", default, help, choices=choices)
 
 
 def numbers(key, default, range=(None, None), *, help):
-    """A list of at least one number; the stage has it as a tuple."""
+    """A list of at least one number; a tuple in the stage."""
     return _parameter(key, "numbers", default, help, range)
 
 
 def extra(name, meaning, type=object):
-    """Names a value that one step gives to a later one, with `Estimate.put` and `Estimate.get`.
+    """Declares a value that one step passes to a later one, with `Estimate.put` and `Estimate.get`.
 
-    An extra of the type float is one of C++ stages too; any other is for stages in Python.
+    An extra of type float can be shared with C++ stages; others are for Python stages only.
     """
     return Extra(word(name, "name"), word(meaning, "meaning"), float if type is float else object)
 
@@ -236,18 +236,18 @@ _KINDS = {kind.kind: kind for kind in
 def stage(kind, name, *, summary, source="", parameters=(), version=1, channels=(), takes=(), gives=()):
     """Registers a class as a stage: ``@croon.stage("step", "my_step", summary="Does this.")``.
 
-    The class derives from that of its kind and has the kind's one method. For each stage of a pipeline one object is
-    made, without arguments: its parameters are attributes already when ``__init__`` begins. The object is shared by all
-    trials and threads, so its method must not change it.
+    The class derives from the class of its kind and implements the method of the kind. For each stage of a pipeline one
+    object is constructed without arguments: its parameters are already attributes when ``__init__`` begins. The object is
+    shared by all trials and threads, so its method must not change it.
 
-    `summary` is one sentence, `source` says where the method comes from. `parameters` are made by `number`, `integer`,
-    `boolean`, `text`, `choice` and `numbers`: a wrong value in an experiment is then the same error as for a stage in
-    C++. `version` is raised with a change by which the stage gives other results: trials of two versions do not go into
-    one store. `channels` names the channels that the stage needs of its clouds; `takes` and `gives` are the extras that
-    it reads and puts, made by `extra`.
+    `summary` is one sentence, `source` the origin of the method. `parameters` are made with `number`, `integer`,
+    `boolean`, `text`, `choice` and `numbers`; an invalid value in an experiment is reported as for a C++ stage. Increase
+    `version` with every change that affects results: trials of different versions cannot share a store. `channels` are
+    the names of the channels that the stage needs in its clouds; `takes` and `gives` are the extras that it reads and
+    stores, made with `extra`.
 
-    Any exception of the method but KeyboardInterrupt, SystemExit and MemoryError is a `StageError` with its message: it
-    ends the trial. The same class may be registered again, as in a cell of a notebook that runs twice.
+    Any exception of the method except KeyboardInterrupt, SystemExit and MemoryError becomes a `StageError` with its
+    message and ends the trial. The same class may be registered again, as in a notebook cell that runs twice.
     """
     if kind not in _KINDS:
         raise refusal("kind", f"expected one of {', '.join(_KINDS)}, found {kind!r:.60}")
@@ -261,9 +261,9 @@ def stage(kind, name, *, summary, source="", parameters=(), version=1, channels=
         if not (isinstance(cls, type) and issubclass(cls, base)):
             raise refusal(f"{kind}/{name}", f"expected a class that derives from croon.{base.__name__}, found {cls!r:.60}")
         for parameter in parameters:
-            # It becomes an attribute, which must not hide a method.
+            # Parameters become attributes, which must not hide methods.
             if not parameter.key.isidentifier() or hasattr(base, parameter.key):
-                raise refusal(f"{kind}/{name}", f"expected another key than {parameter.key!r}: it is no attribute's name")
+                raise refusal(f"{kind}/{name}", f"expected another key than {parameter.key!r}, which cannot be an attribute")
         _core.register_stage({
             "kind": kind, "name": word(name, "name"), "summary": word(summary, "summary"),
             "source": word(source, "source") or cls.__module__, "version": whole(version, "version", 1, 2**31 - 1), "type": cls,
@@ -275,11 +275,9 @@ def stage(kind, name, *, summary, source="", parameters=(), version=1, channels=
     return register
 
 
-
-
 def help_on(which="", format="text"):
-    """What `croon stages` prints: all stages, those of a kind ("icp"), or one with its parameters ("icp/icpn").
+    """The output of `croon stages`: all stages, those of a kind ("icp"), or one with its parameters ("icp/icpn").
 
-    `format` is text, json or markdown. Stages in Python are among them.
+    `format` is text, json or markdown. Includes Python stages.
     """
     return _core.stages_help(word(which, "which"), word(format, "format"))

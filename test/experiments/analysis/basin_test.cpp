@@ -119,7 +119,7 @@ TEST(Basin, TheIntervalOfTheRadiusHoldsTheTrueOne) {
       truth.levels.push_back({static_cast<int>(1e6 * success), 1000000, success, {}});
     }
     const double radius = *basin_radius(sweep, truth);
-    for (const int scenes : {kLeastScenes, 12, 40}) {
+    for (const int scenes : {kMinScenes, 12, 40}) {
       int held = 0;
       for (int i = 0; i < kExperiments; ++i) {
         std::vector<double> reaches;
@@ -177,7 +177,7 @@ TEST(Basin, IsTheseBytes) {
 
 TEST(Basin, IsATable) {
   const std::string table = basin_text(*basin_of(records_of({"left"}), kSweep, {}));
-  EXPECT_NE(table.find("95 % at each level"), std::string::npos);
+  EXPECT_NE(table.find("each level has at least 95 %"), std::string::npos);
   EXPECT_NE(table.find("variant    0   10  20  30  radius deg  95 % interval"), std::string::npos)
       << table;
   EXPECT_NE(table.find("base     100  100  95  92          20        [0, 30]"), std::string::npos)

@@ -27,7 +27,7 @@ TEST(Claims, OneTrialOfASceneHasNoSpread) {
   const ClaimResult result = check_claims({one}, summarise(records, kBounds, {})).front();
   EXPECT_EQ(result.trials, 2);
   EXPECT_EQ(result.scenes, 1);
-  EXPECT_EQ(result.verdict, Verdict::not_enough);
+  EXPECT_EQ(result.outcome, ClaimOutcome::not_enough);
 }
 
 }  // namespace

@@ -130,8 +130,8 @@ Claim expectation(const std::string& statistic, const std::string& measure = "",
 
 double found(const Summary& summary, const Claim& one) {
   const ClaimResult result = check_claims({one}, summary).front();
-  EXPECT_NE(result.verdict, Verdict::not_measured);
-  EXPECT_NE(result.verdict, Verdict::out);
+  EXPECT_NE(result.outcome, ClaimOutcome::not_measured);
+  EXPECT_NE(result.outcome, ClaimOutcome::out);
   return result.found.value_or(std::nan(""));
 }
 
@@ -202,7 +202,7 @@ TEST(Claims, WithoutTruthThereIsAgreementAndNoSuccess) {
   EXPECT_EQ(found(summary, expectation("agreement")), 90.0);
   for (const char* statistic : {"success", "scenes"}) {
     const ClaimResult result = check_claims({expectation(statistic)}, summary).front();
-    EXPECT_EQ(result.verdict, Verdict::not_measured) << statistic;
+    EXPECT_EQ(result.outcome, ClaimOutcome::not_measured) << statistic;
   }
   EXPECT_LT(found(summary, expectation("within_scene_std", "rotation")), 0.02);
 }
@@ -211,21 +211,21 @@ TEST(Claims, BandsAreClosed) {
   Rng rng = test_rng(5);
   const Summary summary = summary_of(random_records(rng));
   Claim one = expectation("std", "yaw");
-  EXPECT_EQ(check_claims({one}, summary).front().verdict, Verdict::shown);
+  EXPECT_EQ(check_claims({one}, summary).front().outcome, ClaimOutcome::shown);
   const double value = found(summary, one);
-  const auto verdict = [&](double low, double high) {
+  const auto outcome = [&](double low, double high) {
     one.band = {low, high};
-    return check_claims({one}, summary).front().verdict;
+    return check_claims({one}, summary).front().outcome;
   };
-  EXPECT_EQ(verdict(value, value), Verdict::in);
-  EXPECT_EQ(verdict(std::nextafter(value, 1.0), 1.0), Verdict::out);
-  EXPECT_EQ(verdict(0.0, std::nextafter(value, 0.0)), Verdict::out);
+  EXPECT_EQ(outcome(value, value), ClaimOutcome::in);
+  EXPECT_EQ(outcome(std::nextafter(value, 1.0), 1.0), ClaimOutcome::out);
+  EXPECT_EQ(outcome(0.0, std::nextafter(value, 0.0)), ClaimOutcome::out);
 }
 
 TEST(Claims, WhatTheRunLacksIsNotMeasured) {
   const auto is_missing = [](const Summary& summary, const Claim& one) {
     const ClaimResult result = check_claims({one}, summary).front();
-    return result.verdict == Verdict::not_measured && !result.found;
+    return result.outcome == ClaimOutcome::not_measured && !result.found;
   };
   const Summary summary = summary_of(test::few_records());
   for (const char* statistic : {"success", "scenes", "mean", "within_scene_std"}) {
@@ -310,35 +310,35 @@ TEST(Claims, ABandThatNoResultCanMissIsNoVerdict) {
     return check_claims({one}, summary).front();
   };
   // Successful trials are within 0.1 m, so their std is at most 0.1 m times sqrt(72 / 71).
-  EXPECT_EQ(result(0.107).verdict, Verdict::shown);
+  EXPECT_EQ(result(0.107).outcome, ClaimOutcome::shown);
   EXPECT_FALSE(result(0.107).can_fail);
-  EXPECT_EQ(result(0.09).verdict, Verdict::in);
-  EXPECT_EQ(result(0.01).verdict, Verdict::out);
+  EXPECT_EQ(result(0.09).outcome, ClaimOutcome::in);
+  EXPECT_EQ(result(0.01).outcome, ClaimOutcome::out);
   EXPECT_EQ(result(0.09).trials, 72);
   EXPECT_EQ(result(0.09).scenes, 8);
   EXPECT_EQ(result(0.09).success_percent, 90.0);
   one.over = Over::usable;
   EXPECT_TRUE(result(0.107).can_fail);
   EXPECT_EQ(result(0.107).trials, 80);
-  EXPECT_EQ(result(0.107).verdict, Verdict::in);
-  EXPECT_EQ(result(0.08).verdict, Verdict::out);  // 0.3 m in a tenth of the trials: 0.086 m.
+  EXPECT_EQ(result(0.107).outcome, ClaimOutcome::in);
+  EXPECT_EQ(result(0.08).outcome, ClaimOutcome::out);  // 0.3 m in a tenth of the trials: 0.086 m.
 }
 
 TEST(Claims, OfFewTrialsOrScenesIsNoVerdict) {
-  const auto verdict = [](const char* statistic, int scenes, int trials) {
+  const auto outcome = [](const char* statistic, int scenes, int trials) {
     Claim one = expectation(statistic, is_share(statistic) ? "" : "x");
     one.band = {0.0, is_share(statistic) ? 99.0 : 0.09};
-    return check_claims({one}, mostly_good(scenes, trials)).front().verdict;
+    return check_claims({one}, mostly_good(scenes, trials)).front().outcome;
   };
   for (const char* statistic : {"std", "success", "scenes", "across_scenes_std"}) {
-    EXPECT_EQ(verdict(statistic, 2, 3), Verdict::not_enough) << statistic;
-    EXPECT_EQ(verdict(statistic, 5, 10), Verdict::not_enough) << statistic;
-    EXPECT_EQ(verdict(statistic, 6, 2), Verdict::not_enough) << statistic;
-    EXPECT_EQ(verdict(statistic, 6, 10), Verdict::in) << statistic;
+    EXPECT_EQ(outcome(statistic, 2, 3), ClaimOutcome::not_enough) << statistic;
+    EXPECT_EQ(outcome(statistic, 5, 10), ClaimOutcome::not_enough) << statistic;
+    EXPECT_EQ(outcome(statistic, 6, 2), ClaimOutcome::not_enough) << statistic;
+    EXPECT_EQ(outcome(statistic, 6, 10), ClaimOutcome::in) << statistic;
   }
-  EXPECT_EQ(verdict("within_scene_std", 60, 1), Verdict::not_measured);
-  EXPECT_EQ(verdict("within_scene_std", 2, 10), Verdict::not_enough);
-  EXPECT_EQ(verdict("within_scene_std", 2, 40), Verdict::in);
+  EXPECT_EQ(outcome("within_scene_std", 60, 1), ClaimOutcome::not_measured);
+  EXPECT_EQ(outcome("within_scene_std", 2, 10), ClaimOutcome::not_enough);
+  EXPECT_EQ(outcome("within_scene_std", 2, 40), ClaimOutcome::in);
 }
 
 Quoted board() {
@@ -370,21 +370,21 @@ TEST(Claims, OurRowIsThatOfAllSensorsOfTheFirstVariant) {
   EXPECT_FALSE(row_beside(board(), {}));
 }
 
-ClaimResult result_of(const Claim& claim, std::optional<double> found, Verdict verdict) {
+ClaimResult result_of(const Claim& claim, std::optional<double> found, ClaimOutcome outcome) {
   ClaimResult result;
   result.claim = claim;
   result.found = found;
-  result.verdict = verdict;
+  result.outcome = outcome;
   return result;
 }
 
 /// One claim of each verdict.
 std::vector<ClaimResult> one_of_each() {
-  std::vector<ClaimResult> results(3, result_of(expectation("std", "yaw"), 0.25, Verdict::in));
+  std::vector<ClaimResult> results(3, result_of(expectation("std", "yaw"), 0.25, ClaimOutcome::in));
   results[1].claim.claim = "yaw | of the front";
   results[1].claim.why = "scenes of our own";
-  results[1].verdict = Verdict::out;
-  results[2] = result_of(expectation("success"), std::nullopt, Verdict::not_measured);
+  results[1].outcome = ClaimOutcome::out;
+  results[2] = result_of(expectation("success"), std::nullopt, ClaimOutcome::not_measured);
   results[2].claim.why = "scenes of our own";
   return results;
 }

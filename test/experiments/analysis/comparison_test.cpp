@@ -78,7 +78,7 @@ TEST(Comparison, FewRecordsByHand) {
   EXPECT_TRUE(is_significant(all.translation_m.test));
   // Two scenes cannot tell: 2 of 4 signs are as extreme.
   EXPECT_EQ(all.translation_m.test.p_by_scene, 0.5);
-  EXPECT_FALSE(holds_by_scene(all.translation_m.test));
+  EXPECT_FALSE(is_significant_by_scene(all.translation_m.test));
 }
 
 TEST(Comparison, OfOneVariantThereIsNone) {
@@ -114,7 +114,7 @@ TEST(Comparison, ByDegreeOfFreedomFindsTheOneThatDiffers) {
     EXPECT_EQ(of.pairs, 20);
     EXPECT_EQ(of.scenes, 20);
     const bool is_y = of.dof == static_cast<std::size_t>(Dof::y);
-    EXPECT_EQ(holds_by_scene(of.error.test), is_y) << kMeasures[of.dof].name;
+    EXPECT_EQ(is_significant_by_scene(of.error.test), is_y) << kMeasures[of.dof].name;
     if (!is_y) continue;
     EXPECT_TRUE(of.error.test.favours_variant);
     EXPECT_LT(of.error.variant_median, of.error.base_median);
@@ -180,8 +180,8 @@ TEST(Comparison, FailuresAreInfiniteNotDropped) {
   EXPECT_EQ(all.rotation_deg.variant_median, kComparisonInf);
   EXPECT_EQ(all.rotation_deg.difference, kComparisonInf);
   EXPECT_EQ(all.rotation_deg.interval->high, kComparisonInf);
-  EXPECT_TRUE(holds_by_scene(all.rotation_deg.test));
-  EXPECT_TRUE(holds_by_scene(all.success));
+  EXPECT_TRUE(is_significant_by_scene(all.rotation_deg.test));
+  EXPECT_TRUE(is_significant_by_scene(all.success));
 }
 
 TEST(Comparison, FailuresOfEitherSideInHalfOfThePairsAreNoDifference) {
@@ -213,7 +213,7 @@ TEST(Comparison, WithoutTruthErrorsAreFromTheOwnConsensus) {
   const auto records = random_records(rng, {20, 6, 3.0, 0.0, false});
   const Comparison all = compared(records).back();
   EXPECT_GT(all.rotation_deg.interval->low, 0.0);
-  EXPECT_TRUE(holds_by_scene(all.translation_m.test));
+  EXPECT_TRUE(is_significant_by_scene(all.translation_m.test));
   // A motion of all that one variant found changes nothing: there is no truth to tell.
   auto elsewhere = records;
   for (TrialRecord& record : elsewhere) {
@@ -236,7 +236,7 @@ TEST(Comparison, FindsAnEffectAndKeepsItsLevel) {
     const auto null = compared(random_records(rng, {10, 2, 1.0, 0.2, true}));
     wrong += any(null, is_significant);
     wrong_by_scene += any(null, [](const PairedTest& test) { return test.p_by_scene_holm < 0.05; });
-    found += any(compared(random_records(rng, {10, 2, 2.5, 0.0, true})), holds_by_scene);
+    found += any(compared(random_records(rng, {10, 2, 2.5, 0.0, true})), is_significant_by_scene);
   }
   // 5 % and three standard deviations (1.54 %) of a share of 200.
   EXPECT_LE(wrong, kRuns * 0.0962);

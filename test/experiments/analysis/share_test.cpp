@@ -47,7 +47,7 @@ TEST(ShareInterval, CoversTheTruthThoughTrialsOfASceneAreAlike) {
        {ClusteredTrials{0.0, 0.9, 0.0}, ClusteredTrials{0.0, 0.5, 0.45},
         ClusteredTrials{0.1, 0.97, 0.02}, ClusteredTrials{0.4, 0.95, 0.05},
         ClusteredTrials{0.5, 1.0, 0.0}}) {
-    for (const int scenes : {kLeastScenes, 10, 20, 50}) {
+    for (const int scenes : {kMinScenes, 10, 20, 50}) {
       for (const int trials : {1, 10, 50}) {
         const double covered = coverage(world, scenes, trials);
         // Wilson's own coverage of six trials is 89 % for some shares, 96 % on average.
@@ -102,7 +102,7 @@ TEST(ShareInterval, MoreTrialsOfTheSameScenesMakeItNoShorter) {
 TEST(ShareInterval, IsAbsentForTooFewScenes) {
   SceneCounts counts;
   EXPECT_FALSE(counts.share().interval);
-  for (int scene = 0; scene < kLeastScenes; ++scene) {
+  for (int scene = 0; scene < kMinScenes; ++scene) {
     EXPECT_FALSE(counts.share().interval) << scene;
     counts.add(std::to_string(scene), 50, 50);
   }

@@ -67,8 +67,8 @@ TEST(SignFlip, KeepsItsLevelWhereTrialsOfASceneAreAlike) {
     failing.failure_ratio = 0.3;
     tied.grain = 1.0;
     for (const MadeUp& null : {plain, failing, tied}) {
-      EXPECT_LE(share_significant(null, rank_p), test::kMostFalsePositives) << scenes;
-      EXPECT_LE(share_significant(null, success_p), test::kMostFalsePositives) << scenes;
+      EXPECT_LE(share_significant(null, rank_p), test::kMaxFalsePositives) << scenes;
+      EXPECT_LE(share_significant(null, success_p), test::kMaxFalsePositives) << scenes;
     }
   }
 }
@@ -84,8 +84,8 @@ TEST(SignFlip, KeepsItsLevelWithOneTrialPerScene) {
   for (const std::size_t scenes : {10U, 20U, 60U}) {
     MadeUp like;
     like.scenes = scenes;
-    EXPECT_LE(share_significant(like, rank_p), test::kMostFalsePositives);
-    EXPECT_LE(share_significant(like, success_p), test::kMostFalsePositives);
+    EXPECT_LE(share_significant(like, rank_p), test::kMaxFalsePositives);
+    EXPECT_LE(share_significant(like, success_p), test::kMaxFalsePositives);
   }
 }
 

@@ -38,6 +38,6 @@ double share_significant(const MadeUp& like,
 
 /// 5 % and three standard deviations of a binomial share of `kRuns`: a test that keeps its level
 /// is above in one of 740 checks, and always or never, for the draws are fixed.
-inline constexpr double kMostFalsePositives = 0.05 + 3.0 * 0.00487;
+inline constexpr double kMaxFalsePositives = 0.05 + 3.0 * 0.00487;
 
 }  // namespace croon::test

@@ -38,32 +38,32 @@ std::vector<TrialRecord> some_records() {
   return records;
 }
 
-Verdicts verdicts_on(const std::vector<TrialRecord>& records) {
-  return verdicts_of(records, summarise(records, kBounds, {}));
+AcceptanceCurve verdicts_on(const std::vector<TrialRecord>& records) {
+  return acceptance_of(records, summarise(records, kBounds, {}));
 }
 
 TEST(Verdicts, CountRightAndWrongAgainstAcceptedAndRejected) {
-  const Verdicts verdicts = verdicts_on(some_records());
-  ASSERT_EQ(verdicts.rows.size(), 3U);
-  const VerdictCounts& left = verdicts.rows[0].at_bounds;
-  EXPECT_EQ(verdicts.rows[0].sensor, "left");
+  const AcceptanceCurve acceptance = verdicts_on(some_records());
+  ASSERT_EQ(acceptance.rows.size(), 3U);
+  const AcceptanceCounts& left = acceptance.rows[0].at_bounds;
+  EXPECT_EQ(acceptance.rows[0].sensor, "left");
   EXPECT_EQ(left.accepted_right, 3);
   EXPECT_EQ(left.accepted_wrong, 1);
   EXPECT_EQ(left.rejected_right, 2);
   EXPECT_EQ(left.rejected_wrong, 1);
   EXPECT_EQ(left.failed, 1);
-  EXPECT_EQ(verdicts.rows[1].at_bounds.accepted_right, 1);
-  EXPECT_EQ(verdicts.rows[2].sensor, "");
-  EXPECT_EQ(verdicts.rows[2].at_bounds.accepted_right, 4);
-  EXPECT_EQ(verdicts.rows[2].at_bounds.trials(), 9);
+  EXPECT_EQ(acceptance.rows[1].at_bounds.accepted_right, 1);
+  EXPECT_EQ(acceptance.rows[2].sensor, "");
+  EXPECT_EQ(acceptance.rows[2].at_bounds.accepted_right, 4);
+  EXPECT_EQ(acceptance.rows[2].at_bounds.trials(), 9);
 }
 
 TEST(Verdicts, OverTheThresholdTheNumberOfTrialsStays) {
-  const Verdicts verdicts = verdicts_on(some_records());
-  for (const VerdictRow& row : verdicts.rows) {
-    ASSERT_EQ(row.at_thresholds.size(), verdicts.thresholds.size());
+  const AcceptanceCurve acceptance = verdicts_on(some_records());
+  for (const AcceptanceRow& row : acceptance.rows) {
+    ASSERT_EQ(row.at_thresholds.size(), acceptance.thresholds.size());
     int last = 0;
-    for (const VerdictCounts& counts : row.at_thresholds) {
+    for (const AcceptanceCounts& counts : row.at_thresholds) {
       EXPECT_EQ(counts.trials(), row.at_bounds.trials());
       EXPECT_GE(counts.accepted_right + counts.rejected_right, last);
       last = counts.accepted_right + counts.rejected_right;
@@ -75,8 +75,8 @@ TEST(Verdicts, OverTheThresholdTheNumberOfTrialsStays) {
 }
 
 TEST(Verdicts, HaveAFigureWithAPanelForEachOfTheFour) {
-  const Verdicts verdicts = verdicts_on(some_records());
-  const std::string picture = svg_bytes(verdict_chart(verdicts, kBounds));
+  const AcceptanceCurve acceptance = verdicts_on(some_records());
+  const std::string picture = svg_bytes(acceptance_chart(acceptance, kBounds));
   for (const char* title :
        {"accepted and right", "accepted and wrong", "rejected and right", "rejected and wrong"}) {
     EXPECT_THAT(picture, HasSubstr(std::string(">") + title + "<"));
@@ -91,17 +91,17 @@ TEST(Verdicts, OfChosenTrialsCountTheseAlone) {
   results.records = some_records();
   results.trials = 1;
   results.summary = summarise(results.records, kBounds, {});
-  results.verdicts = verdicts_of(results.records, results.summary);
-  EXPECT_EQ(results.verdicts.rows.back().at_bounds.trials(), 9);
+  results.acceptance = acceptance_of(results.records, results.summary);
+  EXPECT_EQ(results.acceptance.rows.back().at_bounds.trials(), 9);
   const Results left = restricted(results, {{}, {"left"}, {}});
-  EXPECT_EQ(left.verdicts.rows.back().at_bounds.trials(), 8);
+  EXPECT_EQ(left.acceptance.rows.back().at_bounds.trials(), 8);
 }
 
 TEST(Verdicts, WithABoundOfZeroAreATableAndNoCurve) {
   const std::vector<TrialRecord> records = some_records();
-  const Verdicts verdicts = verdicts_of(records, summarise(records, {0.0, 0.1}, {}));
-  EXPECT_FALSE(verdicts.rows.empty());
-  EXPECT_FALSE(has_curve(verdicts));
+  const AcceptanceCurve acceptance = acceptance_of(records, summarise(records, {0.0, 0.1}, {}));
+  EXPECT_FALSE(acceptance.rows.empty());
+  EXPECT_FALSE(has_curve(acceptance));
   EXPECT_TRUE(has_curve(verdicts_on(records)));
 }
 
@@ -110,8 +110,8 @@ TEST(Verdicts, DoNotCountFailuresOfASensorWithoutTruth) {
   records.push_back(test::unfinished({"base", "0", "back", 0}, Status::failed, "no ground"));
   ReportOrder order;
   order.without_truth = {"back"};
-  const Verdicts verdicts = verdicts_of(records, summarise(records, kBounds, order));
-  EXPECT_EQ(verdicts.rows.back().at_bounds.trials(), 9);
+  const AcceptanceCurve acceptance = acceptance_of(records, summarise(records, kBounds, order));
+  EXPECT_EQ(acceptance.rows.back().at_bounds.trials(), 9);
 }
 
 TEST(Verdicts, AreThereOnlyWhereTheProgramGaveOne) {
@@ -124,15 +124,15 @@ TEST(Verdicts, AreThereOnlyWhereTheProgramGaveOne) {
 }
 
 TEST(Verdicts, AreATableAndAFile) {
-  const Verdicts verdicts = verdicts_on(some_records());
-  const std::string csv = verdicts_csv(verdicts);
+  const AcceptanceCurve acceptance = verdicts_on(some_records());
+  const std::string csv = verdicts_csv(acceptance);
   EXPECT_EQ(csv.rfind("variant,sensor,rotation_deg,translation_m,trials,accepted_right,"
                       "accepted_wrong,rejected_right,rejected_wrong,failed\n",
                       0),
             0U);
   EXPECT_THAT(csv, HasSubstr("\nbase,left,0.5,0.1,8,3,1,2,1,1\n"));
   EXPECT_THAT(csv, HasSubstr("\nbase,all,0.5,0.1,9,4,1,2,1,1\n"));
-  EXPECT_THAT(verdicts_text(verdicts), HasSubstr("accepted, wrong"));
+  EXPECT_THAT(verdicts_text(acceptance), HasSubstr("accepted, wrong"));
 }
 
 }  // namespace

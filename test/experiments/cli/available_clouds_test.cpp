@@ -141,7 +141,7 @@ TEST_F(AvailableClouds, ThatAreNotThereForAMomentAreTriedAgain) {
   EXPECT_EQ(first.code, 3);
   EXPECT_EQ(first.complaints.find("croon: " + file +
                                   ": expected a readable file, found none; its "
-                                  "trials are not stored, the next run runs them\n"),
+                                  "trials are not stored, the next run repeats them\n"),
             0U)
       << first.complaints;
   EXPECT_EQ(count_of(trials("out"), "\nagain,a,"), 3U);
@@ -159,8 +159,8 @@ TEST_F(AvailableClouds, ThatChangeDuringARunAreNotStored) {
   const Answer answer = run("out");
   EXPECT_EQ(answer.code, 3);
   EXPECT_EQ(answer.complaints,
-            "croon: b_left.bin: is another file than at the start of the run; its trials are not "
-            "stored, the next run runs them\n");
+            "croon: b_left.bin: has changed since the start of the run; its trials are not "
+            "stored, the next run repeats them\n");
   EXPECT_EQ(count_of(trials("out"), "\nagain,a,"), 3U);
   EXPECT_EQ(count_of(trials("out"), "\nagain,b,"), 0U);
   // The next run sees that the data are others.
@@ -173,7 +173,7 @@ TEST_F(AvailableClouds, ThatChangeDuringARunAreNotFused) {
   options.clouds = true;
   const Answer answer = run("out", options);
   EXPECT_EQ(answer.code, 3);
-  EXPECT_NE(answer.complaints.find("croon: b_left.bin: is another file than at the start of the "
+  EXPECT_NE(answer.complaints.find("croon: b_left.bin: has changed since the start of the "
                                    "run; the clouds of scene b are not written\n"),
             std::string::npos)
       << answer.complaints;

@@ -98,7 +98,7 @@ TEST_F(MergeCommand, OfOneBuildNamesTheOtherBuildAndFirstTheOtherExperiment) {
   const std::string build = fault({"1", "2"}, "strict");
   EXPECT_NE(build.find((path("2") / "store.sqlite").string()), std::string::npos) << build;
   EXPECT_NE(build.find("were made by another build"), std::string::npos) << build;
-  EXPECT_NE(fault({"1", "other"}, "strict").find("from something else: /seed was"),
+  EXPECT_NE(fault({"1", "other"}, "strict").find("from different inputs: /seed was"),
             std::string::npos);
   // The folder that is merged into counts too.
   EXPECT_NE(fault({"1"}, "merged").find("were made by another build"), std::string::npos);

@@ -30,7 +30,7 @@ TEST(ResultFolder, KeepsTheFilesOfOthers) {
       EXPECT_EQ(bench.fault(options),
                 named.string() +
                     ": would be overwritten, but the folder has no results of croon; "
-                    "--out names another folder");
+                    "choose another folder with --out");
     }
     EXPECT_EQ(read_whole_file(file), "mine");
     EXPECT_FALSE(fs::exists(bench.folder().path() / "out/store.sqlite"));
@@ -89,7 +89,7 @@ TEST(ResultFolder, ReplacesNoOtherManifest) {
   const std::string store = read_whole_file(bench.folder().path() / "out/store.sqlite");
   for (const char* bytes : {"", "{\"croon\": ", "{\"name\": \"of a web page\"}"}) {
     const fs::path file = bench.folder().write("out/manifest.json", bytes);
-    expect_refused(bench, file.string() + ": is damaged or no manifest of croon");
+    expect_refused(bench, file.string() + ": is damaged or not a manifest of croon");
     EXPECT_EQ(read_whole_file(file), bytes);
   }
   EXPECT_EQ(read_whole_file(bench.folder().path() / "out/store.sqlite"), store);

@@ -272,10 +272,9 @@ TEST(RunCommand, SaysThatTheStoreHasLostTrials) {
   // As if the log of the second run, which was killed, were lost.
   fs::copy_file(bench.folder().path() / "before.sqlite", store,
                 fs::copy_options::overwrite_existing);
-  EXPECT_NE(
-      said().find("store.sqlite: trials that were stored are not in it: it is lost, or its log "
-                  "store.sqlite-wal"),
-      std::string::npos);
+  EXPECT_NE(said().find("store.sqlite: stored trials are missing: the store is lost, or its log "
+                        "store.sqlite-wal"),
+            std::string::npos);
   EXPECT_EQ(said(), "");
 }
 
@@ -290,7 +289,7 @@ TEST(RunCommand, KnowsNoSuccessWithoutTruthAlsoIfEveryTrialFailed) {
     return summary_text(read_results(bench.folder().path() / "out").summary);
   };
   const std::string without = summary_of(false);
-  EXPECT_NE(without.find("agreement (no truth)"), std::string::npos) << without;
+  EXPECT_NE(without.find("agreement (no ground truth)"), std::string::npos) << without;
   EXPECT_EQ(without.find("success"), std::string::npos) << without;
   const std::string with = summary_of(true);
   EXPECT_NE(with.find("success"), std::string::npos) << with;

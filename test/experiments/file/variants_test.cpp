@@ -205,7 +205,7 @@ TEST(Grid, FaultsStandWhereTheFileHasThem) {
           "/grid/first.size: step \"drift\" has no parameter \"size\"; did you mean \"size_m\"?",
           "/grid/second: there is no step \"second\"; known: first, behave",
           "/grid/first.size_m/1: expected a number from 0 to 10, found -1",
-          "/grid/first.size_m/2: \"size_m=1\" stands in this list twice",
+          "/grid/first.size_m/2: \"size_m=1\" is in this list twice",
           "/grid/behave.how: expected a list of at least one value, found []",
           "/grid/first.search: expected a list, found 3"}));
 }

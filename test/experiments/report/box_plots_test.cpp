@@ -156,7 +156,7 @@ TEST(Box, OfFewValuesIsDots) {
     for (std::size_t i = 0; i < n; ++i) values.push_back(static_cast<double>(i));
     Drawing drawing(100.0, 100.0);
     draw_box(drawing, {0.0, 0.0, 100.0, 100.0, {0.0, 1.0}, {-1.0, 9.0}}, 50.0, 20.0, 0, values);
-    const bool is_box = n >= kLeastBoxValues;
+    const bool is_box = n >= kMinBoxValues;
     EXPECT_EQ(elements_of<Drawing::Dot>(drawing, "dot").size(), is_box ? 0U : n);
     EXPECT_EQ(elements_of<Drawing::Rectangle>(drawing, "box").size(), is_box ? 1U : 0U);
     EXPECT_EQ(elements_of<Drawing::Line>(drawing, "median").size(), is_box ? 1U : 0U);
@@ -216,7 +216,7 @@ TEST(BoxPlots, TellHowManyOfItsTrialsABoxHolds) {
   EXPECT_EQ(test::occurrences(screen, ">6/6</text>"), 6U);
   // On paper the panels of a column share the names below them, and with them the numbers.
   EXPECT_GE(test::occurrences(svg_bytes(box_plots(summary, {kOneColumn})), ">6/8</text>"), 2U);
-  EXPECT_NE(box_plots(summary).description().find("n/N: it holds n of its N trials"),
+  EXPECT_NE(box_plots(summary).description().find("n/N: n of N trials in the box"),
             std::string::npos);
   EXPECT_EQ(box_plots(summary).description().find("open"), std::string::npos);
 }
@@ -224,14 +224,14 @@ TEST(BoxPlots, TellHowManyOfItsTrialsABoxHolds) {
 TEST(BoxPlots, ExplainWhatIsCutAndWhatIsFew) {
   const std::string cut =
       box_plots(around({{"a", 0.01}, {"b", 0.012}, {"bad", 10.0}})).description();
-  EXPECT_NE(cut.find("a box or whisker that goes on beyond the axis is open there"),
+  EXPECT_NE(cut.find("a box or whisker that extends beyond the axis is open there"),
             std::string::npos);
   EXPECT_EQ(cut.find("fewer than 5 values"), std::string::npos);
   std::vector<TrialRecord> records = test::few_records();
   records.push_back(test::finished({"few", "0001", "left", 0}, Status::success, {},
                                    test::offset_of(0, 0, 0, 0.01, 0, 0)));
   const std::string few = box_plots(summarise(records, kBounds, {})).description();
-  EXPECT_NE(few.find("fewer than 5 values are dots without a box"), std::string::npos);
+  EXPECT_NE(few.find("fewer than 5 values are drawn as dots"), std::string::npos);
 }
 
 TEST(BoxPlots, NeverZoomInOnLessThanTablesShow) {
@@ -278,7 +278,7 @@ TEST(BoxPlots, ThatDoNotFitAreRefused) {
     box_plots(around(variants), {kOneColumn});
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_EQ(test::occurrences(error.what(), "60 boxes with their names want "), 1U)
+    EXPECT_EQ(test::occurrences(error.what(), "60 boxes with their names need "), 1U)
         << error.what();
   }
   EXPECT_EQ(test::occurrences(svg_bytes(box_plots(around(variants))), "class=\"box c"), 6U * 60U);

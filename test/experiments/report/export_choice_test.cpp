@@ -138,7 +138,7 @@ TEST(Compact, IsARowPerVariant) {
   choice.columns = {"x", "y", "z", "roll", "pitch", "yaw", "success_interval"};
   EXPECT_NE(refusal([&] {
               export_latex(export_table(summary, kCaption, compact(choice, {summary}).front()));
-            }).find("--columns: these 7 columns want about "),
+            }).find("--columns: these 7 columns need about "),
             std::string::npos);
 }
 

@@ -152,8 +152,8 @@ TEST(ExportTable, WithoutTruthTellsOfTheConsensus) {
   EXPECT_EQ(number(table, 0, "agreement"), 3);
   EXPECT_EQ(number(table, 0, "agreement_percent"), 75.0);
   const std::string text = export_markdown(table);
-  EXPECT_TRUE(has(text, "if there is no truth"));
-  EXPECT_FALSE(has(text, "of the truth"));
+  EXPECT_TRUE(has(text, "no ground truth"));
+  EXPECT_FALSE(has(text, "of ground truth"));
   EXPECT_FALSE(has(text, "uccess"));
   EXPECT_TRUE(has(export_latex(table), "agreement (\\%)"));
 }
@@ -276,7 +276,7 @@ TEST(ExportCaption, NamesWhatTheNumbersAreOf) {
             "2 scenes, 2 sensors, 2 variants, 4 starts of each: 29 of 32 trials; a row has 6 to 15 "
             "of 2 scenes.");
   EXPECT_EQ(sentences.at(2),
-            "Success: within 0.5 deg and 0.1 m of the truth; errors are those of these trials.");
+            "Success: within 0.5 deg and 0.1 m of ground truth; errors are over these trials.");
 }
 
 TEST(ExportCaption, KeepsThatTheProgramHadBeenChanged) {

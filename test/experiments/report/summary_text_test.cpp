@@ -15,7 +15,7 @@ using test::kBounds;
 
 // Checked by hand: x of base/left is 0, 1, 2 cm in one scene and 0, -1, -2 cm in the other.
 constexpr const char* kTableOfFewRecords =
-    R"(success: within 0.5 deg and 0.1 m of the truth; errors of those trials
+    R"(success: within 0.5 deg and 0.1 m of ground truth; errors of these trials
 rotation, translation: median, 95th percentile
 
 variant    sensor  success      %  95 % interval  inaccurate  rejected  failed  rotation deg   translation m
@@ -24,9 +24,9 @@ base       left        6/8   75.0              -           1         0       1  
 base       right       6/7   85.7              -           0         1       0  0.024, 0.035  0.0104, 0.0202
 no volume  left        6/8   75.0              -           1         0       1  0.035, 0.060  0.0202, 0.0401
 no volume  right       6/6  100.0              -           0         0       0  0.035, 0.060  0.0202, 0.0401
-no interval: trials of one scene are alike, and there are fewer than 6 scenes
+no interval: trials of one scene are dependent, and there are fewer than 6 scenes
 
-frames: scenes in which every trial of all sensors succeeds
+frames: scenes in which every trial of every sensor succeeds
 variant    frames    %  95 % interval
 ---------  ------  ---  -------------
 base          0/2  0.0              -
@@ -48,7 +48,7 @@ base       right   0.010 / 0.000  0.000 / 0.028  0.010 / 0.000  0.0100 / 0.0141 
 no volume  left    0.020 / 0.000  0.000 / 0.028  0.020 / 0.000  0.0200 / 0.0283  0.0000 / 0.0000  0.0000 / 0.0000
 no volume  right   0.020 / 0.000  0.000 / 0.028  0.020 / 0.000  0.0200 / 0.0283  0.0000 / 0.0000  0.0000 / 0.0000
 
-against base, pair by pair: median difference [95 % interval over scenes], failures as infinite
+against base, paired by trial: median difference [95 % interval over scenes], failures are infinite errors
 variant    pairs  won  lost      p  rotation deg       p  translation m       p
 ---------  -----  ---  ----  -----  ------------  ------  -------------  ------
 no volume     14    0     0  1.000        0.0101  0.023*        0.00978  0.023*
@@ -80,7 +80,7 @@ TEST(SummaryTable, KeepsWithin120Columns) {
 
 TEST(SummaryTable, WithoutTruthShowsAgreement) {
   const std::string text = summary_text(summarise(test::one_of_four_astray(), kBounds, {}));
-  EXPECT_NE(text.find("agreement (no truth)"), std::string::npos);
+  EXPECT_NE(text.find("agreement (no ground truth)"), std::string::npos);
   EXPECT_EQ(text.find("success"), std::string::npos);
   EXPECT_NE(text.find("\nleft          3/4  75.0"), std::string::npos);
   EXPECT_EQ(text.find("across"), std::string::npos);  // One scene alone.

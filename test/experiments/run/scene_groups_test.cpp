@@ -110,8 +110,8 @@ TEST(SceneGroups, AreRefusedWithoutACommonRigOrEnoughScenes) {
   EXPECT_THAT(test::input_error([] { scene_groups(in_groups(4, 5), ""); }),
               HasSubstr("/scenes_per_trial: expected at most the number of scenes, 4, found 5"));
   EXPECT_THAT(test::input_error([] { scene_groups(in_groups(4, 2, "", ""), ""); }),
-              HasSubstr("/scenes_per_trial: expected one rig in all scenes of a trial, found "
-                        "another true pose of sensor \"s1\" in scene"));
+              HasSubstr("/scenes_per_trial: expected the same rig in all scenes of a trial, found "
+                        "different true poses of sensor \"s1\" in scenes"));
   EXPECT_THAT(test::input_error([] { in_groups(4, 0); }), HasSubstr("/scenes_per_trial"));
 }
 

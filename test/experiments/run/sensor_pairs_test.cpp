@@ -78,8 +78,8 @@ TEST(SensorPairs, HaveSensorsWithNamesOfTheirOwn) {
             "x.json: expected a sensor with a name of at most 251 bytes, found one of 252")
       << "Its cloud is a file NAME.pcd.";
   EXPECT_EQ(error({"all"}),
-            "x.json: /dataset: expected a sensor with another name than \"all\", which is that of "
-            "all sensors together");
+            "x.json: /dataset: expected a sensor name other than \"all\", which means all sensors "
+            "together");
 }
 
 TEST(SensorPairs, AreKnownByTheirNames) {

@@ -69,7 +69,7 @@ TEST(VelocityFile, NamesWhatIsWrongWithALine) {
       {"a,1001,2,3,4,5,6", "expected a number from -1000 to 1000 m/s, found \"1001\""},
       {"a,1,2,3,4,5,-3601", "expected a number from -3600 to 3600 deg/s, found \"-3601\""},
       {"a,1,2,3,4,5,6\"\"", "expected no quote inside a field, found \"6\"\"\""},
-      {"a,1,2,3,4,5,\"6\"7", "expected a comma behind the quotes around a field, found \"7\""},
+      {"a,1,2,3,4,5,\"6\"7", "expected a comma after a quoted field, found \"7\""},
       {"a,1,2,3,4,5,\"6", "expected a second quote, found \"a,1,2,3,4,5,\"6\""},
       {"aa,1,2,3,4,5,6", "expected a scene of the dataset, found \"aa\"; did you mean \"a\"?"}};
   for (const auto& [line, message] : cases) {

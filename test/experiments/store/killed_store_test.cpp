@@ -205,7 +205,7 @@ TEST(KilledStore, InAFolderToReadSaysWhatToDo) {
     constexpr uid_t kNobody = 65534;
     if (::geteuid() == 0 && ::setuid(kNobody) != 0) return 2;
     const std::string fault = test::input_error([&] { read_store(path); });
-    return fault.find("was left by a run that was interrupted") == std::string::npos ? 1 : 0;
+    return fault.find("was left by an interrupted run") == std::string::npos ? 1 : 0;
   });
   fs::permissions(folder.path(), static_cast<fs::perms>(0755));
   EXPECT_EQ(read_store(path).records.size(), 5U);

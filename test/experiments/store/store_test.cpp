@@ -204,13 +204,13 @@ TEST(Store, SaysWhatDiffers) {
   StoreHeader other = header_of_two();
   other.provenance["starts"] = R"({"rotation_deg": 30})";
   EXPECT_EQ(refusal(path, other),
-            "its trials were made from something else: /starts/rotation_deg was 45 and is 30; "
+            "its trials were made from different inputs: /starts/rotation_deg was 45 and is 30; "
             "--fresh deletes them and starts over, --out writes elsewhere");
   other.versions["step/drift"] = 4;
   other.variants[0].detail = R"([{"step": "drift", "size_m": 2}])";
   const std::string all = refusal(path, other);
   EXPECT_NE(all.find("version of step/drift was 3 and is 4; "), std::string::npos) << all;
-  EXPECT_NE(all.find("/variants/base/0/size_m was not there and is 2"), std::string::npos) << all;
+  EXPECT_NE(all.find("/variants/base/0/size_m was missing and is 2"), std::string::npos) << all;
   EXPECT_EQ(read_whole_file(path), bytes);
 }
 
@@ -271,7 +271,7 @@ TEST(Store, TakesMoreVariantsTrialsAndAnotherOrder) {
   EXPECT_EQ(stored_trials(path, stored_header(path), header_of_two()).size(), 20U);
   StoreHeader changed = header_of_two();
   changed.variants[1].detail = "[1]";
-  EXPECT_NE(refusal(path, changed).find("/variants/other/- was not there and is 1"),
+  EXPECT_NE(refusal(path, changed).find("/variants/other/- was missing and is 1"),
             std::string::npos);
 }
 
