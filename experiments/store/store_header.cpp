@@ -122,7 +122,7 @@ void add_differences(std::vector<std::string>& to, const std::string& where,
   for (const json& change : json::diff(was, is)) {
     const json::json_pointer pointer(change["path"].get<std::string>());
     std::string text = where + readable(pointer.to_string());
-    if (change["op"] == "add") text += " was missing and is  " + shown(change["value"]);
+    if (change["op"] == "add") text += " was missing and is " + shown(change["value"]);
     if (change["op"] == "remove") text += " was " + shown(was[pointer]) + " and is missing";
     if (change["op"] == "replace") {
       text += " was " + shown(was[pointer]) + " and is " + shown(change["value"]);

@@ -248,7 +248,7 @@ TEST(Joined, RefusesWhatCannotBeCompared) {
   tables[1].bounds.translation_m = 0.2;
   EXPECT_NE(refusal([&] {
               joined(tables, {"a", "b"});
-            }).find("b: expected success within 0.5 deg and 0.1 m of it"),
+            }).find("b: expected success within 0.5 deg and 0.1 m of ground truth"),
             std::string::npos);
 }
 
