@@ -79,22 +79,14 @@ class CraftedStore : public testing::Test {
   /// prints it, in one line; any other exception fails the test. Returns which did, "ecmr" for all.
   std::string refusals(const std::string& what) const {
     fs::remove_all(path("merged"));
-    const std::vector<std::function<void()>> commands = {[&] {
-                                                           std::ostringstream text;
-                                                           export_command(of_bad("md"), text);
-                                                         },
-                                                         [&] {
-                                                           std::ostringstream text;
-                                                           claims_command({path("bad")}, text);
-                                                         },
-                                                         [&] {
-                                                           MergeOptions options;
-                                                           options.folders = {path("bad")};
-                                                           options.out = path("merged/deep");
-                                                           std::ostringstream text;
-                                                           merge_command(options, text);
-                                                         },
-                                                         [&] { run("bad"); }};
+    MergeOptions merge;
+    merge.folders = {path("bad")};
+    merge.out = path("merged/deep");
+    std::ostringstream answer;
+    const std::vector<std::function<void()>> commands = {
+        [&] { export_command(of_bad("md"), answer); },
+        [&] { claims_command({path("bad")}, answer); }, [&] { merge_command(merge, answer); },
+        [&] { run("bad"); }};
     std::string refused;
     for (std::size_t i = 0; i < commands.size(); ++i) {
       try {
