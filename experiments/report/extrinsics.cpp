@@ -134,19 +134,18 @@ std::string extrinsics_json(const Summary& summary,
   }
   Json json;
   json["method"] =
-      "per scene the medoid of the trials' poses, with distances truncated at the bounds, then the "
-      "mean of the poses within the bounds of it; over scenes the same for the scenes' poses, each "
-      "weighted by the number of its trials that agree with it; null if no two trials agree "
+      "per scene the medoid of the trials' poses, with distances cut off at the bounds, then the "
+      "mean of the poses within the bounds of it; over scenes the same of the scenes' poses, each "
+      "with as many votes as trials of its scene agree with it; null if no two trials agree "
       "(docs/statistics.md)";
   json["bounds"] = {{"rotation_deg", summary.bounds.rotation_deg},
                     {"translation_m", summary.bounds.translation_m}};
   json["roll_pitch_yaw"] = "R = Rz(yaw) Ry(pitch) Rx(roll)";
   if (has_covariances) {
     json["covariance"] =
-        "covariance of the error (roll, pitch, yaw of T_estimate T_truth^-1, t_estimate - "
-        "t_truth), rad and m, in the reference frame; for the pose of all scenes, of the mean of "
-        "independent scenes "
-        "(docs/how_it_works.md)";
+        "of the error (roll, pitch, yaw of T_estimate T_truth^-1, t_estimate - t_truth), rad and "
+        "m, in the reference's frame; of the pose of all scenes: of the mean of independent scenes "
+        "(docs/trust.md)";
   }
   json["extrinsics"] = json_rows(extrinsics_columns(has_covariances).table(extrinsics));
   for (std::size_t i = 0; i < extrinsics.size(); ++i) {
