@@ -111,8 +111,7 @@ std::string svg_bytes(const Drawing& drawing) {
 }
 
 const std::vector<DrawingFormat>& drawing_formats() {
-  static const std::vector<DrawingFormat> formats = {
-      {"pdf", pdf_bytes}, {"svg", svg_bytes}};
+  static const std::vector<DrawingFormat> formats = {{"pdf", pdf_bytes}, {"svg", svg_bytes}};
   return formats;
 }
 
