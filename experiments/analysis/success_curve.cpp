@@ -72,7 +72,7 @@ CountsWithin counts_within(const SceneRecords& records, const Thresholds& thresh
   return counts;
 }
 
-/// The curves of all `rows`, which are of one variant, together.
+/// The curves over all `rows` combined; the rows belong to one variant.
 std::vector<CurveRow> curves_of(const Rows& rows, const std::string& sensor,
                                 const RecordGroups& groups, const Thresholds& thresholds) {
   std::array<std::vector<SceneCounts>, kCurves.size()> counts;

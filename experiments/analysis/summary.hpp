@@ -13,8 +13,8 @@
 
 namespace croon::experiments {
 
-/// The order of rows and scenes in all reports, and properties that trials do not record. Names of
-/// records that are missing here come last.
+/// The order of rows and scenes in all reports, and properties that trials do not record. Names
+/// that occur in records but not here come last.
 struct ReportOrder {
   std::vector<std::string> variants;
   std::vector<std::string> sensors;

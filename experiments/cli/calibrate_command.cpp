@@ -46,7 +46,7 @@ std::optional<RigidTransform> pose_in(const std::string& text) {
                         {numbers[0], numbers[1], numbers[2]}};
 }
 
-/// The pose of the reference in the vehicle frame that `base` has.
+/// The pose of the reference in the vehicle frame: `base` itself, or its entry in the file `base`.
 RigidTransform base_pose(const std::string& base, const std::string& reference) {
   if (const std::optional<RigidTransform> pose = pose_in(base)) return *pose;
   if (base.find(',') != std::string::npos) {
@@ -62,8 +62,8 @@ RigidTransform base_pose(const std::string& base, const std::string& reference) 
     known.push_back(pose.sensor);
   }
   throw InputError(base, "",
-                   "expected the pose of the reference " + in_quotes(reference) +
-                       ", which the file does not have" + name_hint(reference, known));
+                   "expected the pose of the reference " + in_quotes(reference) + ", found none" +
+                       name_hint(reference, known));
 }
 
 /// Throws InputError for a format that does not exist.
@@ -77,14 +77,14 @@ void check_formats(const std::vector<std::string>& formats) {
   }
 }
 
-/// The scene that is drawn: the first of those with the most sensors.
+/// The scene to draw: the first with the maximum number of sensors.
 Scene& drawn_scene(std::vector<Scene>& scenes) {
   return *std::max_element(scenes.begin(), scenes.end(), [](const Scene& a, const Scene& b) {
     return a.sensors.size() < b.sensors.size();
   });
 }
 
-/// Lets `scan` read its cloud once and keep it for further calls.
+/// Makes `scan` read its cloud at the first call only and keep it in memory.
 void keep_cloud(SensorScan& scan) {
   struct Kept {
     std::once_flag once;
@@ -101,14 +101,14 @@ void keep_clouds(Scene& scene) {
   for (SensorScan& scan : scene.sensors) keep_cloud(scan);
 }
 
-#include "framework/calibration/rig_extrinsics.hpp"
+/// The poses in the vehicle frame, with the reference as the first sensor.
 Extrinsics in_base(const Extrinsics& extrinsics, const RigidTransform& T_base_reference) {
   Extrinsics in_base = in_frame(extrinsics, kBaseFrame, T_base_reference);
   in_base.poses.insert(in_base.poses.begin(), {extrinsics.parent, T_base_reference});
   return in_base;
 }
 
-/// Writes the formats to `folder`; returns the paths below `root`.
+/// Writes `extrinsics` to `root / folder` in each format; returns the paths relative to `root`.
 std::vector<std::string> write_formats(const fs::path& root, const fs::path& folder,
                                        const Extrinsics& extrinsics,
                                        const std::vector<std::string>& formats,
@@ -126,7 +126,7 @@ std::vector<std::string> write_formats(const fs::path& root, const fs::path& fol
   return paths;
 }
 
-/// Draws one scene; returns the paths below `root`. A cloud that cannot be read is not drawn.
+/// Draws `scene`; returns the paths relative to `root`. Unreadable clouds are not drawn.
 std::vector<std::string> draw(const fs::path& root, const CalibratedRig& rig, const Scene& scene,
                               bool with_clouds) {
   const ReadScan reference = read_scan(scene.reference);
@@ -152,10 +152,10 @@ std::vector<std::string> all_formats(const std::vector<std::string>& formats) {
   return all;
 }
 
-/// The files of a folder, by their paths in it.
+/// The files of a folder; paths are relative to it.
 struct FolderFiles {
   std::vector<std::string> written;
-  std::vector<std::string> left;  ///< By an earlier calibration.
+  std::vector<std::string> left;  ///< Left by an earlier calibration.
 };
 
 /// Writes all files.
@@ -238,21 +238,25 @@ class CalibrateCommand final : public Command {
              "A file or folder of clouds per sensor, PATH or NAME=PATH; a recording (.mcap, .db3) "
              "and its topics; or a rig.json.")
         ->required();
-    add_path(command, "--nominal", o.nominal,
-             "Poses to compare with, and to try near if a sensor is rejected.");
-    command.add_flag("--from-scratch", o.from_scratch, "Only compare with the nominal poses.");
-    add_text(command, "--base", o.base,
-             "The reference's pose in the vehicle frame: x,y,z,roll,pitch,yaw in m and degrees, or "
-             "a file of extrinsics; then files are written for base_link too.",
-             "a pose or a path");
+    add_path(
+        command, "--nominal", o.nominal,
+        "Poses to compare with; a sensor that is rejected is tried again near its nominal pose.");
+    command.add_flag("--from-scratch", o.from_scratch,
+                     "Use the nominal poses for comparison only.");
+    add_text(
+        command, "--base", o.base,
+        "The reference's pose in the vehicle frame, x,y,z,roll,pitch,yaw in m and degrees or a "
+        "file of extrinsics; writes the results in base_link too.",
+        "a pose or a path");
     add_path(command, "--out", o.out, "Folder to write to; default results/calibration.");
     add_text(command, "--format", o.formats,
-             "Further formats of extrinsics, separated by commas: " + format_names() + ".",
+             "Additional formats of extrinsics, comma-separated: " + format_names() + ".",
              "a format")
         ->delimiter(',');
-    command.add_flag("--with-rejected", o.with_rejected, "Write rejected poses too, marked.");
+    command.add_flag("--with-rejected", o.with_rejected,
+                     "Write rejected poses too, marked as rejected.");
     command.add_flag("--clouds", o.clouds, "Write the clouds in the reference's frame.");
-    command.add_flag("--no-pictures", o.no_pictures, "Do not draw.");
+    command.add_flag("--no-pictures", o.no_pictures, "Do not draw pictures.");
     add_rig_options(command, o);
   }
 

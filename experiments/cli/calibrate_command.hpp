@@ -11,14 +11,14 @@
 
 namespace croon::experiments {
 
-/// What is calibrated, from the command line or from a file (`rig.json`). What is not given is
-/// empty.
+/// The request for a calibration, from the command line or from a file (`rig.json`). Members that
+/// were not given are empty.
 struct RigRequest {
   std::vector<std::string> inputs;  ///< See recorded_scenes.
   std::string reference;            ///< Empty: the first sensor.
   std::string nominal;              ///< A file of extrinsics.
-  bool from_scratch = false;        ///< Only compare with the nominal poses.
-  std::string base;                 ///< The reference's pose in the vehicle frame, or its file.
+  bool from_scratch = false;        ///< Use the nominal poses for comparison only.
+  std::string base;                 ///< Pose of the reference in the vehicle frame, or a file.
   std::optional<double> max_time_gap_s;
   std::optional<int> max_scenes;
   std::string pipeline;
@@ -29,13 +29,13 @@ struct RigRequest {
 /// its folder. Throws InputError with every fault.
 RigRequest read_rig_request(const std::filesystem::path& file);
 
-/// The text of a rig.json in `folder` that asks for the same calibration.
+/// The text of a rig.json in `folder` that requests the same calibration.
 std::string rig_request_json(const RigRequest& request, const std::filesystem::path& folder);
 
 struct CalibrateOptions : RigRequest {
   std::filesystem::path out = "results/calibration";
-  std::vector<std::string> formats;  ///< Beside csv and json.
-  bool with_rejected = false;        ///< Rejected poses too, marked.
+  std::vector<std::string> formats;  ///< In addition to csv and json.
+  bool with_rejected = false;        ///< Write rejected poses too, marked as rejected.
   bool clouds = false;               ///< Write the clouds in the reference's frame.
   bool no_pictures = false;
   bool quiet = false;

@@ -12,7 +12,7 @@
 namespace croon::experiments {
 namespace {
 
-/// "RIGHT      ", with a colour if there are colours.
+/// "RIGHT      ", coloured if `colours`.
 std::string judgement_text(PoseJudgement judgement, bool colours) {
   constexpr std::size_t kColumns = 11;
   std::string word;
@@ -46,7 +46,7 @@ std::string sensor_text(const CheckedSensor& checked, bool colours) {
   return text;
 }
 
-/// Whether a sensor has a pose, and none from the calibration from nothing.
+/// Whether the calibration from scratch rejected a sensor that has a given pose.
 bool needs_second_look(const CalibratedRig& rig) {
   return std::any_of(rig.sensors.begin(), rig.sensors.end(), [](const CalibratedSensor& sensor) {
     return !sensor.is_accepted && sensor.nominal.has_value();
@@ -95,7 +95,7 @@ class CheckCommand final : public Command {
     add_path(command, "EXTRINSICS", options_.nominal,
              "The poses, in any format that --nominal accepts.")
         ->required();
-    add_path(command, "INPUT", options_.inputs, "Clouds, as of calibrate.")->required();
+    add_path(command, "INPUT", options_.inputs, "Clouds, as for croon calibrate.")->required();
     add_rig_options(command, options_);
   }
 

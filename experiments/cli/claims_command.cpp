@@ -13,8 +13,8 @@ namespace croon::experiments {
 namespace {
 
 constexpr const char* kHead =
-    "What experiments expect, the band in which each number must lie, and what was found. Angles "
-    "in degrees, lengths in\nmetres. \"All sensors\" pools the trials of all of them.\n";
+    "The claims of experiments, the band in which each number must lie, and the number found. "
+    "Angles in degrees, lengths in\nmetres. \"All sensors\" pools the trials of all sensors.\n";
 
 bool is_met(const ClaimResult& claim) {
   return claim.outcome == ClaimOutcome::in || claim.outcome == ClaimOutcome::shown;

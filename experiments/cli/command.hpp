@@ -13,11 +13,11 @@ class App;
 
 namespace croon::experiments {
 
-/// What a command works with.
+/// The environment of a command.
 struct Console {
   const Catalogue& catalogue;
   std::ostream& out;  ///< The answer.
-  std::ostream& err;  ///< Progress and complaints.
+  std::ostream& err;  ///< Progress, warnings and errors.
   bool colours;       ///< Whether the answer may have colours.
 };
 
@@ -29,7 +29,7 @@ class Command {
   /// One sentence for the help.
   virtual std::string sentence() const = 0;
   virtual void add_options(CLI::App& command) = 0;
-  /// Returns the exit code: 0, or 3 if the command is done but something in it failed. Throws
+  /// Returns the exit code: 0, or 3 if the command finished but something in it failed. Throws
   /// InputError, before anything is written, if the request is wrong.
   virtual int run(const Console& console) = 0;
 };

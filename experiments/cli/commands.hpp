@@ -14,22 +14,21 @@
 namespace croon::experiments {
 
 // The commands of the program, each in a file of its own. A command writes its answer to `out` and
-// returns the exit code: 0, or 3 if it is done but something in it failed. It throws InputError,
+// returns the exit code: 0, or 3 if it finished but something in it failed. It throws InputError,
 // before anything is written, if the request is wrong.
 
 struct RunOptions : RunRequest {
-  bool plan = false;        ///< Only show what there is to run.
+  bool plan = false;        ///< Only show the trials to run.
   bool no_share = false;    ///< Run the variants one by one.
   bool fresh = false;       ///< Delete the results in the folder and start over.
-  bool same_build = false;  ///< Refuse to go on with trials of another build.
+  bool same_build = false;  ///< Refuse to continue trials of another build.
   bool quiet = false;       ///< No progress.
   bool colours = false;     ///< Colours in the tables.
   bool clouds = false;      ///< Write fused clouds.
-  bool png = false;         ///< Draw a scene before and after.
+  bool png = false;         ///< Draw the first scene before and after calibration.
 };
 
-/// Runs the experiment, or the trials that are missing, and writes the results; progress goes to
-/// `err`.
+/// Runs the missing trials of the experiment and writes the results; progress goes to `err`.
 int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostream& out,
                 std::ostream& err);
 
@@ -40,37 +39,37 @@ struct MergeOptions {
   bool colours = false;
 };
 
-/// Merges the trials of several folders of results of one experiment and writes all files that a
-/// run writes: the same bytes as one run of them all. Returns 3 if a trial failed or is missing. If
+/// Merges several folders of results of one experiment and writes all files that a run writes,
+/// byte for byte as a single run of all trials would. Returns 3 if a trial failed or is missing. If
 /// the folders do not belong together, nothing is added to `options.out`.
 int merge_command(const MergeOptions& options, std::ostream& out);
 
 struct ExportOptions {
-  std::vector<std::filesystem::path> folders;  ///< Of results.
+  std::vector<std::filesystem::path> folders;  ///< Folders of results.
   std::string format;         ///< One of export_formats() or drawing_formats(); empty: md or pdf.
-  std::filesystem::path out;  ///< The file to write; empty: `out`.
+  std::filesystem::path out;  ///< The file to write; empty: the stream `out`.
   std::string figure;         ///< One of figures(); empty: a table.
-  std::string width;          ///< One of named_sheets(); empty: what fits.
-  std::string units;  ///< Of lengths, "m" or "mm"; empty: m in tables, what fits in figures.
-  std::vector<std::string> variants;  ///< Only these; empty: all.
-  std::vector<std::string> sensors;   ///< The same; in tables, "all" is all of them together.
+  std::string width;          ///< One of named_sheets(); empty: depends on the format.
+  std::string units;  ///< Unit of lengths, "m" or "mm"; empty: m in tables, automatic in figures.
+  std::vector<std::string> variants;  ///< Only these variants; empty: all.
+  std::vector<std::string> sensors;   ///< Only these; empty: all; "all": the row of all pooled.
   std::vector<std::string> kinds;     ///< Only scenes of these kinds; empty: all.
-  std::vector<std::string> columns;   ///< Of a table; empty: the full table.
-  bool compact = false;               ///< A table that fits a page.
-  bool title = false;                 ///< A figure with its title.
+  std::vector<std::string> columns;   ///< Columns of a table; empty: the full table.
+  bool compact = false;               ///< One row per variant, narrow enough for a page.
+  bool title = false;                 ///< Add a title to the figure.
 };
 
-/// Throws InputError if two of the paths are one, by any names: a command would show its results
-/// twice. `what` they are is a word.
+/// Throws InputError if two of the paths lead to the same file or folder, whose results a command
+/// would show twice. `what` is the word for a path in the message.
 void refuse_repeats(const std::vector<std::filesystem::path>& paths,
                     const std::string& what = "folder");
 
-/// Writes a table of folders of results for a paper, or a figure of one folder.
+/// Writes, for a paper, a table of one or more folders of results or a figure of one folder.
 int export_command(const ExportOptions& options, std::ostream& out);
 
-/// Writes a page of Markdown: for each folder of results what was run, every claim of its
-/// experiment beside our number, and the quoted rows of other methods. Returns 3 if a number is out
-/// of its band or was not measured.
+/// Writes a page of Markdown. For each folder of results it describes the run and lists every claim
+/// of the experiment beside our number, and the quoted rows of other methods. Returns 3 if a number
+/// is outside its band or was not measured.
 int claims_command(const std::vector<std::filesystem::path>& folders, std::ostream& out);
 
 struct SimulateOptions {
@@ -83,8 +82,9 @@ struct SimulateOptions {
 };
 
 /// Writes the simulated scenes of an experiment in the layout of the paper's authors: binary PCD
-/// clouds, lists, `truth.json`, `scene_kinds.json`, and `experiment.json`, which gives the same
-/// results on them. Scenes that are complete are kept; a folder with anything else is refused.
+/// clouds, lists, `truth.json`, `scene_kinds.json`, and `experiment.json`, which reproduces the
+/// results of the experiment on them. Complete scenes are kept; a folder with other content is
+/// refused.
 int simulate_command(const SimulateOptions& options, const Catalogue& catalogue, std::ostream& out,
                      std::ostream& err);
 
@@ -93,12 +93,12 @@ struct DescribeOptions {
   std::filesystem::path data;  ///< See `data_root`.
   std::filesystem::path out;   ///< A folder for clouds.csv and ranges.svg; empty: none.
   int jobs = 0;                ///< 0: all cores.
-  int scenes = 0;              ///< The first so many scenes of each dataset; 0: all.
-  std::string format = "svg";  ///< Of the figure of ranges, one of drawing_formats().
+  int scenes = 0;              ///< Maximum number of scenes per dataset; 0: all.
+  std::string format = "svg";  ///< Of the figure of ranges: one of drawing_formats().
   std::string width;           ///< One of named_sheets(); empty: screen in SVG, else two columns.
 };
 
-/// The sheet called `width`; if it is empty, that of a screen in SVG and `on_paper` in other
+/// The sheet called `width`. If `width` is empty: the screen sheet for SVG, `on_paper` for other
 /// formats. Throws InputError for an unknown name.
 Sheet sheet_called(const std::string& width, const std::string& format, const Sheet& on_paper);
 
@@ -108,28 +108,29 @@ int describe_command(const DescribeOptions& options, const Catalogue& catalogue,
 struct StartsOptions {
   std::filesystem::path experiment;
   std::vector<std::filesystem::path> with;  ///< Workloads, see load_experiment.
-  std::filesystem::path out;                ///< The file to write; empty: `out`.
+  std::filesystem::path out;                ///< The file to write; empty: the stream `out`.
   std::filesystem::path data;               ///< See `data_root`.
-  int trials = 0;                           ///< 0: those of the experiment.
+  int trials = 0;                           ///< Per scene and sensor; 0: as in the experiment.
 };
 
-/// Writes the starts of the experiment, by scene, sensor and trial, as a file that an experiment
-/// can name in "starts": with it, trials have the same bits.
+/// Writes the initial guess of each scene, sensor and trial of the experiment, as a file for the
+/// key "starts" of an experiment. Trials that start from the file have bit-identical results.
 int starts_command(const StartsOptions& options, const Catalogue& catalogue, std::ostream& out);
 
-/// The names of the files from which the variants of `experiment` take poses and velocities.
+/// The names of the files from which the variants of `experiment` read poses and velocities.
 std::set<std::string> given_files(const Experiment& experiment);
 
-/// The content of that file. Call `resolve_starts` before.
+/// The file that starts_command writes. Call `resolve_starts` first.
 std::string starts_csv(const Experiment& experiment, const std::vector<SceneGroup>& groups);
 
-/// Checks experiment files; a folder stands for every *.json below it. The data need not be there.
-/// Writes `FILE: ok`, or all faults to `err`. Returns 2 if a file has faults or a folder cannot be
-/// read; the other files are checked all the same.
+/// Checks experiment files, and for a folder every *.json below it. The data need not exist. Writes
+/// `FILE: ok`, or all faults to `err`. Returns 2 if a file has faults or a folder cannot be read;
+/// the other files are checked nevertheless.
 int validate_command(const std::vector<std::filesystem::path>& paths, const Catalogue& catalogue,
                      std::ostream& out, std::ostream& err);
 
-/// Writes the first faults, each as one line, `croon: FILE: WHERE: MESSAGE`, and how many more are.
+/// Writes the first faults, one per line as `croon: FILE: WHERE: MESSAGE`, and the number of
+/// further faults.
 void print_faults(const InputError& error, std::ostream& err);
 
 }  // namespace croon::experiments

@@ -48,7 +48,7 @@ std::vector<NamedScene> scenes_of(const DescribeOptions& options, const Catalogu
   return named;
 }
 
-/// The plane with the most points, with the defaults of the stage.
+/// The stage `ransac`, which finds the plane with the most points, with default parameters.
 params::Slot<GroundExtractor> extractor_of(const Catalogue& catalogue) {
   const nlohmann::json json = {{"type", "ransac"}};
   std::vector<Fault> faults;
@@ -57,7 +57,7 @@ params::Slot<GroundExtractor> extractor_of(const Catalogue& catalogue) {
   return extractor;
 }
 
-/// The clouds of a scene: those that have points, and the sensors whose clouds have none.
+/// Descriptions of the clouds of a scene, and the sensors whose clouds are empty.
 struct DescribedScene {
   std::vector<CloudDescription> clouds;
   std::vector<std::string> empty;
@@ -95,7 +95,7 @@ DescribedScene describe_scene(const NamedScene& named, const GroundExtractor& ex
   return described;
 }
 
-/// A line for each sensor that has clouds without points, which are in no row of the table.
+/// A line for each sensor with empty clouds, which the table omits.
 std::string empty_clouds_text(const std::vector<NamedScene>& scenes,
                               const std::vector<DescribedScene>& described) {
   std::map<std::pair<std::string, std::string>, std::vector<std::string>> empty;
@@ -124,7 +124,7 @@ const DrawingFormat& writer_of(const DescribeOptions& options) {
                    "unknown format \"" + options.format + "\"" + name_hint(options.format, names));
 }
 
-/// The files in `folder`, which describe `clouds`.
+/// The files that describe `clouds`, in `folder`.
 std::vector<OutputFile> files_in(const std::filesystem::path& folder,
                                  const std::vector<CloudDescription>& clouds,
                                  const DrawingFormat& writer, const Sheet& sheet) {
@@ -133,17 +133,17 @@ std::vector<OutputFile> files_in(const std::filesystem::path& folder,
            writer.bytes(ranges_chart(clouds, {sheet}))}};
 }
 
-/// Makes `folder`. Throws InputError if it cannot be made or written to.
+/// Creates `folder`. Throws InputError if that fails or the folder is not writable.
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw InputError(folder.string(), "", "cannot be made: " + error.message());
+  if (error) throw InputError(folder.string(), "", "cannot be created: " + error.message());
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-    throw InputError(folder.string(), "", "expected a folder that may be written to");
+    throw InputError(folder.string(), "", "expected a writable folder");
   }
 }
 
-/// Makes the folder of the output, and in the end removes what it made and nothing was written to.
+/// Creates the output folder and its missing parents; finally removes those that are still empty.
 class OutputFolders {
  public:
   explicit OutputFolders(const std::filesystem::path& folder) {
@@ -163,7 +163,7 @@ class OutputFolders {
   OutputFolders& operator=(const OutputFolders&) = delete;
 
  private:
-  std::vector<std::filesystem::path> made_;  ///< The innermost first.
+  std::vector<std::filesystem::path> made_;  ///< Innermost first.
 };
 
 }  // namespace
@@ -176,7 +176,7 @@ int describe_command(const DescribeOptions& options, const Catalogue& catalogue,
   const std::vector<NamedScene> scenes = scenes_of(options, catalogue);
   std::optional<OutputFolders> folders;
   if (!options.out.empty()) {
-    // Before the clouds are looked at, which takes long.
+    // Before the clouds are read, which takes long.
     folders.emplace(options.out);
     refuse_to_replace(files_in(options.out, {}, writer, sheet));
   }
@@ -191,8 +191,8 @@ int describe_command(const DescribeOptions& options, const Catalogue& catalogue,
     clouds.insert(clouds.end(), of_scene.clouds.begin(), of_scene.clouds.end());
   }
   if (!options.out.empty()) replace_output_files(files_in(options.out, clouds, writer, sheet));
-  out << "median over scenes (least to largest); ground: within 0.2 m of the largest plane;\n"
-         "distance to the reference's nearest point, of points that have one within 1 m "
+  out << "median over scenes (minimum to maximum); ground: within 0.2 m of the largest plane;\n"
+         "distance to the reference's nearest point, over the points with one within 1 m "
          "(overlap)\n\n"
       << clouds_text(clouds) << empty_clouds_text(scenes, by_scene);
   return 0;
@@ -205,11 +205,11 @@ class DescribeCommand final : public Command {
   std::string sentence() const override { return "Describe the clouds of experiments' datasets."; }
 
   void add_options(CLI::App& command) override {
-    add_path(command, "EXPERIMENT", options_.experiments, "Experiments, JSON files.")->required();
+    add_path(command, "EXPERIMENT", options_.experiments, "Experiment files (JSON).")->required();
     add_data(command, options_.data);
     add_path(command, "--out", options_.out, "Folder for clouds.csv and ranges.svg.");
     add_text(command, "--format", options_.format,
-             "Of the figure of ranges: " + names_of(drawing_formats()) + "; default svg.",
+             "Format of the figure of ranges: " + names_of(drawing_formats()) + "; default svg.",
              "a format");
     add_width(command, options_.width);
     command.add_option("--scenes", options_.scenes, "Use only the first N scenes of each dataset.")

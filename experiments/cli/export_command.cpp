@@ -17,7 +17,7 @@
 namespace croon::experiments {
 namespace {
 
-/// The row called `name`. Throws InputError, which names `option`, if there is none.
+/// The row called `name`. Throws InputError for the option `option` if there is none.
 template <class Row>
 const Row& called(const std::string& option, const std::string& name,
                   const std::vector<Row>& rows) {
@@ -44,7 +44,7 @@ ExportCaption caption_of(const Results& results, const std::vector<std::string>&
           results.scenes_per_trial};
 }
 
-/// Throws InputError if an option is given that the other kind of export has.
+/// Throws InputError for options that do not apply to the table or figure and for unknown units.
 void refuse_options(const ExportOptions& options) {
   const bool is_figure = !options.figure.empty();
   const auto refuse = [](bool is_given, const char* option, const char* what) {
@@ -59,7 +59,8 @@ void refuse_options(const ExportOptions& options) {
 
 std::string figure_bytes(const ExportOptions& options) {
   if (options.figure == "ranges") {
-    throw InputError("", "--figure", "the figure of ranges is of clouds: croon describe --out DIR");
+    throw InputError("", "--figure",
+                     "the figure of ranges shows clouds: use croon describe --out DIR");
   }
   const Figure& figure = called("--figure", options.figure, figures());
   const std::string format = options.format.empty() ? "pdf" : options.format;
@@ -101,7 +102,7 @@ std::string table_bytes(const ExportOptions& options) {
   std::vector<std::string> folders;
   refuse_repeats(options.folders);
   for (const std::filesystem::path& folder : options.folders) {
-    // Its trials are not kept: several folders may have millions.
+    // The trials are not kept in memory: several folders may have millions.
     Results results = restricted(read_results(folder), {options.variants, {}, options.kinds});
     captions.push_back(caption_of(results, options.kinds));
     summaries.push_back(std::move(results.summary));
@@ -125,7 +126,7 @@ void refuse_repeats(const std::vector<std::filesystem::path>& paths, const std::
     for (std::size_t j = 0; j < i; ++j) {
       if (!std::filesystem::equivalent(paths[i], paths[j], error)) continue;
       throw InputError(paths[i].string(), "",
-                       "expected another " + what + ", found one that is named before");
+                       "expected each " + what + " once, found this one twice");
     }
   }
 }
@@ -156,23 +157,25 @@ class ExportCommand final : public Command {
 
   void add_options(CLI::App& command) override {
     ExportOptions& o = options_;
-    add_path(command, "DIR", o.folders, "Folders of results, for one table.")->required();
+    add_path(command, "DIR", o.folders,
+             "Folders of results: any number for a table, one for a figure.")
+        ->required();
     add_text(command, "--format", o.format,
              names_of(export_formats()) +
                  "; default md. With --figure: " + names_of(drawing_formats()) + "; default pdf.",
              "a format");
-    add_path(command, "--out", o.out, "The file to write; default the output.");
+    add_path(command, "--out", o.out, "File to write; default standard output.");
     add_text(command, "--figure", o.figure, "A figure: " + names_of(figures()) + ".", "a figure");
     add_width(command, o.width);
-    add_text(command, "--units", o.units, "Of lengths: m, mm.", "m or mm");
+    add_text(command, "--units", o.units, "Unit of lengths: m, mm.", "m or mm");
     add_text(command, "--variants", o.variants, "Only these variants.", "a variant");
     add_text(command, "--sensors", o.sensors,
-             "Only these sensors; all: all together, a row of a table.", "a sensor");
+             "Only these sensors; in tables, all is the row of all sensors pooled.", "a sensor");
     add_text(command, "--kinds", o.kinds, "Only scenes of these kinds.", "a kind of scene");
     add_text(command, "--columns", o.columns,
              "Columns of a table: success, rotation_median, x, x_p95, ...", "a column");
     command.add_flag("--compact", o.compact, "One row per variant, narrow enough for a page.");
-    command.add_flag("--title", o.title, "A figure with its title.");
+    command.add_flag("--title", o.title, "Add a title to the figure.");
   }
 
   int run(const Console& console) override { return export_command(options_, console.out); }

@@ -1,4 +1,4 @@
-// The program: reads the command line, which only this file does, and runs the command.
+// The program: runs the command. Only this file reads the command line.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -27,7 +27,7 @@ constexpr int kRequestIsWrong = 2;
 class Program {
  public:
   Program()
-      : app_("Calibrates the LiDARs of a vehicle to each other, and compares methods that do.",
+      : app_("Calibrates the LiDARs of a vehicle to each other and compares calibration methods.",
              "croon"),
         commands_(all_commands()) {
     app_.set_version_flag("--version", std::string("croon ") + croon_version());
@@ -37,7 +37,7 @@ class Program {
     }
   }
 
-  /// Throws InputError if the words are wrong.
+  /// Throws InputError if the command line is wrong.
   int run(int argc, char** argv) {
     try {
       app_.parse(argc, argv);
@@ -61,7 +61,7 @@ class Program {
   }
 
  private:
-  /// Throws InputError for words that no option or command took.
+  /// Throws InputError for words that no option or command consumed.
   void refuse_leftovers() const {
     const std::vector<CLI::App*> commands = app_.get_subcommands();
     const CLI::App& command = commands.empty() ? app_ : *commands.front();
@@ -80,17 +80,17 @@ class Program {
       throw InputError("", "", "unknown option \"" + name + "\"" + name_hint(name, known));
     }
     throw InputError("", "",
-                     "expected the option \"" + name + "\" behind the command, found it before \"" +
+                     "expected the option \"" + name + "\" after the command, found it before \"" +
                          command.get_name() + "\"");
   }
 
-  /// Says of an option that took several words that it did: what is missing may be among them.
+  /// A hint if an option consumed several words: the missing argument may be one of them.
   std::string long_list() const {
     for (const CLI::App* command : app_.get_subcommands()) {
       for (const CLI::Option* option : command->get_options()) {
         if (option->get_positional() || option->count() < 2) continue;
-        return "; " + option->get_name() + " took \"" + option->results().back() +
-               "\": what is required comes before " + option->get_name();
+        return "; " + option->get_name() + " consumed \"" + option->results().back() +
+               "\": required arguments must precede " + option->get_name();
       }
     }
     return "";
@@ -108,7 +108,7 @@ class Program {
   std::vector<NamedCommand> commands_;
 };
 
-/// Output that was not written, to a full disk or a closed pipe, is an error.
+/// Throws InputError if the output cannot be written: the disk is full or the pipe closed.
 int run_and_flush(int argc, char** argv) {
   const int code = Program().run(argc, argv);
   if (!std::cout.flush()) throw InputError("", "standard output", "cannot be written");
@@ -130,7 +130,7 @@ int croon_main(int argc, char** argv) {
 }  // namespace croon::experiments
 
 int main(int argc, char** argv) {
-  // A file that grows beyond the limit of the shell is then an error like a full disk.
+  // Exceeding the shell's limit of file size is then an error like a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
   // With less, the memory allocator crashes when it starts a thread.
   constexpr double kMinAddressSpace_bytes = 128e6;
@@ -141,12 +141,12 @@ int main(int argc, char** argv) {
   try {
     return croon::experiments::croon_main(argc, argv);
   } catch (const std::bad_alloc&) {
-    std::cerr << "croon: there is not enough memory; what was finished is in the store\n";
+    std::cerr << "croon: there is not enough memory; finished trials are in the store\n";
     return 1;
   } catch (const std::runtime_error& error) {
-    // Of the machine, which has no memory or threads left: of the standard library and of TBB.
+    // Errors of the standard library or TBB if the machine runs out of memory or threads.
     std::cerr << "croon: " << croon::printable(error.what())
-              << "; what was finished is in the store\n";
+              << "; finished trials are in the store\n";
     return 1;
   } catch (const std::exception& error) {
     std::cerr << "croon: this is a bug: " << croon::printable(error.what()) << "\n";

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kMergeRemedy = "results of one experiment alone can be merged";
+constexpr const char* kMergeRemedy = "only results of the same experiment can be merged";
 
 bool is_same_folder(const fs::path& a, const fs::path& b) {
   std::error_code error;
@@ -41,7 +41,7 @@ std::vector<fs::path> without_repeats(const std::vector<fs::path>& folders) {
   return once;
 }
 
-/// Keeps the folders but `out` from other processes: no run may write to what is read.
+/// Locks all folders except `out`, so that no run writes to a folder while it is read.
 std::vector<std::unique_ptr<FolderLock>> locked(const std::vector<fs::path>& folders,
                                                 const fs::path& out) {
   std::vector<std::unique_ptr<FolderLock>> locks;
@@ -67,9 +67,9 @@ struct Part {
   StoreHeader header;
 };
 
-/// The header of all the folders, whose stores are added to `parts`. The differences of each from
-/// the first are faults. If the experiment grew between the folders, the header with the most
-/// trials of a sensor and scene, and then of all, is the latest one.
+/// The united header of the folders, whose stores are added to `parts`. Throws InputError with all
+/// differences from the first. If the experiment grew between the runs, the latest header is the
+/// one with the most trials per sensor and scene and, among equals, the most trials in total.
 StoreHeader header_of_all(const std::vector<fs::path>& folders, bool same_build,
                           std::vector<Part>& parts) {
   std::vector<Fault> faults;
@@ -81,7 +81,7 @@ StoreHeader header_of_all(const std::vector<fs::path>& folders, bool same_build,
       if (header.provenance.empty()) header = other;
       refuse_differences(store_path(folder).string(), header, other, kMergeRemedy);
       if (same_build) refuse_other_builds(store_path(folder).string(), other, header, kMergeRemedy);
-      // Trials beyond StoreHeader::trials are in no report, so their number comes first.
+      // Reports omit trials beyond StoreHeader::trials, so this number is compared first.
       const auto size = [](const StoreHeader& of) {
         return std::pair(of.trials, planned_trials(of.manifest));
       };
@@ -93,8 +93,8 @@ StoreHeader header_of_all(const std::vector<fs::path>& folders, bool same_build,
   return header;
 }
 
-/// `header` with the names of what the store has from merges before. What the experiment has no
-/// more is kept and in no report.
+/// `header` plus the names of variants, scenes and sensors that the store contains from earlier
+/// merges. Entries that are no longer in the experiment are kept, but omitted from reports.
 StoreHeader with_names_of(const Part& merged_before, const StoreHeader& header) {
   StoreHeader old = merged_before.header;
   refuse_differences(merged_before.store.string(), old, header, kMergeRemedy);
@@ -123,8 +123,8 @@ StoreHeader merged_header(const std::vector<fs::path>& folders, const fs::path& 
   return all;
 }
 
-/// Puts the trials of `parts`, among which is an old store of `out`, into the store of `out`. The
-/// old store is there until the new one is whole.
+/// Writes the trials of `parts`, including the old store of `out` if there is one, to the store of
+/// `out`. The old store is replaced only when the new one is complete.
 void merge_stores(const std::vector<Part>& parts, const StoreHeader& header, const fs::path& out) {
   const fs::path merged = merged_store_path(out);
   remove_files(store_files(merged));
@@ -143,7 +143,7 @@ void merge_stores(const std::vector<Part>& parts, const StoreHeader& header, con
   replace_store(store_path(out), merged);
 }
 
-/// The folders that have to be made for `out`, the innermost first.
+/// The folders to create for `out`, innermost first.
 std::vector<fs::path> missing_folders(const fs::path& out) {
   std::vector<fs::path> missing;
   for (fs::path folder = fs::absolute(out); !fs::exists(folder); folder = folder.parent_path()) {
@@ -152,7 +152,7 @@ std::vector<fs::path> missing_folders(const fs::path& out) {
   return missing;
 }
 
-/// "12 of 100 trials are missing", or nothing.
+/// "12 of 100 trials are missing", or empty if all are there.
 std::string missing_text(const Results& results) {
   if (results.records.size() >= results.planned) return "";
   return std::to_string(results.planned - results.records.size()) + " of " +
@@ -172,7 +172,7 @@ int merge_command(const MergeOptions& options, std::ostream& out) {
   if (!is_among(all, options.out)) all.push_back(options.out);
   std::string hosts, timings;
   try {
-    // Before the store is written: a merge is refused whole.
+    // Before the store is written: a refused merge must change nothing.
     hosts = hosts_json(all);
     timings = merged_timings(all);
     merge_stores(parts, header, options.out);

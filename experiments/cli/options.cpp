@@ -18,17 +18,17 @@ void add_experiment(CLI::App& command, std::filesystem::path& experiment,
                     std::vector<std::filesystem::path>& workloads) {
   add_path(command, "EXPERIMENT", experiment, "The experiment, a JSON file.")->required();
   add_path(command, "--with", workloads,
-           "A workload, whose keys replace those of the experiment: dataset, starts, ...; may be "
-           "repeated.")
+           "A workload: a JSON file whose keys, such as dataset and starts, replace those of the "
+           "experiment; may be repeated.")
       ->type_name("WORKLOAD");
 }
 
 void add_data(CLI::App& command, std::filesystem::path& option) {
-  add_path(command, "--data", option, "The data root; default $CROON_DATA, else data.");
+  add_path(command, "--data", option, "Data root; default $CROON_DATA, else data.");
 }
 
 void add_jobs(CLI::App& command, int& option) {
-  command.add_option("--jobs", option, "Threads; default all cores.")
+  command.add_option("--jobs", option, "Number of threads; default all cores.")
       ->check(CLI::Range(1, kMaxJobs));
 }
 

@@ -8,14 +8,14 @@
 
 namespace croon::experiments {
 
-// Options that several commands have, and how options refuse what they do not expect.
+// Options that several commands share, and the checks of their values.
 
 /// Why `text` is not what the option `name` expects; empty if it is. Empty text is refused: an
-/// unset variable of a script must not mean the default. So is the next option, which such a
-/// variable without quotes leaves in the place of a value.
+/// unset variable of a script must not mean the default. An option name is refused too: if such a
+/// variable is unquoted, the next option takes the place of the value.
 std::string why_no_text(const std::string& name, const std::string& text, const std::string& what);
 
-/// Adds an option for text, or for a list of texts. `what` says what is expected: "a path".
+/// Adds an option for text, or for a list of texts. `what` describes the expected value: "a path".
 template <class T>
 CLI::Option* add_text(CLI::App& command, const std::string& name, T& option,
                       const std::string& sentence, const std::string& what) {

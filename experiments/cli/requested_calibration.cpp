@@ -96,12 +96,12 @@ CalibratedRig calibrate_with_progress(const CalibrateOptions& options,
 
 void add_rig_options(CLI::App& command, CalibrateOptions& options) {
   CalibrateOptions& o = options;
-  add_text(command, "--reference", o.reference, "The sensor that defines the frame; default first.",
-           "a sensor");
+  add_text(command, "--reference", o.reference,
+           "The sensor that defines the frame; default the first.", "a sensor");
   add_number(command, "--max-time-gap", o.max_time_gap_s, 0.0, 3600.0,
-             "Clouds of one scene are at most this far apart, s; default 0.05.");
+             "Maximum time between the clouds of a scene, s; default 0.05.");
   add_number(command, "--max-scenes", o.max_scenes, 1, 1000,
-             "Of more scenes, use this many, evenly spaced; default 10.");
+             "Maximum number of scenes, evenly spaced; default 10.");
   add_text(command, "--pipeline", o.pipeline, "best (default), driving, paper, or a file.",
            "a pipeline");
   add_number(command, "--seed", o.seed, std::uint64_t{0}, std::uint64_t{1} << 53U,

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The keys of a rig.json. A number that is not given is negative.
+/// The keys of a rig.json. Missing numbers are negative, except for the seed.
 struct RigKeys : RigRequest {
   double time_gap_s = -1.0;
   int scenes = -1;
@@ -27,9 +27,10 @@ params::Table<RigRequest> request_table() {
                         "A file, a folder or a topic per sensor, PATH or NAME=PATH; or one "
                         "recording.")),
       params::free_text("reference", &R::reference,
-                        "The sensor that the others are calibrated to; default the first."),
+                        "The sensor that defines the frame; default the first."),
       params::free_text("nominal", &R::nominal, "A file of poses to compare with."),
-      params::boolean("from_scratch", &R::from_scratch, "Only compare with the nominal poses."),
+      params::boolean("from_scratch", &R::from_scratch,
+                      "Use the nominal poses for comparison only."),
       params::free_text("base", &R::base,
                         "The reference's pose in the vehicle frame: x,y,z,roll,pitch,yaw in m and "
                         "degrees, or a file of extrinsics."),
@@ -42,29 +43,29 @@ const params::Table<RigKeys>& table() {
   static const params::Table<K> table =
       params::Table<K>{
           params::optional(params::number("max_time_gap_s", &K::time_gap_s, {0.0, 3600.0},
-                                          "Clouds of one scene are at most this far apart.")),
+                                          "Maximum time between the clouds of a scene.")),
           params::optional(params::integer("max_scenes", &K::scenes, {1.0, 1000.0},
-                                           "Of more scenes, this many are used.")),
-          params::integer("seed", &K::seed_number, "Names the random numbers."),
+                                           "Maximum number of scenes, evenly spaced.")),
+          params::integer("seed", &K::seed_number, "Seed of the random numbers."),
       }
           .inherit(request_table());
   return table;
 }
 
-/// No stage is in a rig.json.
+/// A rig.json contains no stages.
 class NoStages final : public params::StageBuilder {
  public:
   params::BuiltStage build(const std::string&, const params::Node&) const override { return {}; }
 };
 
-/// "left" and "=" of "left=left.pcd", and the path.
+/// Splits "left=left.pcd" into "left=" and "left.pcd". Without a name, the first is empty.
 std::pair<std::string, std::string> name_and_path(const std::string& word) {
   const std::size_t sign = word.find('=');
   if (sign == std::string::npos || word.find('/') < sign) return {"", word};
   return {word.substr(0, sign + 1), word.substr(sign + 1)};
 }
 
-/// Calls `move` with each path of the request, and puts what it returns in the path's place.
+/// Replaces each path of the request by `move(path)`.
 template <class Move>
 void for_each_path(RigRequest& request, const Move& move) {
   bool is_bag = false;

@@ -23,22 +23,22 @@ std::string text_of_plan(const CheckedRun& run, const Work& work, const RunOptio
   return plan_text(counts, options.colours);
 }
 
-/// Writes the clouds of `--clouds`, adds what could not be written to `complaints`, and says if
-/// there is nothing to write.
+/// Writes the clouds of `--clouds` and adds failures to `complaints`. Returns a sentence if there
+/// is nothing to write, else nothing.
 std::string write_clouds(const CheckedRun& run, const Summary& summary,
                          const std::filesystem::path& folder,
                          std::vector<std::string>& complaints) {
   const FusedClouds fused = write_fused_clouds(run.experiment, run.groups, summary, folder);
   complaints.insert(complaints.end(), fused.complaints.begin(), fused.complaints.end());
   if (fused.is_any || !fused.complaints.empty()) return "";
-  return "There are no clouds to write: no trials of a sensor agree.\n";
+  return "No clouds to write: no sensor has trials that agree.\n";
 }
 
-/// Draws the picture of `--png` and says what it shows.
+/// Draws the picture of `--png`. Returns a sentence that describes it.
 std::string draw_picture(const CheckedRun& run, const Summary& summary,
                          const std::filesystem::path& path) {
   const std::string scene = draw_before_after(run.experiment, run.groups, summary, path);
-  if (scene.empty()) return "There is no scene to draw: none has all its sensors.\n";
+  if (scene.empty()) return "No scene to draw: no scene has a pose for every sensor.\n";
   return "Scene " + scene + " from above, before (left) and after (right), is in " +
          printable(path.string()) + "\n";
 }
@@ -85,20 +85,22 @@ class RunCommand final : public Command {
     add_path(command, "--out", options_.out, "Folder to write to; default results/<name>.");
     add_data(command, options_.data);
     add_jobs(command, options_.jobs);
-    add_trials(command, options_.trials, "Starts per variant, scene and sensor.");
+    add_trials(command, options_.trials, "Trials per variant, scene and sensor.");
     add_text(command, "--only", options_.only, "Run only these variants.", "a variant");
-    add_text(command, "--shard", options_.shard, "Run part K of N of the trials, K/N.",
+    add_text(command, "--shard", options_.shard, "Run only part K of N of the trials, K/N.",
              "K/N with 1 <= K <= N");
     command.add_flag("--plan", options_.plan,
-                     "Only show the trials to run, and how much variants share.");
-    command.add_flag("--no-share", options_.no_share, "Run the variants one by one, to compare.");
-    command.add_flag("--fresh", options_.fresh, "Delete what is in the folder and start over.");
+                     "Only show the trials to run and the steps that variants share.");
+    command.add_flag("--no-share", options_.no_share,
+                     "Run the variants one by one; the results are the same.");
+    command.add_flag("--fresh", options_.fresh, "Delete the results in the folder and start over.");
     command.add_flag("--same-build", options_.same_build,
                      "Refuse to continue trials of another build of croon.");
     command.add_flag("--quiet", options_.quiet, "Do not show progress.");
     command.add_flag("--clouds", options_.clouds,
-                     "Write the rig's clouds, fused by the poses that trials agree on.");
-    command.add_flag("--png", options_.png, "Draw the first scene from above, before and after.");
+                     "Write the rig's clouds, fused with the poses that trials agree on.");
+    command.add_flag("--png", options_.png,
+                     "Draw the first scene from above, before and after calibration.");
   }
 
   int run(const Console& console) override {

@@ -35,14 +35,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the dataset in a folder was made from; another program may not go on with it.
+/// The recipe of the dataset in a folder; only a run with the same recipe may continue it.
 constexpr const char* kRecipe = "simulation.json";
 
 constexpr const char* kTruth = "truth.json";
 constexpr const char* kKinds = "scene_kinds.json";
 constexpr const char* kExperiment = "experiment.json";
 
-/// The starts of an experiment that reads them, beside the scenes.
+/// The initial guesses, if the experiment reads them from a file.
 constexpr const char* kStarts = "starts.csv";
 
 /// The velocity of each scene, for the step known_velocity.
@@ -50,12 +50,12 @@ constexpr const char* kVelocities = "velocities.csv";
 
 constexpr const char* kCloudList = "lidar_cloud_path.txt";
 
-/// The path of a cloud as its list has it: relative to the dataset.
+/// The path of a cloud in its list, relative to the dataset.
 std::string cloud_path(const Scene& scene, const SensorScan& scan) {
   return scene.name + "/" + scan.sensor + ".pcd";
 }
 
-/// The velocity of each sensor of `scene` in its own frame, if the dataset knows it.
+/// The velocity of each sensor of `scene` in its own frame, if the dataset provides it.
 std::string velocities_json(const Scene& scene) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   const auto add = [&](const SensorScan& scan) {
@@ -87,7 +87,7 @@ std::string velocities_csv(const std::vector<VelocityRow>& rows) {
   return csv_of(columns, rows);
 }
 
-/// The name under which the trials of each scene start: that of its group, if it is in one.
+/// By scene, the name that its trials start under: the name of its group, or its own without one.
 using TrialScenes = std::map<std::string, std::string>;
 
 TrialScenes trial_scenes(const std::vector<Scene>& scenes, const std::vector<SceneGroup>& started) {
@@ -99,8 +99,8 @@ TrialScenes trial_scenes(const std::vector<Scene>& scenes, const std::vector<Sce
   return names;
 }
 
-/// The start of trial 0. A file of starts has none for a scene that fills no group, which gets the
-/// truth.
+/// The start of trial 0. A scene outside all groups has no entry in a file of starts; its start is
+/// the ground truth.
 RigidTransform first_start(const Experiment& experiment, const std::string& trial_scene,
                            const CalibratedPair& pair) {
   const auto& table = experiment.starts.table;
@@ -131,7 +131,7 @@ void write_scene(const Experiment& experiment, const Scene& scene, const std::st
   write_whole_file(folder / kCloudList, cloud_list_text(clouds));
 }
 
-/// Whether `path` is a regular file, and no link to one, with a whole cloud.
+/// Whether `path` is a regular file, not a link, with a complete cloud.
 bool is_whole_cloud(const fs::path& path) {
   std::error_code error;
   if (!fs::is_regular_file(fs::symlink_status(path, error))) return false;
@@ -153,7 +153,7 @@ bool is_written(const Scene& scene, const fs::path& dataset) {
 }
 
 /// Draws `scene` beside its folder: a view from behind the car if the dataset has one, and the
-/// clouds from above, by the truth.
+/// clouds from above at their ground-truth poses.
 void draw_scene(const Scene& scene, const fs::path& dataset) {
   std::vector<ColouredCloud> clouds = {{scene.reference.sensor, scene.reference.load().points, {}}};
   for (const SensorScan& scan : scene.sensors) {
@@ -172,14 +172,14 @@ std::vector<SceneGroup> groups_to_write(Experiment& experiment) {
   for (const SceneGroup& group : groups) {
     if (group.scenes.front().reference.file.empty()) continue;
     throw InputError(experiment.file, "/dataset/type",
-                     "expected a dataset that is simulated, found \"" + experiment.dataset.name() +
-                         "\", whose clouds are files already");
+                     "expected a simulated dataset, found \"" + experiment.dataset.name() +
+                         "\", whose clouds are already files");
   }
   resolve_starts(experiment, groups, data);
   return groups;
 }
 
-/// What decides the bytes of the dataset.
+/// The settings that determine the bytes of the dataset.
 std::string recipe_json(const Experiment& experiment) {
   nlohmann::ordered_json json = {
       {"dataset", nlohmann::ordered_json::parse(experiment.dataset.resolved())},
@@ -189,7 +189,7 @@ std::string recipe_json(const Experiment& experiment) {
   return json.dump(2) + "\n";
 }
 
-/// Whether the folder is empty, but for a recipe that a killed process did not finish.
+/// Whether the folder is empty except for an incomplete recipe of a killed process.
 bool is_unused(const fs::path& folder) {
   const fs::directory_iterator entries(folder);
   return std::all_of(fs::begin(entries), fs::end(entries), [&](const fs::directory_entry& entry) {
@@ -197,7 +197,7 @@ bool is_unused(const fs::path& folder) {
   });
 }
 
-/// Makes the folder ready; refuses one with something else in it.
+/// Creates the folder with the recipe, or accepts one with the same recipe; else throws InputError.
 void prepare(const fs::path& folder, const std::string& recipe) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -207,10 +207,10 @@ void prepare(const fs::path& folder, const std::string& recipe) {
   if (is_unused(folder)) return write_whole_file(folder / kRecipe, recipe);
   if (fs::exists(folder / kRecipe) && read_whole_file(folder / kRecipe) == recipe) return;
   throw InputError(folder.string(), "",
-                   "expected a new folder, or one with the same scenes; found something else");
+                   "expected an empty folder, or one with the same scenes; found other content");
 }
 
-/// The files that the variants name, as they are beside the experiment on the written dataset.
+/// Copies, in `folder`, of the files that the variants name.
 std::vector<OutputFile> copies_of_given_files(const Experiment& experiment,
                                               const fs::path& folder) {
   const fs::path beside = fs::path(experiment.file).parent_path();
@@ -220,17 +220,16 @@ std::vector<OutputFile> copies_of_given_files(const Experiment& experiment,
   for (const std::string& name : given_files(experiment)) {
     if (fs::path(name).is_absolute() || fs::path(name).lexically_normal() != name) {
       throw InputError(experiment.file, "",
-                       "expected a path below the experiment's folder, without \".\" and \"..\", "
-                       "of a file that is copied, found " +
+                       "expected a file to copy below the experiment's folder, by a path without "
+                       "\".\" and \"..\", found " +
                            in_quotes(name));
     }
-    // Else those of the dataset are meant.
+    // Otherwise the variant reads the velocities of the dataset.
     const bool is_there = fs::exists(data_root({}) / name) || fs::exists(beside / name);
     if (name == kVelocities && !is_there) continue;
     if (written.count(name) > 0) {
       throw InputError(experiment.file, "",
-                       "expected another name for a file that a variant reads than one that is "
-                       "written, found " +
+                       "expected a file name that croon simulate does not write itself, found " +
                            in_quotes(name));
     }
     const Fault at = {experiment.file, "", ""};
@@ -268,7 +267,7 @@ std::string kinds_json(const std::vector<Scene>& scenes) {
   return json.dump(2) + "\n";
 }
 
-/// Returns the velocities of the scenes whose dataset knows them.
+/// Writes the incomplete scenes. Returns the velocities of all scenes that have them.
 std::vector<VelocityRow> write_scenes(const SimulateOptions& options, const Experiment& experiment,
                                       const std::vector<Scene>& scenes, const TrialScenes& names,
                                       Progress& progress) {
@@ -297,7 +296,7 @@ int simulate_command(const SimulateOptions& options, const Catalogue& catalogue,
                      std::ostream& progress_out) {
   Experiment experiment = load_experiment(options.experiment, catalogue, options.with);
   const std::vector<SceneGroup> started = groups_to_write(experiment);
-  // Those that fill no group too: without them, the written dataset would have other groups.
+  // Also scenes outside all groups: without them, the groups of the written dataset would differ.
   const std::vector<Scene> scenes = dataset_scenes(experiment, fs::path());
   const std::vector<OutputFile> copies = copies_of_given_files(experiment, options.out);
   prepare(options.out, recipe_json(experiment));

@@ -49,7 +49,7 @@ void check_list_size(const Experiment& experiment, const std::vector<SceneGroup>
               static_cast<double>(group.pairs.size());
   }
   require_memory(kBytesPerStart * starts, "a list of " + fixed_number(starts, 0) + " starts",
-                 "ask for fewer --trials", {experiment.file, "", ""});
+                 "reduce --trials", {experiment.file, "", ""});
 }
 
 /// The files that `experiment` consists of and those that it names.
@@ -120,13 +120,15 @@ namespace {
 
 class StartsCommand final : public Command {
  public:
-  std::string sentence() const override { return "Write the list of an experiment's starts."; }
+  std::string sentence() const override {
+    return "Write the starts (initial guesses) of an experiment as a file.";
+  }
 
   void add_options(CLI::App& command) override {
     add_experiment(command, options_.experiment, options_.with);
     add_path(command, "--out", options_.out, "File to write; default standard output.");
     add_data(command, options_.data);
-    add_trials(command, options_.trials, "Starts per scene and sensor.");
+    add_trials(command, options_.trials, "Trials per scene and sensor.");
   }
 
   int run(const Console& console) override {

@@ -20,7 +20,7 @@ void find_json_files(const fs::path& folder, std::vector<fs::path>& files,
   std::error_code error;
   fs::directory_iterator entry(folder, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    // No error: what cannot be looked at is neither.
+    // Errors are ignored: an entry that cannot be inspected is neither a folder nor a file.
     std::error_code ignored;
     if (entry->is_directory(ignored) && !entry->is_symlink(ignored)) {
       find_json_files(entry->path(), files, faults);
@@ -31,8 +31,8 @@ void find_json_files(const fs::path& folder, std::vector<fs::path>& files,
   if (error) faults.push_back({folder.string(), "", "cannot be read: " + error.message()});
 }
 
-/// The files that `paths` stand for, those below a folder by path. Appends a fault for each folder
-/// that cannot be read or has none.
+/// The files of `paths`; a folder is replaced by the JSON files below it, sorted by path. Appends a
+/// fault for each folder that cannot be read or has none.
 std::vector<fs::path> all_files(const std::vector<fs::path>& paths, std::vector<Fault>& faults) {
   std::vector<fs::path> files;
   for (const fs::path& path : paths) {
@@ -57,7 +57,7 @@ std::vector<fs::path> all_files(const std::vector<fs::path>& paths, std::vector<
 
 void print_faults(const InputError& error, std::ostream& err) {
   const std::vector<Fault>& faults = error.faults();
-  // One more than are shown may be the number of the others, as files of poses have it.
+  // A CSV reader keeps kShownFaults faults and appends one with the number of the others.
   const std::size_t shown = faults.size() <= kShownFaults + 1 ? faults.size() : kShownFaults;
   for (std::size_t i = 0; i < shown; ++i) err << "croon: " << faults[i].line() << "\n";
   if (shown < faults.size()) err << "croon: and " << faults.size() - shown << " more faults\n";
@@ -89,7 +89,7 @@ namespace {
 class ValidateCommand final : public Command {
  public:
   std::string sentence() const override {
-    return "Check experiment files and workloads; the data need not be there.";
+    return "Check experiment files and workloads; the data need not exist.";
   }
 
   void add_options(CLI::App& command) override {

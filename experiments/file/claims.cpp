@@ -203,7 +203,8 @@ double half_width_of_mean(double value, double std, const TableBand& band) {
   double scale = 1.0;
   for (int i = 0; i < band.decimals; ++i) scale *= 10.0;
   const double half_width = std::abs(value) + 2.0 * std / std::sqrt(band.samples);
-  // The subtrahend keeps a half width that already has these decimals.
+  // Subtracting 1e-6 prevents a half width that already has this many decimals from being rounded
+  // up.
   return std::ceil(half_width * scale - 1e-6) / scale;
 }
 

@@ -94,7 +94,8 @@ params::KeyRule swept(const std::string& key) {
 params::Table<StartRule> make_start_table() {
   using P = StartRule;
   params::Table<P> table = {
-      params::choice("around", &P::around, kStartCentres, "Pose that starts are drawn around."),
+      params::choice("around", &P::around, kStartCentres,
+                     "Pose around which initial guesses are drawn."),
       params::per_axis(
           "rotation_deg", &P::rotation_deg, {0.0, 180.0},
           "Half range of roll, pitch and yaw, or one for each; 180 is any rotation, uniform "

@@ -16,7 +16,7 @@ namespace croon::experiments {
 /// The maximum number of trials per variant, scene and sensor.
 inline constexpr int kMaxTrials = 1000000;
 
-/// The pose that starts are drawn around.
+/// The pose around which initial guesses are drawn.
 enum class StartCentre { truth, nominal, initial };
 
 /// The words for StartCentre in JSON.

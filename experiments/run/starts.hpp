@@ -11,7 +11,7 @@
 
 namespace croon::experiments {
 
-/// The pose of `pair` that starts are drawn around, if known.
+/// The pose of `pair` around which starts are drawn, if known.
 const std::optional<RigidTransform>& centre_pose(StartCentre around, const CalibratedPair& pair);
 
 /// A start `T_reference_sensor` of one trial: `centre` = (R, t) moved to (R_d R, t + d) by draws

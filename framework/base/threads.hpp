@@ -9,8 +9,8 @@
 
 namespace croon {
 
-/// The maximum number of threads that a user may request: more than machines have, and started
-/// within a few seconds.
+/// The maximum number of threads that a user may request: more than the cores of any current
+/// machine, but few enough to start within a few seconds.
 inline constexpr int kMaxJobs = 1024;
 
 /// The number of threads, out of `jobs`, that can be used: all of them, unless they outnumber the

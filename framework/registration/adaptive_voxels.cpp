@@ -63,7 +63,8 @@ class PatchSearch {
                        [&](const PlacedPoint& point) { return point.view != begin->view; });
   }
 
-  /// Whether the plane is closer to a face of its cube than its points scatter.
+  /// Whether the plane is within three times its RMS residual of a face of the cube, so that the
+  /// face may cut its points.
   static bool may_be_cut(const Eigen::Vector3d& mean, const Eigen::Vector3d& normal, double rms_m,
                          double edge_m) {
     int axis = 0;

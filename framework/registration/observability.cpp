@@ -19,7 +19,8 @@ std::array<bool, 6> leading_dofs(const DofObservability& words, const Matrix6d& 
   return leads;
 }
 
-/// `information` with the degrees of freedom in `held` fixed: independent of the others.
+/// `information` with the degrees of freedom in `held` decoupled from the others: their
+/// off-diagonal entries are zero.
 Matrix6d with_fixed(const Matrix6d& information, const std::array<bool, 6>& held) {
   Matrix6d result = information;
   for (std::size_t dof = 0; dof < held.size(); ++dof) {

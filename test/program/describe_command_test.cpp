@@ -105,7 +105,7 @@ TEST(DescribeCommand, TakesNoExperimentTwice) {
   const Answer answer = croon("describe " + file + " " + same);
   EXPECT_EQ(answer.code, 2);
   EXPECT_EQ(answer.text,
-            "croon: " + same + ": expected another experiment, found one that is named before\n");
+            "croon: " + same + ": expected each experiment once, found this one twice\n");
 }
 
 /// A PCD file of the corners of a square on the ground, or of no points.

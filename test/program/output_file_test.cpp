@@ -74,7 +74,7 @@ TEST_F(OutputFile, OfATableHasEachFolderOnce) {
   const Answer answer = croon("export " + results + " " + path("data/../results"));
   EXPECT_EQ(answer.code, 2);
   EXPECT_EQ(answer.text, "croon: " + path("data/../results") +
-                             ": expected another folder, found one that is named before\n");
+                             ": expected each folder once, found this one twice\n");
 }
 
 TEST_F(OutputFile, ReplacesNeitherInputsNorResultsNorData) {

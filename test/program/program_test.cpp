@@ -27,13 +27,12 @@ TEST(Program, AnswersAWrongCommandLineWithOneLine) {
   expect_line("run x.json --jbos 2", "croon: unknown option \"--jbos\"; did you mean \"--jobs\"?");
   expect_line("--versoin", "croon: unknown option \"--versoin\"; did you mean \"--version\"?");
   expect_line("--quiet run x.json",
-              "croon: expected the option \"--quiet\" behind the command, found it before \"run\"");
+              "croon: expected the option \"--quiet\" after the command, found it before \"run\"");
   expect_line("--out=o run x.json",
-              "croon: expected the option \"--out\" behind the command, found it before \"run\"");
-  expect_line(
-      "run --only base x.json --plan",
-      "croon: EXPERIMENT is required; --only took \"x.json\": what is required comes before "
-      "--only");
+              "croon: expected the option \"--out\" after the command, found it before \"run\"");
+  expect_line("run --only base x.json --plan",
+              "croon: EXPERIMENT is required; --only consumed \"x.json\": required arguments must "
+              "precede --only");
   expect_line("validate none.json", "croon: none.json: expected a readable file, found none");
   for (const char* arguments :
        {"run", "run x.json --jobs two", "run x.json --jobs 0", "run x.json --trials -1",

@@ -225,7 +225,7 @@ TEST(ResultFolder, SaysThatThereAreNoClouds) {
   std::ostringstream out, progress;
   EXPECT_EQ(run_command(options, test::fake_catalogue(), out, progress), 0);
   EXPECT_EQ(progress.str(), "");
-  EXPECT_NE(out.str().find("\nThere are no clouds to write: no trials of a sensor agree.\n"),
+  EXPECT_NE(out.str().find("\nNo clouds to write: no sensor has trials that agree.\n"),
             std::string::npos);
   EXPECT_FALSE(fs::exists(bench.folder().path() / "out/clouds"));
 }

@@ -307,9 +307,8 @@ TEST(ClaimsCommand, RefusesAFolderThatIsNamedTwice) {
     claims_command({folder, folder / "."}, twice);
     FAIL() << "nothing was thrown";
   } catch (const InputError& error) {
-    EXPECT_EQ(
-        error.faults().front().line(),
-        (folder / ".").string() + ": expected another folder, found one that is named before");
+    EXPECT_EQ(error.faults().front().line(),
+              (folder / ".").string() + ": expected each folder once, found this one twice");
   }
   EXPECT_EQ(twice.str(), "");
 }
