@@ -7,7 +7,7 @@
 
 #include "framework/stage/catalogue.hpp"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): the namespace of CLI11.
 class App;
 }
 

@@ -8,7 +8,7 @@
 #include "framework/calibration/calibrated_rig.hpp"
 #include "framework/calibration/recorded_scenes.hpp"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): the namespace of CLI11.
 class App;
 }
 
