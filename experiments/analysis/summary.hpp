@@ -188,7 +188,7 @@ class RecordGroups {
 /// Adds the comparisons of every variant with `base` over common trials: by variant, then sensor as
 /// in the rows of `summary`, then all sensors together. `groups` are the records of the rows.
 /// Variants without common trials are not compared. p values are corrected over the three tests of
-/// all variants for the same sensor; those by degree of freedom among themselves.
+/// all variants for the same sensor. The p values per degree of freedom are corrected separately.
 void compare_with_base(const std::string& base, Summary& summary, const RecordGroups& groups,
                        const PoseBounds& bounds);
 

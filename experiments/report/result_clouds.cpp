@@ -63,7 +63,7 @@ Image drawn(const Experiment& experiment, const SceneGroup& group, const std::ve
                      {"before: initial guesses", "after: results"}, sensors, view.pixel_m);
 }
 
-/// The points of `scan`; empty if its file is damaged, which is the reason of its failed trials.
+/// The points of `scan`; empty if its file is damaged (the failed trials already report that).
 /// Throws UnavailableFile.
 Points points_of(const SensorScan& scan) {
   try {

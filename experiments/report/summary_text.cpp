@@ -374,7 +374,7 @@ class SummaryText {
   bool has_consensus_;
   bool has_scenes_;
   std::string bounds_;
-  std::string share_;  ///< The name of the shares of scenes and kinds.
+  std::string share_;  ///< What the tables per scene and per kind show: "success" or "agreement".
 };
 
 }  // namespace

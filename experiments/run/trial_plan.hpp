@@ -17,7 +17,7 @@ struct PlannedStart {
   std::size_t variants = 0;  ///< Index in Plan::variants.
 };
 
-/// The trials to run. Starts that miss the same variants share a list of them.
+/// The trials to run. Starts for which the same variants are still to be run share one list.
 struct Plan {
   std::vector<std::vector<std::size_t>> variants;  ///< Lists of indices in Experiment::variants.
   std::vector<PlannedStart> starts;                ///< By scene, sensor, trial.

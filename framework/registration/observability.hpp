@@ -38,10 +38,10 @@ DofObservability judged_dofs(const Matrix6d& covariance, const Matrix6d& informa
 /// Compares, for each degree of freedom with all others free (the Schur complement), the
 /// `information` from the normals of surfaces with the part of it that their `noise` alone would
 /// produce: all information about an unconstrained direction is noise. So the result depends
-/// neither on units nor on other directions. `prior` is the information about any pose, in the same
-/// units; without it, a plain would not constrain roll either, because a translation by kilometres
-/// could compensate it. Degrees of freedom that follow another one are classified with that one
-/// fixed (judged_dofs).
+/// neither on units nor on other directions. `prior` is the weak information assumed for every pose
+/// before the points are used, in the same units. Without it, not even roll would be constrained on
+/// a plain, because a translation of kilometres could compensate for it. Degrees of freedom that
+/// follow another one are classified with that one fixed (judged_dofs).
 std::array<DofConstraint, 6> dof_constraints(const Matrix6d& information, const Matrix6d& noise,
                                              const Matrix6d& prior, double weak_ratio = kWeakRatio,
                                              double unobservable_ratio = kUnobservableRatio);

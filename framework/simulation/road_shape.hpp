@@ -42,9 +42,10 @@ struct RoadShape {
   /// Material of the surface.
   Material material_at(double s_m, double d_m) const;
 
-  /// The lines of a grid over the surface, ascending: s of those across the road and d of those
-  /// along it. They follow kerbs and lane lines, are 0.75 m apart near 0 and farther apart away
-  /// from it. The grid extends 250 m along the road and 120 m across it, less in a tight curve.
+  /// The grid lines over the surface, in ascending order: the s of each line across the road, the d
+  /// of each line along it. They follow kerbs and lane lines, are 0.75 m apart near 0 and farther
+  /// apart away from it. The grid extends 250 m along the road and 120 m across it, less in a tight
+  /// curve.
   std::vector<double> grid_s_m() const;
   std::vector<double> grid_d_m() const;
 
