@@ -55,7 +55,7 @@ TEST(OpenvdbOnDemand, IsMissedInOneLineByAProgramThatWasMovedAlone) {
   EXPECT_EQ(finished.output.find('\n'), finished.output.size() - 1) << finished.output;
 }
 
-TEST(Limits, OfMemoryAndThreadsEndInOneLine) {
+TEST(Limits, OfMemoryEndInOneLine) {
   const test::TempFolder folder;
   folder.write("x.json", refined_by("pointer_octree"));
   for (const std::string limit : {"ulimit -v 100000", "ulimit -v 130000", "ulimit -v 160000"}) {
