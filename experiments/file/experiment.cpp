@@ -65,7 +65,6 @@ std::vector<Extension> extensions_of(const json& keys, const fs::path& path,
 
 /// Adds the keys of `over`, replacing existing keys. The names of the experiments are joined.
 void overlay(MergedFile& merged, MergedFile over) {
-  if (!merged.keys.is_object()) merged.keys = json::object();
   const auto name = merged.keys.find(kName);
   if (name != merged.keys.end() && name->is_string() && over.keys.contains(kName) &&
       over.keys[kName].is_string()) {
@@ -74,6 +73,13 @@ void overlay(MergedFile& merged, MergedFile over) {
   merged.keys.update(over.keys);
   for (auto& [key, origin] : over.origins) merged.origins[key] = std::move(origin);
   merged.files.insert(merged.files.end(), over.files.begin(), over.files.end());
+}
+
+/// Throws InputError unless the keys of `file`, which are merged with others, are an object.
+void require_object(const MergedFile& merged, const fs::path& file, std::vector<Fault>& faults) {
+  if (merged.keys.is_object()) return;
+  faults.push_back({file.string(), "/", "expected an object"});
+  throw InputError(std::move(faults));
 }
 
 MergedFile read_merged(const std::string& text, const fs::path& path, std::vector<fs::path> chain,
@@ -107,10 +113,7 @@ MergedFile read_extension(const Extension& extension, const fs::path& path,
            extended.string() + missing_path_hint("", extended));
   }
   MergedFile merged = read_merged(params::read_json_text(extended), extended, chain, faults);
-  if (!merged.keys.is_object()) {
-    faults.push_back({extended.string(), "/", "expected an object"});
-    throw InputError(std::move(faults));
-  }
+  require_object(merged, extended, faults);
   merged.files.front().path = extension.written;
   return merged;
 }
@@ -200,7 +203,10 @@ Experiment parse_experiment(const std::string& text, const fs::path& path,
   std::vector<Fault> faults;
   MergedFile merged = read_merged(text, path, {}, faults);
   for (const fs::path& workload : workloads) {
-    overlay(merged, read_merged(params::read_json_text(workload), workload, {}, faults));
+    require_object(merged, path, faults);
+    MergedFile over = read_merged(params::read_json_text(workload), workload, {}, faults);
+    require_object(over, workload, faults);
+    overlay(merged, std::move(over));
   }
   return read_merged_experiment(merged, path, catalogue, faults);
 }

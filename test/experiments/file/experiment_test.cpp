@@ -244,6 +244,17 @@ TEST_F(Extends, AWorkloadReplacesKeysOfAnExperiment) {
   EXPECT_THROW(validate_experiment(far, test::fake_catalogue()), InputError);
 }
 
+TEST_F(Extends, AWorkloadAndItsExperimentAreObjects) {
+  const auto list = folder_.write("list.json", "[]");
+  const auto whole = folder_.write("whole.json", minimal().dump());
+  for (const auto& [experiment, workload] : {std::pair(whole, list), {list, whole}}) {
+    EXPECT_EQ(test::input_error([&, path = experiment, with = workload] {
+                load_experiment(path, test::fake_catalogue(), {with});
+              }),
+              list.string() + ": /: expected an object");
+  }
+}
+
 TEST_F(Extends, APathDoesNotEndAtANullCharacter) {
   folder_.write("b.json", minimal().dump());
   folder_.write("a.json", R"({"extends": "b.json\u0000"})");
