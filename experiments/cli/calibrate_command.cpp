@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <memory>
 #include <mutex>
+#include <set>
 
 #include "experiments/cli/command.hpp"
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/requested_calibration.hpp"
-#include "experiments/report/calibration_text.hpp"
+#include "experiments/report/calibration_document.hpp"
 #include "experiments/report/staged_folder.hpp"
+#include "experiments/store/version.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
@@ -18,6 +21,8 @@
 #include "framework/calibration/loaded_scene.hpp"
 #include "framework/calibration/rig_extrinsics.hpp"
 #include "framework/calibration/rig_pictures.hpp"
+#include "framework/document/renderers.hpp"
+#include "framework/io/digest.hpp"
 #include "framework/io/text_scan.hpp"
 
 namespace croon::experiments {
@@ -27,6 +32,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRequestFile = "rig.json";
 constexpr const char* kJsonFile = "extrinsics.json";
+constexpr const char* kReportFile = "report.html";
 constexpr const char* kBaseFrame = "base_link";
 
 /// The pose "x,y,z,roll,pitch,yaw"; std::nullopt if `text` is not six numbers.
@@ -126,9 +132,15 @@ std::vector<std::string> write_formats(const fs::path& root, const fs::path& fol
   return paths;
 }
 
-/// Draws `scene`; returns the paths relative to `root`. Unreadable clouds are not drawn.
-std::vector<std::string> draw(const fs::path& root, const CalibratedRig& rig, const Scene& scene,
-                              bool with_clouds) {
+/// The pictures of a scene, and the paths of the files of its clouds.
+struct Drawn {
+  std::vector<RigPicture> pictures;
+  std::vector<std::string> cloud_files;
+};
+
+/// Draws `scene`, and writes its clouds below `root` if `with_clouds`. Unreadable clouds are not
+/// drawn.
+Drawn draw(const fs::path& root, const CalibratedRig& rig, const Scene& scene, bool with_clouds) {
   const ReadScan reference = read_scan(scene.reference);
   if (!reference.is_usable()) return {};
   std::vector<ReadScan> scans;
@@ -140,7 +152,41 @@ std::vector<std::string> draw(const fs::path& root, const CalibratedRig& rig, co
     posed.push_back({sensor.sensor, &scans[i].cloud.points, sensor.nominal,
                      sensor.T_reference_sensor, sensor.is_accepted, picture_note(sensor)});
   }
-  return write_rig_pictures(root, rig.reference, reference.cloud.points, posed, with_clouds);
+  const Points& points = reference.cloud.points;
+  Drawn drawn{draw_rig_pictures(rig.reference, points, posed), {}};
+  if (with_clouds) drawn.cloud_files = write_rig_clouds(root, rig.reference, points, posed);
+  return drawn;
+}
+
+/// The current date and time in UTC.
+std::string date_text() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof(text), "%Y-%m-%d %H:%M UTC", &utc);
+  return text;
+}
+
+/// Where the result comes from: the program, the request and its inputs.
+Facts provenance_of(const CalibrateOptions& options, const std::vector<Scene>& scenes) {
+  constexpr std::uintmax_t kMaxDigestedBytes = 1U << 28U;
+  Facts facts{{{"croon", std::string(croon_version()) + ", commit " + croon_commit()},
+               {"request", rig_request_json(options, options.out)},
+               {"date", date_text()}}};
+  std::set<std::string> files;
+  for (const Scene& scene : scenes) {
+    for (std::size_t i = 0; i <= scene.sensors.size(); ++i) files.insert(scan_at(scene, i).file);
+  }
+  files.erase("");
+  for (const std::string& file : files) {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(file, error);
+    if (error) continue;
+    facts.facts.emplace_back(file, size > kMaxDigestedBytes ? std::to_string(size) + " bytes"
+                                                            : "sha256 " + sha256_of_file(file));
+  }
+  return facts;
 }
 
 /// The formats without repeats, csv first.
@@ -158,9 +204,10 @@ struct FolderFiles {
   std::vector<std::string> left;  ///< Left by an earlier calibration.
 };
 
-/// Writes all files.
+/// Writes all files. `drawn` is one of `scenes`.
 FolderFiles write_files(const CalibrateOptions& options, const CalibratedRig& rig,
-                        const Scene& drawn, const std::optional<RigidTransform>& T_base_reference,
+                        const std::vector<Scene>& scenes, const Scene& drawn,
+                        const std::optional<RigidTransform>& T_base_reference,
                         StagedFolder& folder) {
   const fs::path& root = folder.make_staging();
   const std::vector<std::string> formats = all_formats(options.formats);
@@ -174,7 +221,20 @@ FolderFiles write_files(const CalibrateOptions& options, const CalibratedRig& ri
     add(write_formats(root, kBaseFrame, in_base(extrinsics, *T_base_reference), formats,
                       options.with_rejected));
   }
-  if (!options.no_pictures) add(draw(root, rig, drawn, options.clouds));
+  if (!options.no_pictures) {
+    const Drawn result = draw(root, rig, drawn, options.clouds);
+    for (const RigPicture& picture : result.pictures) {
+      write_whole_file(root / picture.file, picture.png);
+      paths.push_back(picture.file);
+    }
+    add(result.cloud_files);
+    if (can_write_html()) {
+      const Facts provenance = provenance_of(options, scenes);
+      write_whole_file(root / kReportFile,
+                       html_document(calibration_report(rig, result.pictures, provenance)));
+      paths.emplace_back(kReportFile);
+    }
+  }
   write_whole_file(root / kJsonFile, rig_extrinsics_json(rig));
   write_whole_file(root / kRequestFile, rig_request_json(options, options.out));
   add({kJsonFile, kRequestFile});
@@ -199,7 +259,8 @@ int calibrate_command(const CalibrateOptions& given, const Catalogue& catalogue,
   CalibratedRig rig = calibrate_with_progress(options, recorded.scenes, catalogue, err);
   rig.unused.insert(rig.unused.begin(), recorded.unused.begin(), recorded.unused.end());
   rig.warnings.insert(rig.warnings.begin(), about_nominal.begin(), about_nominal.end());
-  const FolderFiles files = write_files(options, rig, drawn, T_base_reference, folder);
+  const FolderFiles files =
+      write_files(options, rig, recorded.scenes, drawn, T_base_reference, folder);
   const auto list = [&](const std::string& title, const std::vector<std::string>& paths) {
     if (paths.empty()) return;
     out << title << ":";
@@ -208,6 +269,10 @@ int calibrate_command(const CalibrateOptions& given, const Catalogue& catalogue,
   };
   out << calibration_text(rig, options.colours) << "\n";
   list("files in " + printable(options.out.string()), files.written);
+  const auto& written = files.written;
+  if (std::find(written.begin(), written.end(), kReportFile) != written.end()) {
+    out << "look at it: " << printable((options.out / kReportFile).string()) << "\n";
+  }
   list("left there by an earlier calibration", files.left);
   const bool is_any_rejected =
       std::any_of(rig.sensors.begin(), rig.sensors.end(),
@@ -256,7 +321,7 @@ class CalibrateCommand final : public Command {
     command.add_flag("--with-rejected", o.with_rejected,
                      "Write rejected poses too, marked as rejected.");
     command.add_flag("--clouds", o.clouds, "Write the clouds in the reference's frame.");
-    command.add_flag("--no-pictures", o.no_pictures, "Do not draw pictures.");
+    command.add_flag("--no-pictures", o.no_pictures, "Draw no pictures and write no report.");
     add_rig_options(command, o);
   }
 

@@ -10,7 +10,7 @@
 #include "experiments/python/interpreter.hpp"
 #include "experiments/python/interruptible.hpp"
 #include "experiments/python/stage_catalogue.hpp"
-#include "experiments/report/calibration_text.hpp"
+#include "experiments/report/calibration_document.hpp"
 #include "framework/calibration/calibrate_rig.hpp"
 #include "framework/calibration/rig_extrinsics.hpp"
 

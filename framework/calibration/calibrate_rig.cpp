@@ -15,6 +15,7 @@
 #include "framework/calibration/scene_clouds.hpp"
 #include "framework/calibration/sensor_result.hpp"
 #include "framework/calibration/warnings.hpp"
+#include "framework/stage/hypotheses.hpp"
 #include "framework/stage/motion.hpp"
 
 namespace croon {
@@ -208,6 +209,33 @@ std::vector<SceneMotionEstimate> motion_of(const RigInput& input,
   return motion;
 }
 
+/// The best pose that a global search found away from the result; std::nullopt without any.
+std::optional<RigidTransform> rival_of(const MemberResult& result) {
+  const std::vector<Hypothesis>* const found = result.estimate.extras.find(kHypotheses);
+  if (found == nullptr) return std::nullopt;
+  for (const Hypothesis& other : *found) {
+    if (!agree(other.T_target_source, result.T_in_scene, kSameHypothesis)) {
+      return other.T_target_source;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The scene that reports show, with its clouds after the last step.
+ShownScene shown_scene(const RigInput& input, const std::vector<MemberResult>& results) {
+  ShownScene shown;
+  for (std::size_t begin = 0; begin < input.members.size();) {
+    ShownScene scene{input.members[begin].scene, results[begin].estimate.target, {}};
+    for (; begin < input.members.size() && input.members[begin].scene == scene.scene; ++begin) {
+      const MemberResult& result = results[begin];
+      scene.sensors.push_back(
+          {input.members[begin].sensor, result.estimate.source, result.path, rival_of(result)});
+    }
+    if (scene.sensors.size() > shown.sensors.size()) shown = std::move(scene);
+  }
+  return shown;
+}
+
 void set_nominal(std::vector<CalibratedSensor>& sensors, const std::vector<Scene>& scenes) {
   for (CalibratedSensor& sensor : sensors) {
     for (const Scene& scene : scenes) {
@@ -269,6 +297,7 @@ CalibratedRig calibrated(const std::vector<Scene>& scenes, const CalibrationOpti
   Outcome outcome = outcome_of(composition, input, names, options.seed, step_progress);
   add_failed_scenes(input, outcome.members, rig.unused);
   rig.motion = motion_of(input, outcome.members);
+  rig.shown = shown_scene(input, outcome.members);
   rig.sensors = std::move(outcome.sensors);
   set_nominal(rig.sensors, scenes);
   set_ground(rig, input, options.seed);

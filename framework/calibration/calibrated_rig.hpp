@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "framework/geometry/pose_covariance.hpp"
 #include "framework/geometry/rigid_transform.hpp"
 #include "framework/geometry/twist.hpp"
+#include "framework/spatial/cloud.hpp"
 
 namespace croon {
 
@@ -57,6 +59,27 @@ struct HeadingOfTravel {
   std::size_t scenes = 0;  ///< Number of scenes that it was computed from.
 };
 
+/// The pose of a sensor after a step of the pipeline.
+struct StepPose {
+  std::string step;
+  RigidTransform T_reference_sensor;
+};
+
+/// One sensor in the shown scene.
+struct ShownSensor {
+  std::string sensor;
+  std::shared_ptr<const Cloud> cloud;   ///< As the last step used it: thinned, motion removed.
+  std::vector<StepPose> path;           ///< After each step that changed the pose.
+  std::optional<RigidTransform> rival;  ///< The best pose that a global search found elsewhere.
+};
+
+/// The clouds of the scene that reports show: the first with the maximum number of sensors.
+struct ShownScene {
+  std::string scene;
+  std::shared_ptr<const Cloud> reference;
+  std::vector<ShownSensor> sensors;  ///< Those with a cloud.
+};
+
 /// A rig's calibration.
 struct CalibratedRig {
   std::string reference;
@@ -69,6 +92,7 @@ struct CalibratedRig {
   std::vector<SceneMotionEstimate> motion;  ///< For the scenes in which a velocity was estimated.
   std::optional<GroundPose> ground;         ///< Set if the reference sees the ground.
   std::optional<HeadingOfTravel> heading = {};  ///< Set if the rig drives straight in a scene.
+  ShownScene shown = {};
 };
 
 }  // namespace croon

@@ -61,35 +61,6 @@ PointCloud fused(const std::vector<ColouredCloud>& clouds) {
   return whole;
 }
 
-/// Writes the clouds in the reference's frame below `folder`; returns their paths relative to it.
-std::vector<std::string> write_clouds(const fs::path& folder, const std::string& reference,
-                                      const Points& points, const std::vector<PosedCloud>& sensors,
-                                      const std::vector<std::string>& names) {
-  std::vector<ColouredCloud> accepted = {{reference, points, {}}};
-  std::vector<NamedFile> files = {{names.front(), points}};
-  for (std::size_t i = 0; i < sensors.size(); ++i) {
-    const PosedCloud& sensor = sensors[i];
-    if (!sensor.after) continue;
-    files.push_back({names[i + 1] + (sensor.is_accepted ? "" : "_rejected"),
-                     transformed(*sensor.points, *sensor.after)});
-    if (sensor.is_accepted) accepted.push_back({sensor.sensor, *sensor.points, *sensor.after});
-  }
-  make_folder_below(folder, "clouds");
-  const fs::path clouds = folder / "clouds";
-  for_each_in_parallel(files.size() + 2, [&](std::size_t i) {
-    if (i == files.size()) return write_fused_ply(clouds / "fused.ply", accepted);
-    if (i == files.size() + 1) return write_pcd(clouds / "fused.pcd", fused(accepted));
-    write_ply(clouds / (files[i].stem + ".ply"), files[i].cloud);
-    write_pcd(clouds / (files[i].stem + ".pcd"), files[i].cloud);
-  });
-  std::vector<std::string> written;
-  files.push_back({"fused", {}});
-  for (const NamedFile& file : files) {
-    for (const char* suffix : {".ply", ".pcd"}) written.push_back("clouds/" + file.stem + suffix);
-  }
-  return written;
-}
-
 std::string lower_case(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
@@ -108,6 +79,14 @@ std::string safe_name(const std::string& name) {
   safe = safe.substr(0, kMaxBytes);
   safe.erase(safe.find_last_not_of("._-") + 1);
   return safe.empty() ? "sensor" : safe;
+}
+
+/// The names of the files of the reference and the sensors, without suffix.
+std::vector<std::string> names_of_files(const std::string& reference,
+                                        const std::vector<PosedCloud>& sensors) {
+  std::vector<std::string> all = {reference};
+  for (const PosedCloud& sensor : sensors) all.push_back(sensor.sensor);
+  return file_names(all, {"rig", "fused"});
 }
 
 }  // namespace
@@ -141,34 +120,54 @@ std::vector<std::string> file_names(const std::vector<std::string>& names,
   return unique;
 }
 
-std::vector<std::string> write_rig_pictures(const fs::path& folder, const std::string& reference,
-                                            const Points& points,
-                                            const std::vector<PosedCloud>& sensors,
-                                            bool with_clouds) {
-  std::vector<std::string> all = {reference};
-  for (const PosedCloud& sensor : sensors) all.push_back(sensor.sensor);
-  const std::vector<std::string> names = file_names(all, {"rig", "fused"});
+std::vector<RigPicture> draw_rig_pictures(const std::string& reference, const Points& points,
+                                          const std::vector<PosedCloud>& sensors) {
+  const std::vector<std::string> names = names_of_files(reference, sensors);
   const LevelFrame level = level_frame(points);
   const Points level_points = transformed(points, level.T_level_reference);
-  std::vector<std::string> written(sensors.size() + 1);
+  std::vector<RigPicture> pictures(sensors.size() + 1);
   for_each_in_parallel(sensors.size() + 1, [&](std::size_t i) {
     if (i == sensors.size()) {
-      written[i] = "rig.png";
-      return write_png(folder / written[i], draw_rig(reference, level_points, sensors, level));
+      pictures[i] = {"rig.png", "", png_bytes(draw_rig(reference, level_points, sensors, level))};
+      return;
     }
     const PosedCloud& sensor = sensors[i];
     if (!sensor.before && !sensor.after) return;
-    written[i] = names[i + 1] + ".png";
     const SensorPicture picture = {reference,     sensor.sensor,      sensor.note,
                                    &level_points, sensor.points,      sensor.before,
                                    sensor.after,  sensor.is_accepted, level};
-    write_png(folder / written[i], draw_sensor(picture));
+    pictures[i] = {names[i + 1] + ".png", sensor.sensor, png_bytes(draw_sensor(picture))};
   });
-  written.erase(std::remove(written.begin(), written.end(), ""), written.end());
-  if (with_clouds) {
-    for (std::string& path : write_clouds(folder, reference, points, sensors, names)) {
-      written.push_back(std::move(path));
-    }
+  const auto is_missing = [](const RigPicture& picture) { return picture.file.empty(); };
+  pictures.erase(std::remove_if(pictures.begin(), pictures.end(), is_missing), pictures.end());
+  return pictures;
+}
+
+std::vector<std::string> write_rig_clouds(const fs::path& folder, const std::string& reference,
+                                          const Points& points,
+                                          const std::vector<PosedCloud>& sensors) {
+  const std::vector<std::string> names = names_of_files(reference, sensors);
+  std::vector<ColouredCloud> accepted = {{reference, points, {}}};
+  std::vector<NamedFile> files = {{names.front(), points}};
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const PosedCloud& sensor = sensors[i];
+    if (!sensor.after) continue;
+    files.push_back({names[i + 1] + (sensor.is_accepted ? "" : "_rejected"),
+                     transformed(*sensor.points, *sensor.after)});
+    if (sensor.is_accepted) accepted.push_back({sensor.sensor, *sensor.points, *sensor.after});
+  }
+  make_folder_below(folder, "clouds");
+  const fs::path clouds = folder / "clouds";
+  for_each_in_parallel(files.size() + 2, [&](std::size_t i) {
+    if (i == files.size()) return write_fused_ply(clouds / "fused.ply", accepted);
+    if (i == files.size() + 1) return write_pcd(clouds / "fused.pcd", fused(accepted));
+    write_ply(clouds / (files[i].stem + ".ply"), files[i].cloud);
+    write_pcd(clouds / (files[i].stem + ".pcd"), files[i].cloud);
+  });
+  std::vector<std::string> written;
+  files.push_back({"fused", {}});
+  for (const NamedFile& file : files) {
+    for (const char* suffix : {".ply", ".pcd"}) written.push_back("clouds/" + file.stem + suffix);
   }
   return written;
 }

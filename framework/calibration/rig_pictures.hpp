@@ -25,18 +25,27 @@ struct PosedCloud {
 /// rejection.
 std::string picture_note(const CalibratedSensor& sensor);
 
-/// Writes the pictures and clouds of one scene to `folder`, which must exist, and returns the paths
-/// of the files relative to it: `<sensor>.png` for each sensor with a pose (the reference and the
-/// sensor from above and in sections from the front and the side, before and after, with the
-/// verdict in the title), `rig.png` (the accepted sensors from above), and, if `with_clouds`, the
-/// clouds in the reference's frame: `clouds/<sensor>.ply|pcd`, `clouds/<sensor>_rejected.ply|pcd`
-/// for rejected sensors, and `clouds/fused.ply|pcd` with all accepted sensors. If the reference
-/// sees the ground, the pictures are level. file_names converts sensor names to file names. Throws
-/// InputError if a file cannot be written.
-std::vector<std::string> write_rig_pictures(const std::filesystem::path& folder,
-                                            const std::string& reference, const Points& points,
-                                            const std::vector<PosedCloud>& sensors,
-                                            bool with_clouds);
+/// A picture of a calibration.
+struct RigPicture {
+  std::string file;    ///< The name of its file, "front.png".
+  std::string sensor;  ///< Empty for the picture of the whole rig.
+  std::string png;     ///< Its bytes.
+};
+
+/// Draws one scene: for each sensor with a pose the reference and the sensor from above and in
+/// sections from the front and the side, before and after, with the verdict in the title
+/// (`<sensor>.png`); and the accepted sensors from above (`rig.png`). If the reference sees the
+/// ground, the pictures are level. file_names converts sensor names to file names.
+std::vector<RigPicture> draw_rig_pictures(const std::string& reference, const Points& points,
+                                          const std::vector<PosedCloud>& sensors);
+
+/// Writes the clouds in the reference's frame to `folder`, which must exist, and returns the paths
+/// of the files relative to it: `clouds/<sensor>.ply|pcd`, `clouds/<sensor>_rejected.ply|pcd` for
+/// rejected sensors, and `clouds/fused.ply|pcd` with all accepted sensors. Throws InputError if a
+/// file cannot be written.
+std::vector<std::string> write_rig_clouds(const std::filesystem::path& folder,
+                                          const std::string& reference, const Points& points,
+                                          const std::vector<PosedCloud>& sensors);
 
 /// A file name without suffix for each of the names: letters, digits, ".", "-" and "_" are kept,
 /// other characters become "_", and separators at either end are removed ("/top/points" is

@@ -35,10 +35,7 @@ bool has_common_pose(const Rig& rig, std::size_t index) {
     const Estimate& other = rig[i].result.estimate;
     if (i == index || rig[i].source != rig[index].source) continue;
     if (!rig[i].result.failure.empty()) continue;
-    if (other.T_target_source.rotation == T.rotation &&
-        other.T_target_source.translation == T.translation) {
-      return true;
-    }
+    if (other.T_target_source == T) return true;
   }
   return false;
 }
@@ -52,10 +49,22 @@ bool has_any_common_pose(const Rig& rig) {
   return false;
 }
 
+/// Adds the poses of the members that `step` has changed to their paths.
+void extend(std::vector<std::vector<StepPose>>& paths, const Rig& rig,
+            const std::vector<CalibrationMember>& members, const std::string& step) {
+  for (std::size_t i = 0; i < rig.size(); ++i) {
+    const RigidTransform& T = rig[i].result.estimate.T_target_source;
+    const RigidTransform last = paths[i].empty() ? members[i].start.value_or(RigidTransform())
+                                                 : paths[i].back().T_reference_sensor;
+    if (T != last && why_unusable(rig[i].result.estimate).empty()) paths[i].push_back({step, T});
+  }
+}
+
 /// `before_common` has the estimates from before a step set sensors to one pose in all scenes;
 /// empty if no step did.
 std::vector<MemberResult> results_of(const std::vector<CalibrationMember>& members, const Rig& rig,
-                                     const std::vector<Estimate>& before_common) {
+                                     const std::vector<Estimate>& before_common,
+                                     std::vector<std::vector<StepPose>> paths) {
   std::vector<MemberResult> results;
   for (std::size_t i = 0; i < rig.size(); ++i) {
     const PipelineResult& end = rig[i].result;
@@ -64,10 +73,9 @@ std::vector<MemberResult> results_of(const std::vector<CalibrationMember>& membe
     MemberResult result{end.estimate, end.failure, in_scene.T_target_source, in_scene.covariance};
     const std::string why_not = why_unusable(end.estimate);
     if (result.failure.empty()) result.failure = why_not;
-    const RigidTransform start = members[i].start.value_or(RigidTransform());
-    const bool is_moved = result.T_in_scene.rotation != start.rotation ||
-                          result.T_in_scene.translation != start.translation;
+    const bool is_moved = result.T_in_scene != members[i].start.value_or(RigidTransform());
     result.has_pose = why_not.empty() && (end.failure.empty() || is_moved);
+    result.path = std::move(paths[i]);
     results.push_back(std::move(result));
   }
   return results;
@@ -96,6 +104,7 @@ std::vector<MemberResult> run_rig(const Composition& composition,
   Rig rig = rig_at_start(members, seed);
   const StreamKey key = StreamKey(seed).with("rig").with("calibration").with(std::uint64_t{0});
   std::vector<Estimate> before_common;
+  std::vector<std::vector<StepPose>> paths(rig.size());
   for (std::size_t s = 0; s < composition.from_nothing.size(); ++s) {
     const NamedStep& step = composition.from_nothing[s];
     progress(step.name,
@@ -105,14 +114,16 @@ std::vector<MemberResult> run_rig(const Composition& composition,
       for (const RigMember& member : rig) before.push_back(member.result.estimate);
       advance(rig, step, key);
       if (before_common.empty() && has_any_common_pose(rig)) before_common = std::move(before);
+      extend(paths, rig, members, step.name);
       continue;
     }
     for_each_in_parallel(rig.size(), [&](std::size_t i) {
       const NamedStep& own = members[i].start ? composition.near_nominal[s] : step;
       tbb::this_task_arena::isolate([&] { advance(rig[i].result, own, rig[i].key); });
     });
+    extend(paths, rig, members, step.name);
   }
-  return results_of(members, rig, before_common);
+  return results_of(members, rig, before_common, std::move(paths));
 }
 
 }  // namespace croon

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/calibration/calibrated_rig.hpp"
 #include "framework/calibration/composition.hpp"
 #include "framework/pipeline/rig.hpp"
 
@@ -29,6 +30,7 @@ struct MemberResult {
   std::optional<PoseCovariance> covariance_in_scene;
   /// Whether a step found a pose, even if a later step failed.
   bool has_pose = false;
+  std::vector<StepPose> path = {};  ///< After each step that changed the pose.
 
   bool is_accepted() const { return failure.empty() && !estimate.rejection; }
 };

@@ -41,10 +41,6 @@ SceneEstimate scene_estimate(const SceneResult& scene) {
   return estimate;
 }
 
-bool is_same(const RigidTransform& a, const RigidTransform& b) {
-  return a.rotation == b.rotation && a.translation == b.translation;
-}
-
 /// For each degree of freedom, the best observability among the averaged poses.
 DofObservability combined_observability(const std::vector<const MemberResult*>& results) {
   DofObservability observability = results.front()->estimate.covariance->dofs;
@@ -60,7 +56,7 @@ void set_common_pose(CalibratedSensor& sensor, const std::vector<const MemberRes
   const Estimate& first = accepted.front()->estimate;
   const bool is_common =
       std::all_of(accepted.begin(), accepted.end(), [&](const MemberResult* result) {
-        return is_same(result->estimate.T_target_source, first.T_target_source);
+        return result->estimate.T_target_source == first.T_target_source;
       });
   sensor.T_reference_sensor = first.T_target_source;
   sensor.covariance = first.covariance;

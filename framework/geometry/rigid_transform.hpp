@@ -22,6 +22,11 @@ struct RigidTransform {
   Eigen::Vector3d operator*(const Eigen::Vector3d& point) const {
     return rotation * point + translation;
   }
+  /// Whether all numbers are equal.
+  bool operator==(const RigidTransform& other) const {
+    return rotation == other.rotation && translation == other.translation;
+  }
+  bool operator!=(const RigidTransform& other) const { return !(*this == other); }
 };
 
 /// `Rz(yaw) Ry(pitch) Rx(roll)` from (roll, pitch, yaw) in radians.

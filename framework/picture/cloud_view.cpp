@@ -22,7 +22,12 @@ Image draw_view(const std::vector<ColouredCloud>& clouds, const CloudView& view)
   for (std::size_t i = 0; i < clouds.size(); ++i) {
     const Colour colour = sensor_colour(i);
     for_each_pixel(transformed(clouds[i].points, clouds[i].T_reference_sensor), view, image,
-                   [&](int x, int y) { image.at(x, y) = colour; });
+                   [&](int x, int y) {
+                     for (int dot = 0; dot < view.dot_px * view.dot_px; ++dot) {
+                       const int right = x + dot % view.dot_px, down = y + dot / view.dot_px;
+                       if (image.contains(right, down)) image.at(right, down) = colour;
+                     }
+                   });
   }
   return image;
 }

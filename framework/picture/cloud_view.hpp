@@ -24,6 +24,7 @@ struct CloudView {
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
   /// Points farther from the centre than this along the line of sight are not drawn.
   double half_depth_m = std::numeric_limits<double>::infinity();
+  int dot_px = 1;  ///< The width of the square that `draw_view` draws for a point.
 
   /// The axes to the right, up, and along the line of sight.
   Eigen::Vector3i axes() const;

@@ -16,4 +16,13 @@ Colour sensor_colour(std::size_t index) {
   return colours[index % colours.size()];
 }
 
+std::string hex_text(const Colour& colour) {
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string text = "#";
+  for (const int byte : {colour.red, colour.green, colour.blue}) {
+    text += {kDigits[byte / 16], kDigits[byte % 16]};
+  }
+  return text;
+}
+
 }  // namespace croon

@@ -13,6 +13,9 @@ struct Colour {
   std::uint8_t red = 0, green = 0, blue = 0;
 };
 
+/// "#0072b2".
+std::string hex_text(const Colour& colour);
+
 /// The colour of the sensor `index`, the reference being 0: grey, then the palette of Okabe and Ito
 /// (2008), which colour-blind readers can distinguish; it repeats after eight.
 Colour sensor_colour(std::size_t index);

@@ -71,16 +71,6 @@ Colour colour_of(const std::string& hex) {
   return {byte(0), byte(2), byte(4)};
 }
 
-/// "#0072b2".
-std::string hex_of(const Colour& colour) {
-  constexpr const char* kDigits = "0123456789abcdef";
-  std::string text = "#";
-  for (const int byte : {colour.red, colour.green, colour.blue}) {
-    text += {kDigits[byte / 16], kDigits[byte % 16]};
-  }
-  return text;
-}
-
 /// Sets `colour` unless `hex` is null, which means the colour of the series.
 void set_colour(const char* hex, bool& is_drawn, Colour& colour) {
   if (hex == nullptr) return;
@@ -125,46 +115,46 @@ bool add_series(Look& look, const std::string& name, const Sheet& sheet) {
 
 std::string css_colour(const char* property, const char* hex) {
   if (hex == nullptr) return "";
-  const std::string colour = std::string("none") == hex ? hex : hex_of(colour_of(hex));
+  const std::string colour = std::string("none") == hex ? hex : hex_text(colour_of(hex));
   return " " + std::string(property) + ": " + colour + ";";
 }
 
-std::string css_of(const Part& part, const Sheet& sheet) {
-  std::string text = std::string(".") + part.name + " {" + css_colour("stroke", part.stroke) +
-                     css_colour("fill", part.fill);
+std::string css_of(const Part& part, const Sheet& sheet, const std::string& dot) {
+  std::string text =
+      dot + part.name + " {" + css_colour("stroke", part.stroke) + css_colour("fill", part.fill);
   if (part.fill_opacity < 1.0) text += " fill-opacity: " + shortest_number(part.fill_opacity) + ";";
   const bool has_stroke = part.stroke == nullptr || std::string("none") != part.stroke;
   if (has_stroke) text += " stroke-width: " + shortest_number(part.width * sheet.stroke()) + ";";
   return text + " }\n";
 }
 
-std::string css_of_series(const Sheet& sheet) {
+std::string css_of_series(const Sheet& sheet, const std::string& dot) {
   std::string text;
   const auto add = [&](const std::string& name) {
     Look look;
     add_series(look, name, sheet);
-    const std::string hex = hex_of(look.fill);
-    text += "." + name + " { stroke: " + hex + "; fill: " + hex + "; }\n";
+    const std::string hex = hex_text(look.fill);
+    text += dot + name + " { stroke: " + hex + "; fill: " + hex + "; }\n";
   };
   for (std::size_t i = 0; i < kSeriesColours; ++i) add("c" + std::to_string(i));
   for (std::size_t i = 0; i < kSeriesColours; ++i) add("s" + std::to_string(i));
   for (std::size_t i = 1; i < kSeriesDashes; ++i) {
-    text += ".d" + std::to_string(i) + " { stroke-dasharray:";
+    text += dot + "d" + std::to_string(i) + " { stroke-dasharray:";
     for (const double length : kDashes[i]) text += " " + shortest_number(length * sheet.stroke());
     text += "; }\n";
   }
   return text;
 }
 
-std::string css_of_dark_pages() {
+std::string css_of_dark_pages(const std::string& dot) {
   std::string text = "@media (prefers-color-scheme: dark) {\n";
-  text += std::string("  .c0 { stroke: #") + kDarkFirstColour + "; fill: #" + kDarkFirstColour +
-          "; }\n";
+  text +=
+      "  " + dot + "c0 { stroke: #" + kDarkFirstColour + "; fill: #" + kDarkFirstColour + "; }\n";
   for (const TextPart& part : kTextParts) {
-    text += std::string("  .") + part.name + " { fill: #" + part.dark + "; }\n";
+    text += "  " + dot + part.name + " { fill: #" + part.dark + "; }\n";
   }
   for (const Part& part : kParts) {
-    text += std::string("  .") + part.name + " {" +
+    text += "  " + dot + part.name + " {" +
             css_colour("stroke", part.dark_stroke == nullptr ? part.stroke : part.dark_stroke) +
             css_colour("fill", part.dark_fill == nullptr ? part.fill : part.dark_fill) + " }\n";
   }
@@ -212,16 +202,17 @@ Look look_of(const std::string& style, const Sheet& sheet) {
   return look;
 }
 
-std::string style_sheet(const Sheet& sheet) {
-  std::string text = css_of_series(sheet);
+std::string style_sheet(const Sheet& sheet, const std::string& prefix) {
+  const std::string dot = "." + prefix;
+  std::string text = css_of_series(sheet, dot);
   for (const TextPart& part : kTextParts) {
-    text += std::string(".") + part.name + " { font: " + (part.is_bold ? "bold " : "") +
+    text += dot + part.name + " { font: " + (part.is_bold ? "bold " : "") +
             shortest_number((sheet.*part.size)()) + "px sans-serif; fill: #" +
             (sheet.is_paper ? kInk : part.colour) + "; }\n";
   }
-  for (const Part& part : kParts) text += css_of(part, sheet);
+  for (const Part& part : kParts) text += css_of(part, sheet, dot);
   // Paper is white.
-  return sheet.is_paper ? text : text + css_of_dark_pages();
+  return sheet.is_paper ? text : text + css_of_dark_pages(dot);
 }
 
 double text_width(const std::string& text, double size) {

@@ -119,8 +119,9 @@ struct Look {
 /// and for text title, small, name, sensor. Throws std::logic_error for another name.
 Look look_of(const std::string& style, const Sheet& sheet);
 
-/// The same looks as CSS classes, with colours for dark pages beside those for light ones.
-std::string style_sheet(const Sheet& sheet);
+/// The same looks as CSS classes, with colours for dark pages beside those for light ones. The
+/// names of the classes begin with `prefix`.
+std::string style_sheet(const Sheet& sheet, const std::string& prefix = "");
 
 /// The numbers of colours, dashes and markers before they repeat.
 inline constexpr std::size_t kSeriesColours = 8;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <string>
 
 #include "framework/base/whole_file.hpp"
 
@@ -41,7 +40,7 @@ Image padded(const Image& image, int above, int below) {
   return whole;
 }
 
-void write_png(const std::filesystem::path& path, const Image& image) {
+std::string png_bytes(const Image& image) {
   static_assert(sizeof(Colour) == 3, "a pixel is three bytes");
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
@@ -54,10 +53,14 @@ void write_png(const std::filesystem::path& path, const Image& image) {
   std::string bytes(size, '\0');
   if (png_image_write_to_memory(&header, bytes.data(), &size, 0, image.pixels().data(), 0,
                                 nullptr) == 0) {
-    throw std::logic_error(std::string("write_png: ") + header.message);
+    throw std::logic_error(std::string("png_bytes: ") + header.message);
   }
   bytes.resize(size);
-  write_whole_file(path, bytes);
+  return bytes;
+}
+
+void write_png(const std::filesystem::path& path, const Image& image) {
+  write_whole_file(path, png_bytes(image));
 }
 
 }  // namespace croon

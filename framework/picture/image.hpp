@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "framework/picture/colour.hpp"
@@ -36,6 +37,9 @@ Image side_by_side(const std::vector<Image>& images, int gap);
 
 /// The picture with `above` and `below` additional white rows.
 Image padded(const Image& image, int above, int below);
+
+/// The bytes of `image` as a PNG file.
+std::string png_bytes(const Image& image);
 
 /// Writes `image` as PNG. Throws InputError if the file cannot be written.
 void write_png(const std::filesystem::path& path, const Image& image);

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <sstream>
+#include <utility>
 
 #include "framework/base/text.hpp"
 #include "framework/picture/writers.hpp"
@@ -30,8 +32,6 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-std::string styled(const std::string& style) { return " class=\"" + style + "\""; }
-
 const char* anchor_name(Anchor anchor) {
   return anchor == Anchor::start ? "start" : anchor == Anchor::middle ? "middle" : "end";
 }
@@ -39,7 +39,8 @@ const char* anchor_name(Anchor anchor) {
 /// Writes each primitive as an element.
 class SvgWriter {
  public:
-  explicit SvgWriter(const Sheet& sheet) : digit_(sheet.is_paper ? 100.0 : 10.0) {}
+  SvgWriter(const Sheet& sheet, std::string prefix)
+      : digit_(sheet.is_paper ? 100.0 : 10.0), prefix_(std::move(prefix)) {}
 
   std::string operator()(const Drawing::Line& line) const {
     return "<line" + attribute("x1", line.x1) + attribute("y1", line.y1) +
@@ -80,6 +81,14 @@ class SvgWriter {
     return shortest_number(std::round(value * digit_) / digit_);
   }
 
+  /// The names of `style` as classes, each with the prefix.
+  std::string styled(const std::string& style) const {
+    std::string classes;
+    std::istringstream names(style);
+    for (std::string name; names >> name;) classes += (classes.empty() ? "" : " ") + prefix_ + name;
+    return " class=\"" + classes + "\"";
+  }
+
   /// ` name="value"`.
   std::string attribute(const char* name, double value) const {
     return std::string(" ") + name + "=\"" + number(value) + "\"";
@@ -92,11 +101,11 @@ class SvgWriter {
   }
 
   double digit_;
+  std::string prefix_;
 };
 
-}  // namespace
-
-std::string svg_bytes(const Drawing& drawing) {
+/// The elements of an SVG file: `before` them, its style sheet.
+std::string svg(const Drawing& drawing, const std::string& before, const std::string& prefix) {
   const std::string unit = drawing.sheet().is_paper ? "pt" : "";
   const std::string width = shortest_number(std::round(100.0 * drawing.width()) / 100.0);
   const std::string height = shortest_number(std::round(100.0 * drawing.height()) / 100.0);
@@ -104,11 +113,24 @@ std::string svg_bytes(const Drawing& drawing) {
       drawing.description().empty() ? "" : "<desc>" + escaped(drawing.description()) + "</desc>\n";
   std::string bytes = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + unit +
                       "\" height=\"" + height + unit + "\" viewBox=\"0 0 " + width + " " + height +
-                      "\">\n" + desc + "<style>\n" + style_sheet(drawing.sheet()) + "</style>\n";
-  const SvgWriter writer(drawing.sheet());
+                      "\">\n" + desc + before;
+  const SvgWriter writer(drawing.sheet(), prefix);
   for (const Drawing::Element& element : drawing.elements()) bytes += std::visit(writer, element);
   return bytes + "</svg>\n";
 }
+
+/// The prefix of classes in a page, which has classes of its own.
+constexpr const char* kInlinePrefix = "chart-";
+
+}  // namespace
+
+std::string svg_bytes(const Drawing& drawing) {
+  return svg(drawing, "<style>\n" + style_sheet(drawing.sheet()) + "</style>\n", "");
+}
+
+std::string inline_svg(const Drawing& drawing) { return svg(drawing, "", kInlinePrefix); }
+
+std::string inline_style_sheet() { return style_sheet({}, kInlinePrefix); }
 
 const std::vector<DrawingFormat>& drawing_formats() {
   static const std::vector<DrawingFormat> formats = {{"pdf", pdf_bytes}, {"svg", svg_bytes}};

@@ -14,6 +14,11 @@ namespace croon {
 /// For browsers; readable on light and dark pages, without a font or script.
 std::string svg_bytes(const Drawing& drawing);
 
+/// The same for a part of an HTML page, whose style sheet has to contain `inline_style_sheet`. The
+/// names of its classes begin with "chart-".
+std::string inline_svg(const Drawing& drawing);
+std::string inline_style_sheet();
+
 /// One page of the drawing's size.
 std::string pdf_bytes(const Drawing& drawing);
 

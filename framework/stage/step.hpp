@@ -45,8 +45,7 @@ struct Estimate {
   /// Sets the pose to `T`. If it differs, information and covariance of the old pose are reset; a
   /// step sets those of the new pose afterwards.
   void set_pose(const RigidTransform& T) {
-    const bool is_moved =
-        T.rotation != T_target_source.rotation || T.translation != T_target_source.translation;
+    const bool is_moved = T != T_target_source;
     T_target_source = T;
     if (!is_moved) return;
     information.reset();

@@ -34,6 +34,7 @@ const Layers& layers() {
       {"framework/pipeline",
        {"framework/base", "framework/geometry", "framework/spatial", "framework/registration",
         "framework/params", "framework/stage"}},
+      {"framework/document", {"framework/base", "framework/table", "framework/picture"}},
       {"framework/recording",
        {"framework/base", "framework/geometry", "framework/io", "framework/stage"}},
       {"framework/calibration",

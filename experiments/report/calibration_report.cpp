@@ -1,0 +1,315 @@
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/report/calibration_document.hpp"
+#include "experiments/report/rig_charts.hpp"
+#include "experiments/report/rig_view_json.hpp"
+#include "framework/base/angles.hpp"
+#include "framework/base/statistics.hpp"
+#include "framework/base/text.hpp"
+#include "framework/geometry/dof.hpp"
+#include "framework/picture/cloud_view.hpp"
+
+namespace croon::experiments {
+namespace {
+
+std::string verdict_name(bool is_accepted) { return is_accepted ? "accepted" : "rejected"; }
+
+/// The warning or note about the refit of a sensor; empty without a refit.
+std::string refit_sentence(const ViewedSensor& sensor) {
+  if (!sensor.refit) return "";
+  const Refit& refit = *sensor.refit;
+  const std::string distance = fixed_number(deg_from_rad(refit.rotation_rad), 2) + " deg and " +
+                               fixed_number(1e3 * refit.translation_m, 0) + " mm";
+  return refit.surface_shift_m > kMaxSurfaceShift_m
+             ? "The clouds contradict this pose: the surfaces fit better at a pose " + distance +
+                   " away, which moves them by " + fixed_number(1e3 * refit.surface_shift_m, 0) +
+                   " mm."
+             : "Fit check: a new registration with all other sensors moves the surfaces by " +
+                   fixed_number(1e3 * refit.surface_shift_m, 1) + " mm.";
+}
+
+bool is_contradicted(const ViewedSensor& sensor) {
+  return sensor.refit && sensor.refit->surface_shift_m > kMaxSurfaceShift_m;
+}
+
+const ViewedSensor* viewed(const RigView& view, const std::string& sensor) {
+  const auto found = std::find_if(view.sensors.begin(), view.sensors.end(),
+                                  [&](const ViewedSensor& one) { return one.sensor == sensor; });
+  return found == view.sensors.end() ? nullptr : &*found;
+}
+
+/// Adds the fit checks to the cards. An accepted sensor that its clouds contradict is doubtful.
+void add_fit_checks(Section& section, const RigView& view, const CalibratedRig& rig) {
+  for (Block& block : section.blocks) {
+    auto* const cards = std::get_if<Cards>(&block);
+    if (cards == nullptr) continue;
+    for (std::size_t i = 0; i < cards->cards.size(); ++i) {
+      const ViewedSensor* const sensor = viewed(view, rig.sensors[i].sensor);
+      if (sensor == nullptr || !sensor->refit) continue;
+      Card& card = cards->cards[i];
+      card.lines.push_back(refit_sentence(*sensor));
+      if (!is_contradicted(*sensor) || !rig.sensors[i].is_accepted) continue;
+      card.tone = Tone::warning;
+      card.status = "accepted, but contradicted by the clouds: do not use unchecked";
+    }
+  }
+}
+
+/// Poses with their standard deviations, and their distances from the nominal poses.
+TableBlock pose_table(const CalibratedRig& rig) {
+  using S = CalibratedSensor;
+  Columns<S> columns;
+  columns.add({"sensor"}, &S::sensor).add({"verdict"}, [](const S& sensor) {
+    return verdict_name(sensor.is_accepted);
+  });
+  const auto std_of = [](const S& sensor, int i) -> std::optional<double> {
+    if (!sensor.covariance) return std::nullopt;
+    return std::sqrt(sensor.covariance->matrix(i, i));
+  };
+  constexpr std::array kAxes = {"x", "y", "z"};
+  View view{{{"sensor"}, {"verdict"}}, 2};
+  const auto show = [&](const std::string& name, const std::string& title) {
+    view.columns.push_back({title, "<" + name + "> ± <" + name + "_std>"});
+  };
+  for (int i = 0; i < 3; ++i) {
+    const std::string name = kAxes.at(static_cast<std::size_t>(i));
+    columns
+        .add({name, "m", "", 4},
+             [i](const S& sensor) -> std::optional<double> {
+               if (!sensor.T_reference_sensor) return std::nullopt;
+               return sensor.T_reference_sensor->translation(i);
+             })
+        .add({name + "_m_std", "", "", 4}, [=](const S& sensor) { return std_of(sensor, i + 3); });
+    show(name + "_m", name + ", m");
+  }
+  for (int i = 0; i < 3; ++i) {
+    const std::string name = kDofNames.at(static_cast<std::size_t>(i));
+    columns
+        .add({name, "deg", "", 3},
+             [i](const S& sensor) -> std::optional<double> {
+               if (!sensor.T_reference_sensor) return std::nullopt;
+               return deg_from_rad(rpy_from_rotation(sensor.T_reference_sensor->rotation)(i));
+             })
+        .add({name + "_deg_std", "", "", 3}, [=](const S& sensor) -> std::optional<double> {
+          const std::optional<double> std_rad = std_of(sensor, i);
+          return std_rad ? std::optional(deg_from_rad(*std_rad)) : std::nullopt;
+        });
+    show(name + "_deg", name + ", deg");
+  }
+  const auto from_nominal = [](const S& sensor) -> std::optional<PoseError> {
+    if (!sensor.nominal || !sensor.T_reference_sensor) return std::nullopt;
+    return pose_error(*sensor.T_reference_sensor, *sensor.nominal);
+  };
+  const bool has_nominal = std::any_of(rig.sensors.begin(), rig.sensors.end(),
+                                       [](const S& sensor) { return !!sensor.nominal; });
+  if (has_nominal) {
+    columns
+        .add({"from_nominal", "deg", "", 2},
+             [=](const S& sensor) -> std::optional<double> {
+               const auto apart = from_nominal(sensor);
+               return apart ? std::optional(deg_from_rad(apart->rotation_rad)) : std::nullopt;
+             })
+        .add({"from_nominal", "mm", "", 0}, [=](const S& sensor) -> std::optional<double> {
+          const auto apart = from_nominal(sensor);
+          return apart ? std::optional(1e3 * apart->translation_m) : std::nullopt;
+        });
+    view.columns.push_back({"from nominal", "<from_nominal_deg> deg, <from_nominal_mm> mm"});
+  }
+  return {"T_" + rig.reference +
+              "_sensor ± one standard deviation; the pose of a rejected sensor is "
+              "a guess.",
+          columns.table(rig.sensors), view};
+}
+
+/// The close-up at the first and the last state.
+Picture close_up_picture(const RigView& view, const CloseUp& place) {
+  CloudView shown = {place.half_width_m, place.half_width_m, 0.01};
+  shown.centre_m = place.centre_m;
+  shown.dot_px = 3;
+  std::vector<Image> images;
+  std::vector<std::string> captions, names;
+  const std::size_t last = view.states.size() - 1;
+  for (const std::size_t state : {std::size_t{0}, last}) {
+    if (state == last && last == 0 && !images.empty()) break;
+    std::vector<ColouredCloud> clouds;
+    for (const ViewedSensor& sensor : view.sensors) {
+      // A sensor without a pose keeps its colour.
+      const bool has_pose = sensor.poses[state].has_value();
+      clouds.push_back({sensor.sensor, has_pose ? sensor.points : Points(),
+                        sensor.poses[state].value_or(RigidTransform())});
+    }
+    images.push_back(draw_view(clouds, shown));
+    captions.push_back(state == last ? "after: result" : "before: " + view.states[state]);
+  }
+  for (const ViewedSensor& sensor : view.sensors) {
+    names.push_back(cut_in_the_middle(printable(sensor.sensor), 12));
+  }
+  return {place.title, "Close-up of a " + place.title + ", from above, before and after",
+          png_bytes(with_legend(images, captions, names, shown.pixel_m))};
+}
+
+Section view_section(const RigView& view, const std::vector<RigPicture>& pictures) {
+  Section section{"view", "The clouds", {}};
+  CloudViewBlock block;
+  block.caption = "Scene " + view.scene +
+                  ". Drag to turn, scroll to zoom; move the slider through the steps of the "
+                  "pipeline. Points of right poses lie on common surfaces.";
+  block.json = rig_view_json(view);
+  for (const RigPicture& picture : pictures) {
+    if (picture.sensor.empty()) {
+      block.fallback.push_back({"", "The rig from above", picture.png});
+    }
+  }
+  section.blocks.emplace_back(std::move(block));
+  FigureRow row;
+  for (const CloseUp& place : view.close_ups)
+    row.figures.emplace_back(close_up_picture(view, place));
+  if (!row.figures.empty()) {
+    section.blocks.emplace_back(Paragraph{
+        "Places where a misalignment would show, from above. Surfaces of a right pose coincide."});
+    section.blocks.emplace_back(std::move(row));
+  }
+  return section;
+}
+
+Section graph_section(const RigView& view) {
+  using P = PairAgreement;
+  Columns<P> columns;
+  columns.add({"sensor"}, &P::a)
+      .add({"other"}, &P::b)
+      .add({"overlap", "ratio", "", 0}, &P::overlap_ratio)
+      .add({"median_distance", "mm", "", 1},
+           [](const P& pair) { return 1e3 * pair.median_distance_m; })
+      .add({"points"}, [](const P& pair) { return static_cast<long long>(pair.points); });
+  const Table table = columns.table(view.pairs);
+  return {"graph",
+          "Agreement of the sensors",
+          {Paragraph{"Overlap is the share of points with a surface of the other sensor within 0.3 "
+                     "m; the distance is the median to that surface, along its normal. Only pairs "
+                     "with the reference were registered individually: the other pairs are an "
+                     "independent check."},
+           Chart{"Overlap and median distance of each pair.", sensor_graph(view)},
+           TableBlock{"",
+                      table,
+                      {{{"sensor"},
+                        {"other"},
+                        {"overlap, %", "<overlap_ratio>"},
+                        {"median distance, mm", "<median_distance_mm>"},
+                        {"points"}},
+                       2}}}};
+}
+
+Section residual_section(const RigView& view) {
+  constexpr std::size_t kMinResiduals = 200;
+  Section section{
+      "residuals",
+      "Residuals",
+      {Paragraph{"Distances to the nearest surfaces of the other sensors, positive if "
+                 "the point lies behind the surface: the median, and a band between the "
+                 "quartiles. A right pose and a sound sensor show a flat line at zero. A "
+                 "wave over azimuth or a slope over elevation shows a wrong angle of the "
+                 "pose or of the lasers; an offset over all ranges a range bias; a slope "
+                 "over range a range scale; an increase with incidence the width of the "
+                 "beam."}}};
+  for (const ViewedSensor& sensor : view.sensors) {
+    const std::string role = sensor.is_reference ? "reference" : verdict_name(sensor.is_accepted);
+    if (sensor.residuals.size() < kMinResiduals) {
+      section.blocks.emplace_back(
+          Paragraph{sensor.sensor + ": too few points have a surface of another sensor nearby."});
+      continue;
+    }
+    std::vector<double> distances_mm;
+    for (const Residual& residual : sensor.residuals) {
+      distances_mm.push_back(1e3 * std::abs(residual.distance_m));
+    }
+    section.blocks.emplace_back(Chart{sensor.sensor + " (" + role + "): median distance " +
+                                          fixed_number(median(distances_mm), 1) + " mm, " +
+                                          counted(distances_mm.size(), "point"),
+                                      residual_chart(sensor)});
+  }
+  return section;
+}
+
+/// A row of the table over scenes.
+struct SceneRow {
+  std::string sensor, scene, verdict;
+  std::optional<double> apart_deg, apart_mm;
+};
+
+/// The pose from each single scene, relative to the common pose.
+Section scene_section(const CalibratedRig& rig) {
+  std::vector<SceneRow> rows;
+  for (const CalibratedSensor& sensor : rig.sensors) {
+    for (const SceneEstimate& scene : sensor.scenes) {
+      SceneRow row{
+          sensor.sensor, scene.scene, scene.reason.empty() ? "accepted" : scene.reason, {}, {}};
+      if (scene.T_reference_sensor && sensor.T_reference_sensor) {
+        const PoseError apart = pose_error(*scene.T_reference_sensor, *sensor.T_reference_sensor);
+        row.apart_deg = deg_from_rad(apart.rotation_rad);
+        row.apart_mm = 1e3 * apart.translation_m;
+      }
+      rows.push_back(std::move(row));
+    }
+  }
+  Columns<SceneRow> columns;
+  columns.add({"sensor"}, &SceneRow::sensor)
+      .add({"scene"}, &SceneRow::scene)
+      .add({"from_pose", "deg", "", 3}, &SceneRow::apart_deg)
+      .add({"from_pose", "mm", "", 1}, &SceneRow::apart_mm)
+      .add({"verdict"}, &SceneRow::verdict);
+  const Table table = columns.table(rows);
+  View view{{{"sensor"},
+             {"scene"},
+             {"verdict"},
+             {"from the pose, deg", "<from_pose_deg>"},
+             {"from the pose, mm", "<from_pose_mm>"}},
+            3};
+  return {"scenes",
+          "Consistency over scenes",
+          {Paragraph{"The pose from each scene alone, relative to the common pose."},
+           TableBlock{"", table, view}}};
+}
+
+Section picture_section(const std::vector<RigPicture>& pictures) {
+  Section section{"pictures", "Pictures", {}};
+  for (const RigPicture& picture : pictures) {
+    const std::string what = picture.sensor.empty() ? "The rig" : picture.sensor;
+    section.blocks.emplace_back(Picture{what, what + ", from above and in sections", picture.png});
+  }
+  return section;
+}
+
+}  // namespace
+
+Document calibration_report(const CalibratedRig& rig, const std::vector<RigPicture>& pictures,
+                            const Facts& provenance) {
+  const RigView view = rig_view(rig);
+  Document document{
+      "Calibration of " + counted(rig.sensors.size(), "sensor") + " to " + rig.reference,
+      accepted_sentence(rig),
+      {verdict_section(rig)}};
+  std::string doubtful;
+  for (const ViewedSensor& sensor : view.sensors) {
+    if (!sensor.is_accepted || !is_contradicted(sensor)) continue;
+    doubtful += (doubtful.empty() ? "" : ", ") + sensor.sensor;
+  }
+  if (!doubtful.empty()) document.lead += ", but the clouds contradict the pose of " + doubtful;
+  document.lead += ".";
+  add_fit_checks(document.sections.front(), view, rig);
+  document.sections.front().blocks.emplace_back(pose_table(rig));
+  if (view.sensors.size() > 1) {
+    document.sections.push_back(view_section(view, pictures));
+    if (!view.pairs.empty()) document.sections.push_back(graph_section(view));
+    document.sections.push_back(residual_section(view));
+  }
+  const bool has_scenes =
+      std::any_of(rig.sensors.begin(), rig.sensors.end(),
+                  [](const CalibratedSensor& sensor) { return sensor.scenes.size() > 1; });
+  if (has_scenes) document.sections.push_back(scene_section(rig));
+  if (!pictures.empty()) document.sections.push_back(picture_section(pictures));
+  document.sections.push_back({"provenance", "Provenance", {provenance}});
+  return document;
+}
+
+}  // namespace croon::experiments

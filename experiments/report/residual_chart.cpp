@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "experiments/report/panels.hpp"
+#include "experiments/report/rig_charts.hpp"
+#include "framework/base/text.hpp"
+
+namespace croon::experiments {
+namespace {
+
+/// What a panel shows the residuals over.
+struct ResidualAxis {
+  const char* title;
+  double Residual::*value;
+};
+
+constexpr std::array kResidualAxes = {ResidualAxis{"azimuth, deg", &Residual::azimuth_deg},
+                                      ResidualAxis{"elevation, deg", &Residual::elevation_deg},
+                                      ResidualAxis{"range, m", &Residual::range_m},
+                                      ResidualAxis{"incidence, deg", &Residual::incidence_deg}};
+
+/// The residuals in the bins of an axis, in mm.
+struct ResidualProfile {
+  std::vector<double> centres;
+  std::vector<double> medians;  ///< NaN in a bin with few residuals.
+  std::vector<std::optional<Interval>> quartiles;
+};
+
+/// The axis of a panel: between the percentiles 1 and 99 of the values.
+Axis axis_of(const std::vector<Residual>& residuals, double Residual::*value) {
+  std::vector<double> values;
+  for (const Residual& residual : residuals) values.push_back(residual.*value);
+  return round_axis(percentile(values, 0.01), percentile(values, 0.99), 5);
+}
+
+ResidualProfile residual_profile(const std::vector<Residual>& residuals, double Residual::*value,
+                                 const Axis& axis) {
+  constexpr std::size_t kBins = 30, kMinPerBin = 25;
+  std::array<std::vector<double>, kBins> bins;
+  const double width = (axis.high - axis.low) / static_cast<double>(kBins);
+  for (const Residual& residual : residuals) {
+    const double position = (residual.*value - axis.low) / width;
+    if (position < 0.0 || position >= static_cast<double>(kBins)) continue;
+    bins.at(static_cast<std::size_t>(position)).push_back(1e3 * residual.distance_m);
+  }
+  ResidualProfile profile;
+  for (std::size_t i = 0; i < kBins; ++i) {
+    profile.centres.push_back(axis.low + (static_cast<double>(i) + 0.5) * width);
+    const bool is_full = bins.at(i).size() >= kMinPerBin;
+    profile.medians.push_back(is_full ? median(bins.at(i)) : std::nan(""));
+    profile.quartiles.push_back(is_full ? std::optional(Interval{percentile(bins.at(i), 0.25),
+                                                                 percentile(bins.at(i), 0.75)})
+                                        : std::nullopt);
+  }
+  return profile;
+}
+
+/// Draws the parts of the line between gaps.
+void draw_medians(Drawing& drawing, const Plot& plot, const ResidualProfile& profile) {
+  std::vector<Corner> part;
+  const auto finish = [&] {
+    if (part.size() > 1) drawing.polyline(part, "curve " + series_style(0));
+    if (part.size() == 1) draw_marker(drawing, part[0][0], part[0][1], 2.0, 0);
+    part.clear();
+  };
+  for (std::size_t i = 0; i < profile.centres.size(); ++i) {
+    if (std::isnan(profile.medians[i])) {
+      finish();
+      continue;
+    }
+    part.push_back({plot.x(profile.centres[i]), plot.y_inside(profile.medians[i])});
+  }
+  finish();
+}
+
+/// Half the height of the panels, in mm.
+double residual_limit_mm(const std::vector<ResidualProfile>& profiles) {
+  constexpr double kMin_mm = 20.0;
+  double limit = kMin_mm;
+  for (const ResidualProfile& profile : profiles) {
+    for (const std::optional<Interval>& quartiles : profile.quartiles) {
+      if (quartiles) limit = std::max({limit, std::abs(quartiles->low), std::abs(quartiles->high)});
+    }
+  }
+  return limit;
+}
+
+}  // namespace
+
+Drawing residual_chart(const ViewedSensor& sensor, const Sheet& sheet) {
+  std::vector<Axis> axes;
+  std::vector<ResidualProfile> profiles;
+  for (const ResidualAxis& axis : kResidualAxes) {
+    axes.push_back(axis_of(sensor.residuals, axis.value));
+    profiles.push_back(residual_profile(sensor.residuals, axis.value, axes.back()));
+  }
+  const double limit_mm = residual_limit_mm(profiles);
+  const Axis y = round_axis(-limit_mm, limit_mm, 4);
+  const PanelGrid grid =
+      panel_grid(sheet, kResidualAxes.size(), is_wide(sheet) ? 4 : 2, 0.8, {}, 0.0);
+  const double height = grid.legend_top - 0.6 * sheet.small();
+  Drawing drawing(grid.width, height, sheet);
+  drawing.describe("Residuals of " + sensor.sensor +
+                   " over azimuth, elevation, range and incidence");
+  drawing.rectangle(0.0, 0.0, grid.width, height, "page");
+  const double text = sheet.small();
+  for (std::size_t k = 0; k < kResidualAxes.size(); ++k) {
+    const Plot plot = plot_of(grid, k, {axes[k].low, axes[k].high}, {y.low, y.high});
+    for (const double tick : y.ticks) {
+      plot.draw_y_tick(drawing, tick, fixed_number(tick, y.decimals), 0.5 * text,
+                       tick == 0.0 ? "zero" : "grid");
+    }
+    for (const double tick : axes[k].ticks) {
+      plot.draw_x_tick(drawing, tick, fixed_number(tick, axes[k].decimals), 1.4 * text);
+    }
+    std::vector<std::optional<Interval>> inside = profiles[k].quartiles;
+    draw_band(drawing, plot, profiles[k].centres, inside, 0);
+    draw_medians(drawing, plot, profiles[k]);
+    draw_panel_texts(drawing, plot, "distance, mm", kResidualAxes.at(k).title);
+  }
+  return drawing;
+}
+
+}  // namespace croon::experiments

@@ -1,0 +1,271 @@
+#include <nettle/sha2.h>
+
+#include <array>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+
+#include "framework/base/base64.hpp"
+#include "framework/base/text.hpp"
+#include "framework/document/html_assets.hpp"
+#include "framework/document/renderers.hpp"
+#include "framework/picture/writers.hpp"
+#include "framework/table/renderers.hpp"
+
+namespace croon {
+namespace {
+
+/// `text` as the content of an element or attribute.
+std::string html_text(const std::string& text) {
+  std::string escaped;
+  for (const char c : valid_utf8(text)) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        const bool is_control = static_cast<unsigned char>(c) < 0x20U && c != '\n' && c != '\t';
+        escaped += is_control ? ' ' : c;
+    }
+  }
+  return escaped;
+}
+
+/// JSON without "<", which could end the script element that contains it.
+std::string in_script(const std::string& json) {
+  std::string escaped;
+  escaped.reserve(json.size());
+  for (const char c : json) c == '<' ? escaped += "\\u003c" : escaped += c;
+  return escaped;
+}
+
+/// `<name class="of">content</name>`.
+std::string element(const std::string& name, const std::string& content,
+                    const std::string& of = "") {
+  return "<" + name + (of.empty() ? "" : " class=\"" + of + "\"") + ">" + content + "</" + name +
+         ">";
+}
+
+/// The source of a script in a Content-Security-Policy.
+std::string script_hash(std::string_view script) {
+  sha256_ctx context;
+  sha256_init(&context);
+  sha256_update(&context, script.size(), reinterpret_cast<const std::uint8_t*>(script.data()));
+  std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
+  sha256_digest(&context, digest.size(), digest.data());
+  return "'sha256-" + base64({reinterpret_cast<const char*>(digest.data()), digest.size()}) + "'";
+}
+
+const char* tone_class(Tone tone) {
+  switch (tone) {
+    case Tone::plain:
+      return "";
+    case Tone::note:
+      return "note";
+    case Tone::warning:
+      return "warning";
+    case Tone::accepted:
+      return "accepted";
+    case Tone::rejected:
+      return "rejected";
+  }
+  throw std::logic_error("unknown tone");
+}
+
+std::string figure(const std::string& kind, const std::string& caption,
+                   const std::string& content) {
+  const std::string title = caption.empty() ? "" : element("figcaption", html_text(caption));
+  return element("figure", title + content, kind) + "\n";
+}
+
+/// The text of a cell with its significance mark, the best value bold.
+std::string html_cell(const Cell& cell, const Column& column) {
+  const std::string text = html_text(shown_text(cell, column));
+  return (cell.is_best ? element("strong", text) : text) +
+         (cell.mark.empty() ? "" : " " + element("span", html_text(cell.mark), "mark"));
+}
+
+/// The value by which a cell is sorted; empty if it is not a number.
+std::string sort_key(const Cell& cell) {
+  if (const auto* number = std::get_if<double>(&cell.value)) return shortest_number(*number);
+  if (const auto* count = std::get_if<long long>(&cell.value)) return std::to_string(*count);
+  return "";
+}
+
+/// Writes the blocks of a document. The data of copy buttons and views follow at its end.
+class HtmlWriter {
+ public:
+  std::string operator()(const Paragraph& paragraph) const {
+    return element("p", html_text(paragraph.text), tone_class(paragraph.tone)) + "\n";
+  }
+
+  std::string operator()(const BulletList& list) const {
+    std::string items;
+    for (const std::string& item : list.items) items += element("li", html_text(item)) + "\n";
+    return items.empty() ? "" : element("ul", "\n" + items, "points") + "\n";
+  }
+
+  std::string operator()(const Cards& cards) {
+    std::string all;
+    for (const Card& card : cards.cards) {
+      const std::string tone = card.tone == Tone::plain ? "neutral" : tone_class(card.tone);
+      std::string content =
+          element("h3", html_text(card.title)) +
+          (card.status.empty() ? "" : element("p", html_text(card.status), "status"));
+      for (const std::string& line : card.lines) content += element("p", html_text(line)) + "\n";
+      if (!card.details.empty()) content += element("pre", html_text(card.details)) + "\n";
+      if (!card.copies.empty()) {
+        content += element(
+            "details", element("summary", "Copy the pose") + copy_buttons(card.copies), "copies");
+      }
+      all += element("article", content, "card " + tone) + "\n";
+    }
+    return element("div", "\n" + all, "cards") + "\n";
+  }
+
+  std::string operator()(const TableBlock& block) {
+    std::string head;
+    for (std::size_t k = 0; k < block.view.columns.size(); ++k) {
+      const std::string scope = "<th scope=\"col\"" + number_class(k, block.view) + ">";
+      head += scope + html_text(block.view.columns[k].title) + "</th>";
+    }
+    const std::vector<ShownCells> columns = shown_cells(block.table, block.view);
+    std::string body;
+    for (const CellRow& row : block.table.rows) {
+      std::string cells;
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        const std::vector<ShownCells::Piece>& pieces = columns[k].pieces();
+        const std::string key = pieces.empty() ? "" : sort_key(row[pieces.front().column]);
+        cells += "<td" + number_class(k, block.view) +
+                 (key.empty() ? "" : " data-value=\"" + html_text(key) + "\"") + ">" +
+                 columns[k].content(row, html_cell) + "</td>";
+      }
+      body += element("tr", cells) + "\n";
+    }
+    const std::string table = element(
+        "table", element("thead", element("tr", head)) + "\n" + element("tbody", "\n" + body),
+        "sortable");
+    const std::vector<CopyText> copies = {
+        {"CSV", csv_table(block.table)},
+        {"Markdown", markdown_table(block.table, block.view)},
+        {"LaTeX", latex_pages(block.table, {block.view}).front()}};
+    return figure("table", block.caption,
+                  element("div", table, "scroll") +
+                      element("p", "Copy as " + copy_buttons(copies), "copies"));
+  }
+
+  std::string operator()(const Chart& chart) const {
+    return figure("chart", chart.caption, inline_svg(chart.drawing));
+  }
+
+  std::string operator()(const Picture& picture) const {
+    return figure("picture", picture.caption,
+                  "<img alt=\"" + html_text(picture.alt) + "\" src=\"data:image/png;base64," +
+                      base64(picture.png) + "\">");
+  }
+
+  std::string operator()(const FigureRow& row) const {
+    std::string figures;
+    for (const auto& one : row.figures) figures += std::visit(*this, one);
+    return figures.empty() ? "" : element("div", "\n" + figures, "row") + "\n";
+  }
+
+  std::string operator()(const Facts& facts) const {
+    std::string list;
+    for (const auto& [name, value] : facts.facts) {
+      list += element("dt", html_text(name)) + element("dd", html_text(value)) + "\n";
+    }
+    return list.empty() ? "" : element("dl", "\n" + list, "facts") + "\n";
+  }
+
+  std::string operator()(const Preformatted& block) const {
+    return element("pre", html_text(block.text)) + "\n";
+  }
+
+  std::string operator()(const CloudViewBlock& view) {
+    std::string pictures;
+    for (const Picture& picture : view.fallback) pictures += (*this)(picture);
+    const std::string caption = element("figcaption", html_text(view.caption));
+    return "<figure class=\"cloud-view\" data-view=\"" + add_data("view", view.json) + "\">" +
+           caption + element("div", "\n" + pictures, "fallback") + "</figure>\n";
+  }
+
+  std::string section(const Section& section, int level) {
+    std::string content = element("h" + std::to_string(level), html_text(section.title)) + "\n";
+    for (const Block& block : section.blocks) content += std::visit(*this, block);
+    for (const Section& inner : section.sections) content += this->section(inner, level + 1);
+    return "<section id=\"" + html_text(section.id) + "\">" + content + "</section>\n";
+  }
+
+  const std::string& data() const { return data_; }
+
+ private:
+  static std::string number_class(std::size_t column, const View& view) {
+    return column < view.names ? "" : " class=\"number\"";
+  }
+
+  /// Adds `json` as a script element, which does not run; returns its id.
+  std::string add_data(const std::string& kind, const std::string& json) {
+    const std::string id = kind + "-" + std::to_string(++count_);
+    data_ +=
+        "<script type=\"application/json\" id=\"" + id + "\">" + in_script(json) + "</script>\n";
+    return id;
+  }
+
+  std::string copy_buttons(const std::vector<CopyText>& copies) {
+    std::string buttons;
+    for (const CopyText& copy : copies) {
+      const std::string json = nlohmann::json(valid_utf8(copy.text)).dump();
+      buttons += "<button type=\"button\" data-copy=\"" + add_data("copy", json) + "\">" +
+                 html_text(copy.label) + "</button> ";
+    }
+    return buttons;
+  }
+
+  int count_ = 0;
+  std::string data_;
+};
+
+}  // namespace
+
+bool can_write_html() { return !report_script().empty(); }
+
+std::string html_document(const Document& document) {
+  if (!can_write_html()) throw std::logic_error("this build writes no reports");
+  HtmlWriter writer;
+  std::string sections, links;
+  for (const Section& section : document.sections) {
+    links +=
+        "<li><a href=\"#" + html_text(section.id) + "\">" + html_text(section.title) + "</a></li>";
+    sections += writer.section(section, 2);
+  }
+  std::string policy, scripts;
+  for (const std::string_view script : {three_script(), cloud_view_script(), report_script()}) {
+    policy += " " + script_hash(script);
+    scripts += "<script>" + std::string(script) + "</script>\n";
+  }
+  const std::string title = html_text(document.title);
+  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src "
+         "data:; "
+         "style-src 'unsafe-inline'; script-src" +
+         policy + "\">\n" + element("title", title) + "\n<style>\n" + std::string(report_style()) +
+         inline_style_sheet() + "</style></head>\n<body>\n<header>" + element("h1", title) +
+         element("p", html_text(document.lead), "lead") +
+         "</header>\n<nav aria-label=\"Sections\"><ul>" + links + "</ul></nav>\n<main>\n" +
+         sections + "</main>\n<footer>" + html_text(document.footer) + "</footer>\n" +
+         writer.data() + scripts + "</body></html>\n";
+}
+
+}  // namespace croon

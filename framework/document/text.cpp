@@ -1,0 +1,94 @@
+#include "framework/base/text.hpp"
+
+#include <algorithm>
+
+#include "framework/document/renderers.hpp"
+#include "framework/table/renderers.hpp"
+
+namespace croon {
+namespace {
+
+/// The lines of `text`, each made printable and indented.
+std::string indented(const std::string& text, const std::string& indent) {
+  std::string lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    lines += indent + printable(text.substr(begin, end - begin)) + "\n";
+    begin = end + 1;
+  }
+  return lines;
+}
+
+/// Writes the blocks that a terminal can show.
+class TextWriter {
+ public:
+  explicit TextWriter(bool colours) : colours_(colours) {}
+
+  std::string operator()(const Paragraph& paragraph) const {
+    const std::string word = paragraph.tone == Tone::warning ? "warning: " : "";
+    return word + printable(paragraph.text) + "\n";
+  }
+
+  std::string operator()(const BulletList& list) const {
+    std::string text;
+    for (const std::string& item : list.items) text += "- " + printable(item) + "\n";
+    return text;
+  }
+
+  std::string operator()(const Cards& cards) const {
+    std::string text = "\n";
+    for (const Card& card : cards.cards) {
+      text += status(card) + printable(card.title) + "\n";
+      for (const std::string& line : card.lines) text += indented(line, "  ");
+      text += indented(card.details, "  ") + "\n";
+    }
+    return text;
+  }
+
+  std::string operator()(const TableBlock& block) const {
+    const std::string caption = block.caption.empty() ? "" : printable(block.caption) + "\n";
+    return caption + text_table(block.table, block.view, colours_) + "\n";
+  }
+
+  std::string operator()(const Facts& facts) const {
+    std::string text;
+    for (const auto& [name, value] : facts.facts) {
+      text += printable(name) + ": " + printable(value) + "\n";
+    }
+    return text;
+  }
+
+  std::string operator()(const Preformatted& block) const {
+    return indented(block.text, "") + "\n";
+  }
+
+  /// Figures.
+  template <class Figure>
+  std::string operator()(const Figure&) const {
+    return "";
+  }
+
+ private:
+  /// The status in capitals, so that it is visible without colours.
+  std::string status(const Card& card) const {
+    if (card.tone != Tone::accepted && card.tone != Tone::rejected) return "";
+    const bool is_accepted = card.tone == Tone::accepted;
+    const std::string word = is_accepted ? "ACCEPTED" : "REJECTED";
+    if (!colours_) return word + "  ";
+    return (is_accepted ? "\033[32m" : "\033[31m") + word + "\033[0m  ";
+  }
+
+  bool colours_;
+};
+
+}  // namespace
+
+std::string text_section(const Section& section, bool colours) {
+  const TextWriter writer(colours);
+  std::string text;
+  for (const Block& block : section.blocks) text += std::visit(writer, block);
+  for (const Section& inner : section.sections) text += text_section(inner, colours);
+  return text;
+}
+
+}  // namespace croon
