@@ -11,7 +11,7 @@
 namespace croon::experiments {
 namespace {
 
-using Bytes = std::optional<std::string>;
+using FileBytes = std::optional<std::string>;
 
 /// A row per variant, sensor ("all" for all sensors together) and level.
 Table basin_table(const Results& results) {
@@ -129,7 +129,7 @@ Table nees_table(const Results& results) {
 ResultFile csv_file(const char* name, Table (*table_of)(const Results& results)) {
   return {name, [table_of](const Results& results) {
             const Table table = table_of(results);
-            return table.rows.empty() ? std::nullopt : Bytes(csv_table(table));
+            return table.rows.empty() ? std::nullopt : FileBytes(csv_table(table));
           }};
 }
 
@@ -142,7 +142,7 @@ std::vector<ResultFile> all_files() {
       {"summary.json", [](const R& r) { return summary_json(r.summary, r.claims, r.diagnostics); }},
       {"diagnostics.csv",
        [](const R& r) {
-         return r.steps.numbers.empty() ? Bytes() : diagnostics_csv(r.records, r.steps);
+         return r.steps.numbers.empty() ? FileBytes() : diagnostics_csv(r.records, r.steps);
        }},
       {"extrinsics.json", [](const R& r) { return extrinsics_json(r.summary, r.references); }},
       csv_file("summary_by_kind.csv",
@@ -168,7 +168,7 @@ std::vector<ResultFile> all_files() {
   for (const Figure& figure : figures()) {
     files.push_back({std::string(figure.name) + ".svg", [&figure](const R& r) {
                        const std::optional<Drawing> drawing = figure.draw(r, {});
-                       return drawing ? Bytes(svg_bytes(*drawing)) : std::nullopt;
+                       return drawing ? FileBytes(svg_bytes(*drawing)) : std::nullopt;
                      }});
   }
   return files;
