@@ -20,7 +20,7 @@ struct ResultFile {
 const std::vector<ResultFile>& result_files();
 
 /// The bytes of the file `name`; empty if these results have no such file. Throws std::out_of_range
-/// if no results have one.
+/// for a name that is not in the list.
 std::string result_file(const std::string& name, const Results& results);
 
 }  // namespace croon::experiments
