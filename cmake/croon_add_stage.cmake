@@ -12,6 +12,7 @@
 # The same in this tree and after find_package(croon); there, croon_add_program makes the program.
 function(croon_add_stage kind name)
   cmake_parse_arguments(PARSE_ARGV 2 stage "" "SOURCE" "NEEDS")
+  set_property(DIRECTORY APPEND PROPERTY croon_stages "${kind}/${name}")
   foreach(target IN LISTS stage_NEEDS)
     if(NOT TARGET ${target})
       message(STATUS "croon: stage ${kind}/${name} is left out (no ${target})")
@@ -49,6 +50,20 @@ function(croon_add_stage kind name)
   endif()
   set_property(GLOBAL APPEND PROPERTY CROON_STAGES "${kind}/${name}")
   set_property(GLOBAL APPEND PROPERTY CROON_STAGE_NEEDS ${stage_NEEDS})
+endfunction()
+
+# croon_add_stages(): adds every <kind>/<name>.cpp of the folder that croon_add_stage has not been called for. Not for the
+# root of a project, where <kind> may be a build folder.
+function(croon_add_stages)
+  get_property(added DIRECTORY PROPERTY croon_stages)
+  file(GLOB sources RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}" CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*/*.cpp")
+  foreach(source IN LISTS sources)
+    string(REGEX REPLACE "\\.cpp$" "" stage "${source}")
+    if(NOT stage IN_LIST added)
+      string(REPLACE "/" ";" kind_and_name "${stage}")
+      croon_add_stage(${kind_and_name})
+    endif()
+  endforeach()
 endfunction()
 
 # croon_write_stage_list(<file> <kind>/<name>...): writes the definition of registry() with these stages.

@@ -70,9 +70,8 @@ const Table<Claim>& claim_table() {
                                 "Statistic; success, agreement and scenes are shares in %.")),
         params::choice(
             "over", &P::over, kOver,
-            "Trials of a mean, std, median, rmse or p95: the successful ones (without "
-            "ground truth: those that agree), or all usable ones, which finished and were not "
-            "rejected."),
+            "Trials of a statistic of errors: the successful ones (without ground truth: those "
+            "that agree), or all usable ones, which finished and were not rejected."),
         optional(params::number("value", &P::value, {}, "Number in the source, in deg, m or %.")),
         optional(params::interval("band", &P::band, {}, "Minimum and maximum of our number.")),
         optional(params::text("why", &P::why, "Why ours may differ.")),

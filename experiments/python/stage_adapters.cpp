@@ -233,9 +233,19 @@ class PythonVolumeScorer final : public VolumeScorer, Caller {
   }
 };
 
-template <class Stage, class Kind>
-std::shared_ptr<const void> made(const ObjectRef& instance) {
-  const std::shared_ptr<const Kind> stage = std::make_shared<const Stage>(instance);
+/// The stage that calls `instance`, of the one class of `Stages` that is of `kind`; null if none
+/// is.
+template <class... Stages>
+std::shared_ptr<const void> made(const std::string& kind, const ObjectRef& instance) {
+  std::shared_ptr<const void> stage;
+  const auto make_if = [&](auto* of_class) {
+    using Stage = std::remove_pointer_t<decltype(of_class)>;
+    using Kind = typename Stage::Kind;
+    if (kind == Kind::kKind) {
+      stage = std::shared_ptr<const Kind>(std::make_shared<const Stage>(instance));
+    }
+  };
+  (make_if(static_cast<Stages*>(nullptr)), ...);
   return stage;
 }
 
@@ -243,15 +253,9 @@ std::shared_ptr<const void> made(const ObjectRef& instance) {
 
 std::shared_ptr<const void> python_stage(const std::string& kind, bool is_rig_step,
                                          const ObjectRef& instance) {
-  if (is_rig_step) return made<PythonRigStep, Step>(instance);
-  if (kind == Step::kKind) return made<PythonStep, Step>(instance);
-  if (kind == YawSearch::kKind) return made<PythonYawSearch, YawSearch>(instance);
-  if (kind == PoseSearch::kKind) return made<PythonPoseSearch, PoseSearch>(instance);
-  if (kind == Preprocessor::kKind) return made<PythonPreprocessor, Preprocessor>(instance);
-  if (kind == GroundExtractor::kKind) return made<PythonGroundExtractor, GroundExtractor>(instance);
-  if (kind == Icp::kKind) return made<PythonIcp, Icp>(instance);
-  if (kind == VolumeScorer::kKind) return made<PythonVolumeScorer, VolumeScorer>(instance);
-  return nullptr;
+  if (is_rig_step) return made<PythonRigStep>(kind, instance);
+  return made<PythonStep, PythonYawSearch, PythonPoseSearch, PythonPreprocessor,
+              PythonGroundExtractor, PythonIcp, PythonVolumeScorer>(kind, instance);
 }
 
 }  // namespace croon::python

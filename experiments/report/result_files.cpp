@@ -11,14 +11,13 @@
 #include <optional>
 #include <unordered_set>
 
-#include "experiments/report/plots.hpp"
+#include "experiments/report/result_list.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "experiments/store/bounded_json.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/io/ply_file.hpp"
-#include "framework/picture/writers.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -27,88 +26,7 @@ namespace fs = std::filesystem;
 
 using Bytes = std::optional<std::string>;
 
-/// A file of a folder of results.
-struct ResultFile {
-  const char* name;
-  /// Its bytes, std::nullopt if these results have no such file; null if another function writes
-  /// it.
-  Bytes (*bytes)(const Results& results);
-};
-
 constexpr const char* kManifest = "manifest.json";
-
-/// `bytes` of `what`; std::nullopt if `rows` is empty.
-template <class Rows, class What>
-Bytes if_any(const Rows& rows, std::string (*bytes)(const What&), const What& what) {
-  return rows.empty() ? std::nullopt : Bytes(bytes(what));
-}
-
-/// All files that a run writes in addition to its store: they must be writable, and `--fresh`
-/// deletes them. A new file is a row here.
-const std::vector<ResultFile>& result_files() {
-  using R = Results;
-  static const std::vector<ResultFile> files = {
-      {"trials.csv", [](const R& r) -> Bytes { return trials_csv(r.records, r.summary); }},
-      {"summary.csv", [](const R& r) -> Bytes { return summary_csv(r.summary); }},
-      {"summary.json",
-       [](const R& r) -> Bytes { return summary_json(r.summary, r.claims, r.diagnostics); }},
-      {"diagnostics.csv",
-       [](const R& r) -> Bytes {
-         if (r.steps.numbers.empty()) return std::nullopt;
-         return diagnostics_csv(r.records, r.steps);
-       }},
-      {"extrinsics.json",
-       [](const R& r) -> Bytes { return extrinsics_json(r.summary, r.references); }},
-      {"summary_by_kind.csv",
-       [](const R& r) { return if_any(r.summary.scene_kinds, summary_by_kind_csv, r.summary); }},
-      {"comparison.csv",
-       [](const R& r) { return if_any(r.summary.comparisons, comparison_csv, r.summary); }},
-      {"comparison_by_dof.csv",
-       [](const R& r) {
-         return if_any(r.summary.dof_comparisons, comparison_by_dof_csv, r.summary);
-       }},
-      {"loops.csv", [](const R& r) { return if_any(r.summary.loops, loops_csv, r.summary); }},
-      {"success_curve.csv",
-       [](const R& r) { return if_any(r.summary.curve.rows, success_curve_csv, r.summary.curve); }},
-      {"success_curve.svg",
-       [](const R& r) -> Bytes {
-         if (r.summary.curve.rows.empty()) return std::nullopt;
-         return svg_bytes(success_curve_chart(r.summary.curve));
-       }},
-      {"verdicts.csv",
-       [](const R& r) {
-         return has_curve(r.acceptance) ? Bytes(verdicts_csv(r.acceptance)) : std::nullopt;
-       }},
-      {"verdicts.svg",
-       [](const R& r) -> Bytes {
-         if (!has_curve(r.acceptance)) return std::nullopt;
-         return svg_bytes(acceptance_chart(r.acceptance, r.summary.bounds));
-       }},
-      {"covariance.csv",
-       [](const R& r) -> Bytes {
-         const auto has_one = [](const TrialRecord& record) { return !!record.covariance; };
-         if (std::none_of(r.records.begin(), r.records.end(), has_one)) return std::nullopt;
-         return covariance_csv(r.records);
-       }},
-      {"coverage.csv",
-       [](const R& r) { return if_any(r.coverage.rows, coverage_csv, r.coverage); }},
-      {"coverage.svg",
-       [](const R& r) -> Bytes {
-         if (r.coverage.rows.empty()) return std::nullopt;
-         return svg_bytes(coverage_chart(r.coverage));
-       }},
-      {"nees.csv", [](const R& r) { return if_any(r.coverage.errors, nees_csv, r.coverage); }},
-      {"basin.csv", [](const R& r) { return r.basin ? Bytes(basin_csv(*r.basin)) : std::nullopt; }},
-      {"basin.svg",
-       [](const R& r) -> Bytes {
-         return r.basin ? Bytes(svg_bytes(basin_chart(*r.basin))) : std::nullopt;
-       }},
-      {"box_plots.svg", [](const R& r) -> Bytes { return svg_bytes(box_plots(r.summary)); }},
-      {kManifest, nullptr},
-      {kTimings, nullptr},
-      {kPicture, nullptr}};
-  return files;
-}
 
 /// The files of the store, and of the one left by a merge that was killed.
 std::vector<fs::path> store_paths_in(const fs::path& folder) {
@@ -122,6 +40,7 @@ std::vector<fs::path> store_paths_in(const fs::path& folder) {
 std::vector<fs::path> paths_in(const fs::path& folder) {
   std::vector<fs::path> paths = store_paths_in(folder);
   for (const ResultFile& file : result_files()) paths.push_back(folder / file.name);
+  for (const char* name : {kManifest, kTimings, kPicture}) paths.push_back(folder / name);
   return paths;
 }
 
@@ -361,7 +280,6 @@ void OutputFolder::clear() const {
 void OutputFolder::write_reports(const Results& results, const std::string& manifest) const {
   bool is_same = true;
   for (const ResultFile& result : result_files()) {
-    if (result.bytes == nullptr) continue;
     const Bytes bytes = result.bytes(results);
     if (is_same && !is_unchanged(file(result.name), bytes)) {
       // Before the first table changes: a run killed here leaves no pictures of other results.

@@ -34,7 +34,7 @@ class OutputFolder {
   explicit OutputFolder(const std::filesystem::path& path);
 
   std::filesystem::path store() const { return store_path(path_); }
-  std::filesystem::path file(const char* name) const { return path_ / name; }
+  std::filesystem::path file(const std::string& name) const { return path_ / name; }
 
   /// Deletes only the files that an earlier run left here.
   void clear() const;

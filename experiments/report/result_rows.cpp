@@ -62,12 +62,6 @@ std::vector<Column> covariance_rows(const std::vector<TrialRecord>& records, con
   return columns.columns();
 }
 
-std::string covariance_csv(const std::vector<TrialRecord>& records) {
-  Table table;
-  table.columns = covariance_rows(records, [&](const CellRow& row) { table.rows.push_back(row); });
-  return csv_table(table);
-}
-
 std::vector<Column> comparison_rows(const Summary& summary, const RowUse& use) {
   return use_rows(comparison_columns(), summary.comparisons, use);
 }

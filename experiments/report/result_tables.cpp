@@ -133,16 +133,6 @@ Columns<SummaryRow> summary_columns(const Columns<SummaryRow>& consensus = {}) {
       .add(statistics_columns("usable_"), &SummaryRow::usable_statistics);
 }
 
-Columns<SceneKindSummary> scene_kind_columns() {
-  Columns<SceneKindSummary> columns;
-  columns.add({"variant"}, &SceneKindSummary::variant).add({"kind"}, &SceneKindSummary::scene_kind);
-  add_sensor(columns);
-  return columns.add({"reference"}, [](const auto& row) { return name_of(row.deviations_from); })
-      .add({"scenes"}, &SceneKindSummary::scene_count)
-      .add(outcome_columns())
-      .add(counted_columns());
-}
-
 Columns<PairedTest> test_columns(const std::string& name, const std::string& path) {
   Columns<PairedTest> columns;
   return columns.add({name + "_p", "", path + "/p", 3}, &PairedTest::p)
@@ -172,29 +162,6 @@ Columns<ErrorComparison> error_columns(const Measure& measure) {
   add("paired_low", [](const E& error) { return low_of(error.paired_interval); });
   add("paired_high", [](const E& error) { return high_of(error.paired_interval); });
   return columns.add(test_columns(measure.name, path + "wilcoxon"), &E::test);
-}
-
-/// The columns of comparison_by_dof.csv, in the unit of the row's degree of freedom.
-Columns<DofComparison> dof_comparison_columns() {
-  using C = DofComparison;
-  Columns<C> columns;
-  columns.add({"variant"}, &C::variant).add({"base"}, &C::base);
-  add_sensor(columns);
-  const auto add = [&](const char* name, auto value) {
-    columns.add({name}, [value](const C& of) { return std::invoke(value, of.error); });
-  };
-  columns.add({"dof"}, [](const C& of) { return kMeasures[of.dof].name; })
-      .add({"unit"}, [](const C& of) { return kMeasures[of.dof].unit; })
-      .add({"pairs"}, &C::pairs)
-      .add({"scenes"}, &C::scenes);
-  using E = ErrorComparison;
-  add("base_median", &E::base_median);
-  add("variant_median", &E::variant_median);
-  add("paired_difference", &E::paired_difference);
-  add("paired_low", [](const E& error) { return low_of(error.paired_interval); });
-  add("paired_high", [](const E& error) { return high_of(error.paired_interval); });
-  return columns.add(test_columns("wilcoxon", "/wilcoxon"),
-                     [](const C& of) { return of.error.test; });
 }
 
 /// The closure of the loop over the poses that all scenes agree on.
@@ -236,6 +203,16 @@ Columns<DofValues> dof_columns(const std::string& name) {
   return columns;
 }
 
+Columns<SceneKindSummary> scene_kind_columns() {
+  Columns<SceneKindSummary> columns;
+  columns.add({"variant"}, &SceneKindSummary::variant).add({"kind"}, &SceneKindSummary::scene_kind);
+  add_sensor(columns);
+  return columns.add({"reference"}, [](const auto& row) { return name_of(row.deviations_from); })
+      .add({"scenes"}, &SceneKindSummary::scene_count)
+      .add(outcome_columns())
+      .add(counted_columns());
+}
+
 Columns<Comparison> comparison_columns() {
   Columns<Comparison> columns;
   columns.add({"variant"}, &Comparison::variant).add({"base"}, &Comparison::base);
@@ -247,6 +224,28 @@ Columns<Comparison> comparison_columns() {
       .add(error_columns(kMeasures[kRotation]), &Comparison::rotation_deg)
       .add(error_columns(kMeasures[kTranslation]), &Comparison::translation_m)
       .add(test_columns("success", "/mcnemar"), &Comparison::success);
+}
+
+Columns<DofComparison> dof_comparison_columns() {
+  using C = DofComparison;
+  Columns<C> columns;
+  columns.add({"variant"}, &C::variant).add({"base"}, &C::base);
+  add_sensor(columns);
+  const auto add = [&](const char* name, auto value) {
+    columns.add({name}, [value](const C& of) { return std::invoke(value, of.error); });
+  };
+  columns.add({"dof"}, [](const C& of) { return kMeasures[of.dof].name; })
+      .add({"unit"}, [](const C& of) { return kMeasures[of.dof].unit; })
+      .add({"pairs"}, &C::pairs)
+      .add({"scenes"}, &C::scenes);
+  using E = ErrorComparison;
+  add("base_median", &E::base_median);
+  add("variant_median", &E::variant_median);
+  add("paired_difference", &E::paired_difference);
+  add("paired_low", [](const E& error) { return low_of(error.paired_interval); });
+  add("paired_high", [](const E& error) { return high_of(error.paired_interval); });
+  return columns.add(test_columns("wilcoxon", "/wilcoxon"),
+                     [](const C& of) { return of.error.test; });
 }
 
 Columns<LoopClosure> loop_columns() {
@@ -398,20 +397,6 @@ std::string trials_csv(const std::vector<TrialRecord>& records, const Summary& s
 }
 
 std::string summary_csv(const Summary& summary) { return csv_of(summary_columns(), summary.rows); }
-
-std::string summary_by_kind_csv(const Summary& summary) {
-  return csv_of(scene_kind_columns(), summary.scene_kinds);
-}
-
-std::string comparison_csv(const Summary& summary) {
-  return csv_of(comparison_columns(), summary.comparisons);
-}
-
-std::string comparison_by_dof_csv(const Summary& summary) {
-  return csv_of(dof_comparison_columns(), summary.dof_comparisons);
-}
-
-std::string loops_csv(const Summary& summary) { return csv_of(loop_columns(), summary.loops); }
 
 std::string clouds_csv(const std::vector<CloudDescription>& clouds) {
   return csv_of(cloud_columns(), clouds);

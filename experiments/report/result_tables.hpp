@@ -65,9 +65,14 @@ AgreedPose agreed_pose(const SceneSummary& scene);
 /// Ry(pitch) Rx(roll)), the number of agreeing trials, and their root mean square distances.
 Columns<AgreedPose> agreed_pose_columns();
 
-/// The columns of comparison.csv and of "comparisons" in summary.json; of loops.csv; of clouds.csv;
-/// of "claims" and of "reasons" in summary.json.
+/// The columns of summary_by_kind.csv and of "kinds" in summary.json: a row per variant, kind of
+/// scene and sensor, and one over all sensors, with the sensor "all".
+Columns<SceneKindSummary> scene_kind_columns();
+/// The columns of comparison.csv and of "comparisons" in summary.json, with such rows too, and
+/// those of comparison_by_dof.csv. The error of a trial without a usable result is "inf".
 Columns<Comparison> comparison_columns();
+Columns<DofComparison> dof_comparison_columns();
+/// The columns of loops.csv; of clouds.csv; of "claims" and of "reasons" in summary.json.
 Columns<LoopClosure> loop_columns();
 Columns<CloudDescription> cloud_columns();
 Columns<ClaimResult> claim_columns();
@@ -127,7 +132,7 @@ std::vector<Column> summary_rows(const Summary& summary, const RowUse& use);
 std::vector<Column> comparison_rows(const Summary& summary, const RowUse& use);
 std::vector<Column> diagnostic_rows(const std::vector<TrialRecord>& records,
                                     const StepNumbers& steps, const RowUse& use);
-/// The rows of covariance.csv.
+/// The rows of covariance.csv, one per trial with a covariance.
 std::vector<Column> covariance_rows(const std::vector<TrialRecord>& records, const RowUse& use);
 
 // The bytes of files.
@@ -144,46 +149,11 @@ std::string timings_csv(const std::vector<TimingRow>& rows);
 /// summary.csv: one row per variant and sensor.
 std::string summary_csv(const Summary& summary);
 
-/// summary_by_kind.csv: a row per variant, kind of scene and sensor, and one over all sensors, with
-/// the sensor "all".
-std::string summary_by_kind_csv(const Summary& summary);
-
 /// extrinsics.json: for each variant and sensor the pose `T_reference_sensor` that the trials of
 /// all scenes agree on, its spread and the number of agreeing trials, and the same for each scene.
 /// `references` maps each sensor to the sensor that it is calibrated to.
 std::string extrinsics_json(const Summary& summary,
                             const std::map<std::string, std::string>& references);
-
-/// comparison.csv: a row per variant and sensor, and one over all sensors, with the sensor "all".
-/// The error of a trial without a usable result is "inf".
-std::string comparison_csv(const Summary& summary);
-
-/// comparison_by_dof.csv: the same for the absolute error in each degree of freedom.
-std::string comparison_by_dof_csv(const Summary& summary);
-
-/// loops.csv: one row per variant and pair of sensors.
-std::string loops_csv(const Summary& summary);
-
-/// basin.csv: a row per variant, sensor ("all" for all sensors together) and level.
-std::string basin_csv(const Basin& basin);
-
-/// success_curve.csv: a row per variant, sensor ("all" for all sensors together), bounded error
-/// (rotation, translation or both) and threshold; an unused bound is empty.
-std::string success_curve_csv(const SuccessCurve& curve);
-
-/// verdicts.csv: a row per variant, sensor ("all" for all sensors together) and threshold of
-/// rotation and translation, above which a pose is wrong.
-std::string verdicts_csv(const AcceptanceCurve& acceptance);
-
-/// covariance.csv: a row per trial with a covariance.
-std::string covariance_csv(const std::vector<TrialRecord>& records);
-
-/// coverage.csv: a row per variant, sensor ("all" for all sensors together), degree of freedom
-/// ("all" for the ellipsoid of all six) and level.
-std::string coverage_csv(const Coverage& coverage);
-
-/// nees.csv: a row per variant and sensor ("all" for all sensors together).
-std::string nees_csv(const Coverage& coverage);
 
 /// clouds.csv of `croon describe`: a row per cloud.
 std::string clouds_csv(const std::vector<CloudDescription>& clouds);

@@ -1,7 +1,6 @@
 // What holds for the files of the tree.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <regex>
 
 #include "test/support/script.hpp"
@@ -10,31 +9,6 @@
 
 namespace croon::test {
 namespace {
-
-/// The stages that stages/CMakeLists.txt adds, "icp/icpn", in its order.
-std::vector<std::string> added_stages() {
-  static const std::regex pattern(R"(^croon_add_stage\((\w+) (\w+)[ )])");
-  std::vector<std::string> stages;
-  for (const Line& line : lines_of("stages/CMakeLists.txt")) {
-    std::smatch match;
-    if (std::regex_search(line.text, match, pattern)) {
-      stages.push_back(match[1].str() + "/" + match[2].str());
-    }
-  }
-  return stages;
-}
-
-TEST(Stages, EachFileHasItsLine) {
-  const std::vector<std::string> added = added_stages();
-  EXPECT_TRUE(std::is_sorted(added.begin(), added.end())) << "sort stages/CMakeLists.txt";
-  EXPECT_EQ(std::adjacent_find(added.begin(), added.end()), added.end()) << "a line stands twice";
-  std::vector<std::string> written;
-  for (const std::string& file : tree_files("stages/", ".cpp")) {
-    written.push_back(file.substr(7, file.size() - 7 - 4));
-  }
-  std::sort(written.begin(), written.end());
-  EXPECT_EQ(added, written);
-}
 
 TEST(Stages, AreSourceFilesWithoutHeaders) {
   for (const std::string& file : tree_files("stages/", "")) {

@@ -63,7 +63,7 @@ if [[ -n $python ]]; then
 import pathlib, sys
 import croon
 assert pathlib.Path(croon.__file__).parents[1] == pathlib.Path(sys.argv[2])
-for name in ("__init__.pyi", "py.typed"):
+for name in ("_core.pyi", "py.typed"):
     assert pathlib.Path(croon.__file__).with_name(name).exists(), name
 top, left = (croon.read_cloud(f"scenes/000000/{sensor}.pcd") for sensor in ("top", "left"))
 assert croon.Pipeline(sys.argv[1]).run(top, left).pose.shape == (4, 4)

@@ -31,7 +31,7 @@ import croon
 folder = pathlib.Path(croon.__file__).parent
 assert pathlib.Path(sys.argv[1]).resolve() in folder.resolve().parents, folder
 assert croon.__version__.startswith(importlib.metadata.version("croon")), croon.__version__
-assert all((folder / name).exists() for name in ("__init__.pyi", "py.typed"))
+assert all((folder / name).exists() for name in ("_core.pyi", "py.typed"))
 assert "best" in croon.pipelines()
 END
 echo 'pip installs the package from a copy of the tree.'

@@ -422,13 +422,23 @@ class Registering(TestCase):
             def __init__(self):
                 raise OSError("no model")
 
-        self.assertIn("/0: the stage cannot be constructed: OSError: no model",
-                      self.line_of(croon.InputError, croon.Pipeline, [{"step": "test_unmade"}]))
+            def advance(self, estimate, rng):
+                return estimate
+
+        @croon.stage("step", "test_bare", summary="Lacks its method.")
+        class Bare(croon.Step):
+            pass
+
+        for name, expected in (("test_unmade", "OSError: no model"), ("test_bare", "abstract method advance")):
+            message = self.line_of(croon.InputError, croon.Pipeline, [{"step": name}])
+            self.assertIn("/0: the stage cannot be constructed: ", message)
+            self.assertIn(expected, message)
 
     def test_by_many_threads(self):
         def register(k):
             for i in range(5):
-                croon.stage("step", f"test_thread_{k}_{i}", summary="Stays.")(type(f"S{k}{i}", (croon.Step,), {}))
+                croon.stage("step", f"test_thread_{k}_{i}", summary="Stays.")(
+                    type(f"S{k}{i}", (croon.Step,), {"advance": lambda *_: None}))
                 croon.Pipeline([{"step": f"test_thread_{k}_{i}"}])
 
         threads = [threading.Thread(target=register, args=(k,)) for k in range(4)]

@@ -1,13 +1,13 @@
 // The committed reference pages and JSON Schema are what the program writes: else run `make docs`.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
-#include <regex>
-#include <set>
 #include <sstream>
 
 #include "registry/help.hpp"
 #include "registry/registry.hpp"
+#include "test/support/tree.hpp"
 
 namespace croon {
 namespace {
@@ -20,25 +20,14 @@ std::string bytes_of(const std::string& file) {
   return text.str();
 }
 
-/// The stages that stages/CMakeLists.txt adds, "icp/icpn".
-std::set<std::string> stages_of_the_tree() {
-  static const std::regex pattern(R"(croon_add_stage\((\w+) (\w+)[ )])");
-  const std::string text = bytes_of(CROON_SOURCE_DIR "/stages/CMakeLists.txt");
-  std::set<std::string> stages;
-  for (auto it = std::sregex_iterator(text.begin(), text.end(), pattern);
-       it != std::sregex_iterator(); ++it) {
-    stages.insert((*it)[1].str() + "/" + (*it)[2].str());
-  }
-  return stages;
-}
-
 class GeneratedPages : public testing::Test {
  protected:
   void SetUp() override {
-    const std::set<std::string> of_the_tree = stages_of_the_tree();
+    const std::vector<std::string> of_the_tree = test::tree_files("stages/", ".cpp");
     for (const StageEntry& entry : registry().entries()) {
       // Stages from outside the tree have no pages in it.
-      if (of_the_tree.count(entry.kind + "/" + entry.name) > 0) catalogue_.add(entry);
+      const std::string file = "stages/" + entry.kind + "/" + entry.name + ".cpp";
+      if (std::binary_search(of_the_tree.begin(), of_the_tree.end(), file)) catalogue_.add(entry);
     }
     if (catalogue_.entries().size() != of_the_tree.size()) {
       GTEST_SKIP() << "this build leaves out stages of the tree";

@@ -55,7 +55,7 @@ std::vector<Line> lines_of(const std::string& file) {
 
 std::vector<Include> tree_includes() {
   // The examples are folders outside of the tree, so their own headers have no path.
-  const std::string examples[] = {"docs/example_stage/", "docs/example_paper/"};
+  const std::string examples[] = {"docs/example_stage/", "docs/example_paper/", "test/extra_kind/"};
   static const std::regex pattern(R"(^\s*#\s*include\s*(["<])([^">]+)[">])");
   std::vector<Include> includes;
   for (const std::string& file : tree_files()) {

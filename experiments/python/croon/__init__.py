@@ -5,23 +5,22 @@ arrays; ``T_target_source`` maps a point of the source to the target's frame. Le
 name says otherwise.
 """
 
-from ._calibrate import CalibratedSensor, Calibration, GroundPose, SceneEstimate, SceneMotion, calibrate, pipelines
-from ._clouds import read_cloud, write_cloud, xyz
+from . import _calibrate, _clouds, _datasets, _errors, _pipeline, _results, _stages
+from ._calibrate import *
+from ._clouds import *
 from ._core import Cloud, Estimate, RigEstimate, Rng
 from ._core import version as __version__
-from ._datasets import Scene, scenes, simulate
-from ._errors import Fault, InputError, StageError
-from ._pipeline import Pipeline, Result
-from ._results import Results, load, run, starts
-from ._stages import (Extra, GroundExtractor, GroundSplit, Icp, Parameter, PoseSearch, Preprocessor, Registration, RigStep,
-                      Step, Trial, VolumeScorer, YawSearch, boolean, choice, extra, help_on, integer, number, numbers,
-                      stage, text)
+from ._datasets import *
+from ._errors import *
+from ._pipeline import *
+from ._results import *
+from ._stages import *
 
-__all__ = [
-    "CalibratedSensor", "Calibration", "Cloud", "Estimate", "Extra", "Fault", "GroundExtractor", "GroundPose",
-    "GroundSplit", "Icp", "InputError", "Parameter", "Pipeline", "PoseSearch", "Preprocessor", "Registration",
-    "Result", "Results", "RigEstimate", "RigStep", "Rng", "Scene", "SceneEstimate", "SceneMotion", "StageError",
-    "Step", "Trial", "VolumeScorer", "YawSearch", "boolean", "calibrate", "choice", "extra", "help_on", "integer",
-    "load", "number", "numbers", "pipelines", "read_cloud", "run", "scenes", "simulate", "stage", "starts", "text",
-    "write_cloud", "xyz",
-]
+__all__ = ["Cloud", "Estimate", "RigEstimate", "Rng"]
+__all__ += _calibrate.__all__
+__all__ += _clouds.__all__
+__all__ += _datasets.__all__
+__all__ += _errors.__all__
+__all__ += _pipeline.__all__
+__all__ += _results.__all__
+__all__ += _stages.__all__

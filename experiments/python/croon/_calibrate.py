@@ -4,13 +4,21 @@ import collections.abc
 import dataclasses
 import os
 import pathlib
-from typing import Dict, List, NamedTuple, Optional
+from typing import Dict, List, Mapping, NamedTuple, Optional, Sequence, Union
 
 import numpy
 
 from . import _core
 from ._clouds import read_cloud
 from ._json import path_of, refusal, text_and_name, whole, with_article, word
+from ._types import Array, ArrayLike, Json, Path
+
+__all__ = [
+    "CalibratedSensor", "Calibration", "GroundPose", "SceneEstimate", "SceneMotion", "calibrate", "pipelines",
+]
+
+_Cloud = Union[Array, _core.Cloud, Mapping[str, ArrayLike], Path]
+_Clouds = Union[Mapping[str, _Cloud], Mapping[str, Sequence[Optional[_Cloud]]], Sequence[Mapping[str, _Cloud]]]
 
 _DEFAULT_COLUMNS = {3: ("x", "y", "z"), 4: ("x", "y", "z", "intensity")}
 
@@ -21,9 +29,9 @@ class SceneEstimate:
 
     scene: str
     """The scene's name: its position in the list of scenes."""
-    pose: Optional[numpy.ndarray]
+    pose: Optional[Array]
     """The pose `T_reference_sensor`, 4×4; None if a step failed."""
-    covariance: Optional[numpy.ndarray]
+    covariance: Optional[Array]
     """The covariance of the pose, 6×6, as in `CalibratedSensor`; None if it was not estimated."""
     observability: Optional[Dict[str, str]]
     """As in `CalibratedSensor`."""
@@ -39,9 +47,9 @@ class CalibratedSensor:
     """The sensor's name."""
     accepted: bool
     """The verdict. The pose of a rejected sensor must not be used."""
-    pose: Optional[numpy.ndarray]
+    pose: Optional[Array]
     """The pose `T_reference_sensor`, 4×4, float64; for a rejected sensor the best guess, or None."""
-    covariance: Optional[numpy.ndarray]
+    covariance: Optional[Array]
     """The covariance of the pose's error, 6×6: roll, pitch, yaw (rad), x, y, z (m) in the reference's frame; or None."""
     observability: Optional[Dict[str, str]]
     """Whether "roll", "pitch", "yaw", "x", "y" and "z" are "determined", "weak" or "unobservable"; None without a
@@ -50,7 +58,7 @@ class CalibratedSensor:
     """Why the sensor was rejected; empty if accepted."""
     advice: List[str]
     """What could help; empty if accepted."""
-    nominal: Optional[numpy.ndarray]
+    nominal: Optional[Array]
     """The given nominal pose `T_reference_sensor`, 4×4; or None."""
     scenes: List[SceneEstimate]
     """The estimates in each scene, in the order of the scenes."""
@@ -74,9 +82,9 @@ class SceneMotion(NamedTuple):
     """The velocity of the reference in one scene, in its own frame."""
 
     scene: str
-    velocity: numpy.ndarray
+    velocity: Array
     """About x, y, z in rad/s, along x, y, z in m/s; zero if the rig stood still."""
-    covariance: numpy.ndarray
+    covariance: Array
     """The covariance of the velocity, 6×6."""
 
 
@@ -90,52 +98,53 @@ class Calibration:
             for fields in rig.sensors()}
 
     @property
-    def reference(self):
+    def reference(self) -> str:
         """The name of the sensor that the others were calibrated to."""
         return self._rig.reference
 
     @property
-    def sensors(self):
+    def sensors(self) -> Dict[str, CalibratedSensor]:
         """A `CalibratedSensor` for each of the other sensors, by name."""
         return self._sensors
 
     @property
-    def accepted(self):
+    def accepted(self) -> bool:
         """Whether every sensor was accepted."""
         return all(sensor.accepted for sensor in self.sensors.values())
 
     @property
-    def composition(self):
+    def composition(self) -> str:
         """The pipeline that was used: a name of `pipelines`, or the file's."""
         return self._rig.composition
 
     @property
-    def composition_reason(self):
+    def composition_reason(self) -> str:
         """Why this pipeline was chosen; empty if it was requested."""
         return self._rig.composition_reason
 
     @property
-    def warnings(self):
+    def warnings(self) -> List[str]:
         """Suspicious properties of the clouds or the result, one sentence each."""
         return self._rig.warnings()
 
     @property
-    def unused(self):
+    def unused(self) -> List[str]:
         """The scenes and clouds that were not used, each with the reason."""
         return self._rig.unused()
 
     @property
-    def motion(self):
+    def motion(self) -> List[SceneMotion]:
         """A `SceneMotion` for each scene in which a velocity was estimated."""
         return [SceneMotion(*scene) for scene in self._rig.motion()]
 
     @property
-    def ground(self):
+    def ground(self) -> Optional[GroundPose]:
         """The reference's pose above the road, a `GroundPose`; None if no ground was found."""
         ground = self._rig.ground()
         return None if ground is None else GroundPose(*ground)
 
-    def to_format(self, format, *, with_rejected=False, base=None, base_name="base_link"):
+    def to_format(self, format: str, *, with_rejected: bool = False, base: Optional[ArrayLike] = None,
+                  base_name: str = "base_link") -> Dict[str, str]:
         """The extrinsics as files of a format, a dict of texts by file name.
 
         `format` is a format of ``croon calibrate --format``: "ros2", "urdf", "autoware", "kalibr", "csv" and others.
@@ -145,7 +154,8 @@ class Calibration:
         """
         return self._rig.files(word(format, "format"), bool(with_rejected), word(base_name, "base_name"), base)
 
-    def save(self, folder, formats=("csv",), *, with_rejected=False, base=None, base_name="base_link"):
+    def save(self, folder: Path, formats: Union[str, Sequence[str]] = ("csv",), *, with_rejected: bool = False,
+             base: Optional[ArrayLike] = None, base_name: str = "base_link") -> List[pathlib.Path]:
         """Writes the files of `formats` and ``report.txt``, the ``str()`` of this object, to `folder`.
 
         The folder is created if it does not exist. The arguments are those of `to_format`. Returns the paths of the
@@ -169,7 +179,9 @@ class Calibration:
         return f"<croon.Calibration to {self.reference}: {verdicts}>"
 
 
-def calibrate(clouds, *, reference="", nominal=None, pipeline="best", from_scratch=False, columns=None, seed=1, jobs=0):
+def calibrate(clouds: _Clouds, *, reference: str = "", nominal: Optional[Mapping[str, ArrayLike]] = None, pipeline: Json = "best",
+              from_scratch: bool = False, columns: Union[None, Sequence[str], Mapping[str, Sequence[str]]] = None, seed: int = 1,
+              jobs: int = 0) -> Calibration:
     """Calibrates the LiDARs of a vehicle to each other, as the command `croon calibrate` does.
 
     `clouds` is one scene, a dict of clouds by the sensor's name; or several scenes of the same rig, a list of such dicts
@@ -211,7 +223,7 @@ def calibrate(clouds, *, reference="", nominal=None, pipeline="best", from_scrat
     return Calibration(rig)
 
 
-def pipelines():
+def pipelines() -> List[str]:
     """The names of the recommended pipelines, which `calibrate` accepts."""
     return _core.pipelines()
 

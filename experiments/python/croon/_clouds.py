@@ -4,9 +4,12 @@ import numpy
 
 from . import _core
 from ._json import path_of, refusal
+from ._types import Array, ArrayLike, Path
+
+__all__ = ["read_cloud", "write_cloud", "xyz"]
 
 
-def read_cloud(path):
+def read_cloud(path: Path) -> Array:
     """Reads the cloud in a file: .pcd, .ply, or .bin in the format of KITTI.
 
     Returns a structured array with the fields x, y and z (float32, metres, in the sensor's frame) and a field per
@@ -16,7 +19,7 @@ def read_cloud(path):
     return _core.read_cloud(path_of(path, "path"))
 
 
-def write_cloud(path, cloud, encoding="binary"):
+def write_cloud(path: Path, cloud: ArrayLike, encoding: str = "binary") -> None:
     """Writes a cloud, N×3 or structured, as .pcd or .ply.
 
     `encoding` is binary, ascii or, for PCD, binary_compressed. `read_cloud` then returns exactly the same cloud. Raises
@@ -33,7 +36,7 @@ def write_cloud(path, cloud, encoding="binary"):
     _core.write_cloud(path, cloud, suffix, encoding)
 
 
-def xyz(cloud):
+def xyz(cloud: Array) -> Array:
     """Returns the points of a structured array, such as one from `read_cloud`, as an N×3 array of float32; a copy."""
     points = numpy.empty((len(cloud), 3), numpy.float32)
     for axis, name in enumerate("xyz"):

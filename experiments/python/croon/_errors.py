@@ -2,6 +2,8 @@
 
 from typing import List, NamedTuple, Sequence, Tuple
 
+__all__ = ["Fault", "InputError", "StageError"]
+
 
 class Fault(NamedTuple):
     """One error in an argument or a file."""
@@ -17,7 +19,7 @@ class Fault(NamedTuple):
 class InputError(ValueError):
     """Invalid arguments or files. The message has a line for each fault."""
 
-    def __init__(self, message: str, faults: Sequence[Tuple[str, str, str]] = ()):
+    def __init__(self, message: str, faults: Sequence[Tuple[str, str, str]] = ()) -> None:
         super().__init__(message)
         self.faults: List[Fault] = [Fault(*fault) for fault in faults]
 

@@ -2,24 +2,25 @@
 
 import dataclasses
 import json
-from typing import Dict, Optional
-
-import numpy
+from typing import Any, Dict, List, Optional
 
 from . import _core
 from ._json import text_and_name, whole, word
+from ._types import Array, ArrayLike, Json
+
+__all__ = ["Pipeline", "Result"]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Result:
     """The result of a pipeline."""
 
-    pose: numpy.ndarray
+    pose: Array
     """The pose `T_target_source`, 4×4, float64: it maps a point of the source to the target's frame."""
-    information: Optional[numpy.ndarray]
+    information: Optional[Array]
     """The information matrix of the pose, 6×6: roll, pitch, yaw (rad), x, y, z (m) in the target's frame, for residuals
     of unit variance; None if no step computed it."""
-    covariance: Optional[numpy.ndarray]
+    covariance: Optional[Array]
     """The covariance of the error of the pose, 6×6: roll, pitch, yaw (rad), x, y, z (m) in the target's frame; None if no
     step estimated it."""
     observability: Optional[Dict[str, str]]
@@ -41,17 +42,18 @@ class Pipeline:
     threads may share it. Stages in Python must be registered first.
     """
 
-    def __init__(self, pipeline):
+    def __init__(self, pipeline: Json) -> None:
         text, name = text_and_name(pipeline, "pipeline")
         self._pipeline = _core.load_pipeline(name) if text is None else _core.parse_pipeline(text, name)
 
     @property
-    def steps(self):
+    def steps(self) -> List[Dict[str, Any]]:
         """The steps with all their parameters, as a list of dicts from which the same pipeline can be constructed."""
         names = self._pipeline.names()
         return [{"name": name, **json.loads(step)} for name, step in zip(names, self._pipeline.resolved())]
 
-    def run(self, target, source, initial=None, *, seed=1, scene="scene", reference="reference", sensor="sensor", trial=0):
+    def run(self, target: ArrayLike, source: ArrayLike, initial: Optional[ArrayLike] = None, *, seed: int = 1,
+            scene: str = "scene", reference: str = "reference", sensor: str = "sensor", trial: int = 0) -> Result:
         """Calibrates the sensor of the cloud `source` to that of the cloud `target`.
 
         A cloud is an N×3 array of float32 or float64, or a structured array with x, y, z and channels; all points must

@@ -2,11 +2,18 @@
 
 import functools
 import json
+from typing import TYPE_CHECKING, Any, Dict, Sequence, Union
 
 import numpy
 
 from . import _core
 from ._json import path_of, text_and_name, whole, word
+from ._types import Array, Json, Path
+
+if TYPE_CHECKING:
+    import pandas
+
+__all__ = ["Results", "load", "run", "starts"]
 
 
 class Results:
@@ -22,82 +29,82 @@ class Results:
         self.complaints = list(complaints)
 
     @property
-    def name(self):
+    def name(self) -> str:
         """The experiment's name."""
         return self._results.name
 
     @property
-    def description(self):
+    def description(self) -> str:
         """The question that the experiment answers."""
         return self._results.description
 
     @property
-    def seed(self):
+    def seed(self) -> int:
         """The experiment's seed."""
         return self._results.seed
 
     @property
-    def planned(self):
+    def planned(self) -> int:
         """The number of trials of the complete experiment; some may be missing."""
         return self._results.planned
 
     @functools.cached_property
-    def manifest(self):
+    def manifest(self) -> Dict[str, Any]:
         """The description of the run, a dict: the experiment with all defaults, versions, digests of the inputs."""
         return json.loads(self._results.manifest)
 
     @functools.cached_property
-    def extrinsics(self):
+    def extrinsics(self) -> Dict[str, Any]:
         """The content of extrinsics.json, a dict: the poses that trials agree on."""
         return json.loads(self._results.extrinsics())
 
     @functools.cached_property
-    def trials(self):
+    def trials(self) -> Array:
         """The trials, as in trials.csv, with the reasons of failures and rejections."""
         return self._results.trials()
 
     @functools.cached_property
-    def poses(self):
+    def poses(self) -> Array:
         """The pose `T_reference_sensor` of each of `trials`, N×4×4, float64; NaN without a pose."""
         return self._results.poses()
 
     @functools.cached_property
-    def summary(self):
+    def summary(self) -> Array:
         """The statistics of each variant and sensor, as in summary.csv."""
         return self._results.summary()
 
     @functools.cached_property
-    def comparisons(self):
+    def comparisons(self) -> Array:
         """Every variant compared with the first one, as in comparison.csv."""
         return self._results.comparisons()
 
     @functools.cached_property
-    def diagnostics(self):
+    def diagnostics(self) -> Array:
         """The diagnostics reported by steps, as in diagnostics.csv."""
         return self._results.diagnostics()
 
     @functools.cached_property
-    def covariances(self):
+    def covariances(self) -> Array:
         """The covariance of each result that has one, as in covariance.csv."""
         return self._results.covariances()
 
-    def trials_frame(self):
+    def trials_frame(self) -> "pandas.DataFrame":
         """`trials` as a pandas.DataFrame. Raises ImportError without pandas."""
         return _frame(self.trials)
 
-    def summary_frame(self):
+    def summary_frame(self) -> "pandas.DataFrame":
         """`summary` as a pandas.DataFrame."""
         return _frame(self.summary)
 
-    def comparisons_frame(self):
+    def comparisons_frame(self) -> "pandas.DataFrame":
         """`comparisons` as a pandas.DataFrame."""
         return _frame(self.comparisons)
 
-    def diagnostics_frame(self):
+    def diagnostics_frame(self) -> "pandas.DataFrame":
         """`diagnostics` as a pandas.DataFrame."""
         return _frame(self.diagnostics)
 
-    def covariances_frame(self):
+    def covariances_frame(self) -> "pandas.DataFrame":
         """`covariances` as a pandas.DataFrame."""
         return _frame(self.covariances)
 
@@ -130,7 +137,8 @@ def _request(experiment, out="", data="", jobs=0, trials=0, only=(), shard=""):
     }
 
 
-def run(experiment, out="", data="", jobs=0, trials=0, only=(), shard="", fresh=False, same_build=False, progress=False):
+def run(experiment: Json, out: Path = "", data: Path = "", jobs: int = 0, trials: int = 0, only: Union[str, Sequence[str]] = (),
+        shard: str = "", fresh: bool = False, same_build: bool = False, progress: bool = False) -> Results:
     """Runs the trials of an experiment that are missing in its folder, as the command `croon run` does.
 
     `experiment` is a dict, JSON text, or the path of a file; paths in a dict are relative to the working directory. The
@@ -148,13 +156,13 @@ def run(experiment, out="", data="", jobs=0, trials=0, only=(), shard="", fresh=
     return Results(_core.load(folder), folder, complaints)
 
 
-def load(folder):
+def load(folder: Path) -> Results:
     """Reads the results in a folder written by `run`, `croon run` or `croon merge`. Raises InputError."""
     folder = path_of(folder, "folder")
     return Results(_core.load(folder), folder)
 
 
-def starts(experiment, data="", trials=0):
+def starts(experiment: Json, data: Path = "", trials: int = 0) -> Array:
     """Returns the starts of an experiment, a structured array: scene, sensor, trial, and the pose, 4×4.
 
     From such a start, with the seed and the names of its trial, `Pipeline.run` computes the same bits as `run`.

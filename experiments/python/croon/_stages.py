@@ -1,17 +1,26 @@
 """Stages in Python: the kinds to derive from, their parameters, and the decorator that registers them."""
 
+import abc
 import dataclasses
 import math
-from typing import Any, NamedTuple, Optional, Tuple
-
-import numpy
+from typing import Any, Callable, List, NamedTuple, Optional, Sequence, Tuple, Type, TypeVar, Union
 
 from . import _core
 from ._json import refusal, text_of, whole, word
+from ._types import Array, ArrayLike
+
+__all__ = [
+    "Extra", "GroundExtractor", "GroundSplit", "Icp", "Parameter", "PoseSearch", "Preprocessor", "Registration", "RigStep",
+    "Step", "Trial", "VolumeScorer", "YawSearch", "boolean", "choice", "extra", "help_on", "integer", "number", "numbers",
+    "stage", "text",
+]
+
+_Class = TypeVar("_Class", bound=type)
+_Range = Tuple[Optional[float], Optional[float]]
 
 
-class _Stage:
-    """The base class of all kinds."""
+class _Stage(abc.ABC):
+    """The base class of all kinds, which are the classes that derive from it here."""
 
     kind = ""
 
@@ -21,9 +30,9 @@ class Step(_Stage):
 
     kind = "step"
 
-    def advance(self, estimate, rng):
+    @abc.abstractmethod
+    def advance(self, estimate: _core.Estimate, rng: _core.Rng) -> Union[_core.Estimate, ArrayLike]:
         """Returns the estimate with a better pose, or the pose alone, 4×4. Draws only from `rng`."""
-        raise NotImplementedError(f"{type(self).__name__} has no method advance")
 
 
 class RigStep(_Stage):
@@ -31,10 +40,10 @@ class RigStep(_Stage):
 
     kind = "step"
 
-    def adjust(self, rig, rng):
+    @abc.abstractmethod
+    def adjust(self, rig: List[_core.RigEstimate], rng: _core.Rng) -> None:
         """Improves the estimates of a trial in place: a list of `RigEstimate`, by scene, then sensor. Draws only from
         `rng`."""
-        raise NotImplementedError(f"{type(self).__name__} has no method adjust")
 
 
 class YawSearch(_Stage):
@@ -42,9 +51,9 @@ class YawSearch(_Stage):
 
     kind = "yaw_search"
 
-    def minimise(self, cost):
+    @abc.abstractmethod
+    def minimise(self, cost: Callable[[float], float]) -> float:
         """Returns the yaw of minimum cost near zero, rad. `cost(yaw_rad)` may be called until this returns."""
-        raise NotImplementedError(f"{type(self).__name__} has no method minimise")
 
 
 class PoseSearch(_Stage):
@@ -52,10 +61,10 @@ class PoseSearch(_Stage):
 
     kind = "pose_search"
 
-    def minimise(self, cost, start):
+    @abc.abstractmethod
+    def minimise(self, cost: Callable[[ArrayLike], float], start: Array) -> ArrayLike:
         """Returns the pose of minimum cost near `start`, both 4×4. `cost(pose)` may be called until this returns. If the
         cost of the result exceeds that of `start`, `start` is used."""
-        raise NotImplementedError(f"{type(self).__name__} has no method minimise")
 
 
 class Preprocessor(_Stage):
@@ -63,10 +72,10 @@ class Preprocessor(_Stage):
 
     kind = "preprocessor"
 
-    def apply(self, cloud):
+    @abc.abstractmethod
+    def apply(self, cloud: Array) -> Array:
         """Returns the filtered cloud of a structured array: another array, or a mask that is true for each point to
         keep."""
-        raise NotImplementedError(f"{type(self).__name__} has no method apply")
 
 
 class GroundExtractor(_Stage):
@@ -74,10 +83,10 @@ class GroundExtractor(_Stage):
 
     kind = "ground_extractor"
 
-    def extract(self, cloud, rng):
+    @abc.abstractmethod
+    def extract(self, cloud: Array, rng: _core.Rng) -> Tuple[ArrayLike, float, ArrayLike]:
         """Returns (normal, offset_m, is_ground) of the cloud, a structured array: the plane `normal . p + offset_m = 0`,
         and a mask that is true for ground points. The sign of the normal is irrelevant. Draws only from `rng`."""
-        raise NotImplementedError(f"{type(self).__name__} has no method extract")
 
 
 class Icp(_Stage):
@@ -85,9 +94,9 @@ class Icp(_Stage):
 
     kind = "icp"
 
-    def align(self, target, source, start):
+    @abc.abstractmethod
+    def align(self, target: _core.Cloud, source: _core.Cloud, start: Array) -> Union["Registration", ArrayLike]:
         """Returns the pose of the source near `start`, 4×4, or a `Registration`. `target` and `source` are `Cloud`."""
-        raise NotImplementedError(f"{type(self).__name__} has no method align")
 
 
 class VolumeScorer(_Stage):
@@ -95,17 +104,17 @@ class VolumeScorer(_Stage):
 
     kind = "volume_scorer"
 
-    def bind(self, target, source):
+    @abc.abstractmethod
+    def bind(self, target: _core.Cloud, source: _core.Cloud) -> Tuple[Callable[[Array], int], float]:
         """Returns (leaves, leaf_size_m) for two clouds of type `Cloud`: a function from a pose, 4×4, to the number of
         occupied leaves, and the edge length of a leaf."""
-        raise NotImplementedError(f"{type(self).__name__} has no method bind")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Registration:
     """The result of an `Icp`."""
 
-    pose: numpy.ndarray
+    pose: ArrayLike
     """The pose `T_target_source`, 4×4."""
     rmse_m: float = 0.0
     """Root mean square of the residuals."""
@@ -117,19 +126,19 @@ class Registration:
     """The number of iterations."""
     converged: bool = False
     """Whether the iteration converged."""
-    information: Optional[numpy.ndarray] = None
+    information: Optional[ArrayLike] = None
     """The information matrix, 6×6: roll, pitch, yaw (rad), x, y, z (m)."""
 
 
 class GroundSplit(NamedTuple):
     """The ground plane of a cloud, and the points off the ground."""
 
-    normal: numpy.ndarray
+    normal: Array
     """The unit normal, pointing up."""
     offset_m: float
     """The plane is `normal . p + offset_m = 0`."""
-    non_ground: Any
-    """The points off the ground, a `Cloud`."""
+    non_ground: _core.Cloud
+    """The points off the ground."""
 
 
 class Trial(NamedTuple):
@@ -152,7 +161,7 @@ class Parameter(NamedTuple):
     """The name of the function that made it."""
     json: str
     """The default as JSON text."""
-    range: Tuple[Optional[float], Optional[float]]
+    range: _Range
     """Minimum and maximum; None for no bound."""
     choices: Tuple[str, ...]
     """The options of a choice."""
@@ -167,7 +176,7 @@ class Extra(NamedTuple):
     """The name."""
     meaning: str
     """The meaning, in words."""
-    type: type
+    type: Type[Any]
     """float, or object for anything else."""
 
 
@@ -191,37 +200,37 @@ def _parameter(key, kind, default, help, range=(None, None), choices=()):
     return Parameter(word(key, "key"), kind, text_of(default, what), ends, choices, help)
 
 
-def number(key, default, range=(None, None), *, help):
+def number(key: str, default: float, range: _Range = (None, None), *, help: str) -> Parameter:
     """A number; `range` is (min, max), None for no bound."""
     return _parameter(key, "number", default, help, range)
 
 
-def integer(key, default, range=(-2**31 + 1, 2**31 - 1), *, help):
+def integer(key: str, default: int, range: _Range = (-2**31 + 1, 2**31 - 1), *, help: str) -> Parameter:
     """A whole number."""
     return _parameter(key, "integer", default, help, range)
 
 
-def boolean(key, default, *, help):
+def boolean(key: str, default: bool, *, help: str) -> Parameter:
     """True or False."""
     return _parameter(key, "boolean", default, help)
 
 
-def text(key, default, *, help):
+def text(key: str, default: str, *, help: str) -> Parameter:
     """A non-empty string, such as a path or a name."""
     return _parameter(key, "text", default, help)
 
 
-def choice(key, default, choices, *, help):
+def choice(key: str, default: str, choices: Sequence[str], *, help: str) -> Parameter:
     """One of several words."""
     return _parameter(key, "choice", default, help, choices=choices)
 
 
-def numbers(key, default, range=(None, None), *, help):
+def numbers(key: str, default: Sequence[float], range: _Range = (None, None), *, help: str) -> Parameter:
     """A list of at least one number; a tuple in the stage."""
     return _parameter(key, "numbers", default, help, range)
 
 
-def extra(name, meaning, type=object):
+def extra(name: str, meaning: str, type: Type[Any] = object) -> Extra:
     """Declares a value that one step passes to a later one, with `Estimate.put` and `Estimate.get`.
 
     An extra of type float can be shared with C++ stages; others are for Python stages only.
@@ -229,11 +238,11 @@ def extra(name, meaning, type=object):
     return Extra(word(name, "name"), word(meaning, "meaning"), float if type is float else object)
 
 
-_KINDS = {kind.kind: kind for kind in
-          (Step, YawSearch, PoseSearch, Preprocessor, GroundExtractor, Icp, VolumeScorer)}
+_KINDS = {kind.kind: kind for kind in _Stage.__subclasses__() if kind is not RigStep}
 
 
-def stage(kind, name, *, summary, source="", parameters=(), version=1, channels=(), takes=(), gives=()):
+def stage(kind: str, name: str, *, summary: str, source: str = "", parameters: Sequence[Parameter] = (), version: int = 1,
+          channels: Sequence[str] = (), takes: Sequence[Extra] = (), gives: Sequence[Extra] = ()) -> Callable[[_Class], _Class]:
     """Registers a class as a stage: ``@croon.stage("step", "my_step", summary="Does this.")``.
 
     The class derives from the class of its kind and implements the method of the kind. For each stage of a pipeline one
@@ -275,7 +284,7 @@ def stage(kind, name, *, summary, source="", parameters=(), version=1, channels=
     return register
 
 
-def help_on(which="", format="text"):
+def help_on(which: str = "", format: str = "text") -> str:
     """The output of `croon stages`: all stages, those of a kind ("icp"), or one with its parameters ("icp/icpn").
 
     `format` is text, json or markdown. Includes Python stages.

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "experiments/report/plots.hpp"
-#include "experiments/report/result_tables.hpp"
+#include "experiments/report/result_list.hpp"
 #include "experiments/report/run_text.hpp"
 #include "framework/picture/writers.hpp"
 #include "test/support/trial_records.hpp"
@@ -167,8 +167,9 @@ TEST(Basin, LeavesOutSensorsWithoutTruth) {
 }
 
 TEST(Basin, IsTheseBytes) {
-  const auto basin = basin_of(records_of({"left"}), kSweep, {});
-  const std::string csv = basin_csv(*basin);
+  Results results;
+  results.basin = basin_of(records_of({"left"}), kSweep, {});
+  const std::string csv = result_file("basin.csv", results);
   EXPECT_EQ(csv.substr(0, csv.find("base,left,1")),
             "variant,sensor,level,size,unit,trials,success,success_ratio,low,high\n"
             "base,left,0,0,deg,40,40,1,0.9123783988027134,1\n");

@@ -8,6 +8,7 @@
 
 #include "experiments/report/result_tables.hpp"
 #include "experiments/report/run_text.hpp"
+#include "framework/table/renderers.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
@@ -119,14 +120,15 @@ TEST(Comparison, ByDegreeOfFreedomFindsTheOneThatDiffers) {
     EXPECT_TRUE(of.error.test.favours_variant);
     EXPECT_LT(of.error.variant_median, of.error.base_median);
   }
-  const std::string csv = comparison_by_dof_csv(summary);
+  const std::string csv = csv_of(dof_comparison_columns(), summary.dof_comparisons);
   EXPECT_NE(csv.find("\nother,base,left,y,m,20,20,"), std::string::npos) << csv;
   // Of a size: the sign of an error makes no difference.
   std::vector<TrialRecord> flipped = records;
   for (TrialRecord& record : flipped) {
     if (record.error) record.error->dof = -record.error->dof;
   }
-  EXPECT_EQ(comparison_by_dof_csv(summarise(flipped, kBounds, order)), csv);
+  EXPECT_EQ(csv_of(dof_comparison_columns(), summarise(flipped, kBounds, order).dof_comparisons),
+            csv);
 }
 
 TEST(Comparison, WithoutCommonTrialsThereIsNone) {
@@ -139,7 +141,7 @@ TEST(Comparison, TheOrderOfRecordsMakesNoDifference) {
   Rng rng = test_rng();
   auto records = random_records(rng, {});
   const auto csv = [](const std::vector<TrialRecord>& from) {
-    return comparison_csv(summarise(from, kBounds, {}));
+    return csv_of(comparison_columns(), summarise(from, kBounds, {}).comparisons);
   };
   EXPECT_EQ(csv(records), csv(test::shuffled(rng, records)));
 }
@@ -264,7 +266,8 @@ TEST(Comparison, AVariantMoreMakesTheOthersNoMoreSignificant) {
 }
 
 TEST(Comparison, IsInCsvWithEveryColumn) {
-  const std::string csv = comparison_csv(summarise(test::few_records(), kBounds, {}));
+  const std::string csv =
+      csv_of(comparison_columns(), summarise(test::few_records(), kBounds, {}).comparisons);
   EXPECT_EQ(csv.rfind("variant,base,sensor,pairs,scenes,only_base,only_variant,"
                       "rotation_base_median_deg,rotation_variant_median_deg,",
                       0),

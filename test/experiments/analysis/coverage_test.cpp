@@ -7,10 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/report/plots.hpp"
-#include "experiments/report/result_tables.hpp"
+#include "experiments/report/result_list.hpp"
 #include "experiments/report/run_text.hpp"
-#include "framework/picture/writers.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
@@ -114,13 +112,15 @@ TEST(Coverage, CountsErrorsThatACovarianceDeniesAsMissesOnly) {
 
 TEST(Coverage, HasTablesAndAFigure) {
   const std::vector<TrialRecord> records = drawn_records(10, 1.0);
-  const Coverage coverage = coverage_on(records);
-  EXPECT_THAT(coverage_csv(coverage), HasSubstr("base,all,all,0.95,20,"));
-  EXPECT_THAT(nees_csv(coverage), HasSubstr("base,all,20,"));
-  EXPECT_THAT(coverage_text(coverage), HasSubstr("yaw"));
-  const std::string picture = svg_bytes(coverage_chart(coverage));
+  Results results;
+  results.records = records;
+  results.coverage = coverage_on(records);
+  EXPECT_THAT(result_file("coverage.csv", results), HasSubstr("base,all,all,0.95,20,"));
+  EXPECT_THAT(result_file("nees.csv", results), HasSubstr("base,all,20,"));
+  EXPECT_THAT(coverage_text(results.coverage), HasSubstr("yaw"));
+  const std::string picture = result_file("coverage.svg", results);
   for (const std::string& name : kDofNames) EXPECT_THAT(picture, HasSubstr(">" + name + "<"));
-  const std::string rows = covariance_csv(records);
+  const std::string rows = result_file("covariance.csv", results);
   EXPECT_EQ(rows.substr(0, rows.find('\n')),
             "variant,scene,sensor,trial,c00,c01,c02,c03,c04,c05,c11,c12,c13,c14,c15,c22,c23,c24,"
             "c25,c33,c34,c35,c44,c45,c55,roll,pitch,yaw,x,y,z");

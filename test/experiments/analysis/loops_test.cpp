@@ -4,6 +4,7 @@
 
 #include "experiments/report/result_tables.hpp"
 #include "experiments/report/run_text.hpp"
+#include "framework/table/renderers.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/trial_records.hpp"
 
@@ -118,7 +119,7 @@ TEST(LoopClosure, IsInEveryReport) {
   EXPECT_NE(table.find("left>front     6/6  100.0  [61.0, 100.0]  0.250, 0.250  0.0500, 0.0500"),
             std::string::npos)
       << table;
-  const std::string csv = loops_csv(summary);
+  const std::string csv = csv_of(loop_columns(), summary.loops);
   EXPECT_EQ(csv.substr(0, csv.find("_mean")),
             "variant,pair,source,target,loops,closed,closed_ratio,closed_low_ratio,"
             "closed_high_ratio,counted,roll");

@@ -7,6 +7,7 @@
 
 #include "experiments/report/result_tables.hpp"
 #include "experiments/report/run_text.hpp"
+#include "framework/table/renderers.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
@@ -114,7 +115,7 @@ TEST(KindSummary, IsInJson) {
 }
 
 TEST(KindSummary, IsInCsvWithEveryColumn) {
-  const std::string csv = summary_by_kind_csv(two_kinds());
+  const std::string csv = csv_of(scene_kind_columns(), two_kinds().scene_kinds);
   EXPECT_EQ(
       csv.rfind("variant,kind,sensor,reference,scenes,trials,success,inaccurate,finished,"
                 "rejected,failed,success_ratio,success_low_ratio,success_high_ratio,agreement,"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "experiments/report/plots.hpp"
-#include "experiments/report/result_tables.hpp"
+#include "experiments/report/result_list.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/picture/writers.hpp"
 #include "test/support/occurrences.hpp"
@@ -146,8 +146,9 @@ TEST(SuccessCurve, HasNoBandForTooFewScenesAndOneForManyLines) {
 }
 
 TEST(SuccessCurve, IsAFileWithARowPerThreshold) {
-  const Summary summary = summarise(random_records(), kBounds, {});
-  const std::string csv = success_curve_csv(summary.curve);
+  Results results;
+  results.summary = summarise(random_records(), kBounds, {});
+  const std::string csv = result_file("success_curve.csv", results);
   EXPECT_EQ(csv.rfind("variant,sensor,of,rotation_deg,translation_m,trials,within,within_ratio,"
                       "within_low_ratio,within_high_ratio\nbase,left,rotation,0.005,,80,0,0,0,",
                       0),
@@ -156,7 +157,7 @@ TEST(SuccessCurve, IsAFileWithARowPerThreshold) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 9 * 25);
   EXPECT_NE(csv.find("\nbase,all,both,0.5,0.1,160,"), std::string::npos);
   EXPECT_NE(csv.find("\nbase,all,translation,,0.1,160,"), std::string::npos);
-  const std::string svg = svg_bytes(success_curve_chart(summary.curve));
+  const std::string svg = result_file("success_curve.svg", results);
   EXPECT_EQ(svg.substr(0, 4), "<svg");
   for (const char* name :
        {">left</text>", ">right</text>", ">all sensors</text>", ">bound</text>"}) {

@@ -7,7 +7,7 @@
 
 #include "experiments/report/figures.hpp"
 #include "experiments/report/plots.hpp"
-#include "experiments/report/result_tables.hpp"
+#include "experiments/report/result_list.hpp"
 #include "experiments/report/run_text.hpp"
 #include "framework/picture/writers.hpp"
 #include "test/support/trial_records.hpp"
@@ -103,6 +103,9 @@ TEST(Verdicts, WithABoundOfZeroAreATableAndNoCurve) {
   EXPECT_FALSE(acceptance.rows.empty());
   EXPECT_FALSE(has_curve(acceptance));
   EXPECT_TRUE(has_curve(verdicts_on(records)));
+  Results results;
+  results.acceptance = acceptance;
+  EXPECT_EQ(result_file("verdicts.csv", results), "");
 }
 
 TEST(Verdicts, DoNotCountFailuresOfASensorWithoutTruth) {
@@ -124,15 +127,16 @@ TEST(Verdicts, AreThereOnlyWhereTheProgramGaveOne) {
 }
 
 TEST(Verdicts, AreATableAndAFile) {
-  const AcceptanceCurve acceptance = verdicts_on(some_records());
-  const std::string csv = verdicts_csv(acceptance);
+  Results results;
+  results.acceptance = verdicts_on(some_records());
+  const std::string csv = result_file("verdicts.csv", results);
   EXPECT_EQ(csv.rfind("variant,sensor,rotation_deg,translation_m,trials,accepted_right,"
                       "accepted_wrong,rejected_right,rejected_wrong,failed\n",
                       0),
             0U);
   EXPECT_THAT(csv, HasSubstr("\nbase,left,0.5,0.1,8,3,1,2,1,1\n"));
   EXPECT_THAT(csv, HasSubstr("\nbase,all,0.5,0.1,9,4,1,2,1,1\n"));
-  EXPECT_THAT(verdicts_text(acceptance), HasSubstr("accepted, wrong"));
+  EXPECT_THAT(verdicts_text(results.acceptance), HasSubstr("accepted, wrong"));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/step.hpp"
-#include "test/extra_kind/verifier.hpp"
+#include "verifier.hpp"
 
 namespace croon::stages::step {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/stage/stage_entry.hpp"
-#include "test/extra_kind/verifier.hpp"
+#include "verifier.hpp"
 
 namespace croon::stages::verifier {
 namespace {
