@@ -13,7 +13,6 @@
 #include "experiments/store/store_header.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
-#include "framework/base/whole_file.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -170,19 +169,22 @@ int merge_command(const MergeOptions& options, std::ostream& out) {
   const OutputFolder folder(options.out);
   std::vector<fs::path> all = folders;
   if (!is_among(all, options.out)) all.push_back(options.out);
-  std::string hosts, timings;
+  std::string hosts;
   try {
     // Before the store is written: a refused merge must change nothing.
     hosts = hosts_json(all);
-    timings = merged_timings(all);
+    for (const fs::path& part : all) const TimingsStore checked(timings_path(part), Access::read);
     merge_stores(parts, header, options.out);
   } catch (...) {
     remove_files(made);
     throw;
   }
   const Results results = read_results(options.out, Content::trials_and_steps);
-  folder.write_reports(results, merged_manifest(results.manifest, hosts));
-  write_whole_file(folder.file(kTimings), timings);
+  TimingsStore timings(folder.timings(), Access::write);
+  for (const fs::path& part : folders) {
+    if (!is_same_folder(part, options.out)) timings.merge(timings_path(part));
+  }
+  folder.write_reports(results, timings, merged_manifest(results.manifest, hosts));
   const std::string missing = missing_text(results);
   out << result_text(results, options.colours) << missing << "Results are in "
       << printable(options.out.string()) << "\n";

@@ -1,13 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
-#include <set>
 #include <string>
-#include <vector>
 
 #include "experiments/analysis/results.hpp"
 #include "experiments/store/store.hpp"
+#include "experiments/store/timings_store.hpp"
 #include "framework/base/folder_lock.hpp"
 
 namespace croon::experiments {
@@ -15,7 +13,6 @@ namespace croon::experiments {
 // The files of a folder of results.
 
 /// File names used by several commands, and the name of the folder of clouds.
-inline constexpr const char* kTimings = "timings.csv";
 inline constexpr const char* kPicture = "before_after.png";
 inline constexpr const char* kClouds = "clouds";
 
@@ -34,6 +31,7 @@ class OutputFolder {
   explicit OutputFolder(const std::filesystem::path& path);
 
   std::filesystem::path store() const { return store_path(path_); }
+  std::filesystem::path timings() const { return timings_path(path_); }
   std::filesystem::path file(const std::string& name) const { return path_ / name; }
 
   /// Deletes only the files that an earlier run left here.
@@ -42,38 +40,12 @@ class OutputFolder {
   /// Writes the tables and pictures of `results`, and removes those of an earlier run that these
   /// results lack. If a table changes, the fused clouds and the picture from above are deleted,
   /// because they show other results. `manifest` are the bytes of manifest.json.
-  void write_reports(const Results& results, const std::string& manifest) const;
+  void write_reports(const Results& results, const TimingsStore& timings,
+                     const std::string& manifest) const;
 
  private:
   std::filesystem::path path_;
   FolderLock lock_;
 };
-
-/// timings.csv, extended while trials finish. When the file is opened again, an incomplete last
-/// line is removed.
-class TimingsFile {
- public:
-  /// Throws InputError if the file cannot be written.
-  explicit TimingsFile(const std::filesystem::path& path);
-
-  void add(const std::vector<TimingRow>& rows);
-  /// Writes the added rows to the file; they then survive a kill of the process.
-  void flush();
-
- private:
-  std::filesystem::path path_;
-  std::ofstream stream_;
-  std::vector<TimingRow> rows_;  ///< Rows not yet written.
-};
-
-/// The last trials of a timings.csv, as named by `timed_trial`; empty if it cannot be read.
-std::set<std::string> last_timed_trials(const std::filesystem::path& path);
-
-/// The part of a row of timings.csv that identifies the trial.
-std::string timed_trial(const TrialId& id);
-
-/// The bytes of timings.csv of merged results: the rows of all `folders` that have the file,
-/// without duplicates and malformed lines. Throws InputError if one of them is not a file.
-std::string merged_timings(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace croon::experiments

@@ -71,14 +71,6 @@ std::vector<Column> diagnostic_rows(const std::vector<TrialRecord>& records,
   return use_rows(step_number_columns(records, steps), steps.numbers, use);
 }
 
-std::string timings_csv(const std::vector<TimingRow>& rows) {
-  Columns<TimingRow> columns;
-  columns.add(id_columns(), &TimingRow::id)
-      .add({"step"}, &TimingRow::step)
-      .add({"seconds"}, &TimingRow::seconds);
-  return csv_of(columns, rows);
-}
-
 std::string diagnostics_csv(const std::vector<TrialRecord>& records, const StepNumbers& steps) {
   return csv_of(step_number_columns(records, steps), steps.numbers);
 }

@@ -143,9 +143,6 @@ std::vector<Column> covariance_rows(const std::vector<TrialRecord>& records, con
 /// records.
 std::string trials_csv(const std::vector<TrialRecord>& records, const Summary& summary);
 
-/// timings.csv: a header and a row per timing, in the given order.
-std::string timings_csv(const std::vector<TimingRow>& rows);
-
 /// summary.csv: one row per variant and sensor.
 std::string summary_csv(const Summary& summary);
 

@@ -65,17 +65,15 @@ std::set<std::string> damage_in_groups(const CheckedRun& run) {
 /// Runs the missing trials and stores them. Returns a line for each unavailable cloud, and adds to
 /// `damage` the damaged clouds of groups.
 std::vector<std::string> fill_store(const CheckedRun& run, const OutputFolder& folder,
-                                    const Work& work, const FolderRun& how, Progress& progress,
-                                    std::set<std::string>& damage) {
+                                    TimingsStore& timings, const Work& work, const FolderRun& how,
+                                    Progress& progress, std::set<std::string>& damage) {
   progress.skip(work.done);
   Store store(folder.store(), work.header);
-  TimingsFile timings(folder.file(kTimings));
   StoreWriter writer(store, [&](const std::vector<Done>& batch) {
+    timings.add(batch);
     for (const Done& done : batch) {
-      timings.add(done.timings);
       if (done.record) progress.advance();
     }
-    timings.flush();
   });
   std::vector<std::string> complaints;
   RunListener listener;
@@ -104,18 +102,14 @@ std::vector<std::string> fill_store(const CheckedRun& run, const OutputFolder& f
 }
 
 /// Whether a trial of the plan already has a wall time. Wall times are written after the trial is
-/// stored, so the store has lost it. Only checks the last trials, which stay longest in a store's
-/// log.
-bool has_lost_trials(const CheckedRun& run, const Plan& plan,
-                     const std::filesystem::path& timings) {
-  const std::set<std::string> timed = last_timed_trials(timings);
-  if (timed.empty()) return false;
+/// stored, so the store has lost it.
+bool has_lost_trials(const CheckedRun& run, const Plan& plan, TimingsStore& timings) {
   return std::any_of(plan.starts.begin(), plan.starts.end(), [&](const PlannedStart& start) {
     const SceneGroup& group = run.groups[start.scene];
     const std::vector<std::size_t>& variants = plan.variants[start.variants];
     return std::any_of(variants.begin(), variants.end(), [&](std::size_t variant) {
-      return timed.count(timed_trial({run.experiment.variants[variant].name, group.name,
-                                      group.pairs[start.sensor].name, start.trial})) > 0;
+      return timings.has({run.experiment.variants[variant].name, group.name,
+                          group.pairs[start.sensor].name, start.trial});
     });
   });
 }
@@ -156,15 +150,17 @@ FolderResults run_in_folder(const CheckedRun& run, StoreHeader header, const Out
   const Work work = work_of(run, std::move(header), how);
   FolderResults end;
   std::set<std::string> damage;
-  if (has_lost_trials(run, work.plan, folder.file(kTimings))) {
+  const bool is_changed = work.plan.trials > 0 || !is_same(work.stored, work.header);
+  TimingsStore timings(folder.timings(), is_changed ? Access::write : Access::read);
+  if (has_lost_trials(run, work.plan, timings)) {
     progress_out << "croon: " << printable(folder.store().string())
                  << ": stored trials are missing: the store is lost, or its log "
                  << printable(folder.store().filename().string())
                  << "-wal, which an interrupted run leaves beside it; the trials run again\n";
   }
-  if (work.plan.trials > 0 || !is_same(work.stored, work.header)) {
+  if (is_changed) {
     Progress progress(progress_out, how.progress, work.plan.trials + work.done);
-    end.complaints = fill_store(run, folder, work, how, progress, damage);
+    end.complaints = fill_store(run, folder, timings, work, how, progress, damage);
   }
   // The trials of this run have already reported their damaged clouds, including simulated ones.
   on_threads(run.jobs, [&] { damage.merge(damage_in_groups(run)); });
@@ -173,7 +169,7 @@ FolderResults run_in_folder(const CheckedRun& run, StoreHeader header, const Out
   }
   rewrite_in_order(folder.store());
   end.results = read_results(run.out, Content::trials_and_steps);
-  folder.write_reports(end.results,
+  folder.write_reports(end.results, timings,
                        manifest_with_host(end.results.manifest, run.data_root, run.jobs));
   return end;
 }

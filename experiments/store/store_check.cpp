@@ -32,14 +32,6 @@ std::vector<SchemaEntry> schema_of(const Database& database) {
   return schema;
 }
 
-/// Throws InputError with the first fault that SQLite finds.
-void check_by(const Database& database, const std::string& pragma) {
-  Statement check = database.prepare("PRAGMA " + pragma);
-  std::string found = check.next() ? check.text(0) : "nothing could be checked";
-  std::replace(found.begin(), found.end(), '\n', ' ');
-  if (found != "ok") refuse(database, found);
-}
-
 void check_conditions(const Database& database) {
   for (const TableConditions& of : store_conditions()) {
     std::string index = "CASE";
@@ -62,12 +54,6 @@ void check_references(const Database& database) {
       "SELECT 1 FROM covariances JOIN trials USING(variant, scene, sensor, trial) "
       "WHERE r00 IS NULL LIMIT 1");
   if (orphan.next()) refuse(database, "a covariance has no pose");
-}
-
-/// Whether `text` is safe in a terminal and a table: UTF-8 without control characters, and not
-/// beginning with a sign that spreadsheets interpret as the start of a formula.
-bool is_harmless(const std::string& text) {
-  return printable(text) == text && std::string(kFormulaSigns).find(text[0]) == std::string::npos;
 }
 
 /// Checks the texts of `table` that reports show: the names and `detail`, which may be empty.
@@ -124,11 +110,22 @@ void check_sensors(const Database& database) {
 
 }  // namespace
 
-void check_schema(const Database& database) {
+bool is_harmless(const std::string& text) {
+  return printable(text) == text && std::string(kFormulaSigns).find(text[0]) == std::string::npos;
+}
+
+void check_by(const Database& database, const std::string& pragma) {
+  Statement check = database.prepare("PRAGMA " + pragma);
+  std::string found = check.next() ? check.text(0) : "nothing could be checked";
+  std::replace(found.begin(), found.end(), '\n', ' ');
+  if (found != "ok") refuse(database, found);
+}
+
+void check_schema(const Database& database, const std::string& schema) {
   Statement encoding = database.prepare("PRAGMA encoding");
   if (!encoding.next() || encoding.text(0) != "UTF-8") refuse(database, "its text is not UTF-8");
   Database whole("", Access::memory);
-  whole.run(store_schema());
+  whole.run(schema);
   const std::vector<SchemaEntry> expected = schema_of(whole), found = schema_of(database);
   const auto difference =
       std::mismatch(expected.begin(), expected.end(), found.begin(), found.end());

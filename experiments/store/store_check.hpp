@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 
 #include "experiments/store/database.hpp"
 #include "framework/geometry/dof.hpp"
@@ -9,9 +10,16 @@ namespace croon::experiments {
 
 // A store is untrusted input like any other file: it may be damaged or malicious.
 
-/// Throws InputError unless the database has exactly the tables and views of a store. Runs in
-/// constant time.
-void check_schema(const Database& database);
+/// Whether `text` is safe in a terminal and a table: UTF-8 without control characters, and not
+/// beginning with a sign that spreadsheets interpret as the start of a formula.
+bool is_harmless(const std::string& text);
+
+/// Throws InputError with the first fault that SQLite's check `pragma` finds.
+void check_by(const Database& database, const std::string& pragma);
+
+/// Throws InputError unless the database has exactly the tables and views that the SQL `schema`
+/// creates. Runs in constant time.
+void check_schema(const Database& database, const std::string& schema);
 
 /// Throws InputError unless the store is intact: its pages, and the type and range of every value,
 /// but not the rotations of its poses nor its covariances. Runs in time proportional to the size of

@@ -14,9 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The numbers in the header of an SQLite file that identify its program ("croo") and tell whether
-/// it has a write-ahead log (https://www.sqlite.org/fileformat.html, 1.3).
-constexpr std::uint32_t kApplicationId = 0x63726F6F;
+/// Where the header of an SQLite file identifies its program and tells whether it has a write-ahead
+/// log (https://www.sqlite.org/fileformat.html, 1.3).
 constexpr std::size_t kApplicationIdOffset = 68;
 constexpr std::size_t kWriteVersionOffset = 18;
 constexpr char kVersionWithLog = 2;
@@ -211,7 +210,7 @@ bool has_store(const fs::path& path) {
 Database open_to_read(const fs::path& path) {
   if (!has_store(path)) refuse_other_file(path, found_instead_of_store(path));
   Database database(path, Access::read);
-  check_schema(database);
+  check_schema(database, store_schema());
   return database;
 }
 

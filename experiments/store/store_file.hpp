@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <vector>
@@ -15,6 +16,9 @@ namespace croon::experiments {
 // name, without a journal on disk, and renamed; it is written only with a write-ahead log, which
 // readers understand; and its journal mode never changes. Earlier versions changed it, so the
 // journals that they left are rolled back.
+
+/// Identifies SQLite files of croon ("croo").
+inline constexpr std::uint32_t kApplicationId = 0x63726F6F;
 
 /// The file of the store of a folder of results.
 std::filesystem::path store_path(const std::filesystem::path& folder);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "experiments/store/bounded_json.hpp"
+#include "experiments/store/store_check.hpp"
 #include "experiments/store/store_schema.hpp"
 #include "framework/base/text.hpp"
 
@@ -184,8 +185,7 @@ Statement select_diagnostics(const Database& database) {
 
 std::pair<std::string, std::vector<Diagnostic>> diagnostics_of(const Statement& select) {
   const auto shown = [](const std::string& name) {
-    if (name.empty() || printable(name) != name ||
-        std::string(kFormulaSigns).find(name.front()) != std::string::npos) {
+    if (name.empty() || !is_harmless(name)) {
       throw std::runtime_error("the name of a step or diagnostic is not printable");
     }
     return name;

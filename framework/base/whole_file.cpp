@@ -140,6 +140,12 @@ bool file_has(const fs::path& path, std::string_view bytes) {
 }
 
 void write_whole_file(const fs::path& path, std::string_view bytes) {
+  write_in_parts(path, [&](const auto& append) { append(bytes); });
+}
+
+void write_in_parts(
+    const fs::path& path,
+    const std::function<void(const std::function<void(std::string_view)>&)>& write) {
   std::error_code ignored;
   // Renaming onto a device or a pipe would replace it with a file.
   if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
@@ -147,7 +153,16 @@ void write_whole_file(const fs::path& path, std::string_view bytes) {
                      "expected a file that can be written, found " + found_instead_of_file(path));
   }
   const PartFile part = create_part_file(path);
-  int error = write_all(part.descriptor, bytes);
+  int error = 0;
+  try {
+    write([&](std::string_view bytes) {
+      if (error == 0) error = write_all(part.descriptor, bytes);
+    });
+  } catch (...) {
+    ::unlink(part.path.c_str());
+    ::close(part.descriptor);
+    throw;
+  }
   if (error == 0 && ::fsync(part.descriptor) != 0) error = errno;
   // Renamed or removed while locked, so that no other process writes to it meanwhile.
   if (error == 0 && ::rename(part.path.c_str(), path.c_str()) != 0) error = errno;

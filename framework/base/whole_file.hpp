@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,6 +38,11 @@ bool file_has(const std::filesystem::path& path, std::string_view bytes);
 /// InputError if it cannot be written. If the process is killed, the temporary file
 /// `PATH.croon-part0` remains; the next call for `path` reuses it.
 void write_whole_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// The same for bytes in parts: `write` passes them to its argument one after the other. If it
+/// throws, the file keeps its content.
+void write_in_parts(const std::filesystem::path& path,
+                    const std::function<void(const std::function<void(std::string_view)>&)>& write);
 
 /// Creates the folder `relative` below the existing folder `root`, with all folders between. Throws
 /// InputError if a folder cannot be created or is a symbolic link, through which files would land

@@ -86,6 +86,7 @@ TEST_F(OutputFile, ReplacesNeitherInputsNorResultsNorData) {
       {"data/000000/top.pcd", "a cloud"},
       {"results/store.sqlite", "a file of the results of a run"},
       {"results/manifest.json", "a file of the results of a run"},
+      {"results/timings.sqlite", "a file of the results of a run"},
       {"results/trials.csv", "a file of the results of a run"}};
   for (const auto& [file, what] : files) {
     const std::string there = path(file);

@@ -108,7 +108,7 @@ TEST_F(MergeCommand, OfOneBuildNamesTheOtherBuildAndFirstTheOtherExperiment) {
 TEST_F(MergeCommand, ReadsAllBeforeItWrites) {
   run("1", "1/2", two_variants());
   run("2", "2/2", two_variants());
-  for (const char* file : {"manifest.json", "timings.csv"}) {
+  for (const char* file : {"manifest.json", "timings.sqlite"}) {
     fs::rename(path("1") / file, path("kept"));
     fs::create_directory(path("1") / file);
     EXPECT_NE(fault({"1", "2"}, "merged").find(file), std::string::npos);
@@ -140,18 +140,20 @@ TEST_F(MergeCommand, RefusesADamagedManifest) {
   EXPECT_EQ(merge({"1", "2"}, "merged"), 0);
 }
 
-TEST_F(MergeCommand, TakesWallTimesAlone) {
+TEST_F(MergeCommand, TakesEachWallTimeOnceAndNoneThatIsMalicious) {
   run("1", "", two_variants());
   const std::string good = read_whole_file(path("1/timings.csv"));
-  const std::string row = "base,scene,left,0,\"a, b\",0.5\n";
-  folder_.write("1/timings.csv", good + "=1+1,s,l,0,x,1\nbase,s,l,0,x\nbase,s,l,zero,x,1\n" +
-                                     "base,s,l,0,x,soon\nbase,s\x1b,l,0,x,1\n\n" + row);
+  Database(path("1/timings.sqlite"), Access::write)
+      .run(
+          "INSERT INTO timings VALUES('base', 'z', 'l', 0, 0, '=1+1', 1.0), "
+          "('base' || char(27), 'z', 'l', 0, 0, 'x', 1.0), ('far', 'z', 'l', 0, 0, 'a, b', 0.5)");
   merge({"1"}, "merged");
-  EXPECT_EQ(read_whole_file(path("merged/timings.csv")), good + row);
-  // What no name is long enough for is left out, as is a line whose end was not written.
-  folder_.write("1/timings.csv", good + std::string(200'000, 'x') + "\n" + row + row.substr(0, 9));
-  merge({"1"}, "again");
-  EXPECT_EQ(read_whole_file(path("again/timings.csv")), good + row);
+  EXPECT_EQ(read_whole_file(path("merged/timings.csv")), good + "far,z,l,0,\"a, b\",0.5\n");
+  // A merge into one of the folders, and one that is repeated.
+  for (const char* out : {"merged", "1"}) {
+    merge({"1", "merged"}, out);
+    EXPECT_EQ(read_whole_file(path(out) / "timings.csv"), good + "far,z,l,0,\"a, b\",0.5\n");
+  }
 }
 
 TEST_F(MergeCommand, LeavesNothingOfAKilledOne) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "experiments/store/database.hpp"
 #include "framework/base/whole_file.hpp"
 #include "test/experiments/support/fake_stages.hpp"
 #include "test/experiments/support/run_bench.hpp"
@@ -20,8 +21,9 @@ using test::Bench;
 
 TEST(ResultFolder, KeepsTheFilesOfOthers) {
   const Bench bench;
-  for (const char* name : {"trials.csv", "timings.csv", "manifest.json", "clouds/mine.ply",
-                           "store.sqlite.new", "store.sqlite-wal", "store.sqlite.merged"}) {
+  for (const char* name :
+       {"trials.csv", "timings.csv", "manifest.json", "clouds/mine.ply", "store.sqlite.new",
+        "store.sqlite-wal", "store.sqlite.merged", "timings.sqlite", "timings.sqlite-journal"}) {
     const fs::path file = bench.folder().write("out/" + std::string(name), "mine");
     const fs::path named = bench.folder().path() / "out" / *fs::path(name).begin();
     for (const bool is_fresh : {false, true}) {
@@ -51,8 +53,8 @@ TEST(ResultFolder, WritesThroughNoLink) {
   const Bench bench;
   EXPECT_EQ(bench.run(bench.options("out")), 0);
   const fs::path file = bench.folder().write("file", "mine");
-  for (const char* name : {"store.sqlite", "store.sqlite-wal", "trials.csv", "timings.csv",
-                           "manifest.json", "clouds"}) {
+  for (const char* name : {"store.sqlite", "store.sqlite-wal", "timings.sqlite", "trials.csv",
+                           "timings.csv", "manifest.json", "clouds"}) {
     const fs::path link = bench.folder().path() / "out" / name;
     fs::remove_all(link);
     fs::create_symlink(file, link);
@@ -67,7 +69,8 @@ TEST(ResultFolder, ChangesNothingThroughAHardLink) {
   const Bench bench;
   EXPECT_EQ(bench.run(bench.options("out")), 0);
   const fs::path file = bench.folder().write("file", "mine");
-  for (const char* name : {"store.sqlite", "store.sqlite-wal", "store.sqlite.new", "timings.csv"}) {
+  for (const char* name : {"store.sqlite", "store.sqlite-wal", "store.sqlite.new", "timings.sqlite",
+                           "timings.sqlite-journal"}) {
     const fs::path link = bench.folder().path() / "out" / name;
     fs::remove(link);
     fs::create_hard_link(file, link);
@@ -97,7 +100,7 @@ TEST(ResultFolder, ReplacesNoOtherManifest) {
 
 TEST(ResultFolder, RefusesWhatIsNoFileBeforeItRuns) {
   const Bench bench;
-  for (const char* name : {"manifest.json", "trials.csv", "timings.csv"}) {
+  for (const char* name : {"manifest.json", "trials.csv", "timings.sqlite"}) {
     const fs::path pipe = bench.folder().path() / "out" / name;
     fs::create_directories(pipe.parent_path());
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -230,20 +233,41 @@ TEST(ResultFolder, SaysThatThereAreNoClouds) {
   EXPECT_FALSE(fs::exists(bench.folder().path() / "out/clouds"));
 }
 
-TEST(ResultFolder, RepairsAHugeListOfWallTimesByItsEnd) {
+TEST(ResultFolder, KeepsItsResultsIfWallTimesAreDamaged) {
   const Bench bench;
+  const fs::path out = bench.folder().path() / "out";
   RunOptions options = bench.options("out");
-  options.only = {"base"};
-  bench.run(options);
-  const fs::path timings = bench.folder().path() / "out/timings.csv";
-  const std::string good = read_whole_file(timings);
-  // A line that is cut off after many blocks, of a file that takes no disk.
-  fs::resize_file(timings, good.size() + 300'000'000);
-  bench.run(bench.options("out"));
-  const std::string continued = read_whole_file(timings);
-  EXPECT_EQ(continued.compare(0, good.size(), good), 0);
-  EXPECT_GT(continued.size(), good.size());
-  EXPECT_EQ(continued.find('\0'), std::string::npos);
+  for (const bool is_finished : {true, false}) {
+    options.only = is_finished ? std::vector<std::string>() : std::vector<std::string>{"base"};
+    options.fresh = true;  // Also deletes the damaged file.
+    EXPECT_EQ(bench.run(options), 0);
+    EXPECT_TRUE(
+        Database(out / "timings.sqlite", Access::read).prepare("SELECT 1 FROM timings").next());
+    options = bench.options("out");
+    const fs::path damaged = bench.folder().write("out/timings.sqlite", "this is no database");
+    const auto before = bench.bytes("out");
+    EXPECT_EQ(bench.fault(options),
+              damaged.string() +
+                  ": expected the store of a run, found a file that is not a database; "
+                  "only wall times are read from this file: move it away to continue without those "
+                  "of earlier trials");
+    EXPECT_TRUE(bench.bytes("out") == before);
+  }
+  fs::remove(out / "timings.sqlite");
+  EXPECT_EQ(bench.run(options), 0);
+  bench.run(bench.options("whole"));
+  EXPECT_TRUE(bench.bytes("out") == bench.bytes("whole"));
+}
+
+TEST(ResultFolder, KeepsWallTimesThatNoDatabaseHas) {
+  const Bench bench;
+  EXPECT_EQ(bench.run(bench.options("out")), 0);
+  const fs::path out = bench.folder().path() / "out";
+  const std::string times = read_whole_file(out / "timings.csv");
+  fs::remove(out / "timings.sqlite");
+  EXPECT_EQ(bench.run(bench.options("out")), 0);
+  EXPECT_EQ(read_whole_file(out / "timings.csv"), times);
+  EXPECT_FALSE(fs::exists(out / "timings.sqlite"));
 }
 
 TEST(ResultFolder, NeedsAFolderThatItMayWriteTo) {

@@ -113,13 +113,5 @@ TEST(Agreement, WithTruthIsNotSuccess) {
   EXPECT_EQ(test::occurrences(trials_csv(records, summary), ",1\n"), 3U);
 }
 
-TEST(TimingsCsv, IsARowPerTiming) {
-  EXPECT_EQ(timings_csv({{{"base", "0001", "left", 3}, "yaw_alignment", 0.25},
-                         {{"", "0001", "left", -1}, "load", 1e-7}}),
-            "variant,scene,sensor,trial,step,seconds\n"
-            "base,0001,left,3,yaw_alignment,0.25\n"
-            ",0001,left,-1,load,1e-07\n");
-}
-
 }  // namespace
 }  // namespace croon::experiments

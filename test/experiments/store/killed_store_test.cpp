@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "experiments/store/store.hpp"
+#include "experiments/store/timings_store.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"
 #include "test/support/temp_folder.hpp"
@@ -91,13 +92,23 @@ void work(const fs::path& path, const fs::path& progress) {
   }
 }
 
+/// The same for wall times: creates their file, and adds those of a trial at a time.
+void time_trials(const fs::path& path, const fs::path& progress) {
+  TimingsStore timings(path, Access::write);
+  for (int trial = 0; trial < 3; ++trial) {
+    const TrialId id = {"base", "scene", "left", trial};
+    timings.add({{std::nullopt, {{id, "step", 0.5}, {id, std::string(5000, 'x'), 0.5}}}});
+    fs::resize_file(progress, static_cast<std::uintmax_t>(trial) + 1);
+  }
+}
+
 /// Works in a process of its own until the blow falls. Returns whether it fell.
-bool work_until_blow(const fs::path& path, const fs::path& progress, int changes) {
+bool work_until_blow(const std::function<void()>& work, int changes) {
   const pid_t child = ::fork();
   if (child == 0) {
     changes_before_blow = changes;
     try {
-      work(path, progress);
+      work();
       ::_exit(changes_before_blow < 0 ? 9 : 0);
     } catch (const InputError&) {
       ::_exit(9);
@@ -112,19 +123,23 @@ bool work_until_blow(const fs::path& path, const fs::path& progress, int changes
   return WEXITSTATUS(status) == 9;
 }
 
-class KilledStore : public testing::TestWithParam<Blow> {};
+class KilledStore : public testing::TestWithParam<Blow> {
+ protected:
+  void SetUp() override {
+    // In memory: on a disk, hundreds of sessions would wait a minute for it.
+    if (fs::is_directory("/dev/shm")) ::setenv("TMPDIR", "/dev/shm", 1);
+    replace_system_calls();
+    blow = GetParam();
+  }
+};
 
 TEST_P(KilledStore, KeepsItsTrialsAndGoesOn) {
-  // In memory: on a disk, hundreds of sessions would wait a minute for it.
-  if (fs::is_directory("/dev/shm")) ::setenv("TMPDIR", "/dev/shm", 1);
-  replace_system_calls();
-  blow = GetParam();
   bool fell = true;
   int changes = 0;
   for (; fell; ++changes) {
     const test::TempFolder folder;
     const fs::path path = folder.path() / "s", progress = folder.write("progress", "");
-    fell = work_until_blow(path, progress, changes);
+    fell = work_until_blow([&] { work(path, progress); }, changes);
     const std::size_t done = fs::file_size(progress);
     SCOPED_TRACE(changes);
     EXPECT_FALSE(fs::exists(path.string() + "-journal"));
@@ -140,6 +155,29 @@ TEST_P(KilledStore, KeepsItsTrialsAndGoesOn) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2);
   }
   EXPECT_GT(changes, 20);
+}
+
+TEST_P(KilledStore, KeepsItsWallTimesAndGoesOn) {
+  bool fell = true;
+  int changes = 0;
+  for (; fell; ++changes) {
+    const test::TempFolder folder;
+    const fs::path path = folder.path() / "t", progress = folder.write("progress", "");
+    fell = work_until_blow([&] { time_trials(path, progress); }, changes);
+    const auto done = static_cast<int>(fs::file_size(progress));
+    SCOPED_TRACE(changes);
+    TimingsStore timings(path, Access::write);
+    int found = 0, rows = 0;
+    while (timings.has({"base", "scene", "left", found})) ++found;
+    timings.for_each([&](const TimingRow&) { ++rows; });
+    EXPECT_EQ(rows, 2 * found);
+    EXPECT_GE(found, done);
+    EXPECT_LE(found, done + 1);
+    time_trials(path, progress);
+    EXPECT_TRUE(timings.has({"base", "scene", "left", 2}));
+    EXPECT_FALSE(fs::exists(path.string() + "-journal"));
+  }
+  EXPECT_GT(changes, 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(AtEachChange, KilledStore, testing::Values(Blow::kill, Blow::error));

@@ -58,7 +58,7 @@ std::string Bench::fault(const RunOptions& options) const {
 std::map<std::string, std::string> Bench::bytes(const std::string& out) const {
   std::map<std::string, std::string> files;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_.path() / out)) {
-    if (!entry.is_regular_file() || entry.path().filename() == "timings.csv") continue;
+    if (!entry.is_regular_file() || entry.path().stem() == "timings") continue;
     std::string text = read_whole_file(entry.path());
     if (entry.path().filename() == "manifest.json") {
       json manifest = json::parse(text);

@@ -30,7 +30,7 @@ class Bench {
   const TempFolder& folder() const { return folder_; }
   const std::filesystem::path& experiment() const { return experiment_; }
 
-  /// The bytes of every file but timings.csv, and of the manifest without its host.
+  /// The bytes of every file but wall times, and of the manifest without its host.
   std::map<std::string, std::string> bytes(const std::string& out) const;
 
  private:

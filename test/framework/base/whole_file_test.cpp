@@ -31,6 +31,23 @@ TEST(WholeFile, ReadsWhatItWroteAndLeavesNothingElse) {
   }
 }
 
+TEST(WholeFile, InPartsIsCompleteOrUnchanged) {
+  const test::TempFolder folder;
+  const std::filesystem::path path = folder.path() / "a";
+  write_in_parts(path, [](const auto& append) {
+    append("first, ");
+    append("last");
+  });
+  EXPECT_EQ(read_whole_file(path), "first, last");
+  const auto fail = [](const auto& append) {
+    append("other");
+    throw InputError("b", "", "is damaged");
+  };
+  EXPECT_THROW(write_in_parts(path, fail), InputError);
+  EXPECT_EQ(read_whole_file(path), "first, last");
+  EXPECT_EQ(files_in(folder.path()), 1u);
+}
+
 TEST(WholeFile, GoesOnBesideAPartThatACrashLeft) {
   const test::TempFolder folder;
   folder.write("a.part0", "left over");
