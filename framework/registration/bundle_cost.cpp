@@ -1,6 +1,7 @@
 #include "framework/registration/bundle_cost.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "framework/base/threads.hpp"
 
@@ -23,38 +24,28 @@ void for_each_patch(const std::vector<PlanePatch>& patches, const Use& use) {
   });
 }
 
-/// A six-dimensional unknown of a patch: its derivatives and its position among all unknowns.
-struct PatchUnknown {
-  const PlaneCost::Part* part;
-  Eigen::Index at;
-};
-
-/// Adds `b c / (b + c)` for the cost c of a patch and the bound b, with its derivatives.
-void add(const PlanePatch& patch, const PlaneCost& cost, double bound, BundleCost& sum) {
+/// Adds the derivatives of `b c / (b + c)` for the cost c of a patch and the bound b.
+void add(const PlanePatch& patch, const PlaneCost& cost, double bound,
+         const std::vector<Block>& poses, const Block& velocity, BlockSystem& sum) {
   const double share = bound / (bound + cost.value);
   const double slope = share * share;
   const double curvature = -2.0 * slope * share / bound;
-  sum.value += share * cost.value;
-  std::vector<PatchUnknown> unknowns;
+  std::vector<std::pair<Block, const PlaneCost::Part*>> unknowns = {{velocity, &cost.velocity}};
   for (std::size_t k = 0; k < cost.views.size(); ++k) {
-    unknowns.push_back({&cost.views[k], static_cast<Eigen::Index>(6 * patch.views[k].sensor)});
+    const Block& pose = poses[patch.views[k].sensor];
+    unknowns.emplace_back(pose, &cost.views[k]);
+    if (!velocity) continue;
+    const Matrix6d mixed = slope * cost.view_velocity[k];
+    sum.add(pose, velocity, mixed);
+    sum.add(velocity, pose, mixed.transpose());
   }
-  if (!cost.view_velocity.empty()) {
-    const Eigen::Index at = sum.gradient.size() - 6;
-    for (std::size_t k = 0; k < cost.views.size(); ++k) {
-      const Matrix6d mixed = slope * cost.view_velocity[k];
-      sum.hessian.block<6, 6>(unknowns[k].at, at) += mixed;
-      sum.hessian.block<6, 6>(at, unknowns[k].at) += mixed.transpose();
-    }
-    unknowns.push_back({&cost.velocity, at});
-  }
-  for (const PatchUnknown& a : unknowns) {
-    sum.gradient.segment<6>(a.at) += slope * a.part->gradient;
-    sum.hessian.block<6, 6>(a.at, a.at) += slope * a.part->direct;
-    for (const PatchUnknown& b : unknowns) {
-      sum.hessian.block<6, 6>(a.at, b.at) +=
-          curvature * a.part->gradient * b.part->gradient.transpose() -
-          slope * a.part->to_plane * b.part->to_plane.transpose();
+  for (const auto& [a, of_a] : unknowns) {
+    sum.add(a, slope * of_a->gradient);
+    sum.add(a, a, slope * of_a->direct);
+    for (const auto& [b, of_b] : unknowns) {
+      sum.add(a, b,
+              curvature * of_a->gradient * of_b->gradient.transpose() -
+                  slope * of_a->to_plane * of_b->to_plane.transpose());
     }
   }
 }
@@ -74,21 +65,19 @@ double bundle_value(const std::vector<PlanePatch>& patches, const RigState& stat
   return sum;
 }
 
-BundleCost bundle_cost(const std::vector<PlanePatch>& patches, const RigState& state,
-                       double kernel_width) {
-  const auto size = static_cast<Eigen::Index>(6 * (state.poses.size() + (state.velocity ? 1 : 0)));
-  BundleCost zero;
-  zero.gradient = Eigen::VectorXd::Zero(size);
-  zero.hessian = Eigen::MatrixXd::Zero(size, size);
-  std::vector<BundleCost> parts(parts_of(patches.size()), zero);
+BlockSystem bundle_cost(const std::vector<PlanePatch>& patches, const RigState& state,
+                        double kernel_width, const std::vector<Block>& poses) {
+  Eigen::Index size = 0;
+  for (const Block& pose : poses) size += pose.size;
+  const Block velocity = appended_block(state.velocity ? 6 : 0, size);
+  BlockSystem sum = BlockSystem::zero(size);
+  std::vector<BlockSystem> parts(parts_of(patches.size()), sum);
   std::vector<PlaneCost> costs(parts.size());
   for_each_patch(patches, [&](std::size_t part, const PlanePatch& patch) {
     plane_cost(patch, state, costs[part]);
-    add(patch, costs[part], kernel_width * kernel_width, parts[part]);
+    add(patch, costs[part], kernel_width * kernel_width, poses, velocity, parts[part]);
   });
-  BundleCost sum = zero;
-  for (const BundleCost& part : parts) {
-    sum.value += part.value;
+  for (const BlockSystem& part : parts) {
     sum.gradient += part.gradient;
     sum.hessian += part.hessian;
   }

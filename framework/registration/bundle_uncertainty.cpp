@@ -32,13 +32,12 @@ std::vector<std::vector<PlanePatch>> clusters_of(const std::vector<PlanePatch>& 
 }
 
 /// The gradient and Hessian of `cost` along the motion in which the velocity follows the poses.
-BundleCost along(const BundleCost& cost, const ReducedCost& scene) {
+BlockSystem following(const BlockSystem& cost, const ReducedCost& scene) {
   if (scene.by_pose.size() == 0) return cost;
   const Eigen::Index size = cost.gradient.size() - 6;
   Eigen::MatrixXd follow(size + 6, size);
   follow << Eigen::MatrixXd::Identity(size, size), scene.by_pose;
-  return {cost.value, follow.transpose() * cost.gradient,
-          follow.transpose() * cost.hessian * follow};
+  return cost.along(follow);
 }
 
 /// The steps of each cluster of planes of a scene.
@@ -48,7 +47,7 @@ std::vector<ClusterStep> steps_by_cluster(const BundleSystem& system, std::size_
       clusters_of(system.planes()[scene], system.rig_state(system.state(), scene));
   std::vector<ClusterStep> steps(clusters.size());
   for_each_in_parallel(clusters.size(), [&](std::size_t c) {
-    const BundleCost own = along(system.scene_cost(scene, clusters[c], false), scene_cost);
+    const BlockSystem own = following(system.scene_cost(scene, clusters[c], false), scene_cost);
     steps[c] = cluster_step(own.gradient, own.hessian, K);
   });
   return steps;
@@ -57,7 +56,7 @@ std::vector<ClusterStep> steps_by_cluster(const BundleSystem& system, std::size_
 /// The step of all poses for a constant error of a scene's velocity of `error_mps` along itself, at
 /// most its magnitude; zero if the scene's velocity is not an unknown. `hessian` is that of the
 /// poses, with all velocities following; `cost` and `reduced_cost` are those of the scene.
-Eigen::VectorXd step_for_velocity_error(const Twist& velocity, const BundleCost& cost,
+Eigen::VectorXd step_for_velocity_error(const Twist& velocity, const BlockSystem& cost,
                                         const ReducedCost& reduced_cost,
                                         const Eigen::MatrixXd& hessian, double error_mps) {
   const Eigen::Index size = hessian.rows();
@@ -87,7 +86,7 @@ DofObservability observability_from(const Matrix6d& covariance, const Vector6d& 
 
 /// The costs of all scenes, and their sum with the velocities following the poses.
 struct AllScenes {
-  std::vector<BundleCost> costs;     ///< By scene.
+  std::vector<BlockSystem> costs;    ///< By scene.
   std::vector<ReducedCost> reduced;  ///< The same without the velocity.
   Eigen::MatrixXd hessian;
   /// The covariance of the gradient that is due to the priors of initial poses and velocities.
@@ -172,18 +171,15 @@ BundleUncertainty bundle_uncertainty(const BundleSystem& system, const BundleOpt
   BundleUncertainty result;
   result.covariances.resize(system.state().poses.size());
   result.clock_offset_stds_s.assign(system.state().poses.size(), 0.0);
-  const std::vector<std::size_t>& sensors = system.free_sensors();
-  if (sensors.empty()) return result;
+  if (system.free_sensors().empty()) return result;
   const Eigen::MatrixXd covariance = joint_covariance(system, options);
-  for (std::size_t a = 0; a < sensors.size(); ++a) {
-    const auto at = static_cast<Eigen::Index>(6 * a);
-    PoseCovariance& own = result.covariances[sensors[a]];
+  for (const std::size_t k : system.free_sensors()) {
+    const Eigen::Index at = system.pose_block(k).at;
+    PoseCovariance& own = result.covariances[k];
     own.matrix = bounded_covariance(covariance.block<6, 6>(at, at));
     own.dofs = observability_from(own.matrix, system.start_std());
-    const auto offset_at = static_cast<Eigen::Index>(6 * sensors.size() + a);
-    if (offset_at < covariance.rows()) {
-      result.clock_offset_stds_s[sensors[a]] = std::sqrt(covariance(offset_at, offset_at));
-    }
+    const Block& clock = system.clock_block(k);
+    if (clock) result.clock_offset_stds_s[k] = std::sqrt(covariance(clock.at, clock.at));
   }
   return result;
 }
