@@ -50,8 +50,8 @@ struct BlockSystem {
   /// first unknown of each in `term_gradient` and `term_hessian`.
   template <std::size_t N, class Vector, class Matrix>
   void add(const std::array<Block, N>& blocks, const std::array<int, N>& from,
-           const Eigen::MatrixBase<Vector>& term_gradient,
-           const Eigen::MatrixBase<Matrix>& term_hessian) {
+           const Eigen::PlainObjectBase<Vector>& term_gradient,
+           const Eigen::PlainObjectBase<Matrix>& term_hessian) {
     for (std::size_t i = 0; i < N; ++i) {
       const Block& a = blocks[i];
       add(a, term_gradient.segment(from[i], a.size));
@@ -59,11 +59,6 @@ struct BlockSystem {
         add(a, blocks[j], term_hessian.block(from[i], from[j], a.size, blocks[j].size));
       }
     }
-  }
-
-  /// The derivatives with respect to other unknowns, on which these depend with the Jacobian `J`.
-  BlockSystem along(const Eigen::MatrixXd& J) const {
-    return {J.transpose() * gradient, J.transpose() * hessian * J};
   }
 };
 

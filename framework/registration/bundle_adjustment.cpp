@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "framework/registration/bundle_observability.hpp"
 #include "framework/registration/bundle_system.hpp"
 #include "framework/registration/bundle_uncertainty.hpp"
 #include "framework/registration/clock_offset.hpp"

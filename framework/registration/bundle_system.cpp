@@ -161,7 +161,7 @@ BlockSystem BundleSystem::with_offsets(const BlockSystem& cost, std::size_t scen
   if (has_velocity) follow.bottomRightCorner<6, 6>().setIdentity();
   // The second derivatives of exp(xi d) T are neglected, as in Gauss-Newton: with offsets the
   // Hessian is approximate.
-  return cost.along(follow);
+  return {follow.transpose() * cost.gradient, follow.transpose() * cost.hessian * follow};
 }
 
 double BundleSystem::value_in(const BundleState& state) const {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "framework/registration/bundle_adjustment.hpp"
-#include "framework/registration/bundle_cost.hpp"
+#include "framework/registration/plane_cost.hpp"
 
 namespace croon {
 

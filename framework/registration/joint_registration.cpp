@@ -12,9 +12,10 @@
 namespace croon {
 namespace {
 
-class Problem {
+class JointProblem {
  public:
-  Problem(const std::vector<JointScene>& scenes, const JointOptions& options, std::size_t sensors)
+  JointProblem(const std::vector<JointScene>& scenes, const JointOptions& options,
+               std::size_t sensors)
       : scenes_(scenes), options_(options) {
     for (std::size_t k = 0; k < sensors; ++k) poses_.push_back(appended_block(6, unknowns_));
     for (const JointScene& scene : scenes) {
@@ -197,7 +198,7 @@ JointRegistration register_jointly(const std::vector<JointScene>& scenes, JointS
   JointRegistration outcome;
   const std::size_t sensors = start.T_target_sensor.size();
   outcome.state = std::move(start);
-  const Problem problem(scenes, options, sensors);
+  const JointProblem problem(scenes, options, sensors);
   std::vector<DeskewedTarget> targets = problem.targets_at(outcome.state);
   for (const double distance : options.max_distances_m) problem.run(outcome, targets, distance);
   return outcome;

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/registration/bundle_cost.hpp"
 #include "test/support/random_geometry.hpp"
 
 namespace croon {
