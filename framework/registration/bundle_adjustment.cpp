@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "framework/registration/bundle_observability.hpp"
 #include "framework/registration/bundle_system.hpp"
 #include "framework/registration/bundle_uncertainty.hpp"
 #include "framework/registration/clock_offset.hpp"
@@ -36,7 +35,7 @@ bool are_same(const std::vector<RigidTransform>& a, const std::vector<RigidTrans
 }
 
 /// Levenberg-Marquardt damping: increases the diagonal by this fraction.
-BundleCost damped(BundleCost cost, double damping) {
+BlockSystem damped(BlockSystem cost, double damping) {
   cost.hessian.diagonal() += damping * cost.hessian.diagonal().cwiseAbs();
   return cost;
 }
@@ -49,10 +48,10 @@ struct NewtonStep {
 
 /// The step with this damping; std::nullopt if the Hessian is not positive definite.
 std::optional<NewtonStep> newton_step(const BundleSystem& system,
-                                      const std::vector<BundleCost>& scenes,
-                                      const BundleCost& start, double damping) {
+                                      const std::vector<BlockSystem>& scenes,
+                                      const BlockSystem& start, double damping) {
   NewtonStep result = {system.state()};
-  BundleCost poses = damped(start, damping);
+  BlockSystem poses = damped(start, damping);
   std::vector<ReducedCost> costs;
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     costs.push_back(reduced(damped(scenes[s], damping), result.state.velocities[s].has_value()));
@@ -62,16 +61,12 @@ std::optional<NewtonStep> newton_step(const BundleSystem& system,
   const Eigen::LLT<Eigen::MatrixXd> factors(poses.hessian);
   if (factors.info() != Eigen::Success) return std::nullopt;
   const Eigen::VectorXd step = -factors.solve(poses.gradient);
-  const std::vector<std::size_t>& sensors = system.free_sensors();
-  result.is_small = is_step_small(step, sensors.size());
-  const bool has_offsets = step.size() > static_cast<Eigen::Index>(6 * sensors.size());
-  for (std::size_t a = 0; a < sensors.size(); ++a) {
-    RigidTransform& T = result.state.poses[sensors[a]];
-    T = stepped(T, step.segment<6>(static_cast<Eigen::Index>(6 * a)));
-    if (has_offsets) {
-      result.state.clock_offsets_s[sensors[a]] +=
-          step(static_cast<Eigen::Index>(6 * sensors.size() + a));
-    }
+  result.is_small = is_step_small(step, system.free_sensors().size());
+  for (const std::size_t k : system.free_sensors()) {
+    RigidTransform& T = result.state.poses[k];
+    T = stepped(T, step.segment<6>(system.pose_block(k).at));
+    const Block& clock = system.clock_block(k);
+    if (clock) result.state.clock_offsets_s[k] += step(clock.at);
   }
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     std::optional<Twist>& velocity = result.state.velocities[s];
@@ -83,8 +78,8 @@ std::optional<NewtonStep> newton_step(const BundleSystem& system,
 /// Makes one step that lowers the cost `value`. Returns whether it moved a sensor.
 bool improve(BundleSystem& system, double& value, double& damping) {
   constexpr double kMaxDamping = 1e6;
-  const BundleCost start = system.start_cost();
-  std::vector<BundleCost> scenes;
+  const BlockSystem start = system.start_cost();
+  std::vector<BlockSystem> scenes;
   for (std::size_t s = 0; s < system.planes().size(); ++s) {
     scenes.push_back(system.scene_cost(s, system.planes()[s], true));
   }

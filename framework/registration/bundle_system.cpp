@@ -18,25 +18,9 @@ Vector6d moved_by(const RigidTransform& T, const RigidTransform& start) {
   return offset;
 }
 
-/// The part of the cost that depends on these six-dimensional unknowns.
-BundleCost part_of(const BundleCost& cost, const std::vector<std::size_t>& unknowns) {
-  const auto size = static_cast<Eigen::Index>(6 * unknowns.size());
-  BundleCost part = {cost.value, Eigen::VectorXd(size), Eigen::MatrixXd(size, size)};
-  for (std::size_t a = 0; a < unknowns.size(); ++a) {
-    const auto to_a = static_cast<Eigen::Index>(6 * a);
-    const auto from_a = static_cast<Eigen::Index>(6 * unknowns[a]);
-    part.gradient.segment<6>(to_a) = cost.gradient.segment<6>(from_a);
-    for (std::size_t b = 0; b < unknowns.size(); ++b) {
-      part.hessian.block<6, 6>(to_a, static_cast<Eigen::Index>(6 * b)) =
-          cost.hessian.block<6, 6>(from_a, static_cast<Eigen::Index>(6 * unknowns[b]));
-    }
-  }
-  return part;
-}
-
 }  // namespace
 
-ReducedCost reduced(const BundleCost& cost, bool has_velocity) {
+ReducedCost reduced(const BlockSystem& cost, bool has_velocity) {
   ReducedCost result = {cost.gradient, cost.hessian, {}, {}};
   if (!has_velocity) return result;
   const Eigen::Index size = cost.gradient.size() - 6;
@@ -82,12 +66,18 @@ void BundleSystem::find_planes(int stride) {
     const auto weakest =
         std::min_element(free_sensors_.begin(), free_sensors_.end(),
                          [&](std::size_t a, std::size_t b) { return planes[a] < planes[b]; });
-    if (weakest == free_sensors_.end() || planes[*weakest] >= options_.min_planes) return;
+    if (weakest == free_sensors_.end() || planes[*weakest] >= options_.min_planes) break;
     // Its points have distorted planes of the others, so the planes are searched again.
     state_.poses[*weakest] = start_[*weakest].pose;
     state_.clock_offsets_s[*weakest] = 0.0;
     free_sensors_.erase(weakest);
   }
+  pose_blocks_.assign(state_.poses.size(), {});
+  clock_blocks_.assign(state_.poses.size(), {});
+  unknowns_ = 0;
+  for (const std::size_t k : free_sensors_) pose_blocks_[k] = appended_block(6, unknowns_);
+  if (!has_offsets()) return;
+  for (const std::size_t k : free_sensors_) clock_blocks_[k] = appended_block(1, unknowns_);
 }
 
 void BundleSystem::search_planes(int stride) {
@@ -151,29 +141,27 @@ RigState BundleSystem::rig_state(const BundleState& state, std::size_t scene) co
   return result;
 }
 
-BundleCost BundleSystem::with_offsets(const BundleCost& cost, std::size_t scene) const {
-  const auto sensors = static_cast<Eigen::Index>(free_sensors_.size());
+BlockSystem BundleSystem::with_offsets(const BlockSystem& cost, std::size_t scene) const {
   const bool has_velocity = state_.velocities[scene].has_value();
   const Twist velocity = velocity_in_scene(state_, scene);
   const std::vector<RigidTransform> poses = poses_in(state_, scene);
   // The Jacobian of the poses in the scene, and of its velocity, with respect to the unknowns.
   Eigen::MatrixXd follow =
-      Eigen::MatrixXd::Zero(cost.gradient.size(), cost.gradient.size() + sensors);
-  for (Eigen::Index a = 0; a < sensors; ++a) {
-    const std::size_t sensor = free_sensors_[static_cast<std::size_t>(a)];
+      Eigen::MatrixXd::Zero(cost.gradient.size(), unknowns_ + (has_velocity ? 6 : 0));
+  for (const std::size_t sensor : free_sensors_) {
+    const Eigen::Index at = pose_blocks_[sensor].at;
     const double offset_s = state_.clock_offsets_s[sensor];
     const Eigen::Matrix3d turn = motion_over(velocity, offset_s).rotation;
     const Matrix6d along = velocity_at(poses[sensor].translation);
-    follow.block<3, 3>(6 * a, 6 * a) = turn;
-    follow.block<3, 3>(6 * a + 3, 6 * a + 3) = turn;
-    follow.block<6, 1>(6 * a, 6 * sensors + a) = along * vector_of(velocity);
-    if (has_velocity) follow.block<6, 6>(6 * a, 7 * sensors) = offset_s * along;
+    follow.block<3, 3>(at, at) = turn;
+    follow.block<3, 3>(at + 3, at + 3) = turn;
+    follow.block<6, 1>(at, clock_blocks_[sensor].at) = along * vector_of(velocity);
+    if (has_velocity) follow.block<6, 6>(at, unknowns_) = offset_s * along;
   }
   if (has_velocity) follow.bottomRightCorner<6, 6>().setIdentity();
   // The second derivatives of exp(xi d) T are neglected, as in Gauss-Newton: with offsets the
   // Hessian is approximate.
-  return {cost.value, follow.transpose() * cost.gradient,
-          follow.transpose() * cost.hessian * follow};
+  return {follow.transpose() * cost.gradient, follow.transpose() * cost.hessian * follow};
 }
 
 double BundleSystem::value_in(const BundleState& state) const {
@@ -187,40 +175,32 @@ double BundleSystem::value_in(const BundleState& state) const {
   return sum;
 }
 
-BundleCost BundleSystem::scene_cost(std::size_t scene, const std::vector<PlanePatch>& planes,
-                                    bool with_prior) const {
-  std::vector<std::size_t> unknowns = free_sensors_;
-  const std::optional<Twist>& velocity = state_.velocities[scene];
-  if (velocity) unknowns.push_back(state_.poses.size());
-  BundleCost cost =
-      part_of(bundle_cost(planes, rig_state(state_, scene), options_.kernel_width), unknowns);
+BlockSystem BundleSystem::scene_cost(std::size_t scene, const std::vector<PlanePatch>& planes,
+                                     bool with_prior) const {
+  BlockSystem cost =
+      bundle_cost(planes, rig_state(state_, scene), options_.kernel_width, pose_blocks_);
   if (has_offsets()) cost = with_offsets(cost, scene);
+  const std::optional<Twist>& velocity = state_.velocities[scene];
   if (velocity && with_prior) {
+    const Block block = {unknowns_, 6};
     const Matrix6d& information = velocity_information_[scene];
-    const Vector6d off = vector_of(*velocity);
-    cost.value += off.dot(information * off);
-    cost.gradient.tail<6>() += 2.0 * information * off;
-    cost.hessian.bottomRightCorner<6, 6>() += 2.0 * information;
+    cost.add(block, 2.0 * information * vector_of(*velocity));
+    cost.add(block, block, 2.0 * information);
   }
   return cost;
 }
 
-BundleCost BundleSystem::start_cost() const {
-  const auto sensors = static_cast<Eigen::Index>(free_sensors_.size());
-  const Eigen::Index size = (has_offsets() ? 7 : 6) * sensors;
-  BundleCost cost = {start_value(state_), Eigen::VectorXd(size), Eigen::MatrixXd::Zero(size, size)};
-  for (std::size_t a = 0; a < free_sensors_.size(); ++a) {
-    const std::size_t sensor = free_sensors_[a];
-    const auto at = static_cast<Eigen::Index>(6 * a);
+BlockSystem BundleSystem::start_cost() const {
+  BlockSystem cost = BlockSystem::zero(unknowns_);
+  for (const std::size_t sensor : free_sensors_) {
+    const Block &pose = pose_blocks_[sensor], &clock = clock_blocks_[sensor];
     const Matrix6d information = start_information(sensor);
-    const Vector6d off = moved_by(state_.poses[sensor], start_[sensor].pose);
-    cost.gradient.segment<6>(at) = 2.0 * information * off;
-    cost.hessian.block<6, 6>(at, at) = 2.0 * information;
-    if (!has_offsets()) continue;
-    const auto offset_at = 6 * sensors + static_cast<Eigen::Index>(a);
+    cost.add(pose, 2.0 * information * moved_by(state_.poses[sensor], start_[sensor].pose));
+    cost.add(pose, pose, 2.0 * information);
+    if (!clock) continue;
     const double of_clock = 1.0 / (options_.clock_offset_std_s * options_.clock_offset_std_s);
-    cost.gradient(offset_at) = 2.0 * of_clock * state_.clock_offsets_s[sensor];
-    cost.hessian(offset_at, offset_at) = 2.0 * of_clock;
+    cost.gradient(clock.at) = 2.0 * of_clock * state_.clock_offsets_s[sensor];
+    cost.hessian(clock.at, clock.at) = 2.0 * of_clock;
   }
   return cost;
 }
@@ -229,10 +209,10 @@ Eigen::MatrixXd BundleSystem::start_scatter() const {
   // The cost is twice the negative log-likelihood: the gradient of a term with the Hessian 2 w I
   // has the covariance 4 w^2 I, if the term's covariance is the inverse of I.
   Eigen::MatrixXd scatter = 2.0 * start_cost().hessian;
-  for (std::size_t a = 0; a < free_sensors_.size(); ++a) {
-    const auto at = static_cast<Eigen::Index>(6 * a);
+  for (const std::size_t sensor : free_sensors_) {
+    const Eigen::Index at = pose_blocks_[sensor].at;
     const double w = options_.start_weight;
-    scatter.block<6, 6>(at, at) -= 4.0 * w * (1.0 - w) * start_[free_sensors_[a]].information;
+    scatter.block<6, 6>(at, at) -= 4.0 * w * (1.0 - w) * start_[sensor].information;
   }
   return scatter;
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "framework/registration/bundle_adjustment.hpp"
-#include "framework/registration/bundle_cost.hpp"
+#include "framework/registration/plane_cost.hpp"
 
 namespace croon {
 
@@ -53,17 +53,20 @@ class BundleSystem {
 
   /// The value in another state, with the current planes.
   double value_in(const BundleState& state) const;
+  /// The positions of a sensor's pose and of the offset of its clock among the unknowns that all
+  /// scenes share; constant unless it is free.
+  const Block& pose_block(std::size_t sensor) const { return pose_blocks_[sensor]; }
+  const Block& clock_block(std::size_t sensor) const { return clock_blocks_[sensor]; }
   /// The cost of some planes of a scene and, if `with_prior`, of the prior of its velocity, with
-  /// respect to the free poses, then to one clock offset each, if those are unknowns, and then to
-  /// the velocity.
-  BundleCost scene_cost(std::size_t scene, const std::vector<PlanePatch>& planes,
-                        bool with_prior) const;
+  /// respect to the shared unknowns and then to the velocity.
+  BlockSystem scene_cost(std::size_t scene, const std::vector<PlanePatch>& planes,
+                         bool with_prior) const;
   /// The covariance of the gradient of the prior of a scene's velocity, as in start_scatter.
   Matrix6d velocity_scatter(std::size_t scene) const {
     return 4.0 * options_.start_weight * velocity_information_[scene];
   }
-  /// The cost of the priors of initial poses and clocks, with respect to free poses and offsets.
-  BundleCost start_cost() const;
+  /// The cost of the priors of initial poses and clocks, with respect to the shared unknowns.
+  BlockSystem start_cost() const;
   /// The covariance of the gradient of start_cost. The cost weakens the prior of the initial poses
   /// (BundleOptions::start_weight), but the covariance of their errors is unchanged.
   Eigen::MatrixXd start_scatter() const;
@@ -86,7 +89,7 @@ class BundleSystem {
   /// The poses of the sensors in a scene: their clock offsets move them along its velocity.
   std::vector<RigidTransform> poses_in(const BundleState& state, std::size_t scene) const;
   /// Converts the cost of a scene from the poses of its sensors in it to the unknowns.
-  BundleCost with_offsets(const BundleCost& cost, std::size_t scene) const;
+  BlockSystem with_offsets(const BlockSystem& cost, std::size_t scene) const;
   double start_value(const BundleState& state) const;
   std::vector<int> counted_planes() const;
   /// Finds the planes that the first sensor and the free ones share at the current state.
@@ -101,10 +104,12 @@ class BundleSystem {
   std::vector<std::vector<PlanePatch>> planes_;
   std::vector<std::optional<Twist>> planes_velocities_;  ///< Those at which the planes were found.
   std::vector<std::size_t> free_sensors_;
+  std::vector<Block> pose_blocks_, clock_blocks_;  ///< By sensor.
+  Eigen::Index unknowns_ = 0;                      ///< Number of unknowns that all scenes share.
   std::vector<int> planes_of_sensors_;
 };
 
 /// Eliminates the velocity, the last six of the unknowns of `cost`, if `has_velocity`.
-ReducedCost reduced(const BundleCost& cost, bool has_velocity);
+ReducedCost reduced(const BlockSystem& cost, bool has_velocity);
 
 }  // namespace croon

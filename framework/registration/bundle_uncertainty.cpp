@@ -10,6 +10,7 @@
 
 #include "framework/base/threads.hpp"
 #include "framework/geometry/guarded_inverse.hpp"
+#include "framework/registration/gauss_newton.hpp"
 #include "framework/registration/observability.hpp"
 #include "framework/registration/surface_key.hpp"
 
@@ -32,13 +33,12 @@ std::vector<std::vector<PlanePatch>> clusters_of(const std::vector<PlanePatch>& 
 }
 
 /// The gradient and Hessian of `cost` along the motion in which the velocity follows the poses.
-BundleCost along(const BundleCost& cost, const ReducedCost& scene) {
+BlockSystem along(const BlockSystem& cost, const ReducedCost& scene) {
   if (scene.by_pose.size() == 0) return cost;
   const Eigen::Index size = cost.gradient.size() - 6;
   Eigen::MatrixXd follow(size + 6, size);
   follow << Eigen::MatrixXd::Identity(size, size), scene.by_pose;
-  return {cost.value, follow.transpose() * cost.gradient,
-          follow.transpose() * cost.hessian * follow};
+  return {follow.transpose() * cost.gradient, follow.transpose() * cost.hessian * follow};
 }
 
 /// The steps of each cluster of planes of a scene.
@@ -48,7 +48,7 @@ std::vector<ClusterStep> steps_by_cluster(const BundleSystem& system, std::size_
       clusters_of(system.planes()[scene], system.rig_state(system.state(), scene));
   std::vector<ClusterStep> steps(clusters.size());
   for_each_in_parallel(clusters.size(), [&](std::size_t c) {
-    const BundleCost own = along(system.scene_cost(scene, clusters[c], false), scene_cost);
+    const BlockSystem own = along(system.scene_cost(scene, clusters[c], false), scene_cost);
     steps[c] = cluster_step(own.gradient, own.hessian, K);
   });
   return steps;
@@ -57,7 +57,7 @@ std::vector<ClusterStep> steps_by_cluster(const BundleSystem& system, std::size_
 /// The step of all poses for a constant error of a scene's velocity of `error_mps` along itself, at
 /// most its magnitude; zero if the scene's velocity is not an unknown. `hessian` is that of the
 /// poses, with all velocities following; `cost` and `reduced_cost` are those of the scene.
-Eigen::VectorXd step_for_velocity_error(const Twist& velocity, const BundleCost& cost,
+Eigen::VectorXd step_for_velocity_error(const Twist& velocity, const BlockSystem& cost,
                                         const ReducedCost& reduced_cost,
                                         const Eigen::MatrixXd& hessian, double error_mps) {
   const Eigen::Index size = hessian.rows();
@@ -87,7 +87,7 @@ DofObservability observability_from(const Matrix6d& covariance, const Vector6d& 
 
 /// The costs of all scenes, and their sum with the velocities following the poses.
 struct AllScenes {
-  std::vector<BundleCost> costs;     ///< By scene.
+  std::vector<BlockSystem> costs;    ///< By scene.
   std::vector<ReducedCost> reduced;  ///< The same without the velocity.
   Eigen::MatrixXd hessian;
   /// The covariance of the gradient that is due to the priors of initial poses and velocities.
@@ -131,6 +131,39 @@ Eigen::MatrixXd joint_covariance(const BundleSystem& system, const BundleOptions
          inverse * all.scatter * inverse;
 }
 
+/// The information of planes about the pose of a sensor, and the part due to noisy normals.
+struct PlaneEvidence {
+  Matrix6d information = Matrix6d::Zero();
+  Matrix6d noise = Matrix6d::Zero();
+};
+
+/// Adds the information of a patch about each of its sensors, with the others fixed.
+void add_patch(const PlanePatch& patch, const std::vector<RigidTransform>& poses,
+               std::vector<PlaneEvidence>& evidence) {
+  PointSums all;
+  for (const PlanePatch::View& view : patch.views) {
+    all.add(moved(view.sums, poses[view.sensor]));
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(all.scatter());
+  const Eigen::Vector3d& across = solver.eigenvalues();
+  for (const PlanePatch::View& view : patch.views) {
+    const double own = view.sums.weight, others = all.weight - own;
+    if (!(own > 0.0) || !(others > 0.0)) continue;
+    // The variance of the distance between two planes is the sum of their variances.
+    const double weight = own * others / all.weight;
+    const Eigen::Vector3d arm = poses[view.sensor].rotation * (view.sums.sum / own);
+    const Vector6d J = plane_jacobian(arm, solver.eigenvectors().col(0));
+    PlaneEvidence& of_sensor = evidence[view.sensor];
+    of_sensor.information += weight * (J * J.transpose());
+    for (int k = 1; k < 3; ++k) {
+      // The weights are inverse variances, so this is the variance of a turn towards the axis k.
+      const double turn = 1.0 / std::max(across(k) - across(0), 1e-12);
+      const Vector6d turned = plane_jacobian(arm, solver.eigenvectors().col(k));
+      of_sensor.noise += weight * turn * (turned * turned.transpose());
+    }
+  }
+}
+
 }  // namespace
 
 ClusterStep cluster_step(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& hessian,
@@ -172,20 +205,33 @@ BundleUncertainty bundle_uncertainty(const BundleSystem& system, const BundleOpt
   BundleUncertainty result;
   result.covariances.resize(system.state().poses.size());
   result.clock_offset_stds_s.assign(system.state().poses.size(), 0.0);
-  const std::vector<std::size_t>& sensors = system.free_sensors();
-  if (sensors.empty()) return result;
+  if (system.free_sensors().empty()) return result;
   const Eigen::MatrixXd covariance = joint_covariance(system, options);
-  for (std::size_t a = 0; a < sensors.size(); ++a) {
-    const auto at = static_cast<Eigen::Index>(6 * a);
-    PoseCovariance& own = result.covariances[sensors[a]];
+  for (const std::size_t k : system.free_sensors()) {
+    const Eigen::Index at = system.pose_block(k).at;
+    PoseCovariance& own = result.covariances[k];
     own.matrix = bounded_covariance(covariance.block<6, 6>(at, at));
     own.dofs = observability_from(own.matrix, system.start_std());
-    const auto offset_at = static_cast<Eigen::Index>(6 * sensors.size() + a);
-    if (offset_at < covariance.rows()) {
-      result.clock_offset_stds_s[sensors[a]] = std::sqrt(covariance(offset_at, offset_at));
-    }
+    const Block& clock = system.clock_block(k);
+    if (clock) result.clock_offset_stds_s[k] = std::sqrt(covariance(clock.at, clock.at));
   }
   return result;
+}
+
+std::vector<DofObservability> plane_observability(const BundleSystem& system) {
+  const std::size_t sensors = system.state().poses.size();
+  std::vector<PlaneEvidence> evidence(sensors);
+  for (std::size_t s = 0; s < system.planes().size(); ++s) {
+    const std::vector<RigidTransform> poses = system.rig_state(system.state(), s).poses;
+    for (const PlanePatch& patch : system.planes()[s]) add_patch(patch, poses, evidence);
+  }
+  const Matrix6d prior = unknown_variances().cwiseInverse().asDiagonal();
+  std::vector<DofObservability> words(sensors);  // Initially all determined.
+  for (std::size_t k = 1; k < sensors; ++k) {
+    const auto held = dof_constraints(evidence[k].information, evidence[k].noise, prior);
+    for (std::size_t dof = 0; dof < held.size(); ++dof) words[k][dof] = held[dof].word;
+  }
+  return words;
 }
 
 }  // namespace croon

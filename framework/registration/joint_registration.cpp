@@ -5,29 +5,24 @@
 #include <cmath>
 
 #include "framework/base/threads.hpp"
+#include "framework/registration/block_system.hpp"
 #include "framework/registration/clock_offset.hpp"
 #include "framework/registration/joint_pair.hpp"
 
 namespace croon {
 namespace {
 
-/// The position, among all unknowns, of `size` unknowns of a pair that begin at `from`.
-struct Block {
-  int from, size, at;
-};
-
-class Problem {
+class JointProblem {
  public:
-  Problem(const std::vector<JointScene>& scenes, const JointOptions& options, std::size_t sensors)
-      : scenes_(scenes), options_(options), sensors_(static_cast<int>(sensors)) {
-    size_ = 6 * sensors_;
+  JointProblem(const std::vector<JointScene>& scenes, const JointOptions& options,
+               std::size_t sensors)
+      : scenes_(scenes), options_(options) {
+    for (std::size_t k = 0; k < sensors; ++k) poses_.push_back(appended_block(6, unknowns_));
     for (const JointScene& scene : scenes) {
-      velocity_at_.push_back(scene.is_moving ? size_ : -1);
-      if (scene.is_moving) size_ += 6;
+      velocities_.push_back(appended_block(scene.is_moving ? 6 : 0, unknowns_));
     }
-    if (options.clock_offset_std_s > 0.0) {
-      offset_at_ = size_;
-      size_ += sensors_;
+    for (std::size_t k = 0; k < sensors; ++k) {
+      offsets_.push_back(appended_block(options.clock_offset_std_s > 0.0 ? 1 : 0, unknowns_));
     }
   }
 
@@ -69,8 +64,7 @@ class Problem {
             pair_equations(source, target, {outcome.state, velocity, max_distance_m, options_}));
       }
     });
-    Eigen::MatrixXd information = Eigen::MatrixXd::Zero(size_, size_);
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(size_);
+    BlockSystem system = BlockSystem::zero(unknowns_);
     double square_sum = 0.0, weight_sum = 0.0;
     outcome.correspondences.assign(scenes_.size(), {});
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
@@ -78,90 +72,72 @@ class Problem {
         const PairEquations& pair = pairs[s][j];
         outcome.correspondences[s].push_back(pair.correspondences);
         if (pair.correspondences < kMinJointCorrespondences) continue;
-        add(pair, blocks_of(s, scenes_[s].sources[j].sensor), information, gradient);
+        const std::size_t k = scenes_[s].sources[j].sensor;
+        system.add<3>({poses_[k], velocities_[s], offsets_[k]},
+                      {kPairPose, kPairVelocity, kPairOffset}, pair.gradient, pair.information);
         square_sum += pair.weighted_square_sum;
         weight_sum += pair.weight_sum;
       }
     }
     outcome.rmse_m = weight_sum > 0.0 ? std::sqrt(square_sum / weight_sum) : 0.0;
-    add_priors(outcome.state, information, gradient);
-    return -information.ldlt().solve(gradient);
-  }
-
-  std::vector<Block> blocks_of(std::size_t scene, std::size_t sensor) const {
-    const int k = static_cast<int>(sensor);
-    std::vector<Block> blocks = {{kPairPose, 6, 6 * k}};
-    if (velocity_at_[scene] >= 0) blocks.push_back({kPairVelocity, 6, velocity_at_[scene]});
-    if (offset_at_ >= 0) blocks.push_back({kPairOffset, 1, offset_at_ + k});
-    return blocks;
-  }
-
-  static void add(const PairEquations& pair, const std::vector<Block>& blocks,
-                  Eigen::MatrixXd& information, Eigen::VectorXd& gradient) {
-    for (const Block& a : blocks) {
-      gradient.segment(a.at, a.size) += pair.gradient.segment(a.from, a.size);
-      for (const Block& b : blocks) {
-        information.block(a.at, b.at, a.size, b.size) +=
-            pair.information.block(a.from, b.from, a.size, b.size);
-      }
-    }
+    add_priors(outcome.state, system);
+    return -system.hessian.ldlt().solve(system.gradient);
   }
 
   /// Adds the priors of velocities and offsets, as residuals of the kernel's width, and a damping,
   /// so that a pose stays in unconstrained directions.
-  void add_priors(const JointState& state, Eigen::MatrixXd& information,
-                  Eigen::VectorXd& gradient) const {
+  void add_priors(const JointState& state, BlockSystem& system) const {
     constexpr double kDamping = 1e-6;
-    information.diagonal() *= 1.0 + kDamping;
-    information.diagonal().array() += 1e-12;
+    system.hessian.diagonal() *= 1.0 + kDamping;
+    system.hessian.diagonal().array() += 1e-12;
     for (std::size_t s = 0; s < scenes_.size(); ++s) {
-      const int at = velocity_at_[s];
-      if (at < 0) continue;
-      const Matrix6d of_velocity = velocity_information(scenes_[s], options_);
-      information.block<6, 6>(at, at) += of_velocity;
-      gradient.segment<6>(at) += of_velocity * vector_of(state.velocities[s]);
+      const Block& velocity = velocities_[s];
+      if (!velocity) continue;
+      const Matrix6d information = velocity_information(scenes_[s], options_);
+      system.add(velocity, velocity, information);
+      system.add(velocity, information * vector_of(state.velocities[s]));
     }
-    if (offset_at_ < 0) return;
-    const double share = options_.kernel_width_m / options_.clock_offset_std_s;
-    for (int k = 0; k < sensors_; ++k) {
-      information(offset_at_ + k, offset_at_ + k) += share * share;
-      gradient(offset_at_ + k) += share * share * state.clock_offsets_s[k];
+    for (std::size_t k = 0; k < offsets_.size(); ++k) {
+      if (!offsets_[k]) continue;
+      const Eigen::Index at = offsets_[k].at;
+      const double share = options_.kernel_width_m / options_.clock_offset_std_s;
+      system.hessian(at, at) += share * share;
+      system.gradient(at) += share * share * state.clock_offsets_s[k];
     }
   }
 
   void move(JointState& state, const Eigen::VectorXd& step) const {
-    for (int k = 0; k < sensors_; ++k) {
+    for (std::size_t k = 0; k < poses_.size(); ++k) {
       RigidTransform& T = state.T_target_sensor[k];
-      T = stepped(T, step.segment<6>(6 * k));
-      if (offset_at_ >= 0) state.clock_offsets_s[k] += step(offset_at_ + k);
+      T = stepped(T, step.segment<6>(poses_[k].at));
+      if (offsets_[k]) state.clock_offsets_s[k] += step(offsets_[k].at);
     }
-    for (std::size_t s = 0; s < scenes_.size(); ++s) {
-      if (velocity_at_[s] < 0) continue;
-      state.velocities[s] = stepped(state.velocities[s], step.segment<6>(velocity_at_[s]));
+    for (std::size_t s = 0; s < velocities_.size(); ++s) {
+      if (!velocities_[s]) continue;
+      state.velocities[s] = stepped(state.velocities[s], step.segment<6>(velocities_[s].at));
     }
   }
 
   /// Whether poses and clocks no longer move, nor points of a scan due to its velocity.
   bool is_small(const Eigen::VectorXd& step) const {
     constexpr double kRotation_rad = 1e-4, kTranslation_m = 1e-3, kScan_s = 0.1, kOffset_s = 3e-5;
-    const auto is_still = [&](int at, double scale) {
-      return step.segment<3>(at).norm() * scale <= kRotation_rad &&
-             step.segment<3>(at + 3).norm() * scale <= kTranslation_m;
+    const auto is_still = [&](const Block& block, double scale) {
+      return !block || (step.segment<3>(block.at).norm() * scale <= kRotation_rad &&
+                        step.segment<3>(block.at + 3).norm() * scale <= kTranslation_m);
     };
-    for (int k = 0; k < sensors_; ++k) {
-      if (!is_still(6 * k, 1.0)) return false;
-      if (offset_at_ >= 0 && std::abs(step(offset_at_ + k)) > kOffset_s) return false;
+    for (std::size_t k = 0; k < poses_.size(); ++k) {
+      if (!is_still(poses_[k], 1.0)) return false;
+      if (offsets_[k] && std::abs(step(offsets_[k].at)) > kOffset_s) return false;
     }
-    return std::all_of(velocity_at_.begin(), velocity_at_.end(),
-                       [&](int at) { return at < 0 || is_still(at, kScan_s); });
+    return std::all_of(velocities_.begin(), velocities_.end(),
+                       [&](const Block& velocity) { return is_still(velocity, kScan_s); });
   }
 
   const std::vector<JointScene>& scenes_;
   const JointOptions& options_;
-  int sensors_;
-  std::vector<int> velocity_at_;  ///< By scene: index of its velocity among the unknowns, or -1.
-  int offset_at_ = -1;            ///< Index of the clock offsets, or -1.
-  int size_ = 0;
+  Eigen::Index unknowns_ = 0;
+  std::vector<Block> poses_, offsets_;  ///< By sensor; the offsets are those of the clocks.
+  std::vector<Block> velocities_;       ///< By scene.
 };
 
 }  // namespace
@@ -222,7 +198,7 @@ JointRegistration register_jointly(const std::vector<JointScene>& scenes, JointS
   JointRegistration outcome;
   const std::size_t sensors = start.T_target_sensor.size();
   outcome.state = std::move(start);
-  const Problem problem(scenes, options, sensors);
+  const JointProblem problem(scenes, options, sensors);
   std::vector<DeskewedTarget> targets = problem.targets_at(outcome.state);
   for (const double distance : options.max_distances_m) problem.run(outcome, targets, distance);
   return outcome;

@@ -6,6 +6,7 @@
 
 #include "framework/geometry/dof.hpp"
 #include "framework/geometry/twist.hpp"
+#include "framework/registration/block_system.hpp"
 
 namespace croon {
 
@@ -87,5 +88,15 @@ double plane_cost_value(const PlanePatch& patch, const RigState& state);
 
 /// The cost with its derivatives, to first order in the velocity. The memory of `cost` is reused.
 void plane_cost(const PlanePatch& patch, const RigState& state, PlaneCost& cost);
+
+/// The robust cost of the `patches` of one scene: the sum of `w^2 c / (w^2 + c)` over the costs c
+/// of the planes, with the width w of the kernel.
+double bundle_value(const std::vector<PlanePatch>& patches, const RigState& state,
+                    double kernel_width);
+
+/// The derivatives of bundle_value with respect to the `poses`, by sensor, and then to the
+/// velocity, if `state` has one.
+BlockSystem bundle_cost(const std::vector<PlanePatch>& patches, const RigState& state,
+                        double kernel_width, const std::vector<Block>& poses);
 
 }  // namespace croon

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "framework/geometry/dof.hpp"
-#include "framework/registration/joint_registration.hpp"
+#include "framework/registration/joint_pair.hpp"
 
 namespace croon {
 
@@ -24,6 +24,12 @@ const params::Table<MotionOptions>& motion_table();
 /// The standard deviation of the velocity along x and y of the target, from the velocity's
 /// covariance (about the axes in rad/s, along them in m/s).
 double speed_std_mps(const Matrix6d& covariance);
+
+/// For each source of the scene, the standard deviation, in m, of its translation that is due to
+/// the `covariance` of that velocity. A sensor that sees the same surfaces as the target at the
+/// same time hardly moves.
+std::vector<double> shift_std_m(const DeskewedTarget& target, const Matrix6d& covariance,
+                                const JointState& state, const JointOptions& options);
 
 /// The estimated motion of a scene.
 struct SceneMotion {

@@ -74,7 +74,7 @@ TEST(BundleSystem, HasTheGradientOfItsValueByPosesClocksAndVelocities) {
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(19);
   gradient.head<7>() = system.start_cost().gradient;
   for (std::size_t s = 0; s < 2; ++s) {
-    const BundleCost cost = system.scene_cost(s, system.planes()[s], true);
+    const BlockSystem cost = system.scene_cost(s, system.planes()[s], true);
     gradient.head<7>() += cost.gradient.head<7>();
     gradient.segment<6>(static_cast<Eigen::Index>(7 + 6 * s)) = cost.gradient.tail<6>();
   }

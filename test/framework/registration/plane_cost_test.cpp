@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "framework/registration/bundle_cost.hpp"
 #include "test/support/random_geometry.hpp"
 
 namespace croon {
@@ -57,6 +56,15 @@ Eigen::VectorXd random_step(Rng& rng, double size) {
   return step;
 }
 
+/// The derivatives with respect to the poses of all sensors, and then to the velocity, if any.
+BlockSystem derivatives(const std::vector<PlanePatch>& patches, const RigState& state,
+                        double kernel_width) {
+  std::vector<Block> poses;
+  Eigen::Index unknowns = 0;
+  for (std::size_t k = 0; k < kSensors; ++k) poses.push_back(appended_block(6, unknowns));
+  return bundle_cost(patches, state, kernel_width, poses);
+}
+
 TEST(PlaneCost, IsTheSquaredDistanceToTheBestPlaneLessThatOfEachSensor) {
   Rng rng = test::test_rng();
   const PlanesInView made = planes_in_view(rng, 20, 0.0);
@@ -83,12 +91,11 @@ TEST(PlaneCost, IsNeverNegative) {
 TEST(PlaneCost, TheTruthIsTheLeastOnPlanesWithoutNoise) {
   Rng rng = test::test_rng();
   const PlanesInView made = planes_in_view(rng, 30, 0.0);
-  const BundleCost at_truth = bundle_cost(made.patches, {made.poses}, 3.0);
-  EXPECT_NEAR(at_truth.value, 0.0, 1e-9);
-  EXPECT_LT(at_truth.gradient.norm(), 1e-6);
+  EXPECT_NEAR(bundle_value(made.patches, {made.poses}, 3.0), 0.0, 1e-9);
+  EXPECT_LT(derivatives(made.patches, {made.poses}, 3.0).gradient.norm(), 1e-6);
   for (int i = 0; i < 50; ++i) {
     const auto poses = stepped(made.poses, random_step(rng, 0.01));
-    EXPECT_GT(bundle_cost(made.patches, {poses}, 3.0).value, 1e-3);
+    EXPECT_GT(bundle_value(made.patches, {poses}, 3.0), 1e-3);
   }
 }
 
@@ -98,9 +105,10 @@ TEST(BundleCost, HasTheDerivativesOfItsValue) {
   for (const double kernel_width : {0.5, 3.0, 1e6}) {
     const auto poses = stepped(made.poses, random_step(rng, 0.02));
     const auto value = [&](const Eigen::VectorXd& step) {
-      return bundle_cost(made.patches, {stepped(poses, step)}, kernel_width).value;
+      return bundle_value(made.patches, {stepped(poses, step)}, kernel_width);
     };
-    const BundleCost cost = bundle_cost(made.patches, {poses}, kernel_width);
+    const double now = bundle_value(made.patches, {poses}, kernel_width);
+    const BlockSystem cost = derivatives(made.patches, {poses}, kernel_width);
     EXPECT_NEAR((cost.hessian - cost.hessian.transpose()).norm(), 0.0, 1e-9 * cost.hessian.norm());
     for (int i = 0; i < 20; ++i) {
       const Eigen::VectorXd direction = random_step(rng, 1.0);
@@ -109,8 +117,7 @@ TEST(BundleCost, HasTheDerivativesOfItsValue) {
           (value(kShort * direction) - value(-kShort * direction)) / (2.0 * kShort);
       EXPECT_NEAR(cost.gradient.dot(direction), slope, 1e-5 * cost.gradient.norm());
       const double curvature =
-          (value(kLong * direction) - 2.0 * cost.value + value(-kLong * direction)) /
-          (kLong * kLong);
+          (value(kLong * direction) - 2.0 * now + value(-kLong * direction)) / (kLong * kLong);
       EXPECT_NEAR(direction.dot(cost.hessian * direction), curvature, 1e-4 * cost.hessian.norm());
     }
   }
@@ -168,7 +175,7 @@ TEST(BundleCost, FollowsTheVelocityAsIfThePointsHadMoved) {
     };
     EXPECT_NEAR(value(0.5), bundle_value({patch_of(points, poses, velocity(0.5))}, {poses}, 3.0),
                 1e-9);
-    const BundleCost cost = bundle_cost(patches, {poses, Twist()}, 3.0);
+    const BlockSystem cost = derivatives(patches, {poses, Twist()}, 3.0);
     constexpr double kShort = 1e-5, kLong = 1e-2;
     const Vector6d gradient = cost.gradient.tail(6);
     EXPECT_NEAR(gradient.dot(direction), (value(kShort) - value(-kShort)) / (2.0 * kShort),
@@ -179,20 +186,32 @@ TEST(BundleCost, FollowsTheVelocityAsIfThePointsHadMoved) {
   }
 }
 
+TEST(BundleCost, ASensorWithAConstantPoseHasNoDerivatives) {
+  Rng rng = test::test_rng();
+  const PlanesInView made = planes_in_view(rng, 12, 0.05);
+  const RigState state = {stepped(made.poses, random_step(rng, 0.02))};
+  const BlockSystem all = derivatives(made.patches, state, 3.0);
+  std::vector<Block> poses(kSensors);  // All constant.
+  Eigen::Index unknowns = 0;
+  for (std::size_t k = 1; k < kSensors; ++k) poses[k] = appended_block(6, unknowns);
+  const BlockSystem others = bundle_cost(made.patches, state, 3.0, poses);
+  EXPECT_EQ(others.gradient, all.gradient.tail(unknowns));
+  EXPECT_EQ(others.hessian, all.hessian.bottomRightCorner(unknowns, unknowns));
+}
+
 TEST(BundleCost, DoesNotChangeIfAllMoveTogether) {
   Rng rng = test::test_rng();
   const PlanesInView made = planes_in_view(rng, 20, 0.1);
   const auto poses = stepped(made.poses, random_step(rng, 0.02));
-  const BundleCost before = bundle_cost(made.patches, {poses}, 3.0);
+  const double before = bundle_value(made.patches, {poses}, 3.0);
+  const Eigen::VectorXd gradient = derivatives(made.patches, {poses}, 3.0).gradient;
   const RigidTransform motion = test::random_pose(rng, 5.0);
   std::vector<RigidTransform> together;
   for (const RigidTransform& T : poses) together.push_back(motion * T);
-  EXPECT_NEAR(bundle_cost(made.patches, {together}, 3.0).value, before.value, 1e-8 * before.value);
+  EXPECT_NEAR(bundle_value(made.patches, {together}, 3.0), before, 1e-8 * before);
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
-  for (Eigen::Index at = 3; at < before.gradient.size(); at += 6) {
-    shift += before.gradient.segment<3>(at);
-  }
-  EXPECT_NEAR(shift.norm(), 0.0, 1e-8 * before.gradient.norm());
+  for (Eigen::Index at = 3; at < gradient.size(); at += 6) shift += gradient.segment<3>(at);
+  EXPECT_NEAR(shift.norm(), 0.0, 1e-8 * gradient.norm());
 }
 
 }  // namespace

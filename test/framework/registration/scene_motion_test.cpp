@@ -4,9 +4,7 @@
 
 #include <cmath>
 
-#include "framework/registration/joint_pair.hpp"
 #include "framework/registration/joint_rivals.hpp"
-#include "framework/registration/joint_uncertainty.hpp"
 #include "test/support/random_geometry.hpp"
 
 namespace croon {
