@@ -13,6 +13,7 @@ import sys
 import time
 
 from chromium import WITH_WEBGL, WITHOUT_WEBGL, Chromium, ChromiumError
+from check_viewer import check_viewer
 
 # Functions of the page under test. A chart's background and grid are not marks.
 HELPERS = r"""
@@ -34,6 +35,14 @@ window.check = {
       hash = (Math.imul(hash, 31) + word) | 0;
     }
     return {drawn: words.length - Math.max(...counts.values()), colours: counts.size, hash};
+  },
+  // Whether a viewer draws within 20 s.
+  hasDrawn: async (figure) => {
+    const mark = 'first picture of ' + figure.dataset.view;
+    for (let i = 0; i < 400 && !performance.getEntriesByName(mark).length; ++i) {
+      await new Promise((done) => setTimeout(done, 50));
+    }
+    return check.frames().then(() => performance.getEntriesByName(mark).length > 0);
   },
   figures: () => [...document.querySelectorAll('figure.cloud-view[data-view]')],
   controls: (view, name) =>
@@ -107,6 +116,16 @@ def open_report(browser, url):
     browser.run("check.frames()")
 
 
+def note_first_picture(check, browser, when):
+    """Reports when text was painted and the first viewer had drawn."""
+    drawn = browser.run("""performance.getEntriesByType('mark')
+        .filter((m) => m.name.startsWith('first picture of '))
+        .map((m) => Math.round(m.startTime))""")
+    text = browser.run("performance.getEntriesByType('paint').map((m) => Math.round(m.startTime))")
+    if drawn and text:
+        check.note(f"first picture {when}", f"viewer {drawn[0]} ms, text {text[-1]} ms")
+
+
 def check_charts(check, browser):
     counts = browser.run("[...document.querySelectorAll('figure.chart svg')].map(check.marks)")
     charts = browser.run("document.querySelectorAll('figure.chart').length")
@@ -116,128 +135,12 @@ def check_charts(check, browser):
     check("pictures are readable and have alternative text", not broken, broken)
 
 
-def check_viewer(check, browser, view):
-    name = browser.run(f"""(() => {{ const f = check.figures()[{view}];
-        f.scrollIntoView({{block: 'center'}}); return f.dataset.view; }})()""")
-    deadline = time.monotonic() + 20
-    mark = f"performance.getEntriesByName('first picture of {name}').length"
-    while not browser.run(mark) and time.monotonic() < deadline:
-        time.sleep(0.05)
-    browser.run("check.frames()")
-    if not browser.run(mark):
-        check(f"{name} draws", False, "no picture within 20 s")
-        return
-    picture = f"check.picture(check.figures()[{view}])"
-    first = browser.run(picture)
-    check(f"{name} draws points", first["drawn"] > 1000 and first["colours"] > 2, first)
-    check(f"{name} hides its fallback", not browser.run(
-        f"check.isShown(check.figures()[{view}].querySelector('.fallback'))"))
-
-    def put(control, index=0, value=""):
-        return browser.run(f"check.set({view}, '{control}', {index}, '{value}')")
-
-    def count(control):
-        return browser.run(f"check.controls({view}, '{control}').length")
-
-    def is_usable(control, index=0):
-        return browser.run(f"""(() => {{ const n = check.controls({view}, '{control}')[{index}];
-            return !n.disabled && check.isShown(n); }})()""")
-
-    def toggles(control):
-        """The switches of that name that do not change the picture, or do not restore it."""
-        bad = []
-        for i in range(count(control)):
-            before = browser.run(picture)["hash"]
-            if put(control, i)["hash"] == before or put(control, i)["hash"] != before:
-                bad.append(i)
-        return bad
-
-    bad = toggles("sensor")
-    check(f"{name} switches sensors", not bad, bad or f"{count('sensor')} sensors")
-    if count("rival"):
-        check(f"{name} shows rivals", not toggles("rival"), f"{count('rival')} rivals")
-    pictures = {first["hash"]}
-    modes = [i for i in range(count("colour")) if is_usable("colour", i)]
-    for i in modes[1:]:
-        pictures.add(put("colour", i)["hash"])
-    check(f"{name} colour modes differ", len(pictures) == len(modes) and len(modes) >= 2,
-          f"{len(modes)} modes")
-    check(f"{name} by sensor again", put("colour", 0)["hash"] == first["hash"])
-    larger = put("size", 0, 5)
-    check(f"{name} point size", larger["drawn"] > 1.3 * first["drawn"], larger["drawn"])
-    put("size", 0, 2)
-    low, high = browser.run(f"""(() => {{ const n = check.controls({view}, 'low')[0];
-        return [Number(n.min), Number(n.max)]; }})()""")
-    cut = put("low", 0, low + 0.4 * (high - low))
-    check(f"{name} height slice, low end", cut["drawn"] < first["drawn"], cut["drawn"])
-    put("low", 0, low)
-    cut = put("high", 0, low + 0.4 * (high - low))
-    check(f"{name} height slice, high end", cut["hash"] != first["hash"], cut["drawn"])
-    check(f"{name} whole height again", put("high", 0, high)["hash"] == first["hash"])
-    if is_usable("state"):
-        last = int(browser.run(f"check.controls({view}, 'state')[0].max"))
-        check(f"{name} steps", put("state", 0, 0)["hash"] != first["hash"] and
-              put("state", 0, last)["hash"] == first["hash"], f"{last + 1} states")
-        put("blink")
-        hashes = set()
-        for _ in range(8):
-            hashes.add(browser.run(picture)["hash"])
-            time.sleep(0.25)
-        put("blink")
-        check(f"{name} blinks", len(hashes) == 2, f"{len(hashes)} pictures")
-        browser.emulate(prefers_reduced_motion="reduce")
-        put("state", 0, last)
-        put("blink")
-        hashes = set()
-        for _ in range(8):
-            hashes.add(browser.run(picture)["hash"])
-            time.sleep(0.25)
-        check(f"{name} does not blink by itself with reduced motion",
-              len(hashes) == 1 and hashes != {first["hash"]})
-        browser.emulate()
-        put("state", 0, last)
-    hashes = [put("view", i)["hash"] for i in range(count("view"))]
-    check(f"{name} views differ", len(set(hashes)) == len(hashes) >= 4, f"{len(hashes)} views")
-    check(f"{name} default view again", put("view", 0)["hash"] == first["hash"])
-    check_viewer_input(check, browser, view, name, picture, first)
-
-
-def check_viewer_input(check, browser, view, name, picture, first):
-    x, y = browser.run(f"""(() => {{ const c = check.figures()[{view}].querySelector('canvas');
-        const b = c.getBoundingClientRect();
-        return [b.left + b.width / 2, b.top + b.height / 2]; }})()""")
-    browser.drag(x, y, 60, 20)
-    browser.run("check.frames()")
-    seen = [first["hash"], browser.run(picture)["hash"]]
-    for key, code, text, modifiers in (("ArrowLeft", 37, "", 0), ("ArrowUp", 38, "", 8),
-                                       ("+", 187, "+", 0), ("+", 187, "+", 0), ("-", 189, "-", 0)):
-        browser.press(key, code, text, modifiers)
-        browser.run("check.frames()")
-        seen.append(browser.run(picture)["hash"])
-    for kind, points in (("touchStart", [(-40, 0), (40, 0)]), ("touchMove", [(-70, 5), (70, 5)]),
-                         ("touchEnd", [])):
-        browser.call("Input.dispatchTouchEvent", type=kind, touchPoints=[
-            {"x": x + dx, "y": y + dy, "id": i} for i, (dx, dy) in enumerate(points)])
-    browser.run("check.frames()")
-    seen.append(browser.run(picture)["hash"])
-    # Zooming in twice and out once returns to an earlier picture, up to rounding.
-    changed = [a != b for a, b in zip(seen, seen[1:])]
-    check(f"{name} mouse, keys and touch move the view", all(changed), changed)
-    before = browser.run("scrollY")
-    browser.run("document.activeElement.blur()")
-    browser.call("Input.dispatchMouseEvent", type="mouseWheel", x=x, y=y, deltaX=0, deltaY=-60)
-    time.sleep(0.3)
-    check(f"{name} leaves the wheel to the page until clicked",
-          browser.run("scrollY") != before or before == 0)
-    browser.run(f"check.set({view}, 'view', 0)")
-
-
 def check_copies(check, browser):
     buttons = browser.run("""[...document.querySelectorAll('button[data-copy]')].map((b) =>
-        [b.dataset.copy, b.textContent, (document.getElementById(b.dataset.copy) || {}).textContent])""")
-    missing = [name for name, _, text in buttons if text is None]
+        [b.dataset.copy, (document.getElementById(b.dataset.copy) || {}).textContent])""")
+    missing = [name for name, text in buttons if text is None]
     wrong = []
-    for i, (name, _, text) in enumerate(buttons):
+    for i, (name, text) in enumerate(buttons):
         if text is None:
             continue
         copied = browser.run(f"""(async () => {{
@@ -264,7 +167,7 @@ def check_copies(check, browser):
         const found = area && [area.value, area.selectionEnd - area.selectionStart];
         if (area) area.remove();
         return found; })()""")
-    text = buttons[0][2].replace("<\\", "<")
+    text = buttons[0][1].replace("<\\", "<")
     check("copying by hand is offered when the clipboard refuses",
           area == [text, len(text.encode("utf-16-le")) // 2], "" if area else "no text shown")
 
@@ -278,7 +181,8 @@ def check_tables(check, browser):
         [...table.tHead.rows[table.tHead.rows.length - 1].cells].forEach((head, c) => {
           const number = (row) => parseFloat(row.cells[c].dataset.value === undefined
             ? row.cells[c].textContent.replace('−', '-') : row.cells[c].dataset.value);
-          const isNumber = head.matches('.number') || original.some((r) => r.cells[c].dataset.value);
+          const isNumber = head.matches('.number') ||
+            original.some((row) => row.cells[c].dataset.value);
           const isSorted = (sign) => {
             if (!isNumber) return true;
             const values = rows().map(number);
@@ -337,7 +241,8 @@ def check_layout(check, browser, screenshots, stem):
             time.sleep(0.2)
             browser.run("check.frames()")
             wide = browser.run("""[document.documentElement.scrollWidth, innerWidth,
-              [...document.querySelectorAll('main *')].filter((n) => !n.closest('.scroll,.viewer') &&
+              [...document.querySelectorAll('main *')].filter((n) =>
+                !n.closest('.scroll,.viewer') &&
                 n.getBoundingClientRect().right > document.documentElement.clientWidth + 1)
                 .slice(0, 3).map((n) => n.outerHTML.slice(0, 80))]""")
             check(f"no sideways scrolling, {scheme}, {width} px", wide[0] <= width, wide)
@@ -353,15 +258,19 @@ def check_layout(check, browser, screenshots, stem):
 def check_paper(check, browser, screenshots, stem):
     browser.emulate(media="print")
     browser.run("check.frames()")
-    hidden = browser.run("""[...document.images].filter((i) => !check.isShown(i)).map((i) => i.alt)""")
+    hidden = browser.run(
+        "[...document.images].filter((i) => !check.isShown(i)).map((i) => i.alt)")
     check("all pictures are printed", not hidden, hidden)
     shown = browser.run("""[...document.querySelectorAll('canvas,nav,button[data-copy],.viewer')]
         .filter(check.isShown).length""")
     check("no controls are printed", shown == 0, shown or "")
+    browser.resize(688, 1000)  # A4 within margins of 14 mm
+    browser.run("check.frames()")
+    width = browser.run("document.documentElement.scrollWidth")
+    check("the printed page is not too wide", width <= 688, f"{width} px")
     if screenshots:
-        browser.resize(760, 1000)
         browser.screenshot(screenshots / f"{stem}_print.png", whole_page=True)
-        browser.resize(1280, 900)
+    browser.resize(1280, 900)
     browser.emulate()
     pdf = browser.pdf()
     distinct = browser.run("new Set([...document.images].map((i) => i.src)).size")
@@ -384,7 +293,8 @@ def check_without_webgl(check, url, screenshots, stem):
             browser.run("check.frames()")
         bad = browser.run("""check.figures().filter((f) => f.querySelector('canvas') ||
             !f.querySelector('.fallback img') ||
-            ![...f.querySelectorAll('.fallback img')].every(check.isShown)).map((f) => f.dataset.view)""")
+            ![...f.querySelectorAll('.fallback img')].every(check.isShown))
+            .map((f) => f.dataset.view)""")
         check("without WebGL pictures take its place", not bad, bad or f"{views} views")
         check("without WebGL no errors", not watch.errors, watch.errors)
         if screenshots:
@@ -403,10 +313,7 @@ def check_report(path, screenshots):
         check_charts(check, browser)
         for view in range(browser.run("check.figures().length")):
             check_viewer(check, browser, view)
-        first = browser.run("""performance.getEntriesByType('mark')
-            .filter((m) => m.name.startsWith('first picture of ')).map((m) => Math.round(m.startTime))""")
-        if first:
-            check.note("first picture of the first viewer", f"{first[0]} ms after the navigation")
+        note_first_picture(check, browser, "in a fresh browser")
         check_tables(check, browser)
         check_copies(check, browser)
         check_layout(check, browser, screenshots, stem)
@@ -415,6 +322,15 @@ def check_report(path, screenshots):
         others = [each for each in watch.requests if each != url]
         check("no network request", not others, others)
         check("no errors in the console", not watch.errors, watch.errors)
+        check("scripts of others do not run", browser.run("""(() => {
+            const script = document.createElement('script');
+            script.textContent = 'window.hasRun = true';
+            document.body.append(script);
+            return window.hasRun !== true; })()"""))
+        open_report(browser, url)
+        if browser.run("check.figures().length"):
+            browser.run("check.hasDrawn(check.figures()[0])")
+            note_first_picture(check, browser, "when loaded again")
     check_without_webgl(check, url, screenshots, stem)
     return check.failed
 

@@ -133,7 +133,7 @@ def sensor_json(index, rng):
         data = bytearray()
         for point in points:
             gap = surface_distance(apply(poses[k], point)) / DISTANCE_UNIT_M
-            data.append(255 if gap > 254 and k else min(int(gap), 254))
+            data.append(255 if gap > 254 or abs(point[0]) > 30 else int(gap))
         distances[str(k)] = base64_of(bytes(data))
     sensor = {"name": name, "colour": colour, "role": role, "count": len(points),
               "scale_m": scale, "origin_m": [0.0, 0.0, 0.0],
@@ -146,9 +146,13 @@ def sensor_json(index, rng):
 
 
 def png(width, height, pixel):
-    rows = b"".join(b"\0" + b"".join(bytes(pixel(x, y)) for x in range(width)) for y in range(height))
-    chunk = lambda kind, data: (struct.pack(">I", len(data)) + kind + data +
-                                struct.pack(">I", zlib.crc32(kind + data)))
+    """The bytes of a picture whose pixels are the three bytes `pixel(x, y)`."""
+    rows = b"".join(b"\0" + b"".join(pixel(x, y) for x in range(width)) for y in range(height))
+
+    def chunk(kind, data):
+        body = kind + data
+        return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
+
     header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
     return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 9)) +
             chunk(b"IEND", b""))
@@ -174,7 +178,7 @@ CHART_CSS = """
 .k-small { font: 11px sans-serif; fill: #555555; } .k-name { font: 12px sans-serif; fill: #222222; }
 @media screen and (prefers-color-scheme: dark) {
   .k-page { fill: #16181c; } .k-grid { stroke: #33373d; } .k-c0 { stroke: #4aa8e0; fill: #4aa8e0; }
-  .k-small { fill: #aaaaaa; } .k-name { fill: #dddddd; }
+  .k-curve { fill: none; } .k-small { fill: #aaaaaa; } .k-name { fill: #dddddd; }
 }
 """
 
@@ -184,18 +188,18 @@ def chart(title, rng, width=620, height=230):
     parts = [f'<rect class="k-page" x="0" y="0" width="{width}" height="{height}"/>']
     for i in range(5):
         y = top + (bottom - top) * i / 4
-        parts.append(f'<line class="k-grid" x1="{left}" x2="{width - 8}" y1="{y}" y2="{y}"/>'
+        parts.append(f'<line class="k-grid" x1="{left}" x2="{width - 16}" y1="{y}" y2="{y}"/>'
                      f'<text class="k-small" x="{left - 6}" y="{y + 4}" text-anchor="end">'
                      f'{20 - 5 * i}</text>')
     for series in (0, 1):
         corners = []
         for i in range(37):
-            x = left + (width - left - 8) * i / 36
+            x = left + (width - left - 16) * i / 36
             value = 0.35 + 0.15 * series + 0.1 * math.sin(i / 3 + series) + rng.gauss(0, 0.03)
             corners.append(f"{x:.1f},{bottom - value * (bottom - top):.1f}")
         parts.append(f'<polyline class="k-curve k-c{series}" points="{" ".join(corners)}"/>')
     for i in range(0, 37, 6):
-        x = left + (width - left - 8) * i / 36
+        x = left + (width - left - 16) * i / 36
         parts.append(f'<text class="k-small" x="{x}" y="{bottom + 15}" text-anchor="middle">'
                      f'{10 * i - 180}</text>')
     parts.append(f'<text class="k-name" x="{(left + width) / 2}" y="{height - 4}" '
@@ -224,7 +228,8 @@ class Page:
     def card(self, name, kind, status, lines, exports):
         body = "".join(f"<p>{html.escape(line)}</p>" for line in lines)
         details = "" if not exports else (
-            f'<details class="copies"><summary>Copy the pose</summary>{self.copies(exports)}</details>')
+            f'<details class="copies"><summary>Copy the pose</summary>'
+            f'{self.copies(exports)}</details>')
         return (f'<article class="card {kind}"><h3>{html.escape(name)}</h3>'
                 f'<p class="status">{status}</p>{body}{details}</article>')
 
@@ -274,7 +279,15 @@ def write(three, target):
             "distance_unit_m": DISTANCE_UNIT_M, "sensors": sensors,
             "closeups": [{"title": title, "centre_m": list(centre), "half_width_m": half}
                          for title, centre, half in closeups]}
-    view_text = json.dumps(view).replace("<", "\\u003c")
+    plain = [{key: value for key, value in sensor.items() if key not in ("distances", "rival")}
+             for sensor in sensors[:2]]
+    for sensor in plain:
+        sensor["poses"] = [sensor["poses"][0], sensor["poses"][-1]]
+    plain_view = {"states": ["initial guess", "result"], "frame_note": "", "distance_unit_m": 0.002,
+                  "sensors": plain, "closeups": []}
+    views = "".join(f'<script type="application/json" id="{name}">' +
+                    json.dumps(data).replace("<", "\\u003c") + "</script>"
+                    for name, data in (("view-1", view), ("view-2", plain_view)))
 
     cards = [page.card("top", "neutral", "reference", ["defines the frame; 11,204 points"], []),
              page.card("front_left", "accepted", "accepted", [
@@ -302,13 +315,15 @@ def write(three, target):
     pair_rows = [[a, b, (overlap, f"{100 * overlap:.0f} %"), (gap, str(gap)), verdict]
                  for a, b, overlap, gap, verdict in pairs]
     charts = [chart(f"Residual over azimuth, {name}", rng) for name in ("front_left", HOSTILE)]
-    fallback = picture(top_view, (5, 0), 35, "The clouds from above", "Result from above, 70 m wide")
+    fallback = picture(top_view, (5, 0), 35, "The clouds from above",
+                       "Result from above, 70 m wide")
     closeup_pictures = "".join(picture(top_view, centre, half, title, title + ", result")
                                for title, centre, half in closeups)
     title = f"Calibration of car {HOSTILE}"
     body = f"""<header><h1>{html.escape(title)}</h1>
-<p class="lead">3 of 4 sensors are usable: 2 accepted, 1 rejected; the reference is <b>top</b>.</p></header>
-<nav aria-label="Sections"><ul><li><a href="#verdict">Verdict</a></li><li><a href="#poses">Poses</a></li>
+<p class="lead">3 of 4 sensors are usable: 2 accepted, 1 rejected; the reference is <b>top</b>.</p>
+</header><nav aria-label="Sections"><ul>
+<li><a href="#verdict">Verdict</a></li><li><a href="#poses">Poses</a></li>
 <li><a href="#clouds">Clouds</a></li><li><a href="#residuals">Residuals</a></li>
 <li><a href="#provenance">Provenance</a></li></ul></nav>
 <main>
@@ -316,7 +331,8 @@ def write(three, target):
 <p>Use the poses of front_left and {html.escape(HOSTILE)}. Do not use the pose of rear.</p>
 <p class="warning">rear: rejected because a rival pose fits equally well.</p>
 <div class="cards">{"".join(cards)}</div>
-<ul class="points"><li>12 scenes of 12 were used.</li><li>The clocks agree to within 2 ms.</li></ul></section>
+<ul class="points"><li>12 scenes of 12 were used.</li><li>The clocks agree to within 2 ms.</li></ul>
+</section>
 <section id="poses"><h2>Poses</h2>
 <p>Poses are T_top_sensor with one standard deviation.</p>
 {page.table("Poses and distance from nominal", pose_columns, pose_rows)}
@@ -326,9 +342,11 @@ def write(three, target):
 </section></section>
 <section id="clouds"><h2>Clouds</h2>
 <figure class="cloud-view" data-view="view-1"><figcaption>Scene 3 in the frame of top</figcaption>
-<div class="fallback">{fallback}<div class="row">{closeup_pictures}</div></div></figure></section>
+<div class="fallback">{fallback}<div class="row">{closeup_pictures}</div></div></figure>
+<figure class="cloud-view" data-view="view-2"><figcaption>Scene 7, without distances</figcaption>
+<div class="fallback">{fallback}</div></figure></section>
 <section id="residuals"><h2>Residuals</h2>
-<p class="note">A peak at one azimuth is a sign of an obstacle on the car; a wave, of a tilted spin axis.</p>
+<p class="note">A peak at one azimuth suggests an obstacle on the car; a wave, a tilted axis.</p>
 <div class="row">{charts[0]}{charts[1]}</div>
 {chart("Residual over range, all sensors", rng, 1000, 260)}</section>
 <section id="provenance"><h2>Provenance</h2>
@@ -343,10 +361,11 @@ def write(three, target):
     hashes = " ".join(f"'sha256-{base64_of(hashlib.sha256(text.encode()).digest())}'"
                       for text in scripts)
     style = (ASSETS / "report.css").read_text() + CHART_CSS
-    data = "".join(page.scripts) + f'<script type="application/json" id="view-1">{view_text}</script>'
+    data = "".join(page.scripts) + views
     target.write_text(f"""<!doctype html><html lang="en"><head><meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src {hashes}">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:;
+style-src 'unsafe-inline'; script-src {hashes}">
 <title>{html.escape(title)}</title><style>{style}</style></head><body>
 {body}{data}{"".join(f"<script>{text}</script>" for text in scripts)}</body></html>
 """)

@@ -65,6 +65,7 @@
     return bytes;
   }
 
+  const metres = (value) => value.toFixed(1).replace('-', '−') + ' m';
   const limited = (value, low, high) => Math.min(Math.max(value, low), high);
   const colourOf = (css) => new THREE.Color(css);
   const vectorOf = (css) => new THREE.Vector3(...colourOf(css).toArray());
@@ -120,7 +121,8 @@
       if (this.isFlat) {
         camera = this.orthographic;
         distance = 1000;
-        Object.assign(camera, {left: -half * aspect, right: half * aspect, top: half, bottom: -half});
+        Object.assign(camera,
+          {left: -half * aspect, right: half * aspect, top: half, bottom: -half});
       } else {
         camera = this.perspective;
         distance = half / Math.tan(FIELD_OF_VIEW_RAD / 2);
@@ -342,10 +344,10 @@
       }
       const geometry = new THREE.BufferGeometry();
       geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(corners), 3));
-      const rings = new THREE.LineSegments(
+      this.rings = new THREE.LineSegments(
         geometry, new THREE.LineBasicMaterial({color: colourOf('#353b44')}));
-      rings.position.z = this.ground;
-      this.scene.add(rings);
+      this.rings.position.z = this.ground;
+      this.scene.add(this.rings);
     }
 
     // Draws at the next frame, once, however many changes there were.
@@ -363,7 +365,11 @@
       if (width === 0 || height === 0) return;
       const size = this.renderer.getSize(new THREE.Vector2());
       if (size.x !== width || size.y !== height) this.renderer.setSize(width, height, false);
-      this.common.pointSize.value = this.pointSize.valueAsNumber * this.renderer.getPixelRatio();
+      // Points grow in close-ups, where few remain and the rings would be in the way.
+      const growth = limited(Math.pow(0.6 * NEAR_RANGE_M / this.orbit.radius, 0.4), 0.8, 2.5);
+      this.common.pointSize.value =
+        this.pointSize.valueAsNumber * growth * this.renderer.getPixelRatio();
+      this.rings.visible = this.orbit.radius > 8;
       this.renderer.render(this.scene, this.orbit.camera());
       this.drawScale();
       if (!this.hasDrawn) performance.mark('first picture of ' + this.figure.dataset.view);
@@ -384,14 +390,14 @@
     }
 
     views() {
-      const origin = new THREE.Vector3(0, 0, this.ground + 2);
+      const origin = new THREE.Vector3(0, 0, this.ground + 5);
       const flat = (azimuth, elevation, radius, target) =>
         () => this.orbit.look(azimuth, elevation, radius, true, target);
       const closeups = (this.data.closeups || []).map((closeup, i) =>
         [`${i + 1} ${closeup.title}`,
           flat(-90, 90, closeup.half_width_m, new THREE.Vector3(...closeup.centre_m))]);
       return [['3D', () => this.lookAround()], ['above', flat(-90, 90, NEAR_RANGE_M, origin)],
-        ['front', flat(0, 0, 12, origin)], ['side', flat(-90, 0, 12, origin)], ...closeups];
+        ['front', flat(0, 0, 10, origin)], ['side', flat(-90, 0, 10, origin)], ...closeups];
     }
 
     addControls() {
@@ -413,7 +419,8 @@
     viewBar() {
       const bar = make('div', {className: 'viewer-bar'});
       for (const [name, look] of this.views()) {
-        bar.append(control('view', make('button', {type: 'button', textContent: name, onclick: look})));
+        const button = make('button', {type: 'button', textContent: name, onclick: look});
+        bar.append(control('view', button));
       }
       const full = control('full', make('button', {type: 'button', textContent: 'full screen'}));
       full.hidden = !document.fullscreenEnabled;
@@ -424,7 +431,8 @@
     }
 
     stepBar() {
-      const last = this.data.states.length - 1;
+      const {states} = this.data;
+      const last = states.length - 1;
       this.slider = control('state', make('input',
         {type: 'range', min: 0, max: last, step: 1, value: this.state}));
       this.slider.oninput = () => {
@@ -433,7 +441,7 @@
       };
       this.stateName = make('output', {});
       this.blinkButton = control('blink', make('button', {type: 'button', textContent: 'blink',
-        title: `Alternates between “${this.data.states[0]}” and “${this.data.states[last]}”`}));
+        title: `Alternates between “${states[0]}” and “${states[last]}”`}));
       this.blinkButton.setAttribute('aria-pressed', 'false');
       this.blinkButton.onclick = () => {
         const isStill = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
@@ -500,9 +508,10 @@
       });
       const largest_mm = 254 * this.data.distance_unit_m * 1000;
       const caps = CAPS_MM.filter((cap_mm) => cap_mm <= largest_mm * 1.01);
-      if (!caps.includes(this.cap_mm)) this.cap_mm = caps.length ? caps[caps.length - 1] : largest_mm;
-      const options = caps.map((cap_mm) =>
-        make('option', {value: cap_mm, textContent: cap_mm + ' mm', selected: cap_mm === this.cap_mm}));
+      if (caps.length === 0) caps.push(Math.round(largest_mm));
+      if (!caps.includes(this.cap_mm)) this.cap_mm = caps[caps.length - 1];
+      const options = caps.map((cap_mm) => make('option',
+        {value: cap_mm, textContent: `≥ ${cap_mm} mm`, selected: cap_mm === this.cap_mm}));
       this.capChoice = control('cap', make('select', {}, ...options));
       this.capChoice.setAttribute('aria-label', 'Distance at the end of the colour scale');
       this.capChoice.onchange = () => {
@@ -532,14 +541,13 @@
         };
         input.oninput = update;
         update();
-        return {input, row: make('label', {className: 'slide'}, make('span', {}, label), input, output)};
+        return make('label', {className: 'slide'}, make('span', {}, label), input, output);
       };
       const size = slider('size', 'point size', {min: 1, max: 6, step: 0.5, value: 2},
         (input) => { this.pointSize = input; return input.value + ' px'; });
       // The ends of the sliders mean "no limit", because the range is that of a sample.
       const {minHeight, maxHeight} = this;
       const range = {min: minHeight, max: maxHeight, step: 0.1};
-      const metres = (value) => value.toFixed(1).replace('-', '−') + ' m';
       const low = slider('low', 'z from', Object.assign({}, range, {value: minHeight}), (input) => {
         const value = input.valueAsNumber;
         this.common.low.value = value <= minHeight ? -1e9 : value;
@@ -550,7 +558,7 @@
         this.common.high.value = value >= maxHeight ? 1e9 : value;
         return metres(value);
       });
-      const group = this.group('points', size.row, low.row, high.row);
+      const group = this.group('points', size, low, high);
       if (this.data.frame_note) group.title = 'z: ' + this.data.frame_note;
       return group;
     }
@@ -579,8 +587,8 @@
       this.capChoice.hidden = this.unknownNote.hidden = mode !== 'distance';
       this.rampHighText.hidden = mode === 'distance';
       this.rampLowText.textContent =
-        mode === 'distance' ? '0 mm' : this.common.rampLow.value.toFixed(1) + ' m';
-      this.rampHighText.textContent = this.common.rampHigh.value.toFixed(1) + ' m';
+        mode === 'distance' ? '0 mm' : metres(this.common.rampLow.value);
+      this.rampHighText.textContent = metres(this.common.rampHigh.value);
       this.redraw();
     }
   }
@@ -602,16 +610,18 @@
       const text = document.getElementById(figure.dataset.view).textContent;
       new Viewer(figure, JSON.parse(text), canvas, context);
     } catch (error) {
+      const viewer = figure.querySelector('.viewer');
+      if (viewer) viewer.remove();
       figure.classList.remove('live');
       note(figure, 'The 3D view could not be shown: pictures instead.');
       console.error(error);
     }
   }
 
-  // The first view starts at once. The others start when they come near, because browsers limit
-  // the number of WebGL contexts.
+  // The first view starts as soon as the page has been painted. The others start when they come
+  // near, because browsers limit the number of WebGL contexts.
   const figures = [...document.querySelectorAll('figure.cloud-view[data-view]')];
-  figures.slice(0, 1).forEach(start);
+  requestAnimationFrame(() => setTimeout(() => figures.slice(0, 1).forEach(start)));
   const observer = new IntersectionObserver((entries) => {
     for (const entry of entries.filter((each) => each.isIntersecting)) {
       observer.unobserve(entry.target);

@@ -108,7 +108,8 @@
   // What scrolls sideways must be reachable by keyboard.
   function updateScrollers() {
     for (const scroll of all('.scroll')) {
-      const caption = scroll.closest('figure') && scroll.closest('figure').querySelector('figcaption');
+      const figure = scroll.closest('figure');
+      const caption = figure && figure.querySelector('figcaption');
       if (scroll.scrollWidth > scroll.clientWidth + 1) {
         scroll.tabIndex = 0;
         scroll.setAttribute('role', 'region');
@@ -124,6 +125,7 @@
   // Navigation: marks the section that is being read.
 
   function followSections() {
+    const nav = document.querySelector('nav');
     const links = all('nav a[href^="#"]');
     const targets = links.map((link) => document.getElementById(link.hash.slice(1)));
     let isScheduled = false;
@@ -135,6 +137,10 @@
         if (target && target.getBoundingClientRect().top < 0.3 * window.innerHeight) current = i;
       });
       if (isAtEnd && window.scrollY > 0) current = targets.length - 1;
+      // On small screens the navigation is a bar that scrolls.
+      if (links[current] && nav.scrollWidth > nav.clientWidth) {
+        nav.scrollLeft = links[current].offsetLeft - nav.clientWidth / 3;
+      }
       links.forEach((link, i) => {
         if (i === current) link.setAttribute('aria-current', 'true');
         else link.removeAttribute('aria-current');
