@@ -21,9 +21,9 @@ struct GroundCell {
 
 using CellIndex = std::pair<int, int>;
 
-constexpr double kCell_m = 1.0;
-constexpr double kMinHeight_m = 0.4, kMaxHeight_m = 6.0;
-constexpr double kMinRange_m = 4.0, kMaxRange_m = 45.0;
+constexpr double kColumn_m = 1.0;
+constexpr double kLowest_m = 0.4, kHighest_m = 6.0;
+constexpr double kNearestCloseUp_m = 4.0, kFarthestCloseUp_m = 45.0;
 
 /// The columns with points that stand on the ground, of all sensors that are not rejected; of all
 /// if only the reference is left.
@@ -38,10 +38,10 @@ std::map<CellIndex, GroundCell> cells_of(const RigView& view) {
     for (const Eigen::Vector3f& own : sensor.points) {
       const Eigen::Vector3d p = *sensor.poses.back() * own.cast<double>().eval();
       const double range_m = std::hypot(p.x(), p.y());
-      if (range_m < kMinRange_m || range_m > kMaxRange_m) continue;
-      if (view.level.has_ground && (p.z() < kMinHeight_m || p.z() > kMaxHeight_m)) continue;
-      GroundCell& cell = cells[{static_cast<int>(std::floor(p.x() / kCell_m)),
-                                static_cast<int>(std::floor(p.y() / kCell_m))}];
+      if (range_m < kNearestCloseUp_m || range_m > kFarthestCloseUp_m) continue;
+      if (view.level.has_ground && (p.z() < kLowest_m || p.z() > kHighest_m)) continue;
+      GroundCell& cell = cells[{static_cast<int>(std::floor(p.x() / kColumn_m)),
+                                static_cast<int>(std::floor(p.y() / kColumn_m))}];
       cell.points.push_back(p);
       ++cell.by_sensor[s];
     }

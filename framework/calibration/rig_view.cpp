@@ -16,13 +16,13 @@
 namespace croon {
 namespace {
 
-constexpr const char* kNominal = "nominal";
-constexpr const char* kResult = "result";
-constexpr float kNear_m = 0.3F;
-constexpr int kNormalNeighbours = 10;
+constexpr const char* kNominalState = "nominal";
+constexpr const char* kResultState = "result";
+constexpr float kNearSurface_m = 0.3F;
+constexpr int kViewNeighbours = 10;
 
 /// Maximum number of viewed points of a sensor.
-constexpr int kMaxPoints = 25000;
+constexpr int kMaxViewedPoints = 25000;
 
 const CalibratedSensor& calibrated(const CalibratedRig& rig, const std::string& sensor) {
   return *std::find_if(rig.sensors.begin(), rig.sensors.end(),
@@ -90,9 +90,9 @@ struct NearSurface {
 };
 
 NearSurface near_surface(const Cloud& cloud, const Eigen::Vector3f& point) {
-  const Neighbour nearest = cloud.kd_tree().nearest(point, kNear_m);
+  const Neighbour nearest = cloud.kd_tree().nearest(point, kNearSurface_m);
   if (!nearest) return {};
-  const Eigen::Vector3f normal = cloud.normals(kNormalNeighbours).at(nearest.index).normal;
+  const Eigen::Vector3f normal = cloud.normals(kViewNeighbours).at(nearest.index).normal;
   if (normal.isZero()) return {};
   const auto index = static_cast<std::size_t>(nearest.index);
   return {nearest.squared_distance_m2, normal, point - cloud.points()[index]};
@@ -200,7 +200,7 @@ std::optional<Refit> refit(const RigView& view, const Clouds& clouds, std::size_
   IcpOptions options;
   options.max_distances_m = {0.3, 0.15};
   CorrespondenceRule rule;
-  rule.target_normals = kNormalNeighbours;
+  rule.target_normals = kViewNeighbours;
   const RigidTransform& T = *sensor.poses.back();
   try {
     const Registration registration =
@@ -226,15 +226,15 @@ RigView rig_view(const CalibratedRig& rig) {
   const bool has_nominal =
       std::any_of(rig.sensors.begin(), rig.sensors.end(),
                   [](const CalibratedSensor& sensor) { return sensor.nominal.has_value(); });
-  if (has_nominal) view.states.emplace_back(kNominal);
+  if (has_nominal) view.states.emplace_back(kNominalState);
   view.states.insert(view.states.end(), steps.begin(), steps.end());
-  view.states.emplace_back(kResult);
+  view.states.emplace_back(kResultState);
   Clouds clouds;
   const auto add = [&](const std::string& name, const std::shared_ptr<const Cloud>& cloud) {
     clouds.push_back(cloud);
     ViewedSensor& sensor = view.sensors.emplace_back();
     sensor.sensor = name;
-    sensor.points = evenly_spaced(cloud->points(), kMaxPoints);
+    sensor.points = evenly_spaced(cloud->points(), kMaxViewedPoints);
     return &sensor;
   };
   ViewedSensor* const reference = add(rig.reference, shown.reference);

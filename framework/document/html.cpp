@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
 
@@ -41,12 +40,12 @@ std::string html_text(const std::string& text) {
   return escaped;
 }
 
-/// JSON without "<", which could end the script element that contains it.
-std::string in_script(const std::string& json) {
-  std::string escaped;
-  escaped.reserve(json.size());
-  for (const char c : json) c == '<' ? escaped += "\\u003c" : escaped += c;
-  return escaped;
+/// `text` with `less` for each "<", so that it cannot end the script element that contains it.
+std::string without_tags(const std::string& text, const std::string& less) {
+  std::string marked;
+  marked.reserve(text.size());
+  for (const char c : text) c == '<' ? marked += less : marked += c;
+  return marked;
 }
 
 /// `<name class="of">content</name>`.
@@ -196,7 +195,8 @@ class HtmlWriter {
     std::string pictures;
     for (const Picture& picture : view.fallback) pictures += (*this)(picture);
     const std::string caption = element("figcaption", html_text(view.caption));
-    return "<figure class=\"cloud-view\" data-view=\"" + add_data("view", view.json) + "\">" +
+    return "<figure class=\"cloud-view\" data-view=\"" +
+           add_data("view", "application/json", without_tags(view.json, "\\u003c")) + "\">" +
            caption + element("div", "\n" + pictures, "fallback") + "</figure>\n";
   }
 
@@ -214,20 +214,20 @@ class HtmlWriter {
     return column < view.names ? "" : " class=\"number\"";
   }
 
-  /// Adds `json` as a script element, which does not run; returns its id.
-  std::string add_data(const std::string& kind, const std::string& json) {
+  /// Adds `data` as a script element of the type `type`, which does not run; returns its id.
+  std::string add_data(const std::string& kind, const std::string& type, const std::string& data) {
     const std::string id = kind + "-" + std::to_string(++count_);
-    data_ +=
-        "<script type=\"application/json\" id=\"" + id + "\">" + in_script(json) + "</script>\n";
+    data_ += "<script type=\"" + type + "\" id=\"" + id + "\">" + data + "</script>\n";
     return id;
   }
 
+  /// The page's script removes the backslash behind each "<".
   std::string copy_buttons(const std::vector<CopyText>& copies) {
     std::string buttons;
     for (const CopyText& copy : copies) {
-      const std::string json = nlohmann::json(valid_utf8(copy.text)).dump();
-      buttons += "<button type=\"button\" data-copy=\"" + add_data("copy", json) + "\">" +
-                 html_text(copy.label) + "</button> ";
+      const std::string text = without_tags(valid_utf8(copy.text), "<\\");
+      buttons += "<button type=\"button\" data-copy=\"" + add_data("copy", "text/plain", text) +
+                 "\">" + html_text(copy.label) + "</button> ";
     }
     return buttons;
   }

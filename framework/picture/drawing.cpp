@@ -147,7 +147,7 @@ std::string css_of_series(const Sheet& sheet, const std::string& dot) {
 }
 
 std::string css_of_dark_pages(const std::string& dot) {
-  std::string text = "@media (prefers-color-scheme: dark) {\n";
+  std::string text = "@media screen and (prefers-color-scheme: dark) {\n";
   text +=
       "  " + dot + "c0 { stroke: #" + kDarkFirstColour + "; fill: #" + kDarkFirstColour + "; }\n";
   for (const TextPart& part : kTextParts) {
