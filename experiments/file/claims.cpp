@@ -19,14 +19,6 @@ using params::optional;
 using params::Parameter;
 using params::Table;
 
-/// Claims contain no stages.
-class NoStages final : public params::StageBuilder {
- public:
-  params::BuiltStage build(const std::string&, const Node&) const override {
-    throw std::logic_error("a claim with a stage in it");
-  }
-};
-
 const std::vector<std::string> kShares = {kSuccess, kAgreement, kScenes};
 
 const params::Words<Over> kOver = {{"successful", Over::successful}, {"usable", Over::usable}};
@@ -317,7 +309,7 @@ std::vector<Claim> read_claims(const Node& node) {
   params::for_each_element(node, [&](const Node& element) {
     if (!element.is_object()) return;
     const std::size_t faults_before = element.fault_count();
-    ClaimKeys keys = claim_keys_table().read(element, {}, NoStages());
+    ClaimKeys keys = claim_keys_table().read(element, {}, params::NoStages());
     if (element.fault_count() > faults_before) return;
     if (keys.values.empty()) {
       keys.sensor_file = element.file();
@@ -338,11 +330,7 @@ std::vector<Claim> read_claims(const Node& node) {
 }
 
 std::string claims_json(const std::vector<Claim>& claims) {
-  std::string text;
-  for (const Claim& claim : claims) {
-    text += (text.empty() ? "" : ",") + params::object_json(claim_table(), claim);
-  }
-  return "[" + text + "]";
+  return params::list_json(claims, [](const Claim& claim) { return claim_table().json(claim); });
 }
 
 const Table<Quoted>& quoted_table() {
