@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,6 @@ struct PosesFile {
 struct Variant {
   std::string name;  ///< "base" for the base pipeline.
   Pipeline pipeline;
-  std::string resolved;  ///< Canonical JSON of the pipeline with all its parameters.
   PosesFile poses = {};  ///< The initial poses of the pipeline; see `resolve_poses`.
 };
 
@@ -92,12 +92,12 @@ std::string location_of(const Experiment& experiment, const Variant& variant,
 
 /// Canonical JSON of the experiment: every key with its default, claims expanded, each variant with
 /// its complete pipeline.
-std::string experiment_json(const Experiment& experiment);
+nlohmann::ordered_json experiment_json(const Experiment& experiment);
 
-/// Reads JSON written by `experiment_json` in this or an earlier version. The result has no
-/// variants, and its stages have only names and parameters. `file` is the origin of `text`. Throws
-/// InputError if the text is damaged.
-Experiment read_experiment_json(const std::string& text, const std::string& file);
+/// Reads `stored`, JSON written by `experiment_json` in this or an earlier version. The result has
+/// no variants, and its stages have only names and parameters. `file` is the origin of `stored`.
+/// Throws InputError if it is damaged.
+Experiment read_experiment_json(const nlohmann::json& stored, const std::string& file);
 
 /// Canonical JSON of the bounds.
 std::string success_json(const SuccessBounds& bounds);

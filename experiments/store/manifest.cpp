@@ -59,7 +59,7 @@ std::string pipeline_line(const std::string& name, const std::string& resolved) 
 std::string pipelines_text(const Experiment& experiment) {
   std::string text;
   for (const Variant& variant : experiment.variants) {
-    text += pipeline_line(variant.name, variant.resolved);
+    text += pipeline_line(variant.name, pipeline_json(variant.pipeline).dump());
   }
   return text;
 }
@@ -167,7 +167,7 @@ std::vector<std::string> without_truth(const std::vector<SceneGroup>& groups) {
 std::string manifest_json(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                           const std::vector<InputFile>& inputs, const Provenance& provenance) {
   Json manifest;
-  manifest["experiment"] = Json::parse(experiment_json(experiment));
+  manifest["experiment"] = experiment_json(experiment);
   manifest["experiment_files"] = files_json(experiment.files);
   if (experiment.scenes_per_trial > 1) manifest["groups"] = groups_json(groups);
   manifest["inputs"] = listed_inputs(inputs);
@@ -276,7 +276,7 @@ StoreHeader header_of(const Experiment& experiment, const std::vector<SceneGroup
   header.manifest = manifest;
   header.trials = total_trials(experiment.starts);
   for (const Variant& variant : experiment.variants) {
-    header.variants.push_back({variant.name, variant.resolved});
+    header.variants.push_back({variant.name, pipeline_json(variant.pipeline).dump()});
   }
   for (const SceneGroup& group : groups) header.scenes.push_back({group.name, group.kind});
   std::map<std::string, std::string> targets;

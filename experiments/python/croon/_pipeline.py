@@ -48,8 +48,7 @@ class Pipeline:
     @property
     def steps(self):
         """The steps with all their parameters, as a list of dicts from which the same pipeline can be constructed."""
-        names = self._pipeline.names()
-        return [{"name": name, **json.loads(step)} for name, step in zip(names, self._pipeline.resolved())]
+        return json.loads(self._pipeline.resolved())
 
     def run(self, target, source, initial=None, *, seed=1, scene="scene", reference="reference", sensor="sensor", trial=0):
         """Calibrates the sensor of the cloud `source` to that of the cloud `target`.
