@@ -243,7 +243,7 @@ std::vector<OutputFile> copies_of_given_files(const Experiment& experiment,
 
 /// The experiment with its dataset, and its file of starts, replaced by the written ones.
 std::string experiment_on(const Experiment& experiment) {
-  auto json = nlohmann::ordered_json::parse(experiment.merged);
+  nlohmann::ordered_json json = *experiment.merged;
   json["dataset"] = {{"type", "opencalib"}, {"path", "."}};
   if (json.contains("starts") && json["starts"].contains("file")) {
     json["starts"]["file"] = kStarts;

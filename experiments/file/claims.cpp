@@ -115,18 +115,10 @@ Table<TableBand> band_table() {
 /// The row of one statistic in a table of values.
 Parameter<TableValues> values_row(std::size_t statistic) {
   const std::string name = kStatistics[statistic].name;
-  params::ParameterDoc doc{name, params::ParameterType::numbers,     "", {}, {},
-                           "",   "The " + name + " of each measure."};
-  doc.is_optional = true;
-  return {doc,
-          [=](TableValues& values, const Node& node, const params::StageBuilder&) {
-            params::read_value(node, doc, values.by_statistic[statistic]);
-          },
-          [=](const TableValues& values) {
-            const std::vector<double>& list = values.by_statistic[statistic];
-            return list.empty() ? std::string() : params::value_json(list);
-          },
-          false};
+  const params::ParameterDoc doc{name, params::ParameterType::numbers,     "[]", {}, {},
+                                 "",   "The " + name + " of each measure."};
+  return optional(params::value_row<TableValues>(
+      doc, [=](auto& values) -> auto& { return values.by_statistic[statistic]; }));
 }
 
 Table<TableValues> values_table() {

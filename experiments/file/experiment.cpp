@@ -179,7 +179,7 @@ Experiment read_merged_experiment(const MergedFile& merged, const fs::path& path
   const auto starts = merged.origins.find("starts");
   experiment.starts_file = starts == merged.origins.end() ? experiment.file : starts->second.file;
   experiment.files = merged.files;
-  experiment.merged = merged.keys.dump();
+  experiment.merged = std::make_shared<const json>(merged.keys);
   return experiment;
 }
 

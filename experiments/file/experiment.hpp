@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -64,8 +65,8 @@ struct Experiment {
   std::vector<Quoted> quoted;     ///< Published results of other methods.
   std::vector<Variant> variants;  ///< The base first, then in the order of the file.
   std::vector<ExperimentFile> files;
-  /// JSON of all keys of the file and of the files that it extends.
-  std::string merged;
+  /// All keys of the file and of the files that it extends.
+  std::shared_ptr<const nlohmann::json> merged;
 };
 
 /// Reads the experiment in the JSON file `path`, with stages from `catalogue`. The keys of

@@ -169,14 +169,22 @@ bool Table<P>::is_whole(const P& params) const {
                       [&](const Parameter<P>& row) { return is_missing(row, params); });
 }
 
-/// A row for any type that has `read_value` and `value_json`.
+/// A row for the value `of(params)`, a reference to any type that has `read_value` and
+/// `value_json`.
+template <class P, class Of>
+Parameter<P> value_row(const ParameterDoc& doc, const Of& of) {
+  const auto read = [doc, of](P& params, const Node& node, const StageBuilder&) {
+    read_value(node, doc, of(params));
+  };
+  return {doc, read, [of](const P& params) { return value_json(of(params)); }, false};
+}
+
+/// The same for a member.
 template <class P, class T>
 Parameter<P> value_parameter(ParameterDoc doc, T P::*member) {
   doc.default_json = value_json(P{}.*member);
-  const auto read = [doc, member](P& params, const Node& node, const StageBuilder&) {
-    read_value(node, doc, params.*member);
-  };
-  return {doc, read, [member](const P& params) { return value_json(params.*member); }, false};
+  return value_row<P>(
+      doc, [member](auto& params) -> auto& { return params.*member; });
 }
 
 /// `row` with its key made required, even if it has a default.
