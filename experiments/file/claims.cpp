@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "experiments/file/measures.hpp"
 #include "experiments/file/statistics.hpp"
