@@ -1,8 +1,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <stdexcept>
 
+#include "framework/params/choice.hpp"
 #include "registry/help_parts.hpp"
 
 namespace croon {
@@ -12,48 +12,21 @@ using nlohmann::ordered_json;
 using params::ParameterDoc;
 using params::ParameterType;
 
-const char* type_name(ParameterType type) {
-  switch (type) {
-    case ParameterType::boolean:
-      return "boolean";
-    case ParameterType::integer:
-      return "integer";
-    case ParameterType::number:
-      return "number";
-    case ParameterType::text:
-      return "text";
-    case ParameterType::choice:
-      return "choice";
-    case ParameterType::numbers:
-      return "numbers";
-    case ParameterType::choices:
-      return "choices";
-    case ParameterType::stage:
-      return "stage";
-    case ParameterType::stages:
-      return "stages";
-    case ParameterType::group:
-      return "group";
-    case ParameterType::map:
-      return "map";
-    case ParameterType::interval:
-      return "interval";
-    case ParameterType::per_axis:
-      return "per_axis";
-    case ParameterType::texts:
-      return "texts";
-    case ParameterType::list:
-      return "list";
-    case ParameterType::json:
-      return "json";
-  }
-  throw std::logic_error("a parameter type without a name");
-}
+const params::Words<ParameterType> kTypeNames = {
+    {"boolean", ParameterType::boolean},   {"integer", ParameterType::integer},
+    {"number", ParameterType::number},     {"text", ParameterType::text},
+    {"choice", ParameterType::choice},     {"numbers", ParameterType::numbers},
+    {"choices", ParameterType::choices},   {"stage", ParameterType::stage},
+    {"stages", ParameterType::stages},     {"group", ParameterType::group},
+    {"map", ParameterType::map},           {"interval", ParameterType::interval},
+    {"per_axis", ParameterType::per_axis}, {"texts", ParameterType::texts},
+    {"list", ParameterType::list},         {"json", ParameterType::json}};
 
 ordered_json parameters_json(const std::vector<ParameterDoc>& parameters);
 
 ordered_json parameter_json(const ParameterDoc& parameter) {
-  ordered_json value = {{"key", parameter.key}, {"type", type_name(parameter.type)}};
+  ordered_json value = {{"key", parameter.key},
+                        {"type", params::word_of(kTypeNames, parameter.type)}};
   if (std::isfinite(parameter.range.minimum)) value["minimum"] = parameter.range.minimum;
   if (std::isfinite(parameter.range.maximum)) value["maximum"] = parameter.range.maximum;
   if (!parameter.choices.empty()) value["choices"] = parameter.choices;

@@ -49,7 +49,7 @@ std::size_t requested_trials(const std::string& manifest, const Summary& summary
 
 Results results_of(StoredRun run, const std::string& file) {
   const json manifest = parse_bounded(run.header.manifest);
-  const Experiment experiment = read_experiment_json(manifest.at("experiment").dump(), file);
+  const Experiment experiment = read_experiment_json(manifest.at("experiment"), file);
   Results results;
   results.name = experiment.name;
   results.description = experiment.description;

@@ -52,12 +52,6 @@ const params::Table<RigKeys>& table() {
   return table;
 }
 
-/// A rig.json contains no stages.
-class NoStages final : public params::StageBuilder {
- public:
-  params::BuiltStage build(const std::string&, const params::Node&) const override { return {}; }
-};
-
 /// Splits "left=left.pcd" into "left=" and "left.pcd". Without a name, the first is empty.
 std::pair<std::string, std::string> name_and_path(const std::string& word) {
   const std::size_t sign = word.find('=');
@@ -101,7 +95,7 @@ RigRequest read_rig_request(const fs::path& file) {
   refuse_experiment(json, file.string());
   const params::Node node(json, file.string(), faults);
   RigKeys keys;
-  if (node.is_object()) keys = table().read(node, {}, NoStages());
+  if (node.is_object()) keys = table().read(node, {}, params::NoStages());
   if (!faults.empty()) throw InputError(std::move(faults));
   if (keys.time_gap_s >= 0.0) keys.max_time_gap_s = keys.time_gap_s;
   if (keys.scenes >= 0) keys.max_scenes = keys.scenes;

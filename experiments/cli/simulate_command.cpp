@@ -181,9 +181,11 @@ std::vector<SceneGroup> groups_to_write(Experiment& experiment) {
 
 /// The settings that determine the bytes of the dataset.
 std::string recipe_json(const Experiment& experiment) {
+  StartRule starts = experiment.starts;
+  starts.trials = 0;
   nlohmann::ordered_json json = {
       {"dataset", nlohmann::ordered_json::parse(experiment.dataset.resolved())},
-      {"starts", nlohmann::ordered_json::parse(starts_json(experiment.starts, {"trials"}))},
+      {"starts", nlohmann::ordered_json::parse(starts_json(starts))},
       {"seed", experiment.seed}};
   if (experiment.scenes_per_trial > 1) json["scenes_per_trial"] = experiment.scenes_per_trial;
   return json.dump(2) + "\n";
@@ -241,7 +243,7 @@ std::vector<OutputFile> copies_of_given_files(const Experiment& experiment,
 
 /// The experiment with its dataset, and its file of starts, replaced by the written ones.
 std::string experiment_on(const Experiment& experiment) {
-  auto json = nlohmann::ordered_json::parse(experiment.merged);
+  nlohmann::ordered_json json = *experiment.merged;
   json["dataset"] = {{"type", "opencalib"}, {"path", "."}};
   if (json.contains("starts") && json["starts"].contains("file")) {
     json["starts"]["file"] = kStarts;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "experiments/file/measures.hpp"
 #include "experiments/file/statistics.hpp"
@@ -18,14 +17,6 @@ using params::Node;
 using params::optional;
 using params::Parameter;
 using params::Table;
-
-/// Claims contain no stages.
-class NoStages final : public params::StageBuilder {
- public:
-  params::BuiltStage build(const std::string&, const Node&) const override {
-    throw std::logic_error("a claim with a stage in it");
-  }
-};
 
 const std::vector<std::string> kShares = {kSuccess, kAgreement, kScenes};
 
@@ -122,18 +113,10 @@ Table<TableBand> band_table() {
 /// The row of one statistic in a table of values.
 Parameter<TableValues> values_row(std::size_t statistic) {
   const std::string name = kStatistics[statistic].name;
-  params::ParameterDoc doc{name, params::ParameterType::numbers,     "", {}, {},
-                           "",   "The " + name + " of each measure."};
-  doc.is_optional = true;
-  return {doc,
-          [=](TableValues& values, const Node& node, const params::StageBuilder&) {
-            params::read_value(node, doc, values.by_statistic[statistic]);
-          },
-          [=](const TableValues& values) {
-            const std::vector<double>& list = values.by_statistic[statistic];
-            return list.empty() ? std::string() : params::value_json(list);
-          },
-          false};
+  const params::ParameterDoc doc{name, params::ParameterType::numbers,     "[]", {}, {},
+                                 "",   "The " + name + " of each measure."};
+  return optional(params::value_row<TableValues>(
+      doc, [=](auto& values) -> auto& { return values.by_statistic[statistic]; }));
 }
 
 Table<TableValues> values_table() {
@@ -316,7 +299,7 @@ std::vector<Claim> read_claims(const Node& node) {
   params::for_each_element(node, [&](const Node& element) {
     if (!element.is_object()) return;
     const std::size_t faults_before = element.fault_count();
-    ClaimKeys keys = claim_keys_table().read(element, {}, NoStages());
+    ClaimKeys keys = claim_keys_table().read(element, {}, params::NoStages());
     if (element.fault_count() > faults_before) return;
     if (keys.values.empty()) {
       keys.sensor_file = element.file();
@@ -337,11 +320,7 @@ std::vector<Claim> read_claims(const Node& node) {
 }
 
 std::string claims_json(const std::vector<Claim>& claims) {
-  std::string text;
-  for (const Claim& claim : claims) {
-    text += (text.empty() ? "" : ",") + params::object_json(claim_table(), claim);
-  }
-  return "[" + text + "]";
+  return params::list_json(claims, [](const Claim& claim) { return claim_table().json(claim); });
 }
 
 const Table<Quoted>& quoted_table() {

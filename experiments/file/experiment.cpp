@@ -179,7 +179,7 @@ Experiment read_merged_experiment(const MergedFile& merged, const fs::path& path
   const auto starts = merged.origins.find("starts");
   experiment.starts_file = starts == merged.origins.end() ? experiment.file : starts->second.file;
   experiment.files = merged.files;
-  experiment.merged = merged.keys.dump();
+  experiment.merged = std::make_shared<const json>(merged.keys);
   return experiment;
 }
 
@@ -228,25 +228,24 @@ std::string location_of(const Experiment& experiment, const Variant& variant,
   return experiment.variants.size() > 1 ? text + " of the variant \"" + variant.name + "\"" : text;
 }
 
-std::string experiment_json(const Experiment& experiment) {
-  std::string variants;
+nlohmann::ordered_json experiment_json(const Experiment& experiment) {
+  auto whole = nlohmann::ordered_json::parse(kept_table().json(experiment));
+  nlohmann::ordered_json& variants = whole["variants"] = nlohmann::ordered_json::array();
   for (const Variant& variant : experiment.variants) {
-    variants += (variants.empty() ? "" : ",") + ("{\"name\":" + json(variant.name).dump()) +
-                ",\"pipeline\":" + variant.resolved + "}";
+    variants.push_back({{"name", variant.name}, {"pipeline", pipeline_json(variant.pipeline)}});
   }
-  return "{" + kept_table().members_json(experiment) + ",\"variants\":[" + variants + "]}";
+  return whole;
 }
 
-Experiment read_experiment_json(const std::string& text, const std::string& file) {
+Experiment read_experiment_json(const json& stored, const std::string& file) {
   std::vector<Fault> faults;
-  const json parsed = json::parse(text, nullptr, false);
-  if (!parsed.is_object()) throw InputError(file, "/experiment", "expected an object");
-  if (parsed.contains("variants") && parsed["variants"].size() > kMaxVariants) {
+  if (!stored.is_object()) throw InputError(file, "/experiment", "expected an object");
+  if (stored.contains("variants") && stored["variants"].size() > kMaxVariants) {
     throw InputError(file, "/experiment/variants",
                      "expected at most " + std::to_string(kMaxVariants) + " variants");
   }
   Experiment experiment =
-      kept_table().read(Node(parsed, file, faults), {"variants"}, UnbuiltStages());
+      kept_table().read(Node(stored, file, faults), {"variants"}, UnbuiltStages());
   if (!faults.empty()) throw InputError(faults);
   experiment.file = file;
   return experiment;

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -31,7 +33,6 @@ struct PosesFile {
 struct Variant {
   std::string name;  ///< "base" for the base pipeline.
   Pipeline pipeline;
-  std::string resolved;  ///< Canonical JSON of the pipeline with all its parameters.
   PosesFile poses = {};  ///< The initial poses of the pipeline; see `resolve_poses`.
 };
 
@@ -64,8 +65,8 @@ struct Experiment {
   std::vector<Quoted> quoted;     ///< Published results of other methods.
   std::vector<Variant> variants;  ///< The base first, then in the order of the file.
   std::vector<ExperimentFile> files;
-  /// JSON of all keys of the file and of the files that it extends.
-  std::string merged;
+  /// All keys of the file and of the files that it extends.
+  std::shared_ptr<const nlohmann::json> merged;
 };
 
 /// Reads the experiment in the JSON file `path`, with stages from `catalogue`. The keys of
@@ -92,12 +93,12 @@ std::string location_of(const Experiment& experiment, const Variant& variant,
 
 /// Canonical JSON of the experiment: every key with its default, claims expanded, each variant with
 /// its complete pipeline.
-std::string experiment_json(const Experiment& experiment);
+nlohmann::ordered_json experiment_json(const Experiment& experiment);
 
-/// Reads JSON written by `experiment_json` in this or an earlier version. The result has no
-/// variants, and its stages have only names and parameters. `file` is the origin of `text`. Throws
-/// InputError if the text is damaged.
-Experiment read_experiment_json(const std::string& text, const std::string& file);
+/// Reads `stored`, JSON written by `experiment_json` in this or an earlier version. The result has
+/// no variants, and its stages have only names and parameters. `file` is the origin of `stored`.
+/// Throws InputError if it is damaged.
+Experiment read_experiment_json(const nlohmann::json& stored, const std::string& file);
 
 /// Canonical JSON of the bounds.
 std::string success_json(const SuccessBounds& bounds);

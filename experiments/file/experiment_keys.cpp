@@ -130,8 +130,6 @@ const Table<ExperimentKeys>& experiment_table() {
   return table;
 }
 
-std::string success_json(const SuccessBounds& bounds) {
-  return params::object_json(success_table(), bounds);
-}
+std::string success_json(const SuccessBounds& bounds) { return success_table().json(bounds); }
 
 }  // namespace croon::experiments

@@ -130,9 +130,8 @@ const params::Table<StartRule>& start_table() {
   return table;
 }
 
-std::string starts_json(const StartRule& rule, const std::vector<std::string>& without) {
-  if (rule.is_none) return params::value_json(std::string(kNoStarts));
-  return "{" + start_table().members_json(rule, without) + "}";
+std::string starts_json(const StartRule& rule) {
+  return rule.is_none ? params::value_json(std::string(kNoStarts)) : start_table().json(rule);
 }
 
 int total_trials(const StartRule& rule) { return rule.trials * level_count(rule); }
@@ -148,7 +147,8 @@ void set_trials(StartRule& rule, int trials) {
 std::string deciding_starts_json(const StartRule& rule) {
   StartRule nameless = rule;
   if (!rule.file.empty()) nameless.file = "*";
-  return starts_json(nameless, {"trials"});
+  nameless.trials = 0;
+  return starts_json(nameless);
 }
 
 }  // namespace croon::experiments

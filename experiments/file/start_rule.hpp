@@ -74,8 +74,8 @@ inline constexpr const char* kNoStarts = "none";
 /// The keys of "starts".
 const params::Table<StartRule>& start_table();
 
-/// Canonical JSON of the rule, without the keys `without`.
-std::string starts_json(const StartRule& rule, const std::vector<std::string>& without = {});
+/// Canonical JSON of the rule.
+std::string starts_json(const StartRule& rule);
 
 /// The number of trials per variant, scene and sensor, including all levels of a sweep.
 int total_trials(const StartRule& rule);

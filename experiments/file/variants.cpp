@@ -290,11 +290,10 @@ std::vector<Variant> make_variants(const ExperimentKeys& keys, const Node& root,
       root.fault(too_long);
       break;
     }
-    Variant variant{named.name, {}, "", named.poses};
     const std::size_t faults_before = faults.size();
-    variant.pipeline = build_pipeline(named.pipeline, catalogue, faults, variant.resolved);
-    if (faults.size() == faults_before) check_steps(named, variant.pipeline, keys.loops, faults);
-    variants.push_back(std::move(variant));
+    const Pipeline pipeline = build_pipeline(named.pipeline, catalogue, faults);
+    if (faults.size() == faults_before) check_steps(named, pipeline, keys.loops, faults);
+    variants.push_back({named.name, pipeline, named.poses});
   }
   return variants;
 }

@@ -1,3 +1,4 @@
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "experiments/python/arrays.hpp"
@@ -75,12 +76,7 @@ class SharedPipeline {
     return names;
   }
 
-  /// The canonical JSON of each step.
-  py::list resolved() const {
-    py::list list;
-    for (const NamedStep& step : pipeline_) list.append(step.step.resolved());
-    return list;
-  }
+  std::string resolved() const { return pipeline_json(pipeline_).dump(); }
 
  private:
   Pipeline pipeline_;

@@ -56,11 +56,10 @@ std::function<params::BuiltStage(const params::Node&, const params::StageBuilder
     if (node.fault_count() > 0) return params::BuiltStage{};
     const ObjectRef instance = instance_of(type, parameters, node);
     if (!instance) return params::BuiltStage{};
-    const std::string members = declared.table.members_json(parameters);
-    const std::string head = "{\"" + name_key(kind) + "\":\"" + name + "\"";
+    const params::Members first = {{name_key(kind), params::value_json(name)}};
     return params::BuiltStage{python_stage(kind, is_rig_step, instance),
                               name,
-                              head + (members.empty() ? "" : "," + members) + "}",
+                              declared.table.json(parameters, first),
                               {},
                               flow};
   };

@@ -18,14 +18,10 @@ using Row = params::Parameter<PythonParameters>;
 template <class T>
 Row row_of(ParameterDoc doc, const T& value) {
   doc.default_json = params::value_json(value);
-  const auto read = [doc](PythonParameters& parameters, const Node& node,
-                          const params::StageBuilder&) {
-    params::read_value(node, doc, std::get<T>(parameters.values.at(doc.key)));
-  };
-  const auto json = [key = doc.key](const PythonParameters& parameters) {
-    return params::value_json(std::get<T>(parameters.values.at(key)));
-  };
-  return {doc, read, json, false};
+  return params::value_row<PythonParameters>(
+      doc, [key = doc.key](auto& parameters) -> auto& {
+        return std::get<T>(parameters.values.at(key));
+      });
 }
 
 /// The parameter types by their names in croon._stages.

@@ -1,6 +1,7 @@
 #include "experiments/run/given_poses.hpp"
 
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <tuple>
 
@@ -56,13 +57,10 @@ PosesStep read_step(const std::filesystem::path& path, const DatasetNames& names
 
 /// Inserts the step before the other steps of `variant`.
 void add_step(Variant& variant, const PosesStep& poses) {
-  const std::string members = "\"step\":\"poses\",\"sha256\":\"" + poses.sha256 + "\"}";
+  const nlohmann::ordered_json json = {{"step", kPosesStep}, {"sha256", poses.sha256}};
   variant.pipeline.insert(
       variant.pipeline.begin(),
-      {kPosesStep, params::Slot<Step>(params::BuiltStage{poses.step, kPosesStep, "{" + members})});
-  const bool is_only = variant.pipeline.size() == 1;
-  variant.resolved = std::string("[{\"name\":\"") + kPosesStep + "\"," + members +
-                     (is_only ? "" : ",") + variant.resolved.substr(1);
+      {kPosesStep, params::Slot<Step>(params::BuiltStage{poses.step, kPosesStep, json.dump()})});
 }
 
 }  // namespace

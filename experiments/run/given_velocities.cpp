@@ -1,6 +1,7 @@
 #include "experiments/run/given_velocities.hpp"
 
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "experiments/run/given_csv.hpp"
@@ -55,25 +56,13 @@ std::vector<Fault> missing(const GivenMotions& motions, const std::vector<std::s
   return faults;
 }
 
-/// Passes `table` to the step `named` of `variant`, and adds the digest of the file to the
-/// parameters of the step.
-void hand_over(Variant& variant, NamedStep& named, const GivenMotionStep& step,
-               const VelocityTable& table) {
-  const std::string before = named.step.resolved();
-  std::string after = before;
-  if (step.file().sha256.empty()) {
-    after = before.substr(0, before.size() - 1) + ",\"sha256\":\"" + table.sha256 + "\"}";
-  }
-  named.step =
-      params::Slot<Step>(params::BuiltStage{step.with(table.motions), named.step.name(), after,
-                                            named.step.versions(), named.step.flow()});
-  // In the list of steps, the step's name comes first, because another step may have the same
-  // parameters.
-  const std::string head = "{\"name\":\"" + named.name + "\",";
-  const std::size_t at = variant.resolved.find(head + before.substr(1));
-  if (at != std::string::npos) {
-    variant.resolved.replace(at, head.size() + before.size() - 1, head + after.substr(1));
-  }
+/// Passes `table` to the step `named`, and adds the digest of the file to the parameters of the
+/// step.
+void hand_over(NamedStep& named, const GivenMotionStep& step, const VelocityTable& table) {
+  auto json = nlohmann::ordered_json::parse(named.step.resolved());
+  json["sha256"] = table.sha256;
+  named.step = params::Slot<Step>({step.with(table.motions), named.step.name(), json.dump(),
+                                   named.step.versions(), named.step.flow()});
 }
 
 std::vector<std::string> names_of(const std::vector<Scene>& scenes) {
@@ -111,7 +100,7 @@ void resolve_step(Experiment& experiment, Variant& variant, NamedStep& named, Ta
         at.file, at.where,
         "expected the sha256 " + file.sha256 + ", found " + table.sha256 + " of " + path.string());
   }
-  hand_over(variant, named, *step, table);
+  hand_over(named, *step, table);
 }
 
 /// `first`, followed by a column for each number of a velocity.

@@ -15,6 +15,7 @@
 #include "framework/base/text.hpp"
 #include "framework/base/version.hpp"
 #include "framework/io/digest.hpp"
+#include "framework/table/renderers.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -78,8 +79,8 @@ Json list_json(const std::vector<Build>& builds) {
 }
 
 /// Bytes of paths that are not UTF-8 are replaced.
-std::string text_of(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 /// The file that contains this code: the program, or the module of another program.
@@ -139,7 +140,7 @@ bool is_same(const std::vector<Build>& a, const std::vector<Build>& b) {
   return builds_json(a) == builds_json(b);
 }
 
-std::string builds_json(const std::vector<Build>& builds) { return text_of(list_json(builds), -1); }
+std::string builds_json(const std::vector<Build>& builds) { return text_of(list_json(builds)); }
 
 std::vector<Build> read_builds(const std::string& text) {
   std::vector<Build> builds;
@@ -149,9 +150,7 @@ std::vector<Build> read_builds(const std::string& text) {
   return builds;
 }
 
-std::string versions_json(const params::StageVersions& versions) {
-  return text_of(Json(versions), -1);
-}
+std::string versions_json(const params::StageVersions& versions) { return text_of(versions); }
 
 params::StageVersions read_versions(const std::string& text) {
   const Json json = parse_bounded<Json>(text);
@@ -179,7 +178,7 @@ std::string manifest_with_builds(const std::string& manifest, const std::vector<
     }
     whole[key] = value;
   }
-  return text_of(whole, 2) + "\n";
+  return json_bytes(whole);
 }
 
 }  // namespace croon::experiments

@@ -18,6 +18,7 @@
 #include "framework/base/whole_file.hpp"
 #include "framework/io/digest.hpp"
 #include "framework/params/values.hpp"
+#include "framework/table/renderers.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -59,7 +60,7 @@ std::string pipeline_line(const std::string& name, const std::string& resolved) 
 std::string pipelines_text(const Experiment& experiment) {
   std::string text;
   for (const Variant& variant : experiment.variants) {
-    text += pipeline_line(variant.name, variant.resolved);
+    text += pipeline_line(variant.name, pipeline_json(variant.pipeline).dump());
   }
   return text;
 }
@@ -69,11 +70,6 @@ std::size_t planned_trials(const Experiment& experiment, const std::vector<Scene
   for (const SceneGroup& group : groups) sensors += group.pairs.size();
   return sensors * static_cast<std::size_t>(total_trials(experiment.starts)) *
          experiment.variants.size();
-}
-
-/// JSON text; bytes of paths that are not UTF-8 are replaced.
-std::string text_of(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string cpu_model() {
@@ -167,7 +163,7 @@ std::vector<std::string> without_truth(const std::vector<SceneGroup>& groups) {
 std::string manifest_json(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                           const std::vector<InputFile>& inputs, const Provenance& provenance) {
   Json manifest;
-  manifest["experiment"] = Json::parse(experiment_json(experiment));
+  manifest["experiment"] = experiment_json(experiment);
   manifest["experiment_files"] = files_json(experiment.files);
   if (experiment.scenes_per_trial > 1) manifest["groups"] = groups_json(groups);
   manifest["inputs"] = listed_inputs(inputs);
@@ -176,7 +172,7 @@ std::string manifest_json(const Experiment& experiment, const std::vector<SceneG
   manifest["planned"] = planned_trials(experiment, groups);
   const std::vector<std::string> sensors = without_truth(groups);
   if (!sensors.empty()) manifest[kWithoutTruth] = sensors;
-  return text_of(manifest);
+  return json_bytes(manifest);
 }
 
 std::size_t planned_trials(const std::string& manifest) {
@@ -216,14 +212,14 @@ std::string manifest_with_variants(const std::string& manifest,
   }
   json["provenance"]["pipelines"] = sha256_of_text(pipelines);
   json["planned"] = trials_of_one * described.size();
-  return text_of(json);
+  return json_bytes(json);
 }
 
 std::string manifest_with_host(const std::string& manifest, const std::filesystem::path& data_root,
                                int jobs) {
   Json json = parse_bounded<Json>(manifest);
   json["host"] = host_json(data_root, jobs);
-  return text_of(json);
+  return json_bytes(json);
 }
 
 std::string hosts_json(const std::vector<std::filesystem::path>& folders) {
@@ -244,13 +240,13 @@ std::string hosts_json(const std::vector<std::filesystem::path>& folders) {
     const Json hosts = is_list ? host->at("merged") : Json::array({*host});
     for (const Json& one : hosts) merged.push_back(one);
   }
-  return text_of(merged);
+  return json_bytes(merged);
 }
 
 std::string merged_manifest(const std::string& manifest, const std::string& hosts) {
   Json json = parse_bounded<Json>(manifest);
   json["host"] = {{"merged", Json::parse(hosts)}};
-  return text_of(json);
+  return json_bytes(json);
 }
 
 Provenance provenance_of(const Experiment& experiment, const std::vector<SceneGroup>& groups,
@@ -276,7 +272,7 @@ StoreHeader header_of(const Experiment& experiment, const std::vector<SceneGroup
   header.manifest = manifest;
   header.trials = total_trials(experiment.starts);
   for (const Variant& variant : experiment.variants) {
-    header.variants.push_back({variant.name, variant.resolved});
+    header.variants.push_back({variant.name, pipeline_json(variant.pipeline).dump()});
   }
   for (const SceneGroup& group : groups) header.scenes.push_back({group.name, group.kind});
   std::map<std::string, std::string> targets;

@@ -55,21 +55,20 @@ void stay_near_start(nlohmann::json& steps, const Catalogue& catalogue) {
   }
 }
 
-Composition composition_in(const std::string& text, const std::string& name,
+Composition composition_in(nlohmann::json document, const std::string& name,
                            const std::string& file, const Catalogue& catalogue) {
   Composition composition;
   composition.name = name;
-  nlohmann::json document = params::parse_json(text, file);
   nlohmann::json* const steps = steps_of(document);
   if (steps == nullptr && document.is_object() && document.contains("extends")) {
     throw InputError(file, "", "expected a list of steps as \"pipeline\", found \"extends\" alone");
   }
-  // For a text without steps, this throws the appropriate error.
-  if (steps == nullptr || steps->empty()) parse_pipeline(text, file, catalogue);
+  // Without steps, this throws the appropriate error.
+  if (steps == nullptr || steps->empty()) pipeline_in(document, file, catalogue);
   append_missing_steps(*steps);
-  composition.from_nothing = parse_pipeline(document.dump(), file, catalogue);
+  composition.from_nothing = pipeline_in(document, file, catalogue);
   stay_near_start(*steps, catalogue);
-  composition.near_nominal = parse_pipeline(document.dump(), file, catalogue);
+  composition.near_nominal = pipeline_in(document, file, catalogue);
   for (const NamedStep& step : composition.from_nothing) {
     const params::DataFlow& flow = step.step.flow();
     composition.target_channels.insert(flow.target_channels.begin(), flow.target_channels.end());
@@ -91,7 +90,7 @@ const std::string& recommended_pipeline_text(const std::string& name) {
 }
 
 Composition embedded_composition(const std::string& name, const Catalogue& catalogue) {
-  return composition_in(embedded_pipelines().at(name), name, name, catalogue);
+  return composition_in_text(embedded_pipelines().at(name), name, catalogue);
 }
 
 Composition unsynchronised_composition(const Catalogue& catalogue) {
@@ -101,12 +100,12 @@ Composition unsynchronised_composition(const Catalogue& catalogue) {
   for (nlohmann::json& step : *steps_of(document)) {
     if (step.at("step") == "motion_check") step["max_travel_m"] = kMaxTravel_m;
   }
-  return composition_in(document.dump(), "standing", "standing", catalogue);
+  return composition_in(std::move(document), "standing", "standing", catalogue);
 }
 
 Composition composition_in_text(const std::string& text, const std::string& name,
                                 const Catalogue& catalogue) {
-  return composition_in(text, name, name, catalogue);
+  return composition_in(params::parse_json(text, name), name, name, catalogue);
 }
 
 Composition composition_called(const std::string& pipeline, const Catalogue& catalogue) {
@@ -116,7 +115,7 @@ Composition composition_called(const std::string& pipeline, const Catalogue& cat
   const std::filesystem::path file = pipeline;
   const bool is_path = file.has_parent_path() || file.extension() == ".json";
   if (!is_path && !std::filesystem::exists(file)) recommended_pipeline_text(pipeline);
-  return composition_in(params::read_json_text(file), file.filename().string(), pipeline,
+  return composition_in(params::read_json_file(file), file.filename().string(), pipeline,
                         catalogue);
 }
 

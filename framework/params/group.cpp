@@ -1,5 +1,6 @@
 #include "framework/params/group.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace croon::params {
@@ -18,17 +19,12 @@ std::vector<std::string> read_names(const Node& node, const std::string& name_wo
   return names;
 }
 
-std::string map_json(const std::vector<std::pair<std::string, std::string>>& named_json) {
-  std::string text;
-  for (std::size_t i = 0; i < named_json.size(); ++i) {
-    const auto& [name, value] = named_json[i];
-    if (i > 0 && !(named_json[i - 1].first < name)) {
-      throw std::logic_error("the name \"" + name + "\" must come before \"" +
-                             named_json[i - 1].first + "\"");
-    }
-    text += (i == 0 ? "" : ",") + value_json(name) + ":" + value;
+std::string map_json(const Members& members) {
+  const auto is_unsorted = [](const auto& a, const auto& b) { return a.first >= b.first; };
+  if (std::adjacent_find(members.begin(), members.end(), is_unsorted) != members.end()) {
+    throw std::logic_error("the names of a map must be in alphabetical order");
   }
-  return "{" + text + "}";
+  return object_json(members);
 }
 
 }  // namespace croon::params

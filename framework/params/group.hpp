@@ -29,15 +29,9 @@ extern const NameRule kKeyName;
 /// sensor's name".
 std::vector<std::string> read_names(const Node& node, const std::string& name_words);
 
-/// The JSON object with the texts `named_json` by name. Names that are not in alphabetical order
-/// are a std::logic_error, because files are read in that order.
-std::string map_json(const std::vector<std::pair<std::string, std::string>>& named_json);
-
-/// The JSON text of the object that `table` reads as `value`.
-template <class G>
-std::string object_json(const Table<G>& table, const G& value) {
-  return "{" + table.members_json(value) + "}";
-}
+/// The JSON text of the object with `members`. Names that are not in alphabetical order are a
+/// std::logic_error, because files are read in that order.
+std::string map_json(const Members& members);
 
 /// The documentation of a parameter whose objects `table` reads. A stage in `table` is a
 /// std::logic_error: presets and defaults are plain values, whereas a stage must be built.
@@ -78,10 +72,10 @@ Parameter<P> group(const std::string& key, G P::*member, const Table<G>& table,
   ParameterDoc doc = object_doc(key, ParameterType::group, table, sentence);
   for (const Preset<G>& preset : presets) {
     doc.choices.push_back(preset.name);
-    doc.preset_json.push_back(object_json(table, preset.value));
+    doc.preset_json.push_back(table.json(preset.value));
   }
   doc.is_required = !table.is_whole(P{}.*member);
-  set_default(doc, object_json(table, P{}.*member));
+  set_default(doc, table.json(P{}.*member));
   const auto read = [=, names = doc.choices](P& params, const Node& node,
                                              const StageBuilder& builder) {
     if (node.has_members()) {
@@ -92,7 +86,7 @@ Parameter<P> group(const std::string& key, G P::*member, const Table<G>& table,
       params.*member = presets[*preset].value;
     }
   };
-  return {doc, read, [=](const P& params) { return object_json(table, params.*member); }, false};
+  return {doc, read, [=](const P& params) { return table.json(params.*member); }, false};
 }
 
 /// An optional object that `table` reads.
@@ -105,7 +99,7 @@ Parameter<P> optional_group(const std::string& key, std::optional<G> P::*member,
     if (node.is_object()) params.*member = table.read(node, {}, builder);
   };
   const auto json = [=](const P& params) {
-    return params.*member ? object_json(table, *(params.*member)) : std::string();
+    return params.*member ? table.json(*(params.*member)) : std::string();
   };
   return {doc, read, json, false};
 }
@@ -125,11 +119,7 @@ Parameter<P> list(const std::string& key, std::vector<G> P::*member, const Table
     });
   };
   const auto json = [=](const P& params) {
-    std::string text;
-    for (const G& value : params.*member) {
-      text += (text.empty() ? "" : ",") + object_json(table, value);
-    }
-    return "[" + text + "]";
+    return list_json(params.*member, [&](const G& value) { return table.json(value); });
   };
   return {doc, read, json, false};
 }
@@ -149,11 +139,9 @@ Parameter<P> map(const std::string& key, std::vector<std::pair<std::string, G>> 
     params.*member = std::move(values);
   };
   const auto json = [=](const P& params) {
-    std::vector<std::pair<std::string, std::string>> named_json;
-    for (const auto& [name, value] : params.*member) {
-      named_json.emplace_back(name, object_json(table, value));
-    }
-    return map_json(named_json);
+    Members members;
+    for (const auto& [name, value] : params.*member) members.emplace_back(name, table.json(value));
+    return map_json(members);
   };
   ParameterDoc doc = object_doc(key, ParameterType::map, table, sentence);
   doc.name_words = name_words;

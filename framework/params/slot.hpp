@@ -3,7 +3,9 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "framework/params/data_flow.hpp"
 #include "framework/params/node.hpp"
@@ -34,36 +36,37 @@ class StageBuilder {
   virtual BuiltStage build(const std::string& kind, const Node& node) const = 0;
 };
 
+/// For tables without stages.
+class NoStages final : public StageBuilder {
+ public:
+  BuiltStage build(const std::string& kind, const Node&) const override {
+    throw std::logic_error("expected no stage, found one of the kind " + kind);
+  }
+};
+
 /// A parameter whose value is a stage of the kind `Kind`.
 template <class Kind>
 class Slot {
  public:
   Slot() = default;
-  explicit Slot(const BuiltStage& built)
-      : stage_(std::static_pointer_cast<const Kind>(built.stage)),
-        name_(built.name),
-        resolved_(built.resolved),
-        versions_(built.versions),
-        flow_(built.flow.value_or(DataFlow())) {}
+  explicit Slot(BuiltStage built) : built_(std::move(built)) {
+    if (!built_.flow) built_.flow.emplace();
+  }
 
-  const Kind* operator->() const { return stage_.get(); }
-  const Kind& operator*() const { return *stage_; }
+  const Kind* operator->() const { return static_cast<const Kind*>(built_.stage.get()); }
+  const Kind& operator*() const { return *operator->(); }
   /// The stage's name, "ransac".
-  const std::string& name() const { return name_; }
+  const std::string& name() const { return built_.name; }
   /// Canonical JSON text of the stage and its parameters: the cache key for what it computes once
   /// per cloud.
-  const std::string& resolved() const { return resolved_; }
+  const std::string& resolved() const { return built_.resolved; }
   /// The versions of the stage and of those in its own slots.
-  const StageVersions& versions() const { return versions_; }
+  const StageVersions& versions() const { return built_.versions; }
   /// The data flow of the stage and of those in its slots.
-  const DataFlow& flow() const { return flow_; }
+  const DataFlow& flow() const { return *built_.flow; }
 
  private:
-  std::shared_ptr<const Kind> stage_;
-  std::string name_;
-  std::string resolved_;
-  StageVersions versions_;
-  DataFlow flow_;
+  BuiltStage built_ = {nullptr, "", "", {}, DataFlow()};
 };
 
 }  // namespace croon::params

@@ -100,9 +100,11 @@ class Table {
   /// Whether `params` has a value for every required key.
   bool is_whole(const P& params) const;
 
-  /// `"key":value` for each parameter that has a value, comma-separated, for the resolved JSON.
-  /// Omits keys that the rules exclude and those in `without`.
-  std::string members_json(const P& params, const std::vector<std::string>& without = {}) const;
+  /// Canonical JSON: the members `first`, then each parameter that has a value and that no rule
+  /// excludes.
+  std::string json(const P& params, Members first = {}) const {
+    return object_json(members(params, std::move(first)), rules_);
+  }
 
   std::vector<ParameterDoc> docs() const {
     std::vector<ParameterDoc> docs;
@@ -111,13 +113,10 @@ class Table {
   }
 
  private:
-  /// The keys with the JSON text of their values.
-  std::vector<std::pair<std::string, std::string>> members(const P& params) const {
-    std::vector<std::pair<std::string, std::string>> members;
-    for (const Parameter<P>& parameter : parameters_) {
-      members.emplace_back(parameter.doc.key, parameter.json(params));
-    }
-    return members;
+  /// The members of canonical JSON after `first`, including those that rules exclude.
+  Members members(const P& params, Members first = {}) const {
+    for (const Parameter<P>& row : parameters_) first.emplace_back(row.doc.key, row.json(params));
+    return first;
   }
 
   static bool is_missing(const Parameter<P>& parameter, const P& params) {
@@ -170,25 +169,22 @@ bool Table<P>::is_whole(const P& params) const {
                       [&](const Parameter<P>& row) { return is_missing(row, params); });
 }
 
-template <class P>
-std::string Table<P>::members_json(const P& params, const std::vector<std::string>& without) const {
-  std::vector<std::pair<std::string, std::string>> kept;
-  for (std::pair<std::string, std::string>& member : members(params)) {
-    if (std::find(without.begin(), without.end(), member.first) == without.end()) {
-      kept.push_back(std::move(member));
-    }
-  }
-  return members_text(kept, rules_);
+/// A row for the value `of(params)`, a reference to any type that has `read_value` and
+/// `value_json`.
+template <class P, class Of>
+Parameter<P> value_row(const ParameterDoc& doc, const Of& of) {
+  const auto read = [doc, of](P& params, const Node& node, const StageBuilder&) {
+    read_value(node, doc, of(params));
+  };
+  return {doc, read, [of](const P& params) { return value_json(of(params)); }, false};
 }
 
-/// A row for any type that has `read_value` and `value_json`.
+/// The same for a member.
 template <class P, class T>
 Parameter<P> value_parameter(ParameterDoc doc, T P::*member) {
   doc.default_json = value_json(P{}.*member);
-  const auto read = [doc, member](P& params, const Node& node, const StageBuilder&) {
-    read_value(node, doc, params.*member);
-  };
-  return {doc, read, [member](const P& params) { return value_json(params.*member); }, false};
+  return value_row<P>(
+      doc, [member](auto& params) -> auto& { return params.*member; });
 }
 
 /// `row` with its key made required, even if it has a default.
@@ -346,11 +342,8 @@ Parameter<P> slots(const std::string& key, std::vector<Slot<Kind>> P::*member,
             });
           },
           [member](const P& params) {
-            std::string text;
-            for (const Slot<Kind>& slot : params.*member) {
-              text += (text.empty() ? "" : ",") + slot.resolved();
-            }
-            return "[" + text + "]";
+            return list_json(params.*member,
+                             [](const Slot<Kind>& slot) { return slot.resolved(); });
           },
           false};
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
@@ -235,13 +234,25 @@ std::string value_json(double value) {
 }
 std::string value_json(const std::string& value) { return json(value).dump(); }
 std::string value_json(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ",") + value_json(value);
-  return "[" + text + "]";
+  return list_json(values, [](double value) { return value_json(value); });
 }
 std::string value_json(const std::vector<std::string>& words) { return json(words).dump(); }
 
 std::string node_json(const Node& node) { return node.value().dump(); }
+
+std::string object_json(const Members& members, const std::vector<KeyRule>& rules) {
+  nlohmann::ordered_json object = nlohmann::ordered_json::object();
+  for (const auto& [key, text] : members) {
+    if (!text.empty()) object[key] = nlohmann::ordered_json::parse(text);
+  }
+  const json before = object;
+  std::vector<Fault> none;
+  for (const KeyRule& rule : rules) {
+    if (!rule.one_of.empty() || !applies(rule, Node(before, "", none))) continue;
+    for (const std::string& key : rule.excluded) object.erase(key);
+  }
+  return object.dump();
+}
 
 void check_key_rules(const Node& node, const std::vector<KeyRule>& rules) {
   for (const KeyRule& rule : rules) {
@@ -261,11 +272,10 @@ void check_key_rules(const Node& node, const std::vector<KeyRule>& rules) {
   }
 }
 
-void note_broken_rule(const Node& node, const std::string& message,
-                      const std::vector<std::pair<std::string, std::string>>& members) {
+void note_broken_rule(const Node& node, const std::string& message, const Members& members) {
   constexpr std::size_t kMaxValueColumns = 60;
   std::vector<std::string> parts;
-  std::vector<std::pair<std::string, std::string>> named;
+  Members named;
   for (const auto& [key, text] : members) {
     if (text.empty() || !has_word(message, key)) continue;
     parts.push_back(node.pointer_to(key));
@@ -276,30 +286,6 @@ void note_broken_rule(const Node& node, const std::string& message,
     found += (found.empty() ? ", found " : " and ") + (named.size() > 1 ? key + " " : "") + text;
   }
   node.fault(message + found, parts);
-}
-
-std::string members_text(const std::vector<std::pair<std::string, std::string>>& members,
-                         const std::vector<KeyRule>& rules) {
-  std::set<std::string> excluded;
-  if (!rules.empty()) {
-    json object = json::object();
-    for (const auto& [key, text] : members) {
-      if (!text.empty()) object[key] = json::parse(text);
-    }
-    std::vector<Fault> faults;
-    const Node node(object, "", faults);
-    for (const KeyRule& rule : rules) {
-      if (rule.one_of.empty() && applies(rule, node)) {
-        excluded.insert(rule.excluded.begin(), rule.excluded.end());
-      }
-    }
-  }
-  std::string joined;
-  for (const auto& [key, text] : members) {
-    if (text.empty() || excluded.count(key) > 0) continue;
-    joined += (joined.empty() ? "\"" : ",\"") + key + "\":" + text;
-  }
-  return joined;
 }
 
 void set_default(ParameterDoc& doc, const std::string& value) {

@@ -58,18 +58,26 @@ std::string value_json(const std::vector<std::string>& value);
 /// The JSON text of the node's value.
 std::string node_json(const Node& node);
 
+/// Keys, each with the JSON text of its value; no text means no value.
+using Members = std::vector<std::pair<std::string, std::string>>;
+
+/// The JSON text of the object with `members`, without keys that the rules exclude.
+std::string object_json(const Members& members, const std::vector<KeyRule>& rules = {});
+
+/// The JSON text of the list of `values`, each written by `json`.
+template <class T, class Json>
+std::string list_json(const std::vector<T>& values, const Json& json) {
+  std::string text;
+  for (const T& value : values) text += (text.empty() ? "" : ",") + json(value);
+  return "[" + text + "]";
+}
+
 /// Notes a fault for each rule that the object `node` breaks.
 void check_key_rules(const Node& node, const std::vector<KeyRule>& rules);
 
-/// Notes that `members` (keys with their JSON text) break the rule `message`, and appends the
-/// values of the keys that `message` names.
-void note_broken_rule(const Node& node, const std::string& message,
-                      const std::vector<std::pair<std::string, std::string>>& members);
-
-/// The JSON members `"key":value`, comma-separated. Omits keys whose text is empty and those that
-/// the rules exclude.
-std::string members_text(const std::vector<std::pair<std::string, std::string>>& members,
-                         const std::vector<KeyRule>& rules);
+/// Notes that `members` break the rule `message`, and appends the values of the keys that `message`
+/// names.
+void note_broken_rule(const Node& node, const std::string& message, const Members& members);
 
 /// Sets the parameter's default to the JSON text `value`, or to the name of the preset equal to it.
 void set_default(ParameterDoc& doc, const std::string& value);

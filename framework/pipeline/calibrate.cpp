@@ -11,14 +11,18 @@ namespace croon {
 Pipeline parse_pipeline(const std::string& text, const std::string& file,
                         const Catalogue& catalogue) {
   std::vector<Fault> faults;
-  const nlohmann::json json = params::parse_json(text, file, faults);
-  const params::Node root(json, file, faults);
-  const bool is_object = json.is_object() && json.contains("pipeline");
+  const nlohmann::json document = params::parse_json(text, file, faults);
+  return pipeline_in(document, file, catalogue, std::move(faults));
+}
+
+Pipeline pipeline_in(const nlohmann::json& document, const std::string& file,
+                     const Catalogue& catalogue, std::vector<Fault> faults) {
+  const params::Node root(document, file, faults);
+  const bool is_object = document.is_object() && document.contains("pipeline");
   const params::Node list = is_object ? root.member("pipeline") : root;
   if (!list.is_array()) throw InputError(std::move(faults));
   const PatchedPipeline steps = read_steps(list);
-  std::string resolved;
-  Pipeline pipeline = build_pipeline(steps, catalogue, faults, resolved);
+  Pipeline pipeline = build_pipeline(steps, catalogue, faults);
   if (faults.empty()) faults = unmet_needs(steps, pipeline);
   if (!faults.empty()) throw InputError(std::move(faults));
   return pipeline;

@@ -18,6 +18,10 @@ namespace croon {
 Pipeline parse_pipeline(const std::string& text, const std::string& file,
                         const Catalogue& catalogue);
 
+/// The same from parsed JSON; `faults` are those already found in it.
+Pipeline pipeline_in(const nlohmann::json& document, const std::string& file,
+                     const Catalogue& catalogue, std::vector<Fault> faults = {});
+
 /// The same from the file `path`.
 Pipeline load_pipeline(const std::filesystem::path& path, const Catalogue& catalogue);
 

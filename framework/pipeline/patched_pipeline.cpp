@@ -221,19 +221,14 @@ std::string replace_value(PatchedPipeline& pipeline, const std::string& path, co
 }
 
 Pipeline build_pipeline(const PatchedPipeline& pipeline, const Catalogue& catalogue,
-                        std::vector<Fault>& faults, std::string& resolved) {
+                        std::vector<Fault>& faults) {
   Pipeline built;
-  resolved.clear();
   for (const PatchedStep& step : pipeline) {
     std::vector<Fault> step_faults;
     const params::Slot<Step> slot = catalogue.slot<Step>(Node(*step.value, "", step_faults));
     for (const Fault& fault : step_faults) faults.push_back(located(fault, step.origins));
-    if (!step_faults.empty()) continue;
-    built.push_back({step.name, slot});
-    resolved += (resolved.empty() ? "" : ",") + ("{\"name\":" + json(step.name).dump()) + "," +
-                slot.resolved().substr(1);
+    if (step_faults.empty()) built.push_back({step.name, slot});
   }
-  resolved = "[" + resolved + "]";
   return built;
 }
 

@@ -49,10 +49,10 @@ std::string remove_step(PatchedPipeline& pipeline, const std::string& name);
 std::string replace_value(PatchedPipeline& pipeline, const std::string& path,
                           const params::Node& value, const Catalogue& catalogue);
 
-/// Builds the pipeline that the JSON describes; sets `resolved` to its canonical JSON. Adds all
-/// faults to `faults`, each with the file and the pointer where the value was written.
+/// Builds the pipeline that the JSON describes. Adds all faults to `faults`, each with the file and
+/// the pointer where the value was written.
 Pipeline build_pipeline(const PatchedPipeline& pipeline, const Catalogue& catalogue,
-                        std::vector<Fault>& faults, std::string& resolved);
+                        std::vector<Fault>& faults);
 
 /// The fault `message` of the step, at the position where the step was written.
 Fault fault_of_step(const PatchedStep& step, const std::string& message);

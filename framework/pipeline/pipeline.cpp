@@ -1,5 +1,6 @@
 #include "framework/pipeline/pipeline.hpp"
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
@@ -8,6 +9,16 @@
 #include "framework/stage/reasons.hpp"
 
 namespace croon {
+
+nlohmann::ordered_json pipeline_json(const Pipeline& pipeline) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const NamedStep& named : pipeline) {
+    nlohmann::ordered_json step = {{"name", named.name}};
+    step.update(nlohmann::ordered_json::parse(named.step.resolved()));
+    list.push_back(std::move(step));
+  }
+  return list;
+}
 
 PipelineResult at_start(std::shared_ptr<const Cloud> target, std::shared_ptr<const Cloud> source,
                         const RigidTransform& start) {

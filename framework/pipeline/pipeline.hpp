@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct NamedStep {
 
 /// The steps of a method, in order.
 using Pipeline = std::vector<NamedStep>;
+
+/// Canonical JSON of the pipeline: its steps with their names and all their parameters.
+nlohmann::ordered_json pipeline_json(const Pipeline& pipeline);
 
 /// The record of one step of one trial.
 struct StepRecord {

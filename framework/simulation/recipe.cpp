@@ -111,10 +111,9 @@ params::Parameter<Mix> weight_row(SceneKind kind) {
   doc.default_json = params::value_json(0.0);
   doc.range = {0.0, 1e9};
   doc.sentence = row_of(kind).sentence;
-  const auto read = [doc, kind](Mix& mix, const params::Node& node, const params::StageBuilder&) {
-    params::read_value(node, doc, mix[kind]);
-  };
-  return {doc, read, [kind](Mix mix) { return params::value_json(mix[kind]); }, false};
+  const auto index = static_cast<std::size_t>(kind);
+  return params::value_row<Mix>(
+      doc, [=](auto& mix) -> auto& { return mix.weights[index]; });
 }
 
 Table<Mix> mix_table() {

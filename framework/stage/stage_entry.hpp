@@ -82,13 +82,9 @@ StageEntry stage_entry(const std::string& name, const std::string& summary,
     const P params = table.read(node, reserved_keys(Kind::kKind), builder);
     if (node.fault_count() > 0) return params::BuiltStage{};
     const std::shared_ptr<const Kind> stage = std::make_shared<const Stage>(params);
-    const std::string members = table.members_json(params);
-    const std::string head = "{\"" + name_key(Kind::kKind) + "\":\"" + name + "\"";
-    return params::BuiltStage{stage,
-                              name,
-                              head + (members.empty() ? "" : "," + members) + "}",
-                              {},
-                              stated_flow<Stage>(params, 0)};
+    const params::Members first = {{name_key(Kind::kKind), params::value_json(name)}};
+    return params::BuiltStage{
+        stage, name, table.json(params, first), {}, stated_flow<Stage>(params, 0)};
   };
   return entry;
 }

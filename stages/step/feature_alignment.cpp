@@ -118,7 +118,7 @@ class FeatureAlignment final : public Step {
  private:
   std::shared_ptr<const PointFeatures> features_of(const Cloud& cloud, const char* whose) const {
     require_points(cloud, whose);
-    const std::string parameters = feature_table().members_json(params_) + " " +
+    const std::string parameters = feature_table().json(params_) + " " +
                                    params_.feature_thinning.resolved() + " " +
                                    params::value_json(params_.max_range_m);
     return cloud.once<PointFeatures>("point_features", parameters, [&] {

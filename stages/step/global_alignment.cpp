@@ -118,8 +118,7 @@ class GlobalAlignment final : public Step {
   /// Identifies everything that the target's map above plane `index` depends on.
   std::string map_key(std::size_t index) const {
     return std::to_string(index) + " " + params_.thinning.resolved() + " " +
-           std::to_string(params_.ground_candidates) + " " +
-           layered_map_table().members_json(params_);
+           std::to_string(params_.ground_candidates) + " " + layered_map_table().json(params_);
   }
 
   Params params_;

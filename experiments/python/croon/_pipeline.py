@@ -49,8 +49,7 @@ class Pipeline:
     @property
     def steps(self) -> List[Dict[str, Any]]:
         """The steps with all their parameters, as a list of dicts from which the same pipeline can be constructed."""
-        names = self._pipeline.names()
-        return [{"name": name, **json.loads(step)} for name, step in zip(names, self._pipeline.resolved())]
+        return json.loads(self._pipeline.resolved())
 
     def run(self, target: ArrayLike, source: ArrayLike, initial: Optional[ArrayLike] = None, *, seed: int = 1,
             scene: str = "scene", reference: str = "reference", sensor: str = "sensor", trial: int = 0) -> Result:

@@ -253,9 +253,9 @@ TEST(Claims, ATableShowsFaultsAtTheirPlaces) {
             "/claims/0/values/front/mean: expected a mean with \"std\"");
 }
 
-TEST(Claims, TextThatIsNoExperimentIsRefused) {
-  for (const char* text : {"", "[]", R"({"claims":[{}]})", R"({"claims":)", "{}"}) {
-    EXPECT_THROW(read_experiment_json(text, "store"), InputError) << text;
+TEST(Claims, JsonThatIsNoExperimentIsRefused) {
+  for (const char* text : {"null", "[]", R"({"claims":[{}]})", "{}"}) {
+    EXPECT_THROW(read_experiment_json(json::parse(text), "store"), InputError) << text;
   }
 }
 

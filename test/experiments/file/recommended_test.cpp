@@ -25,7 +25,7 @@ TEST(Recommended, DefaultsOfStagesAreThoseOfThePapersPipeline) {
   const test::TempFolder folder;
   std::ofstream(folder.path() / "defaults.json") << file;
   const auto resolved = [](const std::filesystem::path& path) {
-    return json::parse(load_experiment(path, registry()).variants.at(0).resolved);
+    return json(pipeline_json(load_experiment(path, registry()).variants.at(0).pipeline));
   };
   EXPECT_EQ(json::diff(resolved(paper), resolved(folder.path() / "defaults.json")), json::array());
 }

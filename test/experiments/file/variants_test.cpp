@@ -25,7 +25,7 @@ struct ReadVariants {
   /// The resolved pipeline of a variant.
   json pipeline(const std::string& name) const {
     for (const Variant& variant : variants) {
-      if (variant.name == name) return json::parse(variant.resolved);
+      if (variant.name == name) return pipeline_json(variant.pipeline);
     }
     return nullptr;
   }

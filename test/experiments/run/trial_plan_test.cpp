@@ -13,7 +13,7 @@ namespace {
 
 Experiment experiment_with(const std::vector<std::string>& variants, int trials) {
   Experiment experiment;
-  for (const std::string& name : variants) experiment.variants.push_back({name, {}, ""});
+  for (const std::string& name : variants) experiment.variants.push_back({name, {}});
   experiment.starts.trials = trials;
   return experiment;
 }

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/params/json_file.hpp"
-#include "test/framework/params/no_stages.hpp"
 
 namespace croon::params {
 namespace {
@@ -86,7 +85,7 @@ std::vector<std::string> faults_of(const std::string& text) {
 std::string resolved(const std::string& text, const std::string& key) {
   Nested sample;
   EXPECT_EQ(faults_of(text, sample), std::vector<std::string>{}) << text;
-  return nlohmann::json::parse(object_json(table(), sample))[key].dump();
+  return nlohmann::json::parse(table().json(sample))[key].dump();
 }
 
 std::string model_json(int rings, double far_m = 100.0) {
@@ -208,8 +207,8 @@ TEST(Group, WithoutPresetsIsAnObject) {
 
 TEST(Map, RefusesADefaultOutOfTheOrderOfItsNames) {
   const Table<Rig>& rigs = rig_table();
-  EXPECT_THROW(object_json(rigs, Rig{"a", {{"b", {}}, {"a", {}}}}), std::logic_error);
-  EXPECT_THROW(object_json(rigs, Rig{"a", {{"a", {}}, {"a", {}}}}), std::logic_error);
+  EXPECT_THROW(rigs.json(Rig{"a", {{"b", {}}, {"a", {}}}}), std::logic_error);
+  EXPECT_THROW(rigs.json(Rig{"a", {{"a", {}}, {"a", {}}}}), std::logic_error);
 }
 
 struct Kind {

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/params/json_file.hpp"
-#include "test/framework/params/no_stages.hpp"
 
 namespace croon::params {
 namespace {
@@ -74,8 +73,8 @@ TEST(Table, GivesDefaultsWhereNothingIsSaid) {
   const Sample sample = read(R"({"type": "t"})", lines);
   EXPECT_TRUE(lines.empty());
   EXPECT_EQ(
-      sample_table().members_json(sample),
-      R"("size_m":0.5,"flag":false,"word":"one","name":"a","steps":[1,0.5],"words":["x"],"count":3)");
+      sample_table().json(sample),
+      R"({"size_m":0.5,"flag":false,"word":"one","name":"a","steps":[1,0.5],"words":["x"],"count":3})");
 }
 
 TEST(Table, ReadsEveryType) {
@@ -85,8 +84,8 @@ TEST(Table, ReadsEveryType) {
       lines);
   EXPECT_TRUE(lines.empty());
   EXPECT_EQ(
-      sample_table().members_json(sample),
-      R"("size_m":2,"flag":true,"word":"two","name":"b","steps":[0.3],"words":["z","x"],"count":4)");
+      sample_table().json(sample),
+      R"({"size_m":2,"flag":true,"word":"two","name":"b","steps":[0.3],"words":["z","x"],"count":4})");
 }
 
 TEST(Table, NotesEveryFaultWithItsPlace) {

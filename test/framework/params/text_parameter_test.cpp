@@ -5,7 +5,6 @@
 
 #include "framework/params/json_file.hpp"
 #include "framework/params/table.hpp"
-#include "test/framework/params/no_stages.hpp"
 
 namespace croon::params {
 namespace {
@@ -30,7 +29,7 @@ TEST(TextParameter, IsAnyTextAndIsWrittenAsJson) {
   const Params params = read(R"({"path": "a \"b\"/ü"})", faults);
   EXPECT_TRUE(faults.empty());
   EXPECT_EQ(params.path, "a \"b\"/ü");
-  EXPECT_EQ(kTable.members_json(params), R"("path":"a \"b\"/ü","name":"unnamed")");
+  EXPECT_EQ(kTable.json(params), R"({"path":"a \"b\"/ü","name":"unnamed"})");
 }
 
 TEST(TextParameter, IsRequiredWhereItHasNoDefault) {

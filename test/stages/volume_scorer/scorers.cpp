@@ -21,8 +21,8 @@ std::vector<std::pair<std::string, params::Slot<VolumeScorer>>> all_scorers(
     const LeafOptions& options) {
   std::vector<std::pair<std::string, params::Slot<VolumeScorer>>> scorers;
   for (const std::string& name : leaf_scorer_names()) {
-    scorers.emplace_back(name, stage<VolumeScorer>(R"({"type": ")" + name + R"(", )" +
-                                                   leaf_table().members_json(options) + "}"));
+    scorers.emplace_back(name, stage<VolumeScorer>(leaf_table().json(
+                                   options, {{"type", params::value_json(name)}})));
   }
   return scorers;
 }
@@ -86,7 +86,7 @@ void expect_equal_counts(const Points& target, const Points& source,
   const auto target_cloud = cloud_of(target);
   const auto source_cloud = cloud_of(source);
   for (const auto& [name, scorer] : all_scorers(options)) {
-    SCOPED_TRACE(name + ", " + leaf_table().members_json(options));
+    SCOPED_TRACE(name + ", " + leaf_table().json(options));
     const VolumeFunction volume = scorer->bind(target_cloud, source_cloud);
     for (const RigidTransform& pose : poses) {
       const OccupiedVolume occupied = volume(pose);
