@@ -92,9 +92,8 @@ std::size_t points_around(const std::map<CellIndex, GroundCell>& cells, const Ce
 
 /// Whether a second sensor confirms the column.
 bool is_shared(const GroundCell& cell) {
-  constexpr std::size_t kMinPoints = 8;
-  return std::count_if(cell.by_sensor.begin(), cell.by_sensor.end(),
-                       [](const auto& count) { return count.second >= kMinPoints; }) > 1;
+  const auto has_enough = [](const auto& count) { return count.second >= 8; };
+  return std::count_if(cell.by_sensor.begin(), cell.by_sensor.end(), has_enough) > 1;
 }
 
 enum CloseUpKind : std::size_t { kWall, kEdge, kPole, kCloseUpKinds };
