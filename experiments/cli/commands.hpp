@@ -54,7 +54,7 @@ struct ExportOptions {
   std::vector<std::string> variants;  ///< Only these variants; empty: all.
   std::vector<std::string> sensors;   ///< Only these; empty: all; "all": the row of all pooled.
   std::vector<std::string> kinds;     ///< Only scenes of these kinds; empty: all.
-  std::vector<std::string> columns;   ///< Columns of a table; empty: the full table.
+  std::vector<std::string> columns;   ///< Columns of a table; empty: all, in LaTeX a page.
   bool compact = false;               ///< One row per variant, narrow enough for a page.
   bool title = false;                 ///< Add a title to the figure.
 };

@@ -26,9 +26,8 @@ const Row& called(const std::string& option, const std::string& name,
     if (name == row.name) return row;
     names.emplace_back(row.name);
   }
-  const char* what = option == "--format" ? "format" : option == "--figure" ? "figure" : "width";
   throw InputError("", option,
-                   std::string("unknown ") + what + " \"" + name + "\"" + name_hint(name, names));
+                   "unknown " + option.substr(2) + " \"" + name + "\"" + name_hint(name, names));
 }
 
 ExportCaption caption_of(const Results& results, const std::vector<std::string>& kinds) {
@@ -88,14 +87,15 @@ std::string figure_bytes(const ExportOptions& options) {
 std::string table_bytes(const ExportOptions& options) {
   const ExportFormat& format =
       called("--format", options.format.empty() ? "md" : options.format, export_formats());
-  TableChoice choice = {options.sensors, options.columns, options.units == "mm", options.compact};
+  TableChoice choice = {options.sensors, options.columns, options.units == "mm", options.compact,
+                        options.compact};
   if (!options.width.empty()) {
     choice.is_one_column =
         called("--width", options.width, named_sheets()).sheet.width == kOneColumn.width;
-    if (choice.is_one_column && !options.compact && options.columns.empty()) {
-      throw InputError("", "--width",
-                       "the full table spans two columns; use --compact or --columns");
-    }
+  }
+  const bool is_full = choice.columns.empty() && !options.compact && !format.fits_page;
+  if (is_full && choice.is_one_column) {
+    throw InputError("", "--width", "the full table spans two columns; use --compact or --columns");
   }
   std::vector<Summary> summaries;
   std::vector<ExportCaption> captions;
@@ -108,12 +108,12 @@ std::string table_bytes(const ExportOptions& options) {
     summaries.push_back(std::move(results.summary));
     folders.push_back(folder.string());
   }
-  const std::vector<TableChoice> choices = options.compact
-                                               ? compact(choice, summaries)
-                                               : std::vector<TableChoice>(summaries.size(), choice);
+  if (choice.columns.empty() && !is_full) {
+    choice.columns = page_columns(summaries, choice.is_one_column);
+  }
   std::vector<ExportTable> tables;
   for (std::size_t i = 0; i < summaries.size(); ++i) {
-    tables.push_back(export_table(summaries[i], captions[i], choices[i]));
+    tables.push_back(export_table(summaries[i], captions[i], choice));
   }
   return format.bytes(joined(std::move(tables), folders));
 }

@@ -17,11 +17,42 @@ namespace croon::experiments {
 
 namespace {
 
-/// The columns with marks. A row has one of the first two, see `share_column`.
 constexpr const char* kSuccessColumn = "success_percent";
 constexpr const char* kAgreementColumn = "agreement_percent";
-constexpr const char* kRotationColumn = "rotation_median_deg";
-constexpr const char* kTranslationColumn = "translation_median_m";
+
+/// A row with its comparison with the base; null if there is none.
+struct ComparedRow : SummaryRow {
+  const Comparison* comparison = nullptr;
+};
+
+/// The comparison of a distance; null without ground truth, where it tests repeatability, which no
+/// column shows.
+const ErrorComparison* compared_error(const ComparedRow& row, std::size_t measure) {
+  if (row.comparison == nullptr || row.deviations_from != DeviationsFrom::truth) return nullptr;
+  return measure == kRotation ? &row.comparison->rotation_deg : &row.comparison->translation_m;
+}
+
+/// The paired differences of the distances from the base, with their intervals. One digit more than
+/// the medians, which may be equal.
+Columns<ComparedRow> paired_columns() {
+  using E = ErrorComparison;
+  Columns<ComparedRow> columns;
+  for (const std::size_t k : kDistances) {
+    const auto add = [&](const std::string& what, auto value) {
+      Column column = statistic_column(kMeasures[k], "paired_" + what);
+      column.better = Better::neither;
+      ++column.decimals;
+      columns.add(column, [k, value](const ComparedRow& row) {
+        const E* const error = compared_error(row, k);
+        return error ? std::optional<double>(std::invoke(value, *error)) : std::nullopt;
+      });
+    };
+    add("difference", &E::paired_difference);
+    add("low", [](const E& error) { return low_of(error.paired_interval); });
+    add("high", [](const E& error) { return high_of(error.paired_interval); });
+  }
+  return columns;
+}
 
 /// The index of the column with the share of a row: success, or agreement without ground truth.
 std::size_t share_column(const Table& table, std::size_t row) {
@@ -45,6 +76,12 @@ void add_percents(Columns<SummaryRow>& columns, const std::string& name, F share
   };
   add_end("_low", &Interval::low);
   add_end("_high", &Interval::high);
+}
+
+template <class Row>
+void add_statistic(Columns<Row>& columns, std::size_t k, std::size_t s) {
+  columns.add(statistic_column(kMeasures[k], kStatistics[s].name),
+              [k, s](const Row& row) { return value_of(row.statistics, k, s); });
 }
 
 /// Smaller is better. Computed from the displayed digits, so that of two equal numbers never only
@@ -110,43 +147,21 @@ std::string mark_of(const PairedTest& test) {
          (is_significant_by_scene(test) ? "**" : "*");
 }
 
-/// The name of a column with the paired difference of a distance, or with an end of its interval.
-std::string paired_name(std::size_t measure, const std::string& what) {
-  return std::string(kMeasures[measure].name) + "_paired_" + what;
-}
-
-/// Sets the paired difference of a row and its interval.
-void set_paired(Table& table, std::size_t row, std::size_t measure,
-                const ErrorComparison& comparison) {
-  const auto set = [&](const char* what, double value) {
-    const std::string name = paired_name(measure, what) + "_" + kMeasures[measure].unit;
-    table.rows[row][table.index_of(name)].value = value;
+/// Marks the rows, which are those of `table`, where they differ from the base.
+void set_marks(Table& table, const std::vector<ComparedRow>& rows) {
+  const auto median = [&](std::size_t k) {
+    return table.index_of(statistic_column(kMeasures[k], "median").full_name());
   };
-  set("difference", comparison.paired_difference);
-  if (!comparison.paired_interval) return;
-  set("low", comparison.paired_interval->low);
-  set("high", comparison.paired_interval->high);
-}
-
-void set_marks(Table& table, const std::vector<Comparison>& comparisons) {
-  for (const char* name : {kSuccessColumn, kAgreementColumn, kRotationColumn, kTranslationColumn}) {
-    table.columns[table.index_of(name)].has_marks = true;
+  for (const std::size_t column : {table.index_of(kSuccessColumn), table.index_of(kAgreementColumn),
+                                   median(kRotation), median(kTranslation)}) {
+    table.columns[column].has_marks = true;
   }
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    const auto mark = [&](const char* column, const PairedTest& test) {
-      table.rows[i][table.index_of(column)].mark = mark_of(test);
-    };
-    const std::size_t share = share_column(table, i);
-    for (const Comparison& comparison : comparisons) {
-      if (comparison.variant != table.text_at(i, "variant")) continue;
-      if (comparison.sensor != table.text_at(i, "sensor")) continue;
-      table.rows[i][share].mark = mark_of(comparison.success);
-      // Without ground truth these test repeatability, which no column shows.
-      if (table.text_at(i, "reference") != name_of(DeviationsFrom::truth)) continue;
-      mark(kRotationColumn, comparison.rotation_deg.test);
-      mark(kTranslationColumn, comparison.translation_m.test);
-      set_paired(table, i, kRotation, comparison.rotation_deg);
-      set_paired(table, i, kTranslation, comparison.translation_m);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].comparison == nullptr) continue;
+    table.rows[i][share_column(table, i)].mark = mark_of(rows[i].comparison->success);
+    for (const std::size_t k : kDistances) {
+      const ErrorComparison* const error = compared_error(rows[i], k);
+      if (error != nullptr) table.rows[i][median(k)].mark = mark_of(error->test);
     }
   }
 }
@@ -219,26 +234,13 @@ Columns<SummaryRow> export_columns() {
     return share ? std::optional<int>(share->count) : std::nullopt;
   });
   add_percents(columns, "agreement", [](const SummaryRow& row) { return agreement_of(row); });
-  const auto add = [&](std::size_t k, const char* statistic) {
-    const std::size_t s = statistic_index(statistic);
-    columns.add(statistic_column(kMeasures[k], statistic),
-                [k, s](const SummaryRow& row) { return value_of(row.statistics, k, s); });
-  };
   for (const std::size_t k : kDistances) {
-    add(k, "median");
-    add(k, "p95");
+    add_statistic(columns, k, statistic_index("median"));
+    add_statistic(columns, k, statistic_index("p95"));
   }
   for (const std::size_t k : kPaperOrder) {
-    add(k, "mean");
-    add(k, "std");
-  }
-  for (const std::size_t k : kDistances) {
-    for (const char* what : {"difference", "low", "high"}) {
-      // Set after the comparison with the base. One digit more than the medians, which may be
-      // equal.
-      columns.add({paired_name(k, what), kMeasures[k].unit, "", kMeasures[k].decimals + 1},
-                  [](const SummaryRow&) { return Cell(); });
-    }
+    add_statistic(columns, k, statistic_index("mean"));
+    add_statistic(columns, k, statistic_index("std"));
   }
   return columns;
 }
@@ -250,10 +252,17 @@ ExportTable export_table(const Summary& summary, const ExportCaption& caption) {
 ExportTable export_table(const Summary& summary, const ExportCaption& caption,
                          const TableChoice& choice) {
   ExportTable table{caption, summary.bounds, "", variants_of(summary), sensors_of(summary), {}};
-  std::vector<SummaryRow> rows;
+  std::vector<ComparedRow> rows;
+  const auto add = [&](const SummaryRow& row) {
+    rows.push_back({row, nullptr});
+    for (const Comparison& comparison : summary.comparisons) {
+      const bool is_of_row = comparison.variant == row.variant && comparison.sensor == row.sensor;
+      if (is_of_row) rows.back().comparison = &comparison;
+    }
+  };
   for (const std::string& sensor : table.sensors) {
     for (const SummaryRow& row : summary.rows) {
-      if (row.sensor == sensor) rows.push_back(row);
+      if (row.sensor == sensor) add(row);
     }
   }
   if (table.sensors.size() > 1) {
@@ -261,36 +270,22 @@ ExportTable export_table(const Summary& summary, const ExportCaption& caption,
       SummaryRow all;
       static_cast<TrialSummary&>(all) = pooled(scenes_of(rows_of(summary, variant)));
       all.variant = variant;
-      rows.push_back(all);
+      add(all);
     }
   }
-  Columns<SummaryRow> columns = export_columns();
-  if (!choice.columns.empty()) add_all_statistics(columns);
+  Columns<ComparedRow> columns;
+  columns.add(export_columns()).add(paired_columns());
+  // A duplicate column does no harm, because columns are found by name.
+  for (std::size_t k = 0; !choice.columns.empty() && k < kMeasures.size(); ++k) {
+    for (std::size_t s = 0; s < kStatistics.size(); ++s) add_statistic(columns, k, s);
+  }
   table.table = columns.table(rows);
   if (!summary.comparisons.empty()) table.base = summary.comparisons.front().base;
-  set_marks(table.table, summary.comparisons);
+  set_marks(table.table, rows);
   if (table.variants.size() > 1) mark_best_of_each_sensor(table.table, summary.below_best);
   choose(table, choice);
   return table;
 }
-
-namespace {
-
-/// Whether readers see a column whose full name contains both parts. A full table shows all
-/// columns, otherwise only the chosen ones are shown.
-bool shows_column(const ExportTable& table, const std::string& part, const std::string& other) {
-  if (table.chosen.empty()) return true;
-  for (const ChosenColumn& chosen : table.chosen) {
-    for (const std::string& name : chosen.columns) {
-      const bool has_both =
-          name.find(part) != std::string::npos && name.find(other) != std::string::npos;
-      if (has_both) return true;
-    }
-  }
-  return false;
-}
-
-}  // namespace
 
 std::vector<std::string> caption_sentences(const ExportTable& table) {
   if (!table.parts.empty()) return joined_sentences(table);
@@ -309,7 +304,7 @@ std::vector<std::string> caption_sentences(const ExportTable& table) {
                         "the consensus of the scene's trials; deviations of these trials are from "
                         "the consensus of all scenes.");
   }
-  if (shows_column(table, "_percent", "_low")) {
+  if (shows(table, kShareInterval)) {
     sentences.push_back("Interval: 95 %, over scenes (Wilson); requires at least " +
                         std::to_string(kMinScenes) + " scenes.");
   }
@@ -325,7 +320,7 @@ std::vector<std::string> caption_sentences(const ExportTable& table) {
         "never bold.");
   }
   if (!table.base.empty()) {
-    const bool has_paired = shows_column(table, "paired_low", "");
+    const bool has_paired = shows(table, kPairedInterval);
     sentences.push_back(
         "*: differs from " + table.base +
         " over the same trials, with infinite errors for trials without a usable result (McNemar, "
@@ -364,43 +359,49 @@ std::string export_json(const ExportTable& table) {
                      {"rows", json_rows(table.table)}});
 }
 
+namespace {
+
+/// "x (m) p95", or in the full table "x p95 m".
+std::string markdown_title(const ExportColumn& column, bool is_full) {
+  if (column.subject.empty()) return column.statistic;
+  if (!is_full) return column.group() + " " + column.statistic;
+  if (column.statistic == kShareInterval) return column.statistic;
+  const bool is_obvious = column.statistic == "rate" || column.statistic == kMeanAndStd;
+  return column.subject + " " + (is_obvious ? "" : column.statistic + " ") + column.unit;
+}
+
+std::string markdown_content(const ExportColumn& column) {
+  const std::string first = "<" + column.columns.front() + ">";
+  const std::string last = "<" + column.columns.back() + ">";
+  if (column.columns.size() == 1) return first;
+  return column.statistic == kMeanAndStd ? first + " ± " + last : "[" + first + ", " + last + "]";
+}
+
+}  // namespace
+
 std::string export_markdown(const ExportTable& table) {
-  View view{{{"variant"}, {"sensor"}}, 2};
-  for (const std::string& share : share_names(table.table)) {
-    view.columns.push_back({share + " %", "<" + share + "_percent>"});
-    view.columns.push_back(
-        {"95 % interval", "[<" + share + "_low_percent>, <" + share + "_high_percent>]"});
-  }
-  for (const std::size_t k : kDistances) {
-    for (const char* statistic : {"median", "p95"}) {
-      const Measure& measure = kMeasures[k];
-      view.columns.push_back({std::string(measure.name) + " " + statistic + " " + measure.unit,
-                              content_of(measure, std::string("<") + statistic + ">")});
-    }
-    if (!table.base.empty()) {
-      view.columns.push_back({std::string(kMeasures[k].name) + " paired " + kMeasures[k].unit,
-                              content_of(kMeasures[k], "[<paired_low>, <paired_high>]")});
-    }
-  }
-  add_measures(view, kPaperOrder, "<mean> ± <std>");
   std::string text;
   for (const std::string& sentence : caption_sentences(table)) {
     text += markdown_escaped(sentence) + "\n";
   }
-  if (!table.chosen.empty()) {
-    return text + "\n" + markdown_table(table.table, chosen_view(table, false));
+  const bool is_full = table.chosen.empty();
+  if (is_full) text += "Degrees of freedom: mean ± std.\n";
+  View view;
+  if (!table.parts.empty()) view.columns.push_back({"experiment"});
+  view.columns.push_back({"variant"});
+  view.columns.push_back({"sensor"});
+  view.names = view.columns.size();
+  for (const ExportColumn& column : shown_columns(table)) {
+    view.columns.push_back({markdown_title(column, is_full), markdown_content(column)});
   }
-  if (!table.parts.empty()) {
-    view.columns.insert(view.columns.begin(), Shown{"experiment"});
-    ++view.names;
-  }
-  return text + "Degrees of freedom: mean ± std.\n\n" +
-         markdown_table(table.table, in_unit_of(table, view));
+  return text + "\n" + markdown_table(table.table, view);
 }
 
 const std::vector<ExportFormat>& export_formats() {
-  static const std::vector<ExportFormat> formats = {
-      {"csv", export_csv}, {"json", export_json}, {"latex", export_latex}, {"md", export_markdown}};
+  static const std::vector<ExportFormat> formats = {{"csv", false, export_csv},
+                                                    {"json", false, export_json},
+                                                    {"latex", true, export_latex},
+                                                    {"md", false, export_markdown}};
   return formats;
 }
 

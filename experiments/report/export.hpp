@@ -24,16 +24,21 @@ struct ExportCaption {
   int scenes_per_trial = 1;              ///< See Results.
 };
 
-/// How the cells of several columns are joined for readers: "61.0 -- 100.0", "0.010 ± 0.002".
-enum class Joint { none, interval, spread };
+/// The titles of statistics that have two numbers in a cell.
+inline constexpr const char* kMeanAndStd = "mean ± std";
+inline constexpr const char* kShareInterval = "95 % interval";
+inline constexpr const char* kPairedInterval = "paired";
 
-/// A column shown to readers, made from one or two columns of the table.
-struct ChosenColumn {
-  std::string name;  ///< In `--columns`.
-  std::string group;
-  std::string title;
-  std::vector<std::string> columns;  ///< Full names.
-  Joint joint = Joint::none;
+/// A column for readers: a count, or a statistic of a share or measure.
+struct ExportColumn {
+  std::string name;                  ///< In `--columns`: "x_p95".
+  std::string subject;               ///< "x", "success"; empty for counts.
+  std::string unit;                  ///< "deg", "m", "mm" or "%".
+  std::string statistic;             ///< "p95", "rate", `kMeanAndStd`; the name of a count.
+  std::vector<std::string> columns;  ///< Full names of one or two columns of the table.
+
+  /// "x (mm)".
+  std::string group() const { return subject.empty() ? "" : subject + " (" + unit + ")"; }
 };
 
 struct TableChoice;
@@ -46,14 +51,11 @@ struct ExportTable {
   std::vector<std::string> variants;
   std::vector<std::string> sensors;
   Table table;  ///< By sensor (all sensors together last), then variant; `export_columns`.
-  std::vector<ChosenColumn> chosen = {};  ///< Empty: the full table.
+  std::vector<ExportColumn> chosen = {};  ///< Empty: the full table.
   bool is_in_mm = false;                  ///< Whether lengths are in millimetres.
   bool is_one_column = false;             ///< For one column of a two-column page (LaTeX).
   std::vector<ExportTable> parts = {};    ///< The experiments of a joined table.
 };
-
-/// The maximum share of the page width for names in LaTeX.
-inline constexpr double kNameShare = 0.3;
 
 /// A result in numbers: variant, sensor, scenes, trials, success and its interval in percent,
 /// median and p95 of the two distances, then mean and std of each DOF in the order of the paper.
@@ -75,6 +77,7 @@ std::vector<std::string> caption_sentences(const ExportTable& table);
 /// A format of `croon export`.
 struct ExportFormat {
   const char* name;
+  bool fits_page;  ///< Whether a table must fit a page, so that its columns are always chosen.
   std::string (*bytes)(const ExportTable& table);
 };
 
@@ -82,8 +85,8 @@ struct ExportFormat {
 const std::vector<ExportFormat>& export_formats();
 
 /// The formats. CSV: a line per row in full precision. JSON: the rows as objects and the content of
-/// the caption. LaTeX: a float whose first line names the required packages. Markdown: a caption
-/// and a table for GitHub.
+/// the caption. LaTeX: a float whose first line names the required packages; throws InputError if
+/// it is wider than the page. Markdown: a caption and a table for GitHub.
 std::string export_csv(const ExportTable& table);
 std::string export_json(const ExportTable& table);
 std::string export_latex(const ExportTable& table);

@@ -1,89 +1,61 @@
 #include "experiments/report/export_choice.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "experiments/report/figures.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "framework/base/error.hpp"
-#include "framework/base/text.hpp"
 
 namespace croon::experiments {
 namespace {
 
 using Names = std::vector<std::string>;
 
-constexpr std::string_view kPercent = "_percent";
-
-bool ends_with(const std::string& text, std::string_view end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-bool has_column(const Table& table, const std::string& name) {
-  return std::any_of(table.columns.begin(), table.columns.end(),
-                     [&](const Column& column) { return column.full_name() == name; });
-}
-
-/// "translation_median_m".
-std::string column_name(const Measure& measure, const char* statistic) {
-  return statistic_column(measure, statistic).full_name();
-}
-
-/// All columns that can be chosen from a table with all statistics: counts, shares with their
-/// intervals, each measure as mean ± std, and each statistic of each measure.
-std::vector<ChosenColumn> column_choices(const Table& table) {
-  std::vector<ChosenColumn> choices = {{"scenes", "", "scenes", {"scenes"}, Joint::none},
-                                       {"trials", "", "trials", {"trials"}, Joint::none},
-                                       {"counted", "", "counted", {"counted"}, Joint::none}};
-  for (const Column& column : table.columns) {
-    const std::string name = column.full_name();
-    if (column.better != Better::greater || !ends_with(name, kPercent)) continue;
-    const std::string share = name.substr(0, name.size() - kPercent.size());
-    choices.push_back({share, share + " (%)", "rate", {name}, Joint::none});
-    choices.push_back({share + "_interval",
-                       share + " (%)",
-                       "95 % interval",
-                       {share + "_low_percent", share + "_high_percent"},
-                       Joint::interval});
+/// All columns that can be chosen: counts, shares with their intervals, and for each measure mean ±
+/// std, each statistic and, for distances, the interval of the paired difference.
+std::vector<ExportColumn> all_columns(bool is_in_mm) {
+  std::vector<ExportColumn> all;
+  for (const char* count : {"scenes", "trials", "counted"}) {
+    all.push_back({count, "", "", count, {count}});
   }
-  for (const std::size_t k : kDistances) {
-    const std::string name = std::string(kMeasures[k].name) + "_paired";
-    const std::string unit = kMeasures[k].unit;
-    choices.push_back({name,
-                       std::string(kMeasures[k].name) + " (" + unit + ")",
-                       "paired",
-                       {name + "_low_" + unit, name + "_high_" + unit},
-                       Joint::interval});
+  for (const std::string share : {"success", "agreement"}) {
+    all.push_back({share, share, "%", "rate", {share + "_percent"}});
+    all.push_back({share + "_interval",
+                   share,
+                   "%",
+                   kShareInterval,
+                   {share + "_low_percent", share + "_high_percent"}});
   }
-  for (const Measure& measure : kMeasures) {
-    const std::string group = std::string(measure.name) + " (" + measure.unit + ")";
-    choices.push_back({measure.name,
-                       group,
-                       "mean ± std",
-                       {column_name(measure, "mean"), column_name(measure, "std")},
-                       Joint::spread});
+  for (std::size_t k = 0; k < kMeasures.size(); ++k) {
+    Measure measure = kMeasures[k];
+    if (is_in_mm && measure.unit == std::string("m")) measure.unit = "mm";
+    const auto add = [&](const std::string& name, const char* statistic, const Names& of) {
+      all.push_back({measure.name + name, measure.name, measure.unit, statistic, {}});
+      for (const std::string& column : of) {
+        all.back().columns.push_back(statistic_column(measure, column).full_name());
+      }
+    };
+    add("", kMeanAndStd, {"mean", "std"});
     for (const Statistic& statistic : kStatistics) {
-      choices.push_back({std::string(measure.name) + "_" + statistic.name,
-                         group,
-                         statistic.name,
-                         {column_name(measure, statistic.name)},
-                         Joint::none});
+      add(std::string("_") + statistic.name, statistic.name, {statistic.name});
     }
+    if (k >= kDofs) add("_paired", kPairedInterval, {"paired_low", "paired_high"});
   }
-  return choices;
+  return all;
 }
 
-std::vector<ChosenColumn> chosen_columns(const Table& table, const Names& names) {
-  const std::vector<ChosenColumn> choices = column_choices(table);
+/// The columns called `names`. Throws InputError for unknown names.
+std::vector<ExportColumn> columns_called(const Names& names, bool is_in_mm) {
+  const std::vector<ExportColumn> all = all_columns(is_in_mm);
   Names known;
-  for (const ChosenColumn& choice : choices) known.push_back(choice.name);
+  for (const ExportColumn& column : all) known.push_back(column.name);
   refuse_unknown("--columns", names, known);
-  std::vector<ChosenColumn> chosen;
+  std::vector<ExportColumn> columns;
   for (const std::string& name : names) {
     const auto index = std::find(known.begin(), known.end(), name) - known.begin();
-    chosen.push_back(choices[static_cast<std::size_t>(index)]);
+    columns.push_back(all[static_cast<std::size_t>(index)]);
   }
-  return chosen;
+  return columns;
 }
 
 /// The table with only these columns, in this order.
@@ -91,7 +63,6 @@ Table projected(const Table& table, const Names& names) {
   Table result;
   result.rows.resize(table.rows.size());
   for (const std::string& name : names) {
-    if (has_column(result, name)) continue;
     const std::size_t k = table.index_of(name);
     result.columns.push_back(table.columns[k]);
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
@@ -102,173 +73,65 @@ Table projected(const Table& table, const Names& names) {
 }
 
 /// Removes the rows of all other sensors.
-void choose_rows(ExportTable& table, const Names& sensors) {
+void choose_rows(ExportTable& table, const TableChoice& choice) {
+  Names sensors = choice.sensors;
+  if (sensors.empty() && choice.is_compact && table.sensors.size() > 1) sensors = {kAllSensors};
   if (sensors.empty()) return;
   Names known = table.sensors;
   if (known.size() > 1) known.emplace_back(kAllSensors);
   refuse_unknown("--sensors", sensors, known);
-  const auto is_chosen = [&](const std::string& sensor) {
-    return std::find(sensors.begin(), sensors.end(), name_of_sensor(sensor)) != sensors.end();
-  };
   std::vector<CellRow> rows;
   for (std::size_t i = 0; i < table.table.rows.size(); ++i) {
-    if (is_chosen(table.table.text_at(i, "sensor"))) rows.push_back(table.table.rows[i]);
+    const std::string sensor = name_of_sensor(table.table.text_at(i, "sensor"));
+    if (std::find(sensors.begin(), sensors.end(), sensor) == sensors.end()) continue;
+    rows.push_back(table.table.rows[i]);
   }
   table.table.rows = std::move(rows);
 }
 
-std::string in_mm(const std::string& name) { return ends_with(name, "_m") ? name + "m" : name; }
-
-void change_to_mm(ExportTable& table) {
-  constexpr int kDigits = 3;
-  for (std::size_t k = 0; k < table.table.columns.size(); ++k) {
-    Column& column = table.table.columns[k];
+void convert_to_mm(Table& table) {
+  for (std::size_t k = 0; k < table.columns.size(); ++k) {
+    Column& column = table.columns[k];
     if (column.unit != "m") continue;
     column.unit = "mm";
-    column.decimals = std::max(0, column.decimals - kDigits);
-    for (CellRow& row : table.table.rows) {
+    column.decimals -= 3;
+    for (CellRow& row : table.rows) {
       if (auto* const value = std::get_if<double>(&row[k].value)) *value *= 1000.0;
     }
   }
-  for (ChosenColumn& chosen : table.chosen) {
-    for (std::string& name : chosen.columns) name = in_mm(name);
-  }
-}
-
-std::string replaced(std::string text, const std::string& old, const std::string& by) {
-  for (auto at = text.find(old); at != std::string::npos; at = text.find(old, at + by.size())) {
-    text.replace(at, old.size(), by);
-  }
-  return text;
-}
-
-/// The content of a cell in a chosen column.
-std::string content_of(const ChosenColumn& chosen, bool is_latex) {
-  const std::string first = "<" + chosen.columns.front() + ">";
-  if (chosen.joint == Joint::none) return first;
-  const std::string second = "<" + chosen.columns.back() + ">";
-  if (chosen.joint == Joint::interval) {
-    return is_latex ? first + "\\,to\\," + second : "[" + first + ", " + second + "]";
-  }
-  return first + (is_latex ? "\\,${}\\pm{}$\\," : " ± ") + second;
 }
 
 /// Removes the marks of errors whose paired difference is not shown. Variants succeed in different
 /// trials, so their medians can differ in the opposite direction.
 void remove_unexplained_marks(ExportTable& table) {
   for (const std::size_t k : kDistances) {
-    const std::string name = kMeasures[k].name;
-    const bool is_explained =
-        std::any_of(table.chosen.begin(), table.chosen.end(),
-                    [&](const ChosenColumn& chosen) { return chosen.name == name + "_paired"; });
-    const std::string median = column_name(kMeasures[k], "median");
-    if (is_explained || !has_column(table.table, median)) continue;
-    const std::size_t column = table.table.index_of(median);
-    table.table.columns[column].has_marks = false;
-    for (CellRow& row : table.table.rows) row[column].mark.clear();
+    if (shows(table, kPairedInterval, kMeasures[k].name)) continue;
+    for (const ExportColumn& column : table.chosen) {
+      if (column.subject != kMeasures[k].name || column.statistic != "median") continue;
+      const std::size_t median = table.table.index_of(column.columns.front());
+      table.table.columns[median].has_marks = false;
+      for (CellRow& row : table.table.rows) row[median].mark.clear();
+    }
   }
-}
-
-/// Whether the rows of the table differ in `column`.
-bool has_several(const Table& table, const char* column) {
-  return std::any_of(table.rows.begin(), table.rows.end(), [&](const CellRow& row) {
-    const std::size_t k = table.index_of(column);
-    return row[k].value != table.rows.front()[k].value;
-  });
-}
-
-}  // namespace
-
-namespace {
-
-/// Whether any, and whether all, rows of a table have a value in a column.
-struct Filled {
-  bool any = false;
-  bool all = true;
-};
-
-Filled filled(const Table& table, const std::string& column) {
-  Filled filled;
-  for (const CellRow& row : table.rows) {
-    const bool has_value = !row[table.index_of(column)].is_nothing();
-    filled.any = filled.any || has_value;
-    filled.all = filled.all && has_value;
-  }
-  return filled;
 }
 
 /// The shares needed to show the success of `summaries`: success, agreement for rows without ground
 /// truth (which have no success), or both.
 Names shares_of(const std::vector<Summary>& summaries) {
-  std::vector<Table> tables;
-  for (const Summary& summary : summaries) tables.push_back(export_table(summary, {}).table);
-  Names shares;
-  for (const ChosenColumn& column : column_choices(tables.front())) {
-    if (!ends_with(column.columns.front(), kPercent) || column.joint != Joint::none) continue;
-    Filled of_all;
-    for (const Table& table : tables) {
-      const Filled own = filled(table, column.columns.front());
-      of_all.any = of_all.any || own.any;
-      of_all.all = of_all.all && own.all;
+  bool has_success = false;
+  bool lacks_success = false;
+  bool has_agreement = false;
+  for (const Summary& summary : summaries) {
+    for (const SummaryRow& row : summary.rows) {
+      (lacks_truth(row) ? lacks_success : has_success) = true;
+      has_agreement = has_agreement || agreement_of(row) != nullptr;
     }
-    if (of_all.any) shares.push_back(column.name);
-    if (of_all.all) break;
   }
+  Names shares;
+  if (has_success) shares.emplace_back("success");
+  if (lacks_success && has_agreement) shares.emplace_back("agreement");
   return shares;
 }
-
-}  // namespace
-
-std::vector<TableChoice> compact(const TableChoice& choice, const std::vector<Summary>& summaries) {
-  Names columns = choice.columns;
-  if (columns.empty()) {
-    for (const std::string& share : shares_of(summaries)) {
-      columns.push_back(share);
-      if (!choice.is_one_column) columns.push_back(share + "_interval");
-    }
-    for (const char* measure : {"rotation", "translation"}) {
-      columns.push_back(std::string(measure) + "_median");
-      if (!choice.is_one_column) columns.push_back(std::string(measure) + "_p95");
-    }
-  }
-  std::vector<TableChoice> choices;
-  for (const Summary& summary : summaries) {
-    TableChoice& own = choices.emplace_back(choice);
-    own.columns = columns;
-    if (own.sensors.empty() && sensors_of(summary).size() > 1) own.sensors = {kAllSensors};
-  }
-  return choices;
-}
-
-void add_all_statistics(Columns<SummaryRow>& columns) {
-  const Table present{columns.columns(), {}};
-  for (std::size_t k = 0; k < kMeasures.size(); ++k) {
-    for (std::size_t s = 0; s < kStatistics.size(); ++s) {
-      const Column column = statistic_column(kMeasures[k], kStatistics[s].name);
-      if (has_column(present, column.full_name())) continue;
-      columns.add(column, [k, s](const SummaryRow& row) { return value_of(row.statistics, k, s); });
-    }
-  }
-}
-
-void choose(ExportTable& table, const TableChoice& choice) {
-  choose_rows(table, choice.sensors);
-  table.is_one_column = choice.is_one_column;
-  if (!choice.columns.empty()) {
-    table.chosen = chosen_columns(table.table, choice.columns);
-    // Files always include the columns that identify a row, even if readers do not see them.
-    Names names = {"variant", "sensor", "reference", "scenes", "trials"};
-    for (const ChosenColumn& chosen : table.chosen) {
-      names.insert(names.end(), chosen.columns.begin(), chosen.columns.end());
-    }
-    table.table = projected(table.table, names);
-    remove_unexplained_marks(table);
-  }
-  if (choice.is_in_mm) change_to_mm(table);
-  table.is_in_mm = choice.is_in_mm;
-}
-
-namespace {
 
 /// The names of the experiments in a joined table; "NAME in FOLDER" for a duplicate name.
 Names names_of(const std::vector<ExportTable>& tables, const Names& folders) {
@@ -283,6 +146,60 @@ Names names_of(const std::vector<ExportTable>& tables, const Names& folders) {
 }
 
 }  // namespace
+
+std::vector<std::string> page_columns(const std::vector<Summary>& summaries, bool is_one_column) {
+  Names columns;
+  for (const std::string& share : shares_of(summaries)) {
+    columns.push_back(share);
+    if (!is_one_column) columns.push_back(share + "_interval");
+  }
+  for (const std::size_t k : kDistances) {
+    columns.push_back(std::string(kMeasures[k].name) + "_median");
+    if (!is_one_column) columns.push_back(std::string(kMeasures[k].name) + "_p95");
+  }
+  return columns;
+}
+
+std::vector<ExportColumn> shown_columns(const ExportTable& table) {
+  if (!table.chosen.empty()) return table.chosen;
+  Names names;
+  for (const std::string& share : share_names(table.table)) {
+    names.insert(names.end(), {share, share + "_interval"});
+  }
+  for (const std::size_t k : kDistances) {
+    const std::string name = kMeasures[k].name;
+    names.insert(names.end(), {name + "_median", name + "_p95"});
+    if (!table.base.empty()) names.push_back(name + "_paired");
+  }
+  for (const std::size_t k : kPaperOrder) names.emplace_back(kMeasures[k].name);
+  return columns_called(names, table.is_in_mm);
+}
+
+bool shows(const ExportTable& table, const std::string& statistic, const std::string& subject) {
+  for (const ExportColumn& column : shown_columns(table)) {
+    if (column.statistic == statistic && (subject.empty() || column.subject == subject))
+      return true;
+  }
+  return false;
+}
+
+void choose(ExportTable& table, const TableChoice& choice) {
+  choose_rows(table, choice);
+  if (choice.is_in_mm) convert_to_mm(table.table);
+  table.is_in_mm = choice.is_in_mm;
+  table.is_one_column = choice.is_one_column;
+  if (choice.columns.empty()) return;
+  table.chosen = columns_called(choice.columns, choice.is_in_mm);
+  // Files always include the columns that identify a row, even if readers do not see them.
+  Names names = {"variant", "sensor", "reference", "scenes", "trials"};
+  for (const ExportColumn& column : table.chosen) {
+    for (const std::string& name : column.columns) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  table.table = projected(table.table, names);
+  remove_unexplained_marks(table);
+}
 
 ExportTable joined(std::vector<ExportTable> tables, const std::vector<std::string>& folders) {
   if (tables.size() == 1) return tables.front();
@@ -316,112 +233,6 @@ ExportTable joined(std::vector<ExportTable> tables, const std::vector<std::strin
     whole.parts.push_back(table);
   }
   return whole;
-}
-
-View chosen_view(const ExportTable& table, bool is_latex) {
-  View view;
-  const bool of_sensors =
-      !has_several(table.table, "variant") && has_several(table.table, "sensor");
-  if (is_latex) {
-    view.columns.push_back({of_sensors ? "sensor" : "variant"});
-    const bool has_headings =
-        !table.parts.empty() || (!of_sensors && has_several(table.table, "sensor"));
-    if (has_headings) view.heading = "heading";
-  } else {
-    if (!table.parts.empty()) view.columns.push_back({"experiment"});
-    view.columns.push_back({"variant"});
-    view.columns.push_back({"sensor"});
-    view.names = view.columns.size();
-  }
-  for (const ChosenColumn& chosen : table.chosen) {
-    const std::string content = content_of(chosen, is_latex);
-    if (is_latex) {
-      view.columns.push_back(
-          {replaced(replaced(chosen.title, "±", "$\\pm$"), "95 %", "95\\,\\%"), content, false,
-           replaced(replaced(chosen.group, "(deg)", "($^\\circ$)"), "%", "\\%")});
-    } else {
-      view.columns.push_back(
-          {chosen.group + (chosen.group.empty() ? "" : " ") + chosen.title, content});
-    }
-  }
-  if (table.is_in_mm) {
-    for (Shown& shown : view.columns) {
-      shown.group = replaced(shown.group, "(m)", "(mm)");
-      if (!is_latex) shown.title = replaced(shown.title, "(m)", "(mm)");
-    }
-  }
-  return view;
-}
-
-View in_unit_of(const ExportTable& table, View view) {
-  if (!table.is_in_mm) return view;
-  for (Shown& shown : view.columns) {
-    shown.content = replaced(shown.content, "_m>", "_mm>");
-    shown.group = replaced(shown.group, "(m)", "(mm)");
-    if (ends_with(shown.title, " m")) shown.title += "m";
-  }
-  return view;
-}
-
-Table with_heading(const ExportTable& table) {
-  Table result = table.table;
-  result.columns.insert(result.columns.begin(), Column{"heading"});
-  const bool has_sensors = has_several(table.table, "sensor");
-  const bool of_sensors = has_sensors && !has_several(table.table, "variant");
-  const std::size_t sensor = table.table.index_of("sensor");
-  for (std::size_t i = 0; i < table.table.rows.size(); ++i) {
-    const CellRow& row = table.table.rows[i];
-    std::string heading;
-    if (!table.parts.empty()) heading = table.table.text_at(i, "experiment");
-    if (has_sensors && !of_sensors) {
-      heading +=
-          (heading.empty() ? "" : ", ") + shown_text(row[sensor], table.table.columns[sensor]);
-    }
-    result.rows[i].insert(result.rows[i].begin(), to_cell(heading));
-  }
-  return result;
-}
-
-void refuse_too_wide(const ExportTable& table, const View& view) {
-  // \scriptsize of a document of 10 pt is 7 pt; a digit of Computer Modern is 4 pt wide.
-  constexpr double kDigit_mm = 4.0 / kPointsPerMm;
-  constexpr double kLetter_mm = 3.5 / kPointsPerMm;
-  constexpr double kSeparation_mm = 5.0 / kPointsPerMm;
-  constexpr double kJoint_mm = 8.0 / kPointsPerMm;  // "±" or "--" with the space around it.
-  const double page = table.is_one_column ? kOneColumn_mm : kTwoColumns_mm;
-  const auto max_width_mm = [&](std::size_t k, bool of_marks) {
-    std::size_t columns = 0;
-    for (const CellRow& row : table.table.rows) {
-      const std::string text = of_marks ? row[k].mark : shown_text(row[k], table.table.columns[k]);
-      columns = std::max(columns, text_columns(text));
-    }
-    return kDigit_mm * static_cast<double>(columns);
-  };
-  const std::size_t name = table.table.index_of(view.columns.front().title);
-  double width = std::min(max_width_mm(name, false), kNameShare * page);
-  double of_group = 0.0;  // Neighbouring columns with a common title.
-  for (std::size_t i = 0; i < table.chosen.size(); ++i) {
-    const ChosenColumn& chosen = table.chosen[i];
-    double cells = chosen.joint == Joint::none ? 0.0 : kJoint_mm;
-    for (const std::string& column : chosen.columns) {
-      const std::size_t k = table.table.index_of(column);
-      const double marks = max_width_mm(k, true);
-      cells += max_width_mm(k, false) + marks + (marks > 0.0 ? kSeparation_mm : 0.0);
-    }
-    const double title = kLetter_mm * static_cast<double>(text_columns(chosen.title));
-    of_group += kSeparation_mm + std::max(cells, title);
-    if (i + 1 < table.chosen.size() && table.chosen[i + 1].group == chosen.group) continue;
-    const double group = kLetter_mm * static_cast<double>(text_columns(chosen.group));
-    width += std::max(of_group, kSeparation_mm + group);
-    of_group = 0.0;
-  }
-  constexpr double kUsablePage = 0.97;  // The estimate may be too low.
-  if (width <= kUsablePage * page) return;
-  throw InputError("", "--columns",
-                   "these " + std::to_string(table.chosen.size()) + " columns need about " +
-                       fixed_number(std::ceil(width), 0) + " mm; the page is " +
-                       fixed_number(kUsablePage * page, 0) + " mm wide; choose fewer" +
-                       (table.is_one_column ? " or --width two_columns" : ""));
 }
 
 }  // namespace croon::experiments

@@ -12,18 +12,15 @@ namespace croon::experiments {
 /// The choices for a table.
 struct TableChoice {
   std::vector<std::string> sensors;  ///< Rows; "all" is the row of all sensors. Empty: every row.
-  std::vector<std::string> columns;  ///< Names of `column_choices`; empty: the full table.
+  std::vector<std::string> columns;  ///< Names of columns; empty: the full table.
   bool is_in_mm = false;             ///< Whether lengths are in millimetres.
   bool is_one_column = false;        ///< For one column of a two-column page (LaTeX).
+  bool is_compact = false;           ///< One row per variant, unless sensors are chosen.
 };
 
-/// The choices for one compact table of several experiments (at least one): the same columns for
-/// all, limited to what fits on a page, and one row per variant, over all sensors if there are
-/// several. Settings already made in `choice` are kept.
-std::vector<TableChoice> compact(const TableChoice& choice, const std::vector<Summary>& summaries);
-
-/// Adds the columns of every statistic that `columns` lacks.
-void add_all_statistics(Columns<SummaryRow>& columns);
+/// The names of the columns that show the results of several experiments within the width of a page
+/// or of one of its two columns.
+std::vector<std::string> page_columns(const std::vector<Summary>& summaries, bool is_one_column);
 
 /// Reduces `table`, which has all statistics, to what is chosen. Throws InputError for names that
 /// the table lacks.
@@ -33,16 +30,10 @@ void choose(ExportTable& table, const TableChoice& choice);
 /// success bounds differ; `folders` are for its message.
 ExportTable joined(std::vector<ExportTable> tables, const std::vector<std::string>& folders);
 
-/// The view of the chosen columns, for LaTeX or Markdown.
-View chosen_view(const ExportTable& table, bool is_latex);
+/// The columns for readers: the chosen ones, or those of the full table.
+std::vector<ExportColumn> shown_columns(const ExportTable& table);
 
-/// Converts the columns of a view with lengths in metres to the unit of `table`.
-View in_unit_of(const ExportTable& table, View view);
-
-/// The table with a first column "heading": experiment and sensor, where there are several.
-Table with_heading(const ExportTable& table);
-
-/// Throws InputError if the LaTeX table of the chosen columns is wider than its page.
-void refuse_too_wide(const ExportTable& table, const View& view);
+/// Whether readers see this statistic; if `subject` is not empty, that of this subject.
+bool shows(const ExportTable& table, const std::string& statistic, const std::string& subject = "");
 
 }  // namespace croon::experiments

@@ -372,15 +372,6 @@ std::string title_of(const Measure& measure) {
   return std::string(measure.name) + " " + measure.unit;
 }
 
-std::string content_of(const Measure& measure, std::string content) {
-  for (std::size_t begin = 0; (begin = content.find('<', begin)) != std::string::npos;) {
-    content.insert(begin + 1, std::string(measure.name) + "_");
-    begin = content.find('>', begin);
-    content.insert(begin, std::string("_") + measure.unit);
-  }
-  return content;
-}
-
 std::vector<Column> trial_rows(const std::vector<TrialRecord>& records, const Summary& summary,
                                const RowUse& use) {
   const ScenesByName scenes(summary);

@@ -93,17 +93,19 @@ std::string bounds_text(const SuccessBounds& bounds);
 /// "pitch deg", for a title.
 std::string title_of(const Measure& measure);
 
-/// Completes `content` of a view for one measure: "<mean>" becomes "<pitch_mean_deg>".
-std::string content_of(const Measure& measure, std::string content);
-
 inline constexpr std::array<std::size_t, 2> kDistances = {kRotation, kTranslation};
 
-/// Adds a column for each of these measures; see `content_of`.
+/// Adds a column for each of these measures, its `statistics` with `separator` in between.
 template <std::size_t n>
 void add_measures(View& view, const std::array<std::size_t, n>& measures,
-                  const std::string& content) {
+                  const std::vector<std::string>& statistics, const std::string& separator = "") {
   for (const std::size_t k : measures) {
-    view.columns.push_back({title_of(kMeasures[k]), content_of(kMeasures[k], content)});
+    std::string content;
+    for (const std::string& statistic : statistics) {
+      content += (content.empty() ? "<" : separator + "<") +
+                 statistic_column(kMeasures[k], statistic).full_name() + ">";
+    }
+    view.columns.push_back({title_of(kMeasures[k]), content});
   }
 }
 

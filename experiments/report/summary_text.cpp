@@ -87,7 +87,7 @@ std::string loop_text(const Summary& summary, const TableStyle& style) {
              {"closed", "<closed>/<loops>"},
              {"%", "<closed_ratio>"},
              {"95 % interval", "[<closed_low_ratio>, <closed_high_ratio>]"}}};
-  add_measures(view, kDistances, "<median>, <p95>");
+  add_measures(view, kDistances, {"median", "p95"}, ", ");
   view.columns.push_back({"scenes", "<scenes_closed>/<scenes>"});
   view.columns.push_back({"agreed deg, m", "<agreed_rotation_deg>, <agreed_translation_m>"});
   return text_by_variant(loop_columns().table(summary.loops), view, summary, style) +
@@ -248,7 +248,7 @@ View outcomes_view(const Table& table) {
   if (shares.front() == "success") add("inaccurate");
   add("rejected");
   add("failed");
-  add_measures(view, kDistances, "<median>, <p95>");
+  add_measures(view, kDistances, {"median", "p95"}, ", ");
   return view;
 }
 
@@ -286,9 +286,10 @@ class SummaryText {
   }
 
   /// A table of the degrees of freedom.
-  std::string dofs(const std::string& content, bool shows_each = false) const {
+  std::string dofs(const std::vector<std::string>& statistics, const std::string& separator = "",
+                   bool shows_each = false) const {
     View view{{{"sensor"}}};
-    add_measures(view, kPaperOrder, content);
+    add_measures(view, kPaperOrder, statistics, separator);
     for (Shown& shown : view.columns) shown.shows_each = shows_each;
     return text_by_variant(table_, view, summary_, style_);
   }
@@ -319,10 +320,10 @@ class SummaryText {
   std::string deviations() const {
     // Without ground truth deviations are from a mean of the trials, so their own means are zero.
     std::string text =
-        has_truth_ ? "\nmean ± std\n" + dofs("<mean> ±<std>") : "\nstd\n" + dofs("<std>");
+        has_truth_ ? "\nmean ± std\n" + dofs({"mean", "std"}, " ±") : "\nstd\n" + dofs({"std"});
     if (has_scenes_ && any_row([](const SummaryRow& row) { return !!row.within_scene_std; })) {
       text += "\nstd within scenes / across scenes\n" +
-              dofs("<within_scene_std> / <across_scenes_std>", true);
+              dofs({"within_scene_std", "across_scenes_std"}, " / ", true);
     }
     return text;
   }

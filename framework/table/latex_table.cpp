@@ -39,8 +39,8 @@ struct RowRange {
 /// best values bold. The first column of the view has names, the others numbers.
 class Tabular {
  public:
-  Tabular(const Table& table, const View& view, double name_share)
-      : table_(table), view_(view), name_share_(name_share), cells_(shown_cells(table, view)) {
+  Tabular(const Table& table, const View& view)
+      : table_(table), view_(view), cells_(shown_cells(table, view)) {
     const std::size_t k = cells_.front().pieces().front().column;
     for (const CellRow& row : table.rows) names_.push_back(shown_text(row[k], table.columns[k]));
     has_long_name_ = std::any_of(names_.begin(), names_.end(), [](const std::string& name) {
@@ -60,14 +60,13 @@ class Tabular {
   }
 
   /// The rows, divided into pages.
-  std::vector<RowRange> pages(std::size_t panels) const {
-    constexpr std::size_t kLinesOfPanels = 56;  // Without headers and a caption.
-    const std::size_t lines_per_page = kLinesOfPanels / panels;
+  std::vector<RowRange> pages() const {
+    constexpr std::size_t kLinesPerPage = 56;  // Without the header and a caption.
     std::vector<RowRange> pages = {{0, 0}};
     std::size_t total = 0;
     for (std::size_t row = 0; row < names_.size(); ++row) {
       total += lines(row);
-      if (total > lines_per_page && pages.back().end > pages.back().begin) {
+      if (total > kLinesPerPage && pages.back().end > pages.back().begin) {
         pages.push_back({row, row});
         total = lines(row);
       }
@@ -115,8 +114,8 @@ class Tabular {
   std::string specification() const {
     std::string text = "@{}l";
     if (has_long_name_) {
-      text =
-          "@{}>{\\raggedright\\arraybackslash}p{" + shortest_number(name_share_) + "\\linewidth}";
+      text = "@{}>{\\raggedright\\arraybackslash}p{" + shortest_number(kLatexNameShare) +
+             "\\linewidth}";
     }
     for (std::size_t k = 1; k < cells_.size(); ++k) {
       for (const auto& piece : cells_[k].pieces()) {
@@ -186,7 +185,6 @@ class Tabular {
 
   const Table& table_;
   const View& view_;
-  double name_share_;
   std::vector<ShownCells> cells_;
   std::vector<std::string> names_;
   bool has_long_name_ = false;
@@ -194,17 +192,10 @@ class Tabular {
 
 }  // namespace
 
-std::vector<std::string> latex_pages(const Table& table, const std::vector<View>& panels,
-                                     double name_share) {
-  std::vector<Tabular> tabulars;
-  for (const View& panel : panels) tabulars.emplace_back(table, panel, name_share);
+std::vector<std::string> latex_pages(const Table& table, const View& view) {
+  const Tabular tabular(table, view);
   std::vector<std::string> pages;
-  for (const RowRange& rows : tabulars.front().pages(panels.size())) {
-    std::string& page = pages.emplace_back();
-    for (const Tabular& tabular : tabulars) {
-      page += (page.empty() ? "" : "\n\\medskip\n\n") + tabular.text(rows);
-    }
-  }
+  for (const RowRange& rows : tabular.pages()) pages.push_back(tabular.text(rows));
   return pages;
 }
 

@@ -48,11 +48,12 @@ std::string markdown_table(const Table& table, const View& view);
 /// `text` escaped for a Markdown cell or sentence.
 std::string markdown_escaped(const std::string& text);
 
-/// A LaTeX table as one or more pages, each with one tabular per view, one above the other.
-/// Tabulars have booktabs rules and siunitx columns (version 2 or 3), the best values bold, marks
-/// in separate columns. The first column of a view has names, the others numbers; long names are
-/// broken into lines of `name_share` of the text width.
-std::vector<std::string> latex_pages(const Table& table, const std::vector<View>& panels,
-                                     double name_share = 0.16);
+/// The maximum share of the page width for names in LaTeX.
+inline constexpr double kLatexNameShare = 0.3;
+
+/// A LaTeX table as one tabular per page, with booktabs rules and siunitx columns (version 2 or 3),
+/// the best values bold, marks in separate columns. The first column of the view has names, the
+/// others numbers; long names are broken into lines of `kLatexNameShare` of the text width.
+std::vector<std::string> latex_pages(const Table& table, const View& view);
 
 }  // namespace croon

@@ -112,11 +112,10 @@ TEST(TableChoice, MillimetresAreAThousandTimesAsMany) {
               1000.0 * std::get<double>(metres.table.rows[i][5].value));
   }
   EXPECT_EQ(table.table.columns[5].decimals, 1);
-  TableChoice full;
-  full.is_in_mm = true;
-  EXPECT_NE(export_latex(chosen(full)).find("translation (mm)"), std::string::npos);
-  EXPECT_NE(export_markdown(chosen(full)).find("| x mm |"), std::string::npos);
-  EXPECT_EQ(export_markdown(chosen(full)).find(" m |"), std::string::npos);
+  EXPECT_NE(export_latex(table).find("translation (mm)"), std::string::npos);
+  const std::string full = export_markdown(chosen({{}, {}, true}));
+  EXPECT_NE(full.find("| x mm |"), std::string::npos);
+  EXPECT_EQ(full.find(" m |"), std::string::npos);
 }
 
 TEST(TableChoice, TheCaptionNamesTheKindsOfScenes) {
@@ -125,28 +124,27 @@ TEST(TableChoice, TheCaptionNamesTheKindsOfScenes) {
   EXPECT_EQ(caption_sentences(table).at(1).find("2 scenes of urban, narrow, 2 sensors"), 0U);
 }
 
+/// The choices of --compact.
+TableChoice compact() {
+  return {{}, page_columns({summarise(test::few_records(), kBounds, {})}, true), false, true, true};
+}
+
 TEST(Compact, IsARowPerVariant) {
-  const Summary summary = summarise(test::few_records(), kBounds, {});
-  TableChoice choice;
-  choice.is_one_column = true;
-  const ExportTable table = export_table(summary, kCaption, compact(choice, {summary}).front());
+  TableChoice choice = compact();
+  const ExportTable table = chosen(choice);
   EXPECT_EQ(table.table.rows.size(), 2U);
   const std::string latex = export_latex(table);
   EXPECT_NE(latex.find("\\begin{table}[tbp]"), std::string::npos);
   EXPECT_EQ(latex.find("table*"), std::string::npos);
-  EXPECT_EQ(latex.find("\\medskip"), std::string::npos);
   choice.columns = {"x", "y", "z", "roll", "pitch", "yaw", "success_interval"};
-  EXPECT_NE(refusal([&] {
-              export_latex(export_table(summary, kCaption, compact(choice, {summary}).front()));
-            }).find("--columns: these 7 columns need about "),
-            std::string::npos);
+  EXPECT_NE(
+      refusal([&] { export_latex(chosen(choice)); }).find("--columns: these 7 columns need about "),
+      std::string::npos);
 }
 
 TEST(Compact, SaysOfHowManyScenesAndTrialsARowIs) {
-  const Summary summary = summarise(test::few_records(), kBounds, {});
-  TableChoice choice;
-  choice.is_one_column = true;
-  const ExportTable table = export_table(summary, kCaption, compact(choice, {summary}).front());
+  TableChoice choice = compact();
+  const ExportTable table = chosen(choice);
   for (const ExportFormat& format : export_formats()) {
     const std::string text = format.bytes(table);
     if (format.name == std::string("csv")) {
@@ -158,12 +156,9 @@ TEST(Compact, SaysOfHowManyScenesAndTrialsARowIs) {
   }
   // Of the chosen rows, and not of the table.
   choice.sensors = {"left"};
-  EXPECT_NE(
-      caption_sentences(export_table(summary, kCaption, choice)).at(1).find("a row has 8 of 2"),
-      std::string::npos);
+  EXPECT_NE(caption_sentences(chosen(choice)).at(1).find("a row has 8 of 2"), std::string::npos);
   choice.columns = {"scenes", "trials"};
-  EXPECT_NE(export_markdown(export_table(summary, kCaption, choice))
-                .find("| variant | sensor | scenes | trials |"),
+  EXPECT_NE(export_markdown(chosen(choice)).find("| variant | sensor | scenes | trials |"),
             std::string::npos);
 }
 
@@ -174,26 +169,20 @@ TEST(Compact, OfExperimentsWithAndWithoutTruthHasSuccessAndAgreement) {
   }
   const std::vector<Summary> summaries = {summarise(test::few_records(), kBounds, {}),
                                           summarise(untrue, kBounds, {})};
-  TableChoice choice;
-  choice.is_one_column = true;
-  const std::vector<TableChoice> choices = compact(choice, summaries);
-  const Names expected = {"success", "agreement", "rotation_median", "translation_median"};
-  EXPECT_EQ(choices[0].columns, expected);
-  EXPECT_EQ(choices[1].columns, expected);
-  EXPECT_EQ(choices[0].sensors, Names{"all"});
-  EXPECT_EQ(choices[1].sensors, Names{});
+  EXPECT_EQ(page_columns(summaries, true),
+            (Names{"success", "agreement", "rotation_median", "translation_median"}));
   // Each alone has what it has.
-  EXPECT_EQ(compact(choice, {summaries[0]}).front().columns[1], "rotation_median");
-  EXPECT_EQ(compact(choice, {summaries[1]}).front().columns[0], "agreement");
+  EXPECT_EQ(page_columns({summaries[0]}, true)[1], "rotation_median");
+  EXPECT_EQ(page_columns({summaries[1]}, false),
+            (Names{"agreement", "agreement_interval", "rotation_median", "rotation_p95",
+                   "translation_median", "translation_p95"}));
+  // The only sensor is its own row of all sensors.
+  EXPECT_EQ(export_table(summaries[1], kCaption, compact()).table.rows.size(), 1U);
 }
 
 TEST(Compact, CaptionsExplainTheColumnsThatAreThere) {
-  const Summary summary = summarise(test::few_records(), kBounds, {});
-  TableChoice choice;
-  choice.is_one_column = true;
-  const std::string compact_table =
-      export_latex(export_table(summary, kCaption, compact(choice, {summary}).front()));
-  const std::string full_table = export_latex(export_table(summary, kCaption, {}));
+  const std::string compact_table = export_markdown(chosen(compact()));
+  const std::string full_table = export_markdown(chosen({}));
   for (const char* explanation : {"Interval: ", "Paired: "}) {
     EXPECT_EQ(compact_table.find(explanation), std::string::npos);
     EXPECT_NE(full_table.find(explanation), std::string::npos);
@@ -214,7 +203,8 @@ TEST(Joined, GroupsTheRowsByExperiment) {
   EXPECT_EQ(caption_sentences(table).size(), caption_sentences(tables[0]).size() + 2);
   EXPECT_EQ(export_csv(table).find("experiment,variant,sensor,"), 0U);
   EXPECT_EQ(nlohmann::json::parse(export_json(table))["experiments"][1]["name"], "other");
-  const std::string latex = export_latex(table);
+  for (ExportTable& part : tables) choose(part, compact());
+  const std::string latex = export_latex(joined(tables, {"a", "b"}));
   EXPECT_NE(latex.find("{\\itshape few}"), std::string::npos);
   EXPECT_NE(latex.find("{\\itshape other}"), std::string::npos);
   EXPECT_NE(export_markdown(table).find("| experiment | variant | sensor |"), std::string::npos);

@@ -28,40 +28,24 @@ bool has_latex() {
          runs("kpsewhich booktabs.sty") && runs("kpsewhich etoolbox.sty");
 }
 
-/// The log of a document with `content` as the file table.tex; ends with "failed" where there is no
-/// PDF.
-std::string log_of(const std::string& content, const std::string& packages) {
+/// The log of a document with `table`; ends with "failed" where there is no PDF.
+std::string log_of(const std::string& table, const std::string& siunitx) {
   const croon::test::TempFolder folder;
-  folder.write("table.tex", content);
-  folder.write("paper.tex", kHead + packages +
+  folder.write("table.tex", table);
+  folder.write("paper.tex", kHead + siunitx +
                                 "\\begin{document}\nText.\n\\input{table}\n"
-                                "Table~\\ref{" +
-                                "tab:few" + "}.\n\\end{document}\n");
+                                "Table~\\ref{tab:few}.\n\\end{document}\n");
   const bool is_done = runs("cd '" + folder.path().string() +
                             "' && pdflatex -interaction=nonstopmode -halt-on-error paper.tex");
   const std::string log = read_whole_file(folder.path() / "paper.log");
   return is_done ? log : log + "failed";
 }
 
-std::string log_of(const ExportTable& table, const std::string& siunitx) {
-  return log_of(export_latex(table), siunitx);
-}
-
-/// A table with all that can stand in one: marks, missing values, best ones, several sensors.
-ExportTable full_table(const std::string& other_variant) {
-  std::vector<TrialRecord> records = test::few_records();
-  for (TrialRecord& record : records) {
-    if (record.id.variant != "base") record.id.variant = other_variant;
-  }
-  records.push_back(test::unfinished({"none", "0001", "left", 0}, Status::failed, "no ground"));
-  Summary summary = summarise(records, {0.5, 0.1}, {});
-  Comparison comparison;
-  comparison.variant = other_variant;
-  comparison.base = "base";
-  comparison.rotation_deg.test = {true, 1e-4, 1e-3, 1e-4, 1e-3};
-  comparison.success.p_holm = 0.01;
-  summary.comparisons = {comparison};
-  return export_table(summary, {"few", "0123456789abcdef-dirty", 7, 2, 4, records.size(), 64});
+/// The table of what is chosen; by default, of the columns for a page.
+std::string latex_of(const Summary& summary, TableChoice choice) {
+  if (choice.columns.empty()) choice.columns = page_columns({summary}, choice.is_one_column);
+  return export_latex(
+      export_table(summary, {"few", "0123456789abcdef-dirty", 7, 2, 4, 9, 64}, choice));
 }
 
 /// Both versions that are in use; the older comes with the newer.
@@ -78,47 +62,10 @@ class ExportedLatex : public testing::TestWithParam<const char*> {
   }
 };
 
-TEST_P(ExportedLatex, CompilesAndFitsThePage) {
-  const std::string log = log_of(full_table("no volume"), GetParam());
-  EXPECT_EQ(log.find("failed"), std::string::npos) << log;
-  EXPECT_EQ(log.find("Overfull"), std::string::npos) << log;
-}
-
-/// A table of a large grid, whose names are as long.
-ExportTable large_table() {
+/// The results of `variants` variants whose names are long.
+Summary many_variants(int variants) {
   std::vector<TrialRecord> records;
-  for (int variant = 0; variant < 54; ++variant) {
-    for (TrialRecord record : test::few_records()) {
-      if (record.id.variant != "base") continue;
-      record.id.variant =
-          "base/cgal_efficient_ransac/point_to_plane/golden_section_" + std::to_string(variant);
-      records.push_back(record);
-    }
-  }
-  const Summary summary = summarise(records, {0.5, 0.1}, {});
-  return export_table(summary, {"few", "0123456789ab", 7, 2, 4, records.size(), records.size()});
-}
-
-TEST_P(ExportedLatex, GoesOverSeveralPages) {
-  const std::string log = log_of(large_table(), GetParam());
-  EXPECT_EQ(log.find("failed"), std::string::npos) << log;
-  EXPECT_EQ(log.find("Overfull"), std::string::npos) << log;
-  EXPECT_EQ(log.find("Float too large"), std::string::npos) << log;
-}
-
-TEST_P(ExportedLatex, CompilesWithNamesThatMeanSomethingToLatex) {
-  for (const char* name : {"a_b & 100 %", "#1 ~x ^2 \\par", "[b] {c $d", "*--`'<>|\"",
-                           "base, volume_refinement.scorer.leaf_size_m = 0.05, icp = gicp"}) {
-    const std::string log = log_of(full_table(name), GetParam());
-    EXPECT_EQ(log.find("failed"), std::string::npos) << name << "\n" << log;
-    EXPECT_EQ(log.find("Missing character"), std::string::npos) << name << "\n" << log;
-  }
-}
-
-/// A table of six variants with long names and four sensors.
-Summary six_variants() {
-  std::vector<TrialRecord> records;
-  for (int variant = 0; variant < 6; ++variant) {
+  for (int variant = 0; variant < variants; ++variant) {
     for (TrialRecord record : test::few_records()) {
       if (record.id.variant != "base") continue;
       record.id.variant = "base/point_to_plane/golden_section_" + std::to_string(variant);
@@ -128,15 +75,42 @@ Summary six_variants() {
   return summarise(records, {0.5, 0.1}, {});
 }
 
+TEST_P(ExportedLatex, GoesOverSeveralPages) {
+  const std::string log = log_of(latex_of(many_variants(54), {}), GetParam());
+  for (const char* fault : {"failed", "Overfull", "Float too large"}) {
+    EXPECT_EQ(log.find(fault), std::string::npos) << log;
+  }
+}
+
+TEST_P(ExportedLatex, CompilesWithNamesThatMeanSomethingToLatex) {
+  for (const char* name : {"a_b & 100 %", "#1 ~x ^2 \\par", "[b] {c $d", "*--`'<>|\"",
+                           "base, volume_refinement.scorer.leaf_size_m = 0.05, icp = gicp"}) {
+    // With marks, missing values, best ones and several sensors.
+    std::vector<TrialRecord> records = test::few_records();
+    for (TrialRecord& record : records) {
+      if (record.id.variant != "base") record.id.variant = name;
+    }
+    records.push_back(test::unfinished({"none", "0001", "left", 0}, Status::failed, "no ground"));
+    Summary summary = summarise(records, {0.5, 0.1}, {});
+    Comparison comparison;
+    comparison.variant = name;
+    comparison.base = "base";
+    comparison.rotation_deg.test = {true, 1e-4, 1e-3, 1e-4, 1e-3};
+    comparison.success.p_holm = 0.01;
+    summary.comparisons = {comparison};
+    const std::string latex = latex_of(
+        summary, {{}, {"success", "success_interval", "rotation_median", "rotation_paired"}});
+    const std::string log = log_of(latex, GetParam());
+    for (const char* fault : {"failed", "Overfull", "Missing character"}) {
+      EXPECT_EQ(log.find(fault), std::string::npos) << name << "\n" << log;
+    }
+  }
+}
+
 TEST_P(ExportedLatex, CompactTablesFitOneColumnAndOnePage) {
   for (const bool is_one_column : {true, false}) {
     for (const bool is_in_mm : {true, false}) {
-      TableChoice choice;
-      choice.is_one_column = is_one_column;
-      choice.is_in_mm = is_in_mm;
-      const Summary summary = six_variants();
-      const std::string latex = export_latex(export_table(
-          summary, {"few", "0123456789ab", 7, 2, 4, 9, 9}, compact(choice, {summary}).front()));
+      const std::string latex = latex_of(many_variants(6), {{}, {}, is_in_mm, is_one_column, true});
       EXPECT_EQ(latex.find("continued"), std::string::npos);
       const std::string log = log_of(latex, GetParam());
       EXPECT_EQ(log.find("failed"), std::string::npos) << log;
@@ -149,7 +123,7 @@ TEST_P(ExportedLatex, CompactTablesFitOneColumnAndOnePage) {
 
 /// As many columns as are let through must fit.
 TEST_P(ExportedLatex, ColumnsThatAreNotRefusedFit) {
-  const Summary summary = six_variants();
+  const Summary summary = many_variants(6);
   for (const bool is_one_column : {true, false}) {
     TableChoice choice;
     choice.is_one_column = is_one_column;
@@ -158,7 +132,7 @@ TEST_P(ExportedLatex, ColumnsThatAreNotRefusedFit) {
                              "yaw_p95", "pitch", "roll_rmse", "y", "z", "roll", "trials"}) {
       choice.columns.emplace_back(name);
       try {
-        latex = export_latex(export_table(summary, {"few", "0123456789ab", 7, 2, 4, 9, 9}, choice));
+        latex = latex_of(summary, choice);
       } catch (const InputError&) {
         break;
       }
