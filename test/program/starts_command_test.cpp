@@ -9,8 +9,9 @@ namespace croon::experiments {
 namespace {
 
 std::string experiment_with(const std::string& starts) {
-  return R"({"name": "x", "dataset": {"type": "simulated", "scenes": 2}, "starts": )" + starts +
-         R"(, "pipeline": [{"step": "ground_alignment"}]})";
+  return R"({"name": "x", "dataset": {"type": "simulated", "rig": "croon_three", "scenes": 2},
+             "pipeline": [{"step": "ground_alignment"}], "starts": )" +
+         starts + "}";
 }
 
 class StartsCommand : public testing::Test {
