@@ -30,11 +30,11 @@ Rig street_rig() {
   Rig rig;
   for (const std::string scene : {"a", "b"}) {
     const std::uint64_t scene_seed = scene == "a" ? 4 : 5;
-    const Points target = random_street(rng, scene_seed, 3000, 0.01);
+    const Points target = random_street(rng, scene_seed, 8000, 0.01);
     std::shared_ptr<const Cloud> shared_target;
     for (const std::string sensor : {"left", "right"}) {
       const RigidTransform& T_top_sensor = sensor == "left" ? T_top_left : T_top_right;
-      const Points source = random_street(rng, scene_seed, 1500, 0.01);
+      const Points source = random_street(rng, scene_seed, 5000, 0.01);
       const CloudPair clouds = cloud_pair(target, transformed(source, T_top_sensor.inverse()));
       if (!shared_target) shared_target = clouds.target;
       rig.push_back(

@@ -36,15 +36,11 @@ class StartsCommand : public testing::Test {
 };
 
 TEST_F(StartsCommand, WritesWhatARunDraws) {
-  expect_same_trials(R"({"rotation_deg": 30, "translation_m": 0.3, "trials": 6})");
+  expect_same_trials(R"({"rotation_deg": 180, "translation_m": 0.3, "trials": 6})");
 }
 
 TEST_F(StartsCommand, WritesWhatASweepDraws) {
   expect_same_trials(R"({"sweep": {"rotation_deg": [0, 20], "levels": 3}, "trials": 2})");
-}
-
-TEST_F(StartsCommand, WritesAnyRotation) {
-  expect_same_trials(R"({"rotation_deg": 180, "trials": 6})");
 }
 
 TEST_F(StartsCommand, RefusesAnExperimentWithoutStarts) {

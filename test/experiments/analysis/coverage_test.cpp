@@ -11,6 +11,7 @@
 #include "experiments/report/result_tables.hpp"
 #include "experiments/report/run_text.hpp"
 #include "framework/picture/writers.hpp"
+#include "test/experiments/support/readable.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
@@ -118,7 +119,9 @@ TEST(Coverage, HasTablesAndAFigure) {
   EXPECT_THAT(coverage_csv(coverage), HasSubstr("base,all,all,0.95,20,"));
   EXPECT_THAT(nees_csv(coverage), HasSubstr("base,all,20,"));
   EXPECT_THAT(coverage_text(coverage), HasSubstr("yaw"));
-  const std::string picture = svg_bytes(coverage_chart(coverage));
+  const Drawing drawing = coverage_chart(coverage);
+  EXPECT_THAT(test::unreadable_parts(drawing), testing::IsEmpty());
+  const std::string picture = svg_bytes(drawing);
   for (const std::string& name : kDofNames) EXPECT_THAT(picture, HasSubstr(">" + name + "<"));
   const std::string rows = covariance_csv(records);
   EXPECT_EQ(rows.substr(0, rows.find('\n')),

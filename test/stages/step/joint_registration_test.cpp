@@ -326,39 +326,6 @@ TEST(JointRegistration, GivesASensorOnePoseInAllScenes) {
   }
 }
 
-/// The cloud with `shift_s` added to its times.
-std::shared_ptr<const Cloud> later(const Cloud& cloud, double shift_s) {
-  PointCloud shifted = cloud.with_channels();
-  std::vector<double> times = times_s(shifted);
-  for (double& time_s : times) time_s += shift_s;
-  keep_channels(shifted, {});
-  shifted.channels.push_back(make_channel(kTime, times));
-  return std::make_shared<const Cloud>(std::move(shifted), StreamKey(1));
-}
-
-TEST(JointRegistration, FindsTheOffsetOfAClockFromScenesOfDifferentVelocities) {
-  constexpr double kShift_s = 0.03;
-  std::vector<std::uint64_t> indices = moving_scenes(2);
-  for (std::uint64_t index = 0; indices.size() < 4; ++index) {
-    const simulation::SimulatedScene scene(recipe(simulation::real_noise()), index);
-    if (scene.world().car.motion.speed_mps < 0.1) indices.push_back(index);
-  }
-  DrivingRig rig = rig_of(simulation::real_noise(), indices);
-  for (std::size_t i = 0; i < rig.estimates.size(); ++i) {
-    RigEstimate& one = rig.estimates[i];
-    one.estimate.T_target_source = rig.estimates[i % 2].estimate.T_target_source;
-    if (one.source == "left") one.estimate.source = later(*one.estimate.source, -kShift_s);
-  }
-  adjust_jointly(rig.estimates, R"(, "poses": "common", "clock_offset_std_s": 0.1)");
-  for (const RigEstimate& one : rig.estimates) {
-    ASSERT_EQ(one.failure, "");
-    const double offset_s = test::diagnostic(one.estimate, "clock_offset_s");
-    EXPECT_NEAR(offset_s, one.source == "left" ? kShift_s : 0.0, 0.005) << one.scene << one.source;
-    const PoseError error = pose_error(one.estimate.T_target_source, rig.truth[one.source]);
-    EXPECT_LT(error.translation_m, 0.05) << one.source;
-  }
-}
-
 TEST(JointRegistration, FailsTheSensorThatIsFarFromAllSurfacesAlone) {
   DrivingRig rig = rig_of(simulation::real_still_noise(), {0});
   rig.estimates[0].estimate.T_target_source.translation.z() += 500.0;
