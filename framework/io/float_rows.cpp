@@ -86,10 +86,10 @@ class Sample {
 
   /// The share of rows with a coordinate beyond the range of any LiDAR.
   double share_out_of_range(std::size_t columns) const {
-    constexpr double kMaxRange_m = 1000.0;
+    constexpr double kMaxPlausible_m = 1000.0;
     std::size_t rows = 0, outside = 0;
     for (std::size_t row = 0; row + columns <= values_.size(); row += columns, ++rows) {
-      const auto is_outside = [](double value) { return std::abs(value) > kMaxRange_m; };
+      const auto is_outside = [](double value) { return std::abs(value) > kMaxPlausible_m; };
       if (std::any_of(&values_[row], &values_[row] + 3, is_outside)) ++outside;
     }
     return rows == 0 ? 0.0 : static_cast<double>(outside) / static_cast<double>(rows);

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/base/error.hpp"
-#include "framework/pipeline/pipeline.hpp"
 #include "framework/stage/ground_extractor.hpp"
 #include "framework/stage/hypotheses.hpp"
 #include "framework/stage/icp.hpp"
@@ -186,16 +185,23 @@ Pipeline givers_of(const params::Slot<Step>& step) {
   return givers;
 }
 
-Numbers advanced(const std::string& stage_json, const CloudPair& clouds) {
-  const NamedStep ground{"ground", stage<Step>(R"({"step": "ground_alignment"})")};
+NamedStep ground_step() { return {"ground", stage<Step>(R"({"step": "ground_alignment"})")}; }
+
+/// The step `stage_json` after those that it needs.
+Pipeline pipeline_of(const std::string& stage_json, bool has_ground) {
   const NamedStep tested{"tested", stage<Step>(stage_json)};
+  Pipeline pipeline = givers_of(tested.step);
+  if (has_ground) pipeline.insert(pipeline.begin(), ground_step());
+  pipeline.push_back(tested);
+  return pipeline;
+}
+
+Numbers advanced(const std::string& stage_json, const CloudPair& clouds) {
   const StreamKey key(5);
   const bool has_ground =
-      run_pipeline({ground}, clouds.target, clouds.source, start(), key).failure.empty();
-  Pipeline pipeline = givers_of(tested.step);
-  if (has_ground) pipeline.insert(pipeline.begin(), ground);
-  pipeline.push_back(tested);
-  const PipelineResult result = run_pipeline(pipeline, clouds.target, clouds.source, start(), key);
+      run_pipeline({ground_step()}, clouds.target, clouds.source, start(), key).failure.empty();
+  const PipelineResult result =
+      run_pipeline(pipeline_of(stage_json, has_ground), clouds.target, clouds.source, start(), key);
   if (!result.failure.empty()) throw StageError(result.failure);
   Numbers numbers;
   add_estimate(numbers, result.estimate);
@@ -277,6 +283,16 @@ Outcome outcome_of(const std::string& kind, const std::string& stage_json,
   } catch (const StageError& error) {
     return {{}, std::string("StageError: ") + error.what()};
   }
+}
+
+Outcome outcome_of_rig(const std::string& step_json, Rig rig) {
+  run_pipeline(pipeline_of(step_json, true), rig, StreamKey(5));
+  Outcome outcome;
+  for (const RigMember& member : rig) {
+    outcome.stage_error += member.result.failure;
+    if (member.result.failure.empty()) add_estimate(outcome.numbers, member.result.estimate);
+  }
+  return outcome;
 }
 
 }  // namespace croon::test

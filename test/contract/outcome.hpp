@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/pipeline/rig.hpp"
 #include "framework/spatial/cloud.hpp"
 #include "framework/stage/stage_entry.hpp"
 
@@ -34,5 +35,9 @@ CloudPair cloud_pair(const Points& target, const Points& source);
 /// other kind runs in the steps that have a slot of the kind; if there is none, throws
 /// std::logic_error.
 Outcome outcome_of(const std::string& kind, const std::string& json, const CloudPair& clouds);
+
+/// Builds the step `json` and runs it on all members of `rig`, after `ground_alignment`: the
+/// numbers of the members that have not failed, and the failures of the others.
+Outcome outcome_of_rig(const std::string& json, Rig rig);
 
 }  // namespace croon::test

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "framework/base/whole_file.hpp"
 #include "test/program/program.hpp"
@@ -13,10 +15,11 @@ namespace {
 
 std::string carla() { return (test::data_root() / "opencalib" / "carla").string(); }
 
-/// Checks the poses in `file` by three clouds of a scene.
-Answer check(const std::string& file) {
+/// Checks the poses in `file` by clouds of a scene: those of the reference and of `sensors`.
+Answer check(const std::string& file, std::vector<std::string> sensors) {
   std::string arguments = "check '" + file + "' --quiet";
-  for (const char* const sensor : {"top", "left", "back"}) {
+  sensors.insert(sensors.begin(), "top");
+  for (const std::string& sensor : sensors) {
     arguments += " '" + carla() + "/004069/" + sensor + ".pcd'";
   }
   return croon(arguments);
@@ -24,10 +27,9 @@ Answer check(const std::string& file) {
 
 TEST(CheckCommand, FindsTruePosesRight) {
   CROON_SKIP_WITHOUT_DATA();
-  const Answer answer = check(carla() + "/truth.json");
+  const Answer answer = check(carla() + "/truth.json", {"left"});
   EXPECT_EQ(answer.code, 0) << answer.text;
   EXPECT_NE(answer.text.find("RIGHT        left: within"), std::string::npos) << answer.text;
-  EXPECT_NE(answer.text.find("RIGHT        back: within"), std::string::npos) << answer.text;
 }
 
 TEST(CheckCommand, NamesTheDegreeOfFreedomThatIsOff) {
@@ -40,7 +42,7 @@ TEST(CheckCommand, NamesTheDegreeOfFreedomThatIsOff) {
   add("left", "rotation_rpy_deg", 2, 0.3);
   add("back", "translation_m", 0, 0.05);
   const test::TempFolder folder;
-  const Answer answer = check(folder.write("poses.json", poses.dump()).string());
+  const Answer answer = check(folder.write("poses.json", poses.dump()).string(), {"left", "back"});
   EXPECT_EQ(answer.code, 3) << answer.text;
   EXPECT_NE(answer.text.find("WRONG        left: yaw is off by +0."), std::string::npos)
       << answer.text;
@@ -55,12 +57,12 @@ TEST(CheckCommand, RefusesAFileWithoutThePoses) {
                                .write("poses.json", R"({"lft": {"rotation_rpy_deg": [0, 0, 0],
                                               "translation_m": [0, 0, 0]}})")
                                .string();
-  const Answer answer = check(file);
+  const Answer answer = check(file, {"left"});
   EXPECT_EQ(answer.code, 2);
   EXPECT_NE(answer.text.find("has no pose of the sensor \"left\"; did you mean \"lft\"?"),
             std::string::npos)
       << answer.text;
-  EXPECT_EQ(check("not_there.json").code, 2);
+  EXPECT_EQ(check("not_there.json", {"left"}).code, 2);
 }
 
 }  // namespace

@@ -47,11 +47,11 @@ constexpr const char* kInterrupted = R"({
   ]
 })";
 
-// Groups of five scenes, and a step that sees all of their sensors and pairs of sensors at once.
+// Groups of three scenes, and a step that sees all of their sensors and pairs of sensors at once.
 constexpr const char* kRigExperiment = R"({
   "name": "rigs",
-  "dataset": {"type": "simulated", "rig": RIG, "scenes": 11},
-  "scenes_per_trial": 5,
+  "dataset": {"type": "simulated", "rig": RIG, "scenes": 7},
+  "scenes_per_trial": 3,
   "loops": true,
   "starts": {"rotation_deg": 5, "translation_m": 0.1, "trials": 2},
   "success": {"rotation_deg": 5, "translation_m": 0.5},
@@ -76,7 +76,7 @@ constexpr Case kCases[] = {
     {"Pairs", kInterrupted, 3 * 4 * 2 * 3, 4},   // Variants, scenes, sensors, starts.
     {"Rigs", kRigExperiment, 3 * 2 * 3 * 2, 3},  // Variants, groups, sensors and pairs, starts.
 };
-constexpr int kKills = 20;
+constexpr int kKills = 8;
 
 /// The words of `text` between the `separator`s.
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -157,7 +157,7 @@ void expect_well_formed_timings(const fs::path& file) {
   }
 }
 
-TEST_P(InterruptedRun, GoesOnAfterTwentyKillsAtAnyMoment) {
+TEST_P(InterruptedRun, GoesOnAfterKillsAtAnyMoment) {
   const auto begin = std::chrono::steady_clock::now();
   run("whole");
   const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - begin;
@@ -178,15 +178,8 @@ TEST_P(InterruptedRun, GoesOnAfterTwentyKillsAtAnyMoment) {
   }
 }
 
-TEST_P(InterruptedRun, IsTheSameBytesOnOneThreadAndOnFour) {
-  run("whole", "--jobs 1");
-  run("four", "--jobs 4");
-  expect_same_results("four");
-  expect_each_trial_once(path("four"), GetParam().trials);
-}
-
-TEST_P(InterruptedRun, IsTheSameBytesFromShards) {
-  run("whole");
+TEST_P(InterruptedRun, IsTheSameBytesOnFourThreadsAndFromShardsOnOne) {
+  run("whole", "--jobs 4");
   std::string merge = "merge";
   const std::string shards = std::to_string(GetParam().shards);
   for (int shard = 1; shard <= GetParam().shards; ++shard) {

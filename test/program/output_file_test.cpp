@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kOneScene = R"({"name": "x",
-    "dataset": {"type": "simulated", "scenes": 1, "mix": {"empty": 1}},
+    "dataset": {"type": "simulated", "rig": "croon_three", "scenes": 1, "mix": {"empty": 1}},
     "starts": {"rotation_deg": 1, "trials": 1},
     "pipeline": [{"step": "identity"}]})";
 

@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string experiment(int dataset_seed) {
-  return R"({"name": "x", "dataset": {"type": "simulated", "scenes": 2, "seed": )" +
+  return R"({"name": "x",
+            "dataset": {"type": "simulated", "rig": "croon_three", "scenes": 2, "seed": )" +
          std::to_string(dataset_seed) +
          R"(}, "starts": {"rotation_deg": 10, "trials": 1},
             "pipeline": [{"step": "ground_alignment"}, {"step": "registration"}]})";
@@ -124,8 +125,8 @@ TEST_F(SimulateCommand, WritesTheVelocitiesAndTheTimesThatDeskewTakes) {
 }
 
 TEST_F(SimulateCommand, WritesTheFileOfVelocitiesThatKnownVelocityTakes) {
-  folder_.write("x.json", R"({"name": "x", "dataset": {"type": "simulated", "scenes": 2,
-      "noise": "real", "speed_mps": 12}, "starts": {"rotation_deg": 1, "trials": 1},
+  folder_.write("x.json", R"({"name": "x", "dataset": {"type": "simulated", "rig": "croon_three",
+      "scenes": 2, "noise": "real", "speed_mps": 12}, "starts": {"rotation_deg": 1, "trials": 1},
       "pipeline": [{"step": "known_velocity", "file": "velocities.csv"}]})");
   run("simulate " + path("x.json") + " --out " + path("data") + " --quiet");
   run("run " + path("data/experiment.json") + " --data " + path("data") + " --out " + path("read") +
@@ -141,8 +142,8 @@ TEST_F(SimulateCommand, WritesTheFileOfVelocitiesThatKnownVelocityTakes) {
 }
 
 TEST_F(SimulateCommand, WritesWhatTheExperimentReadsBesideIt) {
-  const std::string dataset = R"({"name": "x", "dataset": {"type": "simulated", "scenes": 2,
-      "noise": "real", "speed_mps": 12}, )";
+  const std::string dataset = R"({"name": "x", "dataset": {"type": "simulated",
+      "rig": "croon_three", "scenes": 2, "noise": "real", "speed_mps": 12}, )";
   folder_.write("x.json", dataset + R"("starts": {"rotation_deg": 1, "trials": 2},
       "pipeline": [{"step": "identity"}]})");
   run("simulate " + path("x.json") + " --out " + path("first") + " --quiet");

@@ -9,8 +9,9 @@ namespace croon::experiments {
 namespace {
 
 std::string experiment_with(const std::string& starts) {
-  return R"({"name": "x", "dataset": {"type": "simulated", "scenes": 2}, "starts": )" + starts +
-         R"(, "pipeline": [{"step": "ground_alignment"}]})";
+  return R"({"name": "x", "dataset": {"type": "simulated", "rig": "croon_three", "scenes": 2},
+             "pipeline": [{"step": "ground_alignment"}], "starts": )" +
+         starts + "}";
 }
 
 class StartsCommand : public testing::Test {
@@ -35,15 +36,11 @@ class StartsCommand : public testing::Test {
 };
 
 TEST_F(StartsCommand, WritesWhatARunDraws) {
-  expect_same_trials(R"({"rotation_deg": 30, "translation_m": 0.3, "trials": 6})");
+  expect_same_trials(R"({"rotation_deg": 180, "translation_m": 0.3, "trials": 6})");
 }
 
 TEST_F(StartsCommand, WritesWhatASweepDraws) {
   expect_same_trials(R"({"sweep": {"rotation_deg": [0, 20], "levels": 3}, "trials": 2})");
-}
-
-TEST_F(StartsCommand, WritesAnyRotation) {
-  expect_same_trials(R"({"rotation_deg": 180, "trials": 6})");
 }
 
 TEST_F(StartsCommand, RefusesAnExperimentWithoutStarts) {

@@ -57,18 +57,16 @@ TEST(Bootstrap, CoversTheTrueDifference) {
 }
 
 TEST(Bootstrap, CoversItWhereTrialsOfASceneAreAlike) {
-  for (const double scene_effect : {1.0, 2.0}) {
-    test::MadeUp like;
-    like.scenes = 12;
-    like.trials = 20;
-    like.effect = 0.5;
-    like.scene_effect = scene_effect;
-    const int covered = count_covered(like);
-    // Of few scenes an interval of percentiles is somewhat short. Over trials alone it would
-    // cover 60 % and less.
-    EXPECT_GE(covered, kExperiments * 0.88) << scene_effect;
-    EXPECT_LT(covered, kExperiments) << scene_effect;
-  }
+  test::MadeUp like;
+  like.scenes = 12;
+  like.trials = 20;
+  like.effect = 0.5;
+  like.scene_effect = 2.0;
+  const int covered = count_covered(like);
+  // With few scenes, an interval of percentiles is somewhat short. Over trials alone it would cover
+  // 60 % and less.
+  EXPECT_GE(covered, kExperiments * 0.88);
+  EXPECT_LT(covered, kExperiments);
 }
 
 TEST(Bootstrap, IsTheSameBitsAgain) {

@@ -228,7 +228,7 @@ TEST(Comparison, WithoutTruthErrorsAreFromTheOwnConsensus) {
 TEST(Comparison, FindsAnEffectAndKeepsItsLevel) {
   Rng rng = test_rng();
   int found = 0, wrong = 0, wrong_by_scene = 0;
-  constexpr int kRuns = 200;
+  constexpr int kRuns = 50;
   for (int i = 0; i < kRuns; ++i) {
     const auto any = [](const std::vector<Comparison>& comparisons,
                         bool (*holds)(const PairedTest&)) {
@@ -240,9 +240,10 @@ TEST(Comparison, FindsAnEffectAndKeepsItsLevel) {
     wrong_by_scene += any(null, [](const PairedTest& test) { return test.p_by_scene_holm < 0.05; });
     found += any(compared(random_records(rng, {10, 2, 2.5, 0.0, true})), is_significant_by_scene);
   }
-  // 5 % and three standard deviations (1.54 %) of a share of 200.
-  EXPECT_LE(wrong, kRuns * 0.0962);
-  EXPECT_LE(wrong_by_scene, kRuns * 0.0962);
+  // 5 % and three standard deviations (3.1 %) of a share of 50: the tests by themselves keep their
+  // level in thousands of experiments, see sign_flip_test.cpp and signed_rank_test.cpp.
+  EXPECT_LE(wrong, kRuns * 0.143);
+  EXPECT_LE(wrong_by_scene, kRuns * 0.143);
   EXPECT_GE(found, kRuns * 0.9);
 }
 

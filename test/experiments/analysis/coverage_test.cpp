@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/report/plots.hpp"
 #include "experiments/report/result_list.hpp"
 #include "experiments/report/run_text.hpp"
+#include "test/experiments/support/readable.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
@@ -119,6 +121,7 @@ TEST(Coverage, HasTablesAndAFigure) {
   EXPECT_THAT(result_file("nees.csv", results), HasSubstr("base,all,20,"));
   EXPECT_THAT(coverage_text(results.coverage), HasSubstr("yaw"));
   const std::string picture = result_file("coverage.svg", results);
+  EXPECT_THAT(test::unreadable_parts(coverage_chart(results.coverage)), testing::IsEmpty());
   for (const std::string& name : kDofNames) EXPECT_THAT(picture, HasSubstr(">" + name + "<"));
   const std::string rows = result_file("covariance.csv", results);
   EXPECT_EQ(rows.substr(0, rows.find('\n')),

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include "experiments/report/result_list.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/picture/writers.hpp"
+#include "test/experiments/support/readable.hpp"
 #include "test/support/occurrences.hpp"
 #include "test/support/trial_records.hpp"
 
@@ -98,6 +100,7 @@ Summary variants_in(int variants, int scenes) {
 TEST(SuccessCurve, HasABandOfTheIntervalOverScenes) {
   const Summary summary = variants_in(2, kMinScenes);
   const Drawing drawing = success_curve_chart(summary.curve);
+  EXPECT_THAT(test::unreadable_parts(drawing), testing::IsEmpty());
   std::vector<Drawing::Area> bands;
   std::vector<Drawing::Polyline> curves, edges;
   for (const Drawing::Element& element : drawing.elements()) {

@@ -10,6 +10,7 @@
 #include "experiments/report/result_list.hpp"
 #include "experiments/report/run_text.hpp"
 #include "framework/picture/writers.hpp"
+#include "test/experiments/support/readable.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
@@ -76,7 +77,9 @@ TEST(Verdicts, OverTheThresholdTheNumberOfTrialsStays) {
 
 TEST(Verdicts, HaveAFigureWithAPanelForEachOfTheFour) {
   const AcceptanceCurve acceptance = verdicts_on(some_records());
-  const std::string picture = svg_bytes(acceptance_chart(acceptance, kBounds));
+  const Drawing drawing = acceptance_chart(acceptance, kBounds);
+  EXPECT_THAT(test::unreadable_parts(drawing), testing::IsEmpty());
+  const std::string picture = svg_bytes(drawing);
   for (const char* title :
        {"accepted and right", "accepted and wrong", "rejected and right", "rejected and wrong"}) {
     EXPECT_THAT(picture, HasSubstr(std::string(">") + title + "<"));

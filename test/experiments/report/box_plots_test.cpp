@@ -1,10 +1,12 @@
 #include "experiments/report/box_drawing.hpp"
 #include "experiments/report/plots.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "framework/base/error.hpp"
 #include "framework/picture/writers.hpp"
+#include "test/experiments/support/readable.hpp"
 #include "test/support/occurrences.hpp"
 #include "test/support/trial_records.hpp"
 
@@ -14,6 +16,17 @@ namespace {
 using test::kBounds;
 
 std::string box_plots_svg(const Summary& summary) { return svg_bytes(box_plots(summary)); }
+
+/// The elements of a type whose style starts with `part`.
+template <class Element>
+std::vector<Element> elements_of(const Drawing& drawing, const std::string& part) {
+  std::vector<Element> found;
+  for (const Drawing::Element& element : drawing.elements()) {
+    const auto* one = std::get_if<Element>(&element);
+    if (one != nullptr && one->style.rfind(part, 0) == 0) found.push_back(*one);
+  }
+  return found;
+}
 
 std::vector<BoxGroup> groups_of(const Summary& summary, std::size_t max_scenes) {
   return box_groups(summary, box_of(summary, max_scenes, 20));
@@ -68,15 +81,17 @@ TEST(BoxGroups, OfManyScenesAreByKind) {
 }
 
 TEST(BoxPlotsSvg, HasAPanelPerDofAndABoxPerVariantAndSensor) {
-  const std::string svg = box_plots_svg(summarise(test::few_records(), kBounds, {}));
+  const Drawing drawing = box_plots(summarise(test::few_records(), kBounds, {}));
+  EXPECT_THAT(test::unreadable_parts(drawing), testing::IsEmpty());
+  EXPECT_EQ(elements_of<Drawing::Rectangle>(drawing, "box c").size(), 6U * 2U * 2U);
+  EXPECT_EQ(elements_of<Drawing::Line>(drawing, "median c").size(), 6U * 2U * 2U);
+  EXPECT_TRUE(elements_of<Drawing::Dot>(drawing, "dot c").empty());
+  const std::string svg = svg_bytes(drawing);
   for (const char* title : {"pitch, deg", "roll, deg", "yaw, deg", "x, mm", "y, mm", "z, mm"}) {
     EXPECT_EQ(test::occurrences(svg, std::string(">") + title + "<"), 1U) << title;
   }
-  EXPECT_EQ(test::occurrences(svg, "class=\"box c"), 6U * 2U * 2U);
-  EXPECT_EQ(test::occurrences(svg, "class=\"median c"), 6U * 2U * 2U);
   EXPECT_EQ(test::occurrences(svg, ">no volume<"), 6U * 2U);
   EXPECT_EQ(test::occurrences(svg, ">A box is one variant and sensor, all scenes together:"), 1U);
-  EXPECT_EQ(test::occurrences(svg, "class=\"dot c"), 0U);
   EXPECT_EQ(test::occurrences(svg, "nan") + test::occurrences(svg, "inf"), 0U);
 }
 
@@ -87,7 +102,8 @@ TEST(BoxPlotsSvg, AValueBeyondTheWhiskersIsADot) {
     records.push_back(test::finished({"base", "0001", "front", trial}, Status::success, {},
                                      test::offset_of(0, 0, 0, x_m, 0, 0)));
   }
-  EXPECT_EQ(test::occurrences(box_plots_svg(summarise(records, kBounds, {})), "class=\"dot c"), 1U);
+  const Drawing drawing = box_plots(summarise(records, kBounds, {}));
+  EXPECT_EQ(elements_of<Drawing::Dot>(drawing, "dot c").size(), 1U);
 }
 
 /// Trials of variants of one sensor, each with errors of x around its number of metres.
@@ -124,7 +140,6 @@ TEST(BoxPlots, OneBadVariantDoesNotFlattenTheOthers) {
             1U);  // The axis' end.
   // Of the nine values of "bad", eight lie beyond the axis, four at each end.
   EXPECT_EQ(test::occurrences(svg, ">4</text>"), 2U);
-  EXPECT_EQ(test::occurrences(svg, "<polygon"), 2U);
   EXPECT_EQ(test::occurrences(svg, "arrowheads"),
             2U);  // Said in the description and below the title.
   EXPECT_EQ(
@@ -132,22 +147,12 @@ TEST(BoxPlots, OneBadVariantDoesNotFlattenTheOthers) {
       0U);
   // Every box is drawn inside its plot.
   const Drawing drawing = box_plots(summary);
+  EXPECT_EQ(elements_of<Drawing::Area>(drawing, "marker").size(), 2U);
   for (const Drawing::Element& element : drawing.elements()) {
     const auto* box = std::get_if<Drawing::Rectangle>(&element);
     if (box == nullptr || box->style == "page") continue;
     EXPECT_LE(box->height, 190.0 + 1e-9);
   }
-}
-
-/// The styles that start with `part` and their number, of the elements of a type.
-template <class Element>
-std::vector<Element> elements_of(const Drawing& drawing, const std::string& part) {
-  std::vector<Element> found;
-  for (const Drawing::Element& element : drawing.elements()) {
-    const auto* one = std::get_if<Element>(&element);
-    if (one != nullptr && one->style.rfind(part, 0) == 0) found.push_back(*one);
-  }
-  return found;
 }
 
 TEST(Box, OfFewValuesIsDots) {
@@ -157,9 +162,18 @@ TEST(Box, OfFewValuesIsDots) {
     Drawing drawing(100.0, 100.0);
     draw_box(drawing, {0.0, 0.0, 100.0, 100.0, {0.0, 1.0}, {-1.0, 9.0}}, 50.0, 20.0, 0, values);
     const bool is_box = n >= kMinBoxValues;
-    EXPECT_EQ(elements_of<Drawing::Dot>(drawing, "dot").size(), is_box ? 0U : n);
+    const auto dots = elements_of<Drawing::Dot>(drawing, "dot");
+    ASSERT_EQ(dots.size(), is_box ? 0U : n);
+    // Of the values 0 to n - 1 on an axis from -1 to 9; positions run downwards.
+    for (std::size_t i = 0; i < dots.size(); ++i) {
+      EXPECT_NEAR(dots[dots.size() - 1 - i].y, 90.0 - 10.0 * values[i], 0.26);
+    }
     EXPECT_EQ(elements_of<Drawing::Rectangle>(drawing, "box").size(), is_box ? 1U : 0U);
-    EXPECT_EQ(elements_of<Drawing::Line>(drawing, "median").size(), is_box ? 1U : 0U);
+    const auto medians = elements_of<Drawing::Line>(drawing, "median");
+    ASSERT_EQ(medians.size(), is_box ? 1U : 0U);
+    if (is_box) {
+      EXPECT_NEAR(medians.front().y1, 90.0 - 5.0 * values.back(), 1e-9);
+    }
   }
 }
 
@@ -253,12 +267,10 @@ TEST(BoxPlots, OnPaperHaveTheWidthOfTheColumnAndTextOfEightPoints) {
     const Drawing drawing = box_plots(summary, {sheet});
     EXPECT_EQ(drawing.width(), sheet.width);
     EXPECT_LE(drawing.height(), 680.0);  // Of a page.
+    EXPECT_THAT(test::unreadable_parts(drawing), testing::IsEmpty());
     for (const Drawing::Element& element : drawing.elements()) {
       if (const auto* text = std::get_if<Drawing::Text>(&element)) {
         EXPECT_EQ(look_of(text->style, sheet).text_size, 8.0);
-        EXPECT_GE(text->x, 0.0);
-        EXPECT_LE(text->x, sheet.width);
-        EXPECT_LE(text->y, drawing.height());
         EXPECT_EQ(text->text.find("Error of"), std::string::npos);
       }
     }
@@ -281,7 +293,7 @@ TEST(BoxPlots, ThatDoNotFitAreRefused) {
     EXPECT_EQ(test::occurrences(error.what(), "60 boxes with their names need "), 1U)
         << error.what();
   }
-  EXPECT_EQ(test::occurrences(svg_bytes(box_plots(around(variants))), "class=\"box c"), 6U * 60U);
+  EXPECT_EQ(elements_of<Drawing::Rectangle>(box_plots(around(variants)), "box c").size(), 6U * 60U);
 }
 
 TEST(BoxPlotsSvg, AVariantWithoutSuccessKeepsItsPlace) {
@@ -299,7 +311,7 @@ TEST(BoxPlotsSvg, NothingToShowIsAPictureToo) {
   EXPECT_EQ(test::occurrences(empty, "</svg>"), 1U);
   const Summary failed =
       summarise({test::unfinished({"base", "a", "b", 0}, Status::failed, "no")}, kBounds, {});
-  EXPECT_EQ(test::occurrences(box_plots_svg(failed), "class=\"box c"), 0U);
+  EXPECT_TRUE(elements_of<Drawing::Rectangle>(box_plots(failed), "box c").empty());
   EXPECT_EQ(test::occurrences(empty, "nan") + test::occurrences(empty, "inf"), 0U);
 }
 

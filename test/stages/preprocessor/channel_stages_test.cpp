@@ -90,7 +90,7 @@ double share_on_world(const simulation::SimulatedScene& scene, const RigidTransf
 TEST(Deskew, UndoesTheDistortionOfTheSimulationToAMillimetre) {
   const auto recipe = sweeping_recipe();
   int compared = 0;
-  for (const std::uint64_t index : {0, 1, 2, 3, 4}) {
+  for (std::uint64_t index = 0; compared <= 5; ++index) {
     const simulation::SimulatedScene scene(recipe, index);
     if (scene.world().car.motion.speed_mps < 3.0) continue;
     for (const auto& [name, mounting] : recipe->rig.sensors) {
@@ -107,7 +107,6 @@ TEST(Deskew, UndoesTheDistortionOfTheSimulationToAMillimetre) {
       ++compared;
     }
   }
-  EXPECT_GT(compared, 5);
 }
 
 TEST(Deskew, IsUndoneByTheOppositeVelocity) {

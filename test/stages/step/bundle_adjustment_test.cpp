@@ -8,7 +8,6 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
-#include "framework/base/threads.hpp"
 #include "framework/simulation/rig.hpp"
 #include "framework/simulation/sensor_model.hpp"
 #include "framework/simulation/simulated_scene.hpp"
@@ -68,8 +67,8 @@ void adjust_bundle(std::vector<RigEstimate>& rig,
   dynamic_cast<const RigStep&>(*step).adjust(rig, rng);
 }
 
-TEST(BundleAdjustment, FindsOnePoseForEachSensorInAllScenes) {
-  StandingRig rig = standing_rig(3);
+TEST(BundleAdjustment, FindsOnePoseForEachSensorInAllScenesAndHowWellItIsConstrained) {
+  StandingRig rig = standing_rig(2);
   adjust_bundle(rig.estimates);
   std::map<std::string, RigidTransform> found;
   for (const RigEstimate& one : rig.estimates) {
@@ -81,17 +80,9 @@ TEST(BundleAdjustment, FindsOnePoseForEachSensorInAllScenes) {
     const RigidTransform& first = found.emplace(one.source, T).first->second;
     EXPECT_EQ(first.rotation, T.rotation);
     EXPECT_EQ(first.translation, T.translation);
-  }
-}
-
-TEST(BundleAdjustment, SaysHowWellEachPoseIsHeld) {
-  StandingRig rig = standing_rig(2);
-  adjust_bundle(rig.estimates);
-  for (const RigEstimate& one : rig.estimates) {
     ASSERT_TRUE(one.estimate.covariance);
     const PoseCovariance& covariance = *one.estimate.covariance;
     EXPECT_TRUE(is_covariance(covariance.matrix));
-    const PoseError error = pose_error(one.estimate.T_target_source, rig.truth[one.source]);
     for (int dof = 0; dof < 6; ++dof) {
       EXPECT_EQ(covariance.dofs[static_cast<std::size_t>(dof)], Observability::determined);
       EXPECT_LT(std::abs(error.dof(dof)), 5.0 * std::sqrt(covariance.matrix(dof, dof)));
@@ -127,12 +118,12 @@ TEST(BundleAdjustment, FlatGroundHoldsNeitherXNorYNorYaw) {
   }
 }
 
-TEST(BundleAdjustment, ManyScenesOfWhichNoneHoldsADirectionDoNotHoldIt) {
+TEST(BundleAdjustment, ScenesOfWhichNoneHoldsADirectionDoNotHoldItTogether) {
   using simulation::SceneKind;
   const std::map<SceneKind, std::vector<Dof>> not_held = {{SceneKind::empty, {Dof::x, Dof::yaw}},
                                                           {SceneKind::corridor, {Dof::x}}};
   for (const auto& [kind, dofs] : not_held) {
-    StandingRig rig = standing_rig(4, kind);
+    StandingRig rig = standing_rig(2, kind);
     adjust_bundle(rig.estimates);
     for (const RigEstimate& one : rig.estimates) {
       ASSERT_TRUE(one.estimate.covariance) << one.failure;
@@ -162,20 +153,6 @@ TEST(BundleAdjustment, WhatARegistrationHoldsPlanesNeedNotHold) {
     for (const Observability word : one.estimate.covariance->dofs) {
       EXPECT_EQ(word, Observability::determined);
     }
-  }
-}
-
-TEST(BundleAdjustment, ThreadsDoNotChangeABit) {
-  std::vector<StandingRig> rigs;
-  for (const int jobs : {1, 3}) {
-    rigs.push_back(standing_rig(2));
-    on_threads(jobs, [&] { adjust_bundle(rigs.back().estimates); });
-  }
-  for (std::size_t i = 0; i < rigs[0].estimates.size(); ++i) {
-    const RigidTransform& one = rigs[0].estimates[i].estimate.T_target_source;
-    const RigidTransform& other = rigs[1].estimates[i].estimate.T_target_source;
-    EXPECT_EQ(one.rotation, other.rotation);
-    EXPECT_EQ(one.translation, other.translation);
   }
 }
 

@@ -34,7 +34,7 @@ std::string failure_of(const std::string& json, const Points& target, const Poin
 TEST(FeatureAlignment, FindsThePoseAmongClutterThatOneSensorAloneSees) {
   Rng rng = test::test_rng();
   const auto step = test::stage<Step>(R"({"step": "feature_alignment"})");
-  for (std::uint64_t i = 0; i < 4; ++i) {
+  for (std::uint64_t i = 0; i < 2; ++i) {
     test::StreetPair pair =
         test::street_pair(rng, i, test::random_pose(rng, 1.0), 20000, 12000, 0.01);
     const Points clutter = test::random_cloud(rng, 3000, 15.0);
@@ -78,18 +78,13 @@ PoseError worst_of(const std::filesystem::path& scene, const RigPoses& poses) {
 TEST(FeatureAlignment, FindsTheSamplesPosesWithNoStart) {
   CROON_SKIP_WITHOUT_DATA();
   const std::filesystem::path root = test::data_root() / "opencalib";
-  for (const char* scene : {"004069", "004553"}) {
-    const PoseError worst =
-        worst_of(root / "carla" / scene, read_rig_poses(root / "carla" / "truth.json"));
-    EXPECT_LT(deg_from_rad(worst.rotation_rad), 0.5) << scene;
-    EXPECT_LT(worst.translation_m, 0.3) << scene;
-  }
-  for (const char* scene : {"0001", "0002"}) {
-    const PoseError worst =
-        worst_of(root / "real" / scene, read_rig_poses(root / "real" / "nominal.json"));
-    EXPECT_LT(deg_from_rad(worst.rotation_rad), 3.0) << scene;  // The nominal pose is a drawing's.
-    EXPECT_LT(worst.translation_m, 0.3) << scene;
-  }
+  const PoseError carla =
+      worst_of(root / "carla/004069", read_rig_poses(root / "carla/truth.json"));
+  EXPECT_LT(deg_from_rad(carla.rotation_rad), 0.5);
+  EXPECT_LT(carla.translation_m, 0.3);
+  const PoseError real = worst_of(root / "real/0001", read_rig_poses(root / "real/nominal.json"));
+  EXPECT_LT(deg_from_rad(real.rotation_rad), 3.0);  // The nominal pose is a drawing's.
+  EXPECT_LT(real.translation_m, 0.3);
 }
 
 }  // namespace

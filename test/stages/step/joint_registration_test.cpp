@@ -4,7 +4,6 @@
 #include <map>
 
 #include "framework/base/angles.hpp"
-#include "framework/base/threads.hpp"
 #include "framework/simulation/rig.hpp"
 #include "framework/simulation/sensor_model.hpp"
 #include "framework/simulation/simulated_scene.hpp"
@@ -85,40 +84,44 @@ void adjust_jointly(std::vector<RigEstimate>& rig, const std::string& parameters
   dynamic_cast<const RigStep&>(*step).adjust(rig, rng);
 }
 
+// joint_deskew_test.cpp tests where the points are then.
 TEST(JointRegistration, FindsThePosesAndTheVelocityOfADrivingRig) {
   DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(2));
+  const std::vector<RigEstimate> before = rig.estimates;
   adjust_jointly(rig.estimates);
-  for (const RigEstimate& one : rig.estimates) {
+  for (std::size_t i = 0; i < rig.estimates.size(); ++i) {
+    const RigEstimate& one = rig.estimates[i];
+    const Estimate &estimate = one.estimate, &start = before[i].estimate;
+    SCOPED_TRACE(one.scene + one.source);
     ASSERT_EQ(one.failure, "");
-    const PoseError error = pose_error(one.estimate.T_target_source, rig.truth[one.source]);
-    EXPECT_LT(deg_from_rad(error.rotation_rad), 0.4) << one.scene << one.source;
-    EXPECT_LT(error.translation_m, 0.06) << one.scene << one.source;
-    const Twist& found = one.estimate.extras.get(kMotion);
-    EXPECT_LT((found.linear_mps - rig.velocities[one.scene].linear_mps).norm(), 0.8) << one.scene;
-  }
-}
+    const PoseError error = pose_error(estimate.T_target_source, rig.truth[one.source]);
+    EXPECT_LT(deg_from_rad(error.rotation_rad), 0.4);
+    EXPECT_LT(error.translation_m, 0.06);
 
-TEST(JointRegistration, SaysHowWellItKnowsTheVelocity) {
-  DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(4));
-  adjust_jointly(rig.estimates);
-  for (std::size_t i = 0; i < rig.estimates.size(); i += 2) {
-    const Estimate& estimate = rig.estimates[i].estimate;
-    const Twist& truth = rig.velocities[rig.estimates[i].scene];
+    const Twist& truth = rig.velocities[one.scene];
     const Twist& found = estimate.extras.get(kMotion);
-    Vector6d error;
-    error << found.angular_radps - truth.angular_radps, found.linear_mps - truth.linear_mps;
+    EXPECT_LT((found.linear_mps - truth.linear_mps).norm(), 0.8);
+    Vector6d off;
+    off << found.angular_radps - truth.angular_radps, found.linear_mps - truth.linear_mps;
     const Matrix6d& covariance = estimate.extras.get(kMotionCovariance);
-    EXPECT_EQ(covariance, rig.estimates[i + 1].estimate.extras.get(kMotionCovariance));
     for (int k = 0; k < 6; ++k) {
       const double std = std::sqrt(covariance(k, k));
-      EXPECT_LT(std::abs(error(k)), 5.0 * std) << rig.estimates[i].scene << " " << k;
-      EXPECT_LT(std, k < 3 ? rad_from_deg(10.0) : 2.0) << rig.estimates[i].scene << " " << k;
+      EXPECT_LT(std::abs(off(k)), 5.0 * std) << k;
+      EXPECT_LT(std, k < 3 ? rad_from_deg(10.0) : 2.0) << k;
     }
     EXPECT_EQ(test::diagnostic(estimate, "vx_mps"), found.linear_mps.x());
     EXPECT_EQ(test::diagnostic(estimate, "vx_std_mps"), std::sqrt(covariance(3, 3)));
     EXPECT_EQ(test::diagnostic(estimate, "yaw_rate_degps"), deg_from_rad(found.angular_radps.z()));
     EXPECT_EQ(test::diagnostic(estimate, "yaw_rate_std_degps"),
               deg_from_rad(std::sqrt(covariance(2, 2))));
+
+    // All sensors of a scene have one target and one velocity.
+    const Estimate& first = rig.estimates[i - i % 2].estimate;
+    EXPECT_EQ(covariance, first.extras.get(kMotionCovariance));
+    EXPECT_EQ(estimate.target, first.target);
+    EXPECT_NE(estimate.target, start.target);
+    EXPECT_EQ(estimate.source->points().size(), start.source->points().size());
+    EXPECT_EQ(times_s(estimate.source->with_channels()), times_s(start.source->with_channels()));
   }
 }
 
@@ -139,65 +142,34 @@ TEST(JointRegistration, RejectsASceneInWhichAnotherSpeedIsAsGood) {
   }
 }
 
-TEST(JointRegistration, ACloudThatDefeatsItFailsAlone) {
-  DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
-  Estimate& stray = rig.estimates.back().estimate;
-  PointCloud cloud = stray.source->with_channels();
-  cloud.points.front().x() = 1e30F;
-  stray.source = std::make_shared<const Cloud>(std::move(cloud), StreamKey(1));
-  adjust_jointly(rig.estimates);
-  for (const RigEstimate& one : rig.estimates) {
-    const bool is_stray = &one.estimate == &stray;
-    EXPECT_EQ(one.failure.rfind("a point at (1e+30, ", 0) == 0, is_stray) << one.failure;
-    EXPECT_EQ(one.failure.empty(), !is_stray) << one.failure;
-  }
+/// Moves the first point of the source to `x_m`.
+void move_first_point(Estimate& estimate, float x_m) {
+  PointCloud cloud = estimate.source->with_channels();
+  cloud.points.front().x() = x_m;
+  estimate.source = std::make_shared<const Cloud>(std::move(cloud), StreamKey(1));
 }
 
-TEST(JointRegistration, ASceneThatDefeatsItFailsAloneWithAnyThreads) {
-  const DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(3));
-  std::vector<std::vector<RigEstimate>> adjusted;
-  for (const int jobs : {1, 3}) {
-    adjusted.push_back(rig.estimates);
-    // No step refuses a point at 60 km, but leaves of 0.1 mm do not reach it.
-    Estimate& stray = adjusted.back().front().estimate;
-    PointCloud cloud = stray.source->with_channels();
-    cloud.points.front().x() = 6e4F;
-    stray.source = std::make_shared<const Cloud>(std::move(cloud), StreamKey(1));
-    on_threads(jobs, [&] {
-      adjust_jointly(adjusted.back(),
-                     R"(, "thinning": {"type": "voxel_downsample", "leaf_size_m": 1e-4})");
-    });
-  }
-  for (std::size_t i = 0; i < rig.estimates.size(); ++i) {
-    const RigEstimate& one = adjusted[0][i];
+TEST(JointRegistration, ACloudThatDefeatsItFailsAlone) {
+  DrivingRig rig = rig_of(simulation::real_still_noise(), {0, 1});
+  rig.estimates[0].estimate.source = std::make_shared<const Cloud>(PointCloud(), StreamKey(1));
+  move_first_point(rig.estimates[3].estimate, 1e30F);
+  adjust_jointly(rig.estimates);
+  EXPECT_NE(rig.estimates[0].failure.find("empty"), std::string::npos);
+  EXPECT_EQ(rig.estimates[1].failure, "");
+  EXPECT_EQ(rig.estimates[2].failure, "");
+  EXPECT_EQ(rig.estimates[3].failure.rfind("a point at (1e+30, ", 0), 0U);
+}
+
+TEST(JointRegistration, ASceneThatDefeatsItFailsAlone) {
+  DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(2));
+  // No step refuses a point at 60 km, but leaves of 0.1 mm do not reach it.
+  move_first_point(rig.estimates.front().estimate, 6e4F);
+  adjust_jointly(rig.estimates,
+                 R"(, "thinning": {"type": "voxel_downsample", "leaf_size_m": 1e-4})");
+  for (const RigEstimate& one : rig.estimates) {
     EXPECT_EQ(one.failure.empty(), one.scene != rig.estimates.front().scene) << one.failure;
     EXPECT_FALSE(one.estimate.information);
-    EXPECT_EQ(one.failure, adjusted[1][i].failure);
-    EXPECT_EQ(one.estimate.T_target_source.rotation,
-              adjusted[1][i].estimate.T_target_source.rotation);
-    EXPECT_EQ(one.estimate.T_target_source.translation,
-              adjusted[1][i].estimate.T_target_source.translation);
   }
-}
-
-TEST(JointRegistration, ASensorThatTheVelocityHardlyMovesNeedsNoLead) {
-  DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
-  adjust_jointly(
-      rig.estimates,
-      R"(, "certain_speed_std_mps": 0, "certain_shift_m": 1000, "min_speed_lead": 1000)");
-  for (const RigEstimate& one : rig.estimates) EXPECT_FALSE(one.estimate.rejection);
-}
-
-// joint_deskew_test.cpp says where the points are then.
-TEST(JointRegistration, MovesOneTargetForAllSensorsAndKeepsTheTimes) {
-  DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(1));
-  const auto before = rig.estimates.front().estimate;
-  adjust_jointly(rig.estimates);
-  const Estimate& after = rig.estimates.front().estimate;
-  EXPECT_NE(after.target, before.target);
-  EXPECT_EQ(after.target, rig.estimates.back().estimate.target);
-  EXPECT_EQ(after.source->points().size(), before.source->points().size());
-  EXPECT_EQ(times_s(after.source->with_channels()), times_s(before.source->with_channels()));
 }
 
 /// The rig after known_velocity with velocities that are too small by `error_mps` along x, and
@@ -352,47 +324,6 @@ TEST(JointRegistration, GivesASensorOnePoseInAllScenes) {
     EXPECT_EQ(first.rotation, rig.estimates[k + 2].estimate.T_target_source.rotation);
     EXPECT_LT(pose_error(first, rig.truth[rig.estimates[k].source]).translation_m, 0.05);
   }
-}
-
-/// The cloud with `shift_s` added to its times.
-std::shared_ptr<const Cloud> later(const Cloud& cloud, double shift_s) {
-  PointCloud shifted = cloud.with_channels();
-  std::vector<double> times = times_s(shifted);
-  for (double& time_s : times) time_s += shift_s;
-  keep_channels(shifted, {});
-  shifted.channels.push_back(make_channel(kTime, times));
-  return std::make_shared<const Cloud>(std::move(shifted), StreamKey(1));
-}
-
-TEST(JointRegistration, FindsTheOffsetOfAClockFromScenesOfDifferentVelocities) {
-  constexpr double kShift_s = 0.03;
-  std::vector<std::uint64_t> indices = moving_scenes(2);
-  for (std::uint64_t index = 0; indices.size() < 4; ++index) {
-    const simulation::SimulatedScene scene(recipe(simulation::real_noise()), index);
-    if (scene.world().car.motion.speed_mps < 0.1) indices.push_back(index);
-  }
-  DrivingRig rig = rig_of(simulation::real_noise(), indices);
-  for (std::size_t i = 0; i < rig.estimates.size(); ++i) {
-    RigEstimate& one = rig.estimates[i];
-    one.estimate.T_target_source = rig.estimates[i % 2].estimate.T_target_source;
-    if (one.source == "left") one.estimate.source = later(*one.estimate.source, -kShift_s);
-  }
-  adjust_jointly(rig.estimates, R"(, "poses": "common", "clock_offset_std_s": 0.1)");
-  for (const RigEstimate& one : rig.estimates) {
-    ASSERT_EQ(one.failure, "");
-    const double offset_s = test::diagnostic(one.estimate, "clock_offset_s");
-    EXPECT_NEAR(offset_s, one.source == "left" ? kShift_s : 0.0, 0.005) << one.scene << one.source;
-    const PoseError error = pose_error(one.estimate.T_target_source, rig.truth[one.source]);
-    EXPECT_LT(error.translation_m, 0.05) << one.source;
-  }
-}
-
-TEST(JointRegistration, FailsTheSensorWithAnEmptyCloudAlone) {
-  DrivingRig rig = rig_of(simulation::real_still_noise(), {0, 1});
-  rig.estimates[0].estimate.source = std::make_shared<const Cloud>(PointCloud(), StreamKey(1));
-  adjust_jointly(rig.estimates);
-  EXPECT_NE(rig.estimates[0].failure.find("empty"), std::string::npos);
-  for (const std::size_t i : {1U, 2U, 3U}) EXPECT_EQ(rig.estimates[i].failure, "");
 }
 
 TEST(JointRegistration, FailsTheSensorThatIsFarFromAllSurfacesAlone) {
