@@ -114,9 +114,10 @@ const StageEntry* entry_of(const std::string& kind, const json& value, const Cat
   return catalogue.find(kind, value.at(key).get<std::string>());
 }
 
+/// The parameter with the present or former name `key`, or null.
 const params::ParameterDoc* find_parameter(const StageEntry& entry, const std::string& key) {
   for (const params::ParameterDoc& doc : entry.parameters) {
-    if (doc.key == key) return &doc;
+    if (doc.key == key || (!key.empty() && doc.former_key == key)) return &doc;
   }
   return nullptr;
 }
@@ -141,6 +142,12 @@ std::string replace_inside(PatchedStep& step, const std::vector<std::string>& ke
     if (entry == nullptr) return "";
     const params::ParameterDoc* doc = find_parameter(*entry, keys[i]);
     if (doc == nullptr) return no_parameter(*entry, keys[i]);
+    // The new value replaces one that was written with the other name of the parameter.
+    const std::string& other = keys[i] == doc->key ? doc->former_key : doc->key;
+    if (!other.empty() && at->contains(other)) {
+      (*at)[keys[i]] = at->at(other);
+      at->erase(other);
+    }
     part.push_back(keys[i]);
     const bool is_last = i + 1 == keys.size();
     if (!is_last && doc->type != params::ParameterType::stage) {
@@ -225,11 +232,13 @@ Pipeline build_pipeline(const PatchedPipeline& pipeline, const Catalogue& catalo
   Pipeline built;
   resolved.clear();
   for (const PatchedStep& step : pipeline) {
-    std::vector<Fault> step_faults;
-    const params::Slot<Step> slot = catalogue.slot<Step>(Node(*step.value, "", step_faults));
+    std::vector<Fault> step_faults, notes;
+    const params::Slot<Step> slot =
+        catalogue.slot<Step>(Node(*step.value, "", step_faults).noting(notes));
     for (const Fault& fault : step_faults) faults.push_back(located(fault, step.origins));
     if (!step_faults.empty()) continue;
-    built.push_back({step.name, slot});
+    for (Fault& note : notes) note = located(note, step.origins);
+    built.push_back({step.name, slot, notes});
     resolved += (resolved.empty() ? "" : ",") + ("{\"name\":" + json(step.name).dump()) + "," +
                 slot.resolved().substr(1);
   }

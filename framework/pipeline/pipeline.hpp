@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/base/error.hpp"
 #include "framework/params/slot.hpp"
 #include "framework/stage/step.hpp"
 
@@ -13,10 +14,14 @@ namespace croon {
 struct NamedStep {
   std::string name;
   params::Slot<Step> step;
+  std::vector<Fault> notes = {};  ///< Former names of keys in its JSON.
 };
 
 /// The steps of a method, in order.
 using Pipeline = std::vector<NamedStep>;
+
+/// Appends the notes on the steps of `pipeline` to `notes`, each message once.
+void add_notes(const Pipeline& pipeline, std::vector<Fault>& notes);
 
 /// The record of one step of one trial.
 struct StepRecord {

@@ -52,8 +52,8 @@ ReducedCost reduced(const BundleCost& cost, bool has_velocity) {
 BundleSystem::BundleSystem(const std::vector<BundleScene>& scenes,
                            const std::vector<InformedPose>& start, const BundleOptions& options)
     : scenes_(scenes), start_(start), options_(options) {
-  start_std_ << Eigen::Vector3d::Constant(rad_from_deg(options.start_std[0])),
-      Eigen::Vector3d::Constant(options.start_std[1]);
+  prior_std_ << Eigen::Vector3d::Constant(rad_from_deg(options.prior_std[0])),
+      Eigen::Vector3d::Constant(options.prior_std[1]);
   for (const InformedPose& one : start) state_.poses.push_back(one.pose);
   state_.clock_offsets_s.assign(start.size(), 0.0);
   for (const BundleScene& scene : scenes) {
@@ -61,7 +61,7 @@ BundleSystem::BundleSystem(const std::vector<BundleScene>& scenes,
     state_.velocities.push_back(is_certain ? std::nullopt : std::optional<Twist>(Twist()));
     Matrix6d information = Matrix6d::Zero();
     if (!is_certain) {
-      information = options.start_weight * guarded_inverse<6>(scene.motion_covariance);
+      information = options.prior_weight * guarded_inverse<6>(scene.motion_covariance);
     }
     velocity_information_.push_back(information);
   }
@@ -231,15 +231,15 @@ Eigen::MatrixXd BundleSystem::start_scatter() const {
   Eigen::MatrixXd scatter = 2.0 * start_cost().hessian;
   for (std::size_t a = 0; a < free_sensors_.size(); ++a) {
     const auto at = static_cast<Eigen::Index>(6 * a);
-    const double w = options_.start_weight;
+    const double w = options_.prior_weight;
     scatter.block<6, 6>(at, at) -= 4.0 * w * (1.0 - w) * start_[free_sensors_[a]].information;
   }
   return scatter;
 }
 
 Matrix6d BundleSystem::start_information(std::size_t sensor) const {
-  Matrix6d information = options_.start_weight * start_[sensor].information;
-  information.diagonal() += start_std_.cwiseAbs2().cwiseInverse();
+  Matrix6d information = options_.prior_weight * start_[sensor].information;
+  information.diagonal() += prior_std_.cwiseAbs2().cwiseInverse();
   return information;
 }
 
