@@ -129,6 +129,17 @@ std::string no_parameter(const StageEntry& entry, const std::string& key) {
          name_hint(key, known);
 }
 
+/// Whether the value at `part` of a step was written in the same object as `value`.
+bool is_beside(const std::vector<Origin>& origins, const std::string& part, const Node& value) {
+  const auto object = [](const std::string& pointer) {
+    return json::json_pointer(pointer).parent_pointer();
+  };
+  return std::any_of(origins.begin(), origins.end(), [&](const Origin& origin) {
+    return origin.part == part && origin.file == value.file() &&
+           object(origin.pointer) == object(value.pointer());
+  });
+}
+
 /// Replaces the value at `keys` inside `step` with `value`.
 std::string replace_inside(PatchedStep& step, const std::vector<std::string>& keys,
                            const Node& value, const Catalogue& catalogue) {
@@ -145,6 +156,9 @@ std::string replace_inside(PatchedStep& step, const std::vector<std::string>& ke
     // The new value replaces one that was written with the other name of the parameter.
     const std::string& other = keys[i] == doc->key ? doc->former_key : doc->key;
     if (!other.empty() && at->contains(other)) {
+      if (is_beside(step.origins, (part / other).to_string(), value)) {
+        return "expected \"" + doc->key + "\" without its former name, found both";
+      }
       (*at)[keys[i]] = at->at(other);
       at->erase(other);
     }

@@ -79,6 +79,11 @@ TEST(Variants, ReplaceAParameterByItsPresentOrFormerName) {
   }
   EXPECT_EQ(places,
             (Lines{"/variants/0/replace/first.extent_m", "/variants/2/replace/first.extent_m"}));
+  EXPECT_EQ(read_variants(R"("variants": [
+                {"name": "a", "replace": {"first.extent_m": 3, "first.size_m": 2}}])")
+                .faults,
+            Lines{"/variants/0/replace/first.size_m: expected \"size_m\" without its former name, "
+                  "found both"});
   EXPECT_EQ(read_variants(R"("grid": {"first.extent_m": [1, 2]})").names(),
             (Lines{"base/extent_m=1", "base/extent_m=2"}));
 }
