@@ -8,6 +8,7 @@
 #include <set>
 
 #include "experiments/cli/command.hpp"
+#include "experiments/cli/commands.hpp"
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/requested_calibration.hpp"
 #include "experiments/report/calibration_document.hpp"
@@ -257,6 +258,7 @@ int calibrate_command(const CalibrateOptions& given, const Catalogue& catalogue,
   Scene& drawn = drawn_scene(recorded.scenes);
   if (!options.no_pictures) keep_clouds(drawn);
   CalibratedRig rig = calibrate_with_progress(options, recorded.scenes, catalogue, err);
+  print_notes(rig.notes, err);
   rig.unused.insert(rig.unused.begin(), recorded.unused.begin(), recorded.unused.end());
   rig.warnings.insert(rig.warnings.begin(), about_nominal.begin(), about_nominal.end());
   const FolderFiles files =

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "experiments/cli/command.hpp"
+#include "experiments/cli/commands.hpp"
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/requested_calibration.hpp"
 #include "framework/base/text.hpp"
@@ -63,6 +64,7 @@ int check_command(const CalibrateOptions& given, const Catalogue& catalogue, std
   options.from_scratch = true;
   const CalibratedRig from_nothing =
       calibrate_with_progress(options, recorded.scenes, catalogue, err);
+  print_notes(from_nothing.notes, err);
   std::optional<CalibratedRig> near_given;
   if (needs_second_look(from_nothing)) {
     options.from_scratch = false;

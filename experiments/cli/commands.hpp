@@ -133,4 +133,8 @@ int validate_command(const std::vector<std::filesystem::path>& paths, const Cata
 /// further faults.
 void print_faults(const InputError& error, std::ostream& err);
 
+/// Writes the notes on former names of keys, one per line as `croon: warning: FILE: WHERE:
+/// MESSAGE`.
+void print_notes(const std::vector<Fault>& notes, std::ostream& err);
+
 }  // namespace croon::experiments

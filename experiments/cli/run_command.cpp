@@ -48,6 +48,7 @@ std::string draw_picture(const CheckedRun& run, const Summary& summary,
 int run_command(const RunOptions& options, const Catalogue& catalogue, std::ostream& out,
                 std::ostream& progress_out) {
   CheckedRun run = check_run(options, catalogue);
+  print_notes(run.experiment.notes, progress_out);
   StoreHeader header = header_of(run);
   const FolderRun how{options.no_share, options.fresh, options.same_build,
                       progress_style_of_stderr(options.quiet)};

@@ -63,6 +63,10 @@ void print_faults(const InputError& error, std::ostream& err) {
   if (shown < faults.size()) err << "croon: and " << faults.size() - shown << " more faults\n";
 }
 
+void print_notes(const std::vector<Fault>& notes, std::ostream& err) {
+  for (const Fault& note : notes) err << "croon: warning: " << note.line() << "\n";
+}
+
 int validate_command(const std::vector<fs::path>& paths, const Catalogue& catalogue,
                      std::ostream& out, std::ostream& err) {
   std::vector<Fault> faults;
@@ -71,7 +75,7 @@ int validate_command(const std::vector<fs::path>& paths, const Catalogue& catalo
   for (const Fault& fault : faults) print_faults(InputError({fault}), err);
   for (const fs::path& file : files) {
     try {
-      validate_experiment(file, catalogue);
+      print_notes(validate_experiment(file, catalogue), err);
       out << printable(file.string()) << ": ok\n";
     } catch (const InputError& error) {
       print_faults(error, err);

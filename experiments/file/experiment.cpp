@@ -164,7 +164,8 @@ void check_variants(const Node& root, Experiment& experiment) {
 
 Experiment read_merged_experiment(const MergedFile& merged, const fs::path& path,
                                   const Catalogue& catalogue, std::vector<Fault>& faults) {
-  const Node root(merged.keys, path.string(), faults, merged.origins);
+  std::vector<Fault> notes;
+  const Node root = Node(merged.keys, path.string(), faults, merged.origins).noting(notes);
   Experiment experiment;
   if (root.is_object()) {
     ExperimentKeys keys = experiment_table().read(root, {}, catalogue);
@@ -180,6 +181,8 @@ Experiment read_merged_experiment(const MergedFile& merged, const fs::path& path
   experiment.starts_file = starts == merged.origins.end() ? experiment.file : starts->second.file;
   experiment.files = merged.files;
   experiment.merged = std::make_shared<const json>(merged.keys);
+  for (const Variant& variant : experiment.variants) add_notes(variant.pipeline, notes);
+  experiment.notes = std::move(notes);
   return experiment;
 }
 
@@ -211,15 +214,16 @@ Experiment parse_experiment(const std::string& text, const fs::path& path,
   return read_merged_experiment(merged, path, catalogue, faults);
 }
 
-void validate_experiment(const fs::path& path, const Catalogue& catalogue) {
-  std::vector<Fault> faults;
+std::vector<Fault> validate_experiment(const fs::path& path, const Catalogue& catalogue) {
+  std::vector<Fault> faults, notes;
   const MergedFile merged = read_merged(params::read_json_text(path), path, {}, faults);
   if (!merged.keys.is_object() || merged.keys.contains(kPipeline)) {
-    read_merged_experiment(merged, path, catalogue, faults);
-    return;
+    return read_merged_experiment(merged, path, catalogue, faults).notes;
   }
-  workload_table().read(Node(merged.keys, path.string(), faults, merged.origins), {}, catalogue);
+  const Node root(merged.keys, path.string(), faults, merged.origins);
+  workload_table().read(root.noting(notes), {}, catalogue);
   if (!faults.empty()) throw InputError(without_repeats(faults));
+  return notes;
 }
 
 std::string location_of(const Experiment& experiment, const Variant& variant,

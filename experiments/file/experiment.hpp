@@ -67,6 +67,7 @@ struct Experiment {
   std::vector<ExperimentFile> files;
   /// All keys of the file and of the files that it extends.
   std::shared_ptr<const nlohmann::json> merged;
+  std::vector<Fault> notes;  ///< Former names of keys, each once.
 };
 
 /// Reads the experiment in the JSON file `path`, with stages from `catalogue`. The keys of
@@ -83,8 +84,9 @@ Experiment parse_experiment(const std::string& text, const std::filesystem::path
                             const std::vector<std::filesystem::path>& workloads = {});
 
 /// Throws InputError with all faults of an experiment file, or of a workload, which is the same
-/// without a pipeline.
-void validate_experiment(const std::filesystem::path& path, const Catalogue& catalogue);
+/// without a pipeline. Returns the former names of keys, each once.
+std::vector<Fault> validate_experiment(const std::filesystem::path& path,
+                                       const Catalogue& catalogue);
 
 /// The location of `step` in messages: `the step "refine" of the variant "one plane"`, without the
 /// variant if there is only one.

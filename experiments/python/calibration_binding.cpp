@@ -95,6 +95,7 @@ CalibratedRig calibrated(const py::list& list, const py::dict& nominal, const py
     check();
     rig.unused.insert(rig.unused.begin(), unused.begin(), unused.end());
   });
+  warn(rig.notes);
   return rig;
 }
 

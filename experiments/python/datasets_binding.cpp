@@ -56,14 +56,16 @@ py::list sensors_of(const Scene& scene) {
 py::list scenes(const std::string& text, const std::string& name, const std::string& data) {
   const std::shared_ptr<const Catalogue> stages = catalogue();
   std::vector<Scene> scenes;
+  std::vector<Fault> notes;
   {
     const WithoutGil no_gil;
     std::vector<Fault> faults;
     const nlohmann::json json = params::parse_json(text, name, faults);
-    const auto dataset = stages->slot<Dataset>(params::Node(json, name, faults));
+    const auto dataset = stages->slot<Dataset>(params::Node(json, name, faults).noting(notes));
     if (!faults.empty()) throw InputError(std::move(faults));
     scenes = dataset->scenes(experiments::data_root(data));
   }
+  warn(notes);
   py::list list;
   for (Scene& scene : scenes) list.append(py::cast(std::move(scene)));
   return list;

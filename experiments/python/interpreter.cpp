@@ -90,6 +90,15 @@ void throw_from_python(py::error_already_set& error) {
   throw StageError(message);
 }
 
+void warn(const std::vector<Fault>& notes) {
+  constexpr py::ssize_t kCallerOfCroon = 2;
+  for (const Fault& note : notes) {
+    if (PyErr_WarnEx(PyExc_FutureWarning, note.line().c_str(), kCallerOfCroon) != 0) {
+      throw py::error_already_set();
+    }
+  }
+}
+
 std::string text_of(const py::handle& object) {
   const auto text = py::reinterpret_steal<py::object>(PyObject_Str(object.ptr()));
   const auto bytes = py::reinterpret_steal<py::object>(

@@ -5,6 +5,7 @@
 #include <exception>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "framework/base/error.hpp"
 
@@ -92,6 +93,9 @@ auto in_python(const Work& work) {
     throw StageError(error.what());
   }
 }
+
+/// Issues a FutureWarning for each note, at the caller of croon's function; requires the lock.
+void warn(const std::vector<Fault>& notes);
 
 /// The result of Python's str(); empty if it raises an exception.
 std::string text_of(const py::handle& object);

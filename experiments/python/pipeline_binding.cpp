@@ -82,16 +82,28 @@ class SharedPipeline {
   Pipeline pipeline_;
 };
 
-std::unique_ptr<SharedPipeline> parsed(const std::string& text, const std::string& file) {
+/// The pipeline that `read` returns, with a warning for each of its notes.
+template <class Read>
+std::unique_ptr<SharedPipeline> shared_pipeline(const Read& read) {
   const std::shared_ptr<const Catalogue> stages = catalogue();
-  const WithoutGil no_gil;
-  return std::make_unique<SharedPipeline>(parse_pipeline(text, file, *stages));
+  Pipeline pipeline;
+  {
+    const WithoutGil no_gil;
+    pipeline = read(*stages);
+  }
+  std::vector<Fault> notes;
+  add_notes(pipeline, notes);
+  warn(notes);
+  return std::make_unique<SharedPipeline>(std::move(pipeline));
+}
+
+std::unique_ptr<SharedPipeline> parsed(const std::string& text, const std::string& file) {
+  return shared_pipeline(
+      [&](const Catalogue& stages) { return parse_pipeline(text, file, stages); });
 }
 
 std::unique_ptr<SharedPipeline> loaded(const std::string& path) {
-  const std::shared_ptr<const Catalogue> stages = catalogue();
-  const WithoutGil no_gil;
-  return std::make_unique<SharedPipeline>(load_pipeline(path, *stages));
+  return shared_pipeline([&](const Catalogue& stages) { return load_pipeline(path, stages); });
 }
 
 }  // namespace

@@ -24,8 +24,10 @@ py::tuple run(const RunRequest& request, const FolderRun& requested) {
   const std::shared_ptr<const Catalogue> stages = catalogue();
   std::string folder;
   std::vector<std::string> complaints;
+  std::vector<Fault> notes;
   interruptible([&](const std::function<void()>& check) {
     CheckedRun run = check_run(request, *stages);
+    notes = run.experiment.notes;
     StoreHeader header = header_of(run);
     FolderRun how = requested;
     how.check = check;
@@ -34,6 +36,7 @@ py::tuple run(const RunRequest& request, const FolderRun& requested) {
     complaints = run_in_folder(run, std::move(header), output, how, std::cerr).complaints;
     folder = run.out.string();
   });
+  warn(notes);
   py::list lines;
   for (const std::string& complaint : complaints) lines.append(complaint);
   return py::make_tuple(folder, lines);

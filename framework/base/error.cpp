@@ -55,6 +55,11 @@ void collect_faults(std::vector<Fault>& faults, const std::function<void()>& wor
   }
 }
 
+void add_note(std::vector<Fault>& notes, const Fault& note) {
+  const auto has_message = [&](const Fault& other) { return other.message == note.message; };
+  if (std::none_of(notes.begin(), notes.end(), has_message)) notes.push_back(note);
+}
+
 std::vector<Fault> without_repeats(const std::vector<Fault>& faults) {
   std::vector<Fault> once;
   std::set<std::string> lines;

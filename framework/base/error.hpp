@@ -36,6 +36,9 @@ class InputError : public std::runtime_error {
 /// Calls `work`. If it throws an InputError, appends its faults to `faults`.
 void collect_faults(std::vector<Fault>& faults, const std::function<void()>& work);
 
+/// Appends `note` to `notes` unless they contain its message.
+void add_note(std::vector<Fault>& notes, const Fault& note);
+
 /// `faults` without those whose line already occurred.
 std::vector<Fault> without_repeats(const std::vector<Fault>& faults);
 

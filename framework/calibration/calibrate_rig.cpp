@@ -285,6 +285,7 @@ CalibratedRig calibrated(const std::vector<Scene>& scenes, const CalibrationOpti
   const Composition composition =
       chosen_composition(options, clouds, catalogue, rig.composition_reason);
   rig.composition = composition.name;
+  add_notes(composition.from_nothing, rig.notes);
   RigInput input = rig_input(clouds, composition, options.seed, rig.unused);
   require_members(input, rig.unused);
   if (options.from_scratch) {

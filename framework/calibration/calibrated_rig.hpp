@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/base/error.hpp"
 #include "framework/geometry/pose_covariance.hpp"
 #include "framework/geometry/rigid_transform.hpp"
 #include "framework/geometry/twist.hpp"
@@ -88,6 +89,7 @@ struct CalibratedRig {
   std::string composition;
   std::string composition_reason;     ///< Why it was chosen; empty if the caller selected it.
   std::vector<std::string> warnings;  ///< One sentence each.
+  std::vector<Fault> notes;           ///< Former names of keys in the pipeline, each once.
   std::vector<std::string> unused;    ///< Scenes and clouds that were not used, with the reasons.
   std::vector<SceneMotionEstimate> motion;  ///< For the scenes in which a velocity was estimated.
   std::optional<GroundPose> ground;         ///< Set if the reference sees the ground.

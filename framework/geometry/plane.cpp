@@ -113,7 +113,7 @@ std::vector<int> points_within(const Points& cloud, const Plane& plane, double d
 
 Plane plane_ransac(const Points& cloud, const PlaneRansacOptions& options, Rng& rng) {
   if (cloud.size() < 3) throw StageError("a plane needs three points");
-  const Sample sample(cloud, options.sample_points, rng);
+  const Sample sample(cloud, options.max_points, rng);
   std::optional<Plane> best;
   int max_count = 0;
   double iterations = options.max_iterations;

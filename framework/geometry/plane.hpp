@@ -35,7 +35,7 @@ struct PlaneRansacOptions {
   double confidence = 0.9999;  ///< Probability of having drawn three inliers of the best plane.
   int max_iterations = 10000;  ///< Maximum number of planes drawn.
   int local_rounds = 4;        ///< Maximum number of refits of a new best plane to its inliers.
-  int sample_points = 5000;    ///< Maximum number of points for drawing planes and counting.
+  int max_points = 5000;       ///< Maximum number of points for drawing planes and counting.
 };
 
 /// The plane with the most inliers in `cloud`: RANSAC (Fischler and Bolles 1981) with a local

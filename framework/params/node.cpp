@@ -51,10 +51,8 @@ Node::Node(const nlohmann::json& value, std::string file, std::vector<Fault>& fa
 Node Node::member(const std::string& key) const {
   Node node = *this;
   node.value_ = &value_->at(key);
-  const auto origin = origins_ ? origins_->find(key) : MemberOrigins::const_iterator();
-  const bool has_origin = origins_ && origin != origins_->end();
-  if (has_origin) node.file_ = origin->second.file;
-  node.pointer_ += "/" + escaped(has_origin ? origin->second.key : key);
+  if (origins_ && origins_->count(key) > 0) node.file_ = origins_->at(key).file;
+  node.pointer_ = pointer_to(key);
   node.origins_ = nullptr;
   return node;
 }
@@ -82,7 +80,39 @@ bool Node::has(const std::string& key) const { return has_members() && value_->c
 
 bool Node::has_members() const { return value_->is_object(); }
 
-std::string Node::pointer_to(const std::string& key) const { return pointer_ + "/" + escaped(key); }
+Node Node::noting(std::vector<Fault>& notes) const {
+  Node node = *this;
+  node.notes_ = &notes;
+  return node;
+}
+
+Node Node::renamed(const std::string& former, const std::string& key) const {
+  if (!has(former)) return *this;
+  const Node written = member(former);
+  nlohmann::json changed = *value_;
+  MemberOrigins origins = origins_ ? *origins_ : MemberOrigins();
+  if (has(key)) {
+    written.fault("expected \"" + key + "\" without its former name, found both");
+  } else {
+    if (notes_ != nullptr) {
+      add_note(*notes_, {written.file_, written.pointer_,
+                         "the key \"" + former + "\" is now called \"" + key + "\""});
+    }
+    changed[key] = *written.value_;
+    origins[key] = {written.file_, former};
+  }
+  changed.erase(former);
+  Node node = *this;
+  node.renamed_ = std::make_shared<const nlohmann::json>(std::move(changed));
+  node.value_ = node.renamed_.get();
+  node.origins_ = std::make_shared<const MemberOrigins>(std::move(origins));
+  return node;
+}
+
+std::string Node::pointer_to(const std::string& key) const {
+  const bool has_origin = origins_ && origins_->count(key) > 0;
+  return pointer_ + "/" + escaped(has_origin ? origins_->at(key).key : key);
+}
 
 void Node::fault(const std::string& message, std::vector<std::string> parts) const {
   faults_->push_back({file_, pointer_.empty() ? "/" : pointer_, message, std::move(parts)});

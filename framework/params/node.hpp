@@ -42,6 +42,12 @@ class Node {
   /// Whether this is an object; notes no fault.
   bool has_members() const;
 
+  /// This node, which appends remarks on former names of keys to `notes`, each once.
+  Node noting(std::vector<Fault>& notes) const;
+  /// This object with the key `former`, if it exists, renamed to `key`; positions are those of the
+  /// written keys. Makes a note of it, or a fault if the object has both.
+  Node renamed(const std::string& former, const std::string& key) const;
+
   /// RFC 6901 pointer of the member `key` of this object, which need not exist.
   std::string pointer_to(const std::string& key) const;
 
@@ -77,7 +83,9 @@ class Node {
   std::string file_;
   std::string pointer_;
   std::vector<Fault>* faults_;
-  std::shared_ptr<const MemberOrigins> origins_;  ///< Null unless the object was merged.
+  std::vector<Fault>* notes_ = nullptr;
+  std::shared_ptr<const nlohmann::json> renamed_;  ///< Contains the value if a key was renamed.
+  std::shared_ptr<const MemberOrigins> origins_;   ///< Null unless merged or renamed.
 };
 
 }  // namespace croon::params

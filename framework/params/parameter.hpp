@@ -78,6 +78,7 @@ struct ParameterDoc {
   std::optional<NameRule> name_rule = {};     ///< text: which names are allowed.
   bool may_be_empty = false;                  ///< text: the empty string is allowed.
   std::string definition = {};  ///< json: the JSON Schema definition that describes it.
+  std::string former_key = {};  ///< Read like `key`, with a note; see Parameter::formerly.
 };
 
 }  // namespace croon::params

@@ -24,6 +24,13 @@ struct Parameter {
   std::function<void(P&, const Node&, const StageBuilder&)> read;
   std::function<std::string(const P&)> json;  ///< JSON text of the value.
   bool is_slot = false;                       ///< The default must be built, not copied.
+
+  /// This row, which also reads the key `former` that it replaces, see Node::renamed.
+  Parameter formerly(const std::string& former) const {
+    Parameter row = *this;
+    row.doc.former_key = former;
+    return row;
+  }
 };
 
 /// The parameters of a stage, each declared once: its JSON key, its member in the struct `P`, its
@@ -88,13 +95,13 @@ class Table {
   }
   const std::vector<std::function<void(P&, const Node&)>>& finishes() const { return finishes_; }
 
-  /// Reads the object `node` over the initial values `params` and checks the conditions. The caller
-  /// reads `other_keys` ("type", "step"). Notes all faults in the node.
-  P read(const Node& node, const std::vector<std::string>& other_keys, const StageBuilder& builder,
-         P params = P{}) const;
+  /// Reads the object `written` over the initial values `params` and checks the conditions. The
+  /// caller reads `other_keys` ("type", "step"). Notes all faults in the node.
+  P read(const Node& written, const std::vector<std::string>& other_keys,
+         const StageBuilder& builder, P params = P{}) const;
 
   /// The same without checking the conditions.
-  void read_members(const Node& node, const std::vector<std::string>& other_keys,
+  void read_members(const Node& written, const std::vector<std::string>& other_keys,
                     const StageBuilder& builder, P& params) const;
 
   /// Whether `params` has a value for every required key.
@@ -119,6 +126,15 @@ class Table {
     return first;
   }
 
+  /// `node` with the present names of its keys.
+  Node renamed(Node node) const {
+    for (const Parameter<P>& parameter : parameters_) {
+      const ParameterDoc& doc = parameter.doc;
+      if (!doc.former_key.empty()) node = node.renamed(doc.former_key, doc.key);
+    }
+    return node;
+  }
+
   static bool is_missing(const Parameter<P>& parameter, const P& params) {
     return parameter.doc.is_required && parameter.json(params) == parameter.doc.default_json;
   }
@@ -130,9 +146,10 @@ class Table {
 };
 
 template <class P>
-P Table<P>::read(const Node& node, const std::vector<std::string>& other_keys,
+P Table<P>::read(const Node& written, const std::vector<std::string>& other_keys,
                  const StageBuilder& builder, P params) const {
-  const std::size_t faults_before = node.fault_count();
+  const std::size_t faults_before = written.fault_count();
+  const Node node = renamed(written);
   read_members(node, other_keys, builder, params);
   // Conditions on several parameters are meaningless if one of them could not be read.
   if (node.fault_count() > faults_before) return params;
@@ -144,8 +161,9 @@ P Table<P>::read(const Node& node, const std::vector<std::string>& other_keys,
 }
 
 template <class P>
-void Table<P>::read_members(const Node& node, const std::vector<std::string>& other_keys,
+void Table<P>::read_members(const Node& written, const std::vector<std::string>& other_keys,
                             const StageBuilder& builder, P& params) const {
+  const Node node = renamed(written);
   std::vector<std::string> known = other_keys;
   for (const Parameter<P>& parameter : parameters_) known.push_back(parameter.doc.key);
   node.refuse_unknown_keys(known);

@@ -74,7 +74,7 @@ const params::Table<HypothesisChoice>& hypothesis_choice_table() {
                    "Thins the clouds evenly, so that numbers of points measure area."),
       params::slot("icp", &HypothesisChoice::icp,
                    R"({"type": "point_to_plane", "max_distances_m": [1.5, 0.8, 0.4], )"
-                   R"("max_iterations": 8, "coarse_points": 300, "normal_neighbours": 10, )"
+                   R"("max_iterations": 8, "max_coarse_points": 300, "normal_neighbours": 10, )"
                    R"("rotation_tolerance_deg": 0.05, "translation_tolerance_m": 0.005})",
                    "Refines each hypothesis before the comparison."),
       params::boolean("use_start", &HypothesisChoice::use_start,

@@ -114,9 +114,10 @@ const StageEntry* entry_of(const std::string& kind, const json& value, const Cat
   return catalogue.find(kind, value.at(key).get<std::string>());
 }
 
+/// The parameter with the present or former name `key`, or null.
 const params::ParameterDoc* find_parameter(const StageEntry& entry, const std::string& key) {
   for (const params::ParameterDoc& doc : entry.parameters) {
-    if (doc.key == key) return &doc;
+    if (doc.key == key || (!key.empty() && doc.former_key == key)) return &doc;
   }
   return nullptr;
 }
@@ -126,6 +127,17 @@ std::string no_parameter(const StageEntry& entry, const std::string& key) {
   for (const params::ParameterDoc& doc : entry.parameters) known.push_back(doc.key);
   return entry.kind + " \"" + entry.name + "\" has no parameter \"" + key + "\"" +
          name_hint(key, known);
+}
+
+/// Whether the value at `part` of a step was written in the same object as `value`.
+bool is_beside(const std::vector<Origin>& origins, const std::string& part, const Node& value) {
+  const auto object = [](const std::string& pointer) {
+    return json::json_pointer(pointer).parent_pointer();
+  };
+  return std::any_of(origins.begin(), origins.end(), [&](const Origin& origin) {
+    return origin.part == part && origin.file == value.file() &&
+           object(origin.pointer) == object(value.pointer());
+  });
 }
 
 /// Replaces the value at `keys` inside `step` with `value`.
@@ -141,6 +153,15 @@ std::string replace_inside(PatchedStep& step, const std::vector<std::string>& ke
     if (entry == nullptr) return "";
     const params::ParameterDoc* doc = find_parameter(*entry, keys[i]);
     if (doc == nullptr) return no_parameter(*entry, keys[i]);
+    // The new value replaces one that was written with the other name of the parameter.
+    const std::string& other = keys[i] == doc->key ? doc->former_key : doc->key;
+    if (!other.empty() && at->contains(other)) {
+      if (is_beside(step.origins, (part / other).to_string(), value)) {
+        return "expected \"" + doc->key + "\" without its former name, found both";
+      }
+      (*at)[keys[i]] = at->at(other);
+      at->erase(other);
+    }
     part.push_back(keys[i]);
     const bool is_last = i + 1 == keys.size();
     if (!is_last && doc->type != params::ParameterType::stage) {
@@ -224,10 +245,13 @@ Pipeline build_pipeline(const PatchedPipeline& pipeline, const Catalogue& catalo
                         std::vector<Fault>& faults) {
   Pipeline built;
   for (const PatchedStep& step : pipeline) {
-    std::vector<Fault> step_faults;
-    const params::Slot<Step> slot = catalogue.slot<Step>(Node(*step.value, "", step_faults));
+    std::vector<Fault> step_faults, notes;
+    const params::Slot<Step> slot =
+        catalogue.slot<Step>(Node(*step.value, "", step_faults).noting(notes));
     for (const Fault& fault : step_faults) faults.push_back(located(fault, step.origins));
-    if (step_faults.empty()) built.push_back({step.name, slot});
+    if (!step_faults.empty()) continue;
+    for (Fault& note : notes) note = located(note, step.origins);
+    built.push_back({step.name, slot, notes});
   }
   return built;
 }

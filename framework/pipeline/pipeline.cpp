@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "framework/base/error.hpp"
 #include "framework/pipeline/own_time.hpp"
 #include "framework/stage/reasons.hpp"
 
@@ -20,6 +19,12 @@ nlohmann::ordered_json pipeline_json(const Pipeline& pipeline) {
   return list;
 }
 
+void add_notes(const Pipeline& pipeline, std::vector<Fault>& notes) {
+  for (const NamedStep& step : pipeline) {
+    for (const Fault& note : step.notes) add_note(notes, note);
+  }
+}
+
 PipelineResult at_start(std::shared_ptr<const Cloud> target, std::shared_ptr<const Cloud> source,
                         const RigidTransform& start) {
   PipelineResult result;
@@ -31,7 +36,7 @@ PipelineResult at_start(std::shared_ptr<const Cloud> target, std::shared_ptr<con
 
 void advance(PipelineResult& result, const NamedStep& named, const StreamKey& key) {
   if (!result.failure.empty()) return;
-  const auto& [name, step] = named;
+  const auto& [name, step, notes] = named;
   const OwnTime time;
   Rng rng(key.with(name));
   Estimate before = std::move(result.estimate);

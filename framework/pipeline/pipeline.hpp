@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "framework/base/error.hpp"
 #include "framework/params/slot.hpp"
 #include "framework/stage/step.hpp"
 
@@ -14,6 +15,7 @@ namespace croon {
 struct NamedStep {
   std::string name;
   params::Slot<Step> step;
+  std::vector<Fault> notes = {};  ///< Former names of keys in its JSON.
 };
 
 /// The steps of a method, in order.
@@ -21,6 +23,9 @@ using Pipeline = std::vector<NamedStep>;
 
 /// Canonical JSON of the pipeline: its steps with their names and all their parameters.
 nlohmann::ordered_json pipeline_json(const Pipeline& pipeline);
+
+/// Appends the notes on the steps of `pipeline` to `notes`, each message once.
+void add_notes(const Pipeline& pipeline, std::vector<Fault>& notes);
 
 /// The record of one step of one trial.
 struct StepRecord {

@@ -116,7 +116,7 @@ class PatchSearch {
       const double count = counts[k];
       if (count < options_.min_sensor_points) continue;
       const double variance =
-          noise_m * noise_m / count + options_.surface_error_m * options_.surface_error_m;
+          noise_m * noise_m / count + options_.surface_std_m * options_.surface_std_m;
       const double weight = 1.0 / (variance * view.sums.weight);
       patch.views.push_back({clouds_[k].sensor, view.sums.scaled(weight), view.timed.scaled(weight),
                              view.timed_twice.scaled(weight)});
@@ -184,9 +184,10 @@ const params::Table<VoxelOptions>& voxel_table() {
         params::integer("min_sensor_points", &O::min_sensor_points, {1, 1000000},
                         "Minimum number of points of one sensor on a plane; a sensor with fewer is "
                         "ignored there."),
-        params::number("surface_error_m", &O::surface_error_m, {0.0, 1e3},
+        params::number("surface_std_m", &O::surface_std_m, {0.0, 1e3},
                        "Standard deviation of a surface from a plane: no number of points makes a "
-                       "plane more certain."),
+                       "plane more certain.")
+            .formerly("surface_error_m"),
     };
     rows.require([](const O& o) { return o.voxels_m.size() == 2; },
                  "voxels_m must have two numbers");

@@ -14,8 +14,7 @@ struct VoxelOptions {
   double max_thickness_ratio = 0.1;
   int min_points = 10;
   int min_sensor_points = 3;
-  double surface_error_m =
-      0.003;  ///< Deviation of a surface from a plane, for any number of points.
+  double surface_std_m = 0.003;  ///< Deviation of a surface from a plane, for any number of points.
 };
 
 /// The rows of VoxelOptions.

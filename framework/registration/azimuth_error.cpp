@@ -218,7 +218,7 @@ class Problem {
 
   /// Moves the state by a Gauss-Newton step. Returns whether the step was small.
   bool step() {
-    const double expected_rad = rad_from_deg(options_.expected_error_deg);
+    const double expected_rad = rad_from_deg(options_.prior_std_deg);
     // Converts information to inverse variance, estimated from the scatter of the gradients.
     const double variance =
         std::max((guarded_inverse<3>(information_) * scatter_).trace() / 3.0, 1e-12);
@@ -345,9 +345,10 @@ const params::Table<AzimuthOptions>& azimuth_table() {
       params::number("surface_size_m", &O::surface_size_m, {0.01, 1e6},
                      "Points of about the same direction in a cell of this edge are one surface, "
                      "whose errors are not independent."),
-      params::number("expected_error_deg", &O::expected_error_deg, {1e-6, 90.0},
+      params::number("prior_std_deg", &O::prior_std_deg, {1e-6, 90.0},
                      "Prior standard deviation of the error: of sine and cosine about 0, and of "
-                     "the slope for an elevation of one radian."),
+                     "the slope for an elevation of one radian.")
+          .formerly("expected_error_deg"),
       params::integer("max_iterations", &O::max_iterations, {1, 10000},
                       "Maximum number of iterations."),
   };

@@ -46,7 +46,7 @@ struct AzimuthOptions {
   double direction_balance = 0.5;
   double kernel_width_m = 0.05;
   double surface_size_m = 8.0;
-  double expected_error_deg = 0.5;
+  double prior_std_deg = 0.5;
   int max_iterations = 60;
 };
 
@@ -82,7 +82,7 @@ struct AzimuthCalibration {
 /// each: robust least squares of the distances of its points to the surfaces of the targets,
 /// starting at the poses of the views. A constant error is equivalent to a yaw of the mounting, so
 /// the offset is chosen such that the mean error over all points is zero. The prior of sine, cosine
-/// and slope has the standard deviation `expected_error_deg` about zero. Throws StageError if all
+/// and slope has the standard deviation `prior_std_deg` about zero. Throws StageError if all
 /// views have too few correspondences.
 AzimuthCalibration calibrate_azimuth(const std::vector<AzimuthView>& views,
                                      const AzimuthOptions& options);

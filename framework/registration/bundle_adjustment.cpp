@@ -123,15 +123,17 @@ const params::Table<BundleOptions>& bundle_table() {
         params::number("kernel_width", &O::kernel_width, {1e-3, 1e9},
                        "Kernel width in standard deviations: planes that fit worse lose weight."),
         params::numbers(
-            "start_std", &O::start_std, {1e-9, 1e9},
+            "prior_std", &O::prior_std, {1e-9, 1e9},
             "Prior standard deviations of the error of an initial pose: the first in degrees, "
             "about each axis; the second in metres, along each axis. They keep sensors from moving "
-            "in directions that no plane constrains."),
+            "in directions that no plane constrains.")
+            .formerly("start_std"),
         params::number(
-            "start_weight", &O::start_weight, {0.0, 1.0},
+            "prior_weight", &O::prior_weight, {0.0, 1.0},
             "Factor on the inverse covariances of poses and velocities from earlier steps, at most "
             "1 because the bundle adjustment uses the same points again. At 0 they are only "
-            "initial values."),
+            "initial values.")
+            .formerly("start_weight"),
         params::integer("coarse_stride", &O::coarse_stride, {1, 1000000},
                         "Coarse passes use every n-th point."),
         params::integer("coarse_passes", &O::coarse_passes, {0, 1000}, "Number of coarse passes."),
@@ -144,12 +146,14 @@ const params::Table<BundleOptions>& bundle_table() {
             "Minimum number of planes (counted in each of the two grids) that a sensor must share "
             "with others to be adjusted. Otherwise it keeps its initial pose if an earlier step "
             "computed a covariance, and fails if not."),
-        params::number("covariance_scale", &O::covariance_scale, {0.0, 1e6},
-                       "Factor on the standard deviations; tuned on scenes with ground truth."),
-        params::number("velocity_error_mps", &O::velocity_error_mps, {0.0, 1e6},
+        params::number("std_scale", &O::std_scale, {0.0, 1e6},
+                       "Factor on the standard deviations; tuned on scenes with ground truth.")
+            .formerly("covariance_scale"),
+        params::number("velocity_error_std_mps", &O::velocity_error_std_mps, {0.0, 1e6},
                        "Standard deviation of a speed error that is added to the uncertainty of "
                        "the poses in a scene with an uncertain velocity; tuned on scenes with "
-                       "ground truth."),
+                       "ground truth.")
+            .formerly("velocity_error_mps"),
         params::number("clock_offset_std_s", &O::clock_offset_std_s, {0.0, 1e6},
                        "Prior standard deviation of the offset of a sensor's clock from the "
                        "target's, beyond what an earlier step has corrected. At 0 the clocks "
@@ -157,8 +161,8 @@ const params::Table<BundleOptions>& bundle_table() {
                        "velocities."),
     };
     rows.inherit(voxel_table());
-    rows.require([](const O& o) { return o.start_std.size() == 2; },
-                 "start_std must have two numbers, degrees and metres");
+    rows.require([](const O& o) { return o.prior_std.size() == 2; },
+                 "prior_std must have two numbers, degrees and metres");
     rows.require([](const O& o) { return is_clock_std(o.clock_offset_std_s); }, kClockStdIs);
     return rows;
   }();

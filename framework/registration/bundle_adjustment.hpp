@@ -16,15 +16,15 @@ struct BundleOptions : VoxelOptions {
   BundleOptions();
 
   double kernel_width = 5.0;
-  std::vector<double> start_std = {1.0, 0.2};
-  double start_weight = 0.25;
+  std::vector<double> prior_std = {1.0, 0.2};
+  double prior_weight = 0.25;
   int coarse_stride = 4;
   int coarse_passes = 3;
   int max_passes = 8;
   int max_iterations = 20;
   int min_planes = 6;
-  double covariance_scale = 1.15;
-  double velocity_error_mps = 0.08;
+  double std_scale = 1.15;
+  double velocity_error_std_mps = 0.08;
   double clock_offset_std_s = 0.0;
 };
 
@@ -78,7 +78,7 @@ struct Bundle {
 /// sensor whose times must be increased by d is `exp(xi d) T`. Only scenes with different
 /// velocities distinguish it from a translation.
 ///
-/// The prior of the initial poses is an observation like a plane, weighted by `start_weight`: a
+/// The prior of the initial poses is an observation like a plane, weighted by `prior_weight`: a
 /// registration also uses surfaces that are not planes, and its error is nearly independent of that
 /// of the planes.
 ///
@@ -86,13 +86,14 @@ struct Bundle {
 /// of 3 m, whose errors are not independent: see covariance_by_clusters. Poses and velocities are
 /// eliminated from each other, and the priors of initial poses and velocities contribute with their
 /// own covariance and their weight. In a scene with an uncertain velocity, the change of the poses
-/// for an error of `velocity_error_mps` along the velocity is added: a moving object is elsewhere
-/// when the next sensor sees it, which leaving out one surface at a time does not reveal. According
-/// to its covariance, a degree of freedom is weak if its standard deviation exceeds a tenth of
-/// `start_std`, and unobservable if it exceeds a half; see plane_observability for the planes.
+/// for an error of `velocity_error_std_mps` along the velocity is added: a moving object is
+/// elsewhere when the next sensor sees it, which leaving out one surface at a time does not reveal.
+/// According to its covariance, a degree of freedom is weak if its standard deviation exceeds a
+/// tenth of `prior_std`, and unobservable if it exceeds a half; see plane_observability for the
+/// planes.
 ///
 /// `start` contains, by sensor, T_common_sensor and its information in addition to
-/// BundleOptions::start_std; the first is the identity.
+/// BundleOptions::prior_std; the first is the identity.
 Bundle adjust_bundle(const std::vector<BundleScene>& scenes, const std::vector<InformedPose>& start,
                      const BundleOptions& options);
 

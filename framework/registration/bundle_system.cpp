@@ -36,8 +36,8 @@ ReducedCost reduced(const BlockSystem& cost, bool has_velocity) {
 BundleSystem::BundleSystem(const std::vector<BundleScene>& scenes,
                            const std::vector<InformedPose>& start, const BundleOptions& options)
     : scenes_(scenes), start_(start), options_(options) {
-  start_std_ << Eigen::Vector3d::Constant(rad_from_deg(options.start_std[0])),
-      Eigen::Vector3d::Constant(options.start_std[1]);
+  prior_std_ << Eigen::Vector3d::Constant(rad_from_deg(options.prior_std[0])),
+      Eigen::Vector3d::Constant(options.prior_std[1]);
   for (const InformedPose& one : start) state_.poses.push_back(one.pose);
   state_.clock_offsets_s.assign(start.size(), 0.0);
   for (const BundleScene& scene : scenes) {
@@ -45,7 +45,7 @@ BundleSystem::BundleSystem(const std::vector<BundleScene>& scenes,
     state_.velocities.push_back(is_certain ? std::nullopt : std::optional<Twist>(Twist()));
     Matrix6d information = Matrix6d::Zero();
     if (!is_certain) {
-      information = options.start_weight * guarded_inverse<6>(scene.motion_covariance);
+      information = options.prior_weight * guarded_inverse<6>(scene.motion_covariance);
     }
     velocity_information_.push_back(information);
   }
@@ -211,15 +211,15 @@ Eigen::MatrixXd BundleSystem::start_scatter() const {
   Eigen::MatrixXd scatter = 2.0 * start_cost().hessian;
   for (const std::size_t sensor : free_sensors_) {
     const Eigen::Index at = pose_blocks_[sensor].at;
-    const double w = options_.start_weight;
+    const double w = options_.prior_weight;
     scatter.block<6, 6>(at, at) -= 4.0 * w * (1.0 - w) * start_[sensor].information;
   }
   return scatter;
 }
 
 Matrix6d BundleSystem::start_information(std::size_t sensor) const {
-  Matrix6d information = options_.start_weight * start_[sensor].information;
-  information.diagonal() += start_std_.cwiseAbs2().cwiseInverse();
+  Matrix6d information = options_.prior_weight * start_[sensor].information;
+  information.diagonal() += prior_std_.cwiseAbs2().cwiseInverse();
   return information;
 }
 

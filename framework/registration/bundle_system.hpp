@@ -63,17 +63,17 @@ class BundleSystem {
                          bool with_prior) const;
   /// The covariance of the gradient of the prior of a scene's velocity, as in start_scatter.
   Matrix6d velocity_scatter(std::size_t scene) const {
-    return 4.0 * options_.start_weight * velocity_information_[scene];
+    return 4.0 * options_.prior_weight * velocity_information_[scene];
   }
   /// The cost of the priors of initial poses and clocks, with respect to the shared unknowns.
   BlockSystem start_cost() const;
   /// The covariance of the gradient of start_cost. The cost weakens the prior of the initial poses
-  /// (BundleOptions::start_weight), but the covariance of their errors is unchanged.
+  /// (BundleOptions::prior_weight), but the covariance of their errors is unchanged.
   Eigen::MatrixXd start_scatter() const;
   /// The information of the prior of a sensor's initial pose.
   Matrix6d start_information(std::size_t sensor) const;
-  /// The standard deviations of BundleOptions::start_std, in the order of Dof.
-  const Vector6d& start_std() const { return start_std_; }
+  /// The standard deviations of BundleOptions::prior_std, in the order of Dof.
+  const Vector6d& prior_std() const { return prior_std_; }
 
   /// The velocity for which the clouds of a scene were corrected.
   const Twist& known_velocity(std::size_t scene) const { return scenes_[scene].velocity; }
@@ -98,7 +98,7 @@ class BundleSystem {
   const std::vector<BundleScene>& scenes_;
   const std::vector<InformedPose>& start_;
   const BundleOptions& options_;
-  Vector6d start_std_;
+  Vector6d prior_std_;
   std::vector<Matrix6d> velocity_information_;  ///< By scene.
   BundleState state_;
   std::vector<std::vector<PlanePatch>> planes_;

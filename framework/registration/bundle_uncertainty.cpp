@@ -77,11 +77,11 @@ Observability observability_for(double std_ratio) {
 }
 
 /// The observability of a pose's degrees of freedom from its standard deviations.
-DofObservability observability_from(const Matrix6d& covariance, const Vector6d& start_std) {
+DofObservability observability_from(const Matrix6d& covariance, const Vector6d& prior_std) {
   return judged_dofs(covariance, guarded_inverse<6>(covariance),
                      [&](std::size_t dof, const Matrix6d& of_free) {
                        const auto i = static_cast<Eigen::Index>(dof);
-                       return observability_for(std::sqrt(of_free(i, i)) / start_std(i));
+                       return observability_for(std::sqrt(of_free(i, i)) / prior_std(i));
                      });
 }
 
@@ -122,12 +122,12 @@ Eigen::MatrixXd joint_covariance(const BundleSystem& system, const BundleOptions
     std::move(own.begin(), own.end(), std::back_inserter(clusters));
     const Eigen::VectorXd step =
         step_for_velocity_error(system.known_velocity(s), all.costs[s], all.reduced[s], all.hessian,
-                                options.velocity_error_mps);
+                                options.velocity_error_std_mps);
     by_velocity += step * step.transpose();
   }
   Eigen::MatrixXd by_clusters = Eigen::MatrixXd::Zero(inverse.rows(), inverse.cols());
   if (!clusters.empty()) by_clusters = covariance_by_clusters(clusters);
-  return options.covariance_scale * options.covariance_scale * by_clusters + by_velocity +
+  return options.std_scale * options.std_scale * by_clusters + by_velocity +
          inverse * all.scatter * inverse;
 }
 
@@ -211,7 +211,7 @@ BundleUncertainty bundle_uncertainty(const BundleSystem& system, const BundleOpt
     const Eigen::Index at = system.pose_block(k).at;
     PoseCovariance& own = result.covariances[k];
     own.matrix = bounded_covariance(covariance.block<6, 6>(at, at));
-    own.dofs = observability_from(own.matrix, system.start_std());
+    own.dofs = observability_from(own.matrix, system.prior_std());
     const Block& clock = system.clock_block(k);
     if (clock) result.clock_offset_stds_s[k] = std::sqrt(covariance(clock.at, clock.at));
   }

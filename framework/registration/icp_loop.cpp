@@ -161,7 +161,7 @@ Registration iterate_icp(const Cloud& target, const Cloud& source, const RigidTr
   const int all = static_cast<int>(source.points().size());
   for (std::size_t i = 0; i < options.max_distances_m.size(); ++i) {
     const bool is_last = i + 1 == options.max_distances_m.size();
-    loop.run(outcome, options.max_distances_m[i], is_last ? all : options.coarse_points);
+    loop.run(outcome, options.max_distances_m[i], is_last ? all : options.max_coarse_points);
   }
   loop.judge(outcome, options.max_distances_m.back());
   return outcome;

@@ -30,9 +30,10 @@ const params::Table<IcpOptions>& icp_table() {
              "Convergence: maximum translation in an iteration, together with the rotation "
              "tolerance."),
       integer(
-          "coarse_points", &IcpOptions::coarse_points, {10, 1e9},
+          "max_coarse_points", &IcpOptions::max_coarse_points, {10, 1e9},
           "Maximum number of the sensor's points, evenly spaced, at all distances but the last, "
-          "which uses all points."),
+          "which uses all points.")
+          .formerly("coarse_points"),
       integer("min_correspondences", &IcpOptions::min_correspondences, {6, 1e9},
               "Minimum number of correspondences; with fewer the registration fails."),
   };

@@ -59,7 +59,7 @@ struct IcpOptions {
   double kernel_width_m = 0.1;
   double rotation_tolerance_deg = 0.0005;
   double translation_tolerance_m = 0.00005;
-  int coarse_points = 3000;
+  int max_coarse_points = 3000;
   int min_correspondences = 30;
 };
 

@@ -35,7 +35,7 @@ std::vector<Eigen::Vector3d> cell_centres(const Points& levelled,
     const Eigen::Vector3d point = p.cast<double>();
     const double layer = layer_of(point, options);
     if (!(layer >= 0.0 && layer < options.layers)) continue;
-    if (!(point.head<2>().norm() <= options.radius_m)) continue;
+    if (!(point.head<2>().norm() <= options.max_range_m)) continue;
     cells.emplace(static_cast<int>(layer), static_cast<int>(std::floor(point.x() / options.cell_m)),
                   static_cast<int>(std::floor(point.y() / options.cell_m)));
   }
@@ -82,10 +82,13 @@ const params::Table<LayeredMapOptions>& layered_map_table() {
                      "Minimum height above the ground of points in the map."),
       params::integer("layers", &LayeredMapOptions::layers, {1, 20},
                       "Number of layers of the map, each cell_m high."),
-      params::number("radius_m", &LayeredMapOptions::radius_m, {1.0, 100.0},
-                     "Maximum range of the sensor's points in the map."),
-      params::number("reach_m", &LayeredMapOptions::reach_m, {0.5, 30.0},
-                     "Maximum distance of the sensor from the reference along x and along y."),
+      params::number("max_range_m", &LayeredMapOptions::max_range_m, {1.0, 100.0},
+                     "Maximum range of the sensor's points in the map.")
+          .formerly("radius_m"),
+      params::number("max_sensor_distance_m", &LayeredMapOptions::max_sensor_distance_m,
+                     {0.5, 30.0},
+                     "Maximum distance of the sensor from the reference along x and along y.")
+          .formerly("reach_m"),
       params::number("yaw_step_deg", &LayeredMapOptions::yaw_step_deg, {0.5, 30.0},
                      "Step between the yaws that are tried."),
       params::integer("max_cells", &LayeredMapOptions::max_cells, {10, 10000},
@@ -96,8 +99,8 @@ const params::Table<LayeredMapOptions>& layered_map_table() {
 
 LayeredMap::LayeredMap(const Points& levelled, const LayeredMapOptions& options)
     : options_(options),
-      reach_(static_cast<int>(std::ceil(options.reach_m / options.cell_m))),
-      side_(2 * (static_cast<int>(std::ceil(options.radius_m / options.cell_m)) + reach_ + 2)),
+      reach_(static_cast<int>(std::ceil(options.max_sensor_distance_m / options.cell_m))),
+      side_(2 * (static_cast<int>(std::ceil(options.max_range_m / options.cell_m)) + reach_ + 2)),
       window_(2 * reach_ + 1),
       stride_((window_ + kLane - 1) / kLane * kLane),
       cells_(index(index(options.layers, side_, 0), side_, 0) + index(1, stride_, 0)) {

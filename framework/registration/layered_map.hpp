@@ -12,11 +12,11 @@ namespace croon {
 
 /// The parameters of the comparison of clouds from above.
 struct LayeredMapOptions {
-  double cell_m = 0.5;        ///< Edge of a cell, along x, y and the height.
-  double min_height_m = 0.4;  ///< Lower points belong to the ground and are ignored.
-  int layers = 8;             ///< Layers of cells above min_height_m.
-  double radius_m = 40.0;     ///< Points of the source farther from it are ignored.
-  double reach_m = 10.0;      ///< Maximum shift along x and along y.
+  double cell_m = 0.5;                  ///< Edge of a cell, along x, y and the height.
+  double min_height_m = 0.4;            ///< Lower points belong to the ground and are ignored.
+  int layers = 8;                       ///< Layers of cells above min_height_m.
+  double max_range_m = 40.0;            ///< Points of the source farther from it are ignored.
+  double max_sensor_distance_m = 10.0;  ///< Maximum shift along x and along y.
   double yaw_step_deg = 2.0;
   int max_cells = 800;  ///< Maximum number of the source's cells that are used.
 };

@@ -62,7 +62,7 @@ Surface surface_of(const Cloud& cloud, const FeatureOptions& options) {
   surface.neighbours.resize(surface.points.size());
   for (std::size_t i = 0; i < surface.points.size(); ++i) {
     std::vector<Neighbour>& near = surface.neighbours[i];
-    tree.nearest(surface.points[i], options.neighbours + 1, near);
+    tree.nearest(surface.points[i], options.max_neighbours + 1, near);
     near.erase(std::remove_if(near.begin(), near.end(),
                               [&](const Neighbour& neighbour) {
                                 return neighbour.index == static_cast<int>(i) ||
@@ -205,7 +205,7 @@ PointFeatures point_features(const Cloud& cloud, const FeatureOptions& options) 
   }
   if (histograms.empty()) return features;
   for (const std::size_t i :
-       most_distinct(histograms, static_cast<std::size_t>(options.features))) {
+       most_distinct(histograms, static_cast<std::size_t>(options.max_features))) {
     features.points.push_back(surface.points[described[i]]);
     features.normals.push_back(surface.normals[described[i]]);
     features.histograms.push_back(histograms[i]);
@@ -221,7 +221,8 @@ std::vector<FeatureMatch> mutual_matches(const PointFeatures& target, const Poin
   std::vector<MostSimilar> of_source(source.points.size(), MostSimilar(options.candidates));
   for (std::size_t i = 0; i < target.points.size(); ++i) {
     for (std::size_t j = 0; j < source.points.size(); ++j) {
-      if (std::abs(target_ranges_m[i] - source_ranges_m[j]) > options.reach_m) continue;
+      if (std::abs(target_ranges_m[i] - source_ranges_m[j]) > options.max_sensor_distance_m)
+        continue;
       const int distance = squared_distance(target.histograms[i], source.histograms[j]);
       of_target[i].add(static_cast<int>(j), distance);
       of_source[j].add(static_cast<int>(i), distance);

@@ -11,9 +11,9 @@ namespace croon {
 /// The parameters of features: the surface around a point, and the number of features.
 struct FeatureOptions {
   double radius_m = 2.5;       ///< Of the surface around a point that describes it.
-  int neighbours = 60;         ///< Maximum number of neighbours that describe a point.
+  int max_neighbours = 60;     ///< Maximum number of neighbours that describe a point.
   int normal_neighbours = 15;  ///< Number of neighbours for normals.
-  int features = 4000;         ///< Maximum number of features per cloud.
+  int max_features = 4000;     ///< Maximum number of features per cloud.
 };
 
 /// A fast point feature histogram (FPFH): 3 angles of 11 bins, then zeros that fill a vector
@@ -45,7 +45,7 @@ struct FeatureMatch {
 struct MatchOptions {
   /// Maximum difference of the features' distances from their sensors: for the same point, it is at
   /// most the distance between the sensors.
-  double reach_m = 10.0;
+  double max_sensor_distance_m = 10.0;
   int candidates = 5;  ///< Number of most similar features considered for each feature.
 };
 

@@ -308,7 +308,7 @@ PoseCovariance pose_uncertainty(const Cloud& target, const Cloud& source,
   const ContactFinder finder(target, source, options);
   const ContactModel model(finder, T_target_source, options);
   if (model.count() < kMinContacts) return covariance;
-  Matrix6d matrix = options.scale * options.scale * model.jackknife();
+  Matrix6d matrix = options.std_scale * options.std_scale * model.jackknife();
   const Vector6d grazing = options.grazing_error_ratio * model.grazing_step();
   matrix += grazing * grazing.transpose();
   if (options.follows_contacts) {

@@ -18,7 +18,7 @@ struct UncertaintyOptions {
   double kernel_width_m = 0.05;
   double surface_size_m = 8.0;  ///< Contacts of one direction in a cell of this edge are a surface.
   bool follows_contacts = true;        ///< Whether contacts change if the pose moves.
-  double scale = 0.92;                 ///< Of the jackknife; tuned on scenes with ground truth.
+  double std_scale = 0.92;             ///< Of the jackknife; tuned on scenes with ground truth.
   double grazing_error_ratio = 0.075;  ///< Common error of grazed surfaces over the noise.
   /// The covariance of the target's velocity during the scans: about its axes in rad/s, along them
   /// in m/s. If it is not zero, both clouds need the channel time, with a common zero.

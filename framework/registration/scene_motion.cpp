@@ -92,11 +92,12 @@ const params::Table<MotionOptions>& motion_table() {
                      "Minimum squared Mahalanobis distance of a velocity from zero for a scene to "
                      "count as moving; for stationary cars it was 6 to 67 on tuning scenes."),
       params::number(
-          "certain_speed_std_mps", &MotionOptions::certain_speed_std_mps, {0.0, 1e6},
+          "max_speed_std_mps", &MotionOptions::max_speed_std_mps, {0.0, 1e6},
           "Maximum standard deviation of a certain speed along x and y of the reference. "
           "With one pose per scene, a scene with a less certain speed is compared with "
           "other speeds, because independently moving objects may be mistaken for "
-          "static ones."),
+          "static ones.")
+          .formerly("certain_speed_std_mps"),
       params::numbers("other_speeds_mps", &MotionOptions::other_speeds_mps, {-1e3, 1e3},
                       "Alternative forward speeds along the dominant axis of motion."),
       params::number(
@@ -120,7 +121,7 @@ double speed_std_mps(const Matrix6d& covariance) {
 }
 
 bool SceneMotion::is_in_doubt(const MotionOptions& options) const {
-  return speed_std_mps(covariance) > options.certain_speed_std_mps;
+  return speed_std_mps(covariance) > options.max_speed_std_mps;
 }
 
 std::string SceneMotion::rejection(std::size_t source, const MotionOptions& options) const {

@@ -32,17 +32,19 @@ Table<SensorModel> sensor_table() {
              "Azimuth before which the sweep ends."),
       number("azimuth_step_deg", &SensorModel::azimuth_step_deg, {0.01, 90.0},
              "Step between consecutive azimuths."),
-      number("range_min_m", &SensorModel::range_min_m, {0.0, 1000.0},
-             "Minimum range; nearer surfaces are ignored and do not occlude others."),
-      number("range_max_m", &SensorModel::range_max_m, {0.1, 1000.0}, "Maximum range."),
+      number("min_range_m", &SensorModel::min_range_m, {0.0, 1000.0},
+             "Minimum range; nearer surfaces are ignored and do not occlude others.")
+          .formerly("range_min_m"),
+      number("max_range_m", &SensorModel::max_range_m, {0.1, 1000.0}, "Maximum range.")
+          .formerly("range_max_m"),
       number("period_s", &SensorModel::period_s, {0.001, 10.0}, "Duration of one sweep."),
   };
   table.require([](const SensorModel& s) { return s.azimuth_to_deg > s.azimuth_from_deg; },
                 "azimuth_to_deg must be greater than azimuth_from_deg");
   table.require([](const SensorModel& s) { return s.azimuth_to_deg <= s.azimuth_from_deg + 360.0; },
                 "azimuth_to_deg must be at most 360 more than azimuth_from_deg");
-  table.require([](const SensorModel& s) { return s.range_max_m > s.range_min_m; },
-                "range_max_m must be greater than range_min_m");
+  table.require([](const SensorModel& s) { return s.max_range_m > s.min_range_m; },
+                "max_range_m must be greater than min_range_m");
   table.require([](const SensorModel& s) { return s.elevations_deg.size() <= 1024; },
                 "elevations_deg must have at most 1024 rings");
   return table;

@@ -113,7 +113,7 @@ PointCloud scan(const RayCaster& world, const SensorModel& sensor, const Noise& 
   std::vector<std::uint16_t> ring;
   std::vector<double> time_s;
   while (laser.fire_next(rays, firings)) {
-    const std::vector<Hit> hits = world.cast(rays, sensor.range_min_m, sensor.range_max_m);
+    const std::vector<Hit> hits = world.cast(rays, sensor.min_range_m, sensor.max_range_m);
     for (std::size_t i = 0; i < hits.size(); ++i) {
       if (!hits[i].is_there() || is_lost(noise, hits[i], return_rng)) continue;
       double range_m = hits[i].range_m;

@@ -37,13 +37,13 @@ std::vector<double> pandar_qt_elevations() {
   return rings;
 }
 
-SensorModel spinner(std::vector<double> elevations_deg, double azimuth_step_deg, double range_min_m,
-                    double range_max_m) {
+SensorModel spinner(std::vector<double> elevations_deg, double azimuth_step_deg, double min_range_m,
+                    double max_range_m) {
   SensorModel sensor;
   sensor.elevations_deg = std::move(elevations_deg);
   sensor.azimuth_step_deg = azimuth_step_deg;
-  sensor.range_min_m = range_min_m;
-  sensor.range_max_m = range_max_m;
+  sensor.min_range_m = min_range_m;
+  sensor.max_range_m = max_range_m;
   return sensor;
 }
 

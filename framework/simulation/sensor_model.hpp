@@ -13,8 +13,8 @@ struct SensorModel {
   double azimuth_from_deg = -180.0;
   double azimuth_to_deg = 180.0;  ///< Exclusive.
   double azimuth_step_deg = 0.2;
-  double range_min_m = 0.1;
-  double range_max_m = 200.0;
+  double min_range_m = 0.1;
+  double max_range_m = 200.0;
   double period_s = 0.1;  ///< Of one scan.
 };
 

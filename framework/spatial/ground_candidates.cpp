@@ -56,7 +56,7 @@ std::vector<GroundCandidate> ground_candidates(const Points& thinned,
   ransac.confidence = 0.999;
   ransac.max_iterations = 2000;
   ransac.local_rounds = 2;
-  ransac.sample_points = 2500;
+  ransac.max_points = 2500;
   std::vector<GroundCandidate> found;
   Points rest = points;
   for (int i = 0; i < options.planes && rest.size() >= 50; ++i) {

@@ -9,7 +9,7 @@ struct Params : GroundRule {
   double confidence = 0.9999;
   int max_iterations = 10000;
   int local_rounds = 4;
-  int sample_points = 5000;
+  int max_points = 5000;
 };
 
 const params::Table<Params>& table() {
@@ -22,9 +22,10 @@ const params::Table<Params>& table() {
                           "Maximum number of planes that are drawn."),
           params::integer("local_rounds", &Params::local_rounds, {0, 100},
                           "Number of times that a new best plane is refitted to its points."),
-          params::integer("sample_points", &Params::sample_points, {3, 1e9},
+          params::integer("max_points", &Params::max_points, {3, 1e9},
                           "Maximum number of points from which planes are drawn and on which they "
-                          "are evaluated."),
+                          "are evaluated.")
+              .formerly("sample_points"),
       }
           .inherit(ground_rule_table());
   return table;
@@ -40,7 +41,7 @@ class Ransac final : public GroundExtractor {
     const Plane plane =
         plane_ransac(cloud.points,
                      {params_.threshold_m, params_.confidence, params_.max_iterations,
-                      params_.local_rounds, params_.sample_points},
+                      params_.local_rounds, params_.max_points},
                      rng);
     return ground_from_planes(cloud.points, {plane}, params_, rng);
   }

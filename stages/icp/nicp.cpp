@@ -11,7 +11,7 @@ namespace {
 struct Params : IcpOptions {
   int normal_neighbours = 40;
   double max_normal_angle_deg = 60.0;
-  double plane_surface_variation = 0.02;
+  double max_surface_variation = 0.02;
   double tangent_weight_ratio = 0.001;
   double rough_weight_ratio = 0.02;
   double normal_weight_m = 0.1;
@@ -24,9 +24,10 @@ const params::Table<Params>& table() {
                           "Number of neighbours from which a normal is computed."),
           params::number("max_normal_angle_deg", &Params::max_normal_angle_deg, {0.0, 180.0},
                          "Maximum angle between the normals of corresponding points."),
-          params::number("plane_surface_variation", &Params::plane_surface_variation, {0.0, 1.0},
+          params::number("max_surface_variation", &Params::max_surface_variation, {0.0, 1.0},
                          "Maximum surface variation of a point on a plane, where normals are used "
-                         "and distances along the surface have little weight."),
+                         "and distances along the surface have little weight.")
+              .formerly("plane_surface_variation"),
           params::number("tangent_weight_ratio", &Params::tangent_weight_ratio, {1e-9, 1.0},
                          "Weight of a distance along a plane relative to a distance across it."),
           params::number("rough_weight_ratio", &Params::rough_weight_ratio, {0.0, 1.0},
@@ -52,7 +53,7 @@ Eigen::Matrix<double, 3, 6> normal_jacobian(const Eigen::Vector3d& normal) {
 /// (Serafin, Grisetti 2015, section III).
 void linearise(const Params& params, const Correspondence& pair, const RobustKernel& kernel,
                NormalEquations& equations) {
-  const bool is_flat = pair.target_variation <= params.plane_surface_variation;
+  const bool is_flat = pair.target_variation <= params.max_surface_variation;
   const Eigen::Vector3d& n = pair.target_normal;
   Eigen::Matrix3d Omega = params.rough_weight_ratio * Eigen::Matrix3d::Identity();
   if (is_flat) {

@@ -237,7 +237,7 @@ class BundleAdjustmentStep final : public RigStep {
     if (is_adjusted) {
       estimate.covariance = result.covariances[sensor];
       // Planes or registrations must constrain it well enough.
-      const bool start_counts = params_.start_weight > 0.0 && !start.information.isZero(0.0);
+      const bool start_counts = params_.prior_weight > 0.0 && !start.information.isZero(0.0);
       DofObservability constrained = result.plane_observability[sensor];
       if (start_counts)
         constrained = best_observability(constrained, rig.start_observability[sensor]);

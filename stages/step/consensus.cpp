@@ -13,8 +13,8 @@ enum class Weights { equal, covariance };
 
 struct Params {
   Weights weights = Weights::equal;
-  double rotation_deg = 0.5;
-  double translation_m = 0.1;
+  double max_rotation_deg = 0.5;
+  double max_translation_m = 0.1;
   double min_agreeing_ratio = 0.6;
 };
 
@@ -24,10 +24,12 @@ const params::Table<Params>& table() {
                      {{"equal", Weights::equal}, {"covariance", Weights::covariance}},
                      "Whether all agreeing scenes have the same weight, or each pose is weighted "
                      "by its covariance, which an earlier step must estimate."),
-      params::number("rotation_deg", &Params::rotation_deg, {0.0, 180.0},
-                     "Poses of two scenes agree if the angle between them is at most this."),
-      params::number("translation_m", &Params::translation_m, {0.0, 1e6},
-                     "Poses of two scenes agree if their origins are at most this far apart."),
+      params::number("max_rotation_deg", &Params::max_rotation_deg, {0.0, 180.0},
+                     "Poses of two scenes agree if the angle between them is at most this.")
+          .formerly("rotation_deg"),
+      params::number("max_translation_m", &Params::max_translation_m, {0.0, 1e6},
+                     "Poses of two scenes agree if their origins are at most this far apart.")
+          .formerly("translation_m"),
       params::number("min_agreeing_ratio", &Params::min_agreeing_ratio, {0.0, 1.0},
                      "Minimum share of scenes whose poses agree; below it the pose is rejected. "
                      "Scenes in which a step failed count as disagreeing."),
@@ -48,7 +50,7 @@ RigGroup voters(const RigGroup& estimates) {
 class ConsensusStep final : public RigStep {
  public:
   explicit ConsensusStep(const Params& params)
-      : params_(params), bounds_{rad_from_deg(params.rotation_deg), params.translation_m} {}
+      : params_(params), bounds_{rad_from_deg(params.max_rotation_deg), params.max_translation_m} {}
 
   static params::DataFlow data_flow(const Params& params) {
     if (params.weights != Weights::covariance) return {};

@@ -11,7 +11,7 @@ namespace {
 
 struct Params : UncertaintyOptions {
   std::vector<double> velocity_std_mps = {0.0, 0.0, 0.0};
-  double turning_std_degps = 0.0;
+  double yaw_rate_std_degps = 0.0;
 };
 
 /// The rows of UncertaintyOptions.
@@ -32,9 +32,10 @@ const params::Table<UncertaintyOptions>& option_table() {
                      "errors are dependent."),
       params::boolean("follows_contacts", &O::follows_contacts,
                       "Whether the Hessian accounts for contacts that change with the pose."),
-      params::number("scale", &O::scale, {0.0, 1e6},
+      params::number("std_scale", &O::std_scale, {0.0, 1e6},
                      "Factor on the standard deviations from differences between surfaces, not on "
-                     "those from grazing incidence and motion; tuned on scenes with ground truth."),
+                     "those from grazing incidence and motion; tuned on scenes with ground truth.")
+          .formerly("scale"),
       params::number("grazing_error_ratio", &O::grazing_error_ratio, {0.0, 1e3},
                      "Common error of surfaces seen at more than 60 degrees from their normals, as "
                      "a multiple of the noise."),
@@ -60,8 +61,9 @@ const params::Table<Params>& table() {
                 "Standard deviation of the car's velocity during the scans, along x, y, z of the "
                 "reference, in addition to the covariance of a velocity that a step estimated. If "
                 "not zero, the clouds need the channel time."),
-            params::number("turning_std_degps", &Params::turning_std_degps, {0.0, 3600.0},
-                           "Standard deviation of its yaw rate."),
+            params::number("yaw_rate_std_degps", &Params::yaw_rate_std_degps, {0.0, 3600.0},
+                           "Standard deviation of its yaw rate.")
+                .formerly("turning_std_degps"),
         }
             .inherit(option_table());
     rows.require([](const Params& p) { return p.unobservable_ratio <= p.weak_ratio; },
@@ -106,7 +108,7 @@ class CovarianceStep final : public Step {
   static UncertaintyOptions options_of(const Params& chosen) {
     UncertaintyOptions options = chosen;
     Vector6d stds;
-    stds << 0.0, 0.0, rad_from_deg(chosen.turning_std_degps),
+    stds << 0.0, 0.0, rad_from_deg(chosen.yaw_rate_std_degps),
         Eigen::Vector3d(chosen.velocity_std_mps.data());
     options.motion_covariance = stds.cwiseAbs2().asDiagonal();
     return options;

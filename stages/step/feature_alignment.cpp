@@ -16,7 +16,7 @@ struct Params : FeatureOptions, MatchOptions, ConsistencyOptions, HypothesisChoi
   params::Slot<Preprocessor> feature_thinning;
   double max_range_m = 50.0;
   int min_clique = 5;
-  int cliques = 100;
+  int max_cliques = 100;
   int hypotheses = 16;
 };
 
@@ -24,20 +24,23 @@ const params::Table<FeatureOptions>& feature_table() {
   static const params::Table<FeatureOptions> table = {
       params::number("radius_m", &FeatureOptions::radius_m, {0.1, 20.0},
                      "Radius of the surface patch that a feature describes."),
-      params::integer("neighbours", &FeatureOptions::neighbours, {5, 1000},
-                      "Maximum number of neighbours per descriptor, the nearest first."),
+      params::integer("max_neighbours", &FeatureOptions::max_neighbours, {5, 1000},
+                      "Maximum number of neighbours per descriptor, the nearest first.")
+          .formerly("neighbours"),
       params::integer("normal_neighbours", &FeatureOptions::normal_neighbours, {3, 1000},
                       "Number of neighbours from which a normal of a feature is computed."),
-      params::integer("features", &FeatureOptions::features, {3, 20000},
-                      "Maximum number of features per cloud, the least planar first."),
+      params::integer("max_features", &FeatureOptions::max_features, {3, 20000},
+                      "Maximum number of features per cloud, the least planar first.")
+          .formerly("features"),
   };
   return table;
 }
 
 const params::Table<MatchOptions>& match_table() {
   static const params::Table<MatchOptions> table = {
-      params::number("reach_m", &MatchOptions::reach_m, {0.0, 1000.0},
-                     "Maximum distance between the sensor and the reference."),
+      params::number("max_sensor_distance_m", &MatchOptions::max_sensor_distance_m, {0.0, 1000.0},
+                     "Maximum distance between the sensor and the reference.")
+          .formerly("reach_m"),
       params::integer(
           "candidates", &MatchOptions::candidates, {1, 100},
           "Number of nearest descriptors considered for a feature; matches must be mutual."),
@@ -67,8 +70,9 @@ const params::Table<Params>& table() {
                          "Points farther from the sensor have no features."),
           params::integer("min_clique", &Params::min_clique, {3, 1000},
                           "Minimum number of mutually consistent correspondences for a pose."),
-          params::integer("cliques", &Params::cliques, {1, 10000},
-                          "Maximum number of cliques, each of which proposes a pose."),
+          params::integer("max_cliques", &Params::max_cliques, {1, 10000},
+                          "Maximum number of cliques, each of which proposes a pose.")
+              .formerly("cliques"),
           params::integer(
               "hypotheses", &Params::hypotheses, {1, 1000},
               "Number of poses that are refined: those that explain the most correspondences."),
@@ -143,7 +147,7 @@ class FeatureAlignment final : public Step {
     std::vector<Hypothesis> poses;
     std::size_t largest = 0;
     for (const int seed : seeds) {
-      if (static_cast<int>(poses.size()) == params_.cliques) break;
+      if (static_cast<int>(poses.size()) == params_.max_cliques) break;
       if (cores[seed] + 1 < params_.min_clique) break;
       if (is_explained[seed]) continue;
       is_explained[seed] = true;

@@ -22,11 +22,11 @@ struct Params {
   double min_overlap_ratio = 0.15;
   double max_violation_ratio = 0.05;
   double min_lead = 4.0;
-  double min_strength = 0.01;
-  double max_halves_rotation_deg = 0.5;
-  double max_halves_translation_m = 0.1;
-  double slide_m = 0.2;
-  int slides = 2;
+  double min_constraint_ratio = 0.01;
+  double max_split_rotation_deg = 0.5;
+  double max_split_translation_m = 0.1;
+  double split_offset_m = 0.2;
+  int split_directions = 2;
 };
 
 const params::Table<Params>& table() {
@@ -47,19 +47,24 @@ const params::Table<Params>& table() {
       params::number("min_lead", &Params::min_lead, {-1e3, 1e3},
                      "Minimum McNemar z-score of the pose over each of the first three rivals that "
                      "the search found, from the points visible at both poses."),
-      params::number("min_strength", &Params::min_strength, {0.0, 1.0},
+      params::number("min_constraint_ratio", &Params::min_constraint_ratio, {0.0, 1.0},
                      "Minimum share of the points' mean squared motion that is normal to their "
-                     "surfaces, in the least constrained direction."),
+                     "surfaces, in the least constrained direction.")
+          .formerly("min_strength"),
       params::number(
-          "max_halves_rotation_deg", &Params::max_halves_rotation_deg, {0.0, 180.0},
-          "Maximum rotation between the pose and the poses of two disjoint halves of the points."),
-      params::number("max_halves_translation_m", &Params::max_halves_translation_m, {0.0, 1e6},
-                     "Maximum distance between these poses."),
-      params::number("slide_m", &Params::slide_m, {0.0, 10.0},
+          "max_split_rotation_deg", &Params::max_split_rotation_deg, {0.0, 180.0},
+          "Maximum rotation between the pose and the poses of two disjoint halves of the points.")
+          .formerly("max_halves_rotation_deg"),
+      params::number("max_split_translation_m", &Params::max_split_translation_m, {0.0, 1e6},
+                     "Maximum distance between these poses.")
+          .formerly("max_halves_translation_m"),
+      params::number("split_offset_m", &Params::split_offset_m, {0.0, 10.0},
                      "Distance to either side, along a weakly constrained direction, at which the "
-                     "halves start."),
-      params::integer("slides", &Params::slides, {1, 6},
-                      "Number of such directions, the least constrained first."),
+                     "halves start.")
+          .formerly("slide_m"),
+      params::integer("split_directions", &Params::split_directions, {1, 6},
+                      "Number of such directions, the least constrained first.")
+          .formerly("slides"),
   };
   return table;
 }
@@ -96,9 +101,9 @@ class Verdict final : public Step {
     }
     add_loose(held, reasons);
     reasons.need_at_most("the rotation between two halves of the points, deg,",
-                         deg_from_rad(halves.rotation_rad), params_.max_halves_rotation_deg);
+                         deg_from_rad(halves.rotation_rad), params_.max_split_rotation_deg);
     reasons.need_at_most("the distance between two halves of the points, m,", halves.translation_m,
-                         params_.max_halves_translation_m);
+                         params_.max_split_translation_m);
     if (reasons.words) estimate.rejection = reasons.words;
     estimate.diagnostics = {{"overlap_ratio", evidence.overlap_ratio()},
                             {"violation_ratio", evidence.violation_ratio()},
@@ -131,12 +136,12 @@ class Verdict final : public Step {
     if (held.empty()) return reasons.add("no surfaces touch, so nothing is constrained");
     std::vector<ConstraintDirection> loose;
     for (const ConstraintDirection& direction : held) {
-      if (direction.strength < params_.min_strength) loose.push_back(direction);
+      if (direction.strength < params_.min_constraint_ratio) loose.push_back(direction);
     }
     if (loose.empty()) return;
     reasons.add("not constrained: " + dof_names_of(loose) + " (strength " +
                 fixed_number(loose.front().strength, 4) + ", below " +
-                fixed_number(params_.min_strength, 4) + ")");
+                fixed_number(params_.min_constraint_ratio, 4) + ")");
   }
 
   /// The points of the sample whose index modulo `halves` is `half`.
@@ -157,8 +162,8 @@ class Verdict final : public Step {
     Halves worst;
     const auto first = part(source, 0, 2);
     const auto second = part(source, 1, 2);
-    for (int i = 0; i < params_.slides && i < static_cast<int>(held.size()); ++i) {
-      const Vector6d slide = params_.slide_m * held[static_cast<std::size_t>(i)].motion;
+    for (int i = 0; i < params_.split_directions && i < static_cast<int>(held.size()); ++i) {
+      const Vector6d slide = params_.split_offset_m * held[static_cast<std::size_t>(i)].motion;
       try {
         const RigidTransform a =
             params_.icp->align(*target.thinned, *first, moved(T, slide)).T_target_source;

@@ -59,7 +59,7 @@ constexpr const char* kRigExperiment = R"({
     {"step": "preprocessing", "sensor": [{"type": "voxel_downsample", "leaf_size_m": 1}]},
     {"step": "planar_alignment", "points": "all"},
     {"step": "covariance"},
-    {"step": "consensus", "rotation_deg": 5, "translation_m": 0.3},
+    {"step": "consensus", "max_rotation_deg": 5, "max_translation_m": 0.3},
     {"step": "registration", "icp": {"type": "point_to_point", "max_iterations": 2}}
   ],
   "variants": [{"name": "one scene", "remove": ["consensus"]}, {"name": "covariance", "remove": ["registration"]}]

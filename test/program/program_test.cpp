@@ -187,6 +187,32 @@ TEST(Program, GivesEachPointOfAGridANameOfItsOwn) {
   EXPECT_EQ(names.size(), 5U);
 }
 
+TEST(Program, WarnsOncePerFormerNameOfAKey) {
+  const test::TempFolder folder;
+  const std::string file = folder
+                               .write("x.json", R"({"name": "x", "starts": {"trials": 1},
+      "dataset": {"type": "simulated", "scenes": 1, "rig": {"sensors": {
+        "top": {"model": {"like": "spinner_16", "range_max_m": 50, "azimuth_step_deg": 2}},
+        "left": {"model": {"like": "spinner_16", "range_max_m": 50, "azimuth_step_deg": 2}}}}},
+      "pipeline": [{"step": "consensus", "rotation_deg": 1}],
+      "variants": [{"name": "v", "replace": {"consensus.rotation_deg": 2}}]})")
+                               .string();
+  const std::string warnings = "croon: warning: " + file +
+                               ": /dataset/rig/sensors/left/model/range_max_m: the key "
+                               "\"range_max_m\" is now called \"max_range_m\"\n"
+                               "croon: warning: " +
+                               file +
+                               ": /pipeline/0/rotation_deg: the key \"rotation_deg\" is now called "
+                               "\"max_rotation_deg\"\n";
+  for (const std::string& command :
+       {"validate " + file, "run " + file + " --plan --out " + folder.path().string() + "/out"}) {
+    const Answer answer = croon(command);
+    EXPECT_EQ(answer.code, 0);
+    EXPECT_EQ(answer.text.rfind(warnings, 0), 0U) << answer.text;
+    EXPECT_EQ(answer.text.find("warning", warnings.size()), std::string::npos) << answer.text;
+  }
+}
+
 TEST(Program, RefusesWhatCanOnlyFailWhenItValidates) {
   const test::TempFolder folder;
   const auto validate = [&](const std::string& members) {

@@ -36,6 +36,12 @@ class Pipelines(TestCase):
         self.assertEqual(raised.exception.faults[1].where, "/1/searchh")
         self.assertIsInstance(raised.exception, ValueError)
 
+    def test_warn_of_former_names_of_keys(self):
+        with self.assertWarnsRegex(FutureWarning, '"slides" is now called "split_directions"') as caught:
+            steps = croon.Pipeline([{"step": "verdict", "slides": 1}]).steps
+        self.assertEqual(pathlib.Path(caught.filename).name, "pipeline_test.py")
+        self.assertEqual(steps[0]["split_directions"], 1)
+
     def test_take_what_json_has(self):
         for wrong in ([], {}, "[", None, 3, [{"step": "registration", "icp": float("nan")}], [object()], "", "none.json",
                       "a\0b", b"[]", "\ud800", "[\ud800]", [{"step": "registration"}] * 2):

@@ -9,13 +9,13 @@ namespace {
 
 struct Params {
   params::Slot<OverlapMeasure> measure;
-  double least_ratio = 0.2;
+  double min_overlap_ratio = 0.2;
 };
 
 const params::Table<Params>& table() {
   static const params::Table<Params> table = {
       params::slot("measure", &Params::measure, R"({"type": "nearest"})", "Measures the overlap."),
-      params::number("least_ratio", &Params::least_ratio, {0.0, 1.0},
+      params::number("min_overlap_ratio", &Params::min_overlap_ratio, {0.0, 1.0},
                      "With a smaller overlap the pose is rejected."),
   };
   return table;
@@ -32,7 +32,7 @@ class OverlapVerdict final : public Step {
                                                         estimate.T_target_source);
     estimate.extras.put(kOverlapRatio, ratio);
     estimate.diagnostics = {{"overlap_ratio", ratio}};
-    if (ratio < params_.least_ratio) {
+    if (ratio < params_.min_overlap_ratio) {
       estimate.rejection = "the overlap is " + fixed_number(100.0 * ratio, 0) + " %";
     }
     return estimate;

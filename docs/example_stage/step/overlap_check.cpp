@@ -7,12 +7,12 @@ namespace croon::stages::step {
 namespace {
 
 struct Params {
-  double least_ratio = 0.1;
+  double min_overlap_ratio = 0.1;
 };
 
 const params::Table<Params>& table() {
   static const params::Table<Params> table = {
-      params::number("least_ratio", &Params::least_ratio, {0.0, 1.0},
+      params::number("min_overlap_ratio", &Params::min_overlap_ratio, {0.0, 1.0},
                      "With a smaller overlap the pose is rejected."),
   };
   return table;
@@ -26,7 +26,7 @@ class OverlapCheck final : public Step {
 
   Estimate advance(Estimate estimate, Rng&) const override {
     const double overlap_ratio = estimate.extras.get(kOverlap);
-    if (overlap_ratio < params_.least_ratio) {
+    if (overlap_ratio < params_.min_overlap_ratio) {
       estimate.rejection = "the clouds overlap by " + fixed_number(100.0 * overlap_ratio, 0) + " %";
     }
     return estimate;

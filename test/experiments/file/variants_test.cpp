@@ -62,6 +62,32 @@ TEST(Variants, ReplacesASlotWithoutMerging) {
   EXPECT_EQ(all.pipeline("b")[1], all.pipeline("base")[1]);
 }
 
+TEST(Variants, ReplaceAParameterByItsPresentOrFormerName) {
+  const ReadVariants all = read_variants(R"("variants": [
+      {"name": "a", "replace": {"first.extent_m": 3}},
+      {"name": "b", "pipeline": [{"step": "drift", "name": "first", "extent_m": 1}],
+       "replace": {"first.size_m": 2}},
+      {"name": "c", "pipeline": [{"step": "drift", "name": "first", "size_m": 1}],
+       "replace": {"first.extent_m": 2}}])");
+  EXPECT_EQ(all.faults, Lines{});
+  EXPECT_EQ(all.pipeline("a")[0]["size_m"], 3);
+  EXPECT_EQ(all.pipeline("b")[0]["size_m"], 2);
+  EXPECT_EQ(all.pipeline("c")[0]["size_m"], 2);
+  Lines places;
+  for (const Variant& variant : all.variants) {
+    for (const Fault& note : variant.pipeline.front().notes) places.push_back(note.where);
+  }
+  EXPECT_EQ(places,
+            (Lines{"/variants/0/replace/first.extent_m", "/variants/2/replace/first.extent_m"}));
+  EXPECT_EQ(read_variants(R"("variants": [
+                {"name": "a", "replace": {"first.extent_m": 3, "first.size_m": 2}}])")
+                .faults,
+            Lines{"/variants/0/replace/first.size_m: expected \"size_m\" without its former name, "
+                  "found both"});
+  EXPECT_EQ(read_variants(R"("grid": {"first.extent_m": [1, 2]})").names(),
+            (Lines{"base/extent_m=1", "base/extent_m=2"}));
+}
+
 TEST(Variants, AStepThatTakesAPlaceTakesItsName) {
   const ReadVariants all = read_variants(R"("variants": [
       {"name": "a", "replace": {"first": {"step": "behave"}}},

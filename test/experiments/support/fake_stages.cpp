@@ -255,7 +255,7 @@ Catalogue fake_catalogue() {
           .rule({"low_deg", {}, false, {"high_deg"}})));
   catalogue.add(stage_entry<Drift, DriftParams>(
       "drift", "Moves the pose.", "croon",
-      {number("size_m", &DriftParams::size_m, {0, 10}, "How far."),
+      {number("size_m", &DriftParams::size_m, {0, 10}, "How far.").formerly("extent_m"),
        slot("search", &DriftParams::search, R"({"type": "coarse"})", "A stage in a stage.")}));
   catalogue.add(stage_entry<Give, GiveParams>(
       "give", "Gives an extra.", "croon",

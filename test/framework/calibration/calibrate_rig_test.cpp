@@ -150,6 +150,15 @@ TEST(Composition, AlwaysEndsWithAVerdictAndACovariance) {
   }
 }
 
+TEST(CalibrateRig, NotesFormerNamesOfKeys) {
+  const TempFolder folder;
+  const std::string file = folder.write("p.json", R"([{"step": "verdict", "slides": 1}])").string();
+  const CalibratedRig rig = calibrated(street_scenes(kLeft, 1), 1, file);
+  ASSERT_EQ(rig.notes.size(), 1U);
+  EXPECT_EQ(rig.notes[0].line(),
+            file + ": /0/slides: the key \"slides\" is now called \"split_directions\"");
+}
+
 TEST(ReasonsInWords, AreSentencesWithNumbersAndAdvice) {
   const ReasonsInWords words = reasons_in_words(
       "verdict: the overlap with agreeing surfaces is 0.123, below 0.150; not constrained: x and "

@@ -28,7 +28,7 @@ struct Sample : Base {
 const Table<Sample>& sample_table() {
   static const Table<Sample> table =
       Table<Sample>{
-          number("size_m", &Sample::size_m, {0.0, 10.0}, "Size."),
+          number("size_m", &Sample::size_m, {0.0, 10.0}, "Size.").formerly("extent_m"),
           boolean("flag", &Sample::flag, "Flag."),
           choice("word", &Sample::word, {{"one", Word::one}, {"two", Word::two}}, "Word."),
           choice("name", &Sample::name, {"a", "b"}, "A choice that is kept as a string."),
@@ -120,6 +120,30 @@ TEST(Table, ChecksConditionsOnWhatCouldBeRead) {
   EXPECT_EQ(lines, std::vector<std::string>{"f: /: too much for its size_m, found 10"});
   read(R"({"count": 9, "size_m": "ten"})", lines);
   EXPECT_EQ(lines, std::vector<std::string>{"f: /size_m: expected a number, found \"ten\""});
+}
+
+TEST(Table, ReadsTheFormerNameOfAKeyWithANote) {
+  std::vector<Fault> faults, notes;
+  const nlohmann::json former = {{"extent_m", 2}};
+  const Node node(former, "f", faults, {{"extent_m", {"g", "extent_m"}}});
+  const Sample sample = sample_table().read(node.noting(notes), {}, NoStages());
+  EXPECT_EQ(sample_table().members_json(sample).rfind(R"("size_m":2,)", 0), 0U);
+  sample_table().read(node.noting(notes), {}, NoStages());
+  EXPECT_TRUE(faults.empty());
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_EQ(notes[0].line(), "g: /extent_m: the key \"extent_m\" is now called \"size_m\"");
+}
+
+TEST(Table, ReportsFaultsUnderTheWrittenName) {
+  std::vector<std::string> lines;
+  read(R"({"extent_m": 11})", lines);
+  EXPECT_EQ(lines,
+            std::vector<std::string>{"f: /extent_m: expected a number from 0 to 10, found 11"});
+  read(R"({"extent_m": 1, "size_m": 2})", lines);
+  EXPECT_EQ(lines, std::vector<std::string>{
+                       "f: /extent_m: expected \"size_m\" without its former name, found both"});
+  read(R"({"extent": 1})", lines);
+  EXPECT_EQ(lines.at(0).find("extent_m"), std::string::npos) << lines[0];
 }
 
 TEST(RangeWords, SayTheBounds) {

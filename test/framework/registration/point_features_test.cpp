@@ -14,7 +14,7 @@ Cloud cloud_of(const Points& points) { return Cloud(points, StreamKey(1)); }
 
 PointFeatures features_of(const Points& points, int count = 300) {
   FeatureOptions options;
-  options.features = count;
+  options.max_features = count;
   return point_features(cloud_of(points), options);
 }
 
@@ -94,7 +94,7 @@ TEST(MutualMatches, ReachNoFartherThanTheSensorsAreApart) {
   const PointFeatures target = features_of(test::random_street(rng, 3, 3000, 0.01));
   const PointFeatures source = features_of(test::random_street(rng, 4, 3000, 0.01));
   MatchOptions options;
-  options.reach_m = 1.0;
+  options.max_sensor_distance_m = 1.0;
   const auto matches = mutual_matches(target, source, options);
   ASSERT_FALSE(matches.empty());
   for (const FeatureMatch& match : matches) {

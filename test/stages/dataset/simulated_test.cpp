@@ -44,7 +44,7 @@ TEST(Simulated, TakesARigFromJson) {
   const std::vector<Scene> scenes = scenes_of(R"("scenes": 1, "noise": "real", "rig": {
       "reference": "roof", "reference_height_m": 1.8, "sensors": {
         "roof": {"model": "spinner_32"},
-        "nose": {"model": {"like": "solid_state", "range_max_m": 60}, "translation_m": [2, 0, -1]}
+        "nose": {"model": {"like": "solid_state", "max_range_m": 60}, "translation_m": [2, 0, -1]}
       }})");
   ASSERT_EQ(scenes[0].sensors.size(), 1U);
   EXPECT_EQ(scenes[0].reference.sensor, "roof");

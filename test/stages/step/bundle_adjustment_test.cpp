@@ -258,7 +258,7 @@ TEST(BundleAdjustment, WhatIsNotKnownOfTheVelocityMovesASensorByTheTimeBetweenSc
   motion(3, 3) = 1.0;  // 1 m/s along x.
   for (RigEstimate& one : rig.estimates) one.estimate.extras.put(kMotionCovariance, motion);
   const std::string step =
-      R"({"step": "bundle_adjustment", "start_weight": 1, "start_std": [10, 10]})";
+      R"({"step": "bundle_adjustment", "prior_weight": 1, "prior_std": [10, 10]})";
   adjust_bundle(rig.estimates, step);
   adjust_bundle(known.estimates, step);
   // All points of a sensor are of one time, so that nothing but the covariance holds the velocity.
@@ -282,8 +282,8 @@ TEST(BundleAdjustment, AnErrorOfTheSpeedThatAllSurfacesShareMovesASensorAlongThe
     one.estimate.extras.put(kMotionCovariance, Matrix6d(1e-12 * Matrix6d::Identity()));
   }
   StandingRig without = rig;
-  adjust_bundle(rig.estimates, R"({"step": "bundle_adjustment", "velocity_error_mps": 0.5})");
-  adjust_bundle(without.estimates, R"({"step": "bundle_adjustment", "velocity_error_mps": 0})");
+  adjust_bundle(rig.estimates, R"({"step": "bundle_adjustment", "velocity_error_std_mps": 0.5})");
+  adjust_bundle(without.estimates, R"({"step": "bundle_adjustment", "velocity_error_std_mps": 0})");
   double delay_s = 0.0;
   for (const RigEstimate& one : rig.estimates) {
     delay_s += 0.02;

@@ -130,7 +130,7 @@ TEST(JointRegistration, RejectsASceneInWhichAnotherSpeedIsAsGood) {
   DrivingRig strict = rig;
   for (RigEstimate& one : strict.estimates) one.estimate.rejection = "before: no";
   // Every speed is in doubt, and no lead over others is enough.
-  const std::string in_doubt = R"(, "certain_speed_std_mps": 0, "certain_shift_m": 0)";
+  const std::string in_doubt = R"(, "max_speed_std_mps": 0, "certain_shift_m": 0)";
   adjust_jointly(rig.estimates, in_doubt);
   adjust_jointly(strict.estimates, in_doubt + R"(, "min_speed_lead": 1000)");
   for (std::size_t i = 0; i < rig.estimates.size(); ++i) {
@@ -248,7 +248,7 @@ TEST(JointRegistration, ComparesWithOtherSpeedsOfTheCarAndNotOfWhatRemains) {
     for (RigEstimate& one : rig.estimates) one.estimate.T_target_source = rig.truth[one.source];
     remove_known_velocity(rig, 0.0, 30.0);
     adjust_jointly(rig.estimates,
-                   R"(, "certain_speed_std_mps": 0, "certain_shift_m": 0, "min_speed_lead": 1000,
+                   R"(, "max_speed_std_mps": 0, "certain_shift_m": 0, "min_speed_lead": 1000,
                        "patch_kernel_m": 0, "coarse_distances_m": [0.1], "max_distances_m": [0.1],
                        "other_speeds_mps": [)" +
                        std::to_string(speed_mps) + "]");
