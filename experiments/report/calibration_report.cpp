@@ -4,11 +4,11 @@
 #include "experiments/report/calibration_document.hpp"
 #include "experiments/report/rig_charts.hpp"
 #include "experiments/report/rig_view_json.hpp"
+#include "experiments/report/rig_view_pictures.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/base/statistics.hpp"
 #include "framework/base/text.hpp"
 #include "framework/geometry/dof.hpp"
-#include "framework/picture/cloud_view.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -122,45 +122,14 @@ TableBlock pose_table(const CalibratedRig& rig) {
           columns.table(rig.sensors), view};
 }
 
-/// The close-up at the first and the last state.
-Picture close_up_picture(const RigView& view, const CloseUp& place) {
-  CloudView shown = {place.half_width_m, place.half_width_m, 0.01};
-  shown.centre_m = place.centre_m;
-  shown.dot_px = 3;
-  std::vector<Image> images;
-  std::vector<std::string> captions, names;
-  const std::size_t last = view.states.size() - 1;
-  for (const std::size_t state : {std::size_t{0}, last}) {
-    if (state == last && last == 0 && !images.empty()) break;
-    std::vector<ColouredCloud> clouds;
-    for (const ViewedSensor& sensor : view.sensors) {
-      // A sensor without a pose keeps its colour.
-      const bool has_pose = sensor.poses[state].has_value();
-      clouds.push_back({sensor.sensor, has_pose ? sensor.points : Points(),
-                        sensor.poses[state].value_or(RigidTransform())});
-    }
-    images.push_back(draw_view(clouds, shown));
-    captions.push_back(state == last ? "after: result" : "before: " + view.states[state]);
-  }
-  for (const ViewedSensor& sensor : view.sensors) {
-    names.push_back(cut_in_the_middle(printable(sensor.sensor), 12));
-  }
-  return {place.title, "Close-up of a " + place.title + ", from above, before and after",
-          png_bytes(with_legend(images, captions, names, shown.pixel_m))};
-}
-
-Section view_section(const RigView& view, const std::vector<RigPicture>& pictures) {
+Section view_section(const RigView& view) {
   Section section{"view", "The clouds", {}};
   CloudViewBlock block;
   block.caption = "Scene " + view.scene +
                   ". Drag to turn, scroll to zoom; move the slider through the steps of the "
                   "pipeline. Points of right poses lie on common surfaces.";
   block.json = rig_view_json(view);
-  for (const RigPicture& picture : pictures) {
-    if (picture.sensor.empty()) {
-      block.fallback.push_back({"", "The rig from above", picture.png});
-    }
-  }
+  block.fallback = {overview_picture(view)};
   section.blocks.emplace_back(std::move(block));
   FigureRow row;
   for (const CloseUp& place : view.close_ups)
@@ -299,7 +268,7 @@ Document calibration_report(const CalibratedRig& rig, const std::vector<RigPictu
   add_fit_checks(document.sections.front(), view, rig);
   document.sections.front().blocks.emplace_back(pose_table(rig));
   if (view.sensors.size() > 1) {
-    document.sections.push_back(view_section(view, pictures));
+    document.sections.push_back(view_section(view));
     if (!view.pairs.empty()) document.sections.push_back(graph_section(view));
     document.sections.push_back(residual_section(view));
   }

@@ -40,7 +40,7 @@ std::vector<fs::path> database_paths_in(const fs::path& folder) {
 std::vector<fs::path> paths_in(const fs::path& folder) {
   std::vector<fs::path> paths = database_paths_in(folder);
   for (const ResultFile& file : result_files()) paths.push_back(folder / file.name);
-  for (const char* name : {kManifest, kTimings, kPicture}) paths.push_back(folder / name);
+  for (const char* name : {kManifest, kTimings, kPicture, kReport}) paths.push_back(folder / name);
   return paths;
 }
 
@@ -219,6 +219,7 @@ void OutputFolder::write_reports(const Results& results, const TimingsStore& tim
       is_same = false;
       delete_clouds(file(kClouds));
       delete_path(file(kPicture));
+      delete_path(file(kReport));
     }
     bytes ? write_whole_file(file(result.name), *bytes) : delete_path(file(result.name));
   }

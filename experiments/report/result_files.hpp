@@ -15,6 +15,7 @@ namespace croon::experiments {
 /// File names used by several commands, and the name of the folder of clouds.
 inline constexpr const char* kPicture = "before_after.png";
 inline constexpr const char* kClouds = "clouds";
+inline constexpr const char* kReport = "report.html";
 
 /// Whether `path`, which need not exist, belongs to the results of a run.
 bool is_result_of_run(const std::filesystem::path& path);

@@ -216,44 +216,26 @@ std::optional<Refit> refit(const RigView& view, const Clouds& clouds, std::size_
 
 }  // namespace
 
-RigView rig_view(const CalibratedRig& rig) {
-  const ShownScene& shown = rig.shown;
+RigView view_of(const std::string& scene, const std::vector<std::string>& states,
+                const std::vector<ViewedCloud>& viewed) {
   RigView view;
-  view.scene = shown.scene;
-  if (!shown.reference) return view;
-  view.level = level_frame(shown.reference->points());
-  const std::vector<std::string> steps = steps_of(shown);
-  const bool has_nominal =
-      std::any_of(rig.sensors.begin(), rig.sensors.end(),
-                  [](const CalibratedSensor& sensor) { return sensor.nominal.has_value(); });
-  if (has_nominal) view.states.emplace_back(kNominalState);
-  view.states.insert(view.states.end(), steps.begin(), steps.end());
-  view.states.emplace_back(kResultState);
+  view.scene = scene;
+  view.states = states;
+  view.level = level_frame(viewed.front().cloud->points());
   Clouds clouds;
-  const auto add = [&](const std::string& name, const std::shared_ptr<const Cloud>& cloud) {
-    clouds.push_back(cloud);
+  for (const ViewedCloud& one : viewed) {
+    clouds.push_back(one.cloud);
     ViewedSensor& sensor = view.sensors.emplace_back();
-    sensor.sensor = name;
-    sensor.points = evenly_spaced(cloud->points(), kMaxViewedPoints);
-    return &sensor;
-  };
-  ViewedSensor* const reference = add(rig.reference, shown.reference);
-  reference->is_reference = reference->is_accepted = true;
-  reference->poses.assign(view.states.size(), RigidTransform());
-  for (const ShownSensor& one : shown.sensors) {
-    const CalibratedSensor& result = calibrated(rig, one.sensor);
-    ViewedSensor* const sensor = add(one.sensor, one.cloud);
-    sensor->is_accepted = result.is_accepted;
-    sensor->poses = poses_of(one, result, steps, has_nominal);
-    sensor->rival = one.rival;
+    sensor.sensor = one.sensor;
+    sensor.is_reference = view.sensors.size() == 1;
+    sensor.is_accepted = one.is_accepted;
+    sensor.points = evenly_spaced(one.cloud->points(), kMaxViewedPoints);
+    for (const std::optional<RigidTransform>& pose : one.poses) {
+      sensor.poses.push_back(pose ? std::optional(view.level.T_level_reference * *pose) : pose);
+    }
+    if (one.rival) sensor.rival = view.level.T_level_reference * *one.rival;
   }
   merge_last_step(view);
-  for (ViewedSensor& sensor : view.sensors) {
-    for (std::optional<RigidTransform>& pose : sensor.poses) {
-      if (pose) pose = view.level.T_level_reference * *pose;
-    }
-    if (sensor.rival) sensor.rival = view.level.T_level_reference * *sensor.rival;
-  }
   const std::size_t last = view.states.size() - 1;
   std::vector<std::vector<PairDistances>> distances(view.sensors.size());
   for_each_in_parallel(view.sensors.size(), [&](std::size_t s) {
@@ -264,6 +246,27 @@ RigView rig_view(const CalibratedRig& rig) {
   view.pairs = pair_agreements(view, distances);
   view.close_ups = close_ups(view);
   return view;
+}
+
+RigView rig_view(const CalibratedRig& rig) {
+  const ShownScene& shown = rig.shown;
+  if (!shown.reference) return {};
+  const std::vector<std::string> steps = steps_of(shown);
+  const bool has_nominal =
+      std::any_of(rig.sensors.begin(), rig.sensors.end(),
+                  [](const CalibratedSensor& sensor) { return sensor.nominal.has_value(); });
+  std::vector<std::string> states;
+  if (has_nominal) states.emplace_back(kNominalState);
+  states.insert(states.end(), steps.begin(), steps.end());
+  states.emplace_back(kResultState);
+  std::vector<ViewedCloud> clouds = {
+      {rig.reference, shown.reference, true, {states.size(), RigidTransform()}}};
+  for (const ShownSensor& one : shown.sensors) {
+    const CalibratedSensor& result = calibrated(rig, one.sensor);
+    clouds.push_back({one.sensor, one.cloud, result.is_accepted,
+                      poses_of(one, result, steps, has_nominal), one.rival});
+  }
+  return view_of(shown.scene, states, clouds);
 }
 
 }  // namespace croon

@@ -78,8 +78,21 @@ struct RigView {
   std::vector<CloseUp> close_ups;     ///< At most three.
 };
 
-/// Computes the view of `rig.shown`. A surface is near if it is within 0.3 m; surfaces of rejected
-/// sensors do not count. Same bits for any number of threads.
+/// A cloud to be viewed.
+struct ViewedCloud {
+  std::string sensor;
+  std::shared_ptr<const Cloud> cloud;
+  bool is_accepted = false;
+  std::vector<std::optional<RigidTransform>> poses;  ///< T_reference_sensor by state.
+  std::optional<RigidTransform> rival = {};          ///< T_reference_sensor.
+};
+
+/// The view of a reference, the first of `clouds`, and of other sensors. A surface is near if it is
+/// within 0.3 m; surfaces of rejected sensors do not count. Same bits for any number of threads.
+RigView view_of(const std::string& scene, const std::vector<std::string>& states,
+                const std::vector<ViewedCloud>& clouds);
+
+/// The view of `rig.shown`; without sensors if nothing is shown.
 RigView rig_view(const CalibratedRig& rig);
 
 }  // namespace croon

@@ -139,19 +139,19 @@ Image draw_sensor(const SensorPicture& picture) {
   }
   const Points& reference = *picture.reference_points;
   const Points reference_above = above_ground(reference, picture.level);
-  const std::array<Row, 3> rows =
+  const std::array<PictureRow, 3> rows =
       rows_of(shown_points(reference_above, columns.back().above,
                            picture.level.T_level_reference.translation.cast<float>(),
                            columns.back().T_level_sensor.translation.cast<float>()),
               picture.level.has_ground);
   const int count = static_cast<int>(columns.size());
   int height = kTitle_px + kLegend_px;
-  for (const Row& row : rows) height += kCaption_px + row.view.image().height();
+  for (const PictureRow& row : rows) height += kCaption_px + row.view.image().height();
   Image canvas(count * (kPanelWidth_px + kGap_px) + kGap_px, height);
   Drawing drawing(canvas.width() / kTextScale, canvas.height() / kTextScale);
   draw_title(drawing, picture);
   int up = kTitle_px;
-  for (const Row& row : rows) {
+  for (const PictureRow& row : rows) {
     int left = kGap_px;
     const int panel_height = row.view.image().height();
     for (const PictureColumn& column : columns) {

@@ -88,7 +88,7 @@ double section_centre_m(const ShownPoints& shown, const CloudView& top, int axis
 }
 
 /// The section seen from `from`, at the scale of `top`.
-Row section(const CloudView& top, ViewFrom from, const ShownPoints& shown, bool has_ground) {
+PictureRow section(const CloudView& top, ViewFrom from, const ShownPoints& shown, bool has_ground) {
   constexpr double kThickness_m = 1.0;
   CloudView view = top;
   view.from = from;
@@ -158,7 +158,7 @@ ShownPoints shown_points(const Points& reference, const Points& sensor,
   return shown;
 }
 
-std::array<Row, 3> rows_of(const ShownPoints& shown, bool has_ground) {
+std::array<PictureRow, 3> rows_of(const ShownPoints& shown, bool has_ground) {
   constexpr double kMinHalfWidth_m = 4.0, kMaxHalfWidth_m = 16.0;
   constexpr std::size_t kMinShared = 200;
   const Points sample =
@@ -171,7 +171,7 @@ std::array<Row, 3> rows_of(const ShownPoints& shown, bool has_ground) {
   top.half_height_m = top.half_width_m / kAspect;
   top.pixel_m = 2.0 * top.half_width_m / kPanelWidth_px;
   top.centre_m = {x.middle, y.middle, 0.0};
-  return {Row{top, has_ground ? "from above, without the ground" : "from above", false},
+  return {PictureRow{top, has_ground ? "from above, without the ground" : "from above", false},
           section(top, ViewFrom::front, shown, has_ground),
           section(top, ViewFrom::side, shown, has_ground)};
 }

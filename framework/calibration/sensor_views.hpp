@@ -42,7 +42,7 @@ ShownPoints shown_points(const Points& reference, const Points& sensor,
                          const Eigen::Vector3f& sensor_origin_m);
 
 /// A row of the picture.
-struct Row {
+struct PictureRow {
   CloudView view;
   std::string caption;
   bool shows_ground = true;
@@ -50,6 +50,6 @@ struct Row {
 
 /// The view from above of the common area, and at its scale the sections, 1 m thick, in which both
 /// clouds have the most points.
-std::array<Row, 3> rows_of(const ShownPoints& shown, bool has_ground);
+std::array<PictureRow, 3> rows_of(const ShownPoints& shown, bool has_ground);
 
 }  // namespace croon

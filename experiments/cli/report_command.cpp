@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <memory>
+
+#include "experiments/cli/command.hpp"
+#include "experiments/cli/commands.hpp"
+#include "experiments/cli/options.hpp"
+#include "experiments/report/experiment_report.hpp"
+#include "experiments/report/result_files.hpp"
+#include "experiments/report/trial_views.hpp"
+#include "experiments/run/run_request.hpp"
+#include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
+#include "framework/base/whole_file.hpp"
+#include "framework/document/renderers.hpp"
+
+namespace croon::experiments {
+namespace {
+
+/// The report of the results in `folder`. Without the data, it has no view of clouds and says so.
+std::string report_of(const std::filesystem::path& folder, const std::filesystem::path& data,
+                      const Catalogue& catalogue) {
+  const Results results = read_results(folder, Content::trials_and_steps);
+  std::vector<TrialView> views;
+  std::string without_views = "No trial has a pose.";
+  try {
+    views = trial_views(results, data, catalogue);
+  } catch (const InputError& error) {
+    without_views = "The clouds of the trials could not be read, so there is no view of them: " +
+                    error.faults().front().line() + ". With --data the report shows them.";
+  }
+  return html_document(experiment_report(results, views, without_views));
+}
+
+class ReportCommand final : public Command {
+ public:
+  std::string sentence() const override {
+    return "Write a report of results, report.html, to look at and to send.";
+  }
+
+  void add_options(CLI::App& command) override {
+    add_path(command, "DIR", folders_, "Folders of results of `croon run`.")->required();
+    add_data(command, data_);
+  }
+
+  int run(const Console& console) override {
+    if (!can_write_html()) {
+      throw InputError("", "report", "this build of croon writes no reports (CROON_WITH_REPORT)");
+    }
+    refuse_repeats(folders_);
+    for (const std::filesystem::path& folder : folders_) {
+      const std::string bytes = report_of(folder, data_root(data_), console.catalogue);
+      const std::filesystem::path path = folder / kReport;
+      write_whole_file(path, bytes);
+      console.out << "The report is in " << printable(path.string()) << "\n";
+    }
+    return 0;
+  }
+
+ private:
+  std::vector<std::filesystem::path> folders_;
+  std::filesystem::path data_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_report_command() { return std::make_unique<ReportCommand>(); }
+
+}  // namespace croon::experiments

@@ -1,0 +1,299 @@
+#include "experiments/report/experiment_report.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "experiments/report/build_text.hpp"
+#include "experiments/report/export.hpp"
+#include "experiments/report/figures.hpp"
+#include "experiments/report/result_tables.hpp"
+#include "experiments/report/rig_charts.hpp"
+#include "experiments/report/rig_view_json.hpp"
+#include "experiments/report/rig_view_pictures.hpp"
+#include "framework/base/angles.hpp"
+#include "framework/base/text.hpp"
+
+namespace croon::experiments {
+namespace {
+
+std::string percent_text(const Share& share) {
+  std::string text = fixed_number(100.0 * share.ratio, 1) + " %";
+  if (share.interval) {
+    text += " [" + fixed_number(100.0 * share.interval->low, 1) + ", " +
+            fixed_number(100.0 * share.interval->high, 1) + "]";
+  }
+  return text;
+}
+
+/// "98.3 % [95.1, 99.4] of 144 trials are within 0.5 deg and 0.1 m of ground truth".
+std::string variant_sentence(const Summary& summary, const std::string& variant) {
+  const TrialSummary all = pooled_counts(scenes_of(rows_of(summary, variant)));
+  const Share& share = main_share(all);
+  const std::string what = lacks_truth(all)
+                               ? " agree with the consensus of their scene"
+                               : " are within " + bounds_text(summary.bounds) + "ground truth";
+  return variant + ": " + percent_text(share) + " of " +
+         counted(static_cast<std::size_t>(share.trials), "trial") + what;
+}
+
+std::string lead_of(const Results& results) {
+  const std::vector<std::string> variants = variants_of(results.summary);
+  if (variants.empty()) return "There are no trials.";
+  std::string best = variants.front();
+  const auto ratio = [&](const std::string& variant) {
+    return main_share(pooled_counts(scenes_of(rows_of(results.summary, variant)))).ratio;
+  };
+  for (const std::string& variant : variants) {
+    if (ratio(variant) > ratio(best)) best = variant;
+  }
+  const std::string sentence = variant_sentence(results.summary, best) + ".";
+  return variants.size() == 1
+             ? sentence
+             : "Best of " + std::to_string(variants.size()) + " variants: " + sentence;
+}
+
+/// The variants with intervals, the best values and significance marks.
+TableBlock variant_table(const Results& results) {
+  ExportCaption caption;
+  caption.name = results.name;
+  caption.seed = results.seed;
+  caption.scenes = results.scenes;
+  caption.starts = results.trials;
+  caption.found = results.records.size();
+  caption.planned = results.planned;
+  caption.scenes_per_trial = results.scenes_per_trial;
+  const ExportTable table = export_table(results.summary, caption);
+  std::string sentences;
+  for (const std::string& sentence : caption_sentences(table)) sentences += sentence + " ";
+  View view{{{"variant"}, {"sensor"}, {"scenes"}, {"trials"}}, 2};
+  for (const std::string& share : share_names(table.table)) {
+    view.columns.push_back({share + ", %", "<" + share + "_percent>"});
+    view.columns.push_back(
+        {"95 % interval", "[<" + share + "_low_percent>, <" + share + "_high_percent>]"});
+  }
+  for (const char* column :
+       {"rotation_median_deg", "rotation_p95_deg", "translation_median_m", "translation_p95_m"}) {
+    view.columns.push_back({column});
+  }
+  for (const std::size_t k : kPaperOrder) {
+    const std::string name = kMeasures.at(k).name, unit = kMeasures.at(k).unit;
+    view.columns.push_back({title_of(kMeasures.at(k)) + ", mean ± std",
+                            "<" + name + "_mean_" + unit + "> ± <" + name + "_std_" + unit + ">"});
+  }
+  return {sentences, table.table, view};
+}
+
+/// How trials ended, by variant and sensor.
+TableBlock outcome_table(const Summary& summary) {
+  Columns<SummaryRow> columns;
+  columns.add({"variant"}, &SummaryRow::variant)
+      .add({"sensor"}, [](const SummaryRow& row) { return name_of_sensor(row.sensor); })
+      .add({"trials"}, [](const SummaryRow& row) { return row.outcomes.trials; })
+      .add({"success"}, [](const SummaryRow& row) { return row.outcomes.success; })
+      .add({"inaccurate"}, [](const SummaryRow& row) { return row.outcomes.inaccurate; })
+      .add({"finished"}, [](const SummaryRow& row) { return row.outcomes.finished; })
+      .add({"rejected"}, [](const SummaryRow& row) { return row.outcomes.rejected; })
+      .add({"failed"}, [](const SummaryRow& row) { return row.outcomes.failed; });
+  const Table table = columns.table(summary.rows);
+  return {
+      "How trials ended. Inaccurate: accepted outside the success bounds; finished: accepted "
+      "without ground truth.",
+      table, whole_view(table, 2)};
+}
+
+Section result_section(const Results& results) {
+  Section section{"result", "Result", {}};
+  if (!results.description.empty()) {
+    section.blocks.emplace_back(Paragraph{"Question: " + results.description});
+  }
+  if (results.records.size() < results.planned) {
+    section.blocks.emplace_back(Paragraph{std::to_string(results.records.size()) + " of " +
+                                              std::to_string(results.planned) +
+                                              " planned trials are stored.",
+                                          Tone::warning});
+  }
+  for (const std::string& sentence : build_sentences(results.builds)) {
+    section.blocks.emplace_back(Paragraph{sentence, Tone::note});
+  }
+  section.blocks.emplace_back(variant_table(results));
+  section.blocks.emplace_back(outcome_table(results.summary));
+  if (!results.summary.reasons.empty()) {
+    constexpr std::size_t kMaxReasons = 30;
+    std::vector<ReasonCount> reasons = results.summary.reasons;
+    const std::string cut =
+        reasons.size() > kMaxReasons ? " The most frequent; summary.json has all." : "";
+    if (!cut.empty()) reasons.resize(kMaxReasons);
+    const Table table = reason_columns().table(reasons);
+    section.blocks.emplace_back(
+        TableBlock{"Reasons of rejected and failed trials." + cut, table, whole_view(table, 3)});
+  }
+  return section;
+}
+
+Section chart_section(const Results& results) {
+  Section section{"charts", "Charts", {}};
+  for (const Figure& figure : figures()) {
+    try {
+      if (std::optional<Drawing> drawing = figure.draw(results, {})) {
+        section.blocks.emplace_back(Chart{"", std::move(*drawing)});
+      }
+    } catch (const InputError& error) {
+      section.blocks.emplace_back(
+          Paragraph{std::string(figure.name) + ": " + error.faults().front().message, Tone::note});
+    }
+  }
+  if (!results.summary.scene_kinds.empty()) {
+    const Table table = scene_kind_columns().table(results.summary.scene_kinds);
+    View view{{{"variant"}, {"scene_kind"}, {"sensor"}}, 3};
+    for (const Column& column : table.columns) {
+      const std::string name = column.full_name();
+      if (name.rfind("success", 0) == 0) view.columns.push_back({name});
+    }
+    section.blocks.emplace_back(TableBlock{"By kind of scene.", table, view});
+  }
+  return section;
+}
+
+/// The scenes with the lowest success.
+Section scene_section(const Results& results) {
+  constexpr std::size_t kMaxScenes = 50;
+  struct SceneRow {
+    std::string variant, sensor;
+    const SceneSummary* scene;
+  };
+  std::vector<SceneRow> rows;
+  for (const SummaryRow& row : results.summary.rows) {
+    if (row.sensor.empty()) continue;
+    for (const SceneSummary& scene : row.scenes) rows.push_back({row.variant, row.sensor, &scene});
+  }
+  const auto is_worse = [](const SceneRow& a, const SceneRow& b) {
+    return main_share(*a.scene).ratio < main_share(*b.scene).ratio;
+  };
+  std::stable_sort(rows.begin(), rows.end(), is_worse);
+  const std::size_t all = rows.size();
+  if (rows.size() > kMaxScenes) rows.resize(kMaxScenes);
+  Columns<SceneRow> columns;
+  columns.add({"variant"}, &SceneRow::variant)
+      .add({"sensor"}, &SceneRow::sensor)
+      .add({"scene"}, [](const SceneRow& row) { return row.scene->scene; })
+      .add({"kind"}, [](const SceneRow& row) { return nothing_if_empty(row.scene->scene_kind); })
+      .add({"trials"}, [](const SceneRow& row) { return row.scene->outcomes.trials; })
+      .add({"right", "ratio", "", 0},
+           [](const SceneRow& row) { return main_share(*row.scene).ratio; })
+      .add({"rejected"}, [](const SceneRow& row) { return row.scene->outcomes.rejected; })
+      .add({"failed"}, [](const SceneRow& row) { return row.scene->outcomes.failed; });
+  const Table table = columns.table(rows);
+  View view = whole_view(table, 4);
+  view.columns[5] = {"right, %", "<right_ratio>"};
+  return {"scenes",
+          "Scenes",
+          {TableBlock{"The " + std::to_string(rows.size()) + " of " + std::to_string(all) +
+                          " scenes, sensors and variants with the lowest success.",
+                      table, view}}};
+}
+
+/// The medians of the numbers that steps report, such as costs and ratios, in pipeline order.
+Section step_section(const Results& results) {
+  using D = DiagnosticSummary;
+  Columns<D> columns;
+  columns.add({"variant"}, &D::variant)
+      .add({"step"}, &D::step)
+      .add({"number"}, &D::name)
+      .add({"trials"}, &D::trials)
+      .add({"median", "", "", kAllDigits},
+           [](const D& row) -> std::optional<double> { return row.median; });
+  const Table table = columns.table(results.diagnostics);
+  return {"steps",
+          "Numbers along the pipeline",
+          {TableBlock{"Medians over trials of the numbers that steps report.", table,
+                      whole_view(table, 3)}}};
+}
+
+Section claim_section(const Results& results) {
+  const Table table = claim_columns().table(results.claims);
+  return {"claims",
+          "Claims",
+          {TableBlock{"The claims of the experiment and the numbers found.",
+                      table,
+                      {{{"claim"},
+                        {"source"},
+                        {"trials"},
+                        {"scenes"},
+                        {"expected", "<expected> <unit>"},
+                        {"band", "[<low>, <high>]"},
+                        {"found"},
+                        {"verdict"}},
+                       2}}}};
+}
+
+std::string trial_text(const TrialRecord& record) {
+  std::string text = record.id.variant + ", scene " + record.id.scene + ", sensor " +
+                     record.id.sensor + ", trial " + std::to_string(record.id.trial) + ": " +
+                     status_name(record.status);
+  if (record.error) {
+    text += ", " + fixed_number(deg_from_rad(record.error->rotation_rad), 3) + " deg and " +
+            fixed_number(1e3 * record.error->translation_m, 1) + " mm from ground truth";
+  }
+  return text + (record.reason.empty() ? "." : ". " + record.reason);
+}
+
+Section trial_section(const std::vector<TrialView>& views, const std::string& without_views) {
+  Section section{"trials", "Trials to look at", {}};
+  if (views.empty()) {
+    section.blocks.emplace_back(Paragraph{without_views, Tone::note});
+    return section;
+  }
+  std::size_t number = 0;
+  for (const TrialView& trial : views) {
+    Section inner{"trial-" + std::to_string(++number), trial.why, {}};
+    inner.blocks.emplace_back(Paragraph{trial_text(*trial.record)});
+    inner.blocks.emplace_back(
+        CloudViewBlock{"Scene " + trial.view.scene + " at the initial guess and at the result.",
+                       rig_view_json(trial.view),
+                       {overview_picture(trial.view)}});
+    FigureRow row;
+    for (const CloseUp& place : trial.view.close_ups) {
+      row.figures.emplace_back(close_up_picture(trial.view, place));
+    }
+    for (const Drawing& chart : trial.charts) row.figures.emplace_back(Chart{"", chart});
+    if (!row.figures.empty()) inner.blocks.emplace_back(std::move(row));
+    section.sections.push_back(std::move(inner));
+  }
+  return section;
+}
+
+Section provenance_section(const Results& results) {
+  Facts facts{{{"experiment", results.name},
+               {"seed", std::to_string(results.seed)},
+               {"starts per variant, scene and sensor", std::to_string(results.trials)}}};
+  for (const Build& build : results.builds) {
+    facts.facts.emplace_back(
+        "croon", build.version + ", commit " + build.commit + ", program " + build.program_sha256);
+  }
+  const auto json = nlohmann::ordered_json::parse(results.manifest);
+  for (const auto& [name, digest] : json.at("provenance").items()) {
+    facts.facts.emplace_back("digest of " + name, digest.get<std::string>());
+  }
+  return {"provenance", "Provenance", {facts}};
+}
+
+}  // namespace
+
+Document experiment_report(const Results& results, const std::vector<TrialView>& views,
+                           const std::string& without_views) {
+  Document document{"Experiment " + results.name, lead_of(results), {result_section(results)}};
+  document.sections.push_back(
+      {"pipeline",
+       "Pipelines",
+       {Chart{"The steps of each variant; * marks steps that differ from those of the first.",
+              pipeline_chart(results.manifest)}}});
+  document.sections.push_back(chart_section(results));
+  document.sections.push_back(trial_section(views, without_views));
+  document.sections.push_back(scene_section(results));
+  if (!results.claims.empty()) document.sections.push_back(claim_section(results));
+  if (!results.diagnostics.empty()) document.sections.push_back(step_section(results));
+  document.sections.push_back(provenance_section(results));
+  return document;
+}
+
+}  // namespace croon::experiments
