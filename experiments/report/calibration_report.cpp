@@ -201,17 +201,17 @@ Section residual_section(const RigView& view) {
 }
 
 /// A row of the table over scenes.
-struct SceneRow {
+struct ScenePoseRow {
   std::string sensor, scene, verdict;
   std::optional<double> apart_deg, apart_mm;
 };
 
 /// The pose from each single scene, relative to the common pose.
 Section scene_section(const CalibratedRig& rig) {
-  std::vector<SceneRow> rows;
+  std::vector<ScenePoseRow> rows;
   for (const CalibratedSensor& sensor : rig.sensors) {
     for (const SceneEstimate& scene : sensor.scenes) {
-      SceneRow row{
+      ScenePoseRow row{
           sensor.sensor, scene.scene, scene.reason.empty() ? "accepted" : scene.reason, {}, {}};
       if (scene.T_reference_sensor && sensor.T_reference_sensor) {
         const PoseError apart = pose_error(*scene.T_reference_sensor, *sensor.T_reference_sensor);
@@ -221,12 +221,12 @@ Section scene_section(const CalibratedRig& rig) {
       rows.push_back(std::move(row));
     }
   }
-  Columns<SceneRow> columns;
-  columns.add({"sensor"}, &SceneRow::sensor)
-      .add({"scene"}, &SceneRow::scene)
-      .add({"from_pose", "deg", "", 3}, &SceneRow::apart_deg)
-      .add({"from_pose", "mm", "", 1}, &SceneRow::apart_mm)
-      .add({"verdict"}, &SceneRow::verdict);
+  Columns<ScenePoseRow> columns;
+  columns.add({"sensor"}, &ScenePoseRow::sensor)
+      .add({"scene"}, &ScenePoseRow::scene)
+      .add({"from_pose", "deg", "", 3}, &ScenePoseRow::apart_deg)
+      .add({"from_pose", "mm", "", 1}, &ScenePoseRow::apart_mm)
+      .add({"verdict"}, &ScenePoseRow::verdict);
   const Table table = columns.table(rows);
   View view{{{"sensor"},
              {"scene"},

@@ -118,11 +118,11 @@ Section result_section(const Results& results) {
   section.blocks.emplace_back(variant_table(results));
   section.blocks.emplace_back(outcome_table(results.summary));
   if (!results.summary.reasons.empty()) {
-    constexpr std::size_t kMaxReasons = 30;
+    constexpr std::size_t kShownReasons = 30;
     std::vector<ReasonCount> reasons = results.summary.reasons;
     const std::string cut =
-        reasons.size() > kMaxReasons ? " The most frequent; summary.json has all." : "";
-    if (!cut.empty()) reasons.resize(kMaxReasons);
+        reasons.size() > kShownReasons ? " The most frequent; summary.json has all." : "";
+    if (!cut.empty()) reasons.resize(kShownReasons);
     const Table table = reason_columns().table(reasons);
     section.blocks.emplace_back(
         TableBlock{"Reasons of rejected and failed trials." + cut, table, whole_view(table, 3)});
@@ -156,32 +156,32 @@ Section chart_section(const Results& results) {
 
 /// The scenes with the lowest success.
 Section scene_section(const Results& results) {
-  constexpr std::size_t kMaxScenes = 50;
-  struct SceneRow {
+  constexpr std::size_t kShownScenes = 50;
+  struct WorstScene {
     std::string variant, sensor;
     const SceneSummary* scene;
   };
-  std::vector<SceneRow> rows;
+  std::vector<WorstScene> rows;
   for (const SummaryRow& row : results.summary.rows) {
     if (row.sensor.empty()) continue;
     for (const SceneSummary& scene : row.scenes) rows.push_back({row.variant, row.sensor, &scene});
   }
-  const auto is_worse = [](const SceneRow& a, const SceneRow& b) {
+  const auto is_worse = [](const WorstScene& a, const WorstScene& b) {
     return main_share(*a.scene).ratio < main_share(*b.scene).ratio;
   };
   std::stable_sort(rows.begin(), rows.end(), is_worse);
   const std::size_t all = rows.size();
-  if (rows.size() > kMaxScenes) rows.resize(kMaxScenes);
-  Columns<SceneRow> columns;
-  columns.add({"variant"}, &SceneRow::variant)
-      .add({"sensor"}, &SceneRow::sensor)
-      .add({"scene"}, [](const SceneRow& row) { return row.scene->scene; })
-      .add({"kind"}, [](const SceneRow& row) { return nothing_if_empty(row.scene->scene_kind); })
-      .add({"trials"}, [](const SceneRow& row) { return row.scene->outcomes.trials; })
+  if (rows.size() > kShownScenes) rows.resize(kShownScenes);
+  Columns<WorstScene> columns;
+  columns.add({"variant"}, &WorstScene::variant)
+      .add({"sensor"}, &WorstScene::sensor)
+      .add({"scene"}, [](const WorstScene& row) { return row.scene->scene; })
+      .add({"kind"}, [](const WorstScene& row) { return nothing_if_empty(row.scene->scene_kind); })
+      .add({"trials"}, [](const WorstScene& row) { return row.scene->outcomes.trials; })
       .add({"right", "ratio", "", 0},
-           [](const SceneRow& row) { return main_share(*row.scene).ratio; })
-      .add({"rejected"}, [](const SceneRow& row) { return row.scene->outcomes.rejected; })
-      .add({"failed"}, [](const SceneRow& row) { return row.scene->outcomes.failed; });
+           [](const WorstScene& row) { return main_share(*row.scene).ratio; })
+      .add({"rejected"}, [](const WorstScene& row) { return row.scene->outcomes.rejected; })
+      .add({"failed"}, [](const WorstScene& row) { return row.scene->outcomes.failed; });
   const Table table = columns.table(rows);
   View view = whole_view(table, 4);
   view.columns[5] = {"right, %", "<right_ratio>"};
