@@ -160,7 +160,8 @@ def main():
         if errors:
             print(*errors, sep="\n", file=sys.stderr)
             return 1
-        shutil.rmtree(out, ignore_errors=True)
+        if out.exists():
+            shutil.rmtree(out)
         shutil.move(site, out)
     return 0
 

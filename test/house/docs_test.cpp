@@ -28,6 +28,7 @@ const std::set<std::string> kSetUpCommands = {
     "make demo",
     "make test",
     "make docs",
+    "make site",
     "cmake --preset no_cgal && cmake --build --preset no_cgal",
 };
 
