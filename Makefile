@@ -5,13 +5,14 @@ CLANG_FORMAT ?= $(shell command -v clang-format-14 || echo clang-format)
 RUN_CLANG_TIDY ?= $(shell command -v run-clang-tidy-14 || echo run-clang-tidy)
 SOURCES = git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp'
 
-.PHONY: help packages sanitizer_packages release demo demo_time test benchmark docs package package-test format lint fuzz sanitize threads clean
+.PHONY: help packages sanitizer_packages release demo demo_time test benchmark docs site package package-test format lint fuzz sanitize threads clean
 
 help:
 	@echo 'make demo       the paper on twelve simulated scenes, and the calibration of a simulated car'
 	@echo 'make test       build and run all tests'
 	@echo 'make benchmark  build and run the benchmarks'
 	@echo 'make docs       write docs/stages and docs/schema again'
+	@echo 'make site       the documentation as a site that opens from disk, in build/site'
 	@echo 'make package    a .deb for this release of Debian or Ubuntu, in build/package'
 	@echo 'make package-test  installs the .deb in a bare chroot and calibrates a simulated car there (root, network)'
 	@echo 'make format     clang-format all sources'
@@ -46,6 +47,12 @@ benchmark: packages
 
 docs: release
 	.ci/generate_docs build/release/bin/croon docs
+
+site:
+	.ci/install_packages mkdocs-material
+	mkdir -p build
+	docs/site/build.py build/site
+	@echo 'Open build/site/index.html in a browser.'
 
 demo_time:
 	@echo 'The first build takes about four minutes on two cores, and the packages before it a few more; the demo itself takes seconds.'

@@ -28,6 +28,7 @@ const std::set<std::string> kSetUpCommands = {
     "make demo",
     "make test",
     "make docs",
+    "make site",
     "cmake --preset no_cgal && cmake --build --preset no_cgal",
 };
 
@@ -155,6 +156,19 @@ TEST(ExamplePaper, StandsInThePage) {
   std::string text;
   for (const Line& line : lines_of("docs/example_paper/CMakeLists.txt")) text += line.text + "\n";
   EXPECT_EQ(fenced_blocks("docs/library.md", "cmake").back().text(), text);
+}
+
+/// What docs/paper/paper.md says in bold stands in docs/results.md, line breaks aside.
+TEST(SoftwarePaper, QuotesTheResults) {
+  std::string paper, results;
+  for (const Line& line : lines_of("docs/paper/paper.md")) paper += line.text + " ";
+  for (const Line& line : lines_of("docs/results.md")) results += line.text + " ";
+  static const std::regex bold(R"(\*\*([^*]+)\*\*)");
+  const std::sregex_iterator first(paper.begin(), paper.end(), bold);
+  EXPECT_GT(std::distance(first, std::sregex_iterator()), 10);
+  for (auto it = first; it != std::sregex_iterator(); ++it) {
+    EXPECT_NE(results.find((*it)[1]), std::string::npos) << (*it)[1];
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Pages, Docs, testing::ValuesIn(written_pages()), page_name);
