@@ -143,7 +143,7 @@ Section view_section(const RigView& view) {
 }
 
 Section graph_section(const RigView& view) {
-  using P = PairAgreement;
+  using P = SensorAgreement;
   Columns<P> columns;
   columns.add({"sensor"}, &P::a)
       .add({"other"}, &P::b)

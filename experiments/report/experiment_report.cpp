@@ -144,11 +144,14 @@ Section chart_section(const Results& results) {
   }
   if (!results.summary.scene_kinds.empty()) {
     const Table table = scene_kind_columns().table(results.summary.scene_kinds);
-    View view{{{"variant"}, {"scene_kind"}, {"sensor"}}, 3};
-    for (const Column& column : table.columns) {
-      const std::string name = column.full_name();
-      if (name.rfind("success", 0) == 0) view.columns.push_back({name});
-    }
+    const std::string share = share_names(table).front();
+    const View view{{{"variant"},
+                     {"kind"},
+                     {"sensor"},
+                     {"scenes"},
+                     {share + ", %", "<" + share + "_ratio>"},
+                     {"95 % interval", "[<" + share + "_low_ratio>, <" + share + "_high_ratio>]"}},
+                    3};
     section.blocks.emplace_back(TableBlock{"By kind of scene.", table, view});
   }
   return section;

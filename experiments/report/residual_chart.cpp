@@ -74,16 +74,29 @@ void draw_medians(Drawing& drawing, const Plot& plot, const ResidualProfile& pro
   finish();
 }
 
-/// Half the height of the panels, in mm.
+/// Half the height of the panels, in mm. A few bins may reach beyond it.
 double residual_limit_mm(const std::vector<ResidualProfile>& profiles) {
-  constexpr double kMin_mm = 20.0;
-  double limit = kMin_mm;
+  constexpr double kMin_mm = 20.0, kShown = 0.92;
+  std::vector<double> ends_mm = {kMin_mm};
   for (const ResidualProfile& profile : profiles) {
     for (const std::optional<Interval>& quartiles : profile.quartiles) {
-      if (quartiles) limit = std::max({limit, std::abs(quartiles->low), std::abs(quartiles->high)});
+      if (!quartiles) continue;
+      ends_mm.push_back(std::max(std::abs(quartiles->low), std::abs(quartiles->high)));
     }
   }
-  return limit;
+  return std::max(kMin_mm, percentile(ends_mm, kShown));
+}
+
+/// The quartiles, cut at the ends of the axis.
+std::vector<std::optional<Interval>> cut_quartiles(const ResidualProfile& profile,
+                                                   const Axis& axis) {
+  std::vector<std::optional<Interval>> cut = profile.quartiles;
+  for (std::optional<Interval>& quartiles : cut) {
+    if (!quartiles) continue;
+    quartiles->low = std::clamp(quartiles->low, axis.low, axis.high);
+    quartiles->high = std::clamp(quartiles->high, axis.low, axis.high);
+  }
+  return cut;
 }
 
 }  // namespace
@@ -114,8 +127,7 @@ Drawing residual_chart(const ViewedSensor& sensor, const Sheet& sheet) {
     for (const double tick : axes[k].ticks) {
       plot.draw_x_tick(drawing, tick, fixed_number(tick, axes[k].decimals), 1.4 * text);
     }
-    std::vector<std::optional<Interval>> inside = profiles[k].quartiles;
-    draw_band(drawing, plot, profiles[k].centres, inside, 0);
+    draw_band(drawing, plot, profiles[k].centres, cut_quartiles(profiles[k], y), 0);
     draw_medians(drawing, plot, profiles[k]);
     draw_panel_texts(drawing, plot, "distance, mm", kResidualAxes.at(k).title);
   }

@@ -41,7 +41,7 @@ Picture overview_picture(const RigView& view) {
 Picture close_up_picture(const RigView& view, const CloseUp& place) {
   CloudView shown = {place.half_width_m, place.half_width_m, 0.01};
   shown.centre_m = place.centre_m;
-  shown.dot_px = 3;
+  shown.dot_px = 5;
   return {place.title, "Close-up of a " + place.title + ", from above, before and after",
           before_and_after(view, shown)};
 }

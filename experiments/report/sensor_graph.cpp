@@ -10,14 +10,14 @@ namespace {
 
 constexpr double kNodeWidth = 120.0, kNodeHeight = 40.0;
 
-/// The centres of the nodes: the reference in the middle, the others on an ellipse around it.
+/// The centres of the nodes, on an ellipse, so that no edge passes through a third node. The
+/// reference is at the top.
 std::vector<Corner> node_centres(std::size_t count, double width, double height) {
-  std::vector<Corner> centres = {{width / 2.0, height / 2.0}};
-  for (std::size_t i = 1; i < count; ++i) {
-    const double angle =
-        2.0 * kPi * (static_cast<double>(i) - 0.5) / static_cast<double>(count - 1);
-    centres.push_back({width / 2.0 + 0.40 * width * std::sin(angle),
-                       height / 2.0 - 0.40 * height * std::cos(angle)});
+  std::vector<Corner> centres;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double angle = 2.0 * kPi * static_cast<double>(i) / static_cast<double>(count);
+    centres.push_back({width / 2.0 + 0.41 * width * std::sin(angle),
+                       height / 2.0 - 0.43 * height * std::cos(angle)});
   }
   return centres;
 }
@@ -46,13 +46,13 @@ void draw_node(Drawing& drawing, const Corner& centre, const ViewedSensor& senso
 
 Drawing sensor_graph(const RigView& view, const Sheet& sheet) {
   const double width = sheet.width > 0.0 ? sheet.width : 760.0;
-  const double height = 0.62 * width;
+  const double height = 0.5 * width;
   Drawing drawing(width, height, sheet);
   drawing.describe("The graph of sensors: overlap and median distance of each pair");
   drawing.rectangle(0.0, 0.0, width, height, "page");
   const std::vector<Corner> centres = node_centres(view.sensors.size(), width, height);
   for (const bool is_text : {false, true}) {
-    for (const PairAgreement& pair : view.pairs) {
+    for (const SensorAgreement& pair : view.pairs) {
       const std::size_t a = index_of_sensor(view, pair.a), b = index_of_sensor(view, pair.b);
       const bool is_accepted = view.sensors[a].is_accepted && view.sensors[b].is_accepted;
       const Corner from = centres[a], to = centres[b];
@@ -60,8 +60,8 @@ Drawing sensor_graph(const RigView& view, const Sheet& sheet) {
         drawing.line(from[0], from[1], to[0], to[1], is_accepted ? "curve c7" : "curve c1 d1");
         continue;
       }
-      // Off the middle, where lines cross.
-      const double x = from[0] + 0.42 * (to[0] - from[0]), y = from[1] + 0.42 * (to[1] - from[1]);
+      // Off the middle, where many edges cross.
+      const double x = from[0] + 0.36 * (to[0] - from[0]), y = from[1] + 0.36 * (to[1] - from[1]);
       const std::string label = fixed_number(100.0 * pair.overlap_ratio, 0) + " %, " +
                                 fixed_number(1e3 * pair.median_distance_m, 0) + " mm";
       const double text = sheet.small();

@@ -166,9 +166,9 @@ std::vector<PairDistances> set_distances(RigView& view, const Clouds& clouds, st
 }
 
 /// The agreement of each pair of sensors; `distances[a][b]` are those of the points of a.
-std::vector<PairAgreement> pair_agreements(
+std::vector<SensorAgreement> pair_agreements(
     const RigView& view, const std::vector<std::vector<PairDistances>>& distances) {
-  std::vector<PairAgreement> pairs;
+  std::vector<SensorAgreement> pairs;
   for (std::size_t a = 0; a < view.sensors.size(); ++a) {
     for (std::size_t b = a + 1; b < view.sensors.size(); ++b) {
       std::vector<double> both = distances[a][b];

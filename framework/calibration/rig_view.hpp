@@ -54,7 +54,7 @@ struct ViewedSensor {
 };
 
 /// How well two sensors agree at the result.
-struct PairAgreement {
+struct SensorAgreement {
   std::string a, b;
   double overlap_ratio = 0.0;      ///< Of the points of both, the share with a surface nearby.
   double median_distance_m = 0.0;  ///< Of these points, the median distance to the surface.
@@ -72,10 +72,10 @@ struct CloseUp {
 struct RigView {
   std::string scene;
   LevelFrame level;
-  std::vector<std::string> states;    ///< "nominal", steps that changed a pose, "result".
-  std::vector<ViewedSensor> sensors;  ///< The reference first.
-  std::vector<PairAgreement> pairs;   ///< Pairs of sensors with overlap, by name.
-  std::vector<CloseUp> close_ups;     ///< At most three.
+  std::vector<std::string> states;     ///< "nominal", steps that changed a pose, "result".
+  std::vector<ViewedSensor> sensors;   ///< The reference first.
+  std::vector<SensorAgreement> pairs;  ///< Pairs of sensors with overlap, by name.
+  std::vector<CloseUp> close_ups;      ///< At most three.
 };
 
 /// A cloud to be viewed.
