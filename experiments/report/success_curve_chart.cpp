@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "experiments/report/bands.hpp"
-#include "experiments/report/figure_title.hpp"
 #include "experiments/report/panels.hpp"
 #include "framework/base/text.hpp"
 
@@ -69,14 +68,8 @@ Drawing success_curve_chart(const SuccessCurve& curve, const FigureOptions& opti
   const std::vector<std::size_t> with_band = band_lines(curve);
   const std::string explanation =
       "The vertical line is the success bound; " + band_sentence(labels, with_band);
-  const Sheet& sheet = options.sheet;
-  const FigureTitle title(kTitle, explanation, sheet, figure_width(sheet));
-  const PanelGrid grid = panel_grid(sheet, kCurvePanels.size(), is_wide(sheet) ? 2 : 1, kAspect,
-                                    labels, title.height());
-  Drawing drawing(grid.width, grid.height, sheet);
-  drawing.describe(std::string(kTitle) + ". " + explanation + ".");
-  drawing.rectangle(0.0, 0.0, grid.width, grid.height, "page");
-  title.draw(drawing, 0.5 * sheet.small(), 0.3 * sheet.small());
+  auto [grid, drawing] = panel_figure(options.sheet, kTitle, explanation, kCurvePanels.size(),
+                                      is_wide(options.sheet) ? 2 : 1, kAspect, labels);
   for (std::size_t p = 0; p < kCurvePanels.size(); ++p) {
     const bool is_in_mm = kCurvePanels[p].of == CurveOf::translation && options.length_unit == "mm";
     std::vector<double> exponents;

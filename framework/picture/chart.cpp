@@ -188,6 +188,11 @@ void draw_marker(Drawing& drawing, double x, double y, double radius, std::size_
   }
 }
 
+void draw_bar(Drawing& drawing, double x, double y, double width, double height,
+              std::size_t index) {
+  drawing.rectangle(x, y, width, height, "box " + box_style(index));
+}
+
 void draw_arrowhead(Drawing& drawing, double x, double y, double radius, bool is_up,
                     const std::string& style) {
   const double tip = is_up ? -radius : radius;
@@ -197,10 +202,14 @@ void draw_arrowhead(Drawing& drawing, double x, double y, double radius, bool is
 double legend_line(const Sheet& sheet) { return 2.6 * sheet.small(); }
 
 void draw_legend_entry(Drawing& drawing, double left, double y, std::size_t index,
-                       const std::string& name) {
+                       const std::string& name, SeriesMark mark) {
   const double length = legend_line(drawing.sheet());
   const double text = drawing.sheet().small();
-  drawing.line(left, y, left + length, y, "curve " + series_style(index));
+  if (mark == SeriesMark::line) {
+    drawing.line(left, y, left + length, y, "curve " + series_style(index));
+  } else {
+    draw_bar(drawing, left, y - 0.4 * text, length, 0.8 * text, index);
+  }
   draw_marker(drawing, left + length / 2.0, y, 0.25 * text, index);
   drawing.text(left + length + 0.5 * text, y + 0.36 * text, name, Anchor::start, "small");
 }
