@@ -19,7 +19,7 @@ namespace croon::experiments {
 namespace {
 
 constexpr const char* kRangesAdvice =
-    "the figure of ranges shows clouds: use croon describe --out DIR";
+    "the figure of ranges shows clouds: use croon describe EXPERIMENT --out DIR";
 
 ExportCaption caption_of(const Results& results, const std::vector<std::string>& kinds) {
   return {results.name,

@@ -7,10 +7,7 @@ namespace {
 
 void draw_frame(Drawing& drawing, const Plot& plot, const Axis& sizes, const Sweep& sweep) {
   const double text = drawing.sheet().small();
-  for (const double ratio : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
-    plot.draw_y_tick(drawing, ratio, fixed_number(100.0 * ratio, 0), 0.7 * text,
-                     ratio == 0.0 ? "zero" : "grid");
-  }
+  draw_percent_ticks(drawing, plot);
   for (const double size : sizes.ticks) {
     plot.draw_x_tick(drawing, size, fixed_number(size, sizes.decimals), 1.4 * text);
   }

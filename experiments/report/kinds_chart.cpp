@@ -3,7 +3,6 @@
 #include <map>
 
 #include "experiments/report/panels.hpp"
-#include "framework/base/text.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -61,27 +60,24 @@ Drawing kinds_chart(const Summary& summary, const FigureOptions& options) {
     min_width = std::max(min_width, text_width(kind_labels.back(), text) + text);
   }
   // Kinds that do not fit beside each other continue in the next panel.
-  const double fitting = std::floor(plot_width_of(options.sheet, 1) / min_width);
-  const auto per_panel = static_cast<std::size_t>(
-      std::clamp(fitting, 1.0, static_cast<double>(std::max<std::size_t>(kinds.size(), 1))));
-  const std::size_t panels = (kinds.size() + per_panel - 1) / per_panel;
+  const auto fitting = static_cast<std::size_t>(
+      std::max(1.0, std::floor(plot_width_of(options.sheet, 1) / min_width)));
+  const std::size_t panels = (kinds.size() + fitting - 1) / fitting;
+  const std::size_t per_panel = (kinds.size() + panels - 1) / std::max<std::size_t>(panels, 1);
   const bool has_truth =
       std::none_of(summary.scene_kinds.begin(), summary.scene_kinds.end(), lacks_truth);
   const std::string what = has_truth ? "Success" : "Agreement";
   const std::string explanation =
-      "All sensors together; in parentheses the number of scenes; 95 % intervals over scenes "
-      "(require at least " +
+      "All sensors together; 95 % intervals over scenes (require at least " +
       std::to_string(kMinScenes) + " scenes)";
   const std::vector<std::string> labels = line_labels(variants);
   auto [grid, drawing] = panel_figure(options.sheet, what + " in % by kind of scene", explanation,
                                       panels, 1, is_wide(options.sheet) ? 0.25 : 0.5, labels);
   for (std::size_t p = 0; p < panels; ++p) {
     const Plot plot = plot_of(grid, p, {0.0, static_cast<double>(per_panel)}, {0.0, 1.0});
-    for (const double ratio : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
-      plot.draw_y_tick(drawing, ratio, fixed_number(100.0 * ratio, 0), 0.7 * text,
-                       ratio == 0.0 ? "zero" : "grid");
-    }
+    draw_percent_ticks(drawing, plot);
     draw_side_text(drawing, grid, p, plot, has_truth ? "success, %" : "agreement, %");
+    draw_panel_texts(drawing, plot, "", "kind of scene (number of scenes)");
     const std::size_t end = std::min(kinds.size(), (p + 1) * per_panel);
     for (std::size_t k = p * per_panel; k < end; ++k) {
       const double left = static_cast<double>(k - p * per_panel);

@@ -54,8 +54,10 @@ PanelFigure panel_figure(const Sheet& sheet, const std::string& title,
   const double rows = std::ceil(static_cast<double>(panels) / static_cast<double>(columns));
   grid.legend_top = grid.top + rows * grid.panel_height + 0.6 * text;
   const double height =
-      grid.legend_top +
-      grid.legend_line * std::ceil(entries / static_cast<double>(grid.legend_columns));
+      labels.empty()
+          ? grid.legend_top - 0.6 * text
+          : grid.legend_top +
+                grid.legend_line * std::ceil(entries / static_cast<double>(grid.legend_columns));
   Drawing drawing(grid.width, height, sheet);
   drawing.describe(title + ". " + explanation + ".");
   drawing.rectangle(0.0, 0.0, grid.width, height, "page");
@@ -87,6 +89,13 @@ void draw_side_text(Drawing& drawing, const PanelGrid& grid, std::size_t index, 
   if (drawing.sheet().has_title || index % grid.columns != 0) return;
   drawing.text(plot.left - 2.9 * drawing.sheet().small(), plot.top + plot.height / 2.0, text,
                Anchor::middle, "small", -90.0);
+}
+
+void draw_percent_ticks(Drawing& drawing, const Plot& plot) {
+  for (const double ratio : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
+    plot.draw_y_tick(drawing, ratio, fixed_number(100.0 * ratio, 0), 0.7 * drawing.sheet().small(),
+                     ratio == 0.0 ? "zero" : "grid");
+  }
 }
 
 void draw_decade_ticks(Drawing& drawing, const Plot& plot) {

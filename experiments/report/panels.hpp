@@ -51,6 +51,9 @@ void draw_panel_texts(Drawing& drawing, const Plot& plot, const std::string& abo
 void draw_side_text(Drawing& drawing, const PanelGrid& grid, std::size_t index, const Plot& plot,
                     const std::string& text);
 
+/// Ticks at every 20 % on a y axis of shares.
+void draw_percent_ticks(Drawing& drawing, const Plot& plot);
+
 /// Ticks at the powers of ten on an axis of decimal logarithms.
 void draw_decade_ticks(Drawing& drawing, const Plot& plot);
 

@@ -3,7 +3,6 @@
 
 #include "experiments/report/bands.hpp"
 #include "experiments/report/panels.hpp"
-#include "framework/base/text.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -45,10 +44,7 @@ std::vector<std::size_t> band_lines(const SuccessCurve& curve) {
 void draw_curve_panel(Drawing& drawing, const Plot& plot, const std::string& title,
                       const std::vector<double>& exponents) {
   const double text = drawing.sheet().small();
-  for (const double ratio : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
-    plot.draw_y_tick(drawing, ratio, fixed_number(100.0 * ratio, 0), 0.7 * text,
-                     ratio == 0.0 ? "zero" : "grid");
-  }
+  draw_percent_ticks(drawing, plot);
   draw_decade_ticks(drawing, plot);
   const double bound_x = plot.x(exponents[exponents.size() / 2]);
   drawing.line(bound_x, plot.top, bound_x, plot.top + plot.height, "zero");

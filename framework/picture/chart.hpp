@@ -56,7 +56,8 @@ void draw_band(Drawing& drawing, const Plot& plot, const std::vector<double>& xs
 /// Draws the marker of the series `index`, about 2 `radius` wide.
 void draw_marker(Drawing& drawing, double x, double y, double radius, std::size_t index);
 
-/// Draws a bar of the series `index`, without its marker.
+/// Draws a bar of the series `index`, without its marker. The outline is dashed where markers
+/// repeat, so that 35 series differ without colours.
 void draw_bar(Drawing& drawing, double x, double y, double width, double height, std::size_t index);
 
 /// Draws an arrowhead at (x, y) that points up or down, about 2 `radius` wide.
