@@ -11,6 +11,7 @@
 #include "experiments/analysis/claims.hpp"
 #include "experiments/analysis/coverage.hpp"
 #include "experiments/analysis/diagnostics.hpp"
+#include "experiments/analysis/step_times.hpp"
 #include "experiments/analysis/summary.hpp"
 #include "experiments/analysis/verdicts.hpp"
 #include "experiments/run/trial_record.hpp"
@@ -35,6 +36,7 @@ struct Results {
   std::vector<TrialRecord> records;  ///< In report order, without their steps.
   StepNumbers steps;                 ///< Numbers reported by steps; empty unless requested.
   std::vector<DiagnosticSummary> diagnostics;  ///< Summaries of `steps`.
+  std::vector<StepTime> times;                 ///< Empty unless set by the caller.
   Summary summary;
   std::map<std::string, std::string> references;  ///< The sensor that each is calibrated to.
   std::optional<Basin> basin;                     ///< Only of a sweep.

@@ -1,7 +1,6 @@
 #include "experiments/cli/commands.hpp"
 
 #include <tbb/info.h>
-#include <unistd.h>
 
 #include <map>
 #include <memory>
@@ -113,17 +112,6 @@ std::string empty_clouds_text(const std::vector<NamedScene>& scenes,
   return text;
 }
 
-/// The writer called `options.format`. Throws InputError if there is none.
-const DrawingFormat& writer_of(const DescribeOptions& options) {
-  std::vector<std::string> names;
-  for (const DrawingFormat& format : drawing_formats()) {
-    if (options.format == format.name) return format;
-    names.emplace_back(format.name);
-  }
-  throw InputError("", "--format",
-                   "unknown format \"" + options.format + "\"" + name_hint(options.format, names));
-}
-
 /// The files that describe `clouds`, in `folder`.
 std::vector<OutputFile> files_in(const std::filesystem::path& folder,
                                  const std::vector<CloudDescription>& clouds,
@@ -131,16 +119,6 @@ std::vector<OutputFile> files_in(const std::filesystem::path& folder,
   return {{folder / "clouds.csv", clouds_csv(clouds)},
           {folder / (std::string("ranges.") + writer.name),
            writer.bytes(ranges_chart(clouds, {sheet}))}};
-}
-
-/// Creates `folder`. Throws InputError if that fails or the folder is not writable.
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw InputError(folder.string(), "", "cannot be created: " + error.message());
-  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-    throw InputError(folder.string(), "", "expected a writable folder");
-  }
 }
 
 /// Creates the output folder and its missing parents; finally removes those that are still empty.
@@ -170,7 +148,7 @@ class OutputFolders {
 
 int describe_command(const DescribeOptions& options, const Catalogue& catalogue,
                      std::ostream& out) {
-  const DrawingFormat& writer = writer_of(options);
+  const DrawingFormat& writer = called("--format", options.format, drawing_formats());
   const Sheet sheet = sheet_called(options.width, options.format, kTwoColumns);
   refuse_repeats(options.experiments, "experiment");
   const std::vector<NamedScene> scenes = scenes_of(options, catalogue);

@@ -11,24 +11,15 @@
 #include "experiments/report/export_choice.hpp"
 #include "experiments/report/figures.hpp"
 #include "experiments/report/output_files.hpp"
+#include "experiments/store/timings_store.hpp"
 #include "framework/base/error.hpp"
 #include "framework/picture/writers.hpp"
 
 namespace croon::experiments {
 namespace {
 
-/// The row called `name`. Throws InputError for the option `option` if there is none.
-template <class Row>
-const Row& called(const std::string& option, const std::string& name,
-                  const std::vector<Row>& rows) {
-  std::vector<std::string> names;
-  for (const Row& row : rows) {
-    if (name == row.name) return row;
-    names.emplace_back(row.name);
-  }
-  throw InputError("", option,
-                   "unknown " + option.substr(2) + " \"" + name + "\"" + name_hint(name, names));
-}
+constexpr const char* kRangesAdvice =
+    "the figure of ranges shows clouds: use croon describe EXPERIMENT --out DIR";
 
 ExportCaption caption_of(const Results& results, const std::vector<std::string>& kinds) {
   return {results.name,
@@ -56,32 +47,77 @@ void refuse_options(const ExportOptions& options) {
   throw InputError("", "--units", "expected m or mm, found \"" + options.units + "\"");
 }
 
-std::string figure_bytes(const ExportOptions& options) {
-  if (options.figure == "ranges") {
-    throw InputError("", "--figure",
-                     "the figure of ranges shows clouds: use croon describe --out DIR");
-  }
-  const Figure& figure = called("--figure", options.figure, figures());
-  const std::string format = options.format.empty() ? "pdf" : options.format;
-  const DrawingFormat& writer = called("--format", format, drawing_formats());
-  FigureOptions figure_options;
-  figure_options.sheet = sheet_called(options.width, format, kTwoColumns);
-  figure_options.sheet.has_title = figure_options.sheet.has_title || options.title;
-  figure_options.length_unit = options.units;
+/// The results in the only folder, restricted to the chosen trials. The wall times of millions of
+/// trials take seconds to read, so only a figure that shows them has them.
+Results figure_results(const ExportOptions& options, bool with_times) {
   if (options.folders.size() > 1) {
     throw InputError("", "--figure",
                      "expected one folder, found " + std::to_string(options.folders.size()));
   }
   const std::filesystem::path& folder = options.folders.front();
-  const Results results =
+  Results results =
       restricted(read_results(folder), {options.variants, options.sensors, options.kinds});
-  const std::optional<Drawing> drawing = figure.draw(results, figure_options);
+  if (with_times) {
+    results.times = step_times(TimingsStore(timings_path(folder), Access::read), results.summary);
+  }
+  return results;
+}
+
+FigureOptions figure_options(const ExportOptions& options, Sheet sheet) {
+  sheet.has_title = sheet.has_title || options.title;
+  return {sheet, options.units};
+}
+
+std::string figure_bytes(const ExportOptions& options) {
+  if (options.figure == "ranges") throw InputError("", "--figure", kRangesAdvice);
+  const Figure& figure = called("--figure", options.figure, figures());
+  const std::string format = options.format.empty() ? "pdf" : options.format;
+  const DrawingFormat& writer = called("--format", format, drawing_formats());
+  const Sheet sheet = sheet_called(options.width, format, kTwoColumns);
+  const Results results = figure_results(options, figure.has_times);
+  const std::optional<Drawing> drawing = figure.draw(results, figure_options(options, sheet));
   if (!drawing) {
-    throw InputError(folder.string(), "",
+    throw InputError(options.folders.front().string(), "",
                      std::string("expected results with ") + figure.requirement +
                          " for the figure " + figure.name);
   }
   return writer.bytes(*drawing);
+}
+
+/// Writes every figure that the results have, as each format and for each column width unless the
+/// options choose one, and a line for each figure that is missing.
+void export_all_figures(const ExportOptions& options, std::ostream& out) {
+  if (options.out.empty()) throw InputError("", "--out", "expected a folder with --figure all");
+  std::vector<DrawingFormat> formats = drawing_formats();
+  if (!options.format.empty()) formats = {called("--format", options.format, formats)};
+  std::vector<NamedSheet> sheets = {called("--width", "one_column", named_sheets()),
+                                    called("--width", "two_columns", named_sheets())};
+  if (!options.width.empty()) sheets = {called("--width", options.width, named_sheets())};
+  const Results results = figure_results(options, true);
+  std::vector<OutputFile> files;
+  std::string missing;
+  for (const Figure& figure : figures()) {
+    for (const NamedSheet& sheet : sheets) {
+      const std::string name = figure.name + std::string("_") + sheet.name;
+      try {
+        const std::optional<Drawing> drawing =
+            figure.draw(results, figure_options(options, sheet.sheet));
+        if (!drawing) {
+          missing += std::string("no ") + figure.name + ": needs " + figure.requirement + "\n";
+          break;
+        }
+        for (const DrawingFormat& format : formats) {
+          files.push_back({options.out / (name + "." + format.name), format.bytes(*drawing)});
+        }
+      } catch (const InputError& error) {  // It does not fit the sheet.
+        missing += "no " + name + ": " + error.what() + "\n";
+      }
+    }
+  }
+  make_folder(options.out);
+  replace_output_files(files);
+  for (const OutputFile& file : files) out << file.path.string() << "\n";
+  out << missing << "no ranges: " << kRangesAdvice << "\n";
 }
 
 std::string table_bytes(const ExportOptions& options) {
@@ -138,6 +174,10 @@ Sheet sheet_called(const std::string& width, const std::string& format, const Sh
 
 int export_command(const ExportOptions& options, std::ostream& out) {
   refuse_options(options);
+  if (options.figure == "all") {
+    export_all_figures(options, out);
+    return 0;
+  }
   const std::string text = options.figure.empty() ? table_bytes(options) : figure_bytes(options);
   if (options.out.empty()) {
     out << text;
@@ -164,8 +204,11 @@ class ExportCommand final : public Command {
              names_of(export_formats()) +
                  "; default md. With --figure: " + names_of(drawing_formats()) + "; default pdf.",
              "a format");
-    add_path(command, "--out", o.out, "File to write; default standard output.");
-    add_text(command, "--figure", o.figure, "A figure: " + names_of(figures()) + ".", "a figure");
+    add_path(command, "--out", o.out,
+             "File to write, with --figure all a folder; default standard output.");
+    add_text(command, "--figure", o.figure,
+             "A figure: " + names_of(figures()) + "; or all, written to the folder --out.",
+             "a figure");
     add_width(command, o.width);
     add_text(command, "--units", o.units, "Unit of lengths: m, mm.", "m or mm");
     add_text(command, "--variants", o.variants, "Only these variants.", "a variant");

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "framework/base/error.hpp"
+
 namespace croon::experiments {
 
 // Options that several commands share, and the checks of their values.
@@ -45,6 +47,19 @@ void add_jobs(CLI::App& command, int& option);
 void add_trials(CLI::App& command, int& option, const std::string& sentence);
 /// --width, the width of a figure.
 void add_width(CLI::App& command, std::string& option);
+
+/// The row called `name`. Throws InputError for the option `option` if there is none.
+template <class Row>
+const Row& called(const std::string& option, const std::string& name,
+                  const std::vector<Row>& rows) {
+  std::vector<std::string> names;
+  for (const Row& row : rows) {
+    if (name == row.name) return row;
+    names.emplace_back(row.name);
+  }
+  throw InputError("", option,
+                   "unknown " + option.substr(2) + " \"" + name + "\"" + name_hint(name, names));
+}
 
 /// The names of `rows`: "csv, json".
 template <class Row>

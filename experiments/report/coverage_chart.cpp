@@ -1,7 +1,6 @@
 #include <array>
 
 #include "experiments/report/bands.hpp"
-#include "experiments/report/figure_title.hpp"
 #include "experiments/report/panels.hpp"
 #include "framework/base/text.hpp"
 
@@ -54,18 +53,13 @@ Drawing coverage_chart(const Coverage& coverage, const FigureOptions& options) {
   const std::vector<std::size_t> with_band = {lines.size() - 1};
   const std::string explanation = "On the diagonal covariances are correct, above it too large; " +
                                   band_sentence(labels, with_band);
-  const Sheet& sheet = options.sheet;
-  const FigureTitle title(kTitle, explanation, sheet, figure_width(sheet));
-  const PanelGrid grid =
-      panel_grid(sheet, kCoveragePanels, is_wide(sheet) ? 3 : 2, 1.0, labels, title.height());
-  Drawing drawing(grid.width, grid.height, sheet);
-  drawing.describe(std::string(kTitle) + ". " + explanation + ".");
-  drawing.rectangle(0.0, 0.0, grid.width, grid.height, "page");
-  title.draw(drawing, 0.5 * sheet.small(), 0.3 * sheet.small());
+  auto [grid, drawing] = panel_figure(options.sheet, kTitle, explanation, kCoveragePanels,
+                                      is_wide(options.sheet) ? 3 : 2, 1.0, labels);
   const std::vector<double> levels(kCoverageLevels.begin(), kCoverageLevels.end());
   for (std::size_t dof = 0; dof < kCoveragePanels; ++dof) {
     const Plot plot = plot_of(grid, dof, {0.0, 1.0}, {0.0, 1.0});
     coverage_panel(drawing, plot, dof);
+    draw_side_text(drawing, grid, dof, plot, "contain ground truth, %");
     for (const std::size_t i : with_band) {
       draw_band(drawing, plot, levels, intervals_of(lines[i].rows.at(dof)->held), i);
     }

@@ -70,12 +70,24 @@ const std::vector<Figure>& figures() {
          return coverage_chart(results.coverage, options);
        },
        "covariances and a dataset with ground truth"},
+      {"kinds",
+       [](const Results& results, const FigureOptions& options) -> std::optional<Drawing> {
+         if (results.summary.scene_kinds.empty()) return std::nullopt;
+         return kinds_chart(results.summary, options);
+       },
+       "a dataset with kinds of scenes"},
       {"success_curve",
        [](const Results& results, const FigureOptions& options) -> std::optional<Drawing> {
          if (results.summary.curve.rows.empty()) return std::nullopt;
          return success_curve_chart(results.summary.curve, options);
        },
        "a dataset with ground truth"},
+      {"times",
+       [](const Results& results, const FigureOptions& options) -> std::optional<Drawing> {
+         if (results.times.empty()) return std::nullopt;
+         return times_chart(results.times, options);
+       },
+       "wall times (timings.sqlite)", true},
       {"verdicts",
        [](const Results& results, const FigureOptions& options) -> std::optional<Drawing> {
          if (!has_curve(results.acceptance)) return std::nullopt;

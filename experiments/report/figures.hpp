@@ -15,6 +15,7 @@ struct Figure {
   /// std::nullopt if these results lack what the figure requires.
   std::optional<Drawing> (*draw)(const Results& results, const FigureOptions& options);
   const char* requirement;  ///< What results need for this figure, in words.
+  bool has_times = false;   ///< Whether it shows Results::times.
 };
 
 /// All figures, by name. A new figure is a row here.

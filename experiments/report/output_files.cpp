@@ -1,5 +1,7 @@
 #include "experiments/report/output_files.hpp"
 
+#include <unistd.h>
+
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
@@ -74,6 +76,15 @@ void replace_output_files(const std::vector<OutputFile>& files,
                           const std::vector<fs::path>& inputs) {
   refuse_to_replace(files, inputs);
   for (const OutputFile& file : files) write_whole_file(file.path, file.bytes);
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw InputError(folder.string(), "", "cannot be created: " + error.message());
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw InputError(folder.string(), "", "expected a writable folder");
+  }
 }
 
 void write_output_files(const std::vector<OutputFile>& files) {

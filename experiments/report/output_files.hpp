@@ -12,6 +12,9 @@ struct OutputFile {
   std::string bytes;
 };
 
+/// Creates `folder`. Throws InputError if that fails or the folder is not writable.
+void make_folder(const std::filesystem::path& folder);
+
 /// Writes the files, each completely or not at all. Throws InputError, before writing any, if one
 /// exists with different bytes, and if one cannot be written.
 void write_output_files(const std::vector<OutputFile>& files);

@@ -2,27 +2,45 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "experiments/report/figure_title.hpp"
 #include "framework/base/text.hpp"
 
 namespace croon::experiments {
+namespace {
 
+// The margins beside a plot, in multiples of the size of small text.
+constexpr double kLeft = 4.0;
+constexpr double kRight = 1.5;
+
+/// The width of a figure in units of its sheet; a default width for a screen, whose sheet has width
+/// 0.
 double figure_width(const Sheet& sheet) { return sheet.width > 0.0 ? sheet.width : 900.0; }
+
+}  // namespace
 
 bool is_wide(const Sheet& sheet) {
   return sheet.width <= 0.0 || sheet.width > 1.5 * kOneColumn.width;
 }
 
-PanelGrid panel_grid(const Sheet& sheet, std::size_t panels, std::size_t columns, double aspect,
-                     const std::vector<std::string>& labels, double title_height) {
+double plot_width_of(const Sheet& sheet, std::size_t columns) {
+  return figure_width(sheet) / static_cast<double>(columns) - kLeft * sheet.small() -
+         kRight * sheet.small();
+}
+
+PanelFigure panel_figure(const Sheet& sheet, const std::string& title,
+                         const std::string& explanation, std::size_t panels, std::size_t columns,
+                         double aspect, const std::vector<std::string>& labels) {
   const double text = sheet.small();
+  const FigureTitle lines(title, explanation, sheet, figure_width(sheet));
   PanelGrid grid{};
   grid.columns = columns;
   grid.width = figure_width(sheet);
-  grid.left = 4.0 * text;
-  grid.top = title_height + 1.8 * text;
+  grid.left = kLeft * text;
+  grid.top = lines.height() + 1.8 * text;
   grid.panel_width = grid.width / static_cast<double>(columns);
-  grid.plot_width = grid.panel_width - grid.left - 1.5 * text;
+  grid.plot_width = plot_width_of(sheet, columns);
   grid.plot_height = aspect * grid.plot_width;
   grid.panel_height = grid.plot_height + 5.2 * text;
   double max_label_width = 0.0;
@@ -35,9 +53,16 @@ PanelGrid panel_grid(const Sheet& sheet, std::size_t panels, std::size_t columns
   grid.legend_columns = static_cast<std::size_t>(std::clamp(fitting, 1.0, entries));
   const double rows = std::ceil(static_cast<double>(panels) / static_cast<double>(columns));
   grid.legend_top = grid.top + rows * grid.panel_height + 0.6 * text;
-  grid.height = grid.legend_top +
+  const double height =
+      labels.empty()
+          ? grid.legend_top - 0.6 * text
+          : grid.legend_top +
                 grid.legend_line * std::ceil(entries / static_cast<double>(grid.legend_columns));
-  return grid;
+  Drawing drawing(grid.width, height, sheet);
+  drawing.describe(title + ". " + explanation + ".");
+  drawing.rectangle(0.0, 0.0, grid.width, height, "page");
+  lines.draw(drawing, 0.5 * text, 0.3 * text);
+  return {grid, std::move(drawing)};
 }
 
 Plot plot_of(const PanelGrid& grid, std::size_t index, const Interval& x_range,
@@ -66,6 +91,13 @@ void draw_side_text(Drawing& drawing, const PanelGrid& grid, std::size_t index, 
                Anchor::middle, "small", -90.0);
 }
 
+void draw_percent_ticks(Drawing& drawing, const Plot& plot) {
+  for (const double ratio : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
+    plot.draw_y_tick(drawing, ratio, fixed_number(100.0 * ratio, 0), 0.7 * drawing.sheet().small(),
+                     ratio == 0.0 ? "zero" : "grid");
+  }
+}
+
 void draw_decade_ticks(Drawing& drawing, const Plot& plot) {
   for (double exponent = std::ceil(plot.x_range.low); exponent <= plot.x_range.high; ++exponent) {
     plot.draw_x_tick(drawing, exponent, shortest_number(std::pow(10.0, exponent)),
@@ -84,11 +116,11 @@ void draw_series(Drawing& drawing, const Plot& plot, const std::vector<double>& 
 }
 
 void draw_panel_legend(Drawing& drawing, const PanelGrid& grid,
-                       const std::vector<std::string>& labels) {
+                       const std::vector<std::string>& labels, SeriesMark mark) {
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const auto [row, column] = position_in_grid(i, grid.legend_columns);
     draw_legend_entry(drawing, grid.left + grid.legend_width * column,
-                      grid.legend_top + grid.legend_line * row, i, labels[i]);
+                      grid.legend_top + grid.legend_line * row, i, labels[i], mark);
   }
 }
 

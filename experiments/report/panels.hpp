@@ -11,10 +11,6 @@ namespace croon::experiments {
 
 // Common parts of figures with a line per variant or sensor: panels and a legend below them.
 
-/// The width of a figure in units of its sheet; a default width for a screen, whose sheet has width
-/// 0.
-double figure_width(const Sheet& sheet);
-
 /// Whether a figure has space for more panels per row than a column of a paper.
 bool is_wide(const Sheet& sheet);
 
@@ -25,13 +21,23 @@ struct PanelGrid {
   double plot_width, plot_height, panel_width, panel_height;
   std::size_t legend_columns;  ///< Entries per row.
   double legend_width, legend_line, legend_top;
-  double width, height;  ///< Size of the figure.
+  double width;  ///< Of the figure.
 };
 
-/// The grid of `panels` panels whose plots have height `aspect` times their width, with the legend
-/// `labels`, below a title of `title_height`.
-PanelGrid panel_grid(const Sheet& sheet, std::size_t panels, std::size_t columns, double aspect,
-                     const std::vector<std::string>& labels, double title_height);
+/// A figure with its title and description, and the grid for its panels.
+struct PanelFigure {
+  PanelGrid grid;
+  Drawing drawing;
+};
+
+/// The width of the plots of a figure with `columns` panels per row.
+double plot_width_of(const Sheet& sheet, std::size_t columns);
+
+/// The figure of `panels` panels, at most `columns` per row, whose plots have height `aspect` times
+/// their width, with space for the legend `labels`.
+PanelFigure panel_figure(const Sheet& sheet, const std::string& title,
+                         const std::string& explanation, std::size_t panels, std::size_t columns,
+                         double aspect, const std::vector<std::string>& labels);
 
 /// The plot of the panel `index`.
 Plot plot_of(const PanelGrid& grid, std::size_t index, const Interval& x_range,
@@ -45,6 +51,9 @@ void draw_panel_texts(Drawing& drawing, const Plot& plot, const std::string& abo
 void draw_side_text(Drawing& drawing, const PanelGrid& grid, std::size_t index, const Plot& plot,
                     const std::string& text);
 
+/// Ticks at every 20 % on a y axis of shares.
+void draw_percent_ticks(Drawing& drawing, const Plot& plot);
+
 /// Ticks at the powers of ten on an axis of decimal logarithms.
 void draw_decade_ticks(Drawing& drawing, const Plot& plot);
 
@@ -54,7 +63,7 @@ void draw_series(Drawing& drawing, const Plot& plot, const std::vector<double>& 
                  const std::vector<double>& ys, std::size_t series, std::size_t marker_every);
 
 void draw_panel_legend(Drawing& drawing, const PanelGrid& grid,
-                       const std::vector<std::string>& labels);
+                       const std::vector<std::string>& labels, SeriesMark mark = SeriesMark::line);
 
 /// The names of lines, shortened to fit a legend.
 std::vector<std::string> line_labels(const std::vector<std::string>& names);

@@ -5,6 +5,7 @@
 
 #include "experiments/analysis/basin.hpp"
 #include "experiments/analysis/coverage.hpp"
+#include "experiments/analysis/step_times.hpp"
 #include "experiments/analysis/summary.hpp"
 #include "experiments/analysis/verdicts.hpp"
 #include "framework/picture/drawing.hpp"
@@ -82,6 +83,13 @@ Drawing coverage_chart(const Coverage& coverage, const FigureOptions& options = 
 /// per sensor.
 Drawing acceptance_chart(const AcceptanceCurve& acceptance, const SuccessBounds& bounds,
                          const FigureOptions& options = {});
+
+/// The figure of kinds.svg: success by kind of scene (without ground truth: agreement), over all
+/// sensors, a bar per variant with its 95 % interval.
+Drawing kinds_chart(const Summary& summary, const FigureOptions& options = {});
+
+/// The figure of median wall times: a stacked bar per variant, with a segment per step.
+Drawing times_chart(const std::vector<StepTime>& times, const FigureOptions& options = {});
 
 /// The maximum value that the axis of a measure has to show: three times the lower median of the
 /// boxes' longer whiskers, so that the boxes of bad variants do not flatten those of good ones; but

@@ -1,22 +1,14 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 
-#include "experiments/report/plots.hpp"
+#include "experiments/report/panels.hpp"
 #include "framework/base/text.hpp"
-#include "framework/picture/chart.hpp"
 
 namespace croon::experiments {
 namespace {
 
 constexpr double kTopShare = 0.25;  // Share of points in one bin, at the top of the axis.
-
-/// The layout of the panels, in units of the sheet.
-struct RangesLayout {
-  std::size_t columns;
-  double left, top, gap, plot_width, plot_height, panel_width, width, height;
-};
 
 using Shares = std::array<double, kRangeBins>;
 
@@ -39,88 +31,53 @@ struct Histograms {
   }
 };
 
-RangesLayout layout_of(const Sheet& sheet, std::size_t sensors) {
-  RangesLayout layout{2, 46.0, 56.0, 60.0, 320.0, 170.0, 386.0, 772.0, 0.0};
-  if (sheet.width > 0.0) {
-    layout.columns = sheet.width > 1.5 * kOneColumn.width ? 2 : 1;
-    layout.left = 4.0 * sheet.small();
-    layout.top = 3.6 * sheet.small();
-    layout.gap = 3.4 * sheet.small();
-    layout.width = sheet.width;
-    layout.panel_width = sheet.width / static_cast<double>(layout.columns);
-    layout.plot_width = layout.panel_width - layout.left - 1.5 * sheet.small();
-    layout.plot_height = 75.0;
-  }
-  const auto rows = std::ceil(static_cast<double>(sensors) / static_cast<double>(layout.columns));
-  layout.height = layout.top + rows * (layout.plot_height + layout.gap);
-  return layout;
-}
-
-/// Draws the frame of the `index`-th panel and returns its plot: bins on the x axis, shares of
-/// points, in multiples of `kTopShare`, on the y axis.
-Plot draw_panel(Drawing& drawing, const RangesLayout& layout, std::size_t index,
-                const std::string& sensor) {
+/// Draws the frame of a panel: bins on the x axis, shares of points, in multiples of `kTopShare`,
+/// on the y axis.
+void draw_ranges_panel(Drawing& drawing, const Plot& plot, const std::string& sensor) {
   const double text = drawing.sheet().small();
-  const auto [row, column] = position_in_grid(index, layout.columns);
-  const double left = layout.left + column * layout.panel_width;
-  const double top = layout.top + row * (layout.plot_height + layout.gap);
-  const Plot plot = {left,      top, layout.plot_width, layout.plot_height, {0.0, kRangeBins},
-                     {0.0, 1.0}};
-  drawing.text(left, top - 0.6 * text, sensor, Anchor::start, "title");
   for (const double share : {0.0, 0.05, 0.1, 0.15, 0.2, 0.25}) {
-    plot.draw_y_tick(drawing, share / kTopShare, fixed_number(100.0 * share, 0) + " %", 0.5 * text);
+    plot.draw_y_tick(drawing, share / kTopShare, fixed_number(100.0 * share, 0), 0.7 * text);
   }
   for (std::size_t bin = 0; bin < kRangeBins; bin += 8) {
     const double range_m = range_bin_m(bin);
     plot.draw_x_tick(drawing, static_cast<double>(bin),
-                     fixed_number(range_m, range_m < 0.5 ? 1 : 0) + " m", 1.4 * text);
+                     fixed_number(range_m, range_m < 0.5 ? 1 : 0), 1.4 * text);
   }
-  return plot;
+  draw_panel_texts(drawing, plot, sensor, "range, m");
 }
 
-/// Draws a mean histogram from the sum of `count` of them. Series have markers at different bins.
-void draw_line(Drawing& drawing, const Plot& plot, const Shares& sum, int count,
-               std::size_t series) {
-  constexpr std::size_t kMarkerEvery = 5;
-  std::vector<Corner> curve;
-  for (std::size_t bin = 0; bin < kRangeBins; ++bin) {
-    curve.push_back({plot.x(static_cast<double>(bin) + 0.5),
-                     plot.y(std::min(sum[bin] / count, kTopShare) / kTopShare)});
-  }
-  drawing.polyline(curve, "curve " + series_style(series));
-  for (std::size_t bin = series % kMarkerEvery; bin < kRangeBins; bin += kMarkerEvery) {
-    draw_marker(drawing, curve[bin][0], curve[bin][1], 0.25 * drawing.sheet().small(), series);
-  }
-}
-
-void draw_legend(Drawing& drawing, const RangesLayout& layout,
-                 const std::vector<std::string>& names) {
-  const double text = drawing.sheet().small();
-  double left = layout.left;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    draw_legend_entry(drawing, left, 1.1 * text, i, names[i]);
-    left += legend_line(drawing.sheet()) + text_width(names[i], text) + 2.0 * text;
-  }
+/// The shares of a mean histogram, the sum of `count` of them divided by `kTopShare`.
+std::vector<double> shown_shares(const Shares& sum, int count) {
+  std::vector<double> shares;
+  for (const double share : sum) shares.push_back(std::min(share / count, kTopShare) / kTopShare);
+  return shares;
 }
 
 }  // namespace
 
 Drawing ranges_chart(const std::vector<CloudDescription>& clouds, const FigureOptions& options) {
+  constexpr std::size_t kMarkerEvery = 5;
+  std::vector<double> centres;
+  for (std::size_t bin = 0; bin < kRangeBins; ++bin) {
+    centres.push_back(static_cast<double>(bin) + 0.5);
+  }
   const Histograms histograms(clouds);
-  const RangesLayout layout = layout_of(options.sheet, histograms.sensors.size());
-  Drawing drawing(layout.width, layout.height, options.sheet);
-  drawing.describe("Share of each sensor's points over the range, mean over scenes.");
-  drawing.rectangle(0.0, 0.0, layout.width, layout.height, "page");
-  constexpr std::size_t kLegendColumns = 30;
-  draw_legend(drawing, layout, distinct_labels(histograms.datasets, kLegendColumns));
+  const std::vector<std::string> labels = line_labels(histograms.datasets);
+  auto [grid, drawing] = panel_figure(
+      options.sheet, "Share of each sensor's points over the range, in %", "Mean over scenes",
+      histograms.sensors.size(), is_wide(options.sheet) ? 2 : 1, 0.4, labels);
   for (std::size_t s = 0; s < histograms.sensors.size(); ++s) {
-    const Plot plot = draw_panel(drawing, layout, s, histograms.sensors[s]);
+    const Plot plot = plot_of(grid, s, {0.0, kRangeBins}, {0.0, 1.0});
+    draw_ranges_panel(drawing, plot, histograms.sensors[s]);
+    draw_side_text(drawing, grid, s, plot, "points, %");
     for (std::size_t d = 0; d < histograms.datasets.size(); ++d) {
       const auto found = histograms.sums.find({histograms.datasets[d], histograms.sensors[s]});
       if (found == histograms.sums.end()) continue;
-      draw_line(drawing, plot, found->second.first, found->second.second, d);
+      draw_series(drawing, plot, centres, shown_shares(found->second.first, found->second.second),
+                  d, kMarkerEvery);
     }
   }
+  draw_panel_legend(drawing, grid, labels);
   return drawing;
 }
 

@@ -110,13 +110,12 @@ Drawing residual_chart(const ViewedSensor& sensor, const Sheet& sheet) {
   }
   const double limit_mm = residual_limit_mm(profiles);
   const Axis y = round_axis(-limit_mm, limit_mm, 4);
-  const PanelGrid grid =
-      panel_grid(sheet, kResidualAxes.size(), is_wide(sheet) ? 4 : 2, 0.8, {}, 0.0);
-  const double height = grid.legend_top - 0.6 * sheet.small();
-  Drawing drawing(grid.width, height, sheet);
-  drawing.describe("Residuals of " + sensor.sensor +
-                   " over azimuth, elevation, range and incidence");
-  drawing.rectangle(0.0, 0.0, grid.width, height, "page");
+  Sheet untitled = sheet;  // The report has a caption.
+  untitled.has_title = false;
+  auto [grid, drawing] = panel_figure(
+      untitled, "Residuals of " + sensor.sensor + " over azimuth, elevation, range and incidence",
+      "Medians, in a band between the quartiles", kResidualAxes.size(), is_wide(sheet) ? 4 : 2, 0.8,
+      {});
   const double text = sheet.small();
   for (std::size_t k = 0; k < kResidualAxes.size(); ++k) {
     const Plot plot = plot_of(grid, k, {axes[k].low, axes[k].high}, {y.low, y.high});

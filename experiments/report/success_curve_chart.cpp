@@ -2,9 +2,7 @@
 #include <cmath>
 
 #include "experiments/report/bands.hpp"
-#include "experiments/report/figure_title.hpp"
 #include "experiments/report/panels.hpp"
-#include "framework/base/text.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -46,10 +44,7 @@ std::vector<std::size_t> band_lines(const SuccessCurve& curve) {
 void draw_curve_panel(Drawing& drawing, const Plot& plot, const std::string& title,
                       const std::vector<double>& exponents) {
   const double text = drawing.sheet().small();
-  for (const double ratio : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
-    plot.draw_y_tick(drawing, ratio, fixed_number(100.0 * ratio, 0), 0.7 * text,
-                     ratio == 0.0 ? "zero" : "grid");
-  }
+  draw_percent_ticks(drawing, plot);
   draw_decade_ticks(drawing, plot);
   const double bound_x = plot.x(exponents[exponents.size() / 2]);
   drawing.line(bound_x, plot.top, bound_x, plot.top + plot.height, "zero");
@@ -69,14 +64,8 @@ Drawing success_curve_chart(const SuccessCurve& curve, const FigureOptions& opti
   const std::vector<std::size_t> with_band = band_lines(curve);
   const std::string explanation =
       "The vertical line is the success bound; " + band_sentence(labels, with_band);
-  const Sheet& sheet = options.sheet;
-  const FigureTitle title(kTitle, explanation, sheet, figure_width(sheet));
-  const PanelGrid grid = panel_grid(sheet, kCurvePanels.size(), is_wide(sheet) ? 2 : 1, kAspect,
-                                    labels, title.height());
-  Drawing drawing(grid.width, grid.height, sheet);
-  drawing.describe(std::string(kTitle) + ". " + explanation + ".");
-  drawing.rectangle(0.0, 0.0, grid.width, grid.height, "page");
-  title.draw(drawing, 0.5 * sheet.small(), 0.3 * sheet.small());
+  auto [grid, drawing] = panel_figure(options.sheet, kTitle, explanation, kCurvePanels.size(),
+                                      is_wide(options.sheet) ? 2 : 1, kAspect, labels);
   for (std::size_t p = 0; p < kCurvePanels.size(); ++p) {
     const bool is_in_mm = kCurvePanels[p].of == CurveOf::translation && options.length_unit == "mm";
     std::vector<double> exponents;

@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 
-#include "experiments/report/figure_title.hpp"
 #include "experiments/report/panels.hpp"
 #include "framework/base/text.hpp"
 
@@ -76,14 +75,8 @@ Drawing acceptance_chart(const AcceptanceCurve& acceptance, const SuccessBounds&
       "A pose is wrong if its error exceeds the threshold, a multiple of the bounds " +
       shortest_number(bounds.rotation_deg) + " deg and " + shortest_number(bounds.translation_m) +
       " m (vertical line); a trial without a pose counts as rejected and wrong";
-  const Sheet& sheet = options.sheet;
-  const FigureTitle title(kTitle, explanation, sheet, figure_width(sheet));
-  const PanelGrid grid = panel_grid(sheet, kAcceptancePanels.size(), 2, is_wide(sheet) ? 0.62 : 1.0,
-                                    labels, title.height());
-  Drawing drawing(grid.width, grid.height, sheet);
-  drawing.describe(std::string(kTitle) + ". " + explanation + ".");
-  drawing.rectangle(0.0, 0.0, grid.width, grid.height, "page");
-  title.draw(drawing, 0.5 * sheet.small(), 0.3 * sheet.small());
+  auto [grid, drawing] = panel_figure(options.sheet, kTitle, explanation, kAcceptancePanels.size(),
+                                      2, is_wide(options.sheet) ? 0.62 : 1.0, labels);
   std::vector<double> exponents;
   for (const SuccessBounds& threshold : acceptance.thresholds) {
     exponents.push_back(std::log10(threshold.rotation_deg / bounds.rotation_deg));

@@ -81,6 +81,13 @@ std::string shortened(const std::string& label, std::size_t columns) {
   return cut_in_the_middle(label, columns);
 }
 
+/// The style with the colour of the series `index` and the dashes `dash`; both repeat.
+std::string dashed_style(std::size_t index, std::size_t dash) {
+  dash %= kSeriesDashes;
+  return "c" + std::to_string(index % kSeriesColours) +
+         (dash == 0 ? "" : " d" + std::to_string(dash));
+}
+
 }  // namespace
 
 Axis round_axis(double low, double high, int ticks) {
@@ -129,17 +136,9 @@ void Plot::draw_y_tick(Drawing& drawing, double value, const std::string& text, 
   drawing.text(left - gap, y(value) + 0.36 * drawing.sheet().small(), text, Anchor::end, "small");
 }
 
-std::string series_style(std::size_t index) {
-  const std::size_t dash = index % kSeriesDashes;
-  return "c" + std::to_string(index % kSeriesColours) +
-         (dash == 0 ? "" : " d" + std::to_string(dash));
-}
+std::string series_style(std::size_t index) { return dashed_style(index, index); }
 
-std::string box_style(std::size_t index) {
-  const std::size_t dash = index / kSeriesColours % kSeriesDashes;
-  return "c" + std::to_string(index % kSeriesColours) +
-         (dash == 0 ? "" : " d" + std::to_string(dash));
-}
+std::string box_style(std::size_t index) { return dashed_style(index, index / kSeriesColours); }
 
 void draw_band(Drawing& drawing, const Plot& plot, const std::vector<double>& xs,
                const std::vector<std::optional<Interval>>& ys, std::size_t index) {
@@ -188,6 +187,11 @@ void draw_marker(Drawing& drawing, double x, double y, double radius, std::size_
   }
 }
 
+void draw_bar(Drawing& drawing, double x, double y, double width, double height,
+              std::size_t index) {
+  drawing.rectangle(x, y, width, height, "box " + dashed_style(index, index / kSeriesMarkers));
+}
+
 void draw_arrowhead(Drawing& drawing, double x, double y, double radius, bool is_up,
                     const std::string& style) {
   const double tip = is_up ? -radius : radius;
@@ -197,10 +201,14 @@ void draw_arrowhead(Drawing& drawing, double x, double y, double radius, bool is
 double legend_line(const Sheet& sheet) { return 2.6 * sheet.small(); }
 
 void draw_legend_entry(Drawing& drawing, double left, double y, std::size_t index,
-                       const std::string& name) {
+                       const std::string& name, SeriesMark mark) {
   const double length = legend_line(drawing.sheet());
   const double text = drawing.sheet().small();
-  drawing.line(left, y, left + length, y, "curve " + series_style(index));
+  if (mark == SeriesMark::line) {
+    drawing.line(left, y, left + length, y, "curve " + series_style(index));
+  } else {
+    draw_bar(drawing, left, y - 0.4 * text, length, 0.8 * text, index);
+  }
   draw_marker(drawing, left + length / 2.0, y, 0.25 * text, index);
   drawing.text(left + length + 0.5 * text, y + 0.36 * text, name, Anchor::start, "small");
 }

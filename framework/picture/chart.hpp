@@ -56,14 +56,21 @@ void draw_band(Drawing& drawing, const Plot& plot, const std::vector<double>& xs
 /// Draws the marker of the series `index`, about 2 `radius` wide.
 void draw_marker(Drawing& drawing, double x, double y, double radius, std::size_t index);
 
+/// Draws a bar of the series `index`, without its marker. The outline is dashed where markers
+/// repeat, so that 35 series differ without colours.
+void draw_bar(Drawing& drawing, double x, double y, double width, double height, std::size_t index);
+
 /// Draws an arrowhead at (x, y) that points up or down, about 2 `radius` wide.
 void draw_arrowhead(Drawing& drawing, double x, double y, double radius, bool is_up,
                     const std::string& style);
 
-/// Draws a legend entry with a line in the style of the series `index` and its name, centred on
-/// `y`. The line is `legend_line` long.
+/// Whether the marks of series are lines or bars.
+enum class SeriesMark { line, bar };
+
+/// Draws a legend entry with a line or bar in the style of the series `index` and its name, centred
+/// on `y`. The line or bar is `legend_line` long.
 void draw_legend_entry(Drawing& drawing, double left, double y, std::size_t index,
-                       const std::string& name);
+                       const std::string& name, SeriesMark mark = SeriesMark::line);
 double legend_line(const Sheet& sheet);
 
 /// Labels for a legend. Parts, separated by slashes, that all names share are omitted; labels

@@ -69,6 +69,24 @@ TEST_F(OutputFile, IsWrittenAndReplacesAnEarlierOne) {
   }
 }
 
+TEST_F(OutputFile, OfAllFiguresIsAFolder) {
+  const std::string command = "export " + path("results") + " --figure all";
+  EXPECT_EQ(croon(command).code, 2);
+  const Answer answer = croon(command + " --out " + path("papers/figures"));
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  for (const char* figure : {"box_plots", "kinds", "success_curve", "times"}) {
+    for (const char* ending : {"_one_column.pdf", "_one_column.svg", "_two_columns.pdf"}) {
+      const std::string file = path("papers/figures/") + figure + ending;
+      EXPECT_TRUE(fs::exists(file)) << file;
+      EXPECT_NE(answer.text.find(file + "\n"), std::string::npos) << answer.text;
+    }
+  }
+  EXPECT_NE(answer.text.find("no basin: needs a sweep of starts and ground truth\n"),
+            std::string::npos);
+  EXPECT_EQ(croon(command + " --format svg --width screen --out " + path("screen")).code, 0);
+  EXPECT_EQ(std::distance(fs::directory_iterator(path("screen")), {}), 4);
+}
+
 TEST_F(OutputFile, OfATableHasEachFolderOnce) {
   const std::string results = path("results");
   const Answer answer = croon("export " + results + " " + path("data/../results"));
