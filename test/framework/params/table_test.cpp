@@ -127,7 +127,7 @@ TEST(Table, ReadsTheFormerNameOfAKeyWithANote) {
   const nlohmann::json former = {{"extent_m", 2}};
   const Node node(former, "f", faults, {{"extent_m", {"g", "extent_m"}}});
   const Sample sample = sample_table().read(node.noting(notes), {}, NoStages());
-  EXPECT_EQ(sample_table().members_json(sample).rfind(R"("size_m":2,)", 0), 0U);
+  EXPECT_EQ(sample_table().json(sample).rfind(R"({"size_m":2,)", 0), 0U);
   sample_table().read(node.noting(notes), {}, NoStages());
   EXPECT_TRUE(faults.empty());
   ASSERT_EQ(notes.size(), 1U);
