@@ -37,6 +37,14 @@ View whole_view(const Table& table, std::size_t names) {
   return view;
 }
 
+View with_heading_as_column(View view) {
+  if (view.heading.empty()) return view;
+  view.columns.insert(view.columns.begin(), {view.heading});
+  view.heading.clear();
+  ++view.names;
+  return view;
+}
+
 ShownCells::ShownCells(const Table& table, const Shown& shown)
     : table_(table), shows_each_(shown.shows_each) {
   after_ = shown.content.empty() ? "<" + shown.title + ">" : shown.content;
