@@ -51,7 +51,9 @@ ShownCells::ShownCells(const Table& table, const Shown& shown)
   for (std::size_t begin = after_.find('<'); begin != std::string::npos; begin = after_.find('<')) {
     const std::size_t end = after_.find('>', begin);
     const std::string name = after_.substr(begin + 1, end - begin - 1);
-    pieces_.push_back({after_.substr(0, begin), table.index_of(name)});
+    const bool is_index = name.rfind('#', 0) == 0;
+    pieces_.push_back(
+        {after_.substr(0, begin), is_index ? std::stoul(name.substr(1)) : table.index_of(name)});
     after_.erase(0, end + 1);
   }
 }

@@ -155,8 +155,8 @@ class Columns {
 struct Shown {
   std::string title;
   /// Template of a cell: "<pitch_mean_deg> ± <pitch_std_deg>" combines the cells of two columns
-  /// with text in between; empty for the column named like the title. Text is written verbatim, in
-  /// the language of the format.
+  /// with text in between, and "<#2>" is the third column, whatever its name; empty for the column
+  /// named like the title. Text is written verbatim, in the language of the format.
   std::string content = {};
   /// Whether each cell without a value shows "-", instead of one "-" for all.
   bool shows_each = false;

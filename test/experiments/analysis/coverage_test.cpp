@@ -8,7 +8,8 @@
 #include <cmath>
 
 #include "experiments/report/result_list.hpp"
-#include "experiments/report/run_text.hpp"
+#include "experiments/report/result_sections.hpp"
+#include "framework/document/renderers.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
@@ -117,7 +118,7 @@ TEST(Coverage, HasTablesAndAFigure) {
   results.coverage = coverage_on(records);
   EXPECT_THAT(result_file("coverage.csv", results), HasSubstr("base,all,all,0.95,20,"));
   EXPECT_THAT(result_file("nees.csv", results), HasSubstr("base,all,20,"));
-  EXPECT_THAT(coverage_text(results.coverage), HasSubstr("yaw"));
+  EXPECT_THAT(text_section(coverage_section(results)), HasSubstr("yaw"));
   const std::string picture = result_file("coverage.svg", results);
   for (const std::string& name : kDofNames) EXPECT_THAT(picture, HasSubstr(">" + name + "<"));
   const std::string rows = result_file("covariance.csv", results);
