@@ -54,11 +54,11 @@ TableBlock claims_table(const std::vector<ClaimResult>& results, Facts& reasons)
   return {"",
           table,
           view,
-          {"trials, scenes: included in the number; share: trials that succeed (no ground truth: "
-           "that agree), in % of all",
-           "shown: no result within the success bounds could be outside the band",
-           "not enough trials: fewer than " + std::to_string(kMinClaimTrials) + " trials or " +
-               std::to_string(kMinScenes) + " scenes"}};
+          {"Trials, scenes: included in the number; share: trials that succeed (no ground truth: "
+           "that agree), in % of all.",
+           "Shown: no result within the success bounds could be outside the band.",
+           "Not enough trials: fewer than " + std::to_string(kMinClaimTrials) + " trials or " +
+               std::to_string(kMinScenes) + " scenes."}};
 }
 
 }  // namespace

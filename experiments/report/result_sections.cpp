@@ -64,8 +64,8 @@ Section verdicts_section(const Results& results) {
     columns.add({name}, [count = count](const Row& row) { return row.at_bounds.*count; });
   }
   return table_section("verdicts", "Verdicts",
-                       "poses that the program accepts and rejects; right: within " +
-                           bounds_text(results.summary.bounds) + "ground truth",
+                       "Poses that the program accepts and rejects; right: within " +
+                           bounds_text(results.summary.bounds) + "ground truth.",
                        columns.table(results.acceptance.rows), 2);
 }
 
@@ -95,9 +95,9 @@ Section coverage_section(const Results& results) {
   });
   return table_section(
       "covariances", "Covariances",
-      "intervals that contain ground truth, in % of accepted trials [95 % interval over scenes]",
+      "Intervals that contain ground truth, in % of accepted trials [95 % interval over scenes].",
       columns.table(of_all_sensors(coverage.rows)), 3,
-      {"nees: normalised squared error (expected median: 5.35)"});
+      {"NEES: normalised squared error (expected median: 5.35)."});
 }
 
 Section basin_section(const Results& results) {
@@ -131,12 +131,13 @@ Section basin_section(const Results& results) {
       });
   const char* const change = sweep.of == SweepOf::rotation ? "rotated by" : "moved by";
   return table_section(
-      "basin", "Basin", "success in % for initial guesses " + std::string(change) + " ... " + unit,
+      "basin", "Basin",
+      "Success in % for initial guesses " + std::string(change) + " ... " + unit + ".",
       columns.table(of_all_sensors(results.basin->rows)), 1,
-      {"radius: maximum size up to which each level has at least " +
-           fixed_number(100.0 * kBasinRatio, 0) + " % of the success at the first level",
+      {"Radius: maximum size up to which each level has at least " +
+           fixed_number(100.0 * kBasinRatio, 0) + " % of the success at the first level.",
        "95 % interval: of the radius, over scenes; requires at least " +
-           std::to_string(kMinScenes) + " scenes"});
+           std::to_string(kMinScenes) + " scenes."});
 }
 
 Section builds_section(const Results& results) {
@@ -195,10 +196,10 @@ Section clouds_section(const std::vector<CloudDescription>& clouds) {
   }
   return table_section(
       "clouds", "Clouds",
-      "median over scenes (minimum to maximum); ground: within 0.2 m of the largest plane", table,
+      "Median over scenes (minimum to maximum); ground: within 0.2 m of the largest plane.", table,
       2,
-      {"distance to the reference's nearest point, over the points with one within 1 m "
-       "(overlap)"});
+      {"Distance to the reference's nearest point, over the points with one within 1 m "
+       "(overlap)."});
 }
 
 Section plan_section(const PlanCounts& plan) {

@@ -103,17 +103,11 @@ class SummarySections {
     view.columns.push_back({"rejected"});
     view.columns.push_back({"failed"});
     add_measures(view, kDistances, {"median", "p95"}, ", ");
-    std::vector<std::string> notes;
-    if (has_truth_) notes.push_back("success: " + bounds_ + "ground truth; errors of these trials");
-    if (has_consensus_) {
-      notes.push_back("agreement (no ground truth): " + bounds_ +
-                      "the consensus of the scene's trials; deviations of these trials from the "
-                      "consensus of all scenes");
-    }
-    notes.emplace_back("rotation, translation: median, 95th percentile");
+    std::vector<std::string> notes = share_sentences(table_, summary_.bounds);
+    notes.emplace_back("Rotation, translation: median, 95th percentile.");
     if (any_row([](const SummaryRow& row) { return !main_share(row).interval; })) {
-      notes.push_back("no interval: trials of one scene are dependent, and there are fewer than " +
-                      std::to_string(kMinScenes) + " scenes");
+      notes.push_back("No interval: trials of one scene are dependent, and there are fewer than " +
+                      std::to_string(kMinScenes) + " scenes.");
     }
     return by_variant("", table_, view, notes);
   }
@@ -141,7 +135,7 @@ class SummarySections {
     if (!summary_.scene_kinds.empty()) add("kinds", share_ + " by kind of scene, in %", kinds());
     if (has_scenes_) add("scenes", share_ + " per scene", scenes());
     if (has_consensus_) add("poses", "Poses on which the scenes agree", poses());
-    if (!summary_.reasons.empty()) add("reasons", "Reasons of trials without a pose", reasons());
+    if (!summary_.reasons.empty()) add("reasons", "Reported reasons", reasons());
     return sections;
   }
 
@@ -159,7 +153,7 @@ class SummarySections {
   }
 
   TableBlock frames() const {
-    return by_variant("scenes in which every trial of every sensor succeeds",
+    return by_variant("Scenes in which every trial of every sensor succeeds.",
                       frame_columns().table(summary_.frames),
                       {{{"frames", "<success>/<scenes>"},
                         {"%", "<success_ratio>"},
@@ -203,15 +197,15 @@ class SummarySections {
                      {"p", "<p_translation>"}},
                     0};
     std::vector<std::string> notes = {
-        "* p < 0.05 over trials (McNemar, Wilcoxon; Holm), ** also with scenes as units"};
+        "* p < 0.05 over trials (McNemar, Wilcoxon; Holm), ** also with scenes as units."};
     if (has_consensus_) {
       notes.emplace_back(
-          "no ground truth: distances to the consensus of the variant's own trials of the scene, "
-          "which measure repeatability, not accuracy");
+          "No ground truth: distances to the consensus of the variant's own trials of the scene, "
+          "which measure repeatability, not accuracy.");
     }
     return by_variant(
-        "paired by trial: median difference [95 % interval over scenes], failures are infinite "
-        "errors",
+        "Paired by trial: median difference [95 % interval over scenes]; failures are infinite "
+        "errors.",
         columns.table(of_all_sensors(summary_.comparisons)), view, notes);
   }
 
@@ -224,10 +218,10 @@ class SummarySections {
     view.columns.push_back({"scenes", "<scenes_closed>/<scenes>"});
     view.columns.push_back({"agreed deg, m", "<agreed_rotation_deg>, <agreed_translation_m>"});
     return by_variant("", loop_columns().table(summary_.loops), view,
-                      {"closed: T_reference_target T_target_source " + bounds_ +
-                           "T_reference_source; deviations of loops from it",
-                       "scenes: loops over each scene's consensus that close; agreed: the loop "
-                       "over the consensus of all scenes"});
+                      {"Closed: T_reference_target T_target_source " + bounds_ +
+                           "T_reference_source; deviations of loops from it.",
+                       "Scenes: loops over each scene's consensus that close; agreed: the loop "
+                       "over the consensus of all scenes."});
   }
 
   std::size_t index_of_sensor(const std::string& sensor) const {
@@ -273,8 +267,8 @@ class SummarySections {
     }
     std::vector<std::string> notes;
     if (shown.rows.size() < ranks.size()) {
-      notes = {"the worst " + std::to_string(shown.rows.size()) + " of " +
-               std::to_string(ranks.size()) + " rows"};
+      notes = {"The worst " + std::to_string(shown.rows.size()) + " of " +
+               std::to_string(ranks.size()) + " rows."};
     }
     return by_variant("", shown, pivot.view, notes);
   }
@@ -296,13 +290,13 @@ class SummarySections {
                      {"yaw deg", "<yaw_deg>"},
                      {"agreeing", "<agreeing>/<trials>"},
                      {"spread deg, m", "<spread_deg>, <spread_m>"}}};
-    std::vector<std::string> notes = {"agreeing: trials " + bounds_ +
-                                      "it; spread: their root mean square distance from it"};
+    std::vector<std::string> notes = {"Agreeing: trials " + bounds_ +
+                                      "it; spread: their root mean square distance from it."};
     if (std::any_of(rows.begin(), rows.end(),
                     [](const SummaryRow& row) { return !agreed_consensus(row); })) {
-      notes.emplace_back("no pose: no two trials agree");
+      notes.emplace_back("No pose: no two trials agree.");
     }
-    return by_variant("consensus T_reference_sensor of all scenes (extrinsics.json)",
+    return by_variant("Consensus T_reference_sensor of all scenes (extrinsics.json).",
                       columns.table(rows), view, notes);
   }
 
@@ -315,7 +309,7 @@ class SummarySections {
     if (const std::size_t others = all.size() - static_cast<std::size_t>(shown); others > 0) {
       std::size_t trials = 0;
       for (auto r = all.begin() + shown; r != all.end(); ++r) trials += std::size_t(r->count);
-      notes = {"and " + counted(others, "other reason") + " of " + counted(trials, "trial")};
+      notes = {"And " + counted(others, "other reason") + " of " + counted(trials, "trial") + "."};
     }
     return by_variant("", reason_columns().table({all.begin(), all.begin() + shown}), view, notes);
   }
@@ -336,9 +330,9 @@ class SummarySections {
 Section summary_section(const Results& results) {
   Section section{"summary", "Results", {}};
   if (results.scenes_per_trial > 1) {
-    section.blocks.emplace_back(Paragraph{"each trial calibrates the rig from " +
+    section.blocks.emplace_back(Paragraph{"Each trial calibrates the rig from " +
                                           std::to_string(results.scenes_per_trial) +
-                                          " scenes; a \"scene\" below is such a group"});
+                                          " scenes; a \"scene\" below is such a group."});
   }
   if (results.summary.rows.empty()) {
     section.blocks.emplace_back(Paragraph{"no trials"});

@@ -289,7 +289,7 @@ TEST(RunCommand, KnowsNoSuccessWithoutTruthAlsoIfEveryTrialFailed) {
     return test::summary_text(read_results(bench.folder().path() / "out").summary);
   };
   const std::string without = summary_of(false);
-  EXPECT_NE(without.find("agreement (no ground truth)"), std::string::npos) << without;
+  EXPECT_NE(without.find("Agreement (no ground truth)"), std::string::npos) << without;
   EXPECT_EQ(without.find("success"), std::string::npos) << without;
   const std::string with = summary_of(true);
   EXPECT_NE(with.find("success"), std::string::npos) << with;

@@ -75,7 +75,7 @@ TEST(Extrinsics, OnWhichNoTwoTrialsAgreeAreNothing) {
   EXPECT_TRUE(found["T_reference_sensor"].is_null());
   EXPECT_EQ(found["agreeing"], 0);
   const std::string text = test::summary_text(summary);
-  EXPECT_NE(text.find("no pose: no two trials agree\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("No pose: no two trials agree.\n"), std::string::npos) << text;
 }
 
 TEST(Extrinsics, DoNotComeFromScenesThatAreAlikeByChance) {

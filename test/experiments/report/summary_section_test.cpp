@@ -23,12 +23,12 @@ base       left        6/8   75.0              -           1         0       1  
 base       right       6/7   85.7              -           0         1       0  0.024, 0.035  0.0104, 0.0202
 no volume  left        6/8   75.0              -           1         0       1  0.035, 0.060  0.0202, 0.0401
 no volume  right       6/6  100.0              -           0         0       0  0.035, 0.060  0.0202, 0.0401
-success: within 0.5 deg and 0.1 m of ground truth; errors of these trials
-rotation, translation: median, 95th percentile
-no interval: trials of one scene are dependent, and there are fewer than 6 scenes
+Success: within 0.5 deg and 0.1 m of ground truth; errors are over these trials.
+Rotation, translation: median, 95th percentile.
+No interval: trials of one scene are dependent, and there are fewer than 6 scenes.
 
 Frames
-scenes in which every trial of every sensor succeeds
+Scenes in which every trial of every sensor succeeds.
 variant    frames    %  95 % interval
 ---------  ------  ---  -------------
 base          0/2  0.0              -
@@ -51,11 +51,11 @@ no volume  left    0.020 / 0.000  0.000 / 0.028  0.020 / 0.000  0.0200 / 0.0283 
 no volume  right   0.020 / 0.000  0.000 / 0.028  0.020 / 0.000  0.0200 / 0.0283  0.0000 / 0.0000  0.0000 / 0.0000
 
 Comparison with base
-paired by trial: median difference [95 % interval over scenes], failures are infinite errors
+Paired by trial: median difference [95 % interval over scenes]; failures are infinite errors.
 variant    pairs  won  lost      p  rotation deg       p  translation m       p
 ---------  -----  ---  ----  -----  ------------  ------  -------------  ------
 no volume     14    0     0  1.000        0.0101  0.023*        0.00978  0.023*
-* p < 0.05 over trials (McNemar, Wilcoxon; Holm), ** also with scenes as units
+* p < 0.05 over trials (McNemar, Wilcoxon; Holm), ** also with scenes as units.
 
 Success per scene
 variant    scene  left  right
@@ -65,7 +65,7 @@ base       0002    3/4    3/4
 no volume  0001    3/4    3/3
 no volume  0002    3/4    3/3
 
-Reasons of trials without a pose
+Reported reasons
 variant    status    reason                                         trials
 ---------  --------  ---------------------------------------------  ------
 base       rejected  two yaws fit                                        1
@@ -84,7 +84,7 @@ TEST(SummaryTable, KeepsWithin120Columns) {
 
 TEST(SummaryTable, WithoutTruthShowsAgreement) {
   const std::string text = test::summary_text(summarise(test::one_of_four_astray(), kBounds, {}));
-  EXPECT_NE(text.find("agreement (no ground truth)"), std::string::npos);
+  EXPECT_NE(text.find("Agreement (no ground truth)"), std::string::npos);
   EXPECT_EQ(text.find("success"), std::string::npos);
   EXPECT_NE(text.find("\nleft          3/4  75.0"), std::string::npos);
   EXPECT_EQ(text.find("across"), std::string::npos);  // One scene alone.
@@ -128,7 +128,7 @@ TEST(SummaryTable, OfManyReasonsShowsTheMostFrequent) {
   const std::string text = test::summary_text(summarise(records, kBounds, {}));
   EXPECT_NE(text.find("why 0"), std::string::npos);
   EXPECT_EQ(text.find("why 66"), std::string::npos);
-  EXPECT_NE(text.find("and 2 other reasons of 4 trials\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("And 2 other reasons of 4 trials.\n"), std::string::npos) << text;
 }
 
 TEST(SummaryTable, OfThousandsOfScenesIsNotLonger) {
@@ -147,7 +147,7 @@ TEST(SummaryTable, OfThousandsOfScenesIsNotLonger) {
   EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 40);
   EXPECT_NE(text.find("-----\n1007    0/1    0/1\n107     0/1    0/1\n"), std::string::npos)
       << text;
-  EXPECT_NE(text.find("\nthe worst 12 of 2000 rows\n"), std::string::npos);
+  EXPECT_NE(text.find("\nThe worst 12 of 2000 rows.\n"), std::string::npos);
   // One trial per scene has no spread within.
   EXPECT_EQ(text.find("within scenes"), std::string::npos);
   EXPECT_EQ(text.find("nan"), std::string::npos);
