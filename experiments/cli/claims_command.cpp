@@ -7,7 +7,8 @@
 #include "experiments/analysis/results.hpp"
 #include "experiments/cli/command.hpp"
 #include "experiments/cli/options.hpp"
-#include "experiments/report/run_text.hpp"
+#include "experiments/report/result_sections.hpp"
+#include "framework/document/renderers.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -28,7 +29,7 @@ int claims_command(const std::vector<std::filesystem::path>& folders, std::ostre
   bool are_met = true;
   for (const std::filesystem::path& folder : folders) {
     const Results results = read_results(folder);
-    text += claims_section(results);
+    text += "\n" + markdown_section(claims_page(results));
     are_met = are_met && std::all_of(results.claims.begin(), results.claims.end(), is_met);
   }
   out << text;

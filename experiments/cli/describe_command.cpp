@@ -12,11 +12,12 @@
 #include "experiments/file/experiment.hpp"
 #include "experiments/report/output_files.hpp"
 #include "experiments/report/plots.hpp"
+#include "experiments/report/result_sections.hpp"
 #include "experiments/report/result_tables.hpp"
-#include "experiments/report/run_text.hpp"
 #include "experiments/run/sensor_pairs.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/threads.hpp"
+#include "framework/document/renderers.hpp"
 #include "framework/picture/writers.hpp"
 #include "framework/pipeline/cloud_description.hpp"
 
@@ -169,10 +170,7 @@ int describe_command(const DescribeOptions& options, const Catalogue& catalogue,
     clouds.insert(clouds.end(), of_scene.clouds.begin(), of_scene.clouds.end());
   }
   if (!options.out.empty()) replace_output_files(files_in(options.out, clouds, writer, sheet));
-  out << "median over scenes (minimum to maximum); ground: within 0.2 m of the largest plane;\n"
-         "distance to the reference's nearest point, over the points with one within 1 m "
-         "(overlap)\n\n"
-      << clouds_text(clouds) << empty_clouds_text(scenes, by_scene);
+  out << text_section(clouds_section(clouds)) << empty_clouds_text(scenes, by_scene);
   return 0;
 }
 

@@ -7,7 +7,7 @@
 #include "experiments/cli/command.hpp"
 #include "experiments/cli/options.hpp"
 #include "experiments/report/result_files.hpp"
-#include "experiments/report/run_text.hpp"
+#include "experiments/report/result_sections.hpp"
 #include "experiments/store/manifest.hpp"
 #include "experiments/store/store.hpp"
 #include "experiments/store/store_header.hpp"

@@ -5,11 +5,12 @@
 #include "experiments/cli/command.hpp"
 #include "experiments/cli/options.hpp"
 #include "experiments/report/result_clouds.hpp"
+#include "experiments/report/result_sections.hpp"
 #include "experiments/report/run_in_folder.hpp"
-#include "experiments/report/run_text.hpp"
 #include "experiments/run/pipeline_tree.hpp"
 #include "framework/base/text.hpp"
 #include "framework/base/whole_file.hpp"
+#include "framework/document/renderers.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -20,7 +21,7 @@ std::string text_of_plan(const CheckedRun& run, const Work& work, const RunOptio
   if (options.no_share) {
     for (StepCount& count : counts.steps) count.runs = count.alone;
   }
-  return plan_text(counts, options.colours);
+  return text_section(plan_section(counts), options.colours);
 }
 
 /// Writes the clouds of `--clouds` and adds failures to `complaints`. Returns a sentence if there

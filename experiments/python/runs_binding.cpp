@@ -8,9 +8,9 @@
 #include "experiments/python/interruptible.hpp"
 #include "experiments/python/result_arrays.hpp"
 #include "experiments/python/stage_catalogue.hpp"
+#include "experiments/report/result_sections.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "experiments/report/run_in_folder.hpp"
-#include "experiments/report/run_text.hpp"
 #include "experiments/run/starts.hpp"
 #include "framework/base/threads.hpp"
 

@@ -57,8 +57,7 @@ void add_observability(const std::optional<PoseCovariance>& covariance,
   }
 }
 
-std::string apart_text(const RigidTransform& a, const RigidTransform& b) {
-  const PoseError apart = pose_error(a, b);
+std::string apart_text(const PoseError& apart) {
   return fixed_number(deg_from_rad(apart.rotation_rad), 2) + " deg and " +
          fixed_number(1e3 * apart.translation_m, 0) + " mm";
 }
@@ -78,9 +77,7 @@ std::string scenes_text(const CalibratedSensor& sensor) {
   std::string text =
       "accepted in " + std::to_string(accepted) + " of " + counted(sensor.scenes.size(), "scene");
   if (accepted > 1) {
-    text += "; single scenes differ from the pose by up to " +
-            fixed_number(deg_from_rad(max_apart.rotation_rad), 2) + " deg and " +
-            fixed_number(1e3 * max_apart.translation_m, 0) + " mm";
+    text += "; single scenes differ from the pose by up to " + apart_text(max_apart);
   }
   return text;
 }
@@ -117,7 +114,8 @@ Card sensor_card(const CalibratedSensor& sensor, const std::string& reference) {
     if (const std::string scenes = scenes_text(sensor); !scenes.empty()) notes.push_back(scenes);
   }
   if (sensor.nominal) {
-    notes.push_back("from nominal: " + apart_text(*sensor.T_reference_sensor, *sensor.nominal));
+    notes.push_back("from nominal: " +
+                    apart_text(pose_error(*sensor.T_reference_sensor, *sensor.nominal)));
   }
   for (const std::string& note : notes) card.details += note + "\n";
   card.copies = pose_copies(sensor, reference);

@@ -287,6 +287,20 @@ ExportTable export_table(const Summary& summary, const ExportCaption& caption,
   return table;
 }
 
+std::vector<std::string> share_sentences(const Table& table, const SuccessBounds& of_success) {
+  std::vector<std::string> sentences;
+  const std::string bounds = "within " + bounds_text(of_success);
+  if (has_deviations_from(table, DeviationsFrom::truth)) {
+    sentences.push_back("Success: " + bounds + "ground truth; errors are over these trials.");
+  }
+  if (has_deviations_from(table, DeviationsFrom::consensus)) {
+    sentences.push_back("Agreement (no ground truth): " + bounds +
+                        "the consensus of the scene's trials; deviations of these trials are from "
+                        "the consensus of all scenes.");
+  }
+  return sentences;
+}
+
 std::vector<std::string> caption_sentences(const ExportTable& table) {
   if (!table.parts.empty()) return joined_sentences(table);
   std::vector<std::string> sentences = {table.caption.name + " (croon, commit " +
@@ -295,14 +309,8 @@ std::vector<std::string> caption_sentences(const ExportTable& table) {
                                         counts_sentence(table)};
   const std::vector<std::string>& builds = table.caption.builds;
   sentences.insert(sentences.end(), builds.begin(), builds.end());
-  const std::string bounds = "within " + bounds_text(table.bounds);
-  if (has_deviations_from(table.table, DeviationsFrom::truth)) {
-    sentences.push_back("Success: " + bounds + "ground truth; errors are over these trials.");
-  }
-  if (has_deviations_from(table.table, DeviationsFrom::consensus)) {
-    sentences.push_back("Agreement (no ground truth): " + bounds +
-                        "the consensus of the scene's trials; deviations of these trials are from "
-                        "the consensus of all scenes.");
+  for (const std::string& sentence : share_sentences(table.table, table.bounds)) {
+    sentences.push_back(sentence);
   }
   if (shows(table, kShareInterval)) {
     sentences.push_back("Interval: 95 %, over scenes (Wilson); requires at least " +

@@ -70,6 +70,9 @@ ExportTable export_table(const Summary& summary, const ExportCaption& caption);
 ExportTable export_table(const Summary& summary, const ExportCaption& caption,
                          const TableChoice& choice);
 
+/// The meaning of success and agreement, of those that a table with a column "reference" shows.
+std::vector<std::string> share_sentences(const Table& table, const SuccessBounds& of_success);
+
 /// The caption, one plain-text sentence each: the experiment, its counts, the meaning of success
 /// and of the marks.
 std::vector<std::string> caption_sentences(const ExportTable& table);

@@ -363,6 +363,13 @@ std::vector<std::string> share_names(const Table& table) {
   return names;
 }
 
+std::string with_interval(double value, const std::optional<Interval>& interval, int decimals,
+                          double scale) {
+  const auto text = [&](double number) { return fixed_number(scale * number, decimals); };
+  if (!interval) return text(value);
+  return text(value) + " [" + text(interval->low) + ", " + text(interval->high) + "]";
+}
+
 std::string bounds_text(const SuccessBounds& bounds) {
   return shortest_number(bounds.rotation_deg) + " deg and " +
          shortest_number(bounds.translation_m) + " m of ";

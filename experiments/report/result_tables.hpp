@@ -87,11 +87,25 @@ bool has_deviations_from(const Table& table, DeviationsFrom from);
 /// lacks ground truth.
 std::vector<std::string> share_names(const Table& table);
 
+/// "0.5 [0.1, 0.9]", all multiplied by `scale`; without an interval only the value.
+std::string with_interval(double value, const std::optional<Interval>& interval, int decimals,
+                          double scale = 1.0);
+
 /// "0.5 deg and 0.1 m of ", for a sentence.
 std::string bounds_text(const SuccessBounds& bounds);
 
 /// "pitch deg", for a title.
 std::string title_of(const Measure& measure);
+
+/// The rows over all sensors together.
+template <class Row>
+std::vector<Row> of_all_sensors(const std::vector<Row>& rows) {
+  std::vector<Row> found;
+  for (const Row& row : rows) {
+    if (row.sensor.empty()) found.push_back(row);
+  }
+  return found;
+}
 
 inline constexpr std::array<std::size_t, 2> kDistances = {kRotation, kTranslation};
 

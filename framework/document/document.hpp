@@ -53,6 +53,7 @@ struct TableBlock {
   std::string caption;
   Table table;
   View view;
+  std::vector<std::string> notes = {};  ///< Below the table.
 };
 
 /// A chart.
@@ -94,7 +95,7 @@ struct CloudViewBlock {
 using Block = std::variant<Paragraph, BulletList, Cards, TableBlock, Chart, Picture, FigureRow,
                            Facts, Preformatted, CloudViewBlock>;
 
-/// A section; the sections in it may not be nested further.
+/// A section; in HTML, the sections in it may not be nested further.
 struct Section {
   std::string id;  ///< Unique in the document; letters, digits and "-".
   std::string title;

@@ -1,5 +1,6 @@
 #include <nettle/sha2.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <stdexcept>
@@ -15,10 +16,20 @@
 namespace croon {
 namespace {
 
+/// `text` as UTF-8, with a space in place of each control character but "\n" and "\t".
+std::string without_controls(const std::string& text) {
+  std::string clean = valid_utf8(text);
+  const auto is_control = [](char c) {
+    return (static_cast<unsigned char>(c) < 0x20U && c != '\n' && c != '\t') || c == '\x7f';
+  };
+  std::replace_if(clean.begin(), clean.end(), is_control, ' ');
+  return clean;
+}
+
 /// `text` as the content of an element or attribute.
 std::string html_text(const std::string& text) {
   std::string escaped;
-  for (const char c : valid_utf8(text)) {
+  for (const char c : without_controls(text)) {
     switch (c) {
       case '&':
         escaped += "&amp;";
@@ -33,8 +44,7 @@ std::string html_text(const std::string& text) {
         escaped += "&quot;";
         break;
       default:
-        const bool is_control = static_cast<unsigned char>(c) < 0x20U && c != '\n' && c != '\t';
-        escaped += is_control ? ' ' : c;
+        escaped += c;
     }
   }
   return escaped;
@@ -133,19 +143,20 @@ class HtmlWriter {
   }
 
   std::string operator()(const TableBlock& block) {
+    const View view = with_heading_as_column(block.view);
     std::string head;
-    for (std::size_t k = 0; k < block.view.columns.size(); ++k) {
-      const std::string scope = "<th scope=\"col\"" + number_class(k, block.view) + ">";
-      head += scope + html_text(block.view.columns[k].title) + "</th>";
+    for (std::size_t k = 0; k < view.columns.size(); ++k) {
+      const std::string scope = "<th scope=\"col\"" + number_class(k, view) + ">";
+      head += scope + html_text(view.columns[k].title) + "</th>";
     }
-    const std::vector<ShownCells> columns = shown_cells(block.table, block.view);
+    const std::vector<ShownCells> columns = shown_cells(block.table, view);
     std::string body;
     for (const CellRow& row : block.table.rows) {
       std::string cells;
       for (std::size_t k = 0; k < columns.size(); ++k) {
         const std::vector<ShownCells::Piece>& pieces = columns[k].pieces();
         const std::string key = pieces.empty() ? "" : sort_key(row[pieces.front().column]);
-        cells += "<td" + number_class(k, block.view) +
+        cells += "<td" + number_class(k, view) +
                  (key.empty() ? "" : " data-value=\"" + html_text(key) + "\"") + ">" +
                  columns[k].content(row, html_cell) + "</td>";
       }
@@ -154,12 +165,13 @@ class HtmlWriter {
     const std::string table = element(
         "table", element("thead", element("tr", head)) + "\n" + element("tbody", "\n" + body),
         "sortable");
-    const std::vector<CopyText> copies = {
-        {"CSV", csv_table(block.table)},
-        {"Markdown", markdown_table(block.table, block.view)},
-        {"LaTeX", latex_pages(block.table, {block.view}).front()}};
+    const std::vector<CopyText> copies = {{"CSV", csv_table(block.table)},
+                                          {"Markdown", markdown_table(block.table, view)},
+                                          {"LaTeX", latex_tabular(block.table, view)}};
+    std::string notes;
+    for (const std::string& note : block.notes) notes += (*this)(Paragraph{note, Tone::note});
     return figure("table", block.caption,
-                  element("div", table, "scroll") +
+                  element("div", table, "scroll") + notes +
                       element("p", "Copy as " + copy_buttons(copies), "copies"));
   }
 
@@ -225,7 +237,7 @@ class HtmlWriter {
   std::string copy_buttons(const std::vector<CopyText>& copies) {
     std::string buttons;
     for (const CopyText& copy : copies) {
-      const std::string text = without_tags(valid_utf8(copy.text), "<\\");
+      const std::string text = without_tags(without_controls(copy.text), "<\\");
       buttons += "<button type=\"button\" data-copy=\"" + add_data("copy", "text/plain", text) +
                  "\">" + html_text(copy.label) + "</button> ";
     }

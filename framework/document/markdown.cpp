@@ -27,9 +27,10 @@ struct MarkdownWriter {
   }
 
   std::string operator()(const TableBlock& block) const {
-    const std::string caption =
-        block.caption.empty() ? "" : markdown_escaped(block.caption) + "\n\n";
-    return caption + markdown_table(block.table, block.view) + "\n";
+    std::string text = block.caption.empty() ? "" : markdown_escaped(block.caption) + "\n\n";
+    text += markdown_table(block.table, block.view) + "\n";
+    for (const std::string& note : block.notes) text += (*this)(Paragraph{note});
+    return text;
   }
 
   std::string operator()(const Facts& facts) const {
@@ -41,7 +42,10 @@ struct MarkdownWriter {
   }
 
   std::string operator()(const Preformatted& block) const {
-    return "```\n" + block.text + (block.text.back() == '\n' ? "" : "\n") + "```\n\n";
+    const bool is_ended = !block.text.empty() && block.text.back() == '\n';
+    std::string fence = "```";  // Longer than any in the text.
+    while (block.text.find(fence) != std::string::npos) fence += '`';
+    return fence + "\n" + block.text + (is_ended ? "" : "\n") + fence + "\n\n";
   }
 
   /// Figures.

@@ -14,7 +14,8 @@ std::string html_document(const Document& document);
 /// Whether this build can write HTML (`-DCROON_WITH_REPORT=ON`).
 bool can_write_html();
 
-/// The section for a terminal, in UTF-8, without its title and figures.
+/// The section for a terminal, in UTF-8, without figures. Its own title is omitted; the sections in
+/// it have theirs.
 std::string text_section(const Section& section, bool colours = false);
 
 /// The section as Markdown (GitHub's dialect), without figures.

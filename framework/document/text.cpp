@@ -46,8 +46,10 @@ class TextWriter {
   }
 
   std::string operator()(const TableBlock& block) const {
-    const std::string caption = block.caption.empty() ? "" : printable(block.caption) + "\n";
-    return caption + text_table(block.table, block.view, colours_) + "\n";
+    std::string text = block.caption.empty() ? "" : printable(block.caption) + "\n";
+    text += text_table(block.table, block.view, colours_);
+    for (const std::string& note : block.notes) text += printable(note) + "\n";
+    return text;
   }
 
   std::string operator()(const Facts& facts) const {
@@ -87,7 +89,11 @@ std::string text_section(const Section& section, bool colours) {
   const TextWriter writer(colours);
   std::string text;
   for (const Block& block : section.blocks) text += std::visit(writer, block);
-  for (const Section& inner : section.sections) text += text_section(inner, colours);
+  for (const Section& inner : section.sections) {
+    const std::string title = printable(inner.title);
+    text += (text.empty() ? "" : "\n") + (colours ? "\033[1m" + title + "\033[0m" : title) + "\n" +
+            text_section(inner, colours);
+  }
   return text;
 }
 

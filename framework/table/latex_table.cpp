@@ -199,4 +199,27 @@ std::vector<std::string> latex_pages(const Table& table, const View& view) {
   return pages;
 }
 
+std::string latex_tabular(const Table& table, const View& wanted) {
+  const View view = with_heading_as_column(wanted);
+  const std::vector<ShownCells> columns = shown_cells(table, view);
+  const auto line = [&](const auto& text_of) {
+    std::string text;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      text += (k > 0 ? " & " : "") + latex_escaped(one_line(text_of(k)));
+    }
+    return text + " \\\\\n";
+  };
+  const auto plain = [](const Cell& cell, const Column& column) {
+    return shown_text(cell, column) + cell.mark;
+  };
+  const std::size_t names = std::min(view.names, columns.size());
+  std::string text = "\\begin{tabular}{" + std::string(names, 'l') +
+                     std::string(columns.size() - names, 'r') + "}\n\\toprule\n" +
+                     line([&](std::size_t k) { return view.columns[k].title; }) + "\\midrule\n";
+  for (const CellRow& row : table.rows) {
+    text += line([&](std::size_t k) { return columns[k].content(row, plain); });
+  }
+  return text + "\\bottomrule\n\\end{tabular}\n";
+}
+
 }  // namespace croon

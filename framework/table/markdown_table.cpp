@@ -23,11 +23,12 @@ std::string markdown_escaped(const std::string& text) {
   return escaped;
 }
 
-std::string markdown_table(const Table& table, const View& view) {
+std::string markdown_table(const Table& table, const View& wanted) {
+  const View view = with_heading_as_column(wanted);
   std::string text = "|";
   std::string rule = "|";
   for (std::size_t k = 0; k < view.columns.size(); ++k) {
-    text += " " + view.columns[k].title + " |";
+    text += " " + markdown_escaped(view.columns[k].title) + " |";
     rule += k < view.names ? "---|" : "---:|";
   }
   text += "\n" + rule + "\n";

@@ -56,4 +56,7 @@ inline constexpr double kLatexNameShare = 0.3;
 /// others numbers; long names are broken into lines of `kLatexNameShare` of the text width.
 std::vector<std::string> latex_pages(const Table& table, const View& view);
 
+/// A LaTeX tabular with booktabs rules of any table, whose cells are text.
+std::string latex_tabular(const Table& table, const View& view);
+
 }  // namespace croon

@@ -37,13 +37,23 @@ View whole_view(const Table& table, std::size_t names) {
   return view;
 }
 
+View with_heading_as_column(View view) {
+  if (view.heading.empty()) return view;
+  view.columns.insert(view.columns.begin(), {view.heading});
+  view.heading.clear();
+  ++view.names;
+  return view;
+}
+
 ShownCells::ShownCells(const Table& table, const Shown& shown)
     : table_(table), shows_each_(shown.shows_each) {
   after_ = shown.content.empty() ? "<" + shown.title + ">" : shown.content;
   for (std::size_t begin = after_.find('<'); begin != std::string::npos; begin = after_.find('<')) {
     const std::size_t end = after_.find('>', begin);
     const std::string name = after_.substr(begin + 1, end - begin - 1);
-    pieces_.push_back({after_.substr(0, begin), table.index_of(name)});
+    const bool is_index = name.rfind('#', 0) == 0;
+    pieces_.push_back(
+        {after_.substr(0, begin), is_index ? std::stoul(name.substr(1)) : table.index_of(name)});
     after_.erase(0, end + 1);
   }
 }

@@ -155,8 +155,8 @@ class Columns {
 struct Shown {
   std::string title;
   /// Template of a cell: "<pitch_mean_deg> ± <pitch_std_deg>" combines the cells of two columns
-  /// with text in between; empty for the column named like the title. Text is written verbatim, in
-  /// the language of the format.
+  /// with text in between, and "<#2>" is the third column, whatever its name; empty for the column
+  /// named like the title. Text is written verbatim, in the language of the format.
   std::string content = {};
   /// Whether each cell without a value shows "-", instead of one "-" for all.
   bool shows_each = false;
@@ -167,7 +167,8 @@ struct Shown {
 struct View {
   std::vector<Shown> columns;
   std::size_t names = 1;  ///< Number of leading columns that are left-aligned.
-  /// A column whose text is shown as a heading above the rows that share it.
+  /// A column whose text is shown as a heading above the rows that share it: in LaTeX, and in text
+  /// if it is long; elsewhere it is the first column.
   std::string heading = {};
   /// Maximum width of names, beyond which they are cut (text only).
   std::size_t max_name_columns = std::numeric_limits<std::size_t>::max();
@@ -175,6 +176,9 @@ struct View {
 
 /// All columns of the table, under their own names.
 View whole_view(const Table& table, std::size_t names = 1);
+
+/// The view with its heading, if it has one, as the first column.
+View with_heading_as_column(View view);
 
 /// A `Shown` whose columns were looked up in its table.
 class ShownCells {

@@ -13,6 +13,14 @@ std::string text_cell(const Cell& cell, const Column& column) {
   return one_line(shown_text(cell, column) + cell.mark);
 }
 
+bool has_long_heading(const Table& table, const View& view) {
+  constexpr std::size_t kLong = 16;
+  for (std::size_t i = 0; !view.heading.empty() && i < table.rows.size(); ++i) {
+    if (text_columns(table.text_at(i, view.heading)) > kLong) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string one_line(std::string text) {
@@ -21,7 +29,8 @@ std::string one_line(std::string text) {
   return printable(text);
 }
 
-std::string text_table(const Table& table, const View& view, bool bold_header) {
+std::string text_table(const Table& table, const View& wanted, bool bold_header) {
+  const View view = has_long_heading(table, wanted) ? wanted : with_heading_as_column(wanted);
   // The titles, the rule and one line per row, built column by column.
   std::vector<std::string> lines(2 + table.rows.size());
   const std::vector<ShownCells> columns = shown_cells(table, view);
@@ -47,7 +56,7 @@ std::string text_table(const Table& table, const View& view, bool bold_header) {
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     if (!view.heading.empty() && (i == 0 || table.text_at(i, view.heading) != heading)) {
       heading = table.text_at(i, view.heading);
-      if (!heading.empty()) text += heading + "\n";
+      if (!heading.empty()) text += one_line(heading) + "\n";
     }
     text += lines[i + 2] + "\n";
   }

@@ -41,7 +41,7 @@ class RigRun : public testing::Test {
 TEST_F(RigRun, SaysWhatAGroupIs) {
   const Answer answer = run(2);
   EXPECT_EQ(answer.code, 0) << answer.text;
-  EXPECT_THAT(answer.text, HasSubstr("each trial calibrates the rig from 2 scenes"));
+  EXPECT_THAT(answer.text, HasSubstr("Each trial calibrates the rig from 2 scenes"));
   const auto manifest = nlohmann::json::parse(read_whole_file(out() / "manifest.json"));
   ASSERT_EQ(manifest.at("groups").size(), 2U);
   for (const auto& [name, scenes] : manifest.at("groups").items()) {

@@ -7,7 +7,8 @@
 
 #include "experiments/report/plots.hpp"
 #include "experiments/report/result_list.hpp"
-#include "experiments/report/run_text.hpp"
+#include "experiments/report/result_sections.hpp"
+#include "framework/document/renderers.hpp"
 #include "framework/picture/writers.hpp"
 #include "test/experiments/support/readable.hpp"
 #include "test/support/trial_records.hpp"
@@ -179,7 +180,9 @@ TEST(Basin, IsTheseBytes) {
 }
 
 TEST(Basin, IsATable) {
-  const std::string table = basin_text(*basin_of(records_of({"left"}), kSweep, {}));
+  Results results;
+  results.basin = basin_of(records_of({"left"}), kSweep, {});
+  const std::string table = text_section(basin_section(results));
   EXPECT_NE(table.find("each level has at least 95 %"), std::string::npos);
   EXPECT_NE(table.find("variant    0   10  20  30  radius deg  95 % interval"), std::string::npos)
       << table;

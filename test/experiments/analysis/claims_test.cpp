@@ -6,8 +6,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "experiments/report/result_sections.hpp"
 #include "experiments/report/result_tables.hpp"
-#include "experiments/report/run_text.hpp"
+#include "framework/document/renderers.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
@@ -389,45 +390,56 @@ std::vector<ClaimResult> one_of_each() {
   return results;
 }
 
-TEST(Claims, TheTableHasALineForEachAndQuotedRowsBesideOurs) {
-  const Summary summary = summary_of(test::few_records());
-  const std::string table = claims_text(one_of_each(), {board()}, summary);
-  EXPECT_NE(table.find("claims: 1 in, 1 out, 1 not measured\n"), std::string::npos) << table;
-  EXPECT_NE(table.find("0 deg  [-1000, 1000]  0.25000            in\n"), std::string::npos)
-      << table;
-  EXPECT_NE(table.find("fewer than 30 trials or 6 scenes"), std::string::npos);
-  EXPECT_NE(table.find("0 %  [-1000, 1000]        -  not measured\n"), std::string::npos) << table;
-  const std::size_t quoted = table.find("a | board");
-  ASSERT_NE(quoted, std::string::npos);
-  EXPECT_NE(table.find("mean        -0.02640  -1.04490  -0.30680", quoted), std::string::npos)
-      << table;
-  EXPECT_NE(table.find("ours, all sensors", quoted), std::string::npos) << table;
-  EXPECT_EQ(claims_text({}, {}, summary), "");
+Results with_claims_and_quoted() {
+  Results results;
+  results.summary = summary_of(test::few_records());
+  results.claims = one_of_each();
+  results.quoted = {board()};
+  return results;
 }
 
-TEST(Claims, OutIsRedWhereThereAreColours) {
-  TableStyle style;
-  EXPECT_EQ(claims_text(one_of_each(), {}, {}, style).find('\033'), std::string::npos);
-  style.colours = true;
-  const std::string table = claims_text(one_of_each(), {}, {}, style);
-  const std::size_t red = table.find("\033[31m");
-  ASSERT_NE(red, std::string::npos);
-  EXPECT_EQ(table.substr(red, 13), "\033[31mout\033[0m\n");
-  EXPECT_EQ(table.find("\033[31m", red + 1), std::string::npos);
-}
-
-TEST(Claims, MarkdownTellsEachReasonOnce) {
-  const std::string text = claims_markdown(one_of_each(), {board()}, {});
-  EXPECT_NE(text.find("| yaw \\| of the front | a source | 0 | 0 | - | 0 deg | \\[-1000, 1000\\] | "
-                      "0.25000 | out | "
-                      "1 |\n"),
+TEST(Claims, TheTableHasALineForEachAndEachReasonOnce) {
+  const Section section = claims_section(with_claims_and_quoted());
+  const std::string text = text_section(section);
+  EXPECT_EQ(text.find("warning: 1 in, 1 out, 1 not measured\n"), 0U) << text;
+  EXPECT_NE(text.find("0 deg  [-1000, 1000]  0.25000            in    -\n"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("0 %  [-1000, 1000]        -  not measured    1\n"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("fewer than 30 trials or 6 scenes"), std::string::npos);
+  EXPECT_NE(text.find("\n1: scenes of our own\n"), std::string::npos) << text;
+  EXPECT_EQ(text.find("2: scenes"), std::string::npos) << text;
+  const std::string markdown = markdown_section(section);
+  EXPECT_NE(markdown.find("| yaw \\| of the front | a source | 0 | 0 | - | 0 deg | "
+                          "[-1000, 1000] | 0.25000 | out | 1 |\n"),
             std::string::npos)
+      << markdown;
+}
+
+TEST(Claims, QuotedRowsAreFollowedByOurs) {
+  Results results = with_claims_and_quoted();
+  const std::string text = text_section(quoted_section(results));
+  const std::size_t quoted = text.find("a | board");
+  EXPECT_NE(text.find("mean        -0.02640  -1.04490  -0.30680", quoted), std::string::npos)
       << text;
-  EXPECT_NE(text.find("\n1. scenes of our own\n"), std::string::npos) << text;
-  EXPECT_EQ(text.find("2. scenes"), std::string::npos) << text;
-  EXPECT_NE(text.find("| a \\| board | paper, Table 2 | mean | -0.02640 |"), std::string::npos)
-      << text;
-  EXPECT_NE(text.find("| - | - | - | - | - | - |\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("ours, all sensors", quoted), std::string::npos) << text;
+  results.summary = {};
+  EXPECT_NE(markdown_section(quoted_section(results)).find("| - | - | - | - | - | - |\n"),
+            std::string::npos);
+}
+
+TEST(Claims, ThePageSaysSoIfThereAreNone) {
+  Results results = with_claims_and_quoted();
+  const auto says_none = [&] {
+    const std::string page = markdown_section(claims_page(results));
+    return page.find("The experiment makes no claims.") != std::string::npos;
+  };
+  EXPECT_FALSE(says_none());
+  results.claims.clear();
+  EXPECT_FALSE(says_none());
+  results.quoted.clear();
+  EXPECT_TRUE(says_none());
+  EXPECT_TRUE(claims_section(results).blocks.empty());
 }
 
 TEST(Claims, StandInSummaryJson) {

@@ -9,7 +9,8 @@
 
 #include "experiments/report/plots.hpp"
 #include "experiments/report/result_list.hpp"
-#include "experiments/report/run_text.hpp"
+#include "experiments/report/result_sections.hpp"
+#include "framework/document/renderers.hpp"
 #include "test/experiments/support/readable.hpp"
 #include "test/support/trial_records.hpp"
 
@@ -119,7 +120,7 @@ TEST(Coverage, HasTablesAndAFigure) {
   results.coverage = coverage_on(records);
   EXPECT_THAT(result_file("coverage.csv", results), HasSubstr("base,all,all,0.95,20,"));
   EXPECT_THAT(result_file("nees.csv", results), HasSubstr("base,all,20,"));
-  EXPECT_THAT(coverage_text(results.coverage), HasSubstr("yaw"));
+  EXPECT_THAT(text_section(coverage_section(results)), HasSubstr("yaw"));
   const std::string picture = result_file("coverage.svg", results);
   EXPECT_THAT(test::unreadable_parts(coverage_chart(results.coverage)), testing::IsEmpty());
   for (const std::string& name : kDofNames) EXPECT_THAT(picture, HasSubstr(">" + name + "<"));

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "experiments/report/result_tables.hpp"
-#include "experiments/report/run_text.hpp"
 #include "framework/table/renderers.hpp"
+#include "test/experiments/support/summary_text.hpp"
 #include "test/support/random_geometry.hpp"
 #include "test/support/trial_records.hpp"
 
@@ -115,7 +115,7 @@ TEST(LoopClosure, NeedsAllThreeLinks) {
 TEST(LoopClosure, IsInEveryReport) {
   const Vector6d gap = test::offset_of(0, 0, 0.25, 0.03, -0.04, 0.0);
   const Summary summary = summarise(records_with(gap, 1, 6), kBounds, order());
-  const std::string table = summary_text(summary);
+  const std::string table = test::summary_text(summary);
   EXPECT_NE(table.find("left>front     6/6  100.0  [61.0, 100.0]  0.250, 0.250  0.0500, 0.0500"),
             std::string::npos)
       << table;

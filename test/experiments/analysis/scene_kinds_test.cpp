@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/report/result_tables.hpp"
-#include "experiments/report/run_text.hpp"
 #include "framework/table/renderers.hpp"
+#include "test/experiments/support/summary_text.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
@@ -101,7 +101,7 @@ TEST(KindSummary, ChangesNothingElse) {
   EXPECT_EQ(json.find("kind"), std::string::npos);
   // A new last key: up to the closing brace all is as before.
   EXPECT_EQ(summary_json(with).compare(0, json.size() - 3, json, 0, json.size() - 3), 0);
-  EXPECT_EQ(summary_text(without).find("kind"), std::string::npos);
+  EXPECT_EQ(test::summary_text(without).find("kind"), std::string::npos);
 }
 
 TEST(KindSummary, IsInJson) {
@@ -130,9 +130,9 @@ TEST(KindSummary, IsInCsvWithEveryColumn) {
 }
 
 TEST(KindSummary, IsInTheTable) {
-  const std::string text = summary_text(two_kinds());
+  const std::string text = test::summary_text(two_kinds());
   EXPECT_NE(text.find(R"(
-by kind of scene: success in %
+Success by kind of scene, in %
 variant    kind    scenes  trials   all  left  right
 ---------  ------  ------  ------  ----  ----  -----
 base       narrow       1       8  75.0  75.0   75.0
@@ -147,7 +147,8 @@ no volume  urban        1       7  85.7  75.0  100.0
 TEST(KindSummary, WithoutTruthTheTableShowsAgreement) {
   ReportOrder order;
   order.scene_kinds = {{"0001", "urban"}};
-  const std::string text = summary_text(summarise(test::one_of_four_astray(), kBounds, order));
+  const std::string text =
+      test::summary_text(summarise(test::one_of_four_astray(), kBounds, order));
   EXPECT_NE(text.find("\nurban       1       4  75.0  75.0\n"), std::string::npos) << text;
 }
 

@@ -8,7 +8,8 @@
 #include "experiments/report/figures.hpp"
 #include "experiments/report/plots.hpp"
 #include "experiments/report/result_list.hpp"
-#include "experiments/report/run_text.hpp"
+#include "experiments/report/result_sections.hpp"
+#include "framework/document/renderers.hpp"
 #include "framework/picture/writers.hpp"
 #include "test/experiments/support/readable.hpp"
 #include "test/support/trial_records.hpp"
@@ -139,7 +140,7 @@ TEST(Verdicts, AreATableAndAFile) {
             0U);
   EXPECT_THAT(csv, HasSubstr("\nbase,left,0.5,0.1,8,3,1,2,1,1\n"));
   EXPECT_THAT(csv, HasSubstr("\nbase,all,0.5,0.1,9,4,1,2,1,1\n"));
-  EXPECT_THAT(verdicts_text(results.acceptance), HasSubstr("accepted, wrong"));
+  EXPECT_THAT(text_section(verdicts_section(results)), HasSubstr("accepted, wrong"));
 }
 
 }  // namespace

@@ -7,12 +7,12 @@
 #include <sstream>
 
 #include "experiments/analysis/results.hpp"
-#include "experiments/report/run_text.hpp"
 #include "experiments/store/store.hpp"
 #include "experiments/store/timings_store.hpp"
 #include "framework/base/whole_file.hpp"
 #include "test/experiments/support/fake_stages.hpp"
 #include "test/experiments/support/run_bench.hpp"
+#include "test/experiments/support/summary_text.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -286,10 +286,10 @@ TEST(RunCommand, KnowsNoSuccessWithoutTruthAlsoIfEveryTrialFailed) {
     experiment["dataset"]["truth"] = truth;
     const Bench bench(experiment);
     EXPECT_EQ(bench.run(bench.options("out")), 3);
-    return summary_text(read_results(bench.folder().path() / "out").summary);
+    return test::summary_text(read_results(bench.folder().path() / "out").summary);
   };
   const std::string without = summary_of(false);
-  EXPECT_NE(without.find("agreement (no ground truth)"), std::string::npos) << without;
+  EXPECT_NE(without.find("Agreement (no ground truth)"), std::string::npos) << without;
   EXPECT_EQ(without.find("success"), std::string::npos) << without;
   const std::string with = summary_of(true);
   EXPECT_NE(with.find("success"), std::string::npos) << with;

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/report/result_tables.hpp"
-#include "experiments/report/run_text.hpp"
 #include "framework/base/angles.hpp"
+#include "test/experiments/support/summary_text.hpp"
 #include "test/support/trial_records.hpp"
 
 namespace croon::experiments {
@@ -74,8 +74,8 @@ TEST(Extrinsics, OnWhichNoTwoTrialsAgreeAreNothing) {
   const auto found = nlohmann::json::parse(extrinsics_json(summary, {}))["extrinsics"][0];
   EXPECT_TRUE(found["T_reference_sensor"].is_null());
   EXPECT_EQ(found["agreeing"], 0);
-  const std::string text = summary_text(summary);
-  EXPECT_NE(text.find("no pose: no two trials agree\n"), std::string::npos) << text;
+  const std::string text = test::summary_text(summary);
+  EXPECT_NE(text.find("No pose: no two trials agree.\n"), std::string::npos) << text;
 }
 
 TEST(Extrinsics, DoNotComeFromScenesThatAreAlikeByChance) {
@@ -174,12 +174,12 @@ TEST(Extrinsics, WithTruthDoNotUseIt) {
 TEST(Extrinsics, AreATableIfThereIsNoTruth) {
   const RigidTransform pose = {rotation_from_rpy({rad_from_deg(1.0), 0.0, rad_from_deg(90.0)}),
                                {1.5, -0.25, 0.125}};
-  const std::string text = summary_text(summarise(records_at(pose), kBounds, {}));
+  const std::string text = test::summary_text(summarise(records_at(pose), kBounds, {}));
   EXPECT_NE(text.find("\nleft    1.5000  -0.2500  0.1250     1.000      0.000   90.000     21/31  "
                       "0.000, 0.0000\n"),
             std::string::npos)
       << text;
-  EXPECT_EQ(summary_text(summarise(test::few_records(), kBounds, {})).find("extrinsics"),
+  EXPECT_EQ(test::summary_text(summarise(test::few_records(), kBounds, {})).find("extrinsics"),
             std::string::npos);
 }
 

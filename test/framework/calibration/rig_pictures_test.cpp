@@ -104,9 +104,14 @@ TEST_F(RigPictures, AreWrittenWithTheCloudsInTheFrameOfTheReference) {
                                            {"rig", &pair_.source, T_, T_, false},
                                            {"empty", &empty, {}, T_, false},
                                            {"none", &pair_.source, {}, {}, false}};
-  const Names written = write_rig_pictures(folder.path(), "top", pair_.target, sensors, true);
-  EXPECT_EQ(written, (Names{"left_points.png", "rig_2.png", "empty.png", "rig.png",
-                            "clouds/top.ply", "clouds/top.pcd", "clouds/left_points.ply",
+  Names pictures;
+  for (const RigPicture& picture : draw_rig_pictures("top", pair_.target, sensors)) {
+    EXPECT_EQ(picture.png.substr(1, 3), "PNG");
+    pictures.push_back(picture.file);
+  }
+  EXPECT_EQ(pictures, (Names{"left_points.png", "rig_2.png", "empty.png", "rig.png"}));
+  const Names written = write_rig_clouds(folder.path(), "top", pair_.target, sensors);
+  EXPECT_EQ(written, (Names{"clouds/top.ply", "clouds/top.pcd", "clouds/left_points.ply",
                             "clouds/left_points.pcd", "clouds/rig_2_rejected.ply",
                             "clouds/rig_2_rejected.pcd", "clouds/empty_rejected.ply",
                             "clouds/empty_rejected.pcd", "clouds/fused.ply", "clouds/fused.pcd"}));

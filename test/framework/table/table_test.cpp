@@ -128,6 +128,18 @@ TEST(View, ShowsSeveralColumnsAsOne) {
   shown.shows_each = true;
   EXPECT_EQ(content(nothing), "[- to -]");
   EXPECT_THROW(ShownCells(table, {"range", "<width>"}), std::logic_error);
+  shown = {"name", "<#0>"};
+  EXPECT_EQ(content(table.rows[0]), "a,b");
+}
+
+TEST(View, HasAHeadingOnlyIfItIsLongAndTheFormatHasHeadings) {
+  const Table table{{{"group"}, {"n"}}, {{to_cell("short"), to_cell(1)}}};
+  const View view{{{"n"}}, 0, "group"};
+  EXPECT_EQ(text_table(table, view), "group  n\n-----  -\nshort  1\n");
+  EXPECT_EQ(markdown_table(table, view), "| group | n |\n|---|---:|\n| short | 1 |\n");
+  EXPECT_EQ(latex_tabular(table, view),
+            "\\begin{tabular}{lr}\n\\toprule\ngroup & n \\\\\n\\midrule\nshort & 1 \\\\\n"
+            "\\bottomrule\n\\end{tabular}\n");
 }
 
 TEST(MarkdownTable, EscapesCellsAndBoldsTheBest) {
