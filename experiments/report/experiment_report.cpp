@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "experiments/report/build_text.hpp"
 #include "experiments/report/export.hpp"
 #include "experiments/report/figures.hpp"
+#include "experiments/report/result_sections.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "experiments/report/rig_charts.hpp"
 #include "experiments/report/rig_view_json.hpp"
@@ -71,34 +71,11 @@ TableBlock variant_table(const Results& results) {
     view.columns.push_back(
         {"95 % interval", "[<" + share + "_low_percent>, <" + share + "_high_percent>]"});
   }
-  for (const char* column :
-       {"rotation_median_deg", "rotation_p95_deg", "translation_median_m", "translation_p95_m"}) {
-    view.columns.push_back({column});
-  }
-  for (const std::size_t k : kPaperOrder) {
-    const std::string name = kMeasures.at(k).name, unit = kMeasures.at(k).unit;
-    view.columns.push_back({title_of(kMeasures.at(k)) + ", mean ± std",
-                            "<" + name + "_mean_" + unit + "> ± <" + name + "_std_" + unit + ">"});
-  }
+  view.columns.push_back(
+      {"rotation, deg (median, p95)", "<rotation_median_deg>, <rotation_p95_deg>"});
+  view.columns.push_back(
+      {"translation, m (median, p95)", "<translation_median_m>, <translation_p95_m>"});
   return {sentences, table.table, view};
-}
-
-/// How trials ended, by variant and sensor.
-TableBlock outcome_table(const Summary& summary) {
-  Columns<SummaryRow> columns;
-  columns.add({"variant"}, &SummaryRow::variant)
-      .add({"sensor"}, [](const SummaryRow& row) { return name_of_sensor(row.sensor); })
-      .add({"trials"}, [](const SummaryRow& row) { return row.outcomes.trials; })
-      .add({"success"}, [](const SummaryRow& row) { return row.outcomes.success; })
-      .add({"inaccurate"}, [](const SummaryRow& row) { return row.outcomes.inaccurate; })
-      .add({"finished"}, [](const SummaryRow& row) { return row.outcomes.finished; })
-      .add({"rejected"}, [](const SummaryRow& row) { return row.outcomes.rejected; })
-      .add({"failed"}, [](const SummaryRow& row) { return row.outcomes.failed; });
-  const Table table = columns.table(summary.rows);
-  return {
-      "How trials ended. Inaccurate: accepted outside the success bounds; finished: accepted "
-      "without ground truth.",
-      table, whole_view(table, 2)};
 }
 
 Section result_section(const Results& results) {
@@ -112,21 +89,7 @@ Section result_section(const Results& results) {
                                               " planned trials are stored.",
                                           Tone::warning});
   }
-  for (const std::string& sentence : build_sentences(results.builds)) {
-    section.blocks.emplace_back(Paragraph{sentence, Tone::note});
-  }
   section.blocks.emplace_back(variant_table(results));
-  section.blocks.emplace_back(outcome_table(results.summary));
-  if (!results.summary.reasons.empty()) {
-    constexpr std::size_t kShownReasons = 30;
-    std::vector<ReasonCount> reasons = results.summary.reasons;
-    const std::string cut =
-        reasons.size() > kShownReasons ? " The most frequent; summary.json has all." : "";
-    if (!cut.empty()) reasons.resize(kShownReasons);
-    const Table table = reason_columns().table(reasons);
-    section.blocks.emplace_back(
-        TableBlock{"Reasons of rejected and failed trials." + cut, table, whole_view(table, 3)});
-  }
   return section;
 }
 
@@ -142,57 +105,7 @@ Section chart_section(const Results& results) {
           Paragraph{std::string(figure.name) + ": " + error.faults().front().message, Tone::note});
     }
   }
-  if (!results.summary.scene_kinds.empty()) {
-    const Table table = scene_kind_columns().table(results.summary.scene_kinds);
-    const std::string share = share_names(table).front();
-    const View view{{{"variant"},
-                     {"kind"},
-                     {"sensor"},
-                     {"scenes"},
-                     {share + ", %", "<" + share + "_ratio>"},
-                     {"95 % interval", "[<" + share + "_low_ratio>, <" + share + "_high_ratio>]"}},
-                    3};
-    section.blocks.emplace_back(TableBlock{"By kind of scene.", table, view});
-  }
   return section;
-}
-
-/// The scenes with the lowest success.
-Section scene_section(const Results& results) {
-  constexpr std::size_t kShownScenes = 50;
-  struct WorstScene {
-    std::string variant, sensor;
-    const SceneSummary* scene;
-  };
-  std::vector<WorstScene> rows;
-  for (const SummaryRow& row : results.summary.rows) {
-    if (row.sensor.empty()) continue;
-    for (const SceneSummary& scene : row.scenes) rows.push_back({row.variant, row.sensor, &scene});
-  }
-  const auto is_worse = [](const WorstScene& a, const WorstScene& b) {
-    return main_share(*a.scene).ratio < main_share(*b.scene).ratio;
-  };
-  std::stable_sort(rows.begin(), rows.end(), is_worse);
-  const std::size_t all = rows.size();
-  if (rows.size() > kShownScenes) rows.resize(kShownScenes);
-  Columns<WorstScene> columns;
-  columns.add({"variant"}, &WorstScene::variant)
-      .add({"sensor"}, &WorstScene::sensor)
-      .add({"scene"}, [](const WorstScene& row) { return row.scene->scene; })
-      .add({"kind"}, [](const WorstScene& row) { return nothing_if_empty(row.scene->scene_kind); })
-      .add({"trials"}, [](const WorstScene& row) { return row.scene->outcomes.trials; })
-      .add({"right", "ratio", "", 0},
-           [](const WorstScene& row) { return main_share(*row.scene).ratio; })
-      .add({"rejected"}, [](const WorstScene& row) { return row.scene->outcomes.rejected; })
-      .add({"failed"}, [](const WorstScene& row) { return row.scene->outcomes.failed; });
-  const Table table = columns.table(rows);
-  View view = whole_view(table, 4);
-  view.columns[5] = {"right, %", "<right_ratio>"};
-  return {"scenes",
-          "Scenes",
-          {TableBlock{"The " + std::to_string(rows.size()) + " of " + std::to_string(all) +
-                          " scenes, sensors and variants with the lowest success.",
-                      table, view}}};
 }
 
 /// The medians of the numbers that steps report, such as costs and ratios, in pipeline order.
@@ -210,23 +123,6 @@ Section step_section(const Results& results) {
           "Numbers along the pipeline",
           {TableBlock{"Medians over trials of the numbers that steps report.", table,
                       whole_view(table, 3)}}};
-}
-
-Section claim_section(const Results& results) {
-  const Table table = claim_columns().table(results.claims);
-  return {"claims",
-          "Claims",
-          {TableBlock{"The claims of the experiment and the numbers found.",
-                      table,
-                      {{{"claim"},
-                        {"source"},
-                        {"trials"},
-                        {"scenes"},
-                        {"expected", "<expected> <unit>"},
-                        {"band", "[<low>, <high>]"},
-                        {"found"},
-                        {"verdict"}},
-                       2}}}};
 }
 
 std::string trial_text(const TrialRecord& record) {
@@ -292,8 +188,7 @@ Document experiment_report(const Results& results, const std::vector<TrialView>&
               pipeline_chart(results.manifest)}}});
   document.sections.push_back(chart_section(results));
   document.sections.push_back(trial_section(views, without_views));
-  document.sections.push_back(scene_section(results));
-  if (!results.claims.empty()) document.sections.push_back(claim_section(results));
+  for (Section& section : result_sections(results)) document.sections.push_back(std::move(section));
   if (!results.diagnostics.empty()) document.sections.push_back(step_section(results));
   document.sections.push_back(provenance_section(results));
   return document;
