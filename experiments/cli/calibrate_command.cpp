@@ -12,7 +12,7 @@
 #include "experiments/cli/options.hpp"
 #include "experiments/cli/requested_calibration.hpp"
 #include "experiments/report/calibration_document.hpp"
-#include "experiments/report/staged_folder.hpp"
+#include "experiments/session/staged_folder.hpp"
 #include "experiments/store/version.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"

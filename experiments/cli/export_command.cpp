@@ -10,7 +10,7 @@
 #include "experiments/report/export.hpp"
 #include "experiments/report/export_choice.hpp"
 #include "experiments/report/figures.hpp"
-#include "experiments/report/output_files.hpp"
+#include "experiments/session/output_files.hpp"
 #include "experiments/store/timings_store.hpp"
 #include "framework/base/error.hpp"
 #include "framework/picture/writers.hpp"

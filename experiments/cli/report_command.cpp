@@ -1,13 +1,14 @@
 #include <algorithm>
 #include <memory>
 
+#include "experiments/analysis/step_times.hpp"
 #include "experiments/cli/command.hpp"
 #include "experiments/cli/commands.hpp"
 #include "experiments/cli/options.hpp"
 #include "experiments/report/experiment_report.hpp"
-#include "experiments/report/result_files.hpp"
 #include "experiments/report/trial_views.hpp"
 #include "experiments/run/run_request.hpp"
+#include "experiments/session/result_files.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
 #include "framework/base/whole_file.hpp"
@@ -19,7 +20,8 @@ namespace {
 /// The report of the results in `folder`. Without the data, it has no view of clouds and says so.
 std::string report_of(const std::filesystem::path& folder, const std::filesystem::path& data,
                       const Catalogue& catalogue) {
-  const Results results = read_results(folder, Content::trials_and_steps);
+  Results results = read_results(folder, Content::trials_and_steps);
+  results.times = step_times(TimingsStore(timings_path(folder), Access::read), results.summary);
   std::vector<TrialView> views;
   std::string without_views = "No trial has a pose.";
   try {

@@ -10,8 +10,8 @@
 #include "experiments/python/stage_catalogue.hpp"
 #include "experiments/report/result_sections.hpp"
 #include "experiments/report/result_tables.hpp"
-#include "experiments/report/run_in_folder.hpp"
 #include "experiments/run/starts.hpp"
+#include "experiments/session/run_in_folder.hpp"
 #include "framework/base/threads.hpp"
 
 namespace croon::python {

@@ -1,4 +1,4 @@
-#include "experiments/report/run_in_folder.hpp"
+#include "experiments/session/run_in_folder.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "experiments/report/result_files.hpp"
+#include "experiments/session/result_files.hpp"
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include "experiments/report/output_files.hpp"
+#include "experiments/session/output_files.hpp"
 
 #include <unistd.h>
 
@@ -6,10 +6,10 @@
 #include <set>
 #include <utility>
 
-#include "experiments/report/result_files.hpp"
 #include "experiments/run/given_csv.hpp"
 #include "experiments/run/given_velocities.hpp"
 #include "experiments/run/pose_file.hpp"
+#include "experiments/session/result_files.hpp"
 #include "experiments/store/bounded_json.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/whole_file.hpp"

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "experiments/analysis/results.hpp"
-#include "experiments/report/result_files.hpp"
 #include "experiments/run/run_request.hpp"
+#include "experiments/session/result_files.hpp"
 #include "framework/base/progress.hpp"
 
 namespace croon::experiments {

@@ -1,4 +1,4 @@
-#include "experiments/report/staged_folder.hpp"
+#include "experiments/session/staged_folder.hpp"
 
 #include <algorithm>
 #include <system_error>
