@@ -30,7 +30,7 @@ install(CODE "file(CREATE_LINK . \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAK
 
 if(CROON_BUILD_TOOLS)
   install_libraries(croonProgramTargets croon_simulation croon_experiment_file croon_run croon_store croon_analysis
-    croon_report croon_cli croon_program)
+    croon_report croon_session croon_cli croon_program)
   install(TARGETS croon COMPONENT runtime)
   install(TARGETS croon_openvdb_module LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/croon"
     COMPONENT runtime)
