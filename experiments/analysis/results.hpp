@@ -20,9 +20,8 @@
 
 namespace croon::experiments {
 
-/// The results in a folder, read only from its store; the experiment file and the data are not
-/// needed.
-struct Results {
+/// What a store contains.
+struct StoredResults {
   std::string name;           ///< The experiment's.
   std::string description;    ///< The question that the experiment answers; may be empty.
   std::string commit;         ///< Commit of the first of `builds`.
@@ -35,15 +34,20 @@ struct Results {
   std::string manifest;              ///< JSON of manifest.json, without its host.
   std::vector<TrialRecord> records;  ///< In report order, without their steps.
   StepNumbers steps;                 ///< Numbers reported by steps; empty unless requested.
+  std::map<std::string, std::string> references;  ///< The sensor that each is calibrated to.
+  std::vector<Quoted> quoted;                     ///< Rows of other methods.
+};
+
+/// The results in a folder, read only from its store, and everything that is computed from them;
+/// the experiment file and the data are not needed.
+struct Results : StoredResults {
   std::vector<DiagnosticSummary> diagnostics;  ///< Summaries of `steps`.
   std::vector<StepTime> times;                 ///< Empty unless set by the caller.
   Summary summary;
-  std::map<std::string, std::string> references;  ///< The sensor that each is calibrated to.
-  std::optional<Basin> basin;                     ///< Only of a sweep.
-  AcceptanceCurve acceptance;                     ///< Verdicts of the program against ground truth.
-  Coverage coverage;                              ///< Covariances against ground truth.
-  std::vector<ClaimResult> claims;                ///< The claims of the experiment, checked.
-  std::vector<Quoted> quoted;                     ///< Rows of other methods.
+  std::optional<Basin> basin;       ///< Only of a sweep.
+  AcceptanceCurve acceptance;       ///< Verdicts of the program against ground truth.
+  Coverage coverage;                ///< Covariances against ground truth.
+  std::vector<ClaimResult> claims;  ///< The claims of the experiment, checked.
 };
 
 /// Whether a stage failed in one of the trials.
