@@ -8,7 +8,7 @@ SOURCES = git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp'
 .PHONY: help packages sanitizer_packages release demo demo_time test benchmark docs site package package-test format lint fuzz sanitize threads clean
 
 help:
-	@echo 'make demo       the paper on twelve simulated scenes, and the calibration of a simulated car'
+	@echo 'make demo       the paper on twelve simulated scenes, and the calibration of a simulated car, with reports'
 	@echo 'make test       build and run all tests'
 	@echo 'make benchmark  build and run the benchmarks'
 	@echo 'make docs       write docs/stages and docs/schema again'
@@ -35,6 +35,8 @@ demo: demo_time release
 	build/release/bin/croon calibrate results/demo_car/000000/top.pcd results/demo_car/000000/front.pcd \
 	  results/demo_car/000000/back.pcd results/demo_car/000000/left.pcd results/demo_car/000000/right.pcd \
 	  --nominal results/demo_car/truth.json --from-scratch --out results/demo_car/calibration
+	build/release/bin/croon report results/demo
+	@echo 'Open the reports in a browser: results/demo/report.html, results/demo_car/calibration/report.html'
 
 test: packages
 	$(call PRESET_BUILD,test)

@@ -19,6 +19,11 @@ foreach(asset IN ITEMS "report_style|document/assets/report.css" "three_script|$
     file(READ "${path}" ${name})
   endif()
 endforeach()
+if(CROON_WITH_REPORT)
+  # The minified file has no notice, and reports are copies of it.
+  file(READ document/assets/three_license.txt three_license)
+  string(PREPEND three_script "/*\n${three_license}*/\n")
+endif()
 configure_file(document/html_assets.cpp.in html_assets.cpp @ONLY)
 # The compiler limits are those of the standard otherwise.
 set_source_files_properties("${CMAKE_CURRENT_BINARY_DIR}/html_assets.cpp" PROPERTIES

@@ -97,6 +97,10 @@ TEST_F(HtmlDocument, AllowsItsOwnScriptsAlone) {
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
 }
 
+TEST_F(HtmlDocument, HasTheNoticeOfThreeJs) {
+  EXPECT_THAT(page_of("plain"), HasSubstr("three.js authors\n\nPermission is hereby granted"));
+}
+
 TEST_F(HtmlDocument, IsTheSameBytesForTheSameDocument) {
   EXPECT_EQ(html_document(document_of("a")), html_document(document_of("a")));
   EXPECT_NE(html_document(document_of("a")), html_document(document_of("b")));
