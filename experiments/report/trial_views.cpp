@@ -82,7 +82,9 @@ Chart volume_figure(const Cloud& target, const Cloud& source, const RigidTransfo
   return {
       "The volume in m³ that both clouds occupy, over the offset from the result (at 0) in one "
       "degree of freedom. A minimum beside 0 means that the clouds agree better at another "
-      "pose; a flat curve, that the scene hardly constrains this degree of freedom.",
+      "pose; a flat curve, that the scene hardly constrains this degree of freedom. A wrong "
+      "pose can be at a minimum too. Ground truth, if known, is dashed in the panels whose axis "
+      "contains it.",
       volume_chart(volume_curves(target.points(), source.points(), T), truth_offset)};
 }
 

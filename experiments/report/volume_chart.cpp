@@ -18,7 +18,9 @@ namespace croon::experiments {
 namespace {
 
 constexpr double kVolumeLeaf_m = 0.1;
-constexpr int kMaxVolumePoints = 15000;
+// The leaves of the target are computed once, those of the source for each offset.
+constexpr int kMaxTargetPoints = 100000;
+constexpr int kMaxSourcePoints = 15000;
 constexpr int kStepsToEachSide = 15;
 
 /// The end of the axis of a panel, in deg or m.
@@ -62,12 +64,14 @@ Axis volume_axis(const VolumeCurves& curves) {
 VolumeCurves volume_curves(const Points& target, const Points& source,
                            const RigidTransform& T_target_source) {
   const LeafWindow window(LeafGrid(kVolumeLeaf_m), Eigen::Vector3d::Zero());
+  // With leaves along the axes, the whole ground would enter the next layer of leaves at once.
+  const RigidTransform T_grid_target{rotation_from_rpy({0.4, 0.6, 0.5}), Eigen::Vector3d::Zero()};
   const double leaf_m3 = kVolumeLeaf_m * kVolumeLeaf_m * kVolumeLeaf_m;
   const auto target_leaves =
-      occupied_leaves(window, PointColumns(evenly_spaced(target, kMaxVolumePoints)), {});
-  const PointColumns points(evenly_spaced(source, kMaxVolumePoints));
+      occupied_leaves(window, PointColumns(evenly_spaced(target, kMaxTargetPoints)), T_grid_target);
+  const PointColumns points(evenly_spaced(source, kMaxSourcePoints));
   const auto volume_m3 = [&](const RigidTransform& T) {
-    const auto leaves = occupied_leaves(window, points, T);
+    const auto leaves = occupied_leaves(window, points, T_grid_target * T);
     if (!target_leaves || !leaves) return std::numeric_limits<double>::quiet_NaN();
     std::vector<std::uint64_t> all;
     all.reserve(target_leaves->size() + leaves->size());
