@@ -136,7 +136,24 @@ std::string trial_text(const TrialRecord& record) {
   return text + (record.reason.empty() ? "." : ". " + record.reason);
 }
 
-Section trial_section(const std::vector<TrialView>& views, const std::string& without_views) {
+/// The numbers that the steps of a trial, one of `results.records`, reported.
+TableBlock trial_numbers(const Results& results, const TrialRecord& record) {
+  const auto index = static_cast<std::size_t>(&record - results.records.data());
+  std::vector<StepNumber> numbers;
+  for (const StepNumber& number : results.steps.numbers) {
+    if (number.record == index) numbers.push_back(number);
+  }
+  Columns<StepNumber> columns;
+  columns.add({"step"}, [&](const StepNumber& number) { return results.steps.names[number.step]; })
+      .add({"number"}, [&](const StepNumber& number) { return results.steps.names[number.name]; })
+      .add({"value", "", "", kAllDigits}, &StepNumber::value);
+  const Table table = columns.table(numbers);
+  return {"Numbers that the steps of this trial reported, in pipeline order.", table,
+          whole_view(table, 2)};
+}
+
+Section trial_section(const Results& results, const std::vector<TrialView>& views,
+                      const std::string& without_views) {
   Section section{"trials", "Trials to look at", {}};
   if (views.empty()) {
     section.blocks.emplace_back(Paragraph{without_views, Tone::note});
@@ -154,8 +171,10 @@ Section trial_section(const std::vector<TrialView>& views, const std::string& wi
     for (const CloseUp& place : trial.view.close_ups) {
       row.figures.emplace_back(close_up_picture(trial.view, place));
     }
-    for (const Drawing& chart : trial.charts) row.figures.emplace_back(Chart{"", chart});
     if (!row.figures.empty()) inner.blocks.emplace_back(std::move(row));
+    for (const Chart& chart : trial.charts) inner.blocks.emplace_back(chart);
+    TableBlock numbers = trial_numbers(results, *trial.record);
+    if (!numbers.table.rows.empty()) inner.blocks.emplace_back(std::move(numbers));
     section.sections.push_back(std::move(inner));
   }
   return section;
@@ -187,7 +206,7 @@ Document experiment_report(const Results& results, const std::vector<TrialView>&
        {Chart{"The steps of each variant; * marks steps that differ from those of the first.",
               pipeline_chart(results.manifest)}}});
   document.sections.push_back(chart_section(results));
-  document.sections.push_back(trial_section(views, without_views));
+  document.sections.push_back(trial_section(results, views, without_views));
   for (Section& section : result_sections(results)) document.sections.push_back(std::move(section));
   if (!results.diagnostics.empty()) document.sections.push_back(step_section(results));
   document.sections.push_back(provenance_section(results));

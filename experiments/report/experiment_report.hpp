@@ -13,9 +13,9 @@ namespace croon::experiments {
 /// The clouds of a trial, at its initial guess and its result.
 struct TrialView {
   std::string why;  ///< Why the trial is shown: "the largest error of an accepted pose".
-  const TrialRecord* record = nullptr;
+  const TrialRecord* record = nullptr;  ///< In Results::records.
   RigView view;
-  std::vector<Drawing> charts = {};  ///< Along the pipeline and around the result.
+  std::vector<Chart> charts = {};  ///< Around the result.
 };
 
 /// The report of an experiment: what it asks and found, its pipelines, charts, and trials to look

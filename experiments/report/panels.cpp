@@ -115,6 +115,24 @@ void draw_series(Drawing& drawing, const Plot& plot, const std::vector<double>& 
   }
 }
 
+void draw_parts(Drawing& drawing, const Plot& plot, const std::vector<double>& xs,
+                const std::vector<double>& ys, std::size_t series) {
+  std::vector<Corner> part;
+  const auto finish = [&] {
+    if (part.size() > 1) drawing.polyline(part, "curve " + series_style(series));
+    if (part.size() == 1) draw_marker(drawing, part[0][0], part[0][1], 2.0, series);
+    part.clear();
+  };
+  for (std::size_t i = 0; i < xs.size(); ++i) {
+    if (std::isnan(ys[i])) {
+      finish();
+      continue;
+    }
+    part.push_back({plot.x(xs[i]), plot.y_inside(ys[i])});
+  }
+  finish();
+}
+
 void draw_panel_legend(Drawing& drawing, const PanelGrid& grid,
                        const std::vector<std::string>& labels, SeriesMark mark) {
   for (std::size_t i = 0; i < labels.size(); ++i) {

@@ -62,6 +62,11 @@ void draw_decade_ticks(Drawing& drawing, const Plot& plot);
 void draw_series(Drawing& drawing, const Plot& plot, const std::vector<double>& xs,
                  const std::vector<double>& ys, std::size_t series, std::size_t marker_every);
 
+/// Draws a line through (xs[i], ys[i]) in the style of `series`, clamped to the plot, with gaps
+/// where a value is NaN.
+void draw_parts(Drawing& drawing, const Plot& plot, const std::vector<double>& xs,
+                const std::vector<double>& ys, std::size_t series);
+
 void draw_panel_legend(Drawing& drawing, const PanelGrid& grid,
                        const std::vector<std::string>& labels, SeriesMark mark = SeriesMark::line);
 

@@ -56,24 +56,6 @@ ResidualProfile residual_profile(const std::vector<Residual>& residuals, double 
   return profile;
 }
 
-/// Draws the parts of the line between gaps.
-void draw_medians(Drawing& drawing, const Plot& plot, const ResidualProfile& profile) {
-  std::vector<Corner> part;
-  const auto finish = [&] {
-    if (part.size() > 1) drawing.polyline(part, "curve " + series_style(0));
-    if (part.size() == 1) draw_marker(drawing, part[0][0], part[0][1], 2.0, 0);
-    part.clear();
-  };
-  for (std::size_t i = 0; i < profile.centres.size(); ++i) {
-    if (std::isnan(profile.medians[i])) {
-      finish();
-      continue;
-    }
-    part.push_back({plot.x(profile.centres[i]), plot.y_inside(profile.medians[i])});
-  }
-  finish();
-}
-
 /// Half the height of the panels, in mm. A few bins may reach beyond it.
 double residual_limit_mm(const std::vector<ResidualProfile>& profiles) {
   constexpr double kMin_mm = 20.0, kShown = 0.92;
@@ -127,7 +109,7 @@ Drawing residual_chart(const ViewedSensor& sensor, const Sheet& sheet) {
       plot.draw_x_tick(drawing, tick, fixed_number(tick, axes[k].decimals), 1.4 * text);
     }
     draw_band(drawing, plot, profiles[k].centres, cut_quartiles(profiles[k], y), 0);
-    draw_medians(drawing, plot, profiles[k]);
+    draw_parts(drawing, plot, profiles[k].centres, profiles[k].medians, 0);
     draw_panel_texts(drawing, plot, "distance, mm", kResidualAxes.at(k).title);
   }
   return drawing;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "experiments/report/volume_chart.hpp"
 #include "experiments/run/loaded_scene.hpp"
 #include "experiments/run/scene_groups.hpp"
 #include "experiments/run/starts.hpp"
@@ -73,6 +74,20 @@ const Scene* scene_of(const SceneGroup& group, const CalibratedPair& pair) {
   return nullptr;
 }
 
+/// The occupied volume around the pose `T` of a trial.
+Chart volume_figure(const Cloud& target, const Cloud& source, const RigidTransform& T,
+                    const std::optional<RigidTransform>& truth) {
+  std::optional<Vector6d> truth_offset;
+  if (truth) truth_offset = pose_error(*truth, T).dof;
+  return {
+      "The volume in m³ that both clouds occupy, over the offset from the result (at 0) in one "
+      "degree of freedom. A minimum beside 0 means that the clouds agree better at another "
+      "pose; a flat curve, that the scene hardly constrains this degree of freedom. A wrong "
+      "pose can be at a minimum too. Ground truth, if known, is dashed in the panels whose axis "
+      "contains it.",
+      volume_chart(volume_curves(target.points(), source.points(), T), truth_offset)};
+}
+
 std::optional<TrialView> viewed(const Experiment& experiment, const SceneGroup& group,
                                 const CalibratedPair& pair, const ChosenTrial& chosen) {
   const Scene* const scene = scene_of(group, pair);
@@ -97,7 +112,10 @@ std::optional<TrialView> viewed(const Experiment& experiment, const SceneGroup& 
   const std::vector<ViewedCloud> clouds = {
       {pair.target, target, true, {states.size(), RigidTransform()}},
       {pair.source, source, is_accepted, poses}};
-  return TrialView{chosen.why, chosen.record, view_of(group.name, states, clouds)};
+  return TrialView{chosen.why,
+                   chosen.record,
+                   view_of(group.name, states, clouds),
+                   {volume_figure(*target, *source, *record.T_reference_sensor, pair.truth)}};
 }
 
 }  // namespace
