@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "experiments/report/build_text.hpp"
 #include "experiments/report/export.hpp"
 #include "experiments/report/figures.hpp"
 #include "experiments/report/result_sections.hpp"
@@ -56,6 +57,7 @@ std::string lead_of(const Results& results) {
 TableBlock variant_table(const Results& results) {
   ExportCaption caption;
   caption.name = results.name;
+  caption.commit = short_commit(results.commit);
   caption.seed = results.seed;
   caption.scenes = results.scenes;
   caption.starts = results.trials;
