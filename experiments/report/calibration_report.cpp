@@ -15,24 +15,6 @@ namespace {
 
 std::string verdict_name(bool is_accepted) { return is_accepted ? "accepted" : "rejected"; }
 
-/// The warning or note about the refit of a sensor; empty without a refit.
-std::string refit_sentence(const ViewedSensor& sensor) {
-  if (!sensor.refit) return "";
-  const Refit& refit = *sensor.refit;
-  const std::string distance = fixed_number(deg_from_rad(refit.rotation_rad), 2) + " deg and " +
-                               fixed_number(1e3 * refit.translation_m, 0) + " mm";
-  return refit.surface_shift_m > kMaxSurfaceShift_m
-             ? "The clouds contradict this pose: the surfaces fit better at a pose " + distance +
-                   " away, which moves them by " + fixed_number(1e3 * refit.surface_shift_m, 0) +
-                   " mm."
-             : "Fit check: a new registration with all other sensors moves the surfaces by " +
-                   fixed_number(1e3 * refit.surface_shift_m, 1) + " mm.";
-}
-
-bool is_contradicted(const ViewedSensor& sensor) {
-  return sensor.refit && sensor.refit->surface_shift_m > kMaxSurfaceShift_m;
-}
-
 const ViewedSensor* viewed(const RigView& view, const std::string& sensor) {
   const auto found = std::find_if(view.sensors.begin(), view.sensors.end(),
                                   [&](const ViewedSensor& one) { return one.sensor == sensor; });
@@ -48,7 +30,7 @@ void add_fit_checks(Section& section, const RigView& view, const CalibratedRig& 
       const ViewedSensor* const sensor = viewed(view, rig.sensors[i].sensor);
       if (sensor == nullptr || !sensor->refit) continue;
       Card& card = cards->cards[i];
-      card.lines.push_back(refit_sentence(*sensor));
+      card.lines.push_back(fit_sentence(*sensor));
       if (!is_contradicted(*sensor) || !rig.sensors[i].is_accepted) continue;
       card.tone = Tone::warning;
       card.status = "accepted, but contradicted by the clouds: do not use unchecked";

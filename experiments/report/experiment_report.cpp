@@ -165,6 +165,9 @@ Section trial_section(const Results& results, const std::vector<TrialView>& view
   for (const TrialView& trial : views) {
     Section inner{"trial-" + std::to_string(++number), trial.why, {}};
     inner.blocks.emplace_back(Paragraph{trial_text(*trial.record)});
+    const ViewedSensor& sensor = trial.view.sensors.back();
+    inner.blocks.emplace_back(
+        Paragraph{fit_sentence(sensor), is_contradicted(sensor) ? Tone::warning : Tone::plain});
     inner.blocks.emplace_back(
         CloudViewBlock{"Scene " + trial.view.scene + " at the initial guess and at the result.",
                        rig_view_json(trial.view),

@@ -4,6 +4,7 @@
 
 #include "experiments/report/panels.hpp"
 #include "experiments/report/rig_charts.hpp"
+#include "framework/base/angles.hpp"
 #include "framework/base/text.hpp"
 
 namespace croon::experiments {
@@ -82,6 +83,23 @@ std::vector<std::optional<Interval>> cut_quartiles(const ResidualProfile& profil
 }
 
 }  // namespace
+
+bool is_contradicted(const ViewedSensor& sensor) {
+  return sensor.refit && sensor.refit->surface_shift_m > kMaxSurfaceShift_m;
+}
+
+std::string fit_sentence(const ViewedSensor& sensor) {
+  if (!sensor.refit) return "";
+  const Refit& refit = *sensor.refit;
+  const std::string shift_mm = fixed_number(1e3 * refit.surface_shift_m, 1);
+  return is_contradicted(sensor)
+             ? "The clouds contradict this pose: the surfaces fit better at a pose " +
+                   fixed_number(deg_from_rad(refit.rotation_rad), 2) + " deg and " +
+                   fixed_number(1e3 * refit.translation_m, 0) + " mm away, which moves them by " +
+                   shift_mm + " mm."
+             : "Fit check: a new registration with all other sensors moves the surfaces by " +
+                   shift_mm + " mm.";
+}
 
 Drawing residual_chart(const ViewedSensor& sensor, const Sheet& sheet) {
   std::vector<Axis> axes;

@@ -1,9 +1,18 @@
 #pragma once
 
+#include <string>
+
 #include "framework/calibration/rig_view.hpp"
 #include "framework/picture/drawing.hpp"
 
 namespace croon::experiments {
+
+/// Whether a refit moves the surfaces of the sensor by more than `kMaxSurfaceShift_m`.
+bool is_contradicted(const ViewedSensor& sensor);
+
+/// A sentence on the refit of a sensor, a warning if its clouds contradict the pose; empty without
+/// a refit.
+std::string fit_sentence(const ViewedSensor& sensor);
 
 /// The residuals of a sensor over azimuth, elevation, range and incidence: in each bin the median
 /// with a band between the quartiles. A sensor with a fault shows a slope or a wave.
