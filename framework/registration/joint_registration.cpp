@@ -118,7 +118,8 @@ class JointProblem {
     }
   }
 
-  /// Whether poses and clocks no longer move, nor points of a scan due to its velocity.
+  /// Whether the iteration has converged: the step hardly changes poses and clock offsets, and its
+  /// change of the velocities hardly moves the points of a scan.
   bool is_small(const Eigen::VectorXd& step) const {
     constexpr double kRotation_rad = 1e-4, kTranslation_m = 1e-3, kScan_s = 0.1, kOffset_s = 3e-5;
     const auto is_still = [&](const Block& block, double scale) {
