@@ -37,9 +37,9 @@ std::optional<Basin> basin_of(const std::vector<TrialRecord>& records, const Swe
 std::optional<double> basin_radius(const Sweep& sweep, const BasinRow& row);
 
 /// The interval of the radius over scenes. Its ends are the radii computed from the lower and the
-/// upper ends of the levels' 95 % intervals, with the share at the first level unchanged. An end at
-/// the last size may lie beyond it. std::nullopt if there is no radius, or if shares have no
-/// interval.
+/// upper ends of the levels' 95 % intervals, with the share at the first level unchanged. If an end
+/// equals the last size, the true one may be larger. std::nullopt if there is no radius, or if
+/// shares have no interval.
 std::optional<Interval> basin_radius_interval(const Sweep& sweep, const BasinRow& row);
 
 /// The size of a level, without rounding errors of equal steps.

@@ -132,7 +132,7 @@ double max_magnitude(const Claim& claim, const SuccessBounds& bounds, bool has_t
   return std::numeric_limits<double>::infinity();
 }
 
-/// The range of numbers that the trials of a claim can lead to; `n` of them are counted.
+/// The range of values that the trials of a claim can produce; `n` of them are counted.
 Interval attainable(const Claim& claim, const SuccessBounds& bounds, const Rows& rows, int n) {
   if (is_share(claim.statistic)) return {0.0, 100.0};
   const double limit = max_magnitude(claim, bounds, have_truth(rows));

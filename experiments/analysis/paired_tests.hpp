@@ -36,9 +36,9 @@ double median_with_failures(std::vector<double> values);
 /// pairs.
 Interval median_difference_interval(const Pairs& pairs, const Clusters& clusters);
 
-/// The exact two-sided p of McNemar's test (1947): under its hypothesis each pair with only one
-/// success is equally likely won by either side, so the smaller number is binomial. 1 if both are
-/// 0. Throws std::logic_error if a number is negative.
+/// The exact two-sided p of McNemar's test (1947): under its hypothesis, in a pair with only one
+/// success either side is equally likely to be the successful one, so the smaller number is
+/// binomial. 1 if both are 0. Throws std::logic_error if a number is negative.
 double mcnemar_p(int only_base, int only_variant);
 
 /// The signed ranks of paired differences: the rank of each magnitude among all (the mean rank for
@@ -68,8 +68,8 @@ double normal_sign_p(const std::vector<double>& scores);
 double sign_flip_p(const std::vector<double>& sums);
 
 /// The p values corrected for multiple testing by Holm's step-down procedure (1979), in their
-/// order. Rejecting all hypotheses with values below 0.05 has a probability of at most 5 % of any
-/// false rejection.
+/// order. If all hypotheses with values below 0.05 are rejected, the probability of any false
+/// rejection is at most 5 %.
 std::vector<double> holm(const std::vector<double>& p_values);
 
 }  // namespace croon::experiments

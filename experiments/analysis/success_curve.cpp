@@ -45,7 +45,8 @@ struct Thresholds {
   std::size_t size() const { return rotation_rad.size(); }
 };
 
-/// The index of the first threshold that `value` does not exceed; their number if there is none.
+/// The index of the first threshold that `value` does not exceed; the number of thresholds if it
+/// exceeds all.
 std::size_t first_within(double value, const std::vector<double>& thresholds) {
   return static_cast<std::size_t>(std::lower_bound(thresholds.begin(), thresholds.end(), value) -
                                   thresholds.begin());

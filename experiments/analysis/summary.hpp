@@ -57,7 +57,8 @@ bool is_significant(const PairedTest& test);
 /// Whether the difference is significant both over trials and with scenes as units.
 bool is_significant_by_scene(const PairedTest& test);
 
-/// An error of both sides over the same trials; infinite for trials without a usable result.
+/// One of the errors, compared between both sides over the same trials; infinite for trials without
+/// a usable result.
 struct ErrorComparison {
   double base_median = 0.0;
   double variant_median = 0.0;

@@ -25,7 +25,7 @@ std::optional<bool> is_near(const TrialRecord& record, const RigidTransform& pos
   return agree(*usable, pose, bounds);
 }
 
-/// The trials of `records` that are near `pose`; `is_alone` tells that there is no other trial.
+/// The trials of `records` that are near `pose`; `is_alone` means that there is no other trial.
 Agreeing agreeing_with(const RigidTransform& pose, const SceneRecords& records,
                        const PoseBounds& bounds, bool is_alone) {
   std::vector<double> rotations, translations;
@@ -41,7 +41,7 @@ Agreeing agreeing_with(const RigidTransform& pose, const SceneRecords& records,
           root_mean_square(translations)};
 }
 
-/// The covariances of the poses that agree on a consensus; std::nullopt if one is unknown.
+/// The covariances of the poses that agree on a consensus; std::nullopt if any of them is unknown.
 std::optional<std::vector<PoseCovariance>> covariances_of_members(
     const std::vector<RigidTransform>& poses,
     const std::vector<std::optional<PoseCovariance>>& covariances, const PoseBounds& bounds,

@@ -132,8 +132,8 @@ struct SummaryRow : TrialSummary {
   /// The covariance of `consensus`, a mean over the scenes near it, whose errors are assumed
   /// independent; std::nullopt if one of them has none.
   std::optional<PoseCovariance> covariance;
-  /// The trials of all scenes that are near `consensus`; none unless two of them, or the only
-  /// trial, belong to scenes whose trials agree or that have a single trial.
+  /// The trials of all scenes that are near `consensus`. Empty unless at least two of them (or the
+  /// only trial) belong to scenes whose trials agree or that have a single trial.
   Agreeing agreeing;
   /// The sample std of the counted trials about their scene's consensus, pooled over scenes by
   /// degrees of freedom; std::nullopt if no scene has two such trials.

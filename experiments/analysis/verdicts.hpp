@@ -37,8 +37,8 @@ struct AcceptanceCurve {
                                           ///< none if no trial with ground truth was rejected.
 };
 
-/// Whether there are counts over thresholds: not if no trial was rejected, nor with a success bound
-/// of zero.
+/// Whether there are counts over thresholds; false if no trial with ground truth was rejected, or
+/// if a success bound is zero.
 inline bool has_curve(const AcceptanceCurve& acceptance) {
   return !acceptance.rows.empty() && !acceptance.thresholds.empty();
 }

@@ -59,8 +59,8 @@ struct ExportOptions {
   bool title = false;                 ///< Add a title to the figure.
 };
 
-/// Throws InputError if two of the paths lead to the same file or folder, whose results a command
-/// would show twice. `what` is the word for a path in the message.
+/// Throws InputError if two of the paths refer to the same file or folder, because a command would
+/// show its results twice. `what` is the word for a path in the message.
 void refuse_repeats(const std::vector<std::filesystem::path>& paths,
                     const std::string& what = "folder");
 

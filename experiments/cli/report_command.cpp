@@ -17,7 +17,8 @@
 namespace croon::experiments {
 namespace {
 
-/// The report of the results in `folder`. Without the data, it has no view of clouds and says so.
+/// The report of the results in `folder`. Without the data, it contains a note instead of the view
+/// of the clouds.
 std::string report_of(const std::filesystem::path& folder, const std::filesystem::path& data,
                       const Catalogue& catalogue) {
   Results results = read_results(folder, Content::trials_and_steps);

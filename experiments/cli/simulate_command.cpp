@@ -87,7 +87,8 @@ std::string velocities_csv(const std::vector<VelocityRow>& rows) {
   return csv_of(columns, rows);
 }
 
-/// By scene, the name that its trials start under: the name of its group, or its own without one.
+/// By scene: the name under which its starts are looked up, i.e. the name of its group, or its own
+/// name if it is in no group.
 using TrialScenes = std::map<std::string, std::string>;
 
 TrialScenes trial_scenes(const std::vector<Scene>& scenes, const std::vector<SceneGroup>& started) {

@@ -116,7 +116,7 @@ const Table<ExperimentKeys>& experiment_table() {
     Table<P> rows = {json_value(
         "extends", &P::extends, kExtendsDefinition,
         "Another experiment file, relative to this one, whose keys are the defaults, or a "
-        "list of files, of which later ones replace keys of earlier ones. A key that is "
+        "list of files, in which keys of later files replace those of earlier ones. A key that is "
         "given here replaces the complete value.")};
     rows.inherit(kept_table());
     rows.add(params::required(json_value("pipeline", &P::pipeline, kPipelineDefinition,

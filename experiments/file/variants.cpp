@@ -264,7 +264,8 @@ std::vector<NamedPipeline> apply_grid(const std::vector<NamedPipeline>& pipeline
 void check_steps(const NamedPipeline& named, const Pipeline& built, bool loops,
                  std::vector<Fault>& faults) {
   for (Fault fault : unmet_needs(named.pipeline, built)) {
-    // The step may be in the base, while the variant removes the step that provides the extra.
+    // Names the variant: the fault is at a step that may be part of the base, although it is the
+    // variant that removes the step that provides the extra.
     fault.message += ", in variant \"" + named.name + "\"";
     faults.push_back(std::move(fault));
   }

@@ -43,7 +43,7 @@ BoxOf box_of(const Summary& summary, std::size_t max_scenes, std::size_t max_kin
 }
 
 std::vector<BoxGroup> box_groups(const Summary& summary, BoxOf of) {
-  // Kinds are in the order of their summaries, everything else in that of the rows.
+  // Kinds are in the order of their summaries, everything else in the order of the rows.
   std::vector<std::string> labels, sensors;
   if (of == BoxOf::scene_kind) {
     for (const SceneKindSummary& kind : summary.scene_kinds) index_of(labels, kind.scene_kind);

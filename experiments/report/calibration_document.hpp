@@ -20,8 +20,8 @@ std::string accepted_sentence(const CalibratedRig& rig);
 std::string calibration_text(const CalibratedRig& rig, bool colours);
 
 /// The report of a calibration: the verdicts, and the views, numbers and pictures from which to
-/// judge them. A sensor whose clouds contradict its accepted pose has a warning. `provenance` tells
-/// where the result comes from: the version, the command.
+/// judge them. A sensor whose clouds contradict its accepted pose has a warning. `provenance` is
+/// the origin of the result: the version, the command.
 Document calibration_report(const CalibratedRig& rig, const std::vector<RigPicture>& pictures,
                             const Facts& provenance);
 

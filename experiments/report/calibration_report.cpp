@@ -213,8 +213,8 @@ Section scene_section(const CalibratedRig& rig) {
   View view{{{"sensor"},
              {"scene"},
              {"verdict"},
-             {"from the pose, deg", "<from_pose_deg>"},
-             {"from the pose, mm", "<from_pose_mm>"}},
+             {"from the common pose, deg", "<from_pose_deg>"},
+             {"from the common pose, mm", "<from_pose_mm>"}},
             3};
   return {"scenes",
           "Consistency over scenes",

@@ -84,8 +84,8 @@ void add_statistic(Columns<Row>& columns, std::size_t k, std::size_t s) {
               [k, s](const Row& row) { return value_of(row.statistics, k, s); });
 }
 
-/// Smaller is better. Computed from the displayed digits, so that of two equal numbers never only
-/// one is bold.
+/// Smaller is better. Computed from the displayed digits, so that equal numbers are either all bold
+/// or all plain.
 double rank(const Cell& cell, const Column& column) {
   const std::string text = shown_text(cell, column);
   double shown = 0.0;

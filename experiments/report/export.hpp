@@ -70,7 +70,8 @@ ExportTable export_table(const Summary& summary, const ExportCaption& caption);
 ExportTable export_table(const Summary& summary, const ExportCaption& caption,
                          const TableChoice& choice);
 
-/// The meaning of success and agreement, of those that a table with a column "reference" shows.
+/// Sentences that define success and agreement, as far as a table with a column "reference" shows
+/// them.
 std::vector<std::string> share_sentences(const Table& table, const SuccessBounds& of_success);
 
 /// The caption, one plain-text sentence each: the experiment, its counts, the meaning of success

@@ -58,7 +58,7 @@ Drawing times_chart(const std::vector<StepTime>& times, const FigureOptions& opt
       end += time.median_s;
       const double width = plot.x(end) - left;
       draw_bar(drawing, left, bar, width, kBar * text, step);
-      // Markers distinguish segments without colours.
+      // Segments must be distinguishable without colours, hence the markers.
       const double radius = 0.25 * text;
       if (width > 3.0 * radius) {
         draw_marker(drawing, left + width / 2.0, bar + kBar * text / 2.0, radius, step);

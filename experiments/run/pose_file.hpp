@@ -33,8 +33,8 @@ class DatasetNames {
   /// Whether the dataset has the scene, and the scene has the sensor.
   bool has(const std::string& scene, const std::string& sensor) const;
 
-  /// Throws InputError, with the nearest name, unless `has`. Finding the nearest of many names is
-  /// slow.
+  /// Throws InputError, which suggests the nearest name, if `has` is false. Finding the nearest of
+  /// many names is slow.
   void check(const std::string& scene, const std::string& sensor) const;
 
  private:

@@ -10,8 +10,8 @@
 
 namespace croon::experiments {
 
-/// A calibration of a trial: of a sensor to the reference, under the sensor's name, or of a sensor
-/// to another one; with the known poses T_target_source.
+/// One calibration in a trial: either of a sensor to the reference, named after the sensor, or of a
+/// sensor to another one. The known poses are T_target_source.
 struct CalibratedPair : SensorPair {
   std::optional<RigidTransform> truth, nominal, initial;
 };

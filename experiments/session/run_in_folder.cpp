@@ -41,8 +41,8 @@ bool has_damage(const CheckedRun& run, const Scene& scene) {
          std::any_of(scene.sensors.begin(), scene.sensors.end(), is_damaged);
 }
 
-/// The damage of clouds in the requested groups. Their trials use the other scenes, so stored
-/// trials do not record it and every run has to report it.
+/// The damage of clouds in the requested groups. The trials of a group use its undamaged scenes and
+/// do not record the damage, so every run has to report it.
 std::set<std::string> damage_in_groups(const CheckedRun& run) {
   std::set<std::size_t> requested;
   for (const PlannedStart& start : plan_trials(run.experiment, run.groups, run.selection).starts) {

@@ -52,7 +52,7 @@ constexpr const char* kWithoutTruth = "sensors_without_truth";
 /// More trials than any run has; products with this number do not overflow.
 constexpr std::size_t kMaxPlanned = 1'000'000'000'000;
 
-/// The input for the digest of the pipelines, for one variant.
+/// One variant's line in the text from which the digest of the pipelines is computed.
 std::string pipeline_line(const std::string& name, const std::string& resolved) {
   return name + "\n" + resolved + "\n";
 }

@@ -68,8 +68,8 @@ constexpr const char* kStepColumns = "place, step, figures, information";
 /// A table with a row per trial or step, and its columns after the key.
 using StoredTable = std::pair<std::string, std::string>;
 
-/// Throws InputError if `rows` of `table` in `shard` and the rows of main have different values of
-/// `columns` for the same trial.
+/// Throws InputError if `shard` and main contain the same trial with different values of `columns`.
+/// `rows` is the query for the rows of `table` in `shard`.
 void refuse_doubled(const Database& database, const fs::path& shard, const std::string& table,
                     const std::string& rows, const std::string& columns) {
   Statement doubled = database.prepare(

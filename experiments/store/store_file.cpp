@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the header of an SQLite file identifies its program and tells whether it has a write-ahead
-/// log (https://www.sqlite.org/fileformat.html, 1.3).
+/// The positions in the header of an SQLite file of the identifier of its program, and of the
+/// version that indicates a write-ahead log (https://www.sqlite.org/fileformat.html, 1.3).
 constexpr std::size_t kApplicationIdOffset = 68;
 constexpr std::size_t kWriteVersionOffset = 18;
 constexpr char kVersionWithLog = 2;

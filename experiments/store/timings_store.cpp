@@ -21,9 +21,9 @@ std::string timings_schema() {
          "PRIMARY KEY(variant, scene, sensor, trial, place, step, seconds)) STRICT, WITHOUT ROWID;";
 }
 
-/// The database of the file `path`, as described at the constructor of TimingsStore. It keeps
-/// SQLite's rollback journal: a log, if lost together with that of the store, would hide that
-/// trials are missing.
+/// The database of the file `path`, as described at the constructor of TimingsStore. It uses
+/// SQLite's rollback journal instead of a write-ahead log: if such a log were lost together with
+/// that of the store, nothing would show that trials are missing.
 Database open_timings(const fs::path& path, Access access) try {
   const bool is_new = !has_store(path);
   // SQLite would create it with permissions that differ from those of the umask.

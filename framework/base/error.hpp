@@ -73,8 +73,8 @@ auto with_stage_errors(const std::string& library, const Work& work) {
   }
 }
 
-/// The known name with the smallest edit distance to `name`; empty if that one differs in the whole
-/// of a short name or in more than half of a long one.
+/// The known name with the minimum edit distance to `name`. Empty if even that name is too
+/// different: in more than half of the characters of a long `name`, or in all of a short one.
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known);
 
 /// `; did you mean "ransac"?`, or `; known: a, b, c` if no known name is near. Empty if `known` is

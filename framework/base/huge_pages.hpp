@@ -1,6 +1,7 @@
 #pragma once
 
-// For one source file of a program that links jemalloc; a library must not make this choice.
+// Include this file in exactly one source file of a program that links jemalloc, never in a
+// library, which must not make this choice.
 
 /// The options that jemalloc reads from its program (its manual, `TUNING`): use pages of 2 MiB and
 /// keep memory that has been used. On a virtual machine, a page fault for 4 KiB costs more than the

@@ -38,8 +38,8 @@ struct Interval {
 /// trials.
 Interval wilson_interval(int successes, int trials);
 
-/// The same for a proportion in [0, 1] that is known as precisely as from `trials` independent
-/// trials, a positive number that need not be whole.
+/// The same for a proportion in [0, 1] and an effective number `trials` of independent trials,
+/// which must be positive but need not be whole.
 Interval wilson_interval(double proportion, double trials);
 
 /// The numbers of a box plot (Tukey 1977).

@@ -10,7 +10,7 @@
 
 namespace croon {
 
-/// A file cannot be read at the moment, or is no longer the same file. This says nothing about its
+/// A file cannot be read at the moment, or is no longer the same file. This does not depend on its
 /// content, so it must not become a result: another attempt may succeed.
 class UnavailableFile : public InputError {
  public:

@@ -25,8 +25,8 @@ constexpr double kColumn_m = 1.0;
 constexpr double kLowest_m = 0.4, kHighest_m = 6.0;
 constexpr double kNearestCloseUp_m = 4.0, kFarthestCloseUp_m = 45.0;
 
-/// The columns with points that stand on the ground, of all sensors that are not rejected; of all
-/// if only the reference is left.
+/// The columns of points above the ground, from all sensors that are not rejected, or from all
+/// sensors if all but the reference are rejected.
 std::map<CellIndex, GroundCell> cells_of(const RigView& view) {
   const bool is_any_accepted = std::any_of(
       view.sensors.begin(), view.sensors.end(),
@@ -99,7 +99,7 @@ bool is_shared(const GroundCell& cell) {
 enum CloseUpKind : std::size_t { kWall, kEdge, kPole, kCloseUpKinds };
 constexpr std::array<const char*, kCloseUpKinds> kKindNames = {"wall", "vertical edge", "pole"};
 
-/// The kind of place and its score, the best first; a negative score if it is none.
+/// The kind of place and its score; a negative score if the column is not suitable.
 std::pair<CloseUpKind, double> judged(const ColumnShape& shape, std::size_t own,
                                       std::size_t around) {
   constexpr double kTall_m = 1.2;

@@ -6,8 +6,8 @@
 
 namespace croon {
 
-/// A wall, a vertical edge and a pole, of each the farthest that two sensors measured: places where
-/// a misalignment would show. Kinds that the scene lacks are omitted.
+/// Places where a misalignment would show: the farthest wall, the farthest vertical edge and the
+/// farthest pole that two sensors measured. Kinds that the scene lacks are omitted.
 std::vector<CloseUp> close_ups(const RigView& view);
 
 }  // namespace croon

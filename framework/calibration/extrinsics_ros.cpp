@@ -124,7 +124,7 @@ class PublisherArguments {
     }
   }
 
-  /// std::nullopt if there are no arguments, where the program is merely mentioned.
+  /// std::nullopt if there are no arguments, i.e. if the text merely mentions the program.
   std::optional<FrameLink> link() const {
     if (options_.empty()) return positional_link();
     FrameLink link;

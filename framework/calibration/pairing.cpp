@@ -46,7 +46,8 @@ SensorPairs pairs_of(const std::vector<double>& reference_s, const std::vector<d
                      double max_time_gap_s) {
   SensorPairs pairs;
   pairs.clouds.resize(reference_s.size());
-  // By cloud of the sensor: of the reference clouds to which it is nearest, the nearest one.
+  // By cloud of the sensor: the reference cloud that it is paired with. A cloud may be the nearest
+  // one to several reference clouds; the nearest of these gets it.
   Indices owners(stamps_s.size());
   for (std::size_t r = 0; r < reference_s.size() && !stamps_s.empty(); ++r) {
     const std::size_t cloud = nearest_index(stamps_s, reference_s[r]);

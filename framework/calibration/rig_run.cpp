@@ -60,8 +60,8 @@ void extend(std::vector<std::vector<StepPose>>& paths, const Rig& rig,
   }
 }
 
-/// `before_common` has the estimates from before a step set sensors to one pose in all scenes;
-/// empty if no step did.
+/// `before_common` contains the estimates that preceded the step that set each sensor to one pose
+/// in all scenes; it is empty if there was no such step.
 std::vector<MemberResult> results_of(const std::vector<CalibrationMember>& members, const Rig& rig,
                                      const std::vector<Estimate>& before_common,
                                      std::vector<std::vector<StepPose>> paths) {

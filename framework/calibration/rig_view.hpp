@@ -26,8 +26,8 @@ struct Residual {
 /// Distances of the points of a cloud to the nearest surfaces; NaN without a surface nearby.
 using Distances = std::vector<float>;
 
-/// The pose of a sensor to which a registration with the other sensors' surfaces leads from the
-/// result: an independent check.
+/// The pose to which a sensor moves from the result if it is registered with the other sensors'
+/// surfaces: an independent check.
 struct Refit {
   double rotation_rad = 0.0;   ///< From the result.
   double translation_m = 0.0;  ///< From the result.

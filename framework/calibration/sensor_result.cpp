@@ -111,7 +111,7 @@ std::string disagreement(const std::vector<SceneResult>& scenes) {
   return text;
 }
 
-/// Of the poses that were not accepted, the one nearest to the majority; null if there is none.
+/// The pose nearest to the majority among those that were not accepted; null if there is none.
 const MemberResult* best_guess(const std::vector<SceneResult>& scenes) {
   std::vector<const MemberResult*> results;
   std::vector<RigidTransform> poses;

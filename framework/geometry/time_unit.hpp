@@ -25,9 +25,10 @@ const char* name_of(TimeUnit unit);
 TimeUnit convention_of(ScalarKind kind);
 
 /// The unit of the times of one scan, stored as numbers of this kind. Times since 1970 reveal their
-/// unit by their magnitude (Livox writes such nanoseconds as double). Other times use the
-/// convention if that yields a possible duration of a scan, else the unit in which the duration is
-/// closest to 0.1 s, if it is possible in any unit. Times that are not finite are ignored.
+/// unit by their magnitude (Livox writes such nanoseconds as double). Other times have the
+/// conventional unit if it implies a possible duration of a scan, otherwise the unit for which the
+/// duration is closest to 0.1 s, if any unit implies a possible one. Times that are not finite are
+/// ignored.
 TimeUnit unit_of_times(const std::vector<double>& times, ScalarKind kind);
 
 /// Whether times are relative to a packet of the sensor instead of the scan: they restart many

@@ -130,7 +130,7 @@ class RecordReader {
     } else if (device_) {
       fault(device_->place, "the device has no line \"" + key_ + "\"");
     } else if (value_) {
-      fault(value_->place, "the line has no device_id beside it");
+      fault(value_->place, "expected a device_id for this line, found none");
     }
     device_.reset();
     value_.reset();

@@ -34,9 +34,10 @@ struct SensorCloud {
 /// if the minimum eigenvalue of their covariance is at most `max_thickness_ratio` times the middle
 /// one. Uses every `stride`-th point of each cloud.
 ///
-/// Two grids, shifted by a third of an edge, are searched. A plane that a face of its cube may have
-/// cut along its surface is discarded, because the part that is cut off depends on the poses; it
-/// lies inside a cube of the other grid. Most planes are found in both.
+/// Two grids, shifted by a third of an edge, are searched. A plane so close to a face of its cube
+/// that the face may cut off some of its points is discarded, because which points are cut off
+/// depends on the poses; in the other grid, the plane lies inside a cube. Most planes are found in
+/// both.
 ///
 /// The sums are over the points as they are at the velocity of `state`; if times are given, the
 /// views also contain the sums that account for a further velocity.
@@ -44,10 +45,10 @@ struct SensorCloud {
 /// The points of a view have the total weight `1 / (s^2 / n + e^2)` for n points with the variance
 /// s^2 across the plane, computed over all sensors and at least (5 mm)^2, and the error e of the
 /// surface. So the cost is in units of its own noise, and a wall with a thousand points does not
-/// outvote ten with a hundred. Within a view, a point counts as often as its channel `mean_of`
-/// says. A voxel filter cuts a noisy wall along the borders of its leaves: if each leaf counted
-/// once, the few points beyond a border would count as much as the many before it, and the wall
-/// would shift towards the border.
+/// outvote ten with a hundred. Within a view, a point counts as many times as its channel `mean_of`
+/// specifies. A voxel filter cuts a noisy wall along the borders of its leaves: if each leaf
+/// counted once, the few points beyond a border would count as much as the many before it, and the
+/// wall would shift towards the border.
 std::vector<PlanePatch> plane_patches(const std::vector<SensorCloud>& clouds, const RigState& state,
                                       int stride, const VoxelOptions& options);
 

@@ -107,8 +107,8 @@ class ViewProblem {
   std::vector<int> indices_;
 };
 
-/// The weights of contacts: n to the minus `direction_balance` for n contacts of about the same
-/// direction, times the weight of the robust kernel.
+/// The weights of contacts: n^-`direction_balance` for n contacts of about the same direction,
+/// times the weight of the robust kernel.
 std::vector<double> weights_of(const std::vector<Contact>& contacts,
                                const AzimuthOptions& options) {
   DirectionCounts counts{};

@@ -11,8 +11,8 @@
 namespace croon {
 namespace {
 
-/// Whether a step is small: of the poses of `sensors` sensors, optionally followed by their clock
-/// offsets.
+/// Whether a step is small. It contains the changes of the poses of `sensors` sensors, optionally
+/// followed by those of their clock offsets.
 bool is_step_small(const Eigen::VectorXd& step, std::size_t sensors) {
   constexpr double kRotation_rad = 1e-8, kTranslation_m = 1e-7, kOffset_s = 1e-9;
   const auto offsets_at = static_cast<Eigen::Index>(6 * sensors);

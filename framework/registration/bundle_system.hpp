@@ -11,16 +11,16 @@ namespace croon {
 /// The unknowns of a bundle adjustment.
 struct BundleState {
   std::vector<RigidTransform> poses;  ///< T_common_sensor, by sensor.
-  /// By scene: the correction of the velocity for which its clouds were corrected; std::nullopt if
-  /// that is certain.
+  /// By scene: the change of the velocity relative to the one for which its clouds were corrected;
+  /// std::nullopt if the latter is certain.
   std::vector<std::optional<Twist>> velocities;
-  std::vector<double>
-      clock_offsets_s;  ///< By sensor: added to its times, yields the first's times.
+  /// By sensor: the offset to be added to its times to obtain those of the first.
+  std::vector<double> clock_offsets_s;
 };
 
 /// The second-order terms of a cost with respect to the free poses of the sensors, 6 for each, and
 /// the offsets of their clocks, if those are unknowns, with each scene's velocity eliminated (Schur
-/// complement): for any step of the poses it makes its optimal step.
+/// complement): for any step of the poses, the velocity takes the step that is then optimal.
 struct ReducedCost {
   Eigen::VectorXd gradient;
   Eigen::MatrixXd hessian;

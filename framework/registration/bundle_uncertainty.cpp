@@ -54,9 +54,10 @@ std::vector<ClusterStep> steps_by_cluster(const BundleSystem& system, std::size_
   return steps;
 }
 
-/// The step of all poses for a constant error of a scene's velocity of `error_mps` along itself, at
-/// most its magnitude; zero if the scene's velocity is not an unknown. `hessian` is that of the
-/// poses, with all velocities following; `cost` and `reduced_cost` are those of the scene.
+/// The step of all poses if a scene's velocity has a constant error along its own direction, of
+/// `error_mps` but at most the magnitude of the velocity; zero if the scene's velocity is not an
+/// unknown. `hessian` is that of the poses, with all velocities following; `cost` and
+/// `reduced_cost` are those of the scene.
 Eigen::VectorXd step_for_velocity_error(const Twist& velocity, const BlockSystem& cost,
                                         const ReducedCost& reduced_cost,
                                         const Eigen::MatrixXd& hessian, double error_mps) {

@@ -46,7 +46,7 @@ Eigen::MatrixXd covariance_by_clusters(const std::vector<ClusterStep>& clusters)
 /// The factor on a standard deviation with n = `freedom` degrees of freedom for which the normal
 /// interval of 90 % approximates that of Student's t: `sqrt((n + 1) / (n - 1))`, within 3 % from
 /// n = 2 on. The interval of 50 % is then too wide, by 8 % at n = 8, and that of 95 % too narrow,
-/// by 4 %. Below 1.5 degrees of freedom it is as at 1.5.
+/// by 4 %. Below 1.5 degrees of freedom, the factor for 1.5 is used.
 double student_widening(double freedom);
 
 }  // namespace croon

@@ -37,14 +37,14 @@ class ConsistencyGraph {
   /// Throws StageError if there are more.
   ConsistencyGraph(const OrientedPairs& pairs, const ConsistencyOptions& options);
 
-  /// The core number of each vertex: the largest k such that it is in a subgraph each of whose
-  /// vertices has k neighbours in it (Matula and Beck 1983). A clique of n vertices is in the
-  /// (n-1)-core (Shi et al., ROBIN, ICRA 2021).
+  /// The core number of each vertex: the largest k such that the vertex belongs to a subgraph in
+  /// which every vertex has at least k neighbours (Matula and Beck 1983). A clique of n vertices is
+  /// in the (n-1)-core (Shi et al., ROBIN, ICRA 2021).
   std::vector<int> core_numbers() const;
 
-  /// A maximal clique that contains `seed`: of the vertices consistent with all members, the next
-  /// member is the one with the most neighbours among them; the first in case of ties. Neighbours
-  /// are recounted each time half of the vertices have dropped out.
+  /// A maximal clique that contains `seed`, grown greedily: among the vertices that are consistent
+  /// with all members, the one with the most neighbours is added next (the first in case of ties).
+  /// Neighbours are recounted each time half of the vertices have dropped out.
   std::vector<int> clique(int seed) const;
 
   int size() const { return size_; }

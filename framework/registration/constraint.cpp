@@ -78,8 +78,9 @@ std::string dof_names_of(const std::vector<ConstraintDirection>& directions) {
     const double turn = direction.motion.head<3>().norm();
     const double shift = direction.motion.tail<3>().norm();
     for (int i = 0; i < 6; ++i) {
-      // Rotations are compared with rotations and translations with translations. Below 0.02 rad
-      // and 0.1 m per unit of the direction all count as small.
+      // Rotations are compared with rotations and translations with translations. The whole counts
+      // as at least 0.02 rad or 0.1 m per unit of the direction, so that the shares of a tiny
+      // motion are small.
       const double whole = i < 3 ? std::max(turn, 0.02) : std::max(shift, 0.1);
       auto& share = shares[static_cast<std::size_t>(i)];
       share = std::max(share, std::abs(direction.motion(i)) / whole);

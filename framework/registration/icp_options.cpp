@@ -24,10 +24,10 @@ const params::Table<IcpOptions>& icp_table() {
       number("kernel_width_m", &IcpOptions::kernel_width_m, {1e-6, 1e6},
              "Larger residuals lose weight."),
       number("rotation_tolerance_deg", &IcpOptions::rotation_tolerance_deg, {0.0, 180.0},
-             "Convergence: maximum rotation in an iteration, together with the translation "
-             "tolerance."),
+             "Converged if an iteration rotates by at most this and moves by at most the "
+             "translation tolerance."),
       number("translation_tolerance_m", &IcpOptions::translation_tolerance_m, {0.0, 1e6},
-             "Convergence: maximum translation in an iteration, together with the rotation "
+             "Converged if an iteration moves by at most this and rotates by at most the rotation "
              "tolerance."),
       integer(
           "max_coarse_points", &IcpOptions::max_coarse_points, {10, 1e9},

@@ -68,7 +68,8 @@ RobustKernel kernel_at(double max_distance_m, const JointOptions& options) {
 /// `1 / (1 + r^2 / width^2)`: 1 for a residual of zero, negative for large ones.
 double curvature_over_weight(double weight) { return 4.0 * std::sqrt(weight) - 3.0; }
 
-/// Reduces the weight of the terms of a patch that is off as a whole, i.e. moves independently.
+/// Reduces the weight of the terms of a patch that is displaced as a whole, i.e. moves
+/// independently.
 void weigh_patches(std::vector<JointTerm>& terms, const JointView& view) {
   if (view.options.patch_kernel_m <= 0.0) return;
   struct Mean {
@@ -139,8 +140,8 @@ class TermMaker {
   const Twist& velocity_;
   Twist whole_velocity_;  ///< Including the velocity that an earlier step has removed.
   double clock_offset_s_;
-  /// Of the sensor, moved by the part that an earlier step has not removed, because it did not
-  /// correct the sensor's clock.
+  /// The sensor's pose, moved by the part of the motion that an earlier step has not removed
+  /// because it did not correct the sensor's clock.
   RigidTransform pose_;
   const Normals& normals_;
   double min_cosine_;

@@ -118,7 +118,8 @@ class JointProblem {
     }
   }
 
-  /// Whether poses and clocks no longer move, nor points of a scan due to its velocity.
+  /// Whether the iteration has converged: the step hardly changes poses and clock offsets, and its
+  /// change of the velocities hardly moves the points of a scan.
   bool is_small(const Eigen::VectorXd& step) const {
     constexpr double kRotation_rad = 1e-4, kTranslation_m = 1e-3, kScan_s = 0.1, kOffset_s = 3e-5;
     const auto is_still = [&](const Block& block, double scale) {
@@ -166,7 +167,7 @@ const params::Table<JointOptions>& joint_table() {
                        "Edge of the cubes that divide surfaces of about the same direction into "
                        "patches."),
         params::number("patch_balance", &JointOptions::patch_balance, {0.0, 1.0},
-                       "Each of the n points of a patch is weighted by n to the minus this: at 1 "
+                       "Each of the n points of a patch is weighted by n^-k, k being this: at 1 "
                        "every patch has the same weight, at 0 every point. It keeps one large "
                        "moving object from outvoting many small static ones."),
         params::number(

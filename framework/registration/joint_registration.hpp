@@ -37,8 +37,9 @@ struct JointScene {
 /// The unknowns of a joint registration.
 struct JointState {
   std::vector<RigidTransform> T_target_sensor;  ///< By sensor.
-  std::vector<double> clock_offsets_s;  ///< By sensor: added to its times, yields the target's.
-  std::vector<Twist> velocities;        ///< Of the target, by scene, in its own frame; constant.
+  /// By sensor: the offset to be added to its times to obtain those of the target.
+  std::vector<double> clock_offsets_s;
+  std::vector<Twist> velocities;  ///< Of the target, by scene, in its own frame; constant.
 };
 
 /// The parameters of `register_jointly`.

@@ -84,7 +84,8 @@ std::vector<JointState> registered(const std::vector<JointScene>& scenes,
   return ends;
 }
 
-/// The `states` that are rivals of `state` and of all states before them.
+/// Those of `states` that are rivals of `state` and of each other; of several similar ones, the
+/// first.
 std::vector<JointState> different_from(const JointState& state,
                                        const std::vector<JointState>& states) {
   std::vector<JointState> seen = {state};

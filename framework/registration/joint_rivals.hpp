@@ -19,11 +19,11 @@ std::vector<JointState> other_speeds(const JointScene& scene, const JointState& 
 inline constexpr double kRivalDistance_m = 0.05;
 
 /// The lead, in standard deviations, of the agreement of all points (see PairAgreement) in `state`
-/// of one scene over its rivals, which are the results of the registration from `starts`: with
-/// `coarse_options` on the thinned scene `coarse`, and then with `options` on `scene`. For each
-/// source, the minimum lead over the rivals in which its position differs; std::nullopt if there
-/// are none; negative if a rival agrees better. Surfaces are weighted by how much they face along
-/// the axis in which the two velocities differ.
+/// of one scene over that in its rivals. The rivals are the results of registrations that start at
+/// `starts`, first with `coarse_options` on the thinned scene `coarse`, then with `options` on
+/// `scene`. For each source, the minimum lead over the rivals in which its position differs;
+/// std::nullopt if there are none; negative if a rival agrees better. Surfaces are weighted by how
+/// much they face along the axis in which the two velocities differ.
 ///
 /// The difference is a sum over cubes of space, which count as independent: its variance is the sum
 /// of their squares. So a rival that only a few moving cars support has a small lead or deficit.

@@ -27,7 +27,7 @@ struct TimeSpan {
 TimeSpan span_of(const std::vector<double>& times_s);
 
 /// Throws StageError if `times_s` cannot belong to a scan: a time is not finite or far from
-/// `reference_s`, or they span more time than a scan can last, or less.
+/// `reference_s`, or the span of the times is too long or too short for a scan.
 void require_near(const std::vector<double>& times_s, double reference_s);
 
 }  // namespace croon

@@ -95,9 +95,9 @@ class GroundRegions {
     return regions;
   }
 
-  /// The upright plane at the bottom of a region. A plane that is not upright is a wall; the region
-  /// is then refitted without its points (region-wise vertical plane fitting). Empty if no upright
-  /// plane is found.
+  /// The plane at the bottom of a region, if its normal is nearly vertical ("upright"). A steeper
+  /// plane is a wall: its points are removed and the region is fitted again (region-wise vertical
+  /// plane fitting). Empty if no upright plane is found.
   Region fitted(const Points& level, std::vector<int> points) const {
     constexpr int kWalls = 3;
     const double min_cosine = std::cos(rad_from_deg(options_.max_tilt_deg));

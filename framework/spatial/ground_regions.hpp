@@ -20,11 +20,12 @@ struct GroundRegionOptions {
 
 /// The points of `level` (z up, the sensor at the origin), by index, that lie in ground regions.
 /// The concentric zones around the sensor are divided into regions, and a plane is fitted to the
-/// lowest points of each; a region is ground if its plane is upright and either at the road's
-/// height or, away from the sensor, flat. After Lim, Oh and Myung, Patchwork, RA-L 2021, and Lee,
-/// Lim and Myung, Patchwork++, IROS 2022 (vertical planes are removed first). The road's height,
-/// which the papers know or learn from scan to scan, is the median over the regions near the
-/// sensor. Throws StageError if no region is upright.
+/// lowest points of each; a region is upright if the normal of its plane is nearly vertical, and
+/// ground if it is upright and either at the road's height or, away from the sensor, flat. After
+/// Lim, Oh and Myung, Patchwork, RA-L 2021, and Lee, Lim and Myung, Patchwork++, IROS 2022
+/// (vertical planes are removed first). The road's height, which the papers assume as known or
+/// track from scan to scan, is the median over the regions near the sensor. Throws StageError if no
+/// region is upright.
 std::vector<int> ground_region_points(const Points& level, const GroundRegionOptions& options);
 
 }  // namespace croon

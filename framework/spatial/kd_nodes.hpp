@@ -10,7 +10,7 @@ namespace croon {
 
 /// The nodes and leaves of a KdTree.
 struct KdNodes {
-  static constexpr int kSplits = 3;  ///< Per node; two are slower for searches with a bound.
+  static constexpr int kSplits = 3;  ///< Per node; with two, bounded searches are slower.
   static constexpr int kChildren = 1 << kSplits;
   static constexpr int kLeafSize = 24;  ///< The fastest of 8, 16, 24 and 32.
   using Distances = Eigen::Array<float, kLeafSize, 1>;

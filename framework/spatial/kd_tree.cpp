@@ -21,7 +21,8 @@ using Node = KdNodes::Node;
 constexpr int kChildren = KdNodes::kChildren;
 constexpr int kLeafSize = KdNodes::kLeafSize;
 
-/// Beyond every point, and nearer than an unused entry of a leaf.
+/// The squared distance at which an unbounded search starts: larger than that of every point,
+/// smaller than that of an unused entry of a leaf.
 constexpr float kUnbounded = std::numeric_limits<float>::max();
 
 /// Whether a point is nearer than the best one so far. Initially, the best distance is the bound of
@@ -204,7 +205,7 @@ class NearestManyResult {
     return memory;
   }
 
-  /// Reduces the candidates, of which there are more, to the wanted number.
+  /// Drops the farthest candidates, so that only the requested number is left.
   void drop_farthest() {
     float* const squared = this->squared().data();
     const auto within = [&](float bound_m2) {

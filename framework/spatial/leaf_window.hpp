@@ -30,9 +30,9 @@ using FarLeaves = std::vector<LeafKey>;
 std::int64_t count_new(const FarLeaves& leaves, const FarLeaves& others);
 
 /// A window of 2^21 leaves per axis of a LeafGrid (with leaves of 5 cm, 52 km to each side of the
-/// centre), whose leaves have keys of 63 bits. A brick is a cube of 4 x 4 x 4 leaves; a key is the
-/// brick's key, shifted by kLeafBits, and the leaf's number in the brick. The leaves are exactly
-/// those of LeafGrid::leaf_of.
+/// centre), whose leaves have keys of 63 bits. A brick is a cube of 4 x 4 x 4 leaves; a leaf's key
+/// is the key of its brick, shifted left by kLeafBits, plus the leaf's number in the brick. The
+/// leaves are exactly those of LeafGrid::leaf_of.
 class LeafWindow {
  public:
   static constexpr int kLeafBits = 6;

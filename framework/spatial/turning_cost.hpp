@@ -28,7 +28,7 @@ class TurningCost {
   /// The cost of that pose, m^2; exact to the last bit.
   double operator()(double angle_rad);
 
-  /// The same if it is below `upper_bound_m2`, else any number that is not below.
+  /// The same if it is below `upper_bound_m2`, otherwise any number that is not below it.
   double below(double angle_rad, double upper_bound_m2);
 
   /// An estimate of the cost from a few of the points, m^2.

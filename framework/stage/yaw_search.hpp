@@ -25,8 +25,8 @@ class YawCost {
 
   double operator()(double yaw_rad) const { return of_yaw_(yaw_rad); }
 
-  /// The cost if it is below `upper_bound`, else any number that is not. Saves most of a sum if a
-  /// search only needs to know whether one yaw costs less than another.
+  /// The cost if it is below `upper_bound`, otherwise any number that is not below it. Saves most
+  /// of a sum if a search only needs to know whether one yaw costs less than another.
   double below(double yaw_rad, double upper_bound) const {
     return of_yaw_below_ ? of_yaw_below_(yaw_rad, upper_bound) : of_yaw_(yaw_rad);
   }

@@ -34,7 +34,7 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
           params::number("leaf_size_m", &Params::leaf_size_m, {1e-3, 10.0},
-                         "Edge of the cubes, of each of which one point is used."),
+                         "Edge of the cubes; one point of each cube is used."),
           params::integer("neighbours", &Params::neighbours, {3, 1000},
                           "Number of neighbours from which a normal is computed."),
           params::number("max_angle_deg", &Params::max_angle_deg, {0.0, 90.0},

@@ -35,7 +35,7 @@ const params::Table<Params>& table() {
   static const params::Table<Params> table =
       params::Table<Params>{
           params::number("leaf_size_m", &Params::leaf_size_m, {1e-3, 10.0},
-                         "Edge of the cubes, of each of which one point is used."),
+                         "Edge of the cubes; one point of each cube is used."),
           params::integer(
               "neighbours", &Params::neighbours, {3, 1000},
               "Number of neighbours to which regions grow and from which normals are computed."),

@@ -22,7 +22,7 @@ const params::Table<Params>& table() {
               "Variance across a surface relative to the variance along it, epsilon in the paper."),
           params::number(
               "direction_balance", &Params::direction_balance, {0.0, 1.0},
-              "Each of n correspondences with similar normals is weighted by n to the minus this: "
+              "Each of n correspondences with similar normals is weighted by n^-k, k being this: "
               "at 1 every direction has the same weight, at 0 every point, as in the paper."),
       }
           .inherit(icp_table());

@@ -24,7 +24,7 @@ const params::Table<UncertaintyOptions>& option_table() {
                       "Number of neighbours from which a normal is computed."),
       params::number("direction_balance", &O::direction_balance, {0.0, 1.0},
                      "As in the registration that computed the pose: each of n contacts with "
-                     "similar normals is weighted by n to the minus this."),
+                     "similar normals is weighted by n^-k, k being this."),
       params::number("kernel_width_m", &O::kernel_width_m, {1e-6, 1e6},
                      "As in that registration: larger residuals lose weight."),
       params::number("surface_size_m", &O::surface_size_m, {0.01, 1e6},
@@ -40,8 +40,8 @@ const params::Table<UncertaintyOptions>& option_table() {
                      "Common error of surfaces seen at more than 60 degrees from their normals, as "
                      "a multiple of the noise."),
       params::number("line_breadth_ratio", &O::line_breadth_ratio, {0.0, 1.0},
-                     "Neighbours whose spread across their main axis is below this times the "
-                     "spread along it, and below the noise, lie on a line. Their normals are "
+                     "Neighbours lie on a line if their spread across their main axis is below the "
+                     "noise and below this multiple of the spread along it. Their normals are "
                      "ignored when classifying observability."),
       params::number("weak_ratio", &O::weak_ratio, {0.0, 1e9},
                      "A degree of freedom is weak if its information is below this multiple of the "

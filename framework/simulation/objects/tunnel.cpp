@@ -63,8 +63,8 @@ Profile ceiling_of(const Tunnel& tunnel) {
   return ceiling;
 }
 
-/// Pieces of the tunnel of `length_m`, `step_m` apart. The first one begins half a step after the
-/// tunnel.
+/// Pieces of the tunnel, each `length_m` long, at intervals of `step_m`. The first one begins half
+/// a step into the tunnel.
 std::vector<Span> every(const Tunnel& tunnel, double step_m, double length_m) {
   std::vector<Span> pieces_m;
   if (step_m <= 0.0) return pieces_m;

@@ -63,7 +63,7 @@ TEST(OpencalibFiles, SaysEveryLineThatIsWrong) {
       {"top.pcd\n", "line 1: expected \"device_id: NUMBER\" or \"path: ...\", found \"top.pcd\""},
       {"device_id: 0\ndevice_id: 1\npath: b\n", "line 1: the device has no line \"path\""},
       {"device_id: 0\npath: a\ndevice_id: 1\n", "line 3: the device has no line \"path\""},
-      {"device_id: 0\npath: a\npath: b\n", "line 3: the line has no device_id beside it"},
+      {"device_id: 0\npath: a\npath: b\n", "line 3: expected a device_id for this line, found none"},
       {"device_id: 0\npath: a\ndevice_id: 0\npath: b\n", "line 4: duplicate device 0"},
       {"device_id: -1\npath: a\n", "line 1: expected a device number, found \"-1\""},
       {"device_id: 9999999999\npath: a\n", "expected a device number"},
