@@ -338,8 +338,8 @@ const params::Table<AzimuthOptions>& azimuth_table() {
       params::number("max_normal_angle_deg", &O::max_normal_angle_deg, {0.0, 90.0},
                      "Maximum angle between the normals of corresponding points."),
       params::number("direction_balance", &O::direction_balance, {0.0, 1.0},
-                     "Each of n points on surfaces of about the same direction is weighted by n to "
-                     "the minus this."),
+                     "Each of n points on surfaces of about the same direction is weighted by "
+                     "n^-k, k being this."),
       params::number("kernel_width_m", &O::kernel_width_m, {1e-6, 1e6},
                      "Larger residuals lose weight."),
       params::number("surface_size_m", &O::surface_size_m, {0.01, 1e6},
