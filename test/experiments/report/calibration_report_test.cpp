@@ -9,7 +9,6 @@
 #include "framework/geometry/dof.hpp"
 #include "test/experiments/support/readable.hpp"
 #include "test/experiments/support/report_parts.hpp"
-#include "test/support/occurrences.hpp"
 #include "test/support/random_geometry.hpp"
 
 namespace croon::experiments {

@@ -11,7 +11,6 @@
 #include "test/experiments/support/readable.hpp"
 #include "test/experiments/support/report_parts.hpp"
 #include "test/experiments/support/run_bench.hpp"
-#include "test/support/occurrences.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -21,7 +20,6 @@ using test::agreeing;
 using test::Bench;
 using test::expect_sound_page;
 using test::section_ids;
-using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 using ::testing::Not;
