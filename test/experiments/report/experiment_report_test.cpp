@@ -51,7 +51,7 @@ json claiming() {
   return experiment;
 }
 
-json swept() {
+json sweeping() {
   json experiment = agreeing();
   experiment["starts"] = json::parse(
       R"({"around": "truth", "sweep": {"translation_m": [0, 0.5], "levels": 5}, "trials": 2})");
@@ -64,7 +64,7 @@ TEST(ExperimentReport, IsSoundForEveryKindOfExperiment) {
   without_truth["dataset"]["truth"] = false;
   without_truth["starts"]["around"] = "nominal";
   for (const json& experiment :
-       {test::drifting(), agreeing(), by_kind, without_truth, claiming(), swept()}) {
+       {test::drifting(), agreeing(), by_kind, without_truth, claiming(), sweeping()}) {
     SCOPED_TRACE(experiment.dump());
     const Results results = results_of(experiment);
     const Document report = report_of(results);

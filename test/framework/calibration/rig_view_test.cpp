@@ -26,7 +26,7 @@ void add_patch(Points& points, Rng& rng, const Eigen::Vector3d& origin, const Ei
 }
 
 /// A room of 20 x 20 m with its floor 2 m below the origin.
-Points room(std::uint64_t seed) {
+Points bare_room(std::uint64_t seed) {
   Rng rng = test_rng(seed);
   Points points;
   add_patch(points, rng, {-10, -10, -2}, {20, 0, 0}, {0, 20, 0}, 0.2);
@@ -52,12 +52,12 @@ bool is_inner_floor(const Eigen::Vector3f& point) {
 }
 
 TEST(RigView, DistancesAreAlongTheNormalsAndNaNWithoutSurface) {
-  Points points = room(2);
+  Points points = bare_room(2);
   Rng rng = test_rng(3);
   add_patch(points, rng, {-1, -1, 4}, {2, 0, 0}, {0, 2, 0}, 0.2);  // Nobody else sees it.
   const RigView view =
       view_of("a", {"raised", "result"},
-              {viewed_cloud("top", room(1), {RigidTransform(), RigidTransform()}),
+              {viewed_cloud("top", bare_room(1), {RigidTransform(), RigidTransform()}),
                viewed_cloud("left", points, {shift(0.0, 0.0, 0.05), RigidTransform()})});
   ASSERT_EQ(view.sensors.size(), 2U);
   const ViewedSensor& left = view.sensors[1];
@@ -81,8 +81,8 @@ TEST(RigView, DistancesAreAlongTheNormalsAndNaNWithoutSurface) {
 
 TEST(RigView, ResidualsArePositiveBehindTheSurface) {
   const RigView view = view_of("a", {"result"},
-                               {viewed_cloud("top", room(1), {RigidTransform()}),
-                                viewed_cloud("left", room(2), {shift(0.05, 0.0, 0.0)})});
+                               {viewed_cloud("top", bare_room(1), {RigidTransform()}),
+                                viewed_cloud("left", bare_room(2), {shift(0.05, 0.0, 0.0)})});
   int ahead = 0, behind = 0;
   for (const Residual& residual : view.sensors[1].residuals) {
     if (std::abs(residual.elevation_deg) > 5.0) continue;
@@ -131,12 +131,12 @@ TEST(RigView, RefitFindsAPoseThatIsWrongByLittle) {
 TEST(RigView, MergesALastStepThatIsTheResult) {
   const RigidTransform near = shift(0.01, 0.0, 0.0), far = shift(1.0, 0.0, 0.0);
   const std::vector<std::string> states = {"coarse", "icp", "result"};
-  const ViewedCloud top = viewed_cloud("top", room(1), {3, RigidTransform()});
-  const ViewedCloud left = viewed_cloud("left", room(2), {far, near, near});
+  const ViewedCloud top = viewed_cloud("top", bare_room(1), {3, RigidTransform()});
+  const ViewedCloud left = viewed_cloud("left", bare_room(2), {far, near, near});
   const RigView merged = view_of("a", states, {top, left});
   EXPECT_EQ(merged.states, (std::vector<std::string>{"coarse", "result"}));
   EXPECT_EQ(merged.sensors[1].poses.size(), 2U);
-  const ViewedCloud right = viewed_cloud("right", room(3), {std::nullopt, far, near});
+  const ViewedCloud right = viewed_cloud("right", bare_room(3), {std::nullopt, far, near});
   const RigView whole = view_of("a", states, {top, left, right});
   EXPECT_EQ(whole.states, states);
   EXPECT_FALSE(whole.sensors[2].poses[0]);
@@ -145,13 +145,13 @@ TEST(RigView, MergesALastStepThatIsTheResult) {
 
 TEST(RigView, ARejectedSensorIsNoSurface) {
   for (const bool is_accepted : {true, false}) {
-    Points ceiling = room(2);
+    Points ceiling = bare_room(2);
     Rng rng = test_rng(4);
     add_patch(ceiling, rng, {-5, -5, 4}, {10, 0, 0}, {0, 10, 0}, 0.2);
-    Points other = room(3);
+    Points other = bare_room(3);
     add_patch(other, rng, {-4, -4, 4}, {8, 0, 0}, {0, 8, 0}, 0.2);
     const RigView view = view_of("a", {"result"},
-                                 {viewed_cloud("top", room(1), {RigidTransform()}),
+                                 {viewed_cloud("top", bare_room(1), {RigidTransform()}),
                                   viewed_cloud("left", ceiling, {RigidTransform()}, is_accepted),
                                   viewed_cloud("right", other, {RigidTransform()})});
     const ViewedSensor& right = view.sensors[2];
@@ -199,9 +199,9 @@ TEST(RigView, IsTheSameOnOneThreadAndOnFour) {
     RigView view;
     on_threads(threads, [&] {
       view = view_of("a", {"result"},
-                     {viewed_cloud("top", room(1), {RigidTransform()}),
-                      viewed_cloud("left", room(2), {shift(0.02, 0.0, 0.0)}),
-                      viewed_cloud("right", room(3), {shift(0.0, 0.01, 0.0)})});
+                     {viewed_cloud("top", bare_room(1), {RigidTransform()}),
+                      viewed_cloud("left", bare_room(2), {shift(0.02, 0.0, 0.0)}),
+                      viewed_cloud("right", bare_room(3), {shift(0.0, 0.01, 0.0)})});
     });
     return view;
   };
