@@ -39,6 +39,7 @@ demo: demo_time release
 	@echo 'Open the reports in a browser: results/demo/report.html, results/demo_car/calibration/report.html'
 
 test: packages
+	@.ci/install_packages chromium || echo 'Chromium cannot be installed here: the tests browser/* will be skipped'
 	$(call PRESET_BUILD,test)
 	ctest --test-dir build/test --output-on-failure --parallel 2
 

@@ -18,6 +18,21 @@ class ChromiumError(RuntimeError):
     """The browser did not start, did not answer, or refused a command."""
 
 
+def is_snap(program):
+    """Whether a program is a snap, which cannot read /tmp, or Ubuntu's script that asks for it."""
+    real = os.path.realpath(program)
+    with open(real, "rb") as file:
+        return real == "/usr/bin/snap" or real.startswith("/snap/") or b"/snap/bin/" in file.read(4096)
+
+
+def find_chromium():
+    """The path of an installed Chromium or Chrome, or None."""
+    if os.environ.get("CHROMIUM"):
+        return os.environ["CHROMIUM"]
+    found = map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))
+    return next((program for program in found if program and not is_snap(program)), None)
+
+
 class Chromium:
     """A browser with one page; a context manager that ends it and removes its profile."""
 
@@ -28,8 +43,7 @@ class Chromium:
         self._next_id = 0
         self._answers = {}
         self._buffer = b""
-        program = program or os.environ.get("CHROMIUM") or shutil.which("chromium") or \
-            shutil.which("chromium-browser") or shutil.which("google-chrome")
+        program = program or find_chromium()
         if not program:
             raise ChromiumError("no chromium found; install it or set CHROMIUM")
         self._profile = tempfile.mkdtemp(prefix="croon_chromium_")

@@ -162,12 +162,15 @@ TEST_F(CalibrateCommand, WritesExtrinsicsAndWhatRepeatsThem) {
   EXPECT_EQ(answer.code, 0) << answer.text;
   EXPECT_NE(answer.text.find("ACCEPTED  left"), std::string::npos) << answer.text;
   for (const char* const name : {"extrinsics.csv", "extrinsics.json", "rig.json", "left.png",
-                                 "rig.png", "base_link/extrinsics.csv"}) {
+                                 "rig.png", "report.html", "base_link/extrinsics.csv"}) {
     EXPECT_TRUE(fs::exists(folder_.path() / "out" / name)) << name;
   }
   EXPECT_FALSE(fs::exists(folder_.path() / "out.croon-part"));
-  const Answer again = croon(with_folder("calibrate {}/out/rig.json --out {}/again --quiet"));
+  const Answer again =
+      croon(with_folder("calibrate {}/out/rig.json --out {}/again --quiet --no-pictures"));
   EXPECT_EQ(again.code, 0) << again.text;
+  EXPECT_FALSE(fs::exists(folder_.path() / "again/report.html"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "again/left.png"));
   EXPECT_EQ(read_whole_file(folder_.path() / "again/extrinsics.csv"),
             read_whole_file(folder_.path() / "out/extrinsics.csv"));
 }

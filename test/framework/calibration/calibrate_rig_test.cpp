@@ -81,6 +81,25 @@ TEST(CalibrateRig, GivesOnePosePerSensorFromAllScenesForAnyNumberOfThreads) {
             left.T_reference_sensor->translation);
 }
 
+TEST(CalibrateRig, ShowsThePosesAlongThePipeline) {
+  const CalibratedRig rig = calibrated(street_scenes(kLeft, 2));
+  EXPECT_EQ(rig.shown.scene, "0");
+  ASSERT_TRUE(rig.shown.reference);
+  ASSERT_EQ(rig.shown.sensors.size(), 1U);
+  const ShownSensor& left = rig.shown.sensors.front();
+  ASSERT_TRUE(left.cloud);
+  ASSERT_GT(left.path.size(), 1U);
+  expect_near(left.path.back().T_reference_sensor, kLeft);
+  for (std::size_t i = 1; i < left.path.size(); ++i) {
+    EXPECT_NE(left.path[i].step, left.path[i - 1].step);
+    EXPECT_FALSE(left.path[i].T_reference_sensor == left.path[i - 1].T_reference_sensor);
+  }
+  ASSERT_TRUE(left.rival);
+  EXPECT_GT(pose_error(*left.rival, kLeft).rotation_rad, rad_from_deg(5.0));
+  const CalibratedRig paper = calibrated(street_scenes(kLeft, 1), 2, "paper");
+  EXPECT_FALSE(paper.shown.sensors.front().rival);  // It has no global search.
+}
+
 TEST(CalibrateRig, StartsFromNothingIfANominalPoseIsWrong) {
   std::vector<Scene> scenes = street_scenes(kLeft, 1);
   scenes[0].sensors[0].nominal =

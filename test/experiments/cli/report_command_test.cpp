@@ -1,0 +1,107 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <CLI/CLI.hpp>
+
+#include <sstream>
+
+#include "experiments/cli/command.hpp"
+#include "experiments/cli/commands.hpp"
+#include "framework/base/whole_file.hpp"
+#include "framework/document/renderers.hpp"
+#include "framework/io/pcd_file.hpp"
+#include "registry/registry.hpp"
+#include "test/support/random_geometry.hpp"
+#include "test/support/temp_folder.hpp"
+
+namespace croon::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Results of two clouds in files, and the command on them.
+class ReportCommand : public ::testing::Test {
+ protected:
+  ReportCommand() {
+    Rng rng = test::test_rng();
+    for (const char* sensor : {"top", "left"}) {
+      fs::create_directories(path("data/car") / sensor);
+      write_pcd(path("data/car") / sensor / "1.pcd", test::random_cloud(rng, 200, 10.0));
+    }
+    folder_.write("data/car/truth.json",
+                  R"({"left": {"rotation_rpy_deg": [0, 0, 0], "translation_m": [1, 0, 0]}})");
+    RunOptions options;
+    options.experiment = folder_.write("x.json", R"({
+        "name": "x", "starts": {"trials": 4},
+        "dataset": {"type": "sensor_folders", "path": "car", "reference": "top"},
+        "pipeline": [{"step": "identity"}]})");
+    options.data = path("data");
+    options.out = path("out");
+    options.quiet = true;
+    std::ostringstream text, progress;
+    run_command(options, registry(), text, progress);
+  }
+
+  void SetUp() override {
+    if (!can_write_html()) GTEST_SKIP() << "a build without reports";
+  }
+
+  fs::path path(const std::string& name) const { return folder_.path() / name; }
+
+  /// Runs `croon report` and returns its exit code.
+  int report(const std::vector<std::string>& folders, const std::string& data = "data") {
+    for (const NamedCommand& named : all_commands()) {
+      if (named.name != "report") continue;
+      CLI::App app;
+      named.command->add_options(app);
+      std::vector<std::string> arguments = {path(data).string(), "--data"};  // The last is first.
+      for (const std::string& name : folders) arguments.push_back(path(name).string());
+      app.parse(arguments);
+      std::ostringstream out, err;
+      const Catalogue catalogue = registry();
+      const int code = named.command->run({catalogue, out, err, false});
+      text_ = out.str();
+      return code;
+    }
+    return -1;
+  }
+
+  /// The report without the scripts of the program.
+  std::string page() const {
+    const std::string whole = read_whole_file(path("out/report.html"));
+    return whole.substr(0, whole.find("<script>"));
+  }
+
+  test::TempFolder folder_;
+  std::string text_;
+};
+
+TEST_F(ReportCommand, WritesTheSameReportTwice) {
+  EXPECT_EQ(report({"out"}), 0);
+  EXPECT_EQ(text_, "The report is in " + path("out/report.html").string() + "\n");
+  const std::string first = page();
+  EXPECT_THAT(first, HasSubstr("The largest error of an accepted pose"));
+  EXPECT_THAT(first, HasSubstr("<figure class=\"cloud-view\""));
+  EXPECT_EQ(report({"out"}), 0);
+  EXPECT_TRUE(page() == first);
+}
+
+TEST_F(ReportCommand, WithoutTheDataSaysWhyThereAreNoViews) {
+  EXPECT_EQ(report({"out"}, "nowhere"), 0);
+  EXPECT_THAT(page(), HasSubstr("The clouds of the trials could not be read"));
+  EXPECT_THAT(page(), Not(HasSubstr("<figure class=\"cloud-view\"")));
+}
+
+TEST_F(ReportCommand, RefusesFoldersWithoutResultsAndRepeats) {
+  fs::create_directories(path("empty"));
+  EXPECT_THAT(test::input_error([&] { report({"empty"}); }), HasSubstr("empty"));
+  EXPECT_FALSE(fs::exists(path("empty/report.html")));
+  EXPECT_THAT(test::input_error([&] { report({"nowhere"}); }), HasSubstr("nowhere"));
+  EXPECT_NE(test::input_error([&] { report({"out", "out"}); }), "");
+  EXPECT_NE(test::input_error([&] { report({"out", "out/../out"}); }), "");
+  EXPECT_FALSE(fs::exists(path("out/report.html")));
+}
+
+}  // namespace
+}  // namespace croon::experiments
