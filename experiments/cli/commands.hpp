@@ -72,6 +72,12 @@ int export_command(const ExportOptions& options, std::ostream& out);
 /// is outside its band or was not measured.
 int claims_command(const std::vector<std::filesystem::path>& folders, std::ostream& out);
 
+/// `croon report`: writes report.html to each of `folders`, with views of clouds if the data root
+/// `data` has them. Returns 0. Throws InputError for a folder without results.
+int report_command(const std::vector<std::filesystem::path>& folders,
+                   const std::filesystem::path& data, const Catalogue& catalogue,
+                   std::ostream& out);
+
 struct SimulateOptions {
   std::filesystem::path experiment;
   std::vector<std::filesystem::path> with;  ///< Workloads, see load_experiment.

@@ -34,6 +34,26 @@ std::string report_of(const std::filesystem::path& folder, const std::filesystem
   return html_document(experiment_report(results, views, without_views));
 }
 
+}  // namespace
+
+int report_command(const std::vector<std::filesystem::path>& folders,
+                   const std::filesystem::path& data, const Catalogue& catalogue,
+                   std::ostream& out) {
+  if (!can_write_html()) {
+    throw InputError("", "report", "this build of croon writes no reports (CROON_WITH_REPORT)");
+  }
+  refuse_repeats(folders);
+  for (const std::filesystem::path& folder : folders) {
+    const std::string bytes = report_of(folder, data_root(data), catalogue);
+    const std::filesystem::path path = folder / kReport;
+    write_whole_file(path, bytes);
+    out << "The report is in " << printable(path.string()) << "\n";
+  }
+  return 0;
+}
+
+namespace {
+
 class ReportCommand final : public Command {
  public:
   std::string sentence() const override {
@@ -46,17 +66,7 @@ class ReportCommand final : public Command {
   }
 
   int run(const Console& console) override {
-    if (!can_write_html()) {
-      throw InputError("", "report", "this build of croon writes no reports (CROON_WITH_REPORT)");
-    }
-    refuse_repeats(folders_);
-    for (const std::filesystem::path& folder : folders_) {
-      const std::string bytes = report_of(folder, data_root(data_), console.catalogue);
-      const std::filesystem::path path = folder / kReport;
-      write_whole_file(path, bytes);
-      console.out << "The report is in " << printable(path.string()) << "\n";
-    }
-    return 0;
+    return report_command(folders_, data_, console.catalogue, console.out);
   }
 
  private:

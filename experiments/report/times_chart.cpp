@@ -27,7 +27,7 @@ Drawing times_chart(const std::vector<StepTime>& times, const FigureOptions& opt
   const std::vector<std::string> variants = names_in(times, &StepTime::variant);
   const std::vector<std::string> steps = names_in(times, &StepTime::step);
   std::map<std::string, double> totals;
-  double max_total = 0.0;
+  double max_total = 1e-3;  // Ticks of microseconds would have too many digits.
   for (const StepTime& time : times) {
     max_total = std::max(max_total, totals[time.variant] += time.median_s);
   }

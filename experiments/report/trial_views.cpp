@@ -1,13 +1,18 @@
 #include "experiments/report/trial_views.hpp"
 
+#include <tbb/info.h>
+
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "experiments/report/volume_chart.hpp"
 #include "experiments/run/loaded_scene.hpp"
 #include "experiments/run/scene_groups.hpp"
 #include "experiments/run/starts.hpp"
+#include "experiments/store/input_files.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 #include "framework/calibration/loaded_scene.hpp"
 
 namespace croon::experiments {
@@ -118,6 +123,21 @@ std::optional<TrialView> viewed(const Experiment& experiment, const SceneGroup& 
                    {volume_figure(*target, *source, *record.T_reference_sensor, pair.truth)}};
 }
 
+/// Throws InputError if a file of the groups differs from that of the run with this manifest.
+void refuse_changed_inputs(std::vector<SceneGroup>& groups, const std::string& manifest,
+                           const std::filesystem::path& data_root) {
+  std::map<std::string, std::string> recorded;
+  for (const auto& input : nlohmann::json::parse(manifest).at("inputs")) {
+    recorded[input.at("path")] = input.at("sha256");
+  }
+  for (const InputFile& input :
+       record_inputs(groups, data_root, tbb::info::default_concurrency())) {
+    const auto found = recorded.find(valid_utf8(input.path));
+    if (found != recorded.end() && found->second == input.sha256) continue;
+    throw InputError(input.path, "", "has changed since the run");
+  }
+}
+
 }  // namespace
 
 std::vector<TrialView> trial_views(const Results& results, const std::filesystem::path& data_root,
@@ -126,8 +146,20 @@ std::vector<TrialView> trial_views(const Results& results, const std::filesystem
   const std::vector<ChosenTrial> chosen = chosen_trials(results);
   if (chosen.empty()) return views;
   Experiment experiment = stored_experiment(results, catalogue);
-  const std::vector<SceneGroup> groups = scene_groups(experiment, data_root);
-  resolve_starts(experiment, groups, data_root);
+  const std::vector<SceneGroup> all = scene_groups(experiment, data_root);
+  resolve_starts(experiment, all, data_root);
+  std::vector<SceneGroup> groups;
+  for (const ChosenTrial& trial : chosen) {
+    const auto is_it = [&](const SceneGroup& group) {
+      return group.name == trial.record->id.scene;
+    };
+    const auto found = std::find_if(all.begin(), all.end(), is_it);
+    if (found == all.end()) {
+      throw InputError("", "scene " + trial.record->id.scene, "expected its clouds, found none");
+    }
+    if (std::none_of(groups.begin(), groups.end(), is_it)) groups.push_back(*found);
+  }
+  refuse_changed_inputs(groups, results.manifest, data_root);
   for (const ChosenTrial& trial : chosen) {
     for (const SceneGroup& group : groups) {
       if (group.name != trial.record->id.scene) continue;

@@ -1,10 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <CLI/CLI.hpp>
 
 #include <sstream>
 
-#include "experiments/cli/command.hpp"
 #include "experiments/cli/commands.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/document/renderers.hpp"
@@ -51,20 +49,12 @@ class ReportCommand : public ::testing::Test {
 
   /// Runs `croon report` and returns its exit code.
   int report(const std::vector<std::string>& folders, const std::string& data = "data") {
-    for (const NamedCommand& named : all_commands()) {
-      if (named.name != "report") continue;
-      CLI::App app;
-      named.command->add_options(app);
-      std::vector<std::string> arguments = {path(data).string(), "--data"};  // The last is first.
-      for (const std::string& name : folders) arguments.push_back(path(name).string());
-      app.parse(arguments);
-      std::ostringstream out, err;
-      const Catalogue catalogue = registry();
-      const int code = named.command->run({catalogue, out, err, false});
-      text_ = out.str();
-      return code;
-    }
-    return -1;
+    std::vector<fs::path> paths;
+    for (const std::string& name : folders) paths.push_back(path(name));
+    std::ostringstream out;
+    const int code = report_command(paths, path(data), registry(), out);
+    text_ = out.str();
+    return code;
   }
 
   /// The report without the scripts of the program.
@@ -90,6 +80,14 @@ TEST_F(ReportCommand, WritesTheSameReportTwice) {
 TEST_F(ReportCommand, WithoutTheDataSaysWhyThereAreNoViews) {
   EXPECT_EQ(report({"out"}, "nowhere"), 0);
   EXPECT_THAT(page(), HasSubstr("The clouds of the trials could not be read"));
+  EXPECT_THAT(page(), Not(HasSubstr("<figure class=\"cloud-view\"")));
+}
+
+TEST_F(ReportCommand, ShowsNoCloudsThatHaveChanged) {
+  Rng rng = test::test_rng();
+  write_pcd(path("data/car/left/1.pcd"), test::random_cloud(rng, 100, 10.0));
+  EXPECT_EQ(report({"out"}), 0);
+  EXPECT_THAT(page(), HasSubstr("left/1.pcd: has changed since the run"));
   EXPECT_THAT(page(), Not(HasSubstr("<figure class=\"cloud-view\"")));
 }
 
