@@ -427,13 +427,12 @@ TEST(Claims, QuotedRowsAreFollowedByOurs) {
 }
 
 TEST(Claims, ThePageSaysSoIfThereAreNone) {
-  const testing::Matcher<std::string> says_none =
-      testing::HasSubstr("The experiment makes no claims.");
   Results results = with_claims_and_quoted();
+  EXPECT_THAT(markdown_section(claims_page(results)),
+              testing::Not(testing::HasSubstr("no claims")));
   results.claims.clear();
-  EXPECT_THAT(markdown_section(claims_page(results)), testing::Not(says_none));
   results.quoted.clear();
-  EXPECT_THAT(markdown_section(claims_page(results)), says_none);
+  EXPECT_THAT(markdown_section(claims_page(results)), testing::HasSubstr("makes no claims."));
 }
 
 TEST(Claims, StandInSummaryJson) {
