@@ -127,8 +127,9 @@ std::optional<TrialView> viewed(const Experiment& experiment, const SceneGroup& 
 void refuse_changed_inputs(std::vector<SceneGroup>& groups, const std::string& manifest,
                            const std::filesystem::path& data_root) {
   std::map<std::string, std::string> recorded;
-  for (const auto& input : nlohmann::json::parse(manifest).at("inputs")) {
-    recorded[input.at("path")] = input.at("sha256");
+  const nlohmann::json inputs = nlohmann::json::parse(manifest).at("inputs");
+  for (const nlohmann::json& input : inputs) {
+    recorded[input.at("path").get<std::string>()] = input.at("sha256").get<std::string>();
   }
   for (const InputFile& input :
        record_inputs(groups, data_root, tbb::info::default_concurrency())) {

@@ -98,7 +98,8 @@ TEST_F(HtmlDocument, AllowsItsOwnScriptsAlone) {
 }
 
 TEST_F(HtmlDocument, HasTheNoticeOfThreeJs) {
-  EXPECT_THAT(page_of("plain"), HasSubstr("three.js authors\n\nPermission is hereby granted"));
+  EXPECT_THAT(html_document(document_of("plain")),
+              HasSubstr("three.js authors\n\nPermission is hereby granted"));
 }
 
 TEST_F(HtmlDocument, IsTheSameBytesForTheSameDocument) {

@@ -34,10 +34,10 @@ TEST(OverlapAlignment, TellsTheCheckHowFarTheCloudsOverlap) {
   const Estimate after = test::stage<Step>(R"({"step": "overlap_alignment"})")
                              ->advance(test::street_estimate(4).estimate, rng);
   const double overlap_ratio = after.diagnostics[0].second;
-  for (const double least_ratio : {0.5 * overlap_ratio, 0.5 + 0.5 * overlap_ratio}) {
-    const auto check = test::stage<Step>(R"({"step": "overlap_check", "least_ratio": )" +
-                                         std::to_string(least_ratio) + "}");
-    EXPECT_EQ(check->advance(after, rng).rejection.has_value(), least_ratio > overlap_ratio);
+  for (const double min_ratio : {0.5 * overlap_ratio, 0.5 + 0.5 * overlap_ratio}) {
+    const auto check = test::stage<Step>(R"({"step": "overlap_check", "min_overlap_ratio": )" +
+                                         std::to_string(min_ratio) + "}");
+    EXPECT_EQ(check->advance(after, rng).rejection.has_value(), min_ratio > overlap_ratio);
   }
   EXPECT_THROW(test::stage<Step>(R"({"step": "overlap_check"})")
                    ->advance(test::street_estimate(4).estimate, rng),
