@@ -259,8 +259,7 @@ Summary mostly_good(int scenes, int trials) {
   return summary_of(records);
 }
 
-/// Two trials of each of eight scenes, each 0.0999 m off along x: the two of a scene to either
-/// side, or all of a scene to one side.
+/// Two trials of each of eight scenes, 0.0999 m off along x to either side, or to one per scene.
 Summary at_the_bounds(bool differs_by_scene) {
   std::vector<TrialRecord> records;
   for (int scene = 0; scene < 8; ++scene) {
@@ -436,10 +435,9 @@ TEST(Claims, ThePageSaysSoIfThereAreNone) {
 }
 
 TEST(Claims, StandInSummaryJson) {
-  using nlohmann::json;
   const Summary summary = summary_of(test::few_records());
-  EXPECT_FALSE(json::parse(summary_json(summary)).contains("claims"));
-  const json claims = json::parse(summary_json(summary, one_of_each()))["claims"];
+  EXPECT_FALSE(nlohmann::json::parse(summary_json(summary)).contains("claims"));
+  const auto claims = nlohmann::json::parse(summary_json(summary, one_of_each()))["claims"];
   ASSERT_EQ(claims.size(), 3U);
   EXPECT_EQ(claims[0]["found"], 0.25);
   EXPECT_EQ(claims[0]["unit"], "deg");
