@@ -203,6 +203,7 @@ std::vector<std::string> all_formats(const std::vector<std::string>& formats) {
 struct FolderFiles {
   std::vector<std::string> written;
   std::vector<std::string> left;  ///< Left by an earlier calibration.
+  std::string lead;               ///< The main result according to the report; empty without one.
 };
 
 /// Writes all files. `drawn` is one of `scenes`.
@@ -213,6 +214,7 @@ FolderFiles write_files(const CalibrateOptions& options, const CalibratedRig& ri
   const fs::path& root = folder.make_staging();
   const std::vector<std::string> formats = all_formats(options.formats);
   const Extrinsics extrinsics = extrinsics_of(rig);
+  std::string lead;
   std::vector<std::string> paths =
       write_formats(root, "", extrinsics, formats, options.with_rejected);
   const auto add = [&](const std::vector<std::string>& more) {
@@ -231,15 +233,16 @@ FolderFiles write_files(const CalibrateOptions& options, const CalibratedRig& ri
     add(result.cloud_files);
     if (can_write_html()) {
       const Facts provenance = provenance_of(options, scenes);
-      write_whole_file(root / kReportFile,
-                       html_document(calibration_report(rig, result.pictures, provenance)));
+      const Document report = calibration_report(rig, result.pictures, provenance);
+      lead = report.lead;
+      write_whole_file(root / kReportFile, html_document(report));
       paths.emplace_back(kReportFile);
     }
   }
   write_whole_file(root / kJsonFile, rig_extrinsics_json(rig));
   write_whole_file(root / kRequestFile, rig_request_json(options, options.out));
   add({kJsonFile, kRequestFile});
-  return {paths, folder.publish()};
+  return {paths, folder.publish(), lead};
 }
 
 }  // namespace
@@ -271,9 +274,9 @@ int calibrate_command(const CalibrateOptions& given, const Catalogue& catalogue,
   };
   out << calibration_text(rig, options.colours) << "\n";
   list("files in " + printable(options.out.string()), files.written);
-  const auto& written = files.written;
-  if (std::find(written.begin(), written.end(), kReportFile) != written.end()) {
-    out << "look at it: " << printable((options.out / kReportFile).string()) << "\n";
+  if (!files.lead.empty()) {
+    out << "look at " << printable((options.out / kReportFile).string()) << ": "
+        << printable(files.lead) << "\n";
   }
   list("left there by an earlier calibration", files.left);
   const bool is_any_rejected =

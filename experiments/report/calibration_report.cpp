@@ -39,11 +39,13 @@ void add_fit_checks(Section& section, const RigView& view, const CalibratedRig& 
 }
 
 /// Poses with their standard deviations, and their distances from the nominal poses.
-TableBlock pose_table(const CalibratedRig& rig) {
+TableBlock pose_table(const CalibratedRig& rig, const RigView& clouds) {
   using S = CalibratedSensor;
   Columns<S> columns;
-  columns.add({"sensor"}, &S::sensor).add({"verdict"}, [](const S& sensor) {
-    return verdict_name(sensor.is_accepted);
+  columns.add({"sensor"}, &S::sensor).add({"verdict"}, [&](const S& sensor) {
+    const ViewedSensor* const shown = viewed(clouds, sensor.sensor);
+    const bool is_doubtful = shown != nullptr && sensor.is_accepted && is_contradicted(*shown);
+    return verdict_name(sensor.is_accepted) + (is_doubtful ? ", contradicted by the clouds" : "");
   });
   const auto std_of = [](const S& sensor, int i) -> std::optional<double> {
     if (!sensor.covariance) return std::nullopt;
@@ -107,9 +109,11 @@ TableBlock pose_table(const CalibratedRig& rig) {
 Section view_section(const RigView& view) {
   Section section{"view", "The clouds", {}};
   CloudViewBlock block;
-  block.caption = "Scene " + view.scene +
-                  ". Drag to turn, scroll to zoom; move the slider through the steps of the "
-                  "pipeline. Points of right poses lie on common surfaces.";
+  block.caption =
+      "Scene " + view.scene +
+      ". Drag to turn, scroll to zoom; move the slider through the steps of the "
+      "pipeline. Points of right poses lie on common surfaces. A rival is the best other pose "
+      "that the global search found.";
   block.json = rig_view_json(view);
   block.fallback = {overview_picture(view)};
   section.blocks.emplace_back(std::move(block));
@@ -248,7 +252,7 @@ Document calibration_report(const CalibratedRig& rig, const std::vector<RigPictu
   if (!doubtful.empty()) document.lead += ", but the clouds contradict the pose of " + doubtful;
   document.lead += ".";
   add_fit_checks(document.sections.front(), view, rig);
-  document.sections.front().blocks.emplace_back(pose_table(rig));
+  document.sections.front().blocks.emplace_back(pose_table(rig, view));
   if (view.sensors.size() > 1) {
     document.sections.push_back(view_section(view));
     if (!view.pairs.empty()) document.sections.push_back(graph_section(view));

@@ -98,7 +98,8 @@ std::string fit_sentence(const ViewedSensor& sensor) {
                    fixed_number(1e3 * refit.translation_m, 0) + " mm away, which moves them by " +
                    shift_mm + " mm."
              : "Fit check: a new registration with all other sensors moves the surfaces by " +
-                   shift_mm + " mm.";
+                   shift_mm + " mm; up to " + fixed_number(1e3 * kMaxSurfaceShift_m, 0) +
+                   " mm are usual.";
 }
 
 Drawing residual_chart(const ViewedSensor& sensor, const Sheet& sheet) {

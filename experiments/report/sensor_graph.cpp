@@ -29,16 +29,17 @@ std::size_t index_of_sensor(const RigView& view, const std::string& sensor) {
 }
 
 void draw_node(Drawing& drawing, const Corner& centre, const ViewedSensor& sensor) {
-  const std::string colour = sensor.is_reference ? "c7" : sensor.is_accepted ? "c2" : "c1";
+  const bool is_good = sensor.is_accepted && !is_contradicted(sensor);
+  const std::string colour = sensor.is_reference ? "c7" : is_good ? "c2" : "c1";
   const double left = centre[0] - kNodeWidth / 2.0, top = centre[1] - kNodeHeight / 2.0;
   drawing.rectangle(left, top, kNodeWidth, kNodeHeight, "page");
-  drawing.rectangle(left, top, kNodeWidth, kNodeHeight,
-                    "box " + colour + (sensor.is_accepted ? "" : " d1"));
+  drawing.rectangle(left, top, kNodeWidth, kNodeHeight, "box " + colour + (is_good ? "" : " d1"));
   drawing.text(centre[0], centre[1] - 3.0, cut_in_the_middle(printable(sensor.sensor), 15),
                Anchor::middle, "name");
-  const char* const verdict = sensor.is_reference  ? "reference"
-                              : sensor.is_accepted ? "accepted"
-                                                   : "REJECTED";
+  const char* const verdict = sensor.is_reference   ? "reference"
+                              : !sensor.is_accepted ? "REJECTED"
+                              : is_good             ? "accepted"
+                                                    : "CONTRADICTED";
   drawing.text(centre[0], centre[1] + 13.0, verdict, Anchor::middle, "small");
 }
 
