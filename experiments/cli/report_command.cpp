@@ -21,6 +21,13 @@ namespace {
 /// of the clouds.
 std::string report_of(const std::filesystem::path& folder, const std::filesystem::path& data,
                       const Catalogue& catalogue) {
+  std::error_code error;
+  if (std::filesystem::exists(folder / "rig.json", error) &&
+      !std::filesystem::exists(store_path(folder), error)) {
+    throw InputError(folder.string(), "",
+                     "expected results of croon run, found a calibration, whose report.html is "
+                     "written by croon calibrate");
+  }
   Results results = read_results(folder, Content::trials_and_steps);
   results.times = step_times(TimingsStore(timings_path(folder), Access::read), results.summary);
   std::vector<TrialView> views;

@@ -95,6 +95,8 @@ TEST_F(ReportCommand, RefusesFoldersWithoutResultsAndRepeats) {
   fs::create_directories(path("empty"));
   EXPECT_THAT(test::input_error([&] { report({"empty"}); }), HasSubstr("empty"));
   EXPECT_FALSE(fs::exists(path("empty/report.html")));
+  folder_.write("empty/rig.json", "{}");
+  EXPECT_THAT(test::input_error([&] { report({"empty"}); }), HasSubstr("found a calibration"));
   EXPECT_THAT(test::input_error([&] { report({"nowhere"}); }), HasSubstr("nowhere"));
   EXPECT_NE(test::input_error([&] { report({"out", "out"}); }), "");
   EXPECT_NE(test::input_error([&] { report({"out", "out/../out"}); }), "");
