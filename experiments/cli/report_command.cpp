@@ -21,9 +21,9 @@ namespace {
 /// of the clouds.
 std::string report_of(const std::filesystem::path& folder, const std::filesystem::path& data,
                       const Catalogue& catalogue) {
-  std::error_code error;
-  if (std::filesystem::exists(folder / "rig.json", error) &&
-      !std::filesystem::exists(store_path(folder), error)) {
+  std::error_code ignored;
+  if (std::filesystem::exists(folder / "rig.json", ignored) &&
+      !std::filesystem::exists(store_path(folder), ignored)) {
     throw InputError(folder.string(), "",
                      "expected results of croon run, found a calibration, whose report.html is "
                      "written by croon calibrate");
