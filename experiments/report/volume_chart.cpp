@@ -115,7 +115,8 @@ Drawing volume_chart(const VolumeCurves& curves, const std::optional<Vector6d>& 
     for (const double tick : {-limit, -0.5 * limit, 0.0, 0.5 * limit, limit}) {
       plot.draw_x_tick(drawing, tick, shortest_number(tick), 1.4 * text);
     }
-    const auto draw_upright = [&](double offset, const std::string& style) {
+    // Clang 14 does not capture a structured binding by itself.
+    const auto draw_upright = [&plot, &drawing = drawing](double offset, const std::string& style) {
       const double x = plot.x(offset);
       drawing.polyline({{x, plot.top}, {x, plot.top + plot.height}}, style);
     };

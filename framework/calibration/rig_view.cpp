@@ -119,7 +119,8 @@ void for_each_surface(const RigView& view, const Clouds& clouds, std::size_t s, 
 }
 
 /// The residual of `point` (in the frame of its sensor); the normal is in the same frame.
-Residual residual_of(const Eigen::Vector3f& point, Eigen::Vector3f normal, float along_normal_m) {
+Residual residual_of(const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
+                     float along_normal_m) {
   const float range_m = point.norm();
   float cosine = normal.dot(point) / std::max(range_m, 1e-3F);
   if (cosine < 0.0F) {
