@@ -117,10 +117,7 @@ Section view_section(const RigView& view) {
   block.json = rig_view_json(view);
   block.fallback = {overview_picture(view)};
   section.blocks.emplace_back(std::move(block));
-  FigureRow row;
-  for (const CloseUp& place : view.close_ups)
-    row.figures.emplace_back(close_up_picture(view, place));
-  if (!row.figures.empty()) {
+  if (FigureRow row = close_up_row(view); !row.figures.empty()) {
     section.blocks.emplace_back(Paragraph{
         "Places where a misalignment would show, from above. Surfaces of a right pose coincide."});
     section.blocks.emplace_back(std::move(row));

@@ -166,17 +166,17 @@ Section trial_section(const Results& results, const std::vector<TrialView>& view
     Section inner{"trial-" + std::to_string(++number), trial.why, {}};
     inner.blocks.emplace_back(Paragraph{trial_text(*trial.record)});
     const ViewedSensor& sensor = trial.view.sensors.back();
-    inner.blocks.emplace_back(
-        Paragraph{fit_sentence(sensor), is_contradicted(sensor) ? Tone::warning : Tone::plain});
+    if (sensor.refit) {
+      inner.blocks.emplace_back(
+          Paragraph{fit_sentence(sensor), is_contradicted(sensor) ? Tone::warning : Tone::plain});
+    }
     inner.blocks.emplace_back(
         CloudViewBlock{"Scene " + trial.view.scene + " at the initial guess and at the result.",
                        rig_view_json(trial.view),
                        {overview_picture(trial.view)}});
-    FigureRow row;
-    for (const CloseUp& place : trial.view.close_ups) {
-      row.figures.emplace_back(close_up_picture(trial.view, place));
+    if (FigureRow row = close_up_row(trial.view); !row.figures.empty()) {
+      inner.blocks.emplace_back(std::move(row));
     }
-    if (!row.figures.empty()) inner.blocks.emplace_back(std::move(row));
     for (const Chart& chart : trial.charts) inner.blocks.emplace_back(chart);
     TableBlock numbers = trial_numbers(results, *trial.record);
     if (!numbers.table.rows.empty()) inner.blocks.emplace_back(std::move(numbers));

@@ -38,12 +38,17 @@ Picture overview_picture(const RigView& view) {
   return {"", "The clouds from above, before and after", before_and_after(view, shown)};
 }
 
-Picture close_up_picture(const RigView& view, const CloseUp& place) {
-  CloudView shown = {place.half_width_m, place.half_width_m, 0.01};
-  shown.centre_m = place.centre_m;
-  shown.dot_px = 5;
-  return {place.title, "Close-up of a " + place.title + ", from above, before and after",
-          before_and_after(view, shown)};
+FigureRow close_up_row(const RigView& view) {
+  FigureRow row;
+  for (const CloseUp& place : view.close_ups) {
+    CloudView shown = {place.half_width_m, place.half_width_m, 0.01};
+    shown.centre_m = place.centre_m;
+    shown.dot_px = 5;
+    row.figures.emplace_back(
+        Picture{place.title, "Close-up of a " + place.title + ", from above, before and after",
+                before_and_after(view, shown)});
+  }
+  return row;
 }
 
 }  // namespace croon::experiments
