@@ -36,22 +36,29 @@ void append_missing_steps(nlohmann::json& steps) {
   }
 }
 
-bool has_use_start(const nlohmann::json& step, const Catalogue& catalogue) {
-  if (!step.is_object() || !step.contains("step") || !step.at("step").is_string()) return false;
+/// The parameters of a step; empty if the step is unknown.
+std::vector<params::ParameterDoc> parameters_of(const nlohmann::json& step,
+                                                const Catalogue& catalogue) {
+  if (!step.is_object() || !step.contains("step") || !step.at("step").is_string()) return {};
   const StageEntry* const entry = catalogue.find(Step::kKind, step.at("step").get<std::string>());
-  if (entry == nullptr) return false;
-  return std::any_of(entry->parameters.begin(), entry->parameters.end(),
-                     [](const params::ParameterDoc& doc) { return doc.key == "use_start"; });
+  return entry == nullptr ? std::vector<params::ParameterDoc>() : entry->parameters;
 }
 
-/// Restricts the searches of the steps to poses near the initial guess, unless the file sets
-/// `use_start` itself.
+/// Restricts the searches of the steps, and of the steps in their parameters, to poses near the
+/// initial guess, unless the file sets `use_start` itself.
 void stay_near_start(nlohmann::json& steps, const Catalogue& catalogue) {
   for (nlohmann::json& step : steps) {
-    if (!has_use_start(step, catalogue) || step.contains("use_start")) continue;
-    step["use_start"] = true;
-    step.emplace("max_rotation_deg", kMaxNominalRotation_deg);
-    step.emplace("max_translation_m", kMaxNominalTranslation_m);
+    for (const params::ParameterDoc& doc : parameters_of(step, catalogue)) {
+      if (doc.key == "use_start" && !step.contains("use_start")) {
+        step["use_start"] = true;
+        step.emplace("max_rotation_deg", kMaxNominalRotation_deg);
+        step.emplace("max_translation_m", kMaxNominalTranslation_m);
+      } else if (doc.stage_kind == Step::kKind) {
+        nlohmann::json& inner = step[doc.key];
+        if (inner.is_null()) inner = params::parse_json(doc.default_json, doc.key);
+        if (inner.is_array()) stay_near_start(inner, catalogue);
+      }
+    }
   }
 }
 

@@ -2,9 +2,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "framework/geometry/guarded_inverse.hpp"
+#include "framework/geometry/twist.hpp"
 
 namespace croon {
 namespace {
@@ -40,6 +42,30 @@ DofObservability worst_observability(const DofObservability& a, const DofObserva
   DofObservability words;
   for (std::size_t dof = 0; dof < words.size(); ++dof) words[dof] = std::max(a[dof], b[dof]);
   return words;
+}
+
+PoseCovariance composed_covariance(const RigidTransform& T_a_b, const PoseCovariance& of_a_b,
+                                   const RigidTransform& T_b_c, const PoseCovariance& of_b_c) {
+  const Eigen::Matrix3d& R = T_a_b.rotation;
+  Matrix6d by_first = Matrix6d::Identity();
+  by_first.bottomLeftCorner<3, 3>() = -cross_matrix(R * T_b_c.translation);
+  Matrix6d by_second = Matrix6d::Zero();
+  by_second.topLeftCorner<3, 3>() = R;
+  by_second.bottomRightCorner<3, 3>() = R;
+  const Matrix6d sum = by_first * of_a_b.matrix * by_first.transpose() +
+                       by_second * of_b_c.matrix * by_second.transpose();
+  PoseCovariance composed{0.5 * (sum + sum.transpose()), of_a_b.dofs};
+  // An axis that contributes less than this to an axis of the frame a does not count.
+  constexpr double kMinCosine = 0.1;
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const Eigen::Index block = i < 3 ? 0 : 3;
+    for (Eigen::Index j = block; j < block + 3; ++j) {
+      if (std::abs(R(i - block, j - block)) < kMinCosine) continue;
+      Observability& word = composed.dofs.at(static_cast<std::size_t>(i));
+      word = std::max(word, of_b_c.dofs.at(static_cast<std::size_t>(j)));
+    }
+  }
+  return composed;
 }
 
 bool is_covariance(const Matrix6d& matrix) {

@@ -63,6 +63,12 @@ Vector6d unknown_variances();
 /// unknown.
 Matrix6d bounded_covariance(const Matrix6d& covariance);
 
+/// The uncertainty of `T_a_b T_b_c` from the independent uncertainties of both: to first order, the
+/// rotation error of T_a_b also moves the origin of c. A degree of freedom is as observable as the
+/// worst of those that it is composed of.
+PoseCovariance composed_covariance(const RigidTransform& T_a_b, const PoseCovariance& of_a_b,
+                                   const RigidTransform& T_b_c, const PoseCovariance& of_b_c);
+
 /// The covariance of the mean of n poses with independent errors: the sum over n^2. Each degree of
 /// freedom has its worst observability over all scenes. Throws std::logic_error for an empty list.
 PoseCovariance covariance_of_mean(const std::vector<PoseCovariance>& covariances);

@@ -348,11 +348,12 @@ Parameter<P> required_slot(const std::string& key, Slot<Kind> P::*member,
   return required(slot<Kind>(key, member, "", sentence));
 }
 
-/// A list of stages of the kind `Kind`, empty if the key is missing.
+/// A list of stages of the kind `Kind`; `default_json` describes those that are built if the key is
+/// missing.
 template <class Kind, class P>
 Parameter<P> slots(const std::string& key, std::vector<Slot<Kind>> P::*member,
-                   const std::string& sentence) {
-  return {{key, ParameterType::stages, "[]", {}, {}, Kind::kKind, sentence},
+                   const std::string& default_json, const std::string& sentence) {
+  return {{key, ParameterType::stages, default_json, {}, {}, Kind::kKind, sentence},
           [member](P& params, const Node& node, const StageBuilder& builder) {
             if (!node.is_array()) return;
             for_each_element(node, [&](const Node& element) {
@@ -363,7 +364,14 @@ Parameter<P> slots(const std::string& key, std::vector<Slot<Kind>> P::*member,
             return list_json(params.*member,
                              [](const Slot<Kind>& slot) { return slot.resolved(); });
           },
-          false};
+          true};
+}
+
+/// The same, empty if the key is missing.
+template <class Kind, class P>
+Parameter<P> slots(const std::string& key, std::vector<Slot<Kind>> P::*member,
+                   const std::string& sentence) {
+  return slots<Kind>(key, member, "[]", sentence);
 }
 
 }  // namespace croon::params

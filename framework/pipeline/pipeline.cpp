@@ -31,6 +31,7 @@ PipelineResult at_start(std::shared_ptr<const Cloud> target, std::shared_ptr<con
   result.estimate.target = std::move(target);
   result.estimate.source = std::move(source);
   result.estimate.T_target_source = start;
+  result.estimate.initial_guess = start;
   return result;
 }
 

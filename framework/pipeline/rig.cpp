@@ -23,11 +23,12 @@ bool is_of_same_sensor(const A& a, const B& b) {
   return a.target == b.target && a.source == b.source;
 }
 
-/// The estimates of the members that have not failed, with their diagnostics cleared.
-std::vector<RigEstimate> live_estimates(const std::vector<RigMember*>& members, const Rig& rig) {
+/// The estimates of `members` for a step, with their diagnostics cleared.
+std::vector<RigEstimate> estimates_of(const std::vector<RigMember*>& members, const Rig& rig) {
   std::vector<RigEstimate> estimates;
   for (const RigMember* const member : members) {
-    estimates.push_back({member->scene, member->target, member->source, member->result.estimate});
+    estimates.push_back({member->scene, member->target, member->source, member->result.estimate,
+                         member->result.failure});
     estimates.back().estimate.diagnostics.clear();
     estimates.back().scenes =
         static_cast<std::size_t>(std::count_if(rig.begin(), rig.end(), [&](const RigMember& other) {
@@ -52,6 +53,16 @@ void fail_if_not_finite(RigMember& member, const std::string& step, const Rig& r
   }
 }
 
+/// Clears the failure of `member`, and adds the records of the steps that it missed, without time,
+/// up to those of `other`.
+void repair(RigMember& member, const RigMember& other) {
+  member.result.failure.clear();
+  std::vector<StepRecord>& records = member.result.records;
+  for (std::size_t i = records.size(); i < other.result.records.size(); ++i) {
+    records.push_back({other.result.records[i].name, 0.0, {}, std::nullopt});
+  }
+}
+
 /// Updates `member` with the estimate that the step `name` computed in `seconds`.
 void update_member(RigMember& member, const std::string& name, RigEstimate&& adjusted,
                    double seconds) {
@@ -67,31 +78,39 @@ void update_member(RigMember& member, const std::string& name, RigEstimate&& adj
 }
 
 void adjust_all(Rig& rig, const RigStep& step, const std::string& name, const StreamKey& key) {
-  std::vector<RigMember*> live;
+  std::vector<RigMember*> seen;
+  const RigMember* live = nullptr;
   for (RigMember& member : rig) {
-    if (member.result.failure.empty()) live.push_back(&member);
+    const bool is_live = member.result.failure.empty();
+    if (is_live && live == nullptr) live = &member;
+    if (is_live || step.sees_failures()) seen.push_back(&member);
   }
-  if (live.empty()) return;
+  if (live == nullptr) return;
   const OwnTime time;
   Rng rng(key.with(name));
-  std::vector<RigEstimate> estimates = live_estimates(live, rig);
+  std::vector<RigEstimate> estimates = estimates_of(seen, rig);
   try {
     step.adjust(estimates, rng);
   } catch (const StageError& error) {
-    estimates = live_estimates(live, rig);
+    estimates = estimates_of(seen, rig);
     for (RigEstimate& estimate : estimates) estimate.failure = error.what();
   }
   const bool is_kept =
-      std::equal(estimates.begin(), estimates.end(), live.begin(), live.end(),
+      std::equal(estimates.begin(), estimates.end(), seen.begin(), seen.end(),
                  [](const RigEstimate& estimate, const RigMember* member) {
                    return estimate.scene == member->scene && is_of_same_sensor(estimate, *member);
                  });
   if (!is_kept) {
     throw std::logic_error("the step \"" + name + "\" changed the number or order of estimates");
   }
-  const double seconds = time.seconds() / static_cast<double>(live.size());
-  for (std::size_t i = 0; i < live.size(); ++i) {
-    update_member(*live[i], name, std::move(estimates[i]), seconds);
+  const double seconds = time.seconds() / static_cast<double>(seen.size());
+  const RigMember live_before = *live;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (!seen[i]->result.failure.empty()) {
+      if (!estimates[i].failure.empty()) continue;
+      repair(*seen[i], live_before);
+    }
+    update_member(*seen[i], name, std::move(estimates[i]), seconds);
   }
 }
 

@@ -17,7 +17,9 @@ struct RigEstimate {
   std::string target;  ///< The sensor in whose frame the pose is: the reference, or one of a pair.
   std::string source;  ///< The sensor whose pose is estimated.
   Estimate estimate;
-  std::string failure = {};  ///< Empty, or why the step could not process this estimate.
+  /// Empty, or why this step, or for a step with `sees_failures` an earlier one, could not process
+  /// this estimate.
+  std::string failure = {};
   /// The number of scenes of the trial with this sensor, including those in which a step failed.
   std::size_t scenes = 1;
 };
@@ -31,6 +33,10 @@ class RigStep : public Step {
   /// single pair, the step sees the rejections and the information of earlier steps and may change
   /// them. Draws only from `rng`. Throws StageError if the data defeat it for all estimates.
   virtual void adjust(std::vector<RigEstimate>& rig, Rng& rng) const = 0;
+
+  /// Whether `adjust` also receives the estimates for which an earlier step has failed, as they were
+  /// before that step and with its failure. It may clear the failure of those that it can repair.
+  virtual bool sees_failures() const { return false; }
 
   /// `adjust` for a rig of one estimate with empty names. Throws StageError if `adjust` does or if
   /// it sets a failure.

@@ -41,6 +41,7 @@ struct Estimate {
   std::optional<std::string> rejection;  ///< The reason if the pose is rejected.
   std::vector<Diagnostic> diagnostics;   ///< Reported by the last step.
   Extras extras;                         ///< Values that steps provide for later ones.
+  RigidTransform initial_guess = {};     ///< T_target_source before the first step.
 
   /// Sets the pose to `T`. If it differs, information and covariance of the old pose are reset; a
   /// step sets those of the new pose afterwards.

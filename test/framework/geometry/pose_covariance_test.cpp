@@ -58,6 +58,26 @@ TEST(PoseCovariance, OfAMeanOfManyFallsWithTheirNumber) {
   EXPECT_THROW(covariance_of_mean({}), std::logic_error);
 }
 
+TEST(PoseCovariance, OfAComposedPoseFollowsBothErrors) {
+  Rng rng = test::test_rng();
+  for (int i = 0; i < 20; ++i) {
+    const RigidTransform T_a_b = test::random_pose(rng, 5.0), T_b_c = test::random_pose(rng, 5.0);
+    const Vector6d first = 1e-5 * test::pose_vector(rng), second = 1e-5 * test::pose_vector(rng);
+    const Vector6d error =
+        pose_error(moved(T_a_b, first) * moved(T_b_c, second), T_a_b * T_b_c).dof;
+    const PoseCovariance composed =
+        composed_covariance(T_a_b, {first * first.transpose(), {}}, T_b_c, {});
+    const PoseCovariance other =
+        composed_covariance(T_a_b, {}, T_b_c, {second * second.transpose(), {}});
+    // The errors add, and the covariance of a fixed error is its square.
+    const Vector6d along = pose_error(moved(T_a_b, first) * T_b_c, T_a_b * T_b_c).dof;
+    const Vector6d across = pose_error(T_a_b * moved(T_b_c, second), T_a_b * T_b_c).dof;
+    EXPECT_LT((along + across - error).norm(), 1e-3 * error.norm());
+    EXPECT_LT((composed.matrix - along * along.transpose()).norm(), 1e-3 * along.squaredNorm());
+    EXPECT_LT((other.matrix - across * across.transpose()).norm(), 1e-3 * across.squaredNorm());
+  }
+}
+
 TEST(PoseCovariance, IsBoundedByAnUnknownPose) {
   Rng rng = test::test_rng(4);
   for (int i = 0; i < 200; ++i) {

@@ -56,6 +56,15 @@ Rig four() {
   return {member("a", "left"), member("a", "right"), member("b", "left"), member("b", "right")};
 }
 
+/// A rig step that clears all failures.
+class Repairing final : public RigStep {
+ public:
+  bool sees_failures() const override { return true; }
+  void adjust(std::vector<RigEstimate>& rig, Rng&) const override {
+    for (RigEstimate& one : rig) one.failure.clear();
+  }
+};
+
 double x_of(const RigMember& member) {
   return member.result.estimate.T_target_source.translation.x();
 }
@@ -74,6 +83,16 @@ TEST(Rig, TakesEachMemberThroughAStepAsAPairAlone) {
     EXPECT_EQ(after.result.records.size(), 2U);
   }
   EXPECT_NE(x_of(rig[0]), x_of(rig[1]));
+}
+
+TEST(Rig, AStepThatSeesFailuresCanRepairThem) {
+  Rig rig = {member("a", "left"), member("a", "right", -1.0)};
+  run_pipeline({named<Moving>("move"), named<Repairing>("repair")}, rig, StreamKey(9));
+  EXPECT_EQ(rig[1].result.failure, "");
+  EXPECT_EQ(x_of(rig[1]), -1.0);
+  ASSERT_EQ(rig[1].result.records.size(), 2U);
+  EXPECT_EQ(rig[1].result.records[0].name, "move");
+  EXPECT_EQ(rig[1].result.records[1].name, "repair");
 }
 
 TEST(Rig, ARigStepSeesAllThatHaveNotFailedInOrder) {

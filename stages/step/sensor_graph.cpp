@@ -1,0 +1,270 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "framework/base/angles.hpp"
+#include "framework/base/text.hpp"
+#include "framework/base/threads.hpp"
+#include "framework/pipeline/pipeline.hpp"
+#include "framework/pipeline/shared_view.hpp"
+#include "framework/registration/pose_evidence.hpp"
+#include "framework/stage/hypotheses.hpp"
+#include "framework/stage/motion.hpp"
+#include "framework/stage/reasons.hpp"
+#include "framework/stage/rig_step.hpp"
+#include "framework/stage/stage_entry.hpp"
+
+namespace croon::stages::step {
+namespace {
+
+struct Params {
+  std::vector<params::Slot<Step>> pair;
+  params::Slot<Preprocessor> thinning;
+  double max_rotation_deg = 0.5;
+  double max_translation_m = 0.1;
+  double max_violation_ratio = 0.1;
+};
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table = {
+      params::slots<Step>(
+          "pair", &Params::pair,
+          R"([{"step": "global_alignment"}, )"
+          R"({"step": "registration", "icp": {"type": "nicp", "max_distances_m": [0.5, 0.3]}}, )"
+          R"({"step": "registration", "name": "fine_registration", "icp": {"type": "gicp", )"
+          R"("normal_neighbours": 10, "direction_balance": 0.5, "max_distances_m": [0.3], )"
+          R"("kernel_width_m": 0.05}}, )"
+          R"({"step": "verdict", "max_split_rotation_deg": 1.0}, {"step": "covariance"}])",
+          "The steps that calibrate one sensor to another; their last ones must judge the pose and "
+          "estimate its covariance."),
+      params::slot("thinning", &Params::thinning,
+                   R"({"type": "voxel_downsample", "leaf_size_m": 0.25})",
+                   "Equalises the density of the clouds for the test of free space."),
+      params::number("max_rotation_deg", &Params::max_rotation_deg, {0.0, 180.0},
+                     "Maximum rotation between poses of a sensor by way of different sensors; "
+                     "beyond it they contradict each other."),
+      params::number("max_translation_m", &Params::max_translation_m, {0.0, 1e6},
+                     "The same for the translation."),
+      params::number("max_violation_ratio", &Params::max_violation_ratio, {0.0, 1.0},
+                     "Maximum share of the points of two accepted sensors that lie in the free "
+                     "space of the other; beyond it one of the two is wrong."),
+  };
+  return table;
+}
+
+/// The sensors of one scene as a graph: nodes are the reference and the sensors, edges the accepted
+/// poses of pairs. Grows from the reference by breadth-first search.
+class SceneGraph {
+ public:
+  SceneGraph(const Params& params, const RigGroup& members, const StreamKey& key)
+      : params_(params), members_(members), key_(key) {
+    for (RigEstimate* const member : members) {
+      (is_accepted(*member) ? connected_ : pending_).push_back(member);
+    }
+  }
+
+  /// Connects sensors by way of others until none is left or none can be connected.
+  void grow() {
+    std::vector<RigEstimate*> front = connected_;
+    while (!front.empty() && !pending_.empty()) {
+      const std::vector<Edge> edges = edges_between(front, pending_);
+      front.clear();
+      for (RigEstimate* const sensor : pending_) {
+        std::vector<const Edge*> to_sensor;
+        for (const Edge& edge : edges) {
+          if (edge.to == sensor && edge.is_accepted()) to_sensor.push_back(&edge);
+        }
+        if (!to_sensor.empty() && connect(*sensor, to_sensor)) front.push_back(sensor);
+      }
+      for (RigEstimate* const sensor : front) {
+        pending_.erase(std::find(pending_.begin(), pending_.end(), sensor));
+        connected_.push_back(sensor);
+      }
+    }
+  }
+
+  /// Rejects sensors that contradict others: points of one lie in the free space of the other. The
+  /// sensor with the most contradictions first; of two that contradict only each other, both.
+  void reject_contradictions() {
+    const std::size_t n = connected_.size();
+    std::vector<std::vector<double>> violations(n, std::vector<double>(n, 0.0));
+    for_each_in_parallel(n * n, [&](std::size_t pair) {
+      const std::size_t i = pair / n, j = pair % n;
+      if (i < j) violations[i][j] = violation_ratio(*connected_[i], *connected_[j]);
+    });
+    const auto contradicts = [&](std::size_t i, std::size_t j) {
+      return violations[std::min(i, j)][std::max(i, j)] > params_.max_violation_ratio;
+    };
+    std::vector<bool> is_out(n, false);
+    for (;;) {
+      std::vector<std::size_t> counts(n, 0);
+      for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) {
+          if (i != j && !is_out[i] && !is_out[j] && contradicts(i, j)) ++counts[i];
+        }
+      }
+      const std::size_t most = n == 0 ? 0 : *std::max_element(counts.begin(), counts.end());
+      if (most == 0) return;
+      for (std::size_t i = 0; i < n; ++i) {
+        if (counts[i] == most) is_out[i] = true;
+      }
+      for (std::size_t i = 0; i < n; ++i) {
+        if (counts[i] != most) continue;
+        std::size_t other = 0;
+        while (other == i || !contradicts(i, other)) ++other;
+        reject(*connected_[i], *connected_[other],
+               violations[std::min(i, other)][std::max(i, other)]);
+      }
+    }
+  }
+
+ private:
+  /// The pose of a sensor relative to a connected one, by the steps `pair`.
+  struct Edge {
+    const RigEstimate* from = nullptr;
+    const RigEstimate* to = nullptr;
+    PipelineResult result = {};
+
+    bool is_accepted() const {
+      return result.failure.empty() && !result.estimate.rejection && result.estimate.covariance;
+    }
+    /// The pose of `to` in the frame of the reference.
+    RigidTransform T_reference_to() const {
+      return from->estimate.T_target_source * result.estimate.T_target_source;
+    }
+    PoseCovariance covariance() const {
+      return composed_covariance(from->estimate.T_target_source, *from->estimate.covariance,
+                                 result.estimate.T_target_source, *result.estimate.covariance);
+    }
+  };
+
+  static bool is_accepted(const RigEstimate& member) {
+    return member.failure.empty() && !member.estimate.rejection && member.estimate.covariance;
+  }
+
+  /// A moving sensor whose pose was wrong was deskewed wrongly, and cannot be compared.
+  static bool is_at_rest(const Estimate& estimate) {
+    const Twist* const velocity = estimate.extras.find(kMotion);
+    return velocity == nullptr || vector_of(*velocity).isZero(0.0);
+  }
+
+  std::vector<Edge> edges_between(const std::vector<RigEstimate*>& from,
+                                  const std::vector<RigEstimate*>& to) const {
+    std::vector<Edge> edges;
+    for (const RigEstimate* const a : from) {
+      for (const RigEstimate* const b : to) {
+        if (is_at_rest(a->estimate) && is_at_rest(b->estimate)) edges.push_back({a, b});
+      }
+    }
+    for_each_in_parallel(edges.size(), [&](std::size_t i) { calibrate(edges[i]); });
+    return edges;
+  }
+
+  void calibrate(Edge& edge) const {
+    const Estimate& from = edge.from->estimate;
+    const Estimate& to = edge.to->estimate;
+    edge.result =
+        at_start(from.source, to.source, from.T_target_source.inverse() * to.initial_guess);
+    const StreamKey key = key_.with(edge.from->source).with(edge.to->source);
+    for (std::size_t i = 0; i < params_.pair.size(); ++i) {
+      advance(edge.result, {params_.pair[i].name() + std::to_string(i), params_.pair[i]}, key);
+    }
+  }
+
+  /// Sets the pose of `sensor` from the most certain of the `edges` to it. Returns false, and
+  /// rejects the sensor, if their poses differ.
+  bool connect(RigEstimate& sensor, const std::vector<const Edge*>& edges) const {
+    const PoseBounds bounds = {rad_from_deg(params_.max_rotation_deg), params_.max_translation_m};
+    const Edge* best = edges.front();
+    for (const Edge* const edge : edges) {
+      if (!agree(edge->T_reference_to(), edges.front()->T_reference_to(), bounds)) {
+        const PoseError apart = pose_error(edge->T_reference_to(), edges.front()->T_reference_to());
+        sensor.estimate.rejection = with_reason(
+            sensor.estimate.rejection,
+            "the poses by way of " + edges.front()->from->source + " and " + edge->from->source +
+                " differ by " + fixed_number(deg_from_rad(apart.rotation_rad), 3) +
+                " degrees and " + fixed_number(apart.translation_m, 3) + " m");
+        return false;
+      }
+      if (edge->covariance().matrix.trace() < best->covariance().matrix.trace()) best = edge;
+    }
+    Estimate& estimate = sensor.estimate;
+    estimate.set_pose(best->T_reference_to());
+    estimate.covariance = best->covariance();
+    estimate.rejection.reset();
+    // Those of the search from the reference.
+    estimate.extras.put(kHypotheses, std::vector<Hypothesis>());
+    estimate.diagnostics = {{"edges", static_cast<double>(edges.size())}};
+    sensor.failure.clear();
+    return true;
+  }
+
+  double violation_ratio(const RigEstimate& a, const RigEstimate& b) const {
+    return pose_evidence(*shared_view(*a.estimate.source, params_.thinning),
+                         *shared_view(*b.estimate.source, params_.thinning),
+                         a.estimate.T_target_source.inverse() * b.estimate.T_target_source)
+        .violation_ratio();
+  }
+
+  static void reject(RigEstimate& sensor, const RigEstimate& other, double violation_ratio) {
+    sensor.estimate.rejection = with_reason(
+        sensor.estimate.rejection, "the share of points in free space between it and " +
+                                       other.source + " is " + fixed_number(violation_ratio, 3));
+  }
+
+  const Params& params_;
+  const RigGroup& members_;
+  StreamKey key_;
+  std::vector<RigEstimate*> connected_, pending_;
+};
+
+class SensorGraph final : public RigStep {
+ public:
+  explicit SensorGraph(Params params) : params_(std::move(params)) {}
+
+  static params::DataFlow data_flow(const Params& params) {
+    params::DataFlow flow = params.thinning.flow();
+    for (const params::Slot<Step>& step : params.pair) {
+      // Channels only: extras pass from step to step of a pair.
+      flow.target_channels.insert(step.flow().target_channels.begin(),
+                                  step.flow().target_channels.end());
+      flow.source_channels.insert(step.flow().source_channels.begin(),
+                                  step.flow().source_channels.end());
+    }
+    flow.add(takes(kCovariance));
+    return flow;
+  }
+
+  bool sees_failures() const override { return true; }
+
+  void adjust(std::vector<RigEstimate>& rig, Rng& rng) const override {
+    const StreamKey key(rng.bits());
+    const auto key_of = [](const RigEstimate& member) -> std::optional<RigKey> {
+      return RigKey{member.scene, member.target};
+    };
+    for_each_group(rig_groups(rig, key_of), [&](const RigGroup& scene) {
+      SceneGraph graph(params_, scene, key.with(scene.front()->scene));
+      graph.grow();
+      graph.reject_contradictions();
+    });
+  }
+
+ private:
+  Params params_;
+};
+
+}  // namespace
+
+StageEntry sensor_graph() {
+  return stage_entry<SensorGraph>(
+      "sensor_graph",
+      "Processes the whole rig: connects sensors that could not be calibrated to the reference by "
+      "way of other sensors, and rejects those that contradict others.",
+      "croon", table());
+}
+
+}  // namespace croon::stages::step
