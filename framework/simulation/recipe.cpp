@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "framework/params/choice.hpp"
 #include "framework/params/group.hpp"
 
 namespace croon::simulation {
@@ -32,6 +33,13 @@ Table<SensorModel> sensor_table() {
              "Azimuth before which the sweep ends."),
       number("azimuth_step_deg", &SensorModel::azimuth_step_deg, {0.01, 90.0},
              "Step between consecutive azimuths."),
+      params::optional(
+          integer("rosette_rays", &SensorModel::rosette_rays, {0, 1000000},
+                  "Rays of a scan along a rosette about x, instead of rings and azimuths.")),
+      params::optional(number("rosette_width_deg", &SensorModel::rosette_width_deg, {1.0, 170.0},
+                              "Width of the field of view of a rosette; without it 38.4.")),
+      params::optional(number("rosette_height_deg", &SensorModel::rosette_height_deg, {1.0, 170.0},
+                              "Height of the field of view of a rosette; without it 38.4.")),
       number("min_range_m", &SensorModel::min_range_m, {0.0, 1000.0},
              "Minimum range; nearer surfaces are ignored and do not occlude others.")
           .formerly("range_min_m"),
@@ -75,6 +83,13 @@ Table<CarBody> body_table() {
       number("length_m", &CarBody::length_m, {0.5, 30.0}, "Length of the car."),
       number("width_m", &CarBody::width_m, {0.3, 5.0}, "Width of the car."),
       number("height_m", &CarBody::height_m, {0.3, 6.0}, "Height of the car."),
+      params::optional(params::choice(
+          "shape", &CarBody::shape,
+          {{"car", HullShape::car},
+           {"van", HullShape::van},
+           {"truck", HullShape::truck},
+           {"box", HullShape::box}},
+          "Shape of its hull, without it that of a car; a `truck` is a tractor with a trailer.")),
   };
 }
 
@@ -94,10 +109,17 @@ Table<Rig> rig_table() {
              "Height of the reference above the road."),
       number("reference_forward_m", &Rig::reference_forward_m, {-15.0, 15.0},
              "Distance of the reference ahead of the middle of the car."),
+      params::optional(number("reference_left_m", &Rig::reference_left_m, {-5.0, 5.0},
+                              "Distance of the reference to the left of the middle of the car.")),
+      params::optional(numbers(
+          "reference_rpy_deg", &Rig::reference_rpy_deg, {-360.0, 360.0},
+          "Roll, pitch and yaw of the reference on the car; without it the reference is level.")),
       params::group("body", &Rig::body, body_table(), {}, "The car that carries the sensors."),
       params::map("sensors", &Rig::sensors, mounting_table(), "a sensor's name",
                   "The sensors by name, including the reference."),
   };
+  table.require([](const Rig& rig) { return rig.reference_rpy_deg.size() == 3; },
+                "reference_rpy_deg must have three numbers");
   table.require(has_reference,
                 "sensors must have the reference, with a pose and a time_offset_s of zeros");
   table.require([](const Rig& rig) { return rig.sensors.size() >= 2; },
@@ -141,6 +163,9 @@ Table<Noise> noise_table() {
       number("detection_range_m", &Noise::detection_range_m, {0.0, 10000.0},
              "Range at which half of the rays return from a perpendicular target with 10 % "
              "reflectivity; 0: all rays return."),
+      params::optional(number("footprint_deg", &Noise::footprint_deg, {0.0, 2.0},
+                              "Diameter of a ray, which returns a range in between at an edge "
+                              "between surfaces of similar range; without it a ray is a line.")),
       boolean("sweep_distortion", &Noise::moves_during_scan,
               "Whether the car and other objects move while the sensors sweep; otherwise a scan is "
               "instantaneous."),
@@ -162,7 +187,8 @@ const params::Table<Recipe>& recipe_table() {
                     {{"none", Noise{}},
                      {"carla", carla_noise()},
                      {"real_still", real_still_noise()},
-                     {"real", real_noise()}},
+                     {"real", real_noise()},
+                     {"mixed_pixels", mixed_pixels_noise()}},
                     "Measurement errors of the sensors."),
       params::optional(
           number("speed_mps", &Recipe::speed_mps, {0.0, 100.0},

@@ -17,9 +17,9 @@ struct ScanPlan {
 };
 
 /// One scan of `world` by `sensor`, in the sensor's frame at the time when the ray was fired, with
-/// the channels intensity (0 to 255), ring and time (s, see ScanPlan), in the order of firing. The
-/// intensity is 255 times the share of returned light; as in real sensors, it does not depend on
-/// the range. All random numbers come from `key`.
+/// the channels intensity (0 to 255), ring (if it has rings) and time (s, see ScanPlan), in the
+/// order of firing. The intensity is 255 times the share of returned light; as in real sensors, it
+/// does not depend on the range. All random numbers come from `key`.
 PointCloud scan(const RayCaster& world, const SensorModel& sensor, const Noise& noise,
                 const ScanPlan& plan, const StreamKey& key);
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "framework/base/angles.hpp"
+
 namespace croon::simulation {
 namespace {
 
@@ -54,6 +56,15 @@ SensorModel solid_state() {
   return sensor;
 }
 
+SensorModel rosette(double width_deg, double height_deg, int rays, double period_s) {
+  SensorModel sensor = spinner({0.0}, 0.2, 1.0, 200.0);
+  sensor.rosette_rays = rays;
+  sensor.rosette_width_deg = width_deg;
+  sensor.rosette_height_deg = height_deg;
+  sensor.period_s = period_s;
+  return sensor;
+}
+
 std::vector<std::pair<std::string, SensorModel>> make_models() {
   // In the paper's samples, CARLA's sensors have the rings of the real ones, but other ranges.
   return {{"carla_pandar64", spinner(pandar64_elevations(), 0.2, 0.1, 200.0)},
@@ -62,7 +73,10 @@ std::vector<std::pair<std::string, SensorModel>> make_models() {
           {"pandar_qt", spinner(pandar_qt_elevations(), 0.6, 0.3, 30.0)},
           {"spinner_32", spinner(evenly(-30.67, 10.67, 32), 0.2, 0.8, 100.0)},
           {"spinner_16", spinner(evenly(-15.0, 15.0, 16), 0.2, 0.8, 100.0)},
-          {"solid_state", solid_state()}};
+          {"solid_state", solid_state()},
+          // 100,000 rays/s like a Livox Mid-40, and 240,000 rays/s like an Avia.
+          {"rosette_38", rosette(38.4, 38.4, 40000, 0.4)},
+          {"rosette_77", rosette(70.4, 77.2, 24000, 0.1)}};
 }
 
 }  // namespace
@@ -91,6 +105,32 @@ std::vector<double> azimuths_deg(const SensorModel& sensor) {
   return azimuths;
 }
 
+double ray_count(const SensorModel& sensor) {
+  if (sensor.rosette_rays > 0) return sensor.rosette_rays;
+  return static_cast<double>(sensor.elevations_deg.size()) *
+         (sensor.azimuth_to_deg - sensor.azimuth_from_deg) / sensor.azimuth_step_deg;
+}
+
+std::array<double, 2> rosette_angles_rad(const SensorModel& sensor,
+                                         const std::array<double, 2>& phases_rad, double time_s) {
+  // The speeds of the prisms of a Livox Mid-40, whose ratio makes the petals turn.
+  constexpr double kFirst_rpm = 7294.0;
+  constexpr double kSecond_rpm = -4664.0;
+  const double turn_rad = 2.0 * kPi * time_s / 60.0;
+  const double first_rad = phases_rad[0] + kFirst_rpm * turn_rad;
+  const double second_rad = phases_rad[1] + kSecond_rpm * turn_rad;
+  // The deflection of the beam to the left and upwards; at most half the field of view.
+  const double left_rad =
+      0.25 * rad_from_deg(sensor.rosette_width_deg) * (std::cos(first_rad) + std::cos(second_rad));
+  const double up_rad =
+      0.25 * rad_from_deg(sensor.rosette_height_deg) * (std::sin(first_rad) + std::sin(second_rad));
+  const double deflection_rad = std::hypot(left_rad, up_rad);
+  if (deflection_rad == 0.0) return {0.0, 0.0};
+  const double sine_share = std::sin(deflection_rad) / deflection_rad;
+  return {std::atan2(sine_share * left_rad, std::cos(deflection_rad)),
+          std::asin(std::clamp(sine_share * up_rad, -1.0, 1.0))};
+}
+
 Noise carla_noise() {
   Noise noise;
   noise.dropout_ratio = 0.156;
@@ -103,6 +143,12 @@ Noise real_still_noise() {
   noise.angle_std_deg = 0.02;
   noise.dropout_ratio = 0.005;
   noise.detection_range_m = 200.0;
+  return noise;
+}
+
+Noise mixed_pixels_noise() {
+  Noise noise = real_still_noise();
+  noise.footprint_deg = 0.2;
   return noise;
 }
 

@@ -101,9 +101,7 @@ class Simulated final : public Dataset {
     constexpr double kScanBytes = sizeof(SensorScan) + 200.0;
     double rays = 0.0;
     for (const auto& [name, mounting] : params_.rig.sensors) {
-      const simulation::SensorModel& model = mounting.model;
-      rays += static_cast<double>(model.elevations_deg.size()) *
-              (model.azimuth_to_deg - model.azimuth_from_deg) / model.azimuth_step_deg;
+      rays += simulation::ray_count(mounting.model);
     }
     require_memory(rays * kRayBytes, "a scene of " + fixed_number(rays, 0) + " rays",
                    "reduce the rings of the rig's sensors or increase azimuth_step_deg",
@@ -125,6 +123,7 @@ class Simulated final : public Dataset {
         return LoadedCloud{cache->scene(index)->scan_of(sensor)};
       };
       scan.channels = {kIntensity, kRing, kTime};
+      if (mounting.model.rosette_rays > 0) scan.channels = {kIntensity, kTime};
       scan.velocity = [cache, index, sensor = name] {
         return cache->scene(index)->velocity_of(sensor);
       };

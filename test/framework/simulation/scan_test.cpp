@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "framework/base/angles.hpp"
@@ -120,6 +121,69 @@ TEST(Scan, DistortionShiftsPointsAsTheCarMoves) {
   const PointCloud still = scanned({}, driving);
   ASSERT_EQ(still.points.size(), scanned({}).points.size());
   EXPECT_EQ(still.points, scanned({}).points);
+}
+
+TEST(Scan, ARosetteFillsItsEllipseWithoutRings) {
+  for (const char* name : {"rosette_38", "rosette_77"}) {
+    SCOPED_TRACE(name);
+    const SensorModel& sensor = sensor_model(name);
+    const RayCaster caster(room(), {});
+    const PointCloud cloud = scan(caster, sensor, {}, at_rest(), StreamKey(3));
+    EXPECT_EQ(cloud.points.size(), static_cast<std::size_t>(sensor.rosette_rays));
+    EXPECT_TRUE(channel_values(cloud, kRing).empty());
+    EXPECT_NEAR(times_s(cloud).back(), sensor.period_s, 1e-4);
+    // The ellipse, scaled to the unit disc, in five rings of the same area and 12 sectors.
+    std::vector<int> counts(60, 0);
+    double farthest = 0.0;
+    for (const Eigen::Vector3f& p : cloud.points) {
+      const Vector3d d = p.cast<double>().normalized();
+      const double scale =
+          2.0 * deg_from_rad(std::acos(d.x())) / std::max(std::hypot(d.y(), d.z()), 1e-12);
+      const double left = scale * d.y() / sensor.rosette_width_deg;
+      const double up = scale * d.z() / sensor.rosette_height_deg;
+      farthest = std::max(farthest, std::hypot(left, up));
+      const int band = std::min(static_cast<int>(5.0 * (left * left + up * up)), 4);
+      const double turn = 0.5 + std::atan2(up, left) / (2.0 * kPi);
+      ++counts[static_cast<std::size_t>(12 * band + std::min(static_cast<int>(12.0 * turn), 11))];
+    }
+    EXPECT_NEAR(farthest, 1.0, 1e-3);
+    const double mean = static_cast<double>(cloud.points.size()) / 60.0;
+    for (const int count : counts) EXPECT_GT(count, 0.3 * mean);
+    // The same key gives the same bits, another one other petals.
+    EXPECT_EQ(scan(caster, sensor, {}, at_rest(), StreamKey(3)).points, cloud.points);
+    EXPECT_NE(scan(caster, sensor, {}, at_rest(), StreamKey(4)).points, cloud.points);
+  }
+}
+
+/// The ranges of a scan with rays of 0.2 degrees at a wall at 10 m, with a plate 0.6 m before it,
+/// relative to the wall: 0 on the wall, 1 on the plate.
+std::vector<double> shares_between_walls(double footprint_deg) {
+  auto world = std::make_shared<World>();
+  add_box(world->fixed, {10.0, -20.0, -10.0}, {11.0, 20.0, 10.0}, Material::plaster);
+  add_box(world->fixed, {9.4, -1.0, -1.0}, {9.5, 1.0, 1.0}, Material::plaster);
+  const RayCaster caster(world, {});
+  Noise noise;
+  noise.footprint_deg = footprint_deg;
+  const PointCloud cloud = scan(caster, sensor_model("rosette_38"), noise, at_rest(), StreamKey(3));
+  std::vector<double> shares;
+  for (const Eigen::Vector3f& point : cloud.points) {
+    shares.push_back((10.0 - static_cast<double>(point.x())) / 0.6);
+  }
+  return shares;
+}
+
+TEST(Scan, WideRaysMixRangesAtEdgesOnly) {
+  const auto count_between = [](const std::vector<double>& shares) {
+    return std::count_if(shares.begin(), shares.end(),
+                         [](double share) { return share > 0.01 && share < 0.99; });
+  };
+  const std::vector<double> mixed = shares_between_walls(0.2);
+  EXPECT_EQ(count_between(shares_between_walls(0.0)), 0);
+  EXPECT_GT(*std::min_element(mixed.begin(), mixed.end()), -0.01);
+  EXPECT_LT(*std::max_element(mixed.begin(), mixed.end()), 1.01);
+  const auto at_edges = count_between(mixed);
+  EXPECT_GT(at_edges, 20);
+  EXPECT_LT(at_edges, static_cast<std::ptrdiff_t>(mixed.size() / 50));
 }
 
 }  // namespace
