@@ -287,15 +287,6 @@ int calibrate_command(const CalibrateOptions& given, const Catalogue& catalogue,
 
 namespace {
 
-/// "ros2, urdf, ...".
-std::string format_names() {
-  std::string names;
-  for (const std::string& name : extrinsics_format_names()) {
-    names += (names.empty() ? "" : ", ") + name;
-  }
-  return names;
-}
-
 class CalibrateCommand final : public Command {
  public:
   std::string sentence() const override {
@@ -320,7 +311,8 @@ class CalibrateCommand final : public Command {
         "a pose or a path");
     add_path(command, "--out", o.out, "Folder to write to; default results/calibration.");
     add_text(command, "--format", o.formats,
-             "Additional formats of extrinsics, comma-separated: " + format_names() + ".",
+             "Additional formats of extrinsics, comma-separated: " +
+                 list_text(extrinsics_format_names()) + ".",
              "a format")
         ->delimiter(',');
     command.add_flag("--with-rejected", o.with_rejected,
