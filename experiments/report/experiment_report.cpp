@@ -9,8 +9,7 @@
 #include "experiments/report/result_sections.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "experiments/report/rig_charts.hpp"
-#include "experiments/report/rig_view_json.hpp"
-#include "experiments/report/rig_view_pictures.hpp"
+#include "experiments/report/rig_view_blocks.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/base/text.hpp"
 
@@ -170,10 +169,8 @@ Section trial_section(const Results& results, const std::vector<TrialView>& view
       inner.blocks.emplace_back(
           Paragraph{fit_sentence(sensor), is_contradicted(sensor) ? Tone::warning : Tone::plain});
     }
-    inner.blocks.emplace_back(
-        CloudViewBlock{"Scene " + trial.view.scene + " at the initial guess and at the result.",
-                       rig_view_json(trial.view),
-                       {overview_picture(trial.view)}});
+    inner.blocks.emplace_back(cloud_view_block(
+        trial.view, "Scene " + trial.view.scene + " at the initial guess and at the result."));
     if (FigureRow row = close_up_row(trial.view); !row.figures.empty()) {
       inner.blocks.emplace_back(std::move(row));
     }
