@@ -1,5 +1,3 @@
-#include "experiments/cli/calibrate_command.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -245,8 +243,9 @@ FolderFiles write_files(const CalibrateOptions& options, const CalibratedRig& ri
   return {paths, folder.publish(), lead};
 }
 
-}  // namespace
-
+/// Calibrates the rig, prints the result and writes it to `options.out`; progress goes to `err`.
+/// Returns 3 if a sensor is rejected. Throws InputError, before anything is written, if the request
+/// is wrong.
 int calibrate_command(const CalibrateOptions& given, const Catalogue& catalogue, std::ostream& out,
                       std::ostream& err) {
   const CalibrateOptions options = with_file(given);
@@ -284,8 +283,6 @@ int calibrate_command(const CalibrateOptions& given, const Catalogue& catalogue,
                   [](const CalibratedSensor& sensor) { return !sensor.is_accepted; });
   return is_any_rejected ? 3 : 0;
 }
-
-namespace {
 
 class CalibrateCommand final : public Command {
  public:
