@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -11,6 +10,7 @@
 #include "experiments/cli/requested_calibration.hpp"
 #include "experiments/report/calibration_document.hpp"
 #include "experiments/session/staged_folder.hpp"
+#include "experiments/store/manifest.hpp"
 #include "experiments/store/version.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
@@ -157,22 +157,12 @@ Drawn draw(const fs::path& root, const CalibratedRig& rig, const Scene& scene, b
   return drawn;
 }
 
-/// The current date and time in UTC.
-std::string date_text() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[32];
-  std::strftime(text, sizeof(text), "%Y-%m-%d %H:%M UTC", &utc);
-  return text;
-}
-
 /// Where the result comes from: the program, the request and its inputs.
 Facts provenance_of(const CalibrateOptions& options, const std::vector<Scene>& scenes) {
   constexpr std::uintmax_t kMaxDigestedBytes = 1U << 28U;
   Facts facts{{{"croon", std::string(croon_version()) + ", commit " + croon_commit()},
                {"request", rig_request_json(options, options.out)},
-               {"date", date_text()}}};
+               {"date", utc_time()}}};
   std::set<std::string> files;
   for (const Scene& scene : scenes) {
     for (std::size_t i = 0; i <= scene.sensors.size(); ++i) files.insert(scan_at(scene, i).file);
