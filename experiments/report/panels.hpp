@@ -10,7 +10,25 @@
 
 namespace croon::experiments {
 
-// Common parts of figures with a line per variant or sensor: panels and a legend below them.
+// Common parts of figures: titles, and for a line per variant or sensor panels, bands and a legend.
+
+/// The title of a figure and the explanation below it, broken into lines that fit its width. Sheets
+/// without titles show neither; both are then only in the description of the drawing.
+class FigureTitle {
+ public:
+  FigureTitle(const std::string& title, const std::string& explanation, const Sheet& sheet,
+              double width);
+
+  /// The height of the lines; 0 if the sheet has no title.
+  double height() const;
+
+  /// Draws the lines from `top` downwards.
+  void draw(Drawing& drawing, double left, double top) const;
+
+ private:
+  Sheet sheet_;
+  std::vector<std::string> title_, explanation_;
+};
 
 /// Whether a figure has space for more panels per row than a column of a paper.
 bool is_wide(const Sheet& sheet);
