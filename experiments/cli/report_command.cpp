@@ -58,7 +58,7 @@ int report_command(const ReportOptions& options, const Catalogue& catalogue, std
     const std::string bytes = report_of(folder, options, catalogue);
     const std::filesystem::path path = folder / kReport;
     write_whole_file(path, bytes);
-    out << "The report is in " << printable(path.string()) << "\n";
+    out << left_out_times_text(folder) << "The report is in " << printable(path.string()) << "\n";
   }
   return 0;
 }

@@ -106,6 +106,12 @@ TEST_F(ReportCommand, WritesNothingIfATrialCannotBeShown) {
   EXPECT_FALSE(fs::exists(path("out/report.html")));
 }
 
+TEST_F(ReportCommand, SaysThatWallTimesAreLeftOut) {
+  fs::remove(path("out/timings.sqlite"));
+  EXPECT_EQ(report({"out"}), 0);
+  EXPECT_THAT(text_, HasSubstr("timings.csv: its wall times are left out"));
+}
+
 TEST_F(ReportCommand, WithoutTheDataSaysWhyThereAreNoViews) {
   EXPECT_EQ(report({"out"}, "nowhere"), 0);
   EXPECT_THAT(page(), HasSubstr("The clouds of the trials could not be read"));
