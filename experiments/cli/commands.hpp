@@ -72,11 +72,16 @@ int export_command(const ExportOptions& options, std::ostream& out);
 /// is outside its band or was not measured.
 int claims_command(const std::vector<std::filesystem::path>& folders, std::ostream& out);
 
-/// `croon report`: writes report.html to each of `folders`, with views of clouds if the data root
-/// `data` has them. Returns 0. Throws InputError for a folder without results.
-int report_command(const std::vector<std::filesystem::path>& folders,
-                   const std::filesystem::path& data, const Catalogue& catalogue,
-                   std::ostream& out);
+struct ReportOptions {
+  std::vector<std::filesystem::path> folders;  ///< Folders of results.
+  std::vector<std::string> trials;  ///< Trials to show besides those chosen; needs one folder.
+  std::filesystem::path data;       ///< See `data_root`.
+};
+
+/// `croon report`: writes report.html to each folder, with views of clouds if the data root has
+/// them. Returns 0. Throws InputError for a folder without results, and if one of `trials` cannot
+/// be shown (see trial_views).
+int report_command(const ReportOptions& options, const Catalogue& catalogue, std::ostream& out);
 
 /// The sheet called `width`. If `width` is empty: the screen sheet for SVG, `on_paper` for other
 /// formats. Throws InputError for an unknown name.
