@@ -1,8 +1,5 @@
-#include "experiments/cli/calibrate_command.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -13,6 +10,7 @@
 #include "experiments/cli/requested_calibration.hpp"
 #include "experiments/report/calibration_document.hpp"
 #include "experiments/session/staged_folder.hpp"
+#include "experiments/store/manifest.hpp"
 #include "experiments/store/version.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
@@ -159,22 +157,12 @@ Drawn draw(const fs::path& root, const CalibratedRig& rig, const Scene& scene, b
   return drawn;
 }
 
-/// The current date and time in UTC.
-std::string date_text() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[32];
-  std::strftime(text, sizeof(text), "%Y-%m-%d %H:%M UTC", &utc);
-  return text;
-}
-
 /// Where the result comes from: the program, the request and its inputs.
 Facts provenance_of(const CalibrateOptions& options, const std::vector<Scene>& scenes) {
   constexpr std::uintmax_t kMaxDigestedBytes = 1U << 28U;
   Facts facts{{{"croon", std::string(croon_version()) + ", commit " + croon_commit()},
                {"request", rig_request_json(options, options.out)},
-               {"date", date_text()}}};
+               {"date", utc_time()}}};
   std::set<std::string> files;
   for (const Scene& scene : scenes) {
     for (std::size_t i = 0; i <= scene.sensors.size(); ++i) files.insert(scan_at(scene, i).file);
@@ -245,8 +233,9 @@ FolderFiles write_files(const CalibrateOptions& options, const CalibratedRig& ri
   return {paths, folder.publish(), lead};
 }
 
-}  // namespace
-
+/// Calibrates the rig, prints the result and writes it to `options.out`; progress goes to `err`.
+/// Returns 3 if a sensor is rejected. Throws InputError, before anything is written, if the request
+/// is wrong.
 int calibrate_command(const CalibrateOptions& given, const Catalogue& catalogue, std::ostream& out,
                       std::ostream& err) {
   const CalibrateOptions options = with_file(given);
@@ -285,17 +274,6 @@ int calibrate_command(const CalibrateOptions& given, const Catalogue& catalogue,
   return is_any_rejected ? 3 : 0;
 }
 
-namespace {
-
-/// "ros2, urdf, ...".
-std::string format_names() {
-  std::string names;
-  for (const std::string& name : extrinsics_format_names()) {
-    names += (names.empty() ? "" : ", ") + name;
-  }
-  return names;
-}
-
 class CalibrateCommand final : public Command {
  public:
   std::string sentence() const override {
@@ -320,7 +298,8 @@ class CalibrateCommand final : public Command {
         "a pose or a path");
     add_path(command, "--out", o.out, "Folder to write to; default results/calibration.");
     add_text(command, "--format", o.formats,
-             "Additional formats of extrinsics, comma-separated: " + format_names() + ".",
+             "Additional formats of extrinsics, comma-separated: " +
+                 list_text(extrinsics_format_names()) + ".",
              "a format")
         ->delimiter(',');
     command.add_flag("--with-rejected", o.with_rejected,

@@ -1,5 +1,3 @@
-#include "experiments/cli/check_command.hpp"
-
 #include <algorithm>
 #include <memory>
 
@@ -54,8 +52,11 @@ bool needs_second_look(const CalibratedRig& rig) {
   });
 }
 
-}  // namespace
-
+/// Checks the poses in the file `options.nominal` against the clouds of `options.inputs`, which are
+/// read as by croon calibrate. Prints for each sensor whether its pose is right, wrong or
+/// undecidable, and how far it is from the optimum, in total and per degree of freedom. Writes no
+/// files; progress goes to `err`. Returns 3 unless all poses are right. Throws InputError if the
+/// request is wrong.
 int check_command(const CalibrateOptions& given, const Catalogue& catalogue, std::ostream& out,
                   std::ostream& err) {
   CalibrateOptions options = with_file(given);
@@ -84,8 +85,6 @@ int check_command(const CalibrateOptions& given, const Catalogue& catalogue, std
       [](const CheckedSensor& sensor) { return sensor.judgement == PoseJudgement::right; });
   return is_all_right ? 0 : 3;
 }
-
-namespace {
 
 class CheckCommand final : public Command {
  public:

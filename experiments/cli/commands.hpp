@@ -72,56 +72,20 @@ int export_command(const ExportOptions& options, std::ostream& out);
 /// is outside its band or was not measured.
 int claims_command(const std::vector<std::filesystem::path>& folders, std::ostream& out);
 
-/// `croon report`: writes report.html to each of `folders`, with views of clouds if the data root
-/// `data` has them. Returns 0. Throws InputError for a folder without results.
-int report_command(const std::vector<std::filesystem::path>& folders,
-                   const std::filesystem::path& data, const Catalogue& catalogue,
-                   std::ostream& out);
-
-struct SimulateOptions {
-  std::filesystem::path experiment;
-  std::vector<std::filesystem::path> with;  ///< Workloads, see load_experiment.
-  std::filesystem::path out;                ///< The folder of the dataset.
-  int jobs = 0;                             ///< 0: all cores.
-  bool png = false;                         ///< Draw each scene.
-  bool quiet = false;                       ///< No progress.
+struct ReportOptions {
+  std::vector<std::filesystem::path> folders;  ///< Folders of results.
+  std::vector<std::string> trials;  ///< Trials to show besides those chosen; needs one folder.
+  std::filesystem::path data;       ///< See `data_root`.
 };
 
-/// Writes the simulated scenes of an experiment in the layout of the paper's authors: binary PCD
-/// clouds, lists, `truth.json`, `scene_kinds.json`, and `experiment.json`, which reproduces the
-/// results of the experiment on them. Complete scenes are kept; a folder with other content is
-/// refused.
-int simulate_command(const SimulateOptions& options, const Catalogue& catalogue, std::ostream& out,
-                     std::ostream& err);
-
-struct DescribeOptions {
-  std::vector<std::filesystem::path> experiments;
-  std::filesystem::path data;  ///< See `data_root`.
-  std::filesystem::path out;   ///< A folder for clouds.csv and ranges.svg; empty: none.
-  int jobs = 0;                ///< 0: all cores.
-  int scenes = 0;              ///< Maximum number of scenes per dataset; 0: all.
-  std::string format = "svg";  ///< Of the figure of ranges: one of drawing_formats().
-  std::string width;           ///< One of named_sheets(); empty: screen in SVG, else two columns.
-};
+/// `croon report`: writes report.html to each folder, with views of clouds if the data root has
+/// them. Returns 0. Throws InputError for a folder without results, and if one of `trials` cannot
+/// be shown (see trial_views).
+int report_command(const ReportOptions& options, const Catalogue& catalogue, std::ostream& out);
 
 /// The sheet called `width`. If `width` is empty: the screen sheet for SVG, `on_paper` for other
 /// formats. Throws InputError for an unknown name.
 Sheet sheet_called(const std::string& width, const std::string& format, const Sheet& on_paper);
-
-/// Describes the clouds of the experiments' datasets, side by side.
-int describe_command(const DescribeOptions& options, const Catalogue& catalogue, std::ostream& out);
-
-struct StartsOptions {
-  std::filesystem::path experiment;
-  std::vector<std::filesystem::path> with;  ///< Workloads, see load_experiment.
-  std::filesystem::path out;                ///< The file to write; empty: the stream `out`.
-  std::filesystem::path data;               ///< See `data_root`.
-  int trials = 0;                           ///< Per scene and sensor; 0: as in the experiment.
-};
-
-/// Writes the initial guess of each scene, sensor and trial of the experiment, as a file for the
-/// key "starts" of an experiment. Trials that start from the file have bit-identical results.
-int starts_command(const StartsOptions& options, const Catalogue& catalogue, std::ostream& out);
 
 /// The names of the files from which the variants of `experiment` read poses and velocities.
 std::set<std::string> given_files(const Experiment& experiment);

@@ -24,6 +24,16 @@
 namespace croon::experiments {
 namespace {
 
+struct DescribeOptions {
+  std::vector<std::filesystem::path> experiments;
+  std::filesystem::path data;  ///< See `data_root`.
+  std::filesystem::path out;   ///< A folder for clouds.csv and ranges.svg; empty: none.
+  int jobs = 0;                ///< 0: all cores.
+  int scenes = 0;              ///< Maximum number of scenes per dataset; 0: all.
+  std::string format = "svg";  ///< Of the figure of ranges: one of drawing_formats().
+  std::string width;           ///< One of named_sheets(); empty: screen in SVG, else two columns.
+};
+
 /// A scene and the dataset that it belongs to.
 struct NamedScene {
   std::string dataset;
@@ -145,8 +155,7 @@ class OutputFolders {
   std::vector<std::filesystem::path> made_;  ///< Innermost first.
 };
 
-}  // namespace
-
+/// Describes the clouds of the experiments' datasets, side by side.
 int describe_command(const DescribeOptions& options, const Catalogue& catalogue,
                      std::ostream& out) {
   const DrawingFormat& writer = called("--format", options.format, drawing_formats());
@@ -173,8 +182,6 @@ int describe_command(const DescribeOptions& options, const Catalogue& catalogue,
   out << text_section(clouds_section(clouds)) << empty_clouds_text(scenes, by_scene);
   return 0;
 }
-
-namespace {
 
 class DescribeCommand final : public Command {
  public:

@@ -169,11 +169,14 @@ int merge_command(const MergeOptions& options, std::ostream& out) {
   const OutputFolder folder(options.out);
   std::vector<fs::path> all = folders;
   if (!is_among(all, options.out)) all.push_back(options.out);
-  std::string hosts;
+  std::string hosts, left_out;
   try {
     // Before the store is written: a refused merge must change nothing.
     hosts = hosts_json(all);
-    for (const fs::path& part : all) const TimingsStore checked(timings_path(part), Access::read);
+    for (const fs::path& part : all) {
+      const TimingsStore checked(timings_path(part), Access::read);
+      left_out += left_out_times_text(part);
+    }
     merge_stores(parts, header, options.out);
   } catch (...) {
     remove_files(made);
@@ -186,7 +189,7 @@ int merge_command(const MergeOptions& options, std::ostream& out) {
   }
   folder.write_reports(results, timings, merged_manifest(results.manifest, hosts));
   const std::string missing = missing_text(results);
-  out << result_text(results, options.colours) << missing << "Results are in "
+  out << result_text(results, options.colours) << missing << left_out << "Results are in "
       << printable(options.out.string()) << "\n";
   return has_failed_trials(results) || !missing.empty() ? 3 : 0;
 }

@@ -6,6 +6,7 @@
 #include "experiments/cli/commands.hpp"
 #include "experiments/cli/options.hpp"
 #include "experiments/report/experiment_report.hpp"
+#include "experiments/report/named_trials.hpp"
 #include "experiments/report/trial_views.hpp"
 #include "experiments/run/run_request.hpp"
 #include "experiments/session/result_files.hpp"
@@ -18,8 +19,8 @@ namespace croon::experiments {
 namespace {
 
 /// The report of the results in `folder`. Without the data, it contains a note instead of the view
-/// of the clouds.
-std::string report_of(const std::filesystem::path& folder, const std::filesystem::path& data,
+/// of the clouds, unless the options name trials.
+std::string report_of(const std::filesystem::path& folder, const ReportOptions& options,
                       const Catalogue& catalogue) {
   std::error_code ignored;
   if (std::filesystem::exists(folder / "rig.json", ignored) &&
@@ -33,8 +34,9 @@ std::string report_of(const std::filesystem::path& folder, const std::filesystem
   std::vector<TrialView> views;
   std::string without_views = "No trial has a pose.";
   try {
-    views = trial_views(results, data, catalogue);
+    views = trial_views(results, options.trials, data_root(options.data), catalogue);
   } catch (const InputError& error) {
+    if (!options.trials.empty()) throw;
     without_views = "The clouds of the trials could not be read, so there is no view of them: " +
                     error.faults().front().line() + ". With --data the report shows them.";
   }
@@ -43,18 +45,20 @@ std::string report_of(const std::filesystem::path& folder, const std::filesystem
 
 }  // namespace
 
-int report_command(const std::vector<std::filesystem::path>& folders,
-                   const std::filesystem::path& data, const Catalogue& catalogue,
-                   std::ostream& out) {
+int report_command(const ReportOptions& options, const Catalogue& catalogue, std::ostream& out) {
   if (!can_write_html()) {
     throw InputError("", "report", "this build of croon writes no reports (CROON_WITH_REPORT)");
   }
-  refuse_repeats(folders);
-  for (const std::filesystem::path& folder : folders) {
-    const std::string bytes = report_of(folder, data_root(data), catalogue);
+  if (!options.trials.empty() && options.folders.size() > 1) {
+    throw InputError("", kTrialOption,
+                     "expected one folder, found " + std::to_string(options.folders.size()));
+  }
+  refuse_repeats(options.folders);
+  for (const std::filesystem::path& folder : options.folders) {
+    const std::string bytes = report_of(folder, options, catalogue);
     const std::filesystem::path path = folder / kReport;
     write_whole_file(path, bytes);
-    out << "The report is in " << printable(path.string()) << "\n";
+    out << left_out_times_text(folder) << "The report is in " << printable(path.string()) << "\n";
   }
   return 0;
 }
@@ -68,17 +72,22 @@ class ReportCommand final : public Command {
   }
 
   void add_options(CLI::App& command) override {
-    add_path(command, "DIR", folders_, "Folders of results of `croon run`.")->required();
-    add_data(command, data_);
+    add_path(command, "DIR", options_.folders, "Folders of results of `croon run`.")->required();
+    add_text(command, kTrialOption, options_.trials,
+             "Also show the clouds of this trial, VARIANT/SCENE/SENSOR/NUMBER, without VARIANT if "
+             "there is only one; may be repeated.",
+             "a trial")
+        ->type_name("TRIAL")
+        ->allow_extra_args(false);
+    add_data(command, options_.data);
   }
 
   int run(const Console& console) override {
-    return report_command(folders_, data_, console.catalogue, console.out);
+    return report_command(options_, console.catalogue, console.out);
   }
 
  private:
-  std::vector<std::filesystem::path> folders_;
-  std::filesystem::path data_;
+  ReportOptions options_;
 };
 
 }  // namespace

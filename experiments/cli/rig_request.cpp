@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "experiments/cli/calibrate_command.hpp"
+#include "experiments/cli/requested_calibration.hpp"
 #include "framework/base/error.hpp"
 #include "framework/io/recording_file.hpp"
 #include "framework/params/json_file.hpp"

@@ -35,6 +35,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+struct SimulateOptions {
+  std::filesystem::path experiment;
+  std::vector<std::filesystem::path> with;  ///< Workloads, see load_experiment.
+  std::filesystem::path out;                ///< The folder of the dataset.
+  int jobs = 0;                             ///< 0: all cores.
+  bool png = false;                         ///< Draw each scene.
+  bool quiet = false;                       ///< No progress.
+};
+
 /// The recipe of the dataset in a folder; only a run with the same recipe may continue it.
 constexpr const char* kRecipe = "simulation.json";
 
@@ -293,8 +302,10 @@ std::vector<VelocityRow> write_scenes(const SimulateOptions& options, const Expe
   return velocities;
 }
 
-}  // namespace
-
+/// Writes the simulated scenes of an experiment in the layout of the paper's authors: binary PCD
+/// clouds, lists, `truth.json`, `scene_kinds.json`, and `experiment.json`, which reproduces the
+/// results of the experiment on them. Complete scenes are kept; a folder with other content is
+/// refused.
 int simulate_command(const SimulateOptions& options, const Catalogue& catalogue, std::ostream& out,
                      std::ostream& progress_out) {
   Experiment experiment = load_experiment(options.experiment, catalogue, options.with);
@@ -329,8 +340,6 @@ int simulate_command(const SimulateOptions& options, const Catalogue& catalogue,
       << " --data " << folder << "\n";
   return 0;
 }
-
-namespace {
 
 class SimulateCommand final : public Command {
  public:

@@ -96,6 +96,18 @@ std::string starts_csv(const Experiment& experiment, const std::vector<SceneGrou
   return csv_of(start_columns(), rows);
 }
 
+namespace {
+
+struct StartsOptions {
+  std::filesystem::path experiment;
+  std::vector<std::filesystem::path> with;  ///< Workloads, see load_experiment.
+  std::filesystem::path out;                ///< The file to write; empty: the stream `out`.
+  std::filesystem::path data;               ///< See `data_root`.
+  int trials = 0;                           ///< Per scene and sensor; 0: as in the experiment.
+};
+
+/// Writes the initial guess of each scene, sensor and trial of the experiment, as a file for the
+/// key "starts" of an experiment. Trials that start from the file have bit-identical results.
 int starts_command(const StartsOptions& options, const Catalogue& catalogue, std::ostream& out) {
   Experiment experiment = load_experiment(options.experiment, catalogue, options.with);
   if (experiment.starts.is_none) {
@@ -115,8 +127,6 @@ int starts_command(const StartsOptions& options, const Catalogue& catalogue, std
   }
   return 0;
 }
-
-namespace {
 
 class StartsCommand final : public Command {
  public:

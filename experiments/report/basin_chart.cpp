@@ -1,4 +1,3 @@
-#include "experiments/report/bands.hpp"
 #include "experiments/report/panels.hpp"
 #include "framework/base/text.hpp"
 

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "experiments/report/box_drawing.hpp"
-#include "experiments/report/figure_title.hpp"
+#include "experiments/report/panels.hpp"
 #include "experiments/report/plots.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "framework/base/text.hpp"
+
 namespace croon::experiments {
 namespace {
 
@@ -27,22 +29,20 @@ std::string short_commit(const std::string& commit) {
 }
 
 std::vector<std::string> build_sentences(const std::vector<Build>& builds) {
-  std::string of_builds, of_folders;
-  std::vector<std::string> folders;
+  std::vector<std::string> of_builds, folders;
   for (const Build& build : builds) {
-    of_builds += (of_builds.empty() ? "" : ", ") + build_text(build);
+    of_builds.push_back(build_text(build));
     for (const StageFolder& folder : build.stage_folders) folders.push_back(folder_text(folder));
   }
   std::sort(folders.begin(), folders.end());
   folders.erase(std::unique(folders.begin(), folders.end()), folders.end());
-  for (const std::string& folder : folders) of_folders += (of_folders.empty() ? "" : ", ") + folder;
   std::vector<std::string> sentences;
   if (builds.size() > 1) {
     sentences.push_back("Trials of " + std::to_string(builds.size()) +
-                        " builds of croon: " + of_builds + ".");
+                        " builds of croon: " + list_text(of_builds) + ".");
   }
   if (!folders.empty()) {
-    sentences.push_back("With stages from outside the croon tree: " + of_folders + ".");
+    sentences.push_back("With stages from outside the croon tree: " + list_text(folders) + ".");
   }
   return sentences;
 }

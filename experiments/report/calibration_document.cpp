@@ -1,7 +1,6 @@
 #include "experiments/report/calibration_document.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "framework/base/angles.hpp"
@@ -13,16 +12,6 @@
 namespace croon::experiments {
 namespace {
 
-/// "1.2, 0.4, 3.0": three standard deviations, each multiplied by `scale`.
-std::string stds_text(const Matrix6d& covariance, int first, double scale, int decimals) {
-  std::string text;
-  for (int i = first; i < first + 3; ++i) {
-    text +=
-        (text.empty() ? "" : ", ") + fixed_number(scale * std::sqrt(covariance(i, i)), decimals);
-  }
-  return text;
-}
-
 std::string axis_text(const std::string& name, double value, int decimals) {
   return name + " " + right_aligned(fixed_number(value, decimals), 9);
 }
@@ -33,11 +22,11 @@ std::string pose_text(const RigidTransform& T, const std::optional<PoseCovarianc
   std::string text = axis_text("x   ", T.translation.x(), 4) + "  " +
                      axis_text("y    ", T.translation.y(), 4) + "  " +
                      axis_text("z  ", T.translation.z(), 4) + " m  ";
-  if (covariance) text += "  std " + stds_text(covariance->matrix, 3, 1e3, 1) + " mm";
+  if (covariance) text += "  std " + stds_text(*covariance, 3, 1e3, 1) + " mm";
   text += "\n" + axis_text("roll", rpy_deg.x(), 4) + "  " + axis_text("pitch", rpy_deg.y(), 4) +
           "  " + axis_text("yaw", rpy_deg.z(), 4) + " deg";
   if (covariance) {
-    text += "  std " + stds_text(covariance->matrix, 0, deg_from_rad(1.0), 3) + " deg";
+    text += "  std " + stds_text(*covariance, 0, deg_from_rad(1.0), 3) + " deg";
   }
   return text + "\n";
 }
@@ -47,13 +36,13 @@ void add_observability(const std::optional<PoseCovariance>& covariance,
                        std::vector<std::string>& lines) {
   if (!covariance) return;
   for (const Observability word : {Observability::weak, Observability::unobservable}) {
-    std::string names;
+    std::vector<std::string> names;
     for (std::size_t i = 0; i < kDofNames.size(); ++i) {
-      if (covariance->dofs.at(i) == word) names += (names.empty() ? "" : ", ") + kDofNames.at(i);
+      if (covariance->dofs.at(i) == word) names.push_back(kDofNames.at(i));
     }
     if (names.empty()) continue;
     lines.push_back((word == Observability::weak ? "weakly constrained: " : "not constrained: ") +
-                    names);
+                    list_text(names));
   }
 }
 

@@ -3,8 +3,7 @@
 
 #include "experiments/report/calibration_document.hpp"
 #include "experiments/report/rig_charts.hpp"
-#include "experiments/report/rig_view_json.hpp"
-#include "experiments/report/rig_view_pictures.hpp"
+#include "experiments/report/rig_view_blocks.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/base/statistics.hpp"
 #include "framework/base/text.hpp"
@@ -15,19 +14,13 @@ namespace {
 
 std::string verdict_name(bool is_accepted) { return is_accepted ? "accepted" : "rejected"; }
 
-const ViewedSensor* viewed(const RigView& view, const std::string& sensor) {
-  const auto found = std::find_if(view.sensors.begin(), view.sensors.end(),
-                                  [&](const ViewedSensor& one) { return one.sensor == sensor; });
-  return found == view.sensors.end() ? nullptr : &*found;
-}
-
 /// Adds the fit checks to the cards. An accepted sensor that its clouds contradict is doubtful.
 void add_fit_checks(Section& section, const RigView& view, const CalibratedRig& rig) {
   for (Block& block : section.blocks) {
     auto* const cards = std::get_if<Cards>(&block);
     if (cards == nullptr) continue;
     for (std::size_t i = 0; i < cards->cards.size(); ++i) {
-      const ViewedSensor* const sensor = viewed(view, rig.sensors[i].sensor);
+      const ViewedSensor* const sensor = viewed_sensor(view, rig.sensors[i].sensor);
       if (sensor == nullptr || !sensor->refit) continue;
       Card& card = cards->cards[i];
       card.lines.push_back(fit_sentence(*sensor));
@@ -43,43 +36,30 @@ TableBlock pose_table(const CalibratedRig& rig, const RigView& clouds) {
   using S = CalibratedSensor;
   Columns<S> columns;
   columns.add({"sensor"}, &S::sensor).add({"verdict"}, [&](const S& sensor) {
-    const ViewedSensor* const shown = viewed(clouds, sensor.sensor);
+    const ViewedSensor* const shown = viewed_sensor(clouds, sensor.sensor);
     const bool is_doubtful = shown != nullptr && sensor.is_accepted && is_contradicted(*shown);
     return verdict_name(sensor.is_accepted) + (is_doubtful ? ", contradicted by the clouds" : "");
   });
-  const auto std_of = [](const S& sensor, int i) -> std::optional<double> {
-    if (!sensor.covariance) return std::nullopt;
-    return std::sqrt(sensor.covariance->matrix(i, i));
-  };
-  constexpr std::array kAxes = {"x", "y", "z"};
   View view{{{"sensor"}, {"verdict"}}, 2};
-  const auto show = [&](const std::string& name, const std::string& title) {
-    view.columns.push_back({title, "<" + name + "> ± <" + name + "_std>"});
-  };
-  for (int i = 0; i < 3; ++i) {
-    const std::string name = kAxes.at(static_cast<std::size_t>(i));
+  for (const int dof : {3, 4, 5, 0, 1, 2}) {
+    const bool is_angle = is_rotation(static_cast<Dof>(dof));
+    const std::string name = kDofNames.at(static_cast<std::size_t>(dof));
+    const std::string unit = is_angle ? "deg" : "m", column = name + "_" + unit;
+    const int decimals = is_angle ? 3 : 4;
     columns
-        .add({name, "m", "", 4},
-             [i](const S& sensor) -> std::optional<double> {
+        .add({name, unit, "", decimals},
+             [=](const S& sensor) -> std::optional<double> {
                if (!sensor.T_reference_sensor) return std::nullopt;
-               return sensor.T_reference_sensor->translation(i);
+               const RigidTransform& T = *sensor.T_reference_sensor;
+               return is_angle ? deg_from_rad(rpy_from_rotation(T.rotation)(dof))
+                               : T.translation(dof - 3);
              })
-        .add({name + "_m_std", "", "", 4}, [=](const S& sensor) { return std_of(sensor, i + 3); });
-    show(name + "_m", name + ", m");
-  }
-  for (int i = 0; i < 3; ++i) {
-    const std::string name = kDofNames.at(static_cast<std::size_t>(i));
-    columns
-        .add({name, "deg", "", 3},
-             [i](const S& sensor) -> std::optional<double> {
-               if (!sensor.T_reference_sensor) return std::nullopt;
-               return deg_from_rad(rpy_from_rotation(sensor.T_reference_sensor->rotation)(i));
-             })
-        .add({name + "_deg_std", "", "", 3}, [=](const S& sensor) -> std::optional<double> {
-          const std::optional<double> std_rad = std_of(sensor, i);
-          return std_rad ? std::optional(deg_from_rad(*std_rad)) : std::nullopt;
+        .add({column + "_std", "", "", decimals}, [=](const S& sensor) -> std::optional<double> {
+          if (!sensor.covariance) return std::nullopt;
+          const double deviation = std::sqrt(sensor.covariance->matrix(dof, dof));
+          return is_angle ? deg_from_rad(deviation) : deviation;
         });
-    show(name + "_deg", name + ", deg");
+    view.columns.push_back({name + ", " + unit, "<" + column + "> ± <" + column + "_std>"});
   }
   const auto from_nominal = [](const S& sensor) -> std::optional<PoseError> {
     if (!sensor.nominal || !sensor.T_reference_sensor) return std::nullopt;
@@ -108,15 +88,11 @@ TableBlock pose_table(const CalibratedRig& rig, const RigView& clouds) {
 
 Section view_section(const RigView& view) {
   Section section{"view", "The clouds", {}};
-  CloudViewBlock block;
-  block.caption =
-      "Scene " + view.scene +
-      ". Drag to turn, scroll to zoom; move the slider through the steps of the "
-      "pipeline. Points of right poses lie on common surfaces. A rival is the best other pose "
-      "that the global search found.";
-  block.json = rig_view_json(view);
-  block.fallback = {overview_picture(view)};
-  section.blocks.emplace_back(std::move(block));
+  section.blocks.emplace_back(cloud_view_block(
+      view, "Scene " + view.scene +
+                ". Drag to turn, scroll to zoom; move the slider through the steps of the "
+                "pipeline. Points of right poses lie on common surfaces. A rival is the best "
+                "other pose that the global search found."));
   if (FigureRow row = close_up_row(view); !row.figures.empty()) {
     section.blocks.emplace_back(Paragraph{
         "Places where a misalignment would show, from above. Surfaces of a right pose coincide."});
@@ -241,12 +217,13 @@ Document calibration_report(const CalibratedRig& rig, const std::vector<RigPictu
       "Calibration of " + counted(rig.sensors.size(), "sensor") + " to " + rig.reference,
       accepted_sentence(rig),
       {verdict_section(rig)}};
-  std::string doubtful;
+  std::vector<std::string> doubtful;
   for (const ViewedSensor& sensor : view.sensors) {
-    if (!sensor.is_accepted || !is_contradicted(sensor)) continue;
-    doubtful += (doubtful.empty() ? "" : ", ") + sensor.sensor;
+    if (sensor.is_accepted && is_contradicted(sensor)) doubtful.push_back(sensor.sensor);
   }
-  if (!doubtful.empty()) document.lead += ", but the clouds contradict the pose of " + doubtful;
+  if (!doubtful.empty()) {
+    document.lead += ", but the clouds contradict the pose of " + list_text(doubtful);
+  }
   document.lead += ".";
   add_fit_checks(document.sections.front(), view, rig);
   document.sections.front().blocks.emplace_back(pose_table(rig, view));

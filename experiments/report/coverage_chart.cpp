@@ -1,6 +1,5 @@
 #include <array>
 
-#include "experiments/report/bands.hpp"
 #include "experiments/report/panels.hpp"
 #include "framework/base/text.hpp"
 

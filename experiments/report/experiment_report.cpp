@@ -9,8 +9,7 @@
 #include "experiments/report/result_sections.hpp"
 #include "experiments/report/result_tables.hpp"
 #include "experiments/report/rig_charts.hpp"
-#include "experiments/report/rig_view_json.hpp"
-#include "experiments/report/rig_view_pictures.hpp"
+#include "experiments/report/rig_view_blocks.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/base/text.hpp"
 
@@ -154,26 +153,31 @@ TableBlock trial_numbers(const Results& results, const TrialRecord& record) {
           whole_view(table, 2)};
 }
 
+constexpr const char* kHowToAdd =
+    "To add the clouds of another stored trial, name it: croon report DIR --trial "
+    "\"VARIANT/SCENE/SENSOR/NUMBER\".";
+
 Section trial_section(const Results& results, const std::vector<TrialView>& views,
                       const std::string& without_views) {
   Section section{"trials", "Trials to look at", {}};
-  if (views.empty()) {
-    section.blocks.emplace_back(Paragraph{without_views, Tone::note});
-    return section;
-  }
+  if (views.empty()) section.blocks.emplace_back(Paragraph{without_views, Tone::note});
+  if (!results.records.empty()) section.blocks.emplace_back(Paragraph{kHowToAdd});
   std::size_t number = 0;
   for (const TrialView& trial : views) {
     Section inner{"trial-" + std::to_string(++number), trial.why, {}};
     inner.blocks.emplace_back(Paragraph{trial_text(*trial.record)});
     const ViewedSensor& sensor = trial.view.sensors.back();
-    if (sensor.refit) {
+    const bool has_result = trial.record->T_reference_sensor.has_value();
+    // Without a result, the fit is that of ground truth or of the initial guess.
+    if (sensor.refit && has_result) {
       inner.blocks.emplace_back(
           Paragraph{fit_sentence(sensor), is_contradicted(sensor) ? Tone::warning : Tone::plain});
     }
-    inner.blocks.emplace_back(
-        CloudViewBlock{"Scene " + trial.view.scene + " at the initial guess and at the result.",
-                       rig_view_json(trial.view),
-                       {overview_picture(trial.view)}});
+    inner.blocks.emplace_back(cloud_view_block(
+        trial.view, "Scene " + trial.view.scene +
+                        (has_result ? " at the initial guess and at the result."
+                                    : " at the initial guess, and at ground truth if it is known: "
+                                      "the trial has no result.")));
     if (FigureRow row = close_up_row(trial.view); !row.figures.empty()) {
       inner.blocks.emplace_back(std::move(row));
     }

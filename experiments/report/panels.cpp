@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <sstream>
 #include <utility>
 
-#include "experiments/report/figure_title.hpp"
 #include "framework/base/text.hpp"
 
 namespace croon::experiments {
@@ -18,7 +19,49 @@ constexpr double kRight = 1.5;
 /// 0.
 double figure_width(const Sheet& sheet) { return sheet.width > 0.0 ? sheet.width : 900.0; }
 
+constexpr double kTitleLine = 1.3;  // Line height, in multiples of the title's font size.
+
+/// Breaks the text at spaces into lines of at most `columns` columns.
+std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
+  std::vector<std::string> lines = {""};
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    std::string& line = lines.back();
+    if (line.empty()) {
+      line = word;
+    } else if (text_columns(line) + 1 + text_columns(word) <= columns) {
+      line += " " + word;
+    } else {
+      lines.push_back(word);
+    }
+  }
+  return lines;
+}
+
 }  // namespace
+
+FigureTitle::FigureTitle(const std::string& title, const std::string& explanation,
+                         const Sheet& sheet, double width)
+    : sheet_(sheet) {
+  if (!sheet.has_title) return;
+  const auto columns = static_cast<std::size_t>(width / text_width("x", sheet.small()));
+  title_ = wrapped(title, columns * 3 / 4);  // The title is larger or bold.
+  explanation_ = wrapped(explanation, columns);
+}
+
+double FigureTitle::height() const {
+  return kTitleLine * sheet_.title() * static_cast<double>(title_.size() + explanation_.size());
+}
+
+void FigureTitle::draw(Drawing& drawing, double left, double top) const {
+  double y = top + 0.9 * sheet_.title();
+  for (const auto& [lines, style] : {std::pair(&title_, "title"), {&explanation_, "small"}}) {
+    for (const std::string& line : *lines) {
+      drawing.text(left, y, line, Anchor::start, style);
+      y += kTitleLine * sheet_.title();
+    }
+  }
+}
 
 bool is_wide(const Sheet& sheet) {
   return sheet.width <= 0.0 || sheet.width > 1.5 * kOneColumn.width;
@@ -145,6 +188,26 @@ void draw_panel_legend(Drawing& drawing, const PanelGrid& grid,
 std::vector<std::string> line_labels(const std::vector<std::string>& names) {
   constexpr std::size_t kColumns = 30;
   return distinct_labels(names, kColumns);
+}
+
+std::vector<std::optional<Interval>> intervals_of(const std::vector<Share>& shares) {
+  std::vector<std::optional<Interval>> intervals;
+  for (const Share& share : shares) intervals.push_back(share.interval);
+  return intervals;
+}
+
+std::vector<std::size_t> lines_with_band(std::size_t lines) {
+  constexpr std::size_t kMaxBands = 4;
+  std::vector<std::size_t> all(lines > kMaxBands ? 1 : lines);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+std::string band_sentence(const std::vector<std::string>& names,
+                          const std::vector<std::size_t>& with_band) {
+  const bool have_all = with_band.size() == names.size();
+  return (have_all ? "bands:" : "band of " + names[with_band.front()] + ":") +
+         " 95 % interval over scenes (requires at least " + std::to_string(kMinScenes) + " scenes)";
 }
 
 }  // namespace croon::experiments

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,25 @@
 
 namespace croon::experiments {
 
-// Common parts of figures with a line per variant or sensor: panels and a legend below them.
+// Common parts of figures: titles, and for a line per variant or sensor panels, bands and a legend.
+
+/// The title of a figure and the explanation below it, broken into lines that fit its width. Sheets
+/// without titles show neither; both are then only in the description of the drawing.
+class FigureTitle {
+ public:
+  FigureTitle(const std::string& title, const std::string& explanation, const Sheet& sheet,
+              double width);
+
+  /// The height of the lines; 0 if the sheet has no title.
+  double height() const;
+
+  /// Draws the lines from `top` downwards.
+  void draw(Drawing& drawing, double left, double top) const;
+
+ private:
+  Sheet sheet_;
+  std::vector<std::string> title_, explanation_;
+};
 
 /// Whether a figure has space for more panels per row than a column of a paper.
 bool is_wide(const Sheet& sheet);
@@ -69,6 +88,19 @@ void draw_parts(Drawing& drawing, const Plot& plot, const std::vector<double>& x
 
 void draw_panel_legend(Drawing& drawing, const PanelGrid& grid,
                        const std::vector<std::string>& labels, SeriesMark mark = SeriesMark::line);
+
+// Bands around the lines: the intervals of shares.
+
+/// The intervals of shares; std::nullopt for a share without an interval.
+std::vector<std::optional<Interval>> intervals_of(const std::vector<Share>& shares);
+
+/// Indices of the lines drawn with a band: all of `lines` if there are at most four, otherwise only
+/// the first, because more overlapping bands would hide the lines.
+std::vector<std::size_t> lines_with_band(std::size_t lines);
+
+/// Describes the bands of the lines `with_band`; `names` are the names of all lines.
+std::string band_sentence(const std::vector<std::string>& names,
+                          const std::vector<std::size_t>& with_band);
 
 /// The names of lines, shortened to fit a legend.
 std::vector<std::string> line_labels(const std::vector<std::string>& names);

@@ -7,6 +7,9 @@
 
 namespace croon::experiments {
 
+/// The sensor of the view with this name; null if there is none.
+const ViewedSensor* viewed_sensor(const RigView& view, const std::string& sensor);
+
 /// Whether a refit moves the surfaces of the sensor by more than `kMaxSurfaceShift_m`.
 bool is_contradicted(const ViewedSensor& sensor);
 

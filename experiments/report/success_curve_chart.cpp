@@ -1,7 +1,6 @@
 #include <array>
 #include <cmath>
 
-#include "experiments/report/bands.hpp"
 #include "experiments/report/panels.hpp"
 
 namespace croon::experiments {

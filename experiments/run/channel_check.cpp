@@ -4,6 +4,7 @@
 #include <map>
 
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -46,12 +47,10 @@ class Lacking {
       if (std::find(found.begin(), found.end(), channel) != found.end()) continue;
       Entry& entry = entries_[{scan.sensor, channel}];
       if (entry.clouds++ > 0) continue;
-      std::string list;
-      for (const std::string& name : found) list += (list.empty() ? "" : ", ") + name;
       entry.fault = {scan.file.empty() ? file_ : scan.file, "",
                      "expected the channel \"" + channel + "\" in the cloud of sensor \"" +
                          scan.sensor + "\", which " + who + " needs; found " +
-                         (list.empty() ? "no channel" : list)};
+                         (found.empty() ? "no channel" : list_text(found))};
     }
   }
 

@@ -20,6 +20,11 @@ struct TrialId {
   int trial = 0;
 };
 
+/// The name of a trial in a command: "base/000001/left/0".
+inline std::string trial_name(const TrialId& id) {
+  return id.variant + "/" + id.scene + "/" + id.sensor + "/" + std::to_string(id.trial);
+}
+
 /// Identifies the trial of an estimate, without the variant. For steps that read results from a
 /// file; computations of a step must not depend on it.
 inline constexpr Extra<TrialId> kTrialId{"trial id", "which trial it is"};

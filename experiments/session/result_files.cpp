@@ -10,6 +10,7 @@
 #include "experiments/report/result_tables.hpp"
 #include "experiments/store/bounded_json.hpp"
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 #include "framework/base/whole_file.hpp"
 #include "framework/io/ply_file.hpp"
 #include "framework/table/renderers.hpp"
@@ -194,6 +195,14 @@ bool is_result_of_run(const fs::path& path) {
   const std::vector<fs::path> results = paths_in(folder);
   if (std::find(results.begin(), results.end(), path) == results.end()) return false;
   return fs::exists(store_path(folder), error) || is_manifest(folder / kManifest);
+}
+
+std::string left_out_times_text(const fs::path& folder) {
+  std::error_code error;
+  const fs::path times = folder / kTimings;
+  if (fs::exists(timings_path(folder), error) || !fs::exists(times, error)) return "";
+  return printable(times.string()) + ": its wall times are left out: they are read from " +
+         timings_path(folder).filename().string() + ", which is missing\n";
 }
 
 OutputFolder::OutputFolder(const fs::path& path) : path_(writable(path)), lock_(path_) {}

@@ -23,6 +23,9 @@ bool is_result_of_run(const std::filesystem::path& path);
 /// The path of the store that a merge creates before it replaces the store of `folder`.
 std::filesystem::path merged_store_path(const std::filesystem::path& folder);
 
+/// A line if wall times of `folder` are only in timings.csv, which is never read; else empty.
+std::string left_out_times_text(const std::filesystem::path& folder);
+
 /// The output folder of a run, created if missing and locked during the lifetime of this object.
 class OutputFolder {
  public:

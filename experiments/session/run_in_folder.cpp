@@ -151,6 +151,8 @@ FolderResults run_in_folder(const CheckedRun& run, StoreHeader header, const Out
   FolderResults end;
   std::set<std::string> damage;
   const bool is_changed = work.plan.trials > 0 || !is_same(work.stored, work.header);
+  const std::string left_out = left_out_times_text(run.out);
+  if (!left_out.empty()) progress_out << "croon: " << left_out;
   TimingsStore timings(folder.timings(), is_changed ? Access::write : Access::read);
   if (has_lost_trials(run, work.plan, timings)) {
     progress_out << "croon: " << printable(folder.store().string())

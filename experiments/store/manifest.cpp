@@ -80,16 +80,6 @@ std::string cpu_model() {
   return "unknown";
 }
 
-/// The current time, "2024-05-01T12:00:00Z".
-std::string utc_time() {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text;
-}
-
 Json host_json(const std::filesystem::path& data_root, int jobs) {
   utsname system{};
   uname(&system);
@@ -159,6 +149,15 @@ std::vector<std::string> without_truth(const std::vector<SceneGroup>& groups) {
 }
 
 }  // namespace
+
+std::string utc_time() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
 
 std::string manifest_json(const Experiment& experiment, const std::vector<SceneGroup>& groups,
                           const std::vector<InputFile>& inputs, const Provenance& provenance) {

@@ -11,6 +11,9 @@
 
 namespace croon::experiments {
 
+/// The current time, "2024-05-01T12:00:00Z".
+std::string utc_time();
+
 /// Everything that determines the result of a trial except its pipeline: dataset, inputs (files and
 /// the rig's poses), starts (but not their number), seed and success bounds. The versions of stages
 /// are stored separately, see versions_of.

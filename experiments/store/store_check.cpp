@@ -143,10 +143,8 @@ void check_rotation(const Database& database, const Eigen::Matrix3d& rotation) {
 }
 
 void check_rotations(const Database& database) {
-  std::string columns;
-  for (const std::string& name : rotation_columns())
-    columns += (columns.empty() ? "" : ", ") + name;
-  Statement select = database.prepare("SELECT " + columns + " FROM trials WHERE r00 IS NOT NULL");
+  Statement select = database.prepare("SELECT " + list_text(rotation_columns()) +
+                                      " FROM trials WHERE r00 IS NOT NULL");
   while (select.next()) {
     Eigen::Matrix3d rotation;
     for (int i = 0; i < 9; ++i) rotation(i / 3, i % 3) = select.real(i);

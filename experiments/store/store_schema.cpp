@@ -4,6 +4,7 @@
 
 #include "experiments/file/start_rule.hpp"
 #include "experiments/run/trial_record.hpp"
+#include "framework/base/text.hpp"
 #include "framework/geometry/dof.hpp"
 #include "framework/geometry/pose_covariance.hpp"
 
@@ -19,18 +20,12 @@ constexpr const char* kMaxId = "1000000000";
 /// No result has a rotation or distance beyond this, and its square is finite.
 constexpr const char* kMaxNumber = "1e15";
 
-std::string joined(const Names& names, const std::string& between) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : between) + name;
-  return text;
-}
-
 /// `'success', 'failed'`
 template <class Words>
 std::string quoted(const Words& words) {
   Names names;
   for (const char* word : words) names.push_back("'" + std::string(word) + "'");
-  return joined(names, ", ");
+  return list_text(names);
 }
 
 std::string is_short(const std::string& column) {
@@ -44,7 +39,7 @@ std::string numbers_or_nulls(const Names& columns) {
     nulls.push_back(column + " IS NULL");
     numbers.push_back("typeof(" + column + ") = 'real' AND abs(" + column + ") <= " + kMaxNumber);
   }
-  return "(" + joined(nulls, " AND ") + ") OR (" + joined(numbers, " AND ") + ")";
+  return "(" + list_text(nulls, " AND ") + ") OR (" + list_text(numbers, " AND ") + ")";
 }
 
 /// A table: its columns, its other constraints, and the conditions that every row satisfies.
@@ -104,8 +99,8 @@ Names numbers_of_covariance() {
 TableSchema trial_table() {
   return {"trials",
           std::string(kTrialColumns) + "status TEXT NOT NULL, reason TEXT NOT NULL, " +
-              joined(error_columns(), " ANY, ") + " ANY, " + joined(pose_columns(), " ANY, ") +
-              " ANY",
+              list_text(error_columns(), " ANY, ") + " ANY, " +
+              list_text(pose_columns(), " ANY, ") + " ANY",
           kTrialPrimaryKey,
           kWithoutRowId,
           {is_trial(), "status IN (" + quoted(kStatusNames) + ")", is_short("reason"),
@@ -126,7 +121,7 @@ TableSchema covariance_table() {
     table.columns += name + " ANY NOT NULL, ";
     table.conditions.push_back("typeof(" + name + ") = 'real'");
   }
-  table.columns += joined({kDofNames.begin(), kDofNames.end()}, " TEXT NOT NULL, ");
+  table.columns += list_text({kDofNames.begin(), kDofNames.end()}, " TEXT NOT NULL, ");
   table.columns += " TEXT NOT NULL";
   for (const std::string& dof : kDofNames) {
     table.conditions.push_back(dof + " IN (" + quoted(kObservabilityNames) + ")");
@@ -167,14 +162,14 @@ std::string named_view(const std::string& table, const std::string& columns) {
 }  // namespace
 
 std::string result_columns() {
-  return "status, reason, " + joined(error_columns(), ", ") + ", " + joined(pose_columns(), ", ");
+  return "status, reason, " + list_text(error_columns()) + ", " + list_text(pose_columns());
 }
 
 Names rotation_columns() { return {"r00", "r01", "r02", "r10", "r11", "r12", "r20", "r21", "r22"}; }
 
 std::string stored_covariance_columns() {
-  return joined(numbers_of_covariance(), ", ") + ", " +
-         joined({kDofNames.begin(), kDofNames.end()}, ", ");
+  return list_text(numbers_of_covariance(), ", ") + ", " +
+         list_text({kDofNames.begin(), kDofNames.end()}, ", ");
 }
 
 std::string store_schema() {

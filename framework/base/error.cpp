@@ -119,9 +119,7 @@ std::string name_hint(const std::string& name, const std::vector<std::string>& k
   std::string near = nearest_name(name, known);
   if (near.empty()) near = completed_name(name, known);
   if (!near.empty()) return "; did you mean \"" + near + "\"?";
-  std::string list;
-  for (const std::string& candidate : known) list += (list.empty() ? "" : ", ") + candidate;
-  return "; known: " + list;
+  return "; known: " + list_text(known);
 }
 
 }  // namespace croon

@@ -174,6 +174,12 @@ std::string why_too_long(const std::string& name, std::size_t max_bytes, const s
          std::to_string(name.size());
 }
 
+std::string list_text(const std::vector<std::string>& texts, const std::string& between) {
+  std::string list;
+  for (const std::string& text : texts) list += (list.empty() ? "" : between) + text;
+  return list;
+}
+
 std::string counted(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
@@ -194,6 +200,26 @@ std::string valid_utf8(const std::string& text) {
     at += std::max<std::size_t>(size, 1);
   }
   return valid;
+}
+
+std::string without_controls(const std::string& text) {
+  std::string clean = valid_utf8(text);
+  const auto is_control = [](char c) {
+    return (static_cast<unsigned char>(c) < 0x20U && c != '\n' && c != '\t') || c == '\x7f';
+  };
+  std::replace_if(clean.begin(), clean.end(), is_control, ' ');
+  return clean;
+}
+
+std::string markup_escaped(const std::string& text) {
+  static const std::map<char, const char*> entities = {
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
+  std::string markup;
+  for (const char c : without_controls(text)) {
+    const auto entity = entities.find(c);
+    markup += entity == entities.end() ? std::string(1, c) : entity->second;
+  }
+  return markup;
 }
 
 std::string latex_escaped(const std::string& text) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace croon {
 
@@ -49,6 +50,12 @@ std::string plain_number(double value);
 /// `text` with U+FFFD in place of each byte that is not valid UTF-8.
 std::string valid_utf8(const std::string& text);
 
+/// `text` as UTF-8, with a space in place of each control character but "\n" and "\t".
+std::string without_controls(const std::string& text);
+
+/// `text` without controls, escaped for the content of an element or attribute in HTML and SVG.
+std::string markup_escaped(const std::string& text);
+
 /// `text` escaped for LaTeX, for a table cell or a sentence.
 std::string latex_escaped(const std::string& text);
 
@@ -56,6 +63,9 @@ std::string latex_escaped(const std::string& text);
 /// the direction of others, and each byte that is not valid UTF-8. The result is a single line and
 /// sends no commands to a terminal.
 std::string printable(const std::string& text);
+
+/// "a, b, c".
+std::string list_text(const std::vector<std::string>& texts, const std::string& between = ", ");
 
 /// "1 trial", "2 trials".
 std::string counted(std::size_t count, const std::string& what);

@@ -91,18 +91,19 @@ std::vector<std::string> names_of_files(const std::string& reference,
 
 }  // namespace
 
+std::string stds_text(const PoseCovariance& covariance, int first, double scale, int decimals) {
+  std::vector<std::string> stds;
+  for (int i = first; i < first + 3; ++i) {
+    stds.push_back(fixed_number(scale * std::sqrt(covariance.matrix(i, i)), decimals));
+  }
+  return list_text(stds);
+}
+
 std::string picture_note(const CalibratedSensor& sensor) {
   if (!sensor.is_accepted) return sensor.reasons.empty() ? "" : sensor.reasons.front();
   if (!sensor.covariance) return "";
-  const auto stds = [&](int first, double scale, int decimals) {
-    std::string text;
-    for (int i = first; i < first + 3; ++i) {
-      text += (i == first ? "" : ", ") +
-              fixed_number(scale * std::sqrt(sensor.covariance->matrix(i, i)), decimals);
-    }
-    return text;
-  };
-  return "std: rpy " + stds(0, deg_from_rad(1.0), 3) + "°; xyz " + stds(3, 1e3, 1) + " mm";
+  return "std: rpy " + stds_text(*sensor.covariance, 0, deg_from_rad(1.0), 3) + "°; xyz " +
+         stds_text(*sensor.covariance, 3, 1e3, 1) + " mm";
 }
 
 std::vector<std::string> file_names(const std::vector<std::string>& names,

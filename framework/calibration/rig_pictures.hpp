@@ -21,6 +21,10 @@ struct PosedCloud {
   std::string note = {};
 };
 
+/// "1.2, 0.4, 3.0": the standard deviations of three degrees of freedom from `first` on, each
+/// multiplied by `scale`.
+std::string stds_text(const PoseCovariance& covariance, int first, double scale, int decimals);
+
 /// The note for a calibrated sensor: its standard deviations, or the first reason for its
 /// rejection.
 std::string picture_note(const CalibratedSensor& sensor);

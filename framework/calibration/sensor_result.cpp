@@ -12,12 +12,6 @@
 namespace croon {
 namespace {
 
-std::string joined(const std::vector<std::string>& sentences) {
-  std::string text;
-  for (const std::string& sentence : sentences) text += (text.empty() ? "" : " ") + sentence;
-  return text;
-}
-
 /// Why the result is not accepted, in the words of the steps.
 std::string why_not(const MemberResult& result) {
   return result.failure.empty() ? result.estimate.rejection.value_or("") : result.failure;
@@ -36,7 +30,7 @@ SceneEstimate scene_estimate(const SceneResult& scene) {
     estimate.covariance = result.covariance_in_scene;
   }
   if (!result.is_accepted()) {
-    estimate.reason = joined(reasons_in_words(why_not(result), std::nullopt).reasons);
+    estimate.reason = list_text(reasons_in_words(why_not(result), std::nullopt).reasons, " ");
   }
   return estimate;
 }
@@ -154,7 +148,7 @@ void set_reasons(CalibratedSensor& sensor, const std::vector<SceneResult>& scene
     }
     const ReasonsInWords explanation =
         reasons_in_words(why_not(*scene.result), scene.result->covariance_in_scene);
-    sensor.reasons.push_back(prefix + joined(explanation.reasons));
+    sensor.reasons.push_back(prefix + list_text(explanation.reasons, " "));
     add_once(sensor.advice, explanation.advice);
   }
   if (scenes.empty()) sensor.reasons.emplace_back("No scene has a cloud of it.");

@@ -1,6 +1,5 @@
 #include <nettle/sha2.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <stdexcept>
@@ -15,40 +14,6 @@
 
 namespace croon {
 namespace {
-
-/// `text` as UTF-8, with a space in place of each control character but "\n" and "\t".
-std::string without_controls(const std::string& text) {
-  std::string clean = valid_utf8(text);
-  const auto is_control = [](char c) {
-    return (static_cast<unsigned char>(c) < 0x20U && c != '\n' && c != '\t') || c == '\x7f';
-  };
-  std::replace_if(clean.begin(), clean.end(), is_control, ' ');
-  return clean;
-}
-
-/// `text` as the content of an element or attribute.
-std::string html_text(const std::string& text) {
-  std::string escaped;
-  for (const char c : without_controls(text)) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
 
 /// `text` with `less` for each "<", so that it cannot end the script element that contains it.
 std::string without_tags(const std::string& text, const std::string& less) {
@@ -93,15 +58,15 @@ const char* tone_class(Tone tone) {
 
 std::string figure(const std::string& kind, const std::string& caption,
                    const std::string& content) {
-  const std::string title = caption.empty() ? "" : element("figcaption", html_text(caption));
+  const std::string title = caption.empty() ? "" : element("figcaption", markup_escaped(caption));
   return element("figure", title + content, kind) + "\n";
 }
 
 /// The text of a cell with its significance mark, the best value bold.
 std::string html_cell(const Cell& cell, const Column& column) {
-  const std::string text = html_text(shown_text(cell, column));
+  const std::string text = markup_escaped(shown_text(cell, column));
   return (cell.is_best ? element("strong", text) : text) +
-         (cell.mark.empty() ? "" : " " + element("span", html_text(cell.mark), "mark"));
+         (cell.mark.empty() ? "" : " " + element("span", markup_escaped(cell.mark), "mark"));
 }
 
 /// The value by which a cell is sorted; empty if it is not a number.
@@ -115,12 +80,12 @@ std::string sort_key(const Cell& cell) {
 class HtmlWriter {
  public:
   std::string operator()(const Paragraph& paragraph) const {
-    return element("p", html_text(paragraph.text), tone_class(paragraph.tone)) + "\n";
+    return element("p", markup_escaped(paragraph.text), tone_class(paragraph.tone)) + "\n";
   }
 
   std::string operator()(const BulletList& list) const {
     std::string items;
-    for (const std::string& item : list.items) items += element("li", html_text(item)) + "\n";
+    for (const std::string& item : list.items) items += element("li", markup_escaped(item)) + "\n";
     return items.empty() ? "" : element("ul", "\n" + items, "points") + "\n";
   }
 
@@ -129,10 +94,11 @@ class HtmlWriter {
     for (const Card& card : cards.cards) {
       const std::string tone = card.tone == Tone::plain ? "neutral" : tone_class(card.tone);
       std::string content =
-          element("h3", html_text(card.title)) +
-          (card.status.empty() ? "" : element("p", html_text(card.status), "status"));
-      for (const std::string& line : card.lines) content += element("p", html_text(line)) + "\n";
-      if (!card.details.empty()) content += element("pre", html_text(card.details)) + "\n";
+          element("h3", markup_escaped(card.title)) +
+          (card.status.empty() ? "" : element("p", markup_escaped(card.status), "status"));
+      for (const std::string& line : card.lines)
+        content += element("p", markup_escaped(line)) + "\n";
+      if (!card.details.empty()) content += element("pre", markup_escaped(card.details)) + "\n";
       if (!card.copies.empty()) {
         content += element(
             "details", element("summary", "Copy the pose") + copy_buttons(card.copies), "copies");
@@ -147,7 +113,7 @@ class HtmlWriter {
     std::string head;
     for (std::size_t k = 0; k < view.columns.size(); ++k) {
       const std::string scope = "<th scope=\"col\"" + number_class(k, view) + ">";
-      head += scope + html_text(view.columns[k].title) + "</th>";
+      head += scope + markup_escaped(view.columns[k].title) + "</th>";
     }
     const std::vector<ShownCells> columns = shown_cells(block.table, view);
     std::string body;
@@ -157,7 +123,7 @@ class HtmlWriter {
         const std::vector<ShownCells::Piece>& pieces = columns[k].pieces();
         const std::string key = pieces.empty() ? "" : sort_key(row[pieces.front().column]);
         cells += "<td" + number_class(k, view) +
-                 (key.empty() ? "" : " data-value=\"" + html_text(key) + "\"") + ">" +
+                 (key.empty() ? "" : " data-value=\"" + markup_escaped(key) + "\"") + ">" +
                  columns[k].content(row, html_cell) + "</td>";
       }
       body += element("tr", cells) + "\n";
@@ -181,7 +147,7 @@ class HtmlWriter {
 
   std::string operator()(const Picture& picture) const {
     return figure("picture", picture.caption,
-                  "<img alt=\"" + html_text(picture.alt) + "\" src=\"data:image/png;base64," +
+                  "<img alt=\"" + markup_escaped(picture.alt) + "\" src=\"data:image/png;base64," +
                       base64(picture.png) + "\">");
   }
 
@@ -194,29 +160,30 @@ class HtmlWriter {
   std::string operator()(const Facts& facts) const {
     std::string list;
     for (const auto& [name, value] : facts.facts) {
-      list += element("dt", html_text(name)) + element("dd", html_text(value)) + "\n";
+      list += element("dt", markup_escaped(name)) + element("dd", markup_escaped(value)) + "\n";
     }
     return list.empty() ? "" : element("dl", "\n" + list, "facts") + "\n";
   }
 
   std::string operator()(const Preformatted& block) const {
-    return element("pre", html_text(block.text)) + "\n";
+    return element("pre", markup_escaped(block.text)) + "\n";
   }
 
   std::string operator()(const CloudViewBlock& view) {
     std::string pictures;
     for (const Picture& picture : view.fallback) pictures += (*this)(picture);
-    const std::string caption = element("figcaption", html_text(view.caption));
+    const std::string caption = element("figcaption", markup_escaped(view.caption));
     return "<figure class=\"cloud-view\" data-view=\"" +
            add_data("view", "application/json", without_tags(view.json, "\\u003c")) + "\">" +
            caption + element("div", "\n" + pictures, "fallback") + "</figure>\n";
   }
 
   std::string section(const Section& section, int level) {
-    std::string content = element("h" + std::to_string(level), html_text(section.title)) + "\n";
+    std::string content =
+        element("h" + std::to_string(level), markup_escaped(section.title)) + "\n";
     for (const Block& block : section.blocks) content += std::visit(*this, block);
     for (const Section& inner : section.sections) content += this->section(inner, level + 1);
-    return "<section id=\"" + html_text(section.id) + "\">" + content + "</section>\n";
+    return "<section id=\"" + markup_escaped(section.id) + "\">" + content + "</section>\n";
   }
 
   const std::string& data() const { return data_; }
@@ -239,7 +206,7 @@ class HtmlWriter {
     for (const CopyText& copy : copies) {
       const std::string text = without_tags(without_controls(copy.text), "<\\");
       buttons += "<button type=\"button\" data-copy=\"" + add_data("copy", "text/plain", text) +
-                 "\">" + html_text(copy.label) + "</button> ";
+                 "\">" + markup_escaped(copy.label) + "</button> ";
     }
     return buttons;
   }
@@ -257,8 +224,8 @@ std::string html_document(const Document& document) {
   HtmlWriter writer;
   std::string sections, links;
   for (const Section& section : document.sections) {
-    links +=
-        "<li><a href=\"#" + html_text(section.id) + "\">" + html_text(section.title) + "</a></li>";
+    links += "<li><a href=\"#" + markup_escaped(section.id) + "\">" +
+             markup_escaped(section.title) + "</a></li>";
     sections += writer.section(section, 2);
   }
   std::string policy, scripts;
@@ -266,7 +233,7 @@ std::string html_document(const Document& document) {
     policy += " " + script_hash(script);
     scripts += "<script>" + std::string(script) + "</script>\n";
   }
-  const std::string title = html_text(document.title);
+  const std::string title = markup_escaped(document.title);
   return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src "
@@ -274,9 +241,9 @@ std::string html_document(const Document& document) {
          "style-src 'unsafe-inline'; script-src" +
          policy + "\">\n" + element("title", title) + "\n<style>\n" + std::string(report_style()) +
          inline_style_sheet() + "</style></head>\n<body>\n<header>" + element("h1", title) +
-         element("p", html_text(document.lead), "lead") +
+         element("p", markup_escaped(document.lead), "lead") +
          "</header>\n<nav aria-label=\"Sections\"><ul>" + links + "</ul></nav>\n<main>\n" +
-         sections + "</main>\n<footer>" + html_text(document.footer) + "</footer>\n" +
+         sections + "</main>\n<footer>" + markup_escaped(document.footer) + "</footer>\n" +
          writer.data() + scripts + "</body></html>\n";
 }
 

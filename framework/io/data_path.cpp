@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 
 namespace croon {
 
@@ -24,13 +25,6 @@ std::vector<std::string> names_in(const fs::path& folder) {
   }
   std::sort(names.begin(), names.end());
   return names;
-}
-
-/// `; known: a, b`, or empty if there are no names.
-std::string list_of(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "; known: " : ", ") + name;
-  return list;
 }
 
 /// The one of `names` nearest to the name of a file. A common suffix does not count as similarity.
@@ -62,7 +56,8 @@ std::string missing_path_hint(const fs::path& folder, const fs::path& relative) 
     }
     const std::vector<std::string> names = names_in(from / known);
     const std::string near = nearest_file_name(part, names);
-    if (near.empty()) return names.size() <= kFew ? list_of(names) : "";
+    const bool are_few = !names.empty() && names.size() <= kFew;
+    if (near.empty()) return are_few ? "; known: " + list_text(names) : "";
     return "; did you mean \"" + (known / near).string() + "\"?";
   }
   return "";

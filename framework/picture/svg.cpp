@@ -9,29 +9,6 @@ namespace croon {
 
 namespace {
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += static_cast<unsigned char>(c) < 0x20U ? ' ' : c;
-    }
-  }
-  return result;
-}
-
 const char* anchor_name(Anchor anchor) {
   return anchor == Anchor::start ? "start" : anchor == Anchor::middle ? "middle" : "end";
 }
@@ -72,7 +49,7 @@ class SvgWriter {
       bytes += " transform=\"rotate(" + shortest_number(text.turn_deg) + " " + number(text.x) +
                " " + number(text.y) + ")\"";
     }
-    return bytes + ">" + escaped(text.text) + "</text>\n";
+    return bytes + ">" + markup_escaped(text.text) + "</text>\n";
   }
 
  private:
@@ -109,8 +86,9 @@ std::string svg(const Drawing& drawing, const std::string& before, const std::st
   const std::string unit = drawing.sheet().is_paper ? "pt" : "";
   const std::string width = shortest_number(std::round(100.0 * drawing.width()) / 100.0);
   const std::string height = shortest_number(std::round(100.0 * drawing.height()) / 100.0);
-  const std::string desc =
-      drawing.description().empty() ? "" : "<desc>" + escaped(drawing.description()) + "</desc>\n";
+  const std::string desc = drawing.description().empty()
+                               ? ""
+                               : "<desc>" + markup_escaped(drawing.description()) + "</desc>\n";
   std::string bytes = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + unit +
                       "\" height=\"" + height + unit + "\" viewBox=\"0 0 " + width + " " + height +
                       "\">\n" + desc + before;

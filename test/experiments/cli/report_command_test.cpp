@@ -15,6 +15,7 @@ namespace croon::experiments {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -48,11 +49,14 @@ class ReportCommand : public ::testing::Test {
   fs::path path(const std::string& name) const { return folder_.path() / name; }
 
   /// Runs `croon report` and returns its exit code.
-  int report(const std::vector<std::string>& folders, const std::string& data = "data") {
-    std::vector<fs::path> paths;
-    for (const std::string& name : folders) paths.push_back(path(name));
+  int report(const std::vector<std::string>& folders, const std::string& data = "data",
+             const std::vector<std::string>& trials = {}) {
+    ReportOptions options;
+    for (const std::string& name : folders) options.folders.push_back(path(name));
+    options.trials = trials;
+    options.data = path(data);
     std::ostringstream out;
-    const int code = report_command(paths, path(data), registry(), out);
+    const int code = report_command(options, registry(), out);
     text_ = out.str();
     return code;
   }
@@ -75,6 +79,37 @@ TEST_F(ReportCommand, WritesTheSameReportTwice) {
   EXPECT_THAT(first, HasSubstr("<figure class=\"cloud-view\""));
   EXPECT_EQ(report({"out"}), 0);
   EXPECT_TRUE(page() == first);
+}
+
+TEST_F(ReportCommand, ShowsTheTrialsThatItIsAskedFor) {
+  const std::string advice = "croon report DIR --trial";
+  EXPECT_EQ(report({"out"}), 0);
+  EXPECT_THAT(page(), AllOf(HasSubstr(advice), Not(HasSubstr("The trial base/1/left/"))));
+  EXPECT_EQ(report({"out"}, "data", {"base/1/left/2", "1/left/0"}), 0);
+  EXPECT_THAT(page(),
+              AllOf(HasSubstr("The trial base/1/left/2"), HasSubstr("The trial base/1/left/0")));
+}
+
+TEST_F(ReportCommand, WritesNothingIfATrialCannotBeShown) {
+  const auto error = [&](const std::string& data, const std::string& trial) {
+    return test::input_error([&] { report({"out"}, data, {trial}); });
+  };
+  EXPECT_THAT(error("data", "base/1/lfet/2"), HasSubstr("did you mean \"base/1/left/2\"?"));
+  EXPECT_THAT(error("nowhere", "base/1/left/2"), HasSubstr("nowhere"));
+  EXPECT_THAT(test::input_error([&] {
+                report({"out", "out"}, "data", {"base/1/left/2"});
+              }),
+              HasSubstr("--trial: expected one folder, found 2"));
+  Rng rng = test::test_rng();
+  write_pcd(path("data/car/left/1.pcd"), test::random_cloud(rng, 100, 10.0));
+  EXPECT_THAT(error("data", "base/1/left/2"), HasSubstr("has changed since the run"));
+  EXPECT_FALSE(fs::exists(path("out/report.html")));
+}
+
+TEST_F(ReportCommand, SaysThatWallTimesAreLeftOut) {
+  fs::remove(path("out/timings.sqlite"));
+  EXPECT_EQ(report({"out"}), 0);
+  EXPECT_THAT(text_, HasSubstr("timings.csv: its wall times are left out"));
 }
 
 TEST_F(ReportCommand, WithoutTheDataSaysWhyThereAreNoViews) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "experiments/session/result_files.hpp"
 #include "experiments/store/database.hpp"
 #include "framework/base/whole_file.hpp"
 #include "test/experiments/support/fake_stages.hpp"
@@ -264,10 +265,21 @@ TEST(ResultFolder, KeepsWallTimesThatNoDatabaseHas) {
   EXPECT_EQ(bench.run(bench.options("out")), 0);
   const fs::path out = bench.folder().path() / "out";
   const std::string times = read_whole_file(out / "timings.csv");
+  EXPECT_EQ(left_out_times_text(out), "");
   fs::remove(out / "timings.sqlite");
-  EXPECT_EQ(bench.run(bench.options("out")), 0);
+  const std::string left_out = (out / "timings.csv").string() +
+                               ": its wall times are left out: they are read from "
+                               "timings.sqlite, which is missing\n";
+  std::ostringstream text, progress;
+  EXPECT_EQ(run_command(bench.options("out"), test::fake_catalogue(), text, progress), 0);
+  EXPECT_NE(progress.str().find("croon: " + left_out), std::string::npos);
   EXPECT_EQ(read_whole_file(out / "timings.csv"), times);
   EXPECT_FALSE(fs::exists(out / "timings.sqlite"));
+  std::ostringstream merged;
+  EXPECT_EQ(merge_command({{out}, bench.folder().path() / "merged"}, merged), 0);
+  EXPECT_NE(merged.str().find(left_out), std::string::npos);
+  fs::remove(out / "timings.csv");
+  EXPECT_EQ(left_out_times_text(out), "");
 }
 
 TEST(ResultFolder, NeedsAFolderThatItMayWriteTo) {

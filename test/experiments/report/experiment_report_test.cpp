@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "experiments/report/named_trials.hpp"
 #include "experiments/report/trial_views.hpp"
+#include "experiments/run/sensor_pairs.hpp"
 #include "framework/document/renderers.hpp"
 #include "test/experiments/support/fake_stages.hpp"
 #include "test/experiments/support/readable.hpp"
@@ -20,6 +23,7 @@ using test::agreeing;
 using test::Bench;
 using test::expect_sound_page;
 using test::section_ids;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 using ::testing::Not;
@@ -32,8 +36,9 @@ Results results_of(const json& experiment) {
   return results;
 }
 
-std::vector<TrialView> views_of(const Results& results) {
-  return trial_views(results, "", test::fake_catalogue());
+std::vector<TrialView> views_of(const Results& results,
+                                const std::vector<std::string>& names = {}) {
+  return trial_views(results, names, "", test::fake_catalogue());
 }
 
 Document report_of(const Results& results) {
@@ -89,6 +94,7 @@ TEST(ExperimentReport, SaysThatThereAreNoTrials) {
   if (!can_write_html()) GTEST_SKIP() << "a build without reports";
   EXPECT_THAT(page, HasSubstr("0 of 48 planned trials are stored."));
   EXPECT_THAT(page, HasSubstr("No trial has a pose."));
+  EXPECT_THAT(page, Not(HasSubstr("--trial"))) << "there is none to name";
 }
 
 TEST(ExperimentReport, EscapesHostileNames) {
@@ -153,6 +159,107 @@ TEST(TrialViews, WithoutAPoseThereAreNone) {
   Results results = results_of(agreeing());
   for (TrialRecord& record : results.records) record.T_reference_sensor.reset();
   EXPECT_TRUE(views_of(results).empty());
+}
+
+TEST(TrialViews, BeginWithTheTrialsThatTheReaderNames) {
+  const Results results = results_of(agreeing());
+  const std::vector<TrialView> chosen = views_of(results);
+  const TrialRecord& largest = *chosen.front().record;
+  const auto other = std::find_if(
+      results.records.rbegin(), results.records.rend(), [&](const TrialRecord& record) {
+        return std::none_of(chosen.begin(), chosen.end(),
+                            [&](const TrialView& trial) { return trial.record == &record; });
+      });
+  const std::string name = trial_name(other->id), name_of_largest = trial_name(largest.id);
+  const std::vector<TrialView> views = views_of(results, {name, name_of_largest, name});
+  ASSERT_EQ(views.size(), chosen.size() + 1);
+  EXPECT_EQ(views[0].record, &*other);
+  EXPECT_EQ(views[0].why, "The trial " + name);
+  EXPECT_EQ(views[1].record, &largest);
+  EXPECT_EQ(views[1].why,
+            "The trial " + name_of_largest + ". The largest error of an accepted pose");
+  EXPECT_EQ(views[2].record, chosen[1].record);
+  expect_sound_page(experiment_report(results, views, ""));
+}
+
+TEST(TrialViews, OfATrialWithoutAPoseAreItsInitialGuessAndGroundTruth) {
+  for (const bool has_truth : {true, false}) {
+    json experiment = agreeing();
+    experiment["dataset"]["truth"] = has_truth;
+    if (!has_truth) experiment["starts"]["around"] = "nominal";
+    Results results = results_of(experiment);
+    TrialRecord& failed = results.records[3];
+    failed.status = Status::failed;
+    failed.T_reference_sensor.reset();
+    failed.error.reset();
+    const std::vector<TrialView> views = views_of(results, {trial_name(failed.id)});
+    ASSERT_FALSE(views.empty());
+    EXPECT_EQ(views[0].record, &failed);
+    std::vector<std::string> states = {"initial guess"};
+    if (has_truth) states.emplace_back("ground truth");
+    EXPECT_EQ(views[0].view.states, states);
+    EXPECT_FALSE(views[0].view.sensors[1].is_accepted);
+    EXPECT_TRUE(views[0].charts.empty());
+    EXPECT_FALSE(views[1].charts.empty());
+    expect_sound_page(experiment_report(results, views, ""));
+  }
+}
+
+TEST(TrialViews, OfASensorCalibratedToAnotherOne) {
+  json experiment = agreeing();
+  experiment["loops"] = true;
+  const Results results = results_of(experiment);
+  const auto pair =
+      std::find_if(results.records.begin(), results.records.end(), [](const TrialRecord& record) {
+        return record.id.sensor.find(kBetweenSensors) != std::string::npos;
+      });
+  ASSERT_NE(pair, results.records.end());
+  const std::vector<TrialView> views = views_of(results, {trial_name(pair->id)});
+  ASSERT_FALSE(views.empty());
+  EXPECT_EQ(views[0].record, &*pair);
+  EXPECT_EQ(views[0].view.sensors[0].sensor + " " + views[0].view.sensors[1].sensor, "s1 s0");
+}
+
+/// Records of the trials 0 to 3 of two scenes, one of which has a slash in its name.
+std::vector<TrialRecord> records_of(const std::vector<std::string>& variants) {
+  std::vector<TrialRecord> records;
+  for (const std::string& variant : variants) {
+    for (const char* scene : {"drive", "drive/2"}) {
+      for (int trial = 0; trial < 4; ++trial) {
+        records.push_back({{variant, scene, "left", trial}, Status::failed, "", {}, {}, {}, {}});
+      }
+    }
+  }
+  return records;
+}
+
+TEST(TrialsCalled, NeedNoVariantIfThereIsOne) {
+  const std::vector<TrialRecord> one = records_of({"leaf/0.1"});
+  const auto found = trials_called({"drive/2/left/3", "leaf/0.1/drive/left/1"}, one);
+  EXPECT_EQ(found, (std::vector<const TrialRecord*>{&one[7], &one[1]}));
+  const std::vector<TrialRecord> two = records_of({"base", "base/drive"});
+  EXPECT_EQ(trials_called({"base/drive/drive/2/left/0"}, two).front(), &two[12]);
+  EXPECT_NE(test::input_error([&] { trials_called({"drive/2/left/3"}, two); }), "");
+}
+
+TEST(TrialsCalled, RefusesNamesThatNoTrialHas) {
+  const std::vector<TrialRecord> records = records_of({"base", "far"});
+  const std::string expected =
+      "--trial: expected the name of a stored trial, VARIANT/SCENE/SENSOR/NUMBER, found ";
+  const auto error = [&](const std::string& name) {
+    return test::input_error([&] { trials_called({name}, records); });
+  };
+  EXPECT_EQ(error("base/drive/left/9"),
+            expected + "\"base/drive/left/9\"; did you mean \"base/drive/left/3\"?");
+  EXPECT_EQ(error("bsae/drive/lfet/2"),
+            expected + "\"bsae/drive/lfet/2\"; did you mean \"base/drive/left/2\"?");
+  EXPECT_THAT(error("7"), HasSubstr("\"7\"; known: base/drive/left/3, base/drive/2/left/3"));
+  EXPECT_EQ(test::input_error([&] { trials_called({"a"}, {}); }), expected + "\"a\"");
+  // Both faults of two names.
+  EXPECT_THAT(test::input_error([&] {
+                trials_called({"x/9", "y/9"}, records);
+              }),
+              AllOf(HasSubstr("\"x/9\""), HasSubstr("\"y/9\"")));
 }
 
 TEST(PipelineChart, MarksStepsThatDifferFromTheFirstVariant) {

@@ -1,4 +1,4 @@
-#include "experiments/report/rig_view_json.hpp"
+#include "experiments/report/rig_view_blocks.hpp"
 
 #include <gtest/gtest.h>
 
