@@ -291,6 +291,10 @@ class CalibrateCommand final : public Command {
         "Poses to compare with; a sensor that is rejected is tried again near its nominal pose.");
     command.add_flag("--from-scratch", o.from_scratch,
                      "Use the nominal poses for comparison only.");
+    add_number(command, "--nominal-std-deg", o.nominal_std_deg, 1e-3, 60.0,
+               "Standard deviation of the nominal rotations; three are searched; default 10.");
+    add_number(command, "--nominal-std-m", o.nominal_std_m, 1e-3, 10.0,
+               "Standard deviation of the nominal positions; three are searched; default 0.33.");
     add_text(
         command, "--base", o.base,
         "The reference's pose in the vehicle frame, x,y,z,roll,pitch,yaw in m and degrees or a "

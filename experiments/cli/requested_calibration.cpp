@@ -33,6 +33,8 @@ CalibrateOptions with_file(const CalibrateOptions& options) {
   if (all.reference.empty()) all.reference = file.reference;
   if (all.nominal.empty()) all.nominal = file.nominal;
   all.from_scratch = options.from_scratch || file.from_scratch;
+  if (!all.nominal_std_deg) all.nominal_std_deg = file.nominal_std_deg;
+  if (!all.nominal_std_m) all.nominal_std_m = file.nominal_std_m;
   if (all.base.empty()) all.base = file.base;
   if (!all.max_time_gap_s) all.max_time_gap_s = file.max_time_gap_s;
   if (!all.max_scenes) all.max_scenes = file.max_scenes;
@@ -83,6 +85,8 @@ CalibratedRig calibrate_with_progress(const CalibrateOptions& options,
   CalibrationOptions how;
   if (!options.pipeline.empty()) how.pipeline = options.pipeline;
   how.from_scratch = options.from_scratch;
+  how.nominal_std_deg = options.nominal_std_deg.value_or(how.nominal_std_deg);
+  how.nominal_std_m = options.nominal_std_m.value_or(how.nominal_std_m);
   how.seed = options.seed.value_or(how.seed);
   how.jobs = options.jobs;
   how.on_progress = [&](const std::string& what, double done) {

@@ -24,7 +24,8 @@ struct RigRequest {
   std::string reference;            ///< Empty: the first sensor.
   std::string nominal;              ///< A file of extrinsics.
   bool from_scratch = false;        ///< Use the nominal poses for comparison only.
-  std::string base;                 ///< Pose of the reference in the vehicle frame, or a file.
+  std::optional<double> nominal_std_deg, nominal_std_m;
+  std::string base;  ///< Pose of the reference in the vehicle frame, or a file.
   std::optional<double> max_time_gap_s;
   std::optional<int> max_scenes;
   std::string pipeline;

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 /// The keys of a rig.json. Missing numbers are negative, except for the seed.
 struct RigKeys : RigRequest {
-  double time_gap_s = -1.0;
+  double time_gap_s = -1.0, std_deg = -1.0, std_m = -1.0;
   int scenes = -1;
   std::uint64_t seed_number = 1;
 };
@@ -44,6 +44,10 @@ const params::Table<RigKeys>& table() {
       params::Table<K>{
           params::optional(params::number("max_time_gap_s", &K::time_gap_s, {0.0, 3600.0},
                                           "Maximum time between the clouds of a scene.")),
+          params::optional(params::number("nominal_std_deg", &K::std_deg, {1e-3, 60.0},
+                                          "Standard deviation of the nominal rotations.")),
+          params::optional(params::number("nominal_std_m", &K::std_m, {1e-3, 10.0},
+                                          "Standard deviation of the nominal positions.")),
           params::optional(params::integer("max_scenes", &K::scenes, {1.0, 1000.0},
                                            "Maximum number of scenes, evenly spaced.")),
           params::integer("seed", &K::seed_number, "Seed of the random numbers."),
@@ -98,6 +102,8 @@ RigRequest read_rig_request(const fs::path& file) {
   if (node.is_object()) keys = table().read(node, {}, params::NoStages());
   if (!faults.empty()) throw InputError(std::move(faults));
   if (keys.time_gap_s >= 0.0) keys.max_time_gap_s = keys.time_gap_s;
+  if (keys.std_deg >= 0.0) keys.nominal_std_deg = keys.std_deg;
+  if (keys.std_m >= 0.0) keys.nominal_std_m = keys.std_m;
   if (keys.scenes >= 0) keys.max_scenes = keys.scenes;
   keys.seed = keys.seed_number;
   RigRequest request = keys;
@@ -120,6 +126,8 @@ std::string rig_request_json(const RigRequest& request, const fs::path& folder) 
   add("reference", moved.reference);
   add("nominal", moved.nominal);
   if (moved.from_scratch) json["from_scratch"] = true;
+  if (moved.nominal_std_deg) json["nominal_std_deg"] = *moved.nominal_std_deg;
+  if (moved.nominal_std_m) json["nominal_std_m"] = *moved.nominal_std_m;
   add("base", moved.base);
   if (moved.max_time_gap_s) json["max_time_gap_s"] = *moved.max_time_gap_s;
   if (moved.max_scenes) json["max_scenes"] = *moved.max_scenes;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
 #include "framework/base/threads.hpp"
@@ -48,23 +49,30 @@ void check_scenes(const std::vector<Scene>& scenes) {
   }
 }
 
+/// The maximum distances from a nominal pose at which a sensor is searched for.
+PoseBounds nominal_bounds(const CalibrationOptions& options) {
+  constexpr double kStds = 3.0;
+  return {rad_from_deg(kStds * options.nominal_std_deg), kStds * options.nominal_std_m};
+}
+
 /// The composition that `options` selects. "best" depends on whether the clouds have usable times.
 Composition chosen_composition(const CalibrationOptions& options,
                                const std::vector<SceneClouds>& scenes, const Catalogue& catalogue,
                                std::string& reason) {
+  const PoseBounds nominal = nominal_bounds(options);
   if (!options.pipeline_text.empty()) {
-    return composition_in_text(options.pipeline_text, options.pipeline, catalogue);
+    return composition_in_text(options.pipeline_text, options.pipeline, nominal, catalogue);
   }
-  if (options.pipeline != "best") return composition_called(options.pipeline, catalogue);
+  if (options.pipeline != "best") return composition_called(options.pipeline, nominal, catalogue);
   const TimesInDoubt doubt = times_in_doubt(scenes);
   if (doubt.reason.empty()) {
     reason = "the times of all clouds are usable, so the vehicle's motion is estimated";
-    return embedded_composition("driving", catalogue);
+    return embedded_composition("driving", nominal, catalogue);
   }
   reason = doubt.reason +
            ", so motion is not corrected; scenes in which it would affect poses are rejected";
-  return doubt.are_clocks_apart ? unsynchronised_composition(catalogue)
-                                : embedded_composition("standing", catalogue);
+  return doubt.are_clocks_apart ? unsynchronised_composition(nominal, catalogue)
+                                : embedded_composition("standing", nominal, catalogue);
 }
 
 /// The clouds for the steps of `composition`, moved out of `scenes`.
@@ -147,7 +155,7 @@ bool start_near_nominal(std::vector<CalibrationMember>& members, const RigInput&
 }
 
 /// Calibrates without initial guesses, so that a wrong nominal pose cannot hide a rival; rejected
-/// sensors are tried again near their nominal poses.
+/// sensors are tried again near their nominal poses. A guess near a nominal pose is the better one.
 Outcome outcome_of(const Composition& composition, const RigInput& input,
                    const std::vector<std::string>& names, std::uint64_t seed,
                    const StepProgress& progress) {
@@ -160,7 +168,7 @@ Outcome outcome_of(const Composition& composition, const RigInput& input,
   Outcome again;
   again.members = run_rig(composition, members, seed, progress);
   again.sensors = sensor_results(input, again.members, names);
-  return accepted_of(again.sensors) > accepted_of(outcome.sensors) ? again : outcome;
+  return accepted_of(again.sensors) >= accepted_of(outcome.sensors) ? again : outcome;
 }
 
 /// Computes the pose of the reference above the road and the heading of the rig.
@@ -314,7 +322,9 @@ CalibratedRig calibrate_rig(const std::vector<Scene>& scenes, const CalibrationO
                             const Catalogue& catalogue) {
   check_scenes(scenes);
   // An unknown pipeline is reported before clouds are read.
-  if (options.pipeline_text.empty()) composition_called(options.pipeline, catalogue);
+  if (options.pipeline_text.empty()) {
+    composition_called(options.pipeline, nominal_bounds(options), catalogue);
+  }
   std::optional<CalibratedRig> rig;
   on_threads(options.jobs > 0 ? options.jobs : tbb::info::default_concurrency(),
              [&] { rig = calibrated(scenes, options, catalogue); });

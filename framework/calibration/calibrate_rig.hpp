@@ -22,6 +22,9 @@ struct CalibrationOptions {
   std::string pipeline_text = {};
   /// If true, nominal poses are compared with the result, but not used as initial guesses.
   bool from_scratch = false;
+  /// The standard deviations of the nominal poses: near them, three are searched.
+  double nominal_std_deg = 10.0;
+  double nominal_std_m = 1.0 / 3.0;
   std::uint64_t seed = 1;
   int jobs = 0;  ///< Number of threads; 0: all cores.
   /// Called with a description of the current work and the completed share of it, 0 to 1.

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
 #include "framework/calibration/calibrate_rig.hpp"
 #include "framework/params/json_file.hpp"
@@ -11,10 +12,6 @@
 
 namespace croon {
 namespace {
-
-/// Maximum distance of a pose from the nominal pose at which a search starts.
-constexpr double kMaxNominalRotation_deg = 30.0;
-constexpr double kMaxNominalTranslation_m = 1.0;
 
 /// The list of steps in `document`; null if it has none.
 nlohmann::json* steps_of(nlohmann::json& document) {
@@ -46,24 +43,25 @@ std::vector<params::ParameterDoc> parameters_of(const nlohmann::json& step,
 
 /// Restricts the searches of the steps, and of the steps in their parameters, to poses near the
 /// initial guess, unless the file sets `use_start` itself.
-void stay_near_start(nlohmann::json& steps, const Catalogue& catalogue) {
+void stay_near_start(nlohmann::json& steps, const PoseBounds& nominal, const Catalogue& catalogue) {
   for (nlohmann::json& step : steps) {
     for (const params::ParameterDoc& doc : parameters_of(step, catalogue)) {
       if (doc.key == "use_start" && !step.contains("use_start")) {
         step["use_start"] = true;
-        step.emplace("max_rotation_deg", kMaxNominalRotation_deg);
-        step.emplace("max_translation_m", kMaxNominalTranslation_m);
+        step.emplace("max_rotation_deg", deg_from_rad(nominal.rotation_rad));
+        step.emplace("max_translation_m", nominal.translation_m);
       } else if (doc.stage_kind == Step::kKind) {
         nlohmann::json& inner = step[doc.key];
         if (inner.is_null()) inner = params::parse_json(doc.default_json, doc.key);
-        if (inner.is_array()) stay_near_start(inner, catalogue);
+        if (inner.is_array()) stay_near_start(inner, nominal, catalogue);
       }
     }
   }
 }
 
 Composition composition_in(nlohmann::json document, const std::string& name,
-                           const std::string& file, const Catalogue& catalogue) {
+                           const std::string& file, const PoseBounds& nominal,
+                           const Catalogue& catalogue) {
   Composition composition;
   composition.name = name;
   nlohmann::json* const steps = steps_of(document);
@@ -74,7 +72,7 @@ Composition composition_in(nlohmann::json document, const std::string& name,
   if (steps == nullptr || steps->empty()) pipeline_in(document, file, catalogue);
   append_missing_steps(*steps);
   composition.from_nothing = pipeline_in(document, file, catalogue);
-  stay_near_start(*steps, catalogue);
+  stay_near_start(*steps, nominal, catalogue);
   composition.near_nominal = pipeline_in(document, file, catalogue);
   for (const NamedStep& step : composition.from_nothing) {
     const params::DataFlow& flow = step.step.flow();
@@ -96,33 +94,35 @@ const std::string& recommended_pipeline_text(const std::string& name) {
   throw InputError("", "", "unknown pipeline \"" + name + "\"" + name_hint(name, names));
 }
 
-Composition embedded_composition(const std::string& name, const Catalogue& catalogue) {
-  return composition_in_text(embedded_pipelines().at(name), name, catalogue);
+Composition embedded_composition(const std::string& name, const PoseBounds& nominal,
+                                 const Catalogue& catalogue) {
+  return composition_in_text(embedded_pipelines().at(name), name, nominal, catalogue);
 }
 
-Composition unsynchronised_composition(const Catalogue& catalogue) {
+Composition unsynchronised_composition(const PoseBounds& nominal, const Catalogue& catalogue) {
   // A tenth of walking pace at 10 Hz: scans that are a second apart differ by 0.2 m.
   constexpr double kMaxTravel_m = 0.02;
   nlohmann::json document = params::parse_json(embedded_pipelines().at("standing"), "standing");
   for (nlohmann::json& step : *steps_of(document)) {
     if (step.at("step") == "motion_check") step["max_travel_m"] = kMaxTravel_m;
   }
-  return composition_in(std::move(document), "standing", "standing", catalogue);
+  return composition_in(std::move(document), "standing", "standing", nominal, catalogue);
 }
 
 Composition composition_in_text(const std::string& text, const std::string& name,
-                                const Catalogue& catalogue) {
-  return composition_in(params::parse_json(text, name), name, name, catalogue);
+                                const PoseBounds& nominal, const Catalogue& catalogue) {
+  return composition_in(params::parse_json(text, name), name, name, nominal, catalogue);
 }
 
-Composition composition_called(const std::string& pipeline, const Catalogue& catalogue) {
+Composition composition_called(const std::string& pipeline, const PoseBounds& nominal,
+                               const Catalogue& catalogue) {
   const std::vector<std::string> names = recommended_pipeline_names();
   const bool is_recommended = std::find(names.begin(), names.end(), pipeline) != names.end();
-  if (is_recommended) return embedded_composition(pipeline, catalogue);
+  if (is_recommended) return embedded_composition(pipeline, nominal, catalogue);
   const std::filesystem::path file = pipeline;
   const bool is_path = file.has_parent_path() || file.extension() == ".json";
   if (!is_path && !std::filesystem::exists(file)) recommended_pipeline_text(pipeline);
-  return composition_in(params::read_json_file(file), file.filename().string(), pipeline,
+  return composition_in(params::read_json_file(file), file.filename().string(), pipeline, nominal,
                         catalogue);
 }
 

@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 
+#include "framework/geometry/pose_mean.hpp"
 #include "framework/pipeline/pipeline.hpp"
 #include "framework/stage/catalogue.hpp"
 
@@ -22,20 +23,24 @@ struct Composition {
   std::set<std::string> source_channels;  ///< Required of the sensor's cloud.
 };
 
+// `nominal` are the maximum distances from a nominal pose at which its sensor is searched for.
+
 /// The composition of the embedded pipeline `name`. Throws std::logic_error for an unknown name.
-Composition embedded_composition(const std::string& name, const Catalogue& catalogue);
+Composition embedded_composition(const std::string& name, const PoseBounds& nominal,
+                                 const Catalogue& catalogue);
 
 /// The composition "standing" for sensors with different clocks: their scans may be from different
 /// moments, so even slow motion is rejected.
-Composition unsynchronised_composition(const Catalogue& catalogue);
+Composition unsynchronised_composition(const PoseBounds& nominal, const Catalogue& catalogue);
 
 /// The composition of the JSON `text` of a pipeline, named `name`. Throws InputError if it is
 /// invalid.
 Composition composition_in_text(const std::string& text, const std::string& name,
-                                const Catalogue& catalogue);
+                                const PoseBounds& nominal, const Catalogue& catalogue);
 
 /// The composition `pipeline`, a recommended name or a file. Throws InputError for an unknown name,
 /// with the nearest one, and for an invalid file.
-Composition composition_called(const std::string& pipeline, const Catalogue& catalogue);
+Composition composition_called(const std::string& pipeline, const PoseBounds& nominal,
+                               const Catalogue& catalogue);
 
 }  // namespace croon

@@ -38,8 +38,9 @@ std::vector<Hypothesis> apart(std::vector<Hypothesis> poses) {
 }
 
 /// The refined poses with their scores, best first, no two near each other.
-std::vector<Hypothesis> judged(const std::vector<Hypothesis>& poses, const Estimate& estimate,
+std::vector<Hypothesis> judged(std::vector<Hypothesis> poses, const Estimate& estimate,
                                const HypothesisChoice& choice) {
+  if (choice.use_start) poses.push_back({estimate.T_target_source, 0.0});
   const auto target = shared_view(*estimate.target, choice.thinning);
   const auto source = shared_view(*estimate.source, choice.thinning);
   const auto sample = refinement_sample(*estimate.source, choice);
@@ -78,8 +79,8 @@ const params::Table<HypothesisChoice>& hypothesis_choice_table() {
                    R"("rotation_tolerance_deg": 0.05, "translation_tolerance_m": 0.005})",
                    "Refines each hypothesis before the comparison."),
       params::boolean("use_start", &HypothesisChoice::use_start,
-                      "Whether poses beyond max_rotation_deg or max_translation_m from the start "
-                      "are discarded; otherwise the start is ignored."),
+                      "Whether the start is a hypothesis too, and poses beyond max_rotation_deg or "
+                      "max_translation_m from it are discarded; otherwise it is ignored."),
       params::number("max_rotation_deg", &HypothesisChoice::max_rotation_deg, {0.0, 180.0},
                      "Maximum rotation from the start, see use_start."),
       params::number("max_translation_m", &HypothesisChoice::max_translation_m, {0.0, 1e6},

@@ -1,6 +1,5 @@
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -61,7 +60,7 @@ const params::Table<Params>& table() {
 class SceneGraph {
  public:
   SceneGraph(const Params& params, const RigGroup& members, const StreamKey& key)
-      : params_(params), members_(members), key_(key) {
+      : params_(params), key_(key) {
     for (RigEstimate* const member : members) {
       (is_accepted(*member) ? connected_ : pending_).push_back(member);
     }
@@ -210,14 +209,15 @@ class SceneGraph {
         .violation_ratio();
   }
 
-  static void reject(RigEstimate& sensor, const RigEstimate& other, double violation_ratio) {
+  void reject(RigEstimate& sensor, const RigEstimate& other, double violation_ratio) const {
     sensor.estimate.rejection = with_reason(
-        sensor.estimate.rejection, "the share of points in free space between it and " +
-                                       other.source + " is " + fixed_number(violation_ratio, 3));
+        sensor.estimate.rejection,
+        "it contradicts " + other.source + ": " + fixed_number(100.0 * violation_ratio, 1) +
+            " % of their points lie in each other's free space, and at most " +
+            fixed_number(100.0 * params_.max_violation_ratio, 1) + " % may");
   }
 
   const Params& params_;
-  const RigGroup& members_;
   StreamKey key_;
   std::vector<RigEstimate*> connected_, pending_;
 };
