@@ -1,0 +1,154 @@
+#include "framework/calibration/scan_fault_checks.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "framework/base/angles.hpp"
+#include "framework/base/text.hpp"
+#include "framework/registration/scan_faults.hpp"
+
+namespace croon {
+namespace {
+
+/// Fewer surfaces say nothing about faults.
+constexpr double kMinSurfaces = 20.0;
+/// A fault differs from zero by at least this number of standard deviations.
+constexpr double kMinFaultDeviations = 5.0;
+
+/// Maximum differences between the ranges of sound sensors.
+constexpr double kMaxRangeScale = 0.002;
+constexpr double kMaxRangeOffset_m = 0.045;
+
+/// Maximum shift between the halves of a sound scan, and the minimum ratio of robust costs: moving
+/// objects shift some surfaces, and explain little of the distances of the others.
+constexpr double kMaxHalfShift_m = 0.06;
+constexpr double kMinCostRatio = 0.75;
+
+/// The difference between the ranges of a sensor and of the reference, by scale or by an offset.
+struct RangeFault {
+  std::size_t sensor = 0;
+  bool is_scale = false;
+  double size = 0.0;  ///< A ratio or metres.
+};
+
+/// The simpler description of a difference: the scale or the offset alone, whichever contradicts
+/// the estimate of the other less. std::nullopt if it is within the bounds of sound sensors.
+std::optional<RangeFault> range_fault(const RangeDifference& range) {
+  const Eigen::Matrix2d& C = range.covariance;
+  if (!(C(0, 0) > 0.0) || !(C(1, 1) > 0.0)) return std::nullopt;
+  const bool is_scale =
+      std::abs(range.offset_m) / std::sqrt(C(1, 1)) <= std::abs(range.scale) / std::sqrt(C(0, 0));
+  const int own = is_scale ? 0 : 1, other = 1 - own;
+  const Eigen::Vector2d estimate(range.scale, range.offset_m);
+  // The estimate of one under the condition that the other is zero.
+  const double size = estimate(own) - C(own, other) / C(other, other) * estimate(other);
+  const double variance = C(own, own) - C(own, other) * C(own, other) / C(other, other);
+  const double max_size = is_scale ? kMaxRangeScale : kMaxRangeOffset_m;
+  if (std::abs(size) <= max_size) return std::nullopt;
+  if (size * size <= kMinFaultDeviations * kMinFaultDeviations * variance) return std::nullopt;
+  return RangeFault{0, is_scale, size};
+}
+
+/// "0.50 % longer than", for the ranges of a sensor relative to those of another.
+std::string range_text(const RangeFault& fault, bool is_inverse) {
+  const double size = std::abs(fault.size);
+  return (fault.is_scale ? fixed_number(100.0 * size, 2) + " %" : fixed_number(size, 3) + " m") +
+         ((fault.size > 0.0) != is_inverse ? " longer than" : " shorter than");
+}
+
+/// Whether all of `faults` are the same difference.
+bool are_alike(const std::vector<RangeFault>& faults) {
+  return std::all_of(faults.begin(), faults.end(), [&](const RangeFault& fault) {
+    const double ratio = fault.size / faults.front().size;
+    return fault.is_scale == faults.front().is_scale && ratio > 0.5 && ratio < 2.0;
+  });
+}
+
+void reject(CalibratedSensor& sensor, const std::string& reason, const std::string& advice) {
+  sensor.is_accepted = false;
+  sensor.reasons.push_back(reason);
+  sensor.advice.push_back(advice);
+}
+
+/// Rejects the sensors with `faults`, out of `compared` sensors.
+void reject_ranges(CalibratedRig& rig, const std::vector<RangeFault>& faults,
+                   std::size_t compared) {
+  const bool is_reference = faults.size() > 1 && faults.size() == compared && are_alike(faults);
+  for (const RangeFault& fault : faults) {
+    CalibratedSensor& sensor = rig.sensors[fault.sensor];
+    std::string reason, suspect;
+    if (is_reference) {
+      suspect = rig.reference;
+      reason = "The ranges of " + rig.reference + " are " + range_text(fault, true) +
+               " those of all other sensors, so no pose is right.";
+    } else {
+      // A single sensor may be right and the reference wrong.
+      suspect = compared > 1 ? sensor.sensor : rig.reference + " and " + sensor.sensor;
+      reason = "The ranges of " + sensor.sensor + " are " + range_text(fault, false) +
+               " those of " + rig.reference + (compared > 1 ? " and other sensors" : "") +
+               ", so no pose is right.";
+    }
+    reject(sensor, reason,
+           "Check the range calibration and the driver of " + suspect +
+               ", e.g. at a wall at a known distance.");
+  }
+}
+
+/// Rejects a sensor if a half of its scans is shifted.
+void reject_if_halves_differ(CalibratedSensor& sensor, const std::vector<HalfShift>& halves) {
+  for (const HalfShift& half : halves) {
+    const double squared = half.shift_m.dot(half.covariance.inverse() * half.shift_m);
+    if (half.shift_m.norm() <= kMaxHalfShift_m || half.cost_ratio >= kMinCostRatio) continue;
+    if (!(squared > kMinFaultDeviations * kMinFaultDeviations)) continue;
+    const double begin_deg = deg_from_rad(half.azimuth_rad);
+    reject(sensor,
+           "The points of " + sensor.sensor + " at azimuths of " + fixed_number(begin_deg, 0) +
+               " to " + fixed_number(begin_deg + 180.0, 0) + " degrees are shifted by " +
+               fixed_number(half.shift_m.norm(), 2) +
+               " m relative to the others, so no pose is "
+               "right.",
+           "Check whether the clouds are assembled from packets of one revolution, and whether "
+           "motion was removed with the right velocity.");
+    return;
+  }
+}
+
+/// The accepted scans of a sensor.
+std::vector<ComparedScan> scans_of(const CalibratedSensor& sensor,
+                                   const std::vector<CalibrationMember>& members,
+                                   const std::vector<MemberResult>& results) {
+  std::vector<ComparedScan> scans;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (members[i].sensor != sensor.sensor || !results[i].is_accepted()) continue;
+    const Estimate& estimate = results[i].estimate;
+    scans.push_back({&*estimate.target, &*estimate.source, results[i].T_in_scene});
+  }
+  return scans;
+}
+
+}  // namespace
+
+void reject_scan_faults(CalibratedRig& rig, const std::vector<CalibrationMember>& members,
+                        const std::vector<MemberResult>& results) {
+  std::vector<RangeFault> faults;
+  std::size_t compared = 0;
+  for (std::size_t i = 0; i < rig.sensors.size(); ++i) {
+    CalibratedSensor& sensor = rig.sensors[i];
+    if (!sensor.is_accepted) continue;
+    const ScanFaults found = estimate_scan_faults(scans_of(sensor, members, results));
+    if (found.surfaces < kMinSurfaces) continue;
+    ++compared;
+    if (std::optional<RangeFault> fault = range_fault(found.range)) {
+      fault->sensor = i;
+      faults.push_back(*fault);
+    } else {
+      reject_if_halves_differ(sensor, found.halves);
+    }
+  }
+  reject_ranges(rig, faults, compared);
+}
+
+}  // namespace croon
