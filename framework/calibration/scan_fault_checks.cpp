@@ -9,6 +9,7 @@
 #include "framework/base/angles.hpp"
 #include "framework/base/text.hpp"
 #include "framework/registration/scan_faults.hpp"
+#include "framework/stage/motion.hpp"
 
 namespace croon {
 namespace {
@@ -18,14 +19,18 @@ constexpr double kMinSurfaces = 20.0;
 /// A fault differs from zero by at least this number of standard deviations.
 constexpr double kMinFaultDeviations = 5.0;
 
-/// Maximum differences between the ranges of sound sensors.
+/// Maximum differences between the ranges of sound sensors. Estimates are up to a quarter too
+/// small, because some points touch surfaces that follow them, such as foliage.
 constexpr double kMaxRangeScale = 0.002;
-constexpr double kMaxRangeOffset_m = 0.045;
+constexpr double kMaxRangeOffset_m = 0.04;
 
-/// Maximum shift between the halves of a sound scan, and the minimum ratio of robust costs: moving
-/// objects shift some surfaces, and explain little of the distances of the others.
-constexpr double kMaxHalfShift_m = 0.06;
-constexpr double kMinCostRatio = 0.75;
+/// Maximum shift between the halves of a sound scan, in metres and standard deviations, and the
+/// minimum ratio of robust costs.
+constexpr double kMaxHalfShift_m = 0.08;
+constexpr double kMaxHalfDeviations = 8.0;
+constexpr double kMinCostRatio = 0.94;
+/// Traffic that moves with the rig may look like a shifted half, so halves are tested at rest.
+constexpr double kAtRest_mps = 0.1;
 
 /// The difference between the ranges of a sensor and of the reference, by scale or by an offset.
 struct RangeFault {
@@ -55,7 +60,8 @@ std::optional<RangeFault> range_fault(const RangeDifference& range) {
 /// "0.50 % longer than", for the ranges of a sensor relative to those of another.
 std::string range_text(const RangeFault& fault, bool is_inverse) {
   const double size = std::abs(fault.size);
-  return (fault.is_scale ? fixed_number(100.0 * size, 2) + " %" : fixed_number(size, 3) + " m") +
+  return std::string("at least ") +
+         (fault.is_scale ? fixed_number(100.0 * size, 2) + " %" : fixed_number(size, 3) + " m") +
          ((fault.size > 0.0) != is_inverse ? " longer than" : " shorter than");
 }
 
@@ -102,7 +108,7 @@ void reject_if_halves_differ(CalibratedSensor& sensor, const std::vector<HalfShi
   for (const HalfShift& half : halves) {
     const double squared = half.shift_m.dot(half.covariance.inverse() * half.shift_m);
     if (half.shift_m.norm() <= kMaxHalfShift_m || half.cost_ratio >= kMinCostRatio) continue;
-    if (!(squared > kMinFaultDeviations * kMinFaultDeviations)) continue;
+    if (!(squared > kMaxHalfDeviations * kMaxHalfDeviations)) continue;
     const double begin_deg = deg_from_rad(half.azimuth_rad);
     reject(sensor,
            "The points of " + sensor.sensor + " at azimuths of " + fixed_number(begin_deg, 0) +
@@ -129,6 +135,17 @@ std::vector<ComparedScan> scans_of(const CalibratedSensor& sensor,
   return scans;
 }
 
+/// Whether no accepted scan of the sensor was taken while the rig moved, as far as is known.
+bool is_at_rest(const std::string& sensor, const std::vector<CalibrationMember>& members,
+                const std::vector<MemberResult>& results) {
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (members[i].sensor != sensor || !results[i].is_accepted()) continue;
+    const Twist* const velocity = results[i].estimate.extras.find(kMotion);
+    if (velocity != nullptr && velocity->linear_mps.norm() > kAtRest_mps) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void reject_scan_faults(CalibratedRig& rig, const std::vector<CalibrationMember>& members,
@@ -144,7 +161,7 @@ void reject_scan_faults(CalibratedRig& rig, const std::vector<CalibrationMember>
     if (std::optional<RangeFault> fault = range_fault(found.range)) {
       fault->sensor = i;
       faults.push_back(*fault);
-    } else {
+    } else if (is_at_rest(sensor.sensor, members, results)) {
       reject_if_halves_differ(sensor, found.halves);
     }
   }
