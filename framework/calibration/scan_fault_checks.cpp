@@ -60,7 +60,7 @@ std::optional<RangeFault> range_fault(const RangeDifference& range) {
 /// "0.50 % longer than", for the ranges of a sensor relative to those of another.
 std::string range_text(const RangeFault& fault, bool is_inverse) {
   const double size = std::abs(fault.size);
-  return std::string("at least ") +
+  return std::string("about ") +
          (fault.is_scale ? fixed_number(100.0 * size, 2) + " %" : fixed_number(size, 3) + " m") +
          ((fault.size > 0.0) != is_inverse ? " longer than" : " shorter than");
 }
