@@ -91,11 +91,12 @@ void reject_ranges(CalibratedRig& rig, const std::vector<RangeFault>& faults,
       reason = "The ranges of " + rig.reference + " are " + range_text(fault, true) +
                " those of all other sensors, so no pose is right.";
     } else {
-      // A single sensor may be right and the reference wrong.
-      suspect = compared > 1 ? sensor.sensor : rig.reference + " and " + sensor.sensor;
+      // If several differ, or nothing else was compared, the reference may be wrong.
+      const bool is_alone = faults.size() == 1 && compared > 1;
+      suspect = is_alone ? sensor.sensor : rig.reference + " and " + sensor.sensor;
       reason = "The ranges of " + sensor.sensor + " are " + range_text(fault, false) +
-               " those of " + rig.reference + (compared > 1 ? " and other sensors" : "") +
-               ", so no pose is right.";
+               " those of " + rig.reference +
+               (is_alone ? ", with which the other sensors agree" : "") + ", so no pose is right.";
     }
     reject(sensor, reason,
            "Check the range calibration and the driver of " + suspect +

@@ -16,7 +16,8 @@ namespace croon {
 namespace {
 
 constexpr int kNormalNeighbours = 10;
-constexpr std::size_t kComparedPoints = 3000;  ///< Of a sensor, over all scans.
+constexpr std::size_t kComparedPoints = 3000;  ///< Of a sensor, over all scans,
+constexpr std::size_t kMinCompared = 600;      ///< and at least of each scan.
 constexpr std::size_t kMinContacts = 60;       ///< Of a scan.
 constexpr float kMaxContact_m = 0.5F;
 /// Widths of the robust kernel by iteration: wide at first, because a fault moves points far.
@@ -197,7 +198,8 @@ double effective_surfaces(const std::vector<Touches>& scans) {
 ScanFaults estimate_scan_faults(const std::vector<ComparedScan>& scans) {
   std::vector<Touches> compared;
   std::vector<double> ranges_m;
-  const std::size_t max_points = kComparedPoints / std::max<std::size_t>(scans.size(), 1) + 1;
+  const std::size_t max_points =
+      std::max(kComparedPoints / std::max<std::size_t>(scans.size(), 1), kMinCompared);
   for (const ComparedScan& scan : scans) {
     Touches touches = touches_of(scan, max_points);
     if (touches.points.size() < kMinContacts) continue;
