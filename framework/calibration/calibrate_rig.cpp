@@ -13,6 +13,7 @@
 #include "framework/calibration/composition.hpp"
 #include "framework/calibration/ground_pose.hpp"
 #include "framework/calibration/rig_run.hpp"
+#include "framework/calibration/scan_fault_checks.hpp"
 #include "framework/calibration/scene_clouds.hpp"
 #include "framework/calibration/sensor_result.hpp"
 #include "framework/calibration/warnings.hpp"
@@ -308,6 +309,7 @@ CalibratedRig calibrated(const std::vector<Scene>& scenes, const CalibrationOpti
   rig.motion = motion_of(input, outcome.members);
   rig.shown = shown_scene(input, outcome.members);
   rig.sensors = std::move(outcome.sensors);
+  reject_scan_faults(rig, input.members, outcome.members);
   set_nominal(rig.sensors, scenes);
   set_ground(rig, input, options.seed);
   const std::vector<std::string> about_rig = warnings_about_rig(rig);

@@ -20,7 +20,9 @@ struct SceneEstimate {
   /// T_reference_sensor; std::nullopt if a step failed.
   std::optional<RigidTransform> T_reference_sensor;
   std::optional<PoseCovariance> covariance;
-  std::string reason;  ///< Why the pose was rejected or the step failed; empty if accepted.
+  /// Why the pose was rejected or not used, or the step failed; empty if it was used.
+  std::string reason;
+  bool is_outlier = false;  ///< Accepted, but not used: it differs from that of the other scenes.
 };
 
 /// The result for one sensor: one pose from all scenes.

@@ -143,6 +143,11 @@ std::vector<std::string> warnings_about_rig(const CalibratedRig& rig) {
   for (const CalibratedSensor& sensor : rig.sensors) {
     const std::string name = printable(sensor.sensor);
     if (sensor.nominal) nominal.push_back({name, *sensor.nominal});
+    for (const SceneEstimate& scene : sensor.scenes) {
+      if (!scene.is_outlier) continue;
+      warnings.push_back("scene " + printable(scene.scene) + " is not used for " + name +
+                         ": was the sensor moved, or the scan distorted? " + scene.reason);
+    }
     if (!sensor.is_accepted || !sensor.T_reference_sensor) continue;
     results.push_back({name, *sensor.T_reference_sensor});
     is_one_scene = is_one_scene || sensor.scenes.size() == 1;

@@ -6,6 +6,7 @@
 #include "framework/base/angles.hpp"
 #include "framework/base/text.hpp"
 #include "framework/calibration/reasons_in_words.hpp"
+#include "framework/calibration/scene_agreement.hpp"
 #include "framework/geometry/guarded_inverse.hpp"
 #include "framework/geometry/pose_mean.hpp"
 
@@ -35,53 +36,134 @@ SceneEstimate scene_estimate(const SceneResult& scene) {
   return estimate;
 }
 
-/// For each degree of freedom, the best observability among the averaged poses.
-DofObservability combined_observability(const std::vector<const MemberResult*>& results) {
-  DofObservability observability = results.front()->estimate.covariance->dofs;
-  for (const MemberResult* const result : results) {
-    observability = best_observability(observability, result->estimate.covariance->dofs);
+/// The accepted result of a scene.
+struct AcceptedScene {
+  std::size_t scene = 0;  ///< Its index.
+  const MemberResult* result = nullptr;
+};
+
+/// A pose that is averaged.
+struct CommonPose {
+  RigidTransform pose;
+  std::optional<PoseCovariance> covariance;
+};
+
+/// The mean of `poses`, without a covariance if one of them has none.
+CommonPose mean_of(const std::vector<CommonPose>& poses) {
+  std::vector<InformedPose> known;
+  std::vector<RigidTransform> all;
+  for (const CommonPose& one : poses) {
+    all.push_back(one.pose);
+    if (one.covariance) known.push_back(informed(one.pose, one.covariance->matrix));
   }
-  return observability;
+  if (known.size() < poses.size()) return {mean_pose(all), std::nullopt};
+  const InformedPose mean = informed_mean(known);
+  DofObservability observability = poses.front().covariance->dofs;
+  for (const CommonPose& one : poses) {
+    observability = best_observability(observability, one.covariance->dofs);
+  }
+  return {mean.pose, PoseCovariance{guarded_inverse<6>(mean.information), observability}};
 }
 
 /// Sets the common pose of `accepted`, which agree: the pose to which a step has set all of them,
-/// or their mean.
-void set_common_pose(CalibratedSensor& sensor, const std::vector<const MemberResult*>& accepted) {
-  const Estimate& first = accepted.front()->estimate;
-  const bool is_common =
-      std::all_of(accepted.begin(), accepted.end(), [&](const MemberResult* result) {
-        return result->estimate.T_target_source == first.T_target_source;
-      });
-  sensor.T_reference_sensor = first.T_target_source;
-  sensor.covariance = first.covariance;
-  if (is_common) return;
-  std::vector<InformedPose> known;
-  std::vector<RigidTransform> poses;
-  for (const MemberResult* const result : accepted) {
-    poses.push_back(result->estimate.T_target_source);
-    if (!result->estimate.covariance) continue;
-    known.push_back(informed(poses.back(), result->estimate.covariance->matrix));
+/// or their mean. The former includes all scenes, so with `from_scenes` the mean of the poses of
+/// the single scenes is used.
+void set_common_pose(CalibratedSensor& sensor, const std::vector<AcceptedScene>& accepted,
+                     bool from_scenes) {
+  std::vector<CommonPose> poses;
+  for (const AcceptedScene& one : accepted) {
+    const MemberResult& result = *one.result;
+    poses.push_back(from_scenes
+                        ? CommonPose{result.T_in_scene, result.covariance_in_scene}
+                        : CommonPose{result.estimate.T_target_source, result.estimate.covariance});
   }
-  if (known.size() < poses.size()) {
-    sensor.T_reference_sensor = mean_pose(poses);
-    sensor.covariance.reset();
-    return;
-  }
-  const InformedPose mean = informed_mean(known);
-  sensor.T_reference_sensor = mean.pose;
-  sensor.covariance = {guarded_inverse<6>(mean.information), combined_observability(accepted)};
+  const bool is_common = std::all_of(poses.begin(), poses.end(), [&](const CommonPose& one) {
+    return one.pose == poses.front().pose;
+  });
+  const CommonPose common = is_common ? poses.front() : mean_of(poses);
+  sensor.T_reference_sensor = common.pose;
+  sensor.covariance = common.covariance;
 }
 
-/// The accepted results in the scenes whose own poses agree with the majority.
-std::vector<const MemberResult*> agreeing(const std::vector<const MemberResult*>& accepted) {
+/// "0.98 degrees and 0.160 m".
+std::string apart_text(const PoseError& apart) {
+  return fixed_number(deg_from_rad(apart.rotation_rad), 2) + " degrees and " +
+         fixed_number(apart.translation_m, 3) + " m";
+}
+
+/// "0.98 degrees and 0.160 m (9.1 standard deviations)".
+std::string split_text(const SceneSplit& split) {
+  return apart_text(split.apart) + " (" + fixed_number(split.deviations, 1) +
+         " standard deviations)";
+}
+
+/// Marks the pose of `scene` as an outlier, which differs from the others by `difference`.
+void exclude(CalibratedSensor& sensor, std::size_t scene, const std::string& difference) {
+  sensor.scenes[scene].is_outlier = true;
+  sensor.scenes[scene].reason =
+      "The pose differs from that of the other scenes by " + difference + ".";
+}
+
+/// Removes the scenes whose own poses do not agree with the majority. Returns whether there is a
+/// majority; without one, nothing is removed.
+bool remove_far(CalibratedSensor& sensor, std::vector<AcceptedScene>& accepted) {
   std::vector<RigidTransform> poses;
-  for (const MemberResult* const result : accepted) poses.push_back(result->T_in_scene);
+  for (const AcceptedScene& one : accepted) poses.push_back(one.result->T_in_scene);
   const RigidTransform centre = common_start(poses);
-  std::vector<const MemberResult*> near;
-  for (const MemberResult* const result : accepted) {
-    if (agree(result->T_in_scene, centre, kNearStart)) near.push_back(result);
+  const auto far = std::stable_partition(
+      accepted.begin(), accepted.end(),
+      [&](const AcceptedScene& one) { return agree(one.result->T_in_scene, centre, kNearStart); });
+  if (far - accepted.begin() <= accepted.end() - far) return false;
+  for (auto one = far; one != accepted.end(); ++one) {
+    exclude(sensor, one->scene, apart_text(pose_error(one->result->T_in_scene, centre)));
   }
-  return near;
+  accepted.erase(far, accepted.end());
+  return true;
+}
+
+/// The names of some of the accepted scenes, after commas.
+std::string names_of(const std::vector<std::size_t>& group,
+                     const std::vector<AcceptedScene>& accepted,
+                     const std::vector<SceneResult>& scenes) {
+  std::string text;
+  for (const std::size_t i : group) {
+    text += (text.empty() ? "" : ", ") + scenes[accepted[i].scene].scene;
+  }
+  return text;
+}
+
+/// Removes single scenes whose poses differ from those of at least three others, and rejects the
+/// sensor if its pose still differs between scenes. Returns whether any scene was removed.
+bool test_agreement(CalibratedSensor& sensor, std::vector<AcceptedScene>& accepted,
+                    const std::vector<SceneResult>& scenes) {
+  constexpr std::size_t kMinOthers = 3;
+  bool is_any_removed = false;
+  for (;;) {
+    std::vector<ScenePose> poses;
+    for (const AcceptedScene& one : accepted) {
+      const std::optional<PoseCovariance>& covariance = one.result->covariance_in_scene;
+      poses.push_back(
+          {one.result->T_in_scene, covariance ? covariance->matrix : Matrix6d(Matrix6d::Zero())});
+    }
+    const std::optional<SceneSplit> split = split_of_scenes(poses);
+    if (!split) return is_any_removed;
+    if (split->smaller.size() > 1 || split->larger.size() < kMinOthers) {
+      sensor.is_accepted = false;
+      sensor.reasons.push_back("The pose of " + sensor.sensor + " differs between the scenes " +
+                               names_of(split->larger, accepted, scenes) + " | " +
+                               names_of(split->smaller, accepted, scenes) + " by " +
+                               split_text(*split) +
+                               ": it or the reference was moved between them, or some of the scans "
+                               "are distorted.");
+      sensor.advice.emplace_back(
+          "If it was moved, calibrate the scenes before and after the move separately.");
+      return is_any_removed;
+    }
+    const std::size_t outlier = split->smaller.front();
+    exclude(sensor, accepted[outlier].scene, split_text(*split));
+    accepted.erase(accepted.begin() + static_cast<std::ptrdiff_t>(outlier));
+    is_any_removed = true;
+  }
 }
 
 /// A sentence on the two accepted scenes whose poses differ the most.
@@ -97,9 +179,7 @@ std::string disagreement(const std::vector<SceneResult>& scenes) {
       if (size_m <= largest_m) continue;
       largest_m = size_m;
       text = "The poses of the scenes " + a.scene + " and " + b.scene + " are " +
-             fixed_number(deg_from_rad(apart.rotation_rad), 2) + " degrees and " +
-             fixed_number(apart.translation_m, 3) +
-             " m apart, and no majority of the scenes agrees.";
+             apart_text(apart) + " apart, and no majority of the scenes agrees.";
     }
   }
   return text;
@@ -174,26 +254,29 @@ void reject_if_uncertain(CalibratedSensor& sensor) {
 CalibratedSensor sensor_result(const std::string& name, const std::vector<SceneResult>& scenes) {
   CalibratedSensor sensor;
   sensor.sensor = name;
-  std::vector<const MemberResult*> accepted;
+  std::vector<AcceptedScene> accepted;
   for (const SceneResult& scene : scenes) {
+    if (scene.result != nullptr && scene.result->is_accepted()) {
+      accepted.push_back({sensor.scenes.size(), scene.result});
+    }
     sensor.scenes.push_back(scene_estimate(scene));
-    if (scene.result != nullptr && scene.result->is_accepted()) accepted.push_back(scene.result);
   }
   if (accepted.empty()) {
     set_guess(sensor, scenes);
     set_reasons(sensor, scenes);
     return sensor;
   }
-  const std::vector<const MemberResult*> near = agreeing(accepted);
-  set_common_pose(sensor, near.empty() ? accepted : near);
-  sensor.is_accepted = 2 * near.size() > accepted.size();
+  sensor.is_accepted = remove_far(sensor, accepted);
   if (!sensor.is_accepted) {
+    set_common_pose(sensor, accepted, false);
     sensor.reasons.push_back(disagreement(scenes));
     sensor.advice.emplace_back(
         "Check that all scenes are of the same rig, or record more scenes at different places.");
-  } else {
-    reject_if_uncertain(sensor);
+    return sensor;
   }
+  const bool is_any_removed = test_agreement(sensor, accepted, scenes);
+  set_common_pose(sensor, accepted, is_any_removed);
+  reject_if_uncertain(sensor);
   return sensor;
 }
 

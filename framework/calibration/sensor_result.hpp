@@ -15,8 +15,10 @@ struct SceneResult {
   std::string why_not;  ///< Set if there is no result.
 };
 
-/// The result for `sensor` from its scenes. It is accepted if at least one scene accepts a pose and
-/// the majority of these scenes agree on it; otherwise it has the best guess, reasons and advice.
+/// The result for `sensor` from its scenes. It is accepted if at least one scene accepts a pose,
+/// the majority of these scenes agree on it, and it does not differ significantly between groups of
+/// them (split_of_scenes); otherwise it has the best guess, reasons and advice. Single scenes that
+/// differ from all others are not used.
 CalibratedSensor sensor_result(const std::string& sensor, const std::vector<SceneResult>& scenes);
 
 }  // namespace croon
