@@ -18,7 +18,7 @@ namespace {
 constexpr int kNormalNeighbours = 10;
 constexpr std::size_t kComparedPoints = 3000;  ///< Of a sensor, over all scans,
 constexpr std::size_t kMinCompared = 600;      ///< and at least of each scan.
-constexpr std::size_t kMinContacts = 60;       ///< Of a scan.
+constexpr std::size_t kMinScanContacts = 60;   ///< Of a scan.
 constexpr float kMaxContact_m = 0.5F;
 /// Widths of the robust kernel by iteration: wide at first, because a fault moves points far.
 constexpr double kContactKernels_m[] = {0.4, 0.2, 0.1, 0.1, 0.1};
@@ -202,7 +202,7 @@ ScanFaults estimate_scan_faults(const std::vector<ComparedScan>& scans) {
       std::max(kComparedPoints / std::max<std::size_t>(scans.size(), 1), kMinCompared);
   for (const ComparedScan& scan : scans) {
     Touches touches = touches_of(scan, max_points);
-    if (touches.points.size() < kMinContacts) continue;
+    if (touches.points.size() < kMinScanContacts) continue;
     for (const Touch& touch : touches.points) ranges_m.push_back(touch.range_m);
     compared.push_back(std::move(touches));
   }
