@@ -93,8 +93,12 @@ void add_relief_row(SceneBuilder& builder, const Roadside& side, const Span& alo
     add_smooth_wall(builder, side,
                     {along_m, row.face_m + row.depth_m, row.height_m, Material::concrete});
   }
-  const int from = static_cast<int>(std::ceil((along_m.from - row.phase_m) / row.period_m));
-  for (int i = from; row.phase_m + (i + 1) * row.period_m <= along_m.to; ++i) {
+  // Vehicles have many triangles, and those far away hide each other.
+  const double end_m = row.relief == Relief::vehicles ? 80.0 : 140.0;
+  const double from_m = std::max(along_m.from, -end_m);
+  const double to_m = std::min(along_m.to, end_m);
+  const int from = static_cast<int>(std::ceil((from_m - row.phase_m) / row.period_m));
+  for (int i = from; row.phase_m + (i + 1) * row.period_m <= to_m; ++i) {
     const RoadPose pose = side.at(row.phase_m + i * row.period_m, row.face_m);
     builder.add(row.element, builder.ground().upright(pose.s_m, pose.d_m, pose.yaw_rad));
   }
