@@ -14,6 +14,9 @@ namespace croon {
 namespace {
 
 constexpr double kShiftStep_m = 0.25;
+constexpr std::size_t kMaxima = 6;  // Along each direction.
+// Shifts are known to half a step, and a registration from there ends within centimetres.
+const PoseBounds kNear = {rad_from_deg(1.0), 1.2 * kShiftStep_m};
 
 /// A pose and its score.
 using ScoredPose = std::pair<double, RigidTransform>;
@@ -37,7 +40,10 @@ void add_normals(const SensorView& view, const std::vector<Sight>& sights, const
   }
 }
 
-/// The shifted poses at which the score has a local maximum.
+bool is_better(const ScoredPose& a, const ScoredPose& b) { return a.first > b.first; }
+
+/// The best shifted poses at which the score has a local maximum. There is no bound for their
+/// scores: if the direction is off by a degree, walls along it miss each other after 10 m.
 std::vector<ScoredPose> best_shifts(const SensorView& target, const SensorView& source,
                                     const RigidTransform& T, const Eigen::Vector3d& direction,
                                     double max_shift_m) {
@@ -50,8 +56,12 @@ std::vector<ScoredPose> best_shifts(const SensorView& target, const SensorView& 
   std::vector<ScoredPose> maxima;
   for (std::size_t i = 1; i + 1 < shifted.size(); ++i) {
     const double score = shifted[i].first;
+    const RigidTransform& at = shifted[i].second;
+    if (agree(at, T, kNear)) continue;
     if (score >= shifted[i - 1].first && score > shifted[i + 1].first) maxima.push_back(shifted[i]);
   }
+  std::stable_sort(maxima.begin(), maxima.end(), is_better);
+  maxima.resize(std::min(maxima.size(), kMaxima));
   return maxima;
 }
 
@@ -62,10 +72,7 @@ std::vector<RigidTransform> rival_poses(const SensorView& target, const SensorVi
                                         const std::vector<RigidTransform>& proposed,
                                         double max_shift_m) {
   constexpr std::size_t kEvery = 8;
-  constexpr double kMaxGap = 0.3;
-  constexpr std::size_t kCount = 10;
-  // Shifts are known to half a step, and a registration from there ends within centimetres.
-  const PoseBounds near = {rad_from_deg(1.0), 1.2 * kShiftStep_m};
+  constexpr double kMaxGap = 0.5;
   const SensorView some_target = with_every(target, kEvery);
   const SensorView some_source = with_every(source, kEvery);
   const PoseEvidence evidence = pose_evidence(some_target, some_source, T_target_source);
@@ -75,7 +82,8 @@ std::vector<RigidTransform> rival_poses(const SensorView& target, const SensorVi
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
   std::vector<ScoredPose> found;
   for (const RigidTransform& T : proposed) {
-    found.emplace_back(pose_evidence(some_target, some_source, T).score(), T);
+    const double score = pose_evidence(some_target, some_source, T).score();
+    if (score >= evidence.score() - kMaxGap) found.emplace_back(score, T);
   }
   for (const int axis : {0, 1}) {
     const Eigen::Vector3d direction = solver.eigenvectors().col(axis);
@@ -84,15 +92,15 @@ std::vector<RigidTransform> rival_poses(const SensorView& target, const SensorVi
       found.push_back(shift);
     }
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const ScoredPose& a, const ScoredPose& b) { return a.first > b.first; });
+  std::stable_sort(found.begin(), found.end(), is_better);
   std::vector<RigidTransform> rivals;
-  for (const auto& [score, T] : found) {
-    if (score < evidence.score() - kMaxGap || rivals.size() == kCount) break;
+  for (const ScoredPose& pose : found) {
+    const RigidTransform& T = pose.second;
     const bool is_known =
+        agree(T, T_target_source, kNear) ||
         std::any_of(rivals.begin(), rivals.end(),
-                    [&, &pose = T](const auto& other) { return agree(other, pose, near); });
-    if (!is_known && !agree(T, T_target_source, near)) rivals.push_back(T);
+                    [&](const RigidTransform& other) { return agree(other, T, kNear); });
+    if (!is_known) rivals.push_back(T);
   }
   return rivals;
 }

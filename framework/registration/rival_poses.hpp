@@ -9,10 +9,10 @@
 namespace croon {
 
 /// Poses that may explain the views nearly as well as `T_target_source`, to be registered and
-/// compared with it (see lead_over): the `proposed` ones, and shifts of up to `max_shift_m` along
-/// the two directions in which the surfaces constrain the pose least, at which its score has local
-/// maxima, as along a row of equal niches. A score (PoseEvidence::score), from an eighth of the
-/// points, may be lower by 0.3 than at the pose itself. At most 10 poses, the best first, none near
+/// compared with it (see lead_over): those of the `proposed` ones whose score (PoseEvidence::score,
+/// from an eighth of the points) is at most 0.5 below that of the pose, and shifts of up to
+/// `max_shift_m` along the two directions in which the surfaces constrain the pose least, at which
+/// the score has its best local maxima, as along a row of equal niches. The best first, none near
 /// the pose or near each other.
 std::vector<RigidTransform> rival_poses(const SensorView& target, const SensorView& source,
                                         const RigidTransform& T_target_source,

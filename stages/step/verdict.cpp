@@ -22,7 +22,7 @@ struct Params {
   params::Slot<Icp> icp;
   double min_overlap_ratio = 0.15;
   double max_violation_ratio = 0.05;
-  double min_lead = 4.0;
+  double min_lead = 6.0;
   double max_shift_m = 10.0;
   double min_constraint_ratio = 0.01;
   double max_split_rotation_deg = 0.5;
@@ -202,6 +202,9 @@ class Verdict final : public Step {
     std::vector<RigidTransform> proposed;
     for (const Hypothesis& other : *hypotheses) proposed.push_back(other.T_target_source);
     const SearchRegion* const region = estimate.extras.find(kSearchRegion);
+    // Bounds for rivals; the right pose may be the one that overlaps less.
+    constexpr double kMaxViolationRatio = 0.1;
+    constexpr double kMaxScoreGap = 0.2;
     const auto points = part(source, 0, 2);
     std::optional<Rival> best;
     for (const RigidTransform& start :
@@ -209,7 +212,10 @@ class Verdict final : public Step {
       const RigidTransform T = refined_pose(start, target, *points);
       if (agree(T, estimate.T_target_source, kSameHypothesis)) continue;
       if (region != nullptr && !agree(T, region->start, region->bounds)) continue;
-      const std::optional<double> lead = lead_over(evidence, pose_evidence(target, source, T));
+      const PoseEvidence other = pose_evidence(target, source, T);
+      if (other.violation_ratio() > kMaxViolationRatio) continue;
+      if (other.score() < evidence.score() - kMaxScoreGap) continue;
+      const std::optional<double> lead = lead_over(evidence, other);
       if (lead && (!best || *lead < best->lead)) best = Rival{T, *lead};
     }
     return best;
