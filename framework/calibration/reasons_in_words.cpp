@@ -37,10 +37,6 @@ constexpr Translation kTranslations[] = {
      kMoreSharedView},
     {"the share of points in free space",
      "{1%} of the points lie in the other sensor's free space; at most {2%} is allowed.", kAtRest},
-    {"the lead over another pose",
-     "Another pose explains the clouds nearly as well: the lead over it is {1} standard "
-     "deviations; at least {2} are required.",
-     kOtherPlace},
     {"no surfaces touch", "No surface is seen by both sensors, so nothing constrains the pose.",
      kMoreSharedView},
     {"the rotation between two halves",
@@ -149,6 +145,20 @@ bool add_unconstrained(const std::string& reason, ReasonsInWords& result) {
   return true;
 }
 
+/// "the lead over a pose 3.0 m further along x, in standard deviations, is 1.200, below 4.000".
+bool add_rival(const std::string& reason, ReasonsInWords& result) {
+  const std::string start = "the lead over a pose ";
+  const std::size_t end = reason.find(", in standard deviations");
+  if (reason.compare(0, start.size(), start) != 0 || end == std::string::npos) return false;
+  result.reasons.push_back(
+      with_numbers("A pose " + reason.substr(start.size(), end - start.size()) +
+                       " explains the clouds nearly as well: the lead over it is {1} standard "
+                       "deviations; at least {2} are required.",
+                   numbers_in(reason.substr(end))));
+  add_once(result.advice, kOtherPlace);
+  return true;
+}
+
 /// `text` as a sentence.
 std::string sentence_of(std::string text) {
   if (text.empty()) return text;
@@ -166,7 +176,7 @@ std::string without_step(const std::string& reason) {
 
 void add_reason(const std::string& whole, ReasonsInWords& result) {
   const std::string reason = without_step(whole);
-  if (reason.empty() || add_unconstrained(reason, result)) return;
+  if (reason.empty() || add_unconstrained(reason, result) || add_rival(reason, result)) return;
   const auto* const found = std::find_if(std::begin(kTranslations), std::end(kTranslations),
                                          [&](const Translation& translation) {
                                            const std::string begins = translation.begins;

@@ -37,6 +37,10 @@ std::vector<Hypothesis> apart(std::vector<Hypothesis> poses) {
   return kept;
 }
 
+PoseBounds bounds_of(const HypothesisChoice& choice) {
+  return {rad_from_deg(choice.max_rotation_deg), choice.max_translation_m};
+}
+
 /// The refined poses with their scores, best first, no two near each other.
 std::vector<Hypothesis> judged(std::vector<Hypothesis> poses, const Estimate& estimate,
                                const HypothesisChoice& choice) {
@@ -45,7 +49,7 @@ std::vector<Hypothesis> judged(std::vector<Hypothesis> poses, const Estimate& es
   const auto source = shared_view(*estimate.source, choice.thinning);
   const auto sample = refinement_sample(*estimate.source, choice);
   std::vector<Hypothesis> refined;
-  const PoseBounds bounds{rad_from_deg(choice.max_rotation_deg), choice.max_translation_m};
+  const PoseBounds bounds = bounds_of(choice);
   for (const Hypothesis& pose : poses) {
     try {
       const RigidTransform T =
@@ -64,7 +68,7 @@ std::vector<Hypothesis> judged(std::vector<Hypothesis> poses, const Estimate& es
 params::DataFlow HypothesisChoice::flow() const {
   params::DataFlow flow = thinning.flow();
   flow.add(icp.flow());
-  flow.add(gives(kHypotheses));
+  flow.add(use_start ? gives(kHypotheses, kSearchRegion) : gives(kHypotheses));
   return flow;
 }
 
@@ -108,6 +112,9 @@ Estimate at_best(Estimate estimate, const std::vector<Hypothesis>& proposed,
                  const HypothesisChoice& choice) {
   std::vector<Hypothesis> poses = judged(proposed, estimate, choice);
   if (poses.empty()) throw StageError("no pose was found at which the clouds agree");
+  if (choice.use_start) {
+    estimate.extras.put(kSearchRegion, {estimate.T_target_source, bounds_of(choice)});
+  }
   estimate.set_pose(poses.front().T_target_source);
   estimate.diagnostics = {{"score", poses.front().score},
                           {"hypotheses", static_cast<double>(poses.size())}};

@@ -64,17 +64,23 @@ double visible_share(const PoseEvidence& evidence, Sight sight) {
                visible(evidence.source) + visible(evidence.target));
 }
 
-/// The points that are visible at both of two poses.
-struct Common {
+/// A visible point's vote for a pose.
+double vote(Sight sight) {
+  return sight == Sight::agrees ? 1.0 : sight == Sight::violates ? -1.0 : 0.0;
+}
+
+/// The votes of the points that are visible at both of two poses.
+struct Votes {
   double points = 0.0;
-  double first_alone = 0.0, other_alone = 0.0;  ///< Those that agree at only one of them.
+  double difference = 0.0, square_sum = 0.0;  ///< Of the votes for the first and for the other.
 
   void add(const std::vector<Sight>& first, const std::vector<Sight>& other) {
     for (std::size_t i = 0; i < first.size(); ++i) {
       if (!is_visible(first[i]) || !is_visible(other[i])) continue;
+      const double difference_here = vote(first[i]) - vote(other[i]);
       points += 1.0;
-      const bool agrees = first[i] == Sight::agrees;
-      if (agrees != (other[i] == Sight::agrees)) (agrees ? first_alone : other_alone) += 1.0;
+      difference += difference_here;
+      square_sum += difference_here * difference_here;
     }
   }
 };
@@ -95,13 +101,15 @@ double PoseEvidence::score() const {
 }
 
 std::optional<double> lead_over(const PoseEvidence& evidence, const PoseEvidence& other) {
-  Common common;
+  constexpr double kMinCommonShare = 0.4;
+  Votes common;
   common.add(evidence.source, other.source);
   common.add(evidence.target, other.target);
   const double visible_at_first = visible(evidence.source) + visible(evidence.target);
-  if (common.points == 0.0 || common.points < 0.5 * visible_at_first) return std::nullopt;
-  return (common.first_alone - common.other_alone) /
-         std::sqrt(std::max(1.0, common.first_alone + common.other_alone));
+  if (common.points == 0.0 || common.points < kMinCommonShare * visible_at_first) {
+    return std::nullopt;
+  }
+  return common.difference / std::sqrt(std::max(1.0, common.square_sum));
 }
 
 PoseEvidence pose_evidence(const SensorView& target, const SensorView& source,

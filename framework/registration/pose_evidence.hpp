@@ -37,11 +37,12 @@ PoseEvidence pose_evidence(const SensorView& target, const SensorView& source,
                            const RigidTransform& T_target_source);
 
 /// The lead, in standard deviations, of the evidence for a pose over that for `other`, a pose of
-/// the same two views: if a of the points that are visible at both poses agree only at the first
-/// and b only at the other, `(a - b) / sqrt(a + b)` is approximately standard normal if neither
-/// pose fits better (McNemar, Psychometrika 1947). Points that are visible at only one pose are
-/// ignored. std::nullopt if fewer than half of the points visible at the first are also visible at
-/// the other, because the two poses are then not comparable.
+/// the same two views. A point that agrees votes 1 for a pose, one that violates free space -1, and
+/// one that disagrees 0. Over the points that are visible at both poses, the sum of the differences
+/// between their votes, over the root of the sum of their squares, is approximately standard normal
+/// if neither pose fits better (without free space: McNemar, Psychometrika 1947). Points that are
+/// visible at only one pose are ignored. std::nullopt if fewer than 40 % of the points visible at
+/// the first are also visible at the other, because the two poses are then not comparable.
 std::optional<double> lead_over(const PoseEvidence& evidence, const PoseEvidence& other);
 
 }  // namespace croon

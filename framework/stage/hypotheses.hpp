@@ -21,4 +21,14 @@ inline const PoseBounds kSameHypothesis = {rad_from_deg(1.0), 0.3};
 inline constexpr Extra<std::vector<Hypothesis>> kHypotheses{
     "hypotheses", "the candidate poses of a global search"};
 
+/// The region to which a global search was restricted by an initial guess.
+struct SearchRegion {
+  RigidTransform start;
+  PoseBounds bounds;
+};
+
+/// Present only if a search was restricted; poses elsewhere are excluded by the initial guess.
+inline constexpr Extra<SearchRegion> kSearchRegion{
+    "search_region", "the region around the initial guess to which a search was restricted"};
+
 }  // namespace croon

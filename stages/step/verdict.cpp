@@ -7,6 +7,7 @@
 #include "framework/pipeline/shared_view.hpp"
 #include "framework/registration/constraint.hpp"
 #include "framework/registration/pose_evidence.hpp"
+#include "framework/registration/rival_poses.hpp"
 #include "framework/stage/hypotheses.hpp"
 #include "framework/stage/icp.hpp"
 #include "framework/stage/reasons.hpp"
@@ -21,7 +22,8 @@ struct Params {
   params::Slot<Icp> icp;
   double min_overlap_ratio = 0.15;
   double max_violation_ratio = 0.05;
-  double min_lead = 4.0;
+  double min_lead = 6.0;
+  double max_shift_m = 10.0;
   double min_constraint_ratio = 0.01;
   double max_split_rotation_deg = 0.5;
   double max_split_translation_m = 0.1;
@@ -44,9 +46,13 @@ const params::Table<Params>& table() {
                      "Minimum share of agreeing points among those that both sensors should see."),
       params::number("max_violation_ratio", &Params::max_violation_ratio, {0.0, 1.0},
                      "Maximum share of these points that lie in free space of the other sensor."),
-      params::number("min_lead", &Params::min_lead, {-1e3, 1e3},
-                     "Minimum McNemar z-score of the pose over each of the first three rivals that "
-                     "the search found, from the points visible at both poses."),
+      params::number(
+          "min_lead", &Params::min_lead, {-1e3, 1e3},
+          "Minimum lead of the pose over each of its rivals, in standard deviations, from "
+          "the points visible at both poses. Rivals are the other poses that a search "
+          "found, and shifts along weakly constrained directions."),
+      params::number("max_shift_m", &Params::max_shift_m, {0.0, 100.0},
+                     "Maximum shift of a rival that is looked for."),
       params::number("min_constraint_ratio", &Params::min_constraint_ratio, {0.0, 1.0},
                      "Minimum share of the points' mean squared motion that is normal to their "
                      "surfaces, in the least constrained direction.")
@@ -75,6 +81,12 @@ struct Halves {
   double translation_m = 0.0;
 };
 
+/// Another pose, and the lead over it.
+struct Rival {
+  RigidTransform T;
+  double lead = 0.0;
+};
+
 class Verdict final : public Step {
  public:
   explicit Verdict(Params params) : params_(std::move(params)) {}
@@ -88,16 +100,17 @@ class Verdict final : public Step {
     const std::vector<ConstraintDirection> held =
         constraint_directions(*target, *source, T, kContact_m);
     const Halves halves = halves_of(*target, *source, T, held);
-    const std::optional<double> lead = min_lead_over_rivals(evidence, estimate, *target, *source);
+    const std::optional<Rival> rival = best_rival(evidence, estimate, *target, *source);
     const double strength = held.empty() ? 0.0 : held.front().strength;
     Reasons reasons;
     reasons.need_at_least("the overlap with agreeing surfaces", evidence.overlap_ratio(),
                           params_.min_overlap_ratio);
     reasons.need_at_most("the share of points in free space", evidence.violation_ratio(),
                          params_.max_violation_ratio);
-    if (lead) {
-      reasons.need_at_least("the lead over another pose, in standard deviations,", *lead,
-                            params_.min_lead);
+    if (rival) {
+      reasons.need_at_least(
+          "the lead over a pose " + difference_in_words(rival->T, T) + ", in standard deviations,",
+          rival->lead, params_.min_lead);
     }
     add_loose(held, reasons);
     reasons.need_at_most("the rotation between two halves of the points, deg,",
@@ -113,7 +126,7 @@ class Verdict final : public Step {
                             {"strength_3", held.size() > 2 ? held[2].strength : 0.0},
                             {"halves_rotation_deg", deg_from_rad(halves.rotation_rad)},
                             {"halves_translation_m", halves.translation_m}};
-    if (lead) estimate.diagnostics.emplace_back("lead", *lead);
+    if (rival) estimate.diagnostics.emplace_back("lead", rival->lead);
     return estimate;
   }
 
@@ -180,29 +193,32 @@ class Verdict final : public Step {
     return worst;
   }
 
-  /// The minimum lead over the poses that a global search found elsewhere: the three with the most
-  /// evidence, except those that converge to this pose or lie in free space. std::nullopt if none
-  /// is left.
-  std::optional<double> min_lead_over_rivals(const PoseEvidence& evidence, const Estimate& estimate,
-                                             const SensorView& target,
-                                             const SensorView& source) const {
-    constexpr std::size_t kRefined = 3;
-    const std::vector<Hypothesis>* const others = estimate.extras.find(kHypotheses);
-    if (others == nullptr) return std::nullopt;
+  /// The pose away from that of `estimate` over which its lead is the least, if a global search
+  /// looked for poses. std::nullopt if no other pose is comparable.
+  std::optional<Rival> best_rival(const PoseEvidence& evidence, const Estimate& estimate,
+                                  const SensorView& target, const SensorView& source) const {
+    const std::vector<Hypothesis>* const hypotheses = estimate.extras.find(kHypotheses);
+    if (hypotheses == nullptr) return std::nullopt;
+    std::vector<RigidTransform> proposed;
+    for (const Hypothesis& other : *hypotheses) proposed.push_back(other.T_target_source);
+    const SearchRegion* const region = estimate.extras.find(kSearchRegion);
+    // Bounds for rivals; the right pose may be the one that overlaps less.
+    constexpr double kMaxViolationRatio = 0.1;
+    constexpr double kMaxScoreGap = 0.2;
     const auto points = part(source, 0, 2);
-    std::optional<double> min_lead;
-    std::size_t refined = 0;
-    for (const Hypothesis& other : *others) {
-      if (agree(other.T_target_source, estimate.T_target_source, kSameHypothesis)) continue;
-      if (++refined > kRefined) break;
-      const RigidTransform T = refined_pose(other.T_target_source, target, *points);
+    std::optional<Rival> best;
+    for (const RigidTransform& start :
+         rival_poses(target, source, estimate.T_target_source, proposed, params_.max_shift_m)) {
+      const RigidTransform T = refined_pose(start, target, *points);
       if (agree(T, estimate.T_target_source, kSameHypothesis)) continue;
-      const PoseEvidence rival_evidence = pose_evidence(target, source, T);
-      if (rival_evidence.violation_ratio() > params_.max_violation_ratio) continue;
-      const std::optional<double> lead = lead_over(evidence, rival_evidence);
-      if (lead) min_lead = std::min(*lead, min_lead.value_or(*lead));
+      if (region != nullptr && !agree(T, region->start, region->bounds)) continue;
+      const PoseEvidence other = pose_evidence(target, source, T);
+      if (other.violation_ratio() > kMaxViolationRatio) continue;
+      if (other.score() < evidence.score() - kMaxScoreGap) continue;
+      const std::optional<double> lead = lead_over(evidence, other);
+      if (lead && (!best || *lead < best->lead)) best = Rival{T, *lead};
     }
-    return min_lead;
+    return best;
   }
 
   /// The refined pose `T`, or `T` itself if too few points correspond.
@@ -227,7 +243,7 @@ StageEntry verdict() {
       "directions, and agreement between two halves of the points.",
       "croon; directions after Gelfand et al., 3DIM 2003; the lead "
       "after McNemar, Psychometrika 1947",
-      table(), 2);
+      table(), 3);
 }
 
 }  // namespace croon::stages::step

@@ -18,7 +18,8 @@
   KIND(empty, 1.5, "Weight of featureless places.")                       \
   KIND(narrow, 1.3, "Weight of alleys with walls close on both sides.")   \
   KIND(blocked, 1.5, "Weight of streets with a truck beside one sensor.") \
-  KIND(corridor, 1.0, "Weight of roads between long smooth walls.")
+  KIND(corridor, 1.0, "Weight of roads between long smooth walls.")       \
+  KIND(periodic, 0.0, "Weight of roads between equal niches, columns, racks or vehicles.")
 
 namespace croon::simulation {
 

@@ -192,5 +192,17 @@ TEST(ReasonsInWords, AreSentencesWithNumbersAndAdvice) {
   EXPECT_EQ(words.advice.size(), 3U);
 }
 
+TEST(ReasonsInWords, NameTheRival) {
+  const ReasonsInWords words = reasons_in_words(
+      "verdict: the lead over a pose 3.0 m further along -x, in standard deviations, is -0.125, "
+      "below 4.000",
+      std::nullopt);
+  ASSERT_EQ(words.reasons.size(), 1U);
+  EXPECT_EQ(words.reasons[0],
+            "A pose 3.0 m further along -x explains the clouds nearly as well: the lead over it is "
+            "-0.125 standard deviations; at least 4 are required.");
+  EXPECT_EQ(words.advice.size(), 1U);
+}
+
 }  // namespace
 }  // namespace croon::test

@@ -83,10 +83,19 @@ TEST(PoseEvidence, LeadsByWhatAgreesAtOnePoseAlone) {
   EXPECT_DOUBLE_EQ(lead_over(more, fewer).value(), 5.0);
   EXPECT_DOUBLE_EQ(lead_over(fewer, more).value(), -5.0);
   EXPECT_EQ(lead_over(more, more).value(), 0.0);
-  // What is unseen at one of the poses does not count, and half must be seen at both.
+  // What is unseen at one of the poses does not count, and 40 % must be seen at both.
   EXPECT_DOUBLE_EQ(lead_over(more, evidence_of(50, 16, 34)).value(), 4.0);
-  EXPECT_FALSE(lead_over(more, evidence_of(49, 0, 51)));
+  EXPECT_TRUE(lead_over(more, evidence_of(40, 0, 60)));
+  EXPECT_FALSE(lead_over(more, evidence_of(39, 0, 61)));
   EXPECT_FALSE(lead_over(evidence_of(0, 0, 100), more));
+}
+
+TEST(PoseEvidence, LeadsByFreeSpaceToo) {
+  const PoseEvidence free = evidence_of(50, 25, 0);
+  PoseEvidence violated = free;
+  std::fill_n(violated.source.begin() + 50, 25, Sight::violates);
+  EXPECT_DOUBLE_EQ(lead_over(free, violated).value(), 5.0);
+  EXPECT_DOUBLE_EQ(lead_over(violated, free).value(), -5.0);
 }
 
 /// The floor and the walls of a room that looks the same after half a turn about z, as a sensor at

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "framework/base/angles.hpp"
 #include "framework/base/error.hpp"
 #include "framework/pipeline/pipeline.hpp"
@@ -117,7 +120,77 @@ TEST(Verdict, RejectsAPoseWithARivalThatFitsAsWell) {
   estimate.extras.put(kHypotheses, {{estimate.T_target_source, 1.0}, {turned, 1.0}});
   const auto rejection = verdict()->advance(estimate, rng).rejection;
   ASSERT_TRUE(rejection);
-  EXPECT_NE(rejection->find("the lead over another pose"), std::string::npos) << *rejection;
+  EXPECT_NE(rejection->find("the lead over a pose turned by 180 degrees"), std::string::npos)
+      << *rejection;
+}
+
+/// The ground and two walls along x with niches whose edges are at `edges_m`, ascending.
+Points niches(Rng& rng, const std::vector<double>& edges_m) {
+  Points points;
+  const double length_m = edges_m.back() - edges_m.front();
+  for (int i = 0; i < 40000; ++i) {
+    const double x = edges_m.front() + length_m * rng.uniform();
+    const double z = rng.uniform(-2.0, 3.0);
+    const double side = i % 2 == 0 ? 1.0 : -1.0;
+    const auto next = std::upper_bound(edges_m.begin(), edges_m.end() - 1, x);
+    const bool is_deep = (next - edges_m.begin()) % 2 == 0;
+    Eigen::Vector3d point{x, side * (is_deep ? 4.8 : 4.0), z};
+    if (i % 4 == 0) point = {x, rng.uniform(-4.0, 4.0), -2.0};
+    if (i % 4 == 1) point = {*next, side * rng.uniform(4.0, 4.8), z};
+    points.push_back(point.cast<float>());
+  }
+  return points;
+}
+
+/// The verdict on the truth between two sensors at the same place.
+Estimate judged_between(Rng& rng, const std::vector<double>& edges_m) {
+  const Points target = niches(rng, edges_m);
+  Estimate estimate = estimate_of(target, niches(rng, edges_m), {});
+  estimate.extras.put(kHypotheses, {{estimate.T_target_source, 1.0}});
+  return verdict()->advance(estimate, rng);
+}
+
+TEST(Verdict, NamesTheShiftAlongAPeriodicStreet) {
+  Rng rng = test::test_rng(9);
+  for (int street = 0; street < 5; ++street) {
+    const double period_m = rng.uniform(2.0, 4.5);
+    std::vector<double> edges_m;
+    for (double x = -25.0; x < 25.0; x += 0.5 * period_m) edges_m.push_back(x);
+    const auto rejection = judged_between(rng, edges_m).rejection;
+    ASSERT_TRUE(rejection) << "period " << period_m;
+    const std::string begins = "the lead over a pose ";
+    const std::size_t at = rejection->find(begins);
+    ASSERT_NE(at, std::string::npos) << *rejection;
+    EXPECT_TRUE(rejection->find("m further along x,") != std::string::npos ||
+                rejection->find("m further along -x,") != std::string::npos)
+        << *rejection;
+    const double shift_m = std::stod(rejection->substr(at + begins.size()));
+    EXPECT_NEAR(std::remainder(shift_m, period_m), 0.0, 0.15) << *rejection;
+  }
+}
+
+TEST(Verdict, FindsNoRivalIfNichesAreAtUnequalDistances) {
+  Rng rng = test::test_rng(10);
+  for (int street = 0; street < 5; ++street) {
+    std::vector<double> edges_m;
+    for (double x = -25.0; x < 25.0; x += rng.uniform(0.6, 4.0)) edges_m.push_back(x);
+    const Estimate judged = judged_between(rng, edges_m);
+    EXPECT_FALSE(judged.rejection) << *judged.rejection;
+  }
+}
+
+TEST(Verdict, LeavesOutRivalsThatTheInitialGuessExcludes) {
+  Rng rng = test::test_rng(11);
+  std::vector<double> edges_m;
+  for (double x = -25.0; x < 25.0; x += 1.5) edges_m.push_back(x);
+  const Points target = niches(rng, edges_m);
+  Estimate estimate = estimate_of(target, niches(rng, edges_m), {});
+  estimate.extras.put(kHypotheses, {{estimate.T_target_source, 1.0}});
+  for (const double bound_m : {1.0, 4.0}) {
+    estimate.extras.put(kSearchRegion, {{}, {rad_from_deg(30.0), bound_m}});
+    const auto rejection = verdict()->advance(estimate, rng).rejection;
+    EXPECT_EQ(rejection.has_value(), bound_m > 3.0) << rejection.value_or("");
+  }
 }
 
 TEST(Verdict, IsNotMisledByRivalsThatFitWorse) {
