@@ -34,8 +34,9 @@ class RigStep : public Step {
   /// them. Draws only from `rng`. Throws StageError if the data defeat it for all estimates.
   virtual void adjust(std::vector<RigEstimate>& rig, Rng& rng) const = 0;
 
-  /// Whether `adjust` also receives the estimates for which an earlier step has failed, as they were
-  /// before that step and with its failure. It may clear the failure of those that it can repair.
+  /// Whether `adjust` also receives the estimates for which an earlier step has failed, as they
+  /// were before that step and with its failure. It may clear the failure of those that it can
+  /// repair.
   virtual bool sees_failures() const { return false; }
 
   /// `adjust` for a rig of one estimate with empty names. Throws StageError if `adjust` does or if

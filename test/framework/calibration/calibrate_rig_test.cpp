@@ -159,13 +159,13 @@ TEST(CalibrateRig, RefusesWhatCannotBeCalibrated) {
 TEST(Composition, AlwaysEndsWithAVerdictAndACovariance) {
   const TempFolder folder;
   const std::string file = folder.write("p.json", R"([{"step": "registration"}])").string();
-  const Composition composition = composition_called(file, registry());
+  const Composition composition = composition_called(file, {0.5, 1.0}, registry());
   ASSERT_EQ(composition.from_nothing.size(), 3U);
   EXPECT_EQ(composition.from_nothing[1].name, "verdict");
   EXPECT_EQ(composition.from_nothing[2].name, "covariance");
   EXPECT_EQ(composition.near_nominal.size(), 3U);
   for (const std::string& name : recommended_pipeline_names()) {
-    EXPECT_EQ(composition_called(name, registry()).name, name);
+    EXPECT_EQ(composition_called(name, {0.5, 1.0}, registry()).name, name);
   }
 }
 
