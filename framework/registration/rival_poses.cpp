@@ -14,7 +14,7 @@ namespace croon {
 namespace {
 
 constexpr double kShiftStep_m = 0.25;
-constexpr std::size_t kMaxima = 6;  // Along each direction.
+constexpr std::size_t kMaxima = 5;  // Along each direction.
 // Shifts are known to half a step, and a registration from there ends within centimetres.
 const PoseBounds kNear = {rad_from_deg(1.0), 1.2 * kShiftStep_m};
 

@@ -75,6 +75,9 @@ const params::Table<Params>& table() {
   return table;
 }
 
+/// Maximum distance between surfaces in contact.
+constexpr double kContact_m = 0.3;
+
 /// Maximum distances between the pose and the poses of two disjoint halves of the points.
 struct Halves {
   double rotation_rad = 0.0;
@@ -96,7 +99,6 @@ class Verdict final : public Step {
     const auto source = shared_view(*estimate.source, params_.thinning);
     const RigidTransform T = estimate.T_target_source;
     const PoseEvidence evidence = pose_evidence(*target, *source, T);
-    constexpr double kContact_m = 0.3;
     const std::vector<ConstraintDirection> held =
         constraint_directions(*target, *source, T, kContact_m);
     const Halves halves = halves_of(*target, *source, T, held);
@@ -205,7 +207,7 @@ class Verdict final : public Step {
     // Bounds for rivals; the right pose may be the one that overlaps less.
     constexpr double kMaxViolationRatio = 0.1;
     constexpr double kMaxScoreGap = 0.2;
-    const auto points = part(source, 0, 2);
+    const auto points = part(source, 0, 3);
     std::optional<Rival> best;
     for (const RigidTransform& start :
          rival_poses(target, source, estimate.T_target_source, proposed, params_.max_shift_m)) {
@@ -216,9 +218,21 @@ class Verdict final : public Step {
       if (other.violation_ratio() > kMaxViolationRatio) continue;
       if (other.score() < evidence.score() - kMaxScoreGap) continue;
       const std::optional<double> lead = lead_over(evidence, other);
-      if (lead && (!best || *lead < best->lead)) best = Rival{T, *lead};
+      if (!lead || (best && *lead >= best->lead)) continue;
+      if (*lead < params_.min_lead && !is_determined(T, target, source)) continue;
+      best = Rival{T, *lead};
     }
     return best;
+  }
+
+  /// Whether two halves of the points agree on the pose of a rival. Along a highway, poses slide
+  /// and have about the same evidence everywhere, but only near the right one do the halves agree.
+  bool is_determined(const RigidTransform& T, const SensorView& target,
+                     const SensorView& source) const {
+    const Halves halves =
+        halves_of(target, source, T, constraint_directions(target, source, T, kContact_m));
+    return halves.rotation_rad <= rad_from_deg(params_.max_split_rotation_deg) &&
+           halves.translation_m <= params_.max_split_translation_m;
   }
 
   /// The refined pose `T`, or `T` itself if too few points correspond.
