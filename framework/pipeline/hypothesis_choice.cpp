@@ -109,7 +109,10 @@ std::shared_ptr<const SensorView> view_of(const Cloud& cloud, const HypothesisCh
 
 Estimate at_best(Estimate estimate, const std::vector<Hypothesis>& proposed,
                  const HypothesisChoice& choice) {
-  std::vector<Hypothesis> poses = judged(proposed, estimate, choice);
+  std::vector<Hypothesis> candidates = proposed;
+  // Along a periodic street, all proposals may be elsewhere.
+  if (choice.use_start) candidates.push_back({estimate.T_target_source, 0.0});
+  std::vector<Hypothesis> poses = judged(candidates, estimate, choice);
   if (poses.empty()) throw StageError("no pose was found at which the clouds agree");
   if (choice.use_start) {
     estimate.extras.put(kSearchRegion, {estimate.T_target_source, bounds_of(choice)});

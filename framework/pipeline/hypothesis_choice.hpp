@@ -41,10 +41,10 @@ void require_points(const Cloud& cloud, const char* whose);
 std::shared_ptr<const SensorView> view_of(const Cloud& cloud, const HypothesisChoice& choice,
                                           const char* whose);
 
-/// The estimate at the best of `proposed` (their scores are ignored): each pose is refined, scored
-/// by pose_evidence, and discarded if it is near a better one or, with `use_start`, far from the
-/// start. The remaining poses become the extra `hypotheses`; the diagnostics are their number and
-/// the two best scores. Throws StageError if none remains.
+/// The estimate at the best of `proposed` (their scores are ignored) and, with `use_start`, of the
+/// start: each pose is refined, scored by pose_evidence, and discarded if it is near a better one
+/// or, with `use_start`, far from the start. The remaining poses become the extra `hypotheses`; the
+/// diagnostics are their number and the two best scores. Throws StageError if none remains.
 Estimate at_best(Estimate estimate, const std::vector<Hypothesis>& proposed,
                  const HypothesisChoice& choice);
 
