@@ -89,7 +89,7 @@ TEST(Svg, EveryElementIsClosedAndTextIsEscaped) {
   EXPECT_EQ(svg.substr(svg.find("</style>\n")),
             "</style>\n"
             "<text x=\"1\" y=\"2\" text-anchor=\"end\" class=\"small\" "
-            "transform=\"rotate(-90 1 2)\">a&lt;b &amp; &quot;c&quot; </text>\n"
+            "transform=\"rotate(-90 1 2)\">a&lt;b &amp; &quot;c&quot;\n</text>\n"
             "<line x1=\"0\" y1=\"1\" x2=\"2\" y2=\"3\" class=\"grid\"/>\n"
             "<rect x=\"0\" y=\"0\" width=\"1\" height=\"1\" class=\"box c1\"/>\n"
             "<circle cx=\"5\" cy=\"5\" r=\"1.5\" class=\"dot c2\"/>\n"

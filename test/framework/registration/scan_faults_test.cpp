@@ -35,12 +35,14 @@ TEST(ScanFaults, EstimatesTheScaleAndTheOffsetOfRanges) {
       const ScanFaults faults = faults_of(
           seed, [&](const Eigen::Vector3f& point) { return longer(point, scale, offset_m); });
       const RangeDifference& range = faults.range;
+      // The number of deviations beyond which a fault counts.
+      const double deviations = 5.0;
       // Points near edges touch surfaces that they are not on, which makes estimates too small.
       const double bias = 0.25;
       EXPECT_NEAR(range.scale, scale,
-                  3.0 * std::sqrt(range.covariance(0, 0)) + bias * std::abs(scale));
+                  deviations * std::sqrt(range.covariance(0, 0)) + bias * std::abs(scale));
       EXPECT_NEAR(range.offset_m, offset_m,
-                  3.0 * std::sqrt(range.covariance(1, 1)) + bias * std::abs(offset_m));
+                  deviations * std::sqrt(range.covariance(1, 1)) + bias * std::abs(offset_m));
       EXPECT_GT(faults.surfaces, 20.0);
     }
   }

@@ -114,7 +114,7 @@ TEST(SensorGraph, RejectsSensorsThatContradictEachOther) {
 TEST(SensorGraph, DoesNotCompareCloudsFromWhichMotionWasRemovedAtAWrongPose) {
   StreetRig rig = street_rig();
   for (RigEstimate& one : rig.estimates) {
-    one.estimate.extras.put(kMotion, Twist{{}, {5.0, 0.0, 0.0}});
+    one.estimate.extras.put(kMotion, Twist{Eigen::Vector3d::Zero(), {5.0, 0.0, 0.0}});
   }
   connect(rig.estimates);
   EXPECT_TRUE(rig.rear().estimate.rejection);
