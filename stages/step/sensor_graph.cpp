@@ -34,7 +34,7 @@ const params::Table<Params>& table() {
           "pair", &Params::pair,
           R"([{"step": "global_alignment"}, )"
           R"({"step": "registration", "icp": {"type": "nicp", "max_distances_m": [0.5, 0.3]}}, )"
-          R"({"step": "registration", "name": "fine_registration", "icp": {"type": "gicp", )"
+          R"({"step": "registration", "icp": {"type": "gicp", )"
           R"("normal_neighbours": 10, "direction_balance": 0.5, "max_distances_m": [0.3], )"
           R"("kernel_width_m": 0.05}}, )"
           R"({"step": "verdict", "max_split_rotation_deg": 1.0}, {"step": "covariance"}])",

@@ -89,7 +89,8 @@ TEST_P(ContractOfParameters, ResolvedJsonBuildsTheSame) {
   for (const ParameterDoc& parameter : entry().parameters) {
     if (parameter.is_optional) continue;
     ASSERT_TRUE(stage.contains(parameter.key)) << parameter.key;
-    const bool is_slot = parameter.type == ParameterType::stage;
+    const bool is_slot =
+        parameter.type == ParameterType::stage || parameter.type == ParameterType::stages;
     if (parameter.is_required || is_slot) continue;
     EXPECT_EQ(stage[parameter.key], default_value(parameter)) << parameter.key;
   }

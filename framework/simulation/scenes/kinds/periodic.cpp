@@ -153,7 +153,9 @@ World make_periodic(const CarBody& car, const StreamKey& key) {
       is_long ? Span{-140.0, 140.0} : Span{-rng.uniform(8.0, 50.0), rng.uniform(8.0, 50.0)};
   const std::size_t only = rng.below(2);
   SceneBuilder builder(draw_level_road(rows, rng), key);
-  builder.put_car({0.0, 0.0, rad_from_deg(rng.uniform(-2.0, 2.0))}, car, rng.uniform(0.0, 6.0));
+  const double heading_rad = rad_from_deg(rng.uniform(-2.0, 2.0));
+  const double speed_mps = rng.uniform(0.0, 6.0);
+  builder.put_car({0.0, 0.0, heading_rad}, car, speed_mps);
   if (is_hall) add_hall(builder, along_m, rows, has_ceiling);
   const std::array<Roadside, 2> sides = both_sides();
   for (std::size_t i = 0; i < 2; ++i) {
