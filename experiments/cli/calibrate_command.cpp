@@ -240,6 +240,10 @@ int calibrate_command(const CalibrateOptions& given, const Catalogue& catalogue,
                       std::ostream& err) {
   const CalibrateOptions options = with_file(given);
   check_formats(options.formats);
+  if (options.nominal.empty() && (options.nominal_std_deg || options.nominal_std_m)) {
+    throw InputError("", "--nominal-std-deg, --nominal-std-m",
+                     "expected nominal poses (--nominal)");
+  }
   RecordedScenes recorded = scenes_of(options);
   const std::vector<std::string> about_nominal = set_nominal(recorded.scenes, options.nominal);
   std::optional<RigidTransform> T_base_reference;

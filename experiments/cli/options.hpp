@@ -1,12 +1,14 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 
 namespace croon::experiments {
 
@@ -36,7 +38,13 @@ CLI::Option* add_path(CLI::App& command, const std::string& name, T& option,
 template <class Number>
 void add_number(CLI::App& command, const std::string& name, std::optional<Number>& option,
                 Number min, Number max, const std::string& sentence) {
-  command.add_option(name, option, sentence)->check(CLI::Range(min, max));
+  // Range accepts NaN.
+  const auto why_no_number = [](const std::string& text) {
+    const bool has_digit =
+        std::any_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+    return has_digit ? std::string() : "expected a number, found \"" + printable(text) + "\"";
+  };
+  command.add_option(name, option, sentence)->check(why_no_number)->check(CLI::Range(min, max));
 }
 
 /// EXPERIMENT and --with.

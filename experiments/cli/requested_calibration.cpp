@@ -55,15 +55,21 @@ std::vector<std::string> set_nominal(std::vector<Scene>& scenes, const std::stri
   std::vector<std::string> missing;
   if (nominal.empty()) return missing;
   const std::string& reference = scenes.front().reference.sensor;
-  const Extrinsics poses = in_frame_of_sensor(read_extrinsics(nominal), reference, nominal);
+  Extrinsics read = read_extrinsics(nominal);
+  // The parent may be a sensor that is not the reference.
+  const std::vector<std::string> names = sensor_names(scenes);
+  if (std::find(names.begin(), names.end(), read.parent) != names.end()) {
+    read.poses.push_back({read.parent, RigidTransform()});
+  }
+  const Extrinsics poses = in_frame_of_sensor(read, reference, nominal);
   std::vector<std::string> known;
   for (const ExtrinsicPose& pose : poses.poses) known.push_back(pose.sensor);
-  const std::vector<std::string> names = sensor_names(scenes);
   for (const std::string& name : names) {
     const auto pose = std::find_if(poses.poses.begin(), poses.poses.end(),
                                    [&](const ExtrinsicPose& one) { return one.sensor == name; });
     if (pose == poses.poses.end()) {
-      missing.push_back("has no pose of the sensor " + in_quotes(name) + name_hint(name, known));
+      missing.push_back("has no pose of " + in_quotes(name) +
+                        ", which is calibrated without one; it has poses of " + list_text(known));
       continue;
     }
     for (Scene& scene : scenes) {
@@ -71,7 +77,11 @@ std::vector<std::string> set_nominal(std::vector<Scene>& scenes, const std::stri
       if (i < scene.sensors.size()) scene.sensors[i].nominal = pose->T_parent_sensor;
     }
   }
-  if (missing.size() == names.size()) throw InputError(nominal, "", missing.front());
+  if (missing.size() == names.size()) {
+    throw InputError(nominal, "",
+                     "expected a pose of " + in_quotes(names.front()) + ", found none" +
+                         name_hint(names.front(), known));
+  }
   for (std::string& line : missing) line = "The file " + in_quotes(nominal) + " " + line + ".";
   return missing;
 }

@@ -137,6 +137,7 @@ std::size_t accepted_of(const std::vector<CalibratedSensor>& sensors) {
 struct Outcome {
   std::vector<CalibratedSensor> sensors;
   std::vector<MemberResult> members;
+  std::vector<std::string> warnings;
 };
 
 /// Sets the nominal poses as initial guesses of the members of rejected sensors. Returns whether
@@ -156,7 +157,8 @@ bool start_near_nominal(std::vector<CalibrationMember>& members, const RigInput&
 }
 
 /// Calibrates without initial guesses, so that a wrong nominal pose cannot hide a rival; rejected
-/// sensors are tried again near their nominal poses. A guess near a nominal pose is the better one.
+/// sensors are tried again near their nominal poses. If that does not help, the first result and
+/// its reasons stay: the nominal pose may be wrong.
 Outcome outcome_of(const Composition& composition, const RigInput& input,
                    const std::vector<std::string>& names, std::uint64_t seed,
                    const StepProgress& progress) {
@@ -169,7 +171,14 @@ Outcome outcome_of(const Composition& composition, const RigInput& input,
   Outcome again;
   again.members = run_rig(composition, members, seed, progress);
   again.sensors = sensor_results(input, again.members, names);
-  return accepted_of(again.sensors) >= accepted_of(outcome.sensors) ? again : outcome;
+  if (accepted_of(again.sensors) <= accepted_of(outcome.sensors)) return outcome;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (outcome.sensors[i].is_accepted || !again.sensors[i].is_accepted) continue;
+    again.warnings.push_back(printable(names[i]) +
+                             " is accepted near its nominal pose only; poses farther from it were "
+                             "not ruled out");
+  }
+  return again;
 }
 
 /// Computes the pose of the reference above the road and the heading of the rig.
@@ -312,6 +321,7 @@ CalibratedRig calibrated(const std::vector<Scene>& scenes, const CalibrationOpti
   reject_scan_faults(rig, input.members, outcome.members);
   set_nominal(rig.sensors, scenes);
   set_ground(rig, input, options.seed);
+  rig.warnings.insert(rig.warnings.end(), outcome.warnings.begin(), outcome.warnings.end());
   const std::vector<std::string> about_rig = warnings_about_rig(rig);
   rig.warnings.insert(rig.warnings.end(), about_rig.begin(), about_rig.end());
   progress("done", 1.0);

@@ -142,7 +142,9 @@ std::vector<std::string> warnings_about_rig(const CalibratedRig& rig) {
   bool is_one_scene = false;
   for (const CalibratedSensor& sensor : rig.sensors) {
     const std::string name = printable(sensor.sensor);
-    if (sensor.nominal) nominal.push_back({name, *sensor.nominal});
+    const bool is_as_nominal = sensor.is_accepted && sensor.nominal && sensor.T_reference_sensor &&
+                               is_same_pose(*sensor.nominal, *sensor.T_reference_sensor);
+    if (sensor.nominal && !is_as_nominal) nominal.push_back({name, *sensor.nominal});
     for (const SceneEstimate& scene : sensor.scenes) {
       if (!scene.is_outlier) continue;
       warnings.push_back("scene " + printable(scene.scene) + " is not used for " + name +
@@ -150,7 +152,9 @@ std::vector<std::string> warnings_about_rig(const CalibratedRig& rig) {
     }
     if (!sensor.is_accepted || !sensor.T_reference_sensor) continue;
     results.push_back({name, *sensor.T_reference_sensor});
-    is_one_scene = is_one_scene || sensor.scenes.size() == 1;
+    const auto is_accepted_in = [](const SceneEstimate& scene) { return scene.reason.empty(); };
+    is_one_scene = is_one_scene ||
+                   std::count_if(sensor.scenes.begin(), sensor.scenes.end(), is_accepted_in) == 1;
   }
   warn_of_same_poses(nominal, "has a nominal pose of zero: is it a placeholder?",
                      "have the same nominal pose: is one of them a placeholder?", warnings);

@@ -83,7 +83,9 @@ void adjust_all(Rig& rig, const RigStep& step, const std::string& name, const St
   for (RigMember& member : rig) {
     const bool is_live = member.result.failure.empty();
     if (is_live && live == nullptr) live = &member;
-    if (is_live || step.sees_failures()) seen.push_back(&member);
+    // A cloud that could not be read is null.
+    const bool has_clouds = member.result.estimate.target && member.result.estimate.source;
+    if (is_live || (step.sees_failures() && has_clouds)) seen.push_back(&member);
   }
   if (live == nullptr) return;
   const OwnTime time;
@@ -93,7 +95,9 @@ void adjust_all(Rig& rig, const RigStep& step, const std::string& name, const St
     step.adjust(estimates, rng);
   } catch (const StageError& error) {
     estimates = estimates_of(seen, rig);
-    for (RigEstimate& estimate : estimates) estimate.failure = error.what();
+    for (RigEstimate& estimate : estimates) {
+      if (estimate.failure.empty()) estimate.failure = error.what();
+    }
   }
   const bool is_kept =
       std::equal(estimates.begin(), estimates.end(), seen.begin(), seen.end(),
@@ -103,13 +107,19 @@ void adjust_all(Rig& rig, const RigStep& step, const std::string& name, const St
   if (!is_kept) {
     throw std::logic_error("the step \"" + name + "\" changed the number or order of estimates");
   }
-  const double seconds = time.seconds() / static_cast<double>(seen.size());
+  const auto stays_failed = [&](std::size_t i) {
+    return !seen[i]->result.failure.empty() && !estimates[i].failure.empty();
+  };
+  std::size_t recorded = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) recorded += stays_failed(i) ? 0 : 1;
+  const double seconds = time.seconds() / static_cast<double>(recorded);
   const RigMember live_before = *live;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    if (!seen[i]->result.failure.empty()) {
-      if (!estimates[i].failure.empty()) continue;
-      repair(*seen[i], live_before);
+    if (stays_failed(i)) {
+      seen[i]->result.failure = estimates[i].failure;
+      continue;
     }
+    if (!seen[i]->result.failure.empty()) repair(*seen[i], live_before);
     update_member(*seen[i], name, std::move(estimates[i]), seconds);
   }
 }

@@ -35,8 +35,8 @@ class RigStep : public Step {
   virtual void adjust(std::vector<RigEstimate>& rig, Rng& rng) const = 0;
 
   /// Whether `adjust` also receives the estimates for which an earlier step has failed, as they
-  /// were before that step and with its failure. It may clear the failure of those that it can
-  /// repair.
+  /// were before that step and with its failure, if they have both clouds. It may clear the failure
+  /// of those that it can repair, and add to that of others.
   virtual bool sees_failures() const { return false; }
 
   /// `adjust` for a rig of one estimate with empty names. Throws StageError if `adjust` does or if

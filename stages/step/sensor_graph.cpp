@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
 #include "framework/base/text.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/pipeline/pipeline.hpp"
 #include "framework/pipeline/shared_view.hpp"
 #include "framework/registration/pose_evidence.hpp"
+#include "framework/stage/given_motions.hpp"
 #include "framework/stage/hypotheses.hpp"
 #include "framework/stage/motion.hpp"
 #include "framework/stage/reasons.hpp"
@@ -28,8 +30,24 @@ struct Params {
   double max_violation_ratio = 0.1;
 };
 
-const params::Table<Params>& table() {
-  static const params::Table<Params> table = {
+bool gives_covariance(const Params& params) {
+  return std::any_of(params.pair.begin(), params.pair.end(), [](const auto& step) {
+    const std::vector<params::ExtraDoc>& gives = step.flow().gives;
+    return std::any_of(gives.begin(), gives.end(), [](const params::ExtraDoc& extra) {
+      return extra.name == kCovariance.name;
+    });
+  });
+}
+
+/// Files of velocities are read for the steps of the pipeline only.
+bool reads_velocities(const Params& params) {
+  return std::any_of(params.pair.begin(), params.pair.end(), [](const auto& step) {
+    return dynamic_cast<const GivenMotionStep*>(&*step) != nullptr;
+  });
+}
+
+params::Table<Params> graph_rows() {
+  return {
       params::slots<Step>(
           "pair", &Params::pair,
           R"([{"step": "global_alignment"}, )"
@@ -52,6 +70,14 @@ const params::Table<Params>& table() {
                      "Maximum share of the points of two accepted sensors that lie in the free "
                      "space of the other; beyond it one of the two is wrong."),
   };
+}
+
+const params::Table<Params>& table() {
+  static const params::Table<Params> table =
+      graph_rows()
+          .require(gives_covariance, "pair must have a step that gives a covariance")
+          .require([](const Params& params) { return !reads_velocities(params); },
+                   "pair must not have a step that reads velocities");
   return table;
 }
 
@@ -108,13 +134,12 @@ class SceneGraph {
       }
       const std::size_t most = n == 0 ? 0 : *std::max_element(counts.begin(), counts.end());
       if (most == 0) return;
-      for (std::size_t i = 0; i < n; ++i) {
-        if (counts[i] == most) is_out[i] = true;
-      }
+      const std::vector<bool> was_out = is_out;
       for (std::size_t i = 0; i < n; ++i) {
         if (counts[i] != most) continue;
+        is_out[i] = true;
         std::size_t other = 0;
-        while (other == i || !contradicts(i, other)) ++other;
+        while (other == i || was_out[other] || !contradicts(i, other)) ++other;
         reject(*connected_[i], *connected_[other],
                violations[std::min(i, other)][std::max(i, other)]);
       }
@@ -180,13 +205,9 @@ class SceneGraph {
     const PoseBounds bounds = {rad_from_deg(params_.max_rotation_deg), params_.max_translation_m};
     const Edge* best = edges.front();
     for (const Edge* const edge : edges) {
-      if (!agree(edge->T_reference_to(), edges.front()->T_reference_to(), bounds)) {
-        const PoseError apart = pose_error(edge->T_reference_to(), edges.front()->T_reference_to());
-        sensor.estimate.rejection = with_reason(
-            sensor.estimate.rejection,
-            "the poses by way of " + edges.front()->from->source + " and " + edge->from->source +
-                " differ by " + fixed_number(deg_from_rad(apart.rotation_rad), 3) +
-                " degrees and " + fixed_number(apart.translation_m, 3) + " m");
+      for (const Edge* const other : edges) {
+        if (agree(edge->T_reference_to(), other->T_reference_to(), bounds)) continue;
+        refuse(sensor, *edge, *other);
         return false;
       }
       if (edge->covariance().matrix.trace() < best->covariance().matrix.trace()) best = edge;
@@ -202,11 +223,31 @@ class SceneGraph {
     return true;
   }
 
+  /// Adds the contradiction of two edges to the failure or the rejection of `sensor`.
+  static void refuse(RigEstimate& sensor, const Edge& a, const Edge& b) {
+    const PoseError apart = pose_error(a.T_reference_to(), b.T_reference_to());
+    const std::string reason = "the poses by way of " + a.from->source + " and " + b.from->source +
+                               " differ by " + fixed_number(deg_from_rad(apart.rotation_rad), 3) +
+                               " degrees and " + fixed_number(apart.translation_m, 3) + " m";
+    if (sensor.failure.empty()) {
+      sensor.estimate.rejection = with_reason(sensor.estimate.rejection, reason);
+    } else {
+      sensor.failure = with_reason(sensor.failure, reason);
+    }
+  }
+
+  /// The share of the points of two sensors that lie in each other's free space; 0 if a cloud
+  /// cannot be compared.
   double violation_ratio(const RigEstimate& a, const RigEstimate& b) const {
-    return pose_evidence(*shared_view(*a.estimate.source, params_.thinning),
-                         *shared_view(*b.estimate.source, params_.thinning),
-                         a.estimate.T_target_source.inverse() * b.estimate.T_target_source)
-        .violation_ratio();
+    try {
+      const RigidTransform T_a_b =
+          a.estimate.T_target_source.inverse() * b.estimate.T_target_source;
+      return pose_evidence(*shared_view(*a.estimate.source, params_.thinning),
+                           *shared_view(*b.estimate.source, params_.thinning), T_a_b)
+          .violation_ratio();
+    } catch (const StageError&) {
+      return 0.0;
+    }
   }
 
   void reject(RigEstimate& sensor, const RigEstimate& other, double violation_ratio) const {

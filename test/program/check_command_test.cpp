@@ -59,7 +59,7 @@ TEST(CheckCommand, RefusesAFileWithoutThePoses) {
                                .string();
   const Answer answer = check(file, {"left"});
   EXPECT_EQ(answer.code, 2);
-  EXPECT_NE(answer.text.find("has no pose of the sensor \"left\"; did you mean \"lft\"?"),
+  EXPECT_NE(answer.text.find("expected a pose of \"left\", found none; did you mean \"lft\"?"),
             std::string::npos)
       << answer.text;
   EXPECT_EQ(check("not_there.json", {"left"}).code, 2);

@@ -95,6 +95,14 @@ TEST(Rig, AStepThatSeesFailuresCanRepairThem) {
   EXPECT_EQ(rig[1].result.records[1].name, "repair");
 }
 
+TEST(Rig, AStepThatSeesFailuresDoesNotSeeThoseWithoutACloud) {
+  Rig rig = {member("a", "left"), member("a", "right")};
+  rig[1].result.failure = "the cloud of right: it has no points";
+  rig[1].result.estimate.source = nullptr;
+  run_pipeline({named<Repairing>("repair")}, rig, StreamKey(9));
+  EXPECT_EQ(rig[1].result.failure, "the cloud of right: it has no points");
+}
+
 TEST(Rig, ARigStepSeesAllThatHaveNotFailedInOrder) {
   Rig rig = four();
   rig[1] = member("a", "right", -1.0);
