@@ -12,7 +12,6 @@
 #include "framework/pipeline/pipeline.hpp"
 #include "framework/pipeline/shared_view.hpp"
 #include "framework/registration/pose_evidence.hpp"
-#include "framework/stage/given_motions.hpp"
 #include "framework/stage/hypotheses.hpp"
 #include "framework/stage/motion.hpp"
 #include "framework/stage/reasons.hpp"
@@ -30,20 +29,10 @@ struct Params {
   double max_violation_ratio = 0.1;
 };
 
-bool gives_covariance(const Params& params) {
-  return std::any_of(params.pair.begin(), params.pair.end(), [](const auto& step) {
-    const std::vector<params::ExtraDoc>& gives = step.flow().gives;
-    return std::any_of(gives.begin(), gives.end(), [](const params::ExtraDoc& extra) {
-      return extra.name == kCovariance.name;
-    });
-  });
-}
-
 /// Files of velocities are read for the steps of the pipeline only.
-bool reads_velocities(const Params& params) {
-  return std::any_of(params.pair.begin(), params.pair.end(), [](const auto& step) {
-    return dynamic_cast<const GivenMotionStep*>(&*step) != nullptr;
-  });
+bool has_no_known_velocity(const Params& params) {
+  return std::none_of(params.pair.begin(), params.pair.end(),
+                      [](const auto& step) { return step.name() == "known_velocity"; });
 }
 
 params::Table<Params> graph_rows() {
@@ -74,10 +63,7 @@ params::Table<Params> graph_rows() {
 
 const params::Table<Params>& table() {
   static const params::Table<Params> table =
-      graph_rows()
-          .require(gives_covariance, "pair must have a step that gives a covariance")
-          .require([](const Params& params) { return !reads_velocities(params); },
-                   "pair must not have a step that reads velocities");
+      graph_rows().require(has_no_known_velocity, "pair must not contain known_velocity");
   return table;
 }
 
@@ -196,6 +182,9 @@ class SceneGraph {
     const StreamKey key = key_.with(edge.from->source).with(edge.to->source);
     for (std::size_t i = 0; i < params_.pair.size(); ++i) {
       advance(edge.result, {params_.pair[i].name() + std::to_string(i), params_.pair[i]}, key);
+    }
+    if (edge.result.failure.empty() && !edge.result.estimate.covariance) {
+      throw StageError("the steps of pair estimate no covariance");
     }
   }
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "framework/base/angles.hpp"
+#include "framework/base/error.hpp"
 #include "framework/stage/motion.hpp"
 #include "framework/stage/rig_step.hpp"
 #include "test/support/random_geometry.hpp"
@@ -118,6 +119,18 @@ TEST(SensorGraph, DoesNotCompareCloudsFromWhichMotionWasRemovedAtAWrongPose) {
   }
   connect(rig.estimates);
   EXPECT_TRUE(rig.rear().estimate.rejection);
+}
+
+TEST(SensorGraph, FailsIfItsStepsEstimateNoCovariance) {
+  StreetRig rig = street_rig();
+  connect(rig.estimates, R"(, "pair": [{"step": "global_alignment"}])");
+  EXPECT_EQ(rig.side().failure, "the steps of pair estimate no covariance");
+}
+
+TEST(SensorGraph, RefusesAFileOfVelocitiesInAPair) {
+  EXPECT_THROW(test::build_stage("step", R"({"step": "sensor_graph", "pair": [{"step":
+                                 "known_velocity", "file": "v.csv"}, {"step": "covariance"}]})"),
+               InputError);
 }
 
 TEST(SensorGraph, IsTheSameTwice) {
