@@ -33,7 +33,8 @@ TEST(ScanFaults, EstimatesTheScaleAndTheOffsetOfRanges) {
                                         std::pair(-0.01F, 0.0F), std::pair(0.0F, 0.1F)}) {
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
       const ScanFaults faults = faults_of(
-          seed, [&](const Eigen::Vector3f& point) { return longer(point, scale, offset_m); });
+          seed,
+          [s = scale, o = offset_m](const Eigen::Vector3f& point) { return longer(point, s, o); });
       const RangeDifference& range = faults.range;
       // The number of deviations beyond which a fault counts.
       const double deviations = 5.0;
