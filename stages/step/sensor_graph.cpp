@@ -205,7 +205,7 @@ class SceneGraph {
     estimate.set_pose(best->T_reference_to());
     estimate.covariance = best->covariance();
     estimate.rejection.reset();
-    // Those of the search from the reference.
+    // The search from the reference found them, and this pose is not from that search.
     estimate.extras.put(kHypotheses, std::vector<Hypothesis>());
     estimate.diagnostics = {{"edges", static_cast<double>(edges.size())}};
     sensor.failure.clear();

@@ -44,6 +44,10 @@ struct SmoothWall {
 /// Adds the wall, 1 m thick, and occupies its space and the 7 m behind it.
 void add_smooth_wall(SceneBuilder& builder, const Roadside& side, const SmoothWall& wall);
 
+/// Draws a paved road without kerbs, for walls at the distances `faces_m` on its two sides. The
+/// magnitude of its grade is at most `max_grade`.
+RoadShape draw_road_between_walls(const std::array<double, 2>& faces_m, double max_grade, Rng& rng);
+
 /// Adds a flat ceiling between the faces of two walls, at the height of the lower one.
 void add_ceiling(SceneBuilder& builder, const std::array<SmoothWall, 2>& walls);
 

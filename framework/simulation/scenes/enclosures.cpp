@@ -43,6 +43,19 @@ void add_smooth_wall(SceneBuilder& builder, const Roadside& side, const SmoothWa
   builder.add(make_wall(path, wall.height_m, kThickness_m, wall.material));
 }
 
+RoadShape draw_road_between_walls(const std::array<double, 2>& faces_m, double max_grade,
+                                  Rng& rng) {
+  RoadShape shape;
+  shape.half_width_m = std::max(faces_m[0], faces_m[1]) + 0.5;
+  shape.grade = rng.uniform(-max_grade, max_grade);
+  shape.roughness_m = rng.uniform(0.002, 0.005);
+  shape.kerb_height_m = 0.0;
+  shape.pavement_width_m = 0.0;
+  shape.behind = Material::paving;
+  shape.behind_roughness_m = 0.005;
+  return shape;
+}
+
 void add_ceiling(SceneBuilder& builder, const std::array<SmoothWall, 2>& walls) {
   const double height_m = std::min(walls[0].height_m, walls[1].height_m);
   const Ground& ground = builder.ground();

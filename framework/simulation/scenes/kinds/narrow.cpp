@@ -21,18 +21,6 @@ std::array<SmoothWall, 2> draw_walls(const CarBody& car, Rng& rng) {
   return walls;
 }
 
-RoadShape draw_alley(const std::array<SmoothWall, 2>& walls, Rng& rng) {
-  RoadShape shape;
-  shape.half_width_m = std::max(walls[0].face_m, walls[1].face_m) + 0.5;
-  shape.grade = rng.uniform(-0.04, 0.04);
-  shape.roughness_m = rng.uniform(0.002, 0.005);
-  shape.kerb_height_m = 0.0;
-  shape.pavement_width_m = 0.0;
-  shape.behind = Material::paving;
-  shape.behind_roughness_m = 0.005;
-  return shape;
-}
-
 /// Adds the only relief of the walls: a few thin pipes, away from the car.
 void add_pipes(SceneBuilder& builder, const std::array<SmoothWall, 2>& walls, Rng& rng) {
   const std::array<Roadside, 2> sides = both_sides();
@@ -55,7 +43,7 @@ void add_pipes(SceneBuilder& builder, const std::array<SmoothWall, 2>& walls, Rn
 World make_narrow(const CarBody& car, const StreamKey& key) {
   Rng rng(key.with("alley"));
   const std::array<SmoothWall, 2> walls = draw_walls(car, rng);
-  SceneBuilder builder(draw_alley(walls, rng), key);
+  SceneBuilder builder(draw_road_between_walls({walls[0].face_m, walls[1].face_m}, 0.04, rng), key);
   const double yaw_rad = rad_from_deg(rng.uniform(-0.8, 0.8));
   const double speed_mps = rng.uniform(0.0, 4.0);
   builder.put_car({0.0, 0.0, yaw_rad}, car, speed_mps);

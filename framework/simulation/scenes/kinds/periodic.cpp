@@ -122,18 +122,6 @@ void add_hall(SceneBuilder& builder, const Span& along_m, const std::array<Relie
   add_ceiling(builder, walls);
 }
 
-RoadShape draw_level_road(const std::array<ReliefRow, 2>& rows, Rng& rng) {
-  RoadShape shape;
-  shape.half_width_m = std::max(rows[0].face_m, rows[1].face_m) + 0.5;
-  shape.grade = rng.uniform(-0.03, 0.03);
-  shape.roughness_m = rng.uniform(0.002, 0.005);
-  shape.kerb_height_m = 0.0;
-  shape.pavement_width_m = 0.0;
-  shape.behind = Material::paving;
-  shape.behind_roughness_m = 0.005;
-  return shape;
-}
-
 }  // namespace
 
 World make_periodic(const CarBody& car, const StreamKey& key) {
@@ -152,7 +140,7 @@ World make_periodic(const CarBody& car, const StreamKey& key) {
   const Span along_m =
       is_long ? Span{-140.0, 140.0} : Span{-rng.uniform(8.0, 50.0), rng.uniform(8.0, 50.0)};
   const std::size_t only = rng.below(2);
-  SceneBuilder builder(draw_level_road(rows, rng), key);
+  SceneBuilder builder(draw_road_between_walls({rows[0].face_m, rows[1].face_m}, 0.03, rng), key);
   const double heading_rad = rad_from_deg(rng.uniform(-2.0, 2.0));
   const double speed_mps = rng.uniform(0.0, 6.0);
   builder.put_car({0.0, 0.0, heading_rad}, car, speed_mps);
