@@ -16,6 +16,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool has_pose_of(const Extrinsics& poses, const std::string& sensor) {
+  return std::any_of(poses.poses.begin(), poses.poses.end(),
+                     [&](const ExtrinsicPose& pose) { return pose.sensor == sensor; });
+}
+
+/// Adds the pose of the parent of `poses` if it is one of the sensors `names`, which are those
+/// other than the `reference`. If the file names no parent, the only sensor that it lacks is it.
+/// Returns what the user must know of that.
+std::vector<std::string> add_parent(Extrinsics& poses, const std::string& reference,
+                                    const std::vector<std::string>& names,
+                                    const std::string& file) {
+  const auto add = [&](const std::string& parent) {
+    poses.poses.push_back({parent, RigidTransform()});
+  };
+  if (std::find(names.begin(), names.end(), poses.parent) != names.end()) add(poses.parent);
+  if (!poses.parent.empty() || !has_pose_of(poses, reference)) return {};
+  std::vector<std::string> lacking;
+  for (const std::string& name : names) {
+    if (!has_pose_of(poses, name)) lacking.push_back(name);
+  }
+  if (lacking.size() != 1) return {};
+  add(lacking.front());
+  return {"The file " + in_quotes(file) + " names no parent frame; it is taken to be " +
+          in_quotes(lacking.front()) + ", the only sensor without a pose in it."};
+}
+
 bool is_request_file(const std::string& input) { return fs::path(input).extension() == ".json"; }
 
 }  // namespace
@@ -52,15 +78,12 @@ RecordedScenes scenes_of(const RigRequest& request) {
 }
 
 std::vector<std::string> set_nominal(std::vector<Scene>& scenes, const std::string& nominal) {
+  if (nominal.empty()) return {};
   std::vector<std::string> missing;
-  if (nominal.empty()) return missing;
   const std::string& reference = scenes.front().reference.sensor;
   Extrinsics read = read_extrinsics(nominal);
-  // The parent may be a sensor that is not the reference.
   const std::vector<std::string> names = sensor_names(scenes);
-  if (std::find(names.begin(), names.end(), read.parent) != names.end()) {
-    read.poses.push_back({read.parent, RigidTransform()});
-  }
+  std::vector<std::string> notes = add_parent(read, reference, names, nominal);
   const Extrinsics poses = in_frame_of_sensor(read, reference, nominal);
   std::vector<std::string> known;
   for (const ExtrinsicPose& pose : poses.poses) known.push_back(pose.sensor);
@@ -82,8 +105,10 @@ std::vector<std::string> set_nominal(std::vector<Scene>& scenes, const std::stri
                      "expected a pose of " + in_quotes(names.front()) + ", found none" +
                          name_hint(names.front(), known));
   }
-  for (std::string& line : missing) line = "The file " + in_quotes(nominal) + " " + line + ".";
-  return missing;
+  for (const std::string& line : missing) {
+    notes.push_back("The file " + in_quotes(nominal) + " " + line + ".");
+  }
+  return notes;
 }
 
 CalibratedRig calibrate_with_progress(const CalibrateOptions& options,
@@ -116,8 +141,7 @@ void add_rig_options(CLI::App& command, CalibrateOptions& options) {
              "Maximum time between the clouds of a scene, s; default 0.05.");
   add_number(command, "--max-scenes", o.max_scenes, 1, 1000,
              "Maximum number of scenes, evenly spaced; default 10.");
-  add_text(command, "--pipeline", o.pipeline, "best (default), driving, paper, or a file.",
-           "a pipeline");
+  add_text(command, "--pipeline", o.pipeline, "best (default), paper, or a file.", "a pipeline");
   add_number(command, "--seed", o.seed, std::uint64_t{0}, std::uint64_t{1} << 53U,
              "Seed of the random numbers; default 1.");
   command.add_flag("--quiet", o.quiet, "Do not show progress.");
