@@ -39,7 +39,7 @@ if(CROON_BUILD_TOOLS)
     "${PROJECT_BINARY_DIR}/experiments/store/croon_commit.cmake" DESTINATION "${package_folder}")
   # They extend each other.
   install(FILES experiments/best.json experiments/demo.json experiments/demo_car.json experiments/driving.json
-    experiments/rig.json experiments/standing.json
+    experiments/rig.json
     DESTINATION "${CMAKE_INSTALL_DATADIR}/croon/experiments" COMPONENT runtime)
   install(DIRECTORY experiments/paper experiments/ablations experiments/evaluation experiments/workloads
     DESTINATION "${CMAKE_INSTALL_DATADIR}/croon/experiments" COMPONENT runtime

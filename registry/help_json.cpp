@@ -55,12 +55,17 @@ ordered_json extras_json(const std::vector<params::ExtraDoc>& extras) {
   return list;
 }
 
+ordered_json channels_json(const std::set<std::string>& channels) {
+  ordered_json list = ordered_json::array();
+  for (const std::string& channel : channels) list.push_back({{"channel", channel}});
+  return list;
+}
+
 /// The channels and the extras that a stage needs.
 ordered_json needs_json(const params::DataFlow& flow) {
   std::set<std::string> channels = flow.target_channels;
   channels.insert(flow.source_channels.begin(), flow.source_channels.end());
-  ordered_json list = ordered_json::array();
-  for (const std::string& channel : channels) list.push_back({{"channel", channel}});
+  ordered_json list = channels_json(channels);
   for (const ordered_json& extra : extras_json(flow.takes)) list.push_back(extra);
   return list;
 }
@@ -76,6 +81,7 @@ std::string json_list(const StageList& stages) {
                     {"summary", stage->summary},
                     {"source", stage->source},
                     {"needs", needs_json(stage->flow)},
+                    {"reads", channels_json(stage->flow.optional_channels)},
                     {"provides", extras_json(stage->flow.gives)},
                     {"parameters", parameters_json(stage->parameters)}});
   }

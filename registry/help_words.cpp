@@ -45,6 +45,9 @@ std::vector<std::pair<std::string, std::string>> flow_lines(const params::DataFl
       lines.emplace_back(verb, "the extra " + mark(extra.name) + ", " + extra.meaning);
     }
   };
+  for (const std::string& channel : flow.optional_channels) {
+    lines.emplace_back("Reads", "the channel " + mark(channel) + " of clouds that have it");
+  }
   add("Needs", flow.takes);
   add("Provides", flow.gives);
   return lines;

@@ -94,9 +94,8 @@ std::set<std::string> needed_channels(const Experiment& experiment) {
   std::set<std::string> names;
   for (const Variant& variant : experiment.variants) {
     for (const NamedStep& step : variant.pipeline) {
-      const params::DataFlow& flow = step.step.flow();
-      names.insert(flow.target_channels.begin(), flow.target_channels.end());
-      names.insert(flow.source_channels.begin(), flow.source_channels.end());
+      const std::set<std::string> channels = step.step.flow().channels();
+      names.insert(channels.begin(), channels.end());
     }
   }
   return names;

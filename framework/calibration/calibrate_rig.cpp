@@ -56,31 +56,29 @@ PoseBounds nominal_bounds(const CalibrationOptions& options) {
   return {rad_from_deg(kStds * options.nominal_std_deg), kStds * options.nominal_std_m};
 }
 
-/// The composition that `options` selects. "best" depends on whether the clouds have usable times.
-Composition chosen_composition(const CalibrationOptions& options,
-                               const std::vector<SceneClouds>& scenes, const Catalogue& catalogue,
-                               std::string& reason) {
+Composition chosen_composition(const CalibrationOptions& options, const Catalogue& catalogue) {
   const PoseBounds nominal = nominal_bounds(options);
-  if (!options.pipeline_text.empty()) {
-    return composition_in_text(options.pipeline_text, options.pipeline, nominal, catalogue);
+  return options.pipeline_text.empty()
+             ? composition_called(options.pipeline, nominal, catalogue)
+             : composition_in_text(options.pipeline_text, options.pipeline, nominal, catalogue);
+}
+
+/// How the steps of `composition` treat motion, if they depend on the times; otherwise empty.
+std::string treatment_of_motion(const Composition& composition,
+                                const std::vector<SceneClouds>& scenes) {
+  if (composition.channels.count(kTime) == 0 || composition.source_channels.count(kTime) > 0) {
+    return "";
   }
-  if (options.pipeline != "best") return composition_called(options.pipeline, nominal, catalogue);
-  const TimesInDoubt doubt = times_in_doubt(scenes);
-  if (doubt.reason.empty()) {
-    reason = "the times of all clouds are usable, so the vehicle's motion is estimated";
-    return embedded_composition("driving", nominal, catalogue);
-  }
-  reason = doubt.reason +
-           ", so motion is not corrected; scenes in which it would affect poses are rejected";
-  return doubt.are_clocks_apart ? unsynchronised_composition(nominal, catalogue)
-                                : embedded_composition("standing", nominal, catalogue);
+  const std::string doubt = why_times_are_in_doubt(scenes);
+  return doubt.empty() ? "the times of all clouds are usable, so the vehicle's motion is estimated"
+                       : doubt +
+                             ", so motion is not corrected there; scenes in which it would affect "
+                             "poses are rejected";
 }
 
 /// The clouds for the steps of `composition`, moved out of `scenes`.
 RigInput rig_input(std::vector<SceneClouds>& scenes, const Composition& composition,
                    std::uint64_t seed, std::vector<std::string>& unused) {
-  std::set<std::string> channels = composition.target_channels;
-  channels.insert(composition.source_channels.begin(), composition.source_channels.end());
   RigInput input;
   for (SceneClouds& clouds : scenes) {
     const Scene& scene = *clouds.scene;
@@ -100,7 +98,7 @@ RigInput rig_input(std::vector<SceneClouds>& scenes, const Composition& composit
       input.parts.push_back({scene.name, scan.sensor, input.members.size(), why_not[i]});
       if (!why_not[i].empty()) continue;
       const auto cloud = [&](ReadScan& read, const std::string& sensor) {
-        return loaded_scan(std::move(read), scene.name, sensor, seed, channels).cloud;
+        return loaded_scan(std::move(read), scene.name, sensor, seed, composition.channels).cloud;
       };
       if (!target) target = cloud(clouds.reference, scene.reference.sensor);
       input.members.push_back({scene.name, scene.reference.sensor, scan.sensor, target,
@@ -285,7 +283,7 @@ std::vector<std::string> notes_on(const std::vector<NamedCloud>& clouds) {
 }
 
 CalibratedRig calibrated(const std::vector<Scene>& scenes, const CalibrationOptions& options,
-                         const Catalogue& catalogue) {
+                         const Composition& composition) {
   const auto progress = [&](const std::string& what, double done) {
     if (options.on_progress) options.on_progress(what, done);
   };
@@ -300,9 +298,8 @@ CalibratedRig calibrated(const std::vector<Scene>& scenes, const CalibrationOpti
   rig.warnings = notes_on(named_clouds(clouds));
   const std::vector<std::string> about_clouds = warnings_about_clouds(named_clouds(clouds));
   rig.warnings.insert(rig.warnings.end(), about_clouds.begin(), about_clouds.end());
-  const Composition composition =
-      chosen_composition(options, clouds, catalogue, rig.composition_reason);
   rig.composition = composition.name;
+  rig.composition_reason = treatment_of_motion(composition, clouds);
   add_notes(composition.from_nothing, rig.notes);
   RigInput input = rig_input(clouds, composition, options.seed, rig.unused);
   require_members(input, rig.unused);
@@ -333,13 +330,10 @@ CalibratedRig calibrated(const std::vector<Scene>& scenes, const CalibrationOpti
 CalibratedRig calibrate_rig(const std::vector<Scene>& scenes, const CalibrationOptions& options,
                             const Catalogue& catalogue) {
   check_scenes(scenes);
-  // An unknown pipeline is reported before clouds are read.
-  if (options.pipeline_text.empty()) {
-    composition_called(options.pipeline, nominal_bounds(options), catalogue);
-  }
+  const Composition composition = chosen_composition(options, catalogue);
   std::optional<CalibratedRig> rig;
   on_threads(options.jobs > 0 ? options.jobs : tbb::info::default_concurrency(),
-             [&] { rig = calibrated(scenes, options, catalogue); });
+             [&] { rig = calibrated(scenes, options, composition); });
   return std::move(*rig);
 }
 

@@ -14,8 +14,7 @@ namespace croon {
 
 /// How a rig is calibrated.
 struct CalibrationOptions {
-  /// "best" (corrects motion if the times of all clouds allow it, otherwise checks for uncorrected
-  /// motion), "driving", "paper", or the path of a pipeline file.
+  /// "best", "paper", or the path of a pipeline file.
   std::string pipeline = "best";
   /// The JSON text of a pipeline, which messages refer to as `pipeline`; if empty, `pipeline`
   /// selects it.

@@ -78,13 +78,15 @@ Composition composition_in(nlohmann::json document, const std::string& name,
     const params::DataFlow& flow = step.step.flow();
     composition.target_channels.insert(flow.target_channels.begin(), flow.target_channels.end());
     composition.source_channels.insert(flow.source_channels.begin(), flow.source_channels.end());
+    const std::set<std::string> channels = flow.channels();
+    composition.channels.insert(channels.begin(), channels.end());
   }
   return composition;
 }
 
 }  // namespace
 
-std::vector<std::string> recommended_pipeline_names() { return {"best", "driving", "paper"}; }
+std::vector<std::string> recommended_pipeline_names() { return {"best", "paper"}; }
 
 const std::string& recommended_pipeline_text(const std::string& name) {
   const std::vector<std::string> names = recommended_pipeline_names();
@@ -92,21 +94,6 @@ const std::string& recommended_pipeline_text(const std::string& name) {
     return embedded_pipelines().at(name);
   }
   throw InputError("", "", "unknown pipeline \"" + name + "\"" + name_hint(name, names));
-}
-
-Composition embedded_composition(const std::string& name, const PoseBounds& nominal,
-                                 const Catalogue& catalogue) {
-  return composition_in_text(embedded_pipelines().at(name), name, nominal, catalogue);
-}
-
-Composition unsynchronised_composition(const PoseBounds& nominal, const Catalogue& catalogue) {
-  // A tenth of walking pace at 10 Hz: scans that are a second apart differ by 0.2 m.
-  constexpr double kMaxTravel_m = 0.02;
-  nlohmann::json document = params::parse_json(embedded_pipelines().at("standing"), "standing");
-  for (nlohmann::json& step : *steps_of(document)) {
-    if (step.at("step") == "motion_check") step["max_travel_m"] = kMaxTravel_m;
-  }
-  return composition_in(std::move(document), "standing", "standing", nominal, catalogue);
 }
 
 Composition composition_in_text(const std::string& text, const std::string& name,
@@ -118,7 +105,9 @@ Composition composition_called(const std::string& pipeline, const PoseBounds& no
                                const Catalogue& catalogue) {
   const std::vector<std::string> names = recommended_pipeline_names();
   const bool is_recommended = std::find(names.begin(), names.end(), pipeline) != names.end();
-  if (is_recommended) return embedded_composition(pipeline, nominal, catalogue);
+  if (is_recommended) {
+    return composition_in_text(embedded_pipelines().at(pipeline), pipeline, nominal, catalogue);
+  }
   const std::filesystem::path file = pipeline;
   const bool is_path = file.has_parent_path() || file.extension() == ".json";
   if (!is_path && !std::filesystem::exists(file)) recommended_pipeline_text(pipeline);

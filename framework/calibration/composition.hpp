@@ -21,17 +21,10 @@ struct Composition {
   Pipeline near_nominal;                  ///< The same steps, with searches near the initial guess.
   std::set<std::string> target_channels;  ///< Required of the reference's cloud.
   std::set<std::string> source_channels;  ///< Required of the sensor's cloud.
+  std::set<std::string> channels;         ///< All that its steps read.
 };
 
 // `nominal` are the maximum distances from a nominal pose at which its sensor is searched for.
-
-/// The composition of the embedded pipeline `name`. Throws std::logic_error for an unknown name.
-Composition embedded_composition(const std::string& name, const PoseBounds& nominal,
-                                 const Catalogue& catalogue);
-
-/// The composition "standing" for sensors with different clocks: their scans may be from different
-/// moments, so even slow motion is rejected.
-Composition unsynchronised_composition(const PoseBounds& nominal, const Catalogue& catalogue);
 
 /// The composition of the JSON `text` of a pipeline, named `name`. Throws InputError if it is
 /// invalid.

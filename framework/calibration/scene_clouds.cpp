@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "framework/base/threads.hpp"
-#include "framework/calibration/scan_times.hpp"
+#include "framework/spatial/scan_times.hpp"
 
 namespace croon {
 namespace {
@@ -54,7 +54,7 @@ std::string why_no_times(const std::string& sensor, const PointCloud& cloud) {
 }
 
 /// Why the times in one scene are in doubt.
-TimesInDoubt doubt_in(const SceneClouds& scene) {
+std::string doubt_in(const SceneClouds& scene) {
   std::vector<std::string> names = {scene.scene->reference.sensor};
   std::vector<const PointCloud*> clouds = {&scene.reference.cloud};
   for (std::size_t i = 0; i < scene.sensors.size(); ++i) {
@@ -64,11 +64,9 @@ TimesInDoubt doubt_in(const SceneClouds& scene) {
   }
   for (std::size_t i = 0; i < clouds.size(); ++i) {
     std::string why_not = why_no_times(names[i], *clouds[i]);
-    if (!why_not.empty()) return {why_not, false};
+    if (!why_not.empty()) return why_not;
   }
-  std::string why_not = why_not_one_clock(names, clouds);
-  const bool are_apart = !why_not.empty();
-  return {std::move(why_not), are_apart};
+  return why_not_one_clock(names, clouds);
 }
 
 std::string missing_channel(const std::string& pipeline, const std::string& sensor,
@@ -146,17 +144,14 @@ std::vector<NamedCloud> named_clouds(const std::vector<SceneClouds>& scenes) {
   return clouds;
 }
 
-TimesInDoubt times_in_doubt(const std::vector<SceneClouds>& scenes) {
-  TimesInDoubt first;
+std::string why_times_are_in_doubt(const std::vector<SceneClouds>& scenes) {
   for (const SceneClouds& scene : scenes) {
     if (!scene.why_unused.empty()) continue;
-    TimesInDoubt doubt = doubt_in(scene);
-    if (doubt.reason.empty()) continue;
-    if (scenes.size() > 1) doubt.reason = "in scene " + scene.scene->name + ", " + doubt.reason;
-    if (doubt.are_clocks_apart) return doubt;
-    if (first.reason.empty()) first = std::move(doubt);
+    const std::string doubt = doubt_in(scene);
+    if (doubt.empty()) continue;
+    return scenes.size() > 1 ? "in scene " + scene.scene->name + ", " + doubt : doubt;
   }
-  return first;
+  return "";
 }
 
 std::string why_not_for(const Composition& composition, const SceneClouds& scene,

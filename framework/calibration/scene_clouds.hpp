@@ -32,16 +32,8 @@ std::vector<std::string> set_aside_unusable(std::vector<SceneClouds>& scenes);
 /// The usable clouds of the scenes in use, for warnings.
 std::vector<NamedCloud> named_clouds(const std::vector<SceneClouds>& scenes);
 
-/// Why times are not usable for correcting motion; empty if they are.
-struct TimesInDoubt {
-  std::string reason;  ///< "the cloud of left in scene 0001 has no times".
-  /// Set if each cloud has usable times, but the clocks or moments of the sensors differ.
-  bool are_clocks_apart = false;
-};
-
-/// Why times of usable clouds are in doubt: in the first scene with differing clocks, otherwise in
-/// the first scene with any doubt.
-TimesInDoubt times_in_doubt(const std::vector<SceneClouds>& scenes);
+/// Why times of usable clouds are in doubt, in the first scene with any doubt; empty if none is.
+std::string why_times_are_in_doubt(const std::vector<SceneClouds>& scenes);
 
 /// Why `composition` cannot use the cloud of a sensor in its scene, because of missing channels or
 /// unusable times; empty if it can. `sensor` is an index into Scene::sensors.

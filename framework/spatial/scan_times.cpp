@@ -1,4 +1,4 @@
-#include "framework/calibration/scan_times.hpp"
+#include "framework/spatial/scan_times.hpp"
 
 #include <algorithm>
 #include <cmath>

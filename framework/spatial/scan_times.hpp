@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "framework/stage/dataset.hpp"
+#include "framework/geometry/point_cloud.hpp"
 
 namespace croon {
 

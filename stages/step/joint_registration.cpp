@@ -25,6 +25,7 @@ struct Params : JointOptions, MotionOptions {
   params::Slot<Preprocessor> thinning;
   std::vector<double> coarse_distances_m = {2.0, 1.0, 0.5};
   bool motion = true;
+  bool needs_times = true;
 };
 
 const params::Table<Params>& table() {
@@ -41,8 +42,11 @@ const params::Table<Params>& table() {
               "Maximum correspondence distances of the coarse passes, before max_distances_m."),
           params::boolean("motion", &Params::motion,
                           "Whether the rig moves while it scans, with a constant velocity in each "
-                          "scene; needs the channel time. If an earlier step supplied a velocity, "
+                          "scene. If an earlier step supplied a velocity, "
                           "only its error is estimated, with that covariance as the prior."),
+          params::boolean("needs_times", &Params::needs_times,
+                          "Whether motion needs the channel time in all clouds. Otherwise the rig "
+                          "is taken to be at rest in scenes with a cloud that lacks it."),
       }
           .inherit(joint_table())
           .inherit(motion_table())
@@ -76,7 +80,10 @@ class JointRegistrationStep final : public RigStep {
 
   static params::DataFlow data_flow(const Params& params) {
     params::DataFlow flow = params.thinning.flow();
-    if (params.motion) flow.add(params::needs_channels({kTime}));
+    if (params.motion) {
+      flow.add(params.needs_times ? params::needs_channels({kTime})
+                                  : params::may_read_channels({kTime}));
+    }
     flow.add(gives(kMotion, kMotionCovariance));
     return flow;
   }
@@ -105,13 +112,26 @@ class JointRegistrationStep final : public RigStep {
     for (std::size_t s = 0; s < group.scenes.size(); ++s) {
       SceneMotion motion =
           motion_of(group.scenes[s], s, result.state, state_without_patch_kernel, params_, params_);
+      motion.is_at_rest = motion.is_at_rest && params_.poses == Poses::per_scene;
       if (params_.poses == Poses::per_scene && motion.is_in_doubt(params_)) {
         motion.leads =
             leads_of(group.scenes[s], coarse[s], result.state, motion, state_without_patch_kernel);
       }
-      write_result(group, s, result, motion);
+      write_result(group, s, motion.is_at_rest ? registered_at_rest(group, result.state) : result,
+                   motion);
     }
   }
+
+  /// The registration of the only scene of `group` again, from the poses of `state` and without
+  /// velocity.
+  JointRegistration registered_at_rest(const Group& group, JointState state) const {
+    std::vector<JointScene> scenes = group.scenes;
+    for (JointScene& scene : scenes) scene.is_moving = false;
+    state.velocities.assign(scenes.size(), Twist());
+    return register_jointly(scenes, std::move(state), params_);
+  }
+
+  static constexpr int kFewer = 4;
 
   /// The lead of `state`, by source, over the states to which other speeds converge.
   std::vector<std::optional<double>> leads_of(
@@ -127,6 +147,8 @@ class JointRegistrationStep final : public RigStep {
     JointOptions near = params_;
     near.max_distances_m = params_.coarse_distances_m;
     if (near.max_distances_m.size() > 1) near.max_distances_m.erase(near.max_distances_m.begin());
+    // Few points show to which state a speed leads; all of them then decide.
+    near.points = std::max(kMinJointCorrespondences, params_.points / kFewer);
     return leads_over_rivals(scene, coarse, state, starts, params_, near);
   }
 
@@ -180,6 +202,7 @@ class JointRegistrationStep final : public RigStep {
     require_near(scene.target.times_s, scene.reference_s);
     scene.sources.push_back({0, timed(estimate.source, params_.motion, scene.reference_s)});
     require_near(scene.sources.front().scan.times_s, scene.reference_s);
+    scene.up = up_of(*estimate.target);
     scene.is_moving = params_.motion && has_times(*estimate.target) && has_times(*estimate.source);
     // An earlier step has already removed this velocity; only its error remains.
     if (const Twist* const removed = estimate.extras.find(kMotion)) scene.removed = *removed;
@@ -251,15 +274,19 @@ class JointRegistrationStep final : public RigStep {
   std::vector<Diagnostic> diagnostics_of(const JointRegistration& result, const Extras& extras,
                                          const SceneMotion& motion, std::size_t source,
                                          double clock_offset_s) const {
-    std::vector<Diagnostic> diagnostics = velocity_diagnostics(extras.get(kMotion));
-    const std::vector<Diagnostic> stds = velocity_std_diagnostics(extras.get(kMotionCovariance));
-    diagnostics.insert(diagnostics.end(), stds.begin(), stds.end());
-    diagnostics.insert(diagnostics.end(),
-                       {{"speed_std_mps", speed_std_mps(extras.get(kMotionCovariance))},
-                        {"speed_shift_std_m", motion.shift_std_m[source]},
-                        {"rmse_m", result.rmse_m},
-                        {"iterations", static_cast<double>(result.iterations)},
-                        {"converged", result.converged ? 1.0 : 0.0}});
+    std::vector<Diagnostic> diagnostics;
+    if (const Twist* const velocity = extras.find(kMotion)) {
+      const Matrix6d& covariance = extras.get(kMotionCovariance);
+      diagnostics = velocity_diagnostics(*velocity);
+      const std::vector<Diagnostic> stds = velocity_std_diagnostics(covariance);
+      diagnostics.insert(diagnostics.end(), stds.begin(), stds.end());
+      diagnostics.insert(diagnostics.end(), {{"speed_std_mps", speed_std_mps(covariance)},
+                                             {"speed_shift_std_m", motion.shift_std_m[source]},
+                                             {"motion_significance", motion.significance}});
+    }
+    diagnostics.insert(diagnostics.end(), {{"rmse_m", result.rmse_m},
+                                           {"iterations", static_cast<double>(result.iterations)},
+                                           {"converged", result.converged ? 1.0 : 0.0}});
     if (params_.clock_offset_std_s > 0.0) {
       diagnostics.emplace_back("clock_offset_s", clock_offset_s);
     }
@@ -270,11 +297,12 @@ class JointRegistrationStep final : public RigStep {
   /// Stores the motion for later steps. If an earlier step removed a known velocity, the estimated
   /// error is added to it; it stays unchanged unless the motion was estimated.
   static void store_motion(Extras& extras, bool is_estimated, const SceneMotion& motion) {
+    if (!is_estimated) return;
     const Twist* const removed = extras.find(kMotion);
-    if (removed != nullptr && !is_estimated) return;
     extras.put(kMotion, removed == nullptr ? motion.velocity
                                            : stepped(*removed, vector_of(motion.velocity)));
-    extras.put(kMotionCovariance, motion.covariance);
+    extras.put(kMotionCovariance,
+               motion.is_at_rest ? Matrix6d(Matrix6d::Zero()) : motion.covariance);
   }
 
   /// The scan as a rig at rest would have measured it, with times in the target's clock.
@@ -308,7 +336,7 @@ StageEntry joint_registration() {
       "joint_registration",
       "Processes the whole rig: registers all sensors together with the velocity of each scene, "
       "and removes the resulting distortion from the scans.",
-      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 13);
+      "Zhang and Singh, LOAM, 2014; Chen and Medioni 1992", table(), 14);
 }
 
 }  // namespace croon::stages::step

@@ -10,9 +10,11 @@
 #include "framework/registration/joint_rivals.hpp"
 #include "framework/registration/scene_motion.hpp"
 #include "framework/registration/sweep_times.hpp"
+#include "framework/stage/motion.hpp"
 #include "framework/stage/reasons.hpp"
 #include "framework/stage/rig_step.hpp"
 #include "framework/stage/stage_entry.hpp"
+#include "framework/stage/times.hpp"
 
 namespace croon::stages::step {
 namespace {
@@ -25,6 +27,7 @@ struct Params : JointOptions, MotionOptions {
   params::Slot<Preprocessor> thinning;
   double period_s = 0.1;
   double max_travel_m = 0.15;
+  double max_travel_apart_m = 0.02;
   double max_turn_deg = 1.0;
   double max_shift_m = 0.05;
   double max_shift_std_m = 0.005;
@@ -42,6 +45,9 @@ const params::Table<Params>& table() {
           params::number("max_travel_m", &Params::max_travel_m, {0.0, 1e6},
                          "Maximum distance that the rig travels during one revolution, less three "
                          "standard deviations. It shifts poses by up to half as much."),
+          params::number("max_travel_apart_m", &Params::max_travel_apart_m, {0.0, 1e6},
+                         "The same if the clocks of the sensors differ: scans that are a second "
+                         "apart differ by ten times as much."),
           params::number("max_turn_deg", &Params::max_turn_deg, {0.0, 180.0},
                          "Maximum angle that the rig turns during one revolution, less three "
                          "standard deviations."),
@@ -85,13 +91,14 @@ class MotionCheck final : public RigStep {
   }
 
  private:
-  /// Rejects the poses of one scene if its clouds show motion. Rejected sensors take part too:
-  /// motion is most visible to sensors that face the direction of travel.
+  /// Rejects the poses of one scene if its clouds show motion, unless an earlier step knows it.
+  /// Rejected sensors take part too: motion is most visible to sensors that face the direction of
+  /// travel.
   void check(const RigGroup& estimates) const {
-    const bool is_any_accepted =
-        std::any_of(estimates.begin(), estimates.end(),
-                    [](const RigEstimate* member) { return !member->estimate.rejection; });
-    if (is_any_accepted) reject_if_moving(estimates);
+    const auto is_checked = [](const RigEstimate* member) {
+      return !member->estimate.rejection && member->estimate.extras.find(kMotion) == nullptr;
+    };
+    if (std::any_of(estimates.begin(), estimates.end(), is_checked)) reject_if_moving(estimates);
   }
 
   void reject_if_moving(const std::vector<RigEstimate*>& estimates) const {
@@ -101,7 +108,15 @@ class MotionCheck final : public RigStep {
     const Twist& velocity = state.velocities.front();
     const double travel_m = params_.period_s * velocity.linear_mps.norm();
     const double turn_deg = deg_from_rad(params_.period_s * velocity.angular_radps.norm());
-    const bool is_moving = motion.is_moving && is_too_fast(velocity, motion.covariance);
+    const bool are_clocks_apart =
+        std::any_of(estimates.begin(), estimates.end(), [](const RigEstimate* member) {
+          const TimesInDoubt* const doubt = member->estimate.extras.find(kTimesInDoubt);
+          return doubt != nullptr && doubt->are_clocks_apart;
+        });
+    const bool is_moving =
+        motion.is_moving &&
+        is_too_fast(velocity, motion.covariance,
+                    are_clocks_apart ? params_.max_travel_apart_m : params_.max_travel_m);
     const double shift_std_m =
         *std::max_element(motion.shift_std_m.begin(), motion.shift_std_m.end());
     const bool appears_to_travel =
@@ -139,12 +154,12 @@ class MotionCheck final : public RigStep {
     }
   }
 
-  bool is_too_fast(const Twist& velocity, const Matrix6d& covariance) const {
+  bool is_too_fast(const Twist& velocity, const Matrix6d& covariance, double max_travel_m) const {
     const double travel_m = params_.period_s * certain_length(velocity.linear_mps,
                                                               covariance.bottomRightCorner<3, 3>());
     const double turn_rad =
         params_.period_s * certain_length(velocity.angular_radps, covariance.topLeftCorner<3, 3>());
-    return travel_m > params_.max_travel_m || deg_from_rad(turn_rad) > params_.max_turn_deg;
+    return travel_m > max_travel_m || deg_from_rad(turn_rad) > params_.max_turn_deg;
   }
 
   /// The clouds, with the times of scans of one period that start simultaneously.
@@ -153,6 +168,7 @@ class MotionCheck final : public RigStep {
     scene.is_moving = true;
     scene.reference_s = 0.5 * params_.period_s;
     scene.target = swept(*estimates.front()->estimate.target);
+    scene.up = up_of(*scene.target.cloud);
     for (std::size_t k = 0; k < estimates.size(); ++k) {
       scene.sources.push_back({k, swept(*estimates[k]->estimate.source)});
     }
@@ -201,7 +217,7 @@ StageEntry motion_check() {
       "Processes the whole rig: rejects the poses of a scene if uncorrected motion during its "
       "scans explains the clouds better than a rig at rest, or cannot be excluded. Needs no times: "
       "each sensor is assumed to sweep about its z axis.",
-      "croon", table(), 2);
+      "croon", table(), 3);
 }
 
 }  // namespace croon::stages::step

@@ -259,11 +259,7 @@ class SensorGraph final : public RigStep {
   static params::DataFlow data_flow(const Params& params) {
     params::DataFlow flow = params.thinning.flow();
     for (const params::Slot<Step>& step : params.pair) {
-      // Channels only: extras pass from step to step of a pair.
-      flow.target_channels.insert(step.flow().target_channels.begin(),
-                                  step.flow().target_channels.end());
-      flow.source_channels.insert(step.flow().source_channels.begin(),
-                                  step.flow().source_channels.end());
+      flow.add_channels(step.flow());  // Not the extras: they pass from step to step of a pair.
     }
     flow.add(takes(kCovariance));
     return flow;

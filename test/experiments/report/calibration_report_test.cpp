@@ -45,7 +45,7 @@ CalibratedRig street_rig(const Vector6d& offset = Vector6d::Zero(),
   const test::StreetPair pair = test::street_pair(rng, 1, kTopLeft, 15000, 10000, 0.01);
   CalibratedRig rig;
   rig.reference = "top";
-  rig.composition = "driving";
+  rig.composition = "best";
   rig.shown = {"0", std::make_shared<const Cloud>(pair.target, StreamKey(1)), {}};
   add_sensor(rig, left, pair.source, moved(kTopLeft, offset), true);
   add_sensor(rig, "right", pair.source, kTopLeft, false);

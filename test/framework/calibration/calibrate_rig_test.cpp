@@ -73,7 +73,7 @@ TEST(CalibrateRig, GivesOnePosePerSensorFromAllScenesForAnyNumberOfThreads) {
   ASSERT_TRUE(left.T_reference_sensor && left.covariance);
   expect_near(*left.T_reference_sensor, kLeft);
   EXPECT_EQ(rig.reference, "top");
-  EXPECT_EQ(rig.composition, "standing");
+  EXPECT_EQ(rig.composition, "best");
   EXPECT_NE(rig.composition_reason.find("has no times"), std::string::npos);
   const CalibratedRig again = calibrated(scenes, 1);
   EXPECT_EQ(again.sensors.front().T_reference_sensor->rotation, left.T_reference_sensor->rotation);

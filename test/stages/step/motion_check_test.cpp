@@ -3,6 +3,7 @@
 #include "framework/simulation/rig.hpp"
 #include "framework/simulation/sensor_model.hpp"
 #include "framework/simulation/simulated_scene.hpp"
+#include "framework/stage/motion.hpp"
 #include "framework/stage/preprocessor.hpp"
 #include "framework/stage/rig_step.hpp"
 #include "test/support/random_geometry.hpp"
@@ -79,6 +80,13 @@ TEST(MotionCheck, AcceptsACarAtRestAndLeavesItsPosesAlone) {
     EXPECT_LT(test::diagnostic(one.estimate, "travel_m"), 0.05);
   }
   EXPECT_EQ(rig.front().estimate.T_target_source.translation, before.translation);
+}
+
+TEST(MotionCheck, LeavesScenesAloneWhoseMotionIsKnown) {
+  std::vector<RigEstimate> rig = rig_of(simulation::real_noise());
+  for (RigEstimate& one : rig) one.estimate.extras.put(kMotion, Twist());
+  check(rig);
+  for (const RigEstimate& one : rig) EXPECT_FALSE(one.estimate.rejection);
 }
 
 TEST(MotionCheck, KeepsEarlierReasonsAndSkipsScenesWithoutAnAcceptedPose) {
