@@ -8,7 +8,6 @@
 #include "experiments/report/figures.hpp"
 #include "experiments/report/result_sections.hpp"
 #include "experiments/report/result_tables.hpp"
-#include "experiments/report/rig_charts.hpp"
 #include "experiments/report/rig_view_blocks.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/base/text.hpp"
