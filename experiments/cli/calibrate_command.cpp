@@ -18,6 +18,7 @@
 #include "framework/base/whole_file.hpp"
 #include "framework/calibration/extrinsics.hpp"
 #include "framework/calibration/loaded_scene.hpp"
+#include "framework/calibration/reference_hint.hpp"
 #include "framework/calibration/rig_extrinsics.hpp"
 #include "framework/calibration/rig_pictures.hpp"
 #include "framework/document/renderers.hpp"
@@ -257,6 +258,10 @@ int calibrate_command(const CalibrateOptions& given, const Catalogue& catalogue,
   print_notes(rig.notes, err);
   rig.unused.insert(rig.unused.begin(), recorded.unused.begin(), recorded.unused.end());
   rig.warnings.insert(rig.warnings.begin(), about_nominal.begin(), about_nominal.end());
+  if (options.reference.empty()) {
+    const std::string hint = reference_hint(rig);
+    if (!hint.empty()) rig.warnings.push_back(hint);
+  }
   const FolderFiles files =
       write_files(options, rig, recorded.scenes, drawn, T_base_reference, folder);
   const auto list = [&](const std::string& title, const std::vector<std::string>& paths) {

@@ -12,6 +12,7 @@
 #include "experiments/python/stage_catalogue.hpp"
 #include "experiments/report/calibration_document.hpp"
 #include "framework/calibration/calibrate_rig.hpp"
+#include "framework/calibration/fit_check.hpp"
 #include "framework/calibration/rig_extrinsics.hpp"
 
 namespace croon::python {
@@ -131,7 +132,8 @@ py::list sensors(const CalibratedRig& rig) {
     list.append(py::make_tuple(
         sensor.sensor, sensor.is_accepted, pose_or_none(sensor.T_reference_sensor),
         matrix_or_none(sensor.covariance), words_from(sensor.covariance), list_of(sensor.reasons),
-        list_of(sensor.advice), pose_or_none(sensor.nominal), scene_estimates(sensor.scenes)));
+        list_of(sensor.advice), pose_or_none(sensor.nominal), is_contradicted(sensor.refit),
+        scene_estimates(sensor.scenes)));
   }
   return list;
 }

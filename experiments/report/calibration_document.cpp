@@ -6,6 +6,7 @@
 #include "framework/base/angles.hpp"
 #include "framework/base/text.hpp"
 #include "framework/calibration/extrinsics.hpp"
+#include "framework/calibration/fit_check.hpp"
 #include "framework/document/renderers.hpp"
 #include "framework/geometry/dof.hpp"
 
@@ -73,9 +74,9 @@ std::string scenes_text(const CalibratedSensor& sensor) {
 
 /// Every format of extrinsics that fits one file, to be copied.
 std::vector<CopyText> pose_copies(const CalibratedSensor& sensor, const std::string& reference) {
-  const Extrinsics extrinsics = {
-      reference,
-      {{sensor.sensor, *sensor.T_reference_sensor, sensor.is_accepted, sensor.covariance}}};
+  const Extrinsics extrinsics = {reference,
+                                 {{sensor.sensor, *sensor.T_reference_sensor, sensor.is_accepted,
+                                   sensor.covariance, true, is_doubtful(sensor)}}};
   std::vector<CopyText> copies;
   for (const std::string& format : extrinsics_format_names()) {
     const std::vector<ExtrinsicsFile> files = write_extrinsics(extrinsics, format, true);
@@ -89,6 +90,11 @@ Card sensor_card(const CalibratedSensor& sensor, const std::string& reference) {
   card.title = sensor.sensor + "  (in the frame of " + reference + ")";
   card.tone = sensor.is_accepted ? Tone::accepted : Tone::rejected;
   card.status = sensor.is_accepted ? "accepted" : "rejected";
+  if (is_doubtful(sensor)) {
+    card.tone = Tone::warning;
+    card.status = "accepted, but contradicted by the clouds: do not use unchecked";
+  }
+  if (sensor.refit) card.lines.push_back(fit_sentence(sensor.refit));
   if (!sensor.is_accepted) {
     for (const std::string& reason : sensor.reasons) card.lines.push_back("why: " + reason);
     for (const std::string& advice : sensor.advice) card.lines.push_back("help: " + advice);
@@ -151,7 +157,16 @@ std::string accepted_sentence(const CalibratedRig& rig) {
   const auto accepted =
       std::count_if(rig.sensors.begin(), rig.sensors.end(),
                     [](const CalibratedSensor& sensor) { return sensor.is_accepted; });
-  return std::to_string(accepted) + " of " + counted(rig.sensors.size(), "sensor") + " accepted";
+  std::string sentence =
+      std::to_string(accepted) + " of " + counted(rig.sensors.size(), "sensor") + " accepted";
+  std::vector<std::string> doubtful;
+  for (const CalibratedSensor& sensor : rig.sensors) {
+    if (is_doubtful(sensor)) doubtful.push_back(printable(sensor.sensor));
+  }
+  if (!doubtful.empty()) {
+    sentence += ", but the clouds contradict the pose of " + list_text(doubtful);
+  }
+  return sentence;
 }
 
 Section verdict_section(const CalibratedRig& rig) {

@@ -13,7 +13,7 @@ namespace croon::experiments {
 /// warnings.
 Section verdict_section(const CalibratedRig& rig);
 
-/// "3 of 4 sensors accepted".
+/// "3 of 4 sensors accepted, but the clouds contradict the pose of left".
 std::string accepted_sentence(const CalibratedRig& rig);
 
 /// What `croon calibrate` prints; verdicts in colour if `colours`.

@@ -7,6 +7,8 @@
 #include "framework/base/angles.hpp"
 #include "framework/base/statistics.hpp"
 #include "framework/base/text.hpp"
+#include "framework/calibration/fit_check.hpp"
+#include "framework/calibration/rig_view.hpp"
 #include "framework/geometry/dof.hpp"
 
 namespace croon::experiments {
@@ -14,31 +16,13 @@ namespace {
 
 std::string verdict_name(bool is_accepted) { return is_accepted ? "accepted" : "rejected"; }
 
-/// Adds the fit checks to the cards. An accepted sensor that its clouds contradict is doubtful.
-void add_fit_checks(Section& section, const RigView& view, const CalibratedRig& rig) {
-  for (Block& block : section.blocks) {
-    auto* const cards = std::get_if<Cards>(&block);
-    if (cards == nullptr) continue;
-    for (std::size_t i = 0; i < cards->cards.size(); ++i) {
-      const ViewedSensor* const sensor = viewed_sensor(view, rig.sensors[i].sensor);
-      if (sensor == nullptr || !sensor->refit) continue;
-      Card& card = cards->cards[i];
-      card.lines.push_back(fit_sentence(*sensor));
-      if (!is_contradicted(*sensor) || !rig.sensors[i].is_accepted) continue;
-      card.tone = Tone::warning;
-      card.status = "accepted, but contradicted by the clouds: do not use unchecked";
-    }
-  }
-}
-
 /// Poses with their standard deviations, and their distances from the nominal poses.
-TableBlock pose_table(const CalibratedRig& rig, const RigView& clouds) {
+TableBlock pose_table(const CalibratedRig& rig) {
   using S = CalibratedSensor;
   Columns<S> columns;
-  columns.add({"sensor"}, &S::sensor).add({"verdict"}, [&](const S& sensor) {
-    const ViewedSensor* const shown = viewed_sensor(clouds, sensor.sensor);
-    const bool is_doubtful = shown != nullptr && sensor.is_accepted && is_contradicted(*shown);
-    return verdict_name(sensor.is_accepted) + (is_doubtful ? ", contradicted by the clouds" : "");
+  columns.add({"sensor"}, &S::sensor).add({"verdict"}, [](const S& sensor) {
+    return verdict_name(sensor.is_accepted) +
+           (is_doubtful(sensor) ? ", contradicted by the clouds" : "");
   });
   View view{{{"sensor"}, {"verdict"}}, 2};
   for (const int dof : {3, 4, 5, 0, 1, 2}) {
@@ -215,18 +199,9 @@ Document calibration_report(const CalibratedRig& rig, const std::vector<RigPictu
   const RigView view = rig_view(rig);
   Document document{
       "Calibration of " + counted(rig.sensors.size(), "sensor") + " to " + rig.reference,
-      accepted_sentence(rig),
+      accepted_sentence(rig) + ".",
       {verdict_section(rig)}};
-  std::vector<std::string> doubtful;
-  for (const ViewedSensor& sensor : view.sensors) {
-    if (sensor.is_accepted && is_contradicted(sensor)) doubtful.push_back(sensor.sensor);
-  }
-  if (!doubtful.empty()) {
-    document.lead += ", but the clouds contradict the pose of " + list_text(doubtful);
-  }
-  document.lead += ".";
-  add_fit_checks(document.sections.front(), view, rig);
-  document.sections.front().blocks.emplace_back(pose_table(rig, view));
+  document.sections.front().blocks.emplace_back(pose_table(rig));
   if (view.sensors.size() > 1) {
     document.sections.push_back(view_section(view));
     if (!view.pairs.empty()) document.sections.push_back(graph_section(view));

@@ -8,10 +8,10 @@
 #include "experiments/report/figures.hpp"
 #include "experiments/report/result_sections.hpp"
 #include "experiments/report/result_tables.hpp"
-#include "experiments/report/rig_charts.hpp"
 #include "experiments/report/rig_view_blocks.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/base/text.hpp"
+#include "framework/calibration/fit_check.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -170,8 +170,8 @@ Section trial_section(const Results& results, const std::vector<TrialView>& view
     const bool has_result = trial.record->T_reference_sensor.has_value();
     // Without a result, the fit is that of ground truth or of the initial guess.
     if (sensor.refit && has_result) {
-      inner.blocks.emplace_back(
-          Paragraph{fit_sentence(sensor), is_contradicted(sensor) ? Tone::warning : Tone::plain});
+      inner.blocks.emplace_back(Paragraph{
+          fit_sentence(sensor.refit), is_contradicted(sensor.refit) ? Tone::warning : Tone::plain});
     }
     inner.blocks.emplace_back(cloud_view_block(
         trial.view, "Scene " + trial.view.scene +

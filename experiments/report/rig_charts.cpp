@@ -7,6 +7,7 @@
 #include "experiments/report/panels.hpp"
 #include "framework/base/angles.hpp"
 #include "framework/base/text.hpp"
+#include "framework/calibration/fit_check.hpp"
 
 namespace croon::experiments {
 namespace {
@@ -95,7 +96,7 @@ Corner node_centre(const RigView& view, const ViewedSensor& sensor, double width
 }
 
 void draw_node(Drawing& drawing, const Corner& centre, const ViewedSensor& sensor) {
-  const bool is_good = sensor.is_accepted && !is_contradicted(sensor);
+  const bool is_good = sensor.is_accepted && !is_contradicted(sensor.refit);
   const std::string colour = sensor.is_reference ? "c7" : is_good ? "c2" : "c1";
   const double left = centre[0] - kNodeWidth / 2.0, top = centre[1] - kNodeHeight / 2.0;
   drawing.rectangle(left, top, kNodeWidth, kNodeHeight, "page");
@@ -109,31 +110,13 @@ void draw_node(Drawing& drawing, const Corner& centre, const ViewedSensor& senso
   drawing.text(centre[0], centre[1] + 13.0, verdict, Anchor::middle, "small");
 }
 
+/// The sensor of the view with this name, which must exist.
+const ViewedSensor& viewed_sensor(const RigView& view, const std::string& sensor) {
+  return *std::find_if(view.sensors.begin(), view.sensors.end(),
+                       [&](const ViewedSensor& one) { return one.sensor == sensor; });
+}
+
 }  // namespace
-
-const ViewedSensor* viewed_sensor(const RigView& view, const std::string& sensor) {
-  const auto found = std::find_if(view.sensors.begin(), view.sensors.end(),
-                                  [&](const ViewedSensor& one) { return one.sensor == sensor; });
-  return found == view.sensors.end() ? nullptr : &*found;
-}
-
-bool is_contradicted(const ViewedSensor& sensor) {
-  return sensor.refit && sensor.refit->surface_shift_m > kMaxSurfaceShift_m;
-}
-
-std::string fit_sentence(const ViewedSensor& sensor) {
-  if (!sensor.refit) return "";
-  const Refit& refit = *sensor.refit;
-  const std::string shift_mm = fixed_number(1e3 * refit.surface_shift_m, 1);
-  return is_contradicted(sensor)
-             ? "The clouds contradict this pose: the surfaces fit better at a pose " +
-                   fixed_number(deg_from_rad(refit.rotation_rad), 2) + " deg and " +
-                   fixed_number(1e3 * refit.translation_m, 0) + " mm away, which moves them by " +
-                   shift_mm + " mm."
-             : "Fit check: a new registration with all other sensors moves the surfaces by " +
-                   shift_mm + " mm; up to " + fixed_number(1e3 * kMaxSurfaceShift_m, 0) +
-                   " mm are usual.";
-}
 
 Drawing residual_chart(const ViewedSensor& sensor, const Sheet& sheet) {
   std::vector<Axis> axes;
@@ -178,7 +161,7 @@ Drawing sensor_graph(const RigView& view, const Sheet& sheet) {
   };
   for (const bool is_text : {false, true}) {
     for (const SensorAgreement& pair : view.pairs) {
-      const ViewedSensor &a = *viewed_sensor(view, pair.a), &b = *viewed_sensor(view, pair.b);
+      const ViewedSensor &a = viewed_sensor(view, pair.a), &b = viewed_sensor(view, pair.b);
       const bool is_accepted = a.is_accepted && b.is_accepted;
       const Corner from = centre_of(a), to = centre_of(b);
       if (!is_text) {

@@ -25,6 +25,16 @@ struct SceneEstimate {
   bool is_outlier = false;  ///< Accepted, but not used: it differs from that of the other scenes.
 };
 
+/// The pose to which a sensor moves from the result if it is registered with the other sensors'
+/// surfaces: an independent check.
+struct Refit {
+  double rotation_rad = 0.0;   ///< From the result.
+  double translation_m = 0.0;  ///< From the result.
+  /// Root mean square of the distances along the normals by which the surfaces move: not affected
+  /// by unobservable directions.
+  double surface_shift_m = 0.0;
+};
+
 /// The result for one sensor: one pose from all scenes.
 struct CalibratedSensor {
   std::string sensor;
@@ -36,6 +46,7 @@ struct CalibratedSensor {
   std::vector<std::string> advice;           ///< What would help; empty if accepted.
   std::optional<RigidTransform> nominal;     ///< The nominal T_reference_sensor.
   std::vector<SceneEstimate> scenes;         ///< By scene, in the order of the recording.
+  std::optional<Refit> refit = {};  ///< In the shown scene; std::nullopt without overlap in it.
 };
 
 /// The estimate of the rig's motion in one scene.

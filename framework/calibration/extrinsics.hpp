@@ -18,6 +18,7 @@ struct ExtrinsicPose {
   std::optional<PoseCovariance> covariance = {};
   /// False for a rejected sensor without a best guess, which only `csv` lists.
   bool has_pose = true;
+  bool is_doubtful = false;  ///< Accepted, but contradicted by the fit check of a calibration.
 };
 
 /// The poses of a rig's sensors in one parent frame.

@@ -66,8 +66,10 @@ bool is_accepted_word(const std::string& word, const FilePlace& place) {
                name_hint(word, {verdict_word(true), verdict_word(false)}));
 }
 
-std::string verdict_comment(bool is_accepted) {
-  return is_accepted ? "accepted" : "REJECTED: only a best guess, do not use it unchecked";
+std::string verdict_comment(const ExtrinsicPose& pose) {
+  if (!pose.is_accepted) return "REJECTED: only a best guess, do not use it unchecked";
+  return pose.is_doubtful ? "accepted, but CONTRADICTED by the clouds: do not use it unchecked"
+                          : "accepted";
 }
 
 Extrinsics renamed(const Extrinsics& extrinsics, const NameRule& rule) {

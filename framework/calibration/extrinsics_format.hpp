@@ -69,8 +69,9 @@ std::string in_escaped_quotes(const std::string& text);
 const char* verdict_word(bool is_accepted);
 bool is_accepted_word(const std::string& word, const FilePlace& place);
 
-/// A comment for a pose: "accepted", or a warning that it was rejected and is only a best guess.
-std::string verdict_comment(bool is_accepted);
+/// A comment for a pose: "accepted", or a warning that it was rejected and is only a best guess, or
+/// that the clouds contradict it.
+std::string verdict_comment(const ExtrinsicPose& pose);
 
 /// Converts a name for a format, such as "/top/points" to "top/points".
 using NameRule = std::function<std::string(const std::string&)>;

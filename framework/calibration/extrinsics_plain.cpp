@@ -32,7 +32,9 @@ std::vector<ExtrinsicsFile> write_kitti(const Extrinsics& original) {
   for (const ExtrinsicPose& pose : extrinsics.poses) {
     const std::string names = pose.sensor + std::string(kBetweenFrames) + extrinsics.parent + ": ";
     // KITTI readers split each line at its first colon and skip everything that is not a number.
-    if (!pose.is_accepted) text += "# " + names + verdict_comment(false) + "\n";
+    if (!pose.is_accepted || pose.is_doubtful) {
+      text += "# " + names + verdict_comment(pose) + "\n";
+    }
     text += std::string(kTransformKey) + names +
             decimal_numbers(rows_of(pose.T_parent_sensor, 3), " ") + "\n";
   }
@@ -243,7 +245,7 @@ std::vector<ExtrinsicsFile> write_opencalib(const Extrinsics& original) {
   for (const ExtrinsicPose& pose : extrinsics.poses) {
     const RigidTransform& T = pose.T_parent_sensor;
     poses.push_back({static_cast<int>(poses.size()), T, "", pose.sensor});
-    if (!pose.is_accepted) poses.back().note = verdict_comment(false);
+    if (!pose.is_accepted) poses.back().note = verdict_comment(pose);
   }
   return {{"initial_extrinsic.txt", pose_list_text(poses)}};
 }

@@ -27,7 +27,7 @@ std::string launch_node(const std::string& parent, const ExtrinsicPose& pose) {
   const std::array<double, 7> values = {
       T.translation.x(), T.translation.y(), T.translation.z(), q(0), q(1), q(2), q(3)};
   std::string text =
-      "        # " + verdict_comment(pose.is_accepted) +
+      "        # " + verdict_comment(pose) +
       "\n        Node(\n            package=\"tf2_ros\",\n            executable=\"" + kPublisher +
       "\",\n            arguments=[\n";
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -233,7 +233,7 @@ std::vector<ExtrinsicsFile> write_urdf(const Extrinsics& original) {
     const Eigen::Vector3d t = pose.T_parent_sensor.translation;
     const Eigen::Vector3d rpy = exact_rpy(pose.T_parent_sensor.rotation);
     const std::string name = xml_escaped(pose.sensor);
-    text += "  <!-- " + verdict_comment(pose.is_accepted) + " -->\n  <link name=\"" + name +
+    text += "  <!-- " + verdict_comment(pose) + " -->\n  <link name=\"" + name +
             "\"/>\n  <joint name=\"" + name + "_joint\" type=\"fixed\">\n    <parent link=\"" +
             xml_escaped(extrinsics.parent) + "\"/>\n    <child link=\"" + name +
             "\"/>\n    <origin xyz=\"" + decimal_numbers({t.x(), t.y(), t.z()}, " ") + "\" rpy=\"" +

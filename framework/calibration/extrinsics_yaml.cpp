@@ -156,7 +156,7 @@ std::vector<ExtrinsicsFile> write_apollo(const Extrinsics& original) {
   for (std::size_t i = 0; i < extrinsics.poses.size(); ++i) {
     const ExtrinsicPose& pose = extrinsics.poses[i];
     files.push_back({stems.poses[i].sensor + "_extrinsics.yaml",
-                     "# " + verdict_comment(pose.is_accepted) +
+                     "# " + verdict_comment(pose) +
                          "\n# The pose of child_frame_id in header.frame_id. Metres.\n"
                          "header:\n  stamp:\n    secs: 0\n    nsecs: 0\n  seq: 0\n  frame_id: " +
                          in_escaped_quotes(extrinsics.parent) + "\ntransform:\n" +
@@ -184,8 +184,7 @@ std::vector<ExtrinsicsFile> write_autoware(const Extrinsics& original) {
   for (const ExtrinsicPose& pose : extrinsics.poses) {
     Vector6d values;
     values << pose.T_parent_sensor.translation, exact_rpy(pose.T_parent_sensor.rotation);
-    text +=
-        "  " + in_escaped_quotes(pose.sensor) + ":  # " + verdict_comment(pose.is_accepted) + "\n";
+    text += "  " + in_escaped_quotes(pose.sensor) + ":  # " + verdict_comment(pose) + "\n";
     for (std::size_t i = 0; i < 6; ++i) {
       text += "    " + autoware_keys()[i] + ": " +
               decimal_number(values(static_cast<Eigen::Index>(i))) + "\n";

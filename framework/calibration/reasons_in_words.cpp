@@ -19,9 +19,6 @@ struct Translation {
   const char* advice;
 };
 
-constexpr const char* kMoreSharedView =
-    "Record where both sensors see the same walls, poles or parked cars: their common field of "
-    "view is small or nearly empty. If they share little view by design, supply nominal poses.";
 constexpr const char* kAtRest =
     "Record while the vehicle is at rest and little else moves, or with the time of each point.";
 constexpr const char* kOtherPlace =

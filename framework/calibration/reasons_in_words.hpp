@@ -8,6 +8,11 @@
 
 namespace croon {
 
+/// The advice for a sensor whose common view with the reference is too small.
+inline constexpr const char* kMoreSharedView =
+    "Record where both sensors see the same walls, poles or parked cars: their common field of "
+    "view is small or nearly empty. If they share little view by design, supply nominal poses.";
+
 /// The reasons for a rejection and advice, in sentences.
 struct ReasonsInWords {
   std::vector<std::string> reasons;

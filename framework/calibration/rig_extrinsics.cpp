@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/base/angles.hpp"
+#include "framework/calibration/fit_check.hpp"
 #include "framework/table/renderers.hpp"
 
 namespace croon {
@@ -73,6 +74,15 @@ RigJson from_nominal(const CalibratedSensor& sensor) {
           {"xyz_m", list_of_numbers(error.dof.tail<3>())}};
 }
 
+/// The fit check; null if there was none.
+RigJson fit_json(const std::optional<Refit>& refit) {
+  if (!refit) return nullptr;
+  return {{"rotation_deg", deg_from_rad(refit->rotation_rad)},
+          {"translation_m", refit->translation_m},
+          {"surface_shift_m", refit->surface_shift_m},
+          {"is_contradicted", is_contradicted(refit)}};
+}
+
 RigJson sensor_json(const CalibratedSensor& sensor) {
   RigJson json = {{"sensor", sensor.sensor}};
   json["verdict"] = sensor.is_accepted ? "accepted" : "rejected";
@@ -82,6 +92,7 @@ RigJson sensor_json(const CalibratedSensor& sensor) {
   add_uncertainty(json, sensor.covariance);
   json["nominal"] = pose_json(sensor.nominal);
   json["from_nominal"] = from_nominal(sensor);
+  json["fit"] = fit_json(sensor.refit);
   json["scenes"] = RigJson::array();
   for (const SceneEstimate& scene : sensor.scenes) json["scenes"].push_back(scene_json(scene));
   return json;
@@ -120,7 +131,7 @@ Extrinsics extrinsics_of(const CalibratedRig& rig) {
   for (const CalibratedSensor& sensor : rig.sensors) {
     extrinsics.poses.push_back({sensor.sensor, sensor.T_reference_sensor.value_or(RigidTransform{}),
                                 sensor.is_accepted, sensor.covariance,
-                                sensor.T_reference_sensor.has_value()});
+                                sensor.T_reference_sensor.has_value(), is_doubtful(sensor)});
   }
   return extrinsics;
 }
@@ -134,7 +145,10 @@ std::string rig_extrinsics_json(const CalibratedRig& rig) {
        "of the error (roll, pitch, yaw of T_estimate T_truth^-1, t_estimate - t_truth), rad and m, "
        "in the reference's frame"},
       {"ground", "T_road_reference: rotation Ry(pitch) Rx(roll), translation (0, 0, height)"},
-      {"heading", "yaw of the direction of travel in the levelled frame of the reference"}};
+      {"heading", "yaw of the direction of travel in the levelled frame of the reference"},
+      {"fit",
+       "how far a new registration with the surfaces of all other accepted sensors moves the "
+       "sensor; contradicted: do not use the pose unchecked"}};
   json["sensors"] = RigJson::array();
   for (const CalibratedSensor& sensor : rig.sensors) json["sensors"].push_back(sensor_json(sensor));
   json["warnings"] = rig.warnings;

@@ -5,12 +5,10 @@
 #include <limits>
 
 #include "framework/base/angles.hpp"
-#include "framework/base/error.hpp"
 #include "framework/base/statistics.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/calibration/close_ups.hpp"
-#include "framework/geometry/dof.hpp"
-#include "framework/registration/icp_loop.hpp"
+#include "framework/calibration/fit_check.hpp"
 #include "framework/spatial/evenly_spaced.hpp"
 
 namespace croon {
@@ -185,40 +183,10 @@ std::vector<SensorAgreement> pair_agreements(
   return pairs;
 }
 
-/// The refit of sensor `s` to the surfaces of the other sensors that are not rejected.
-std::optional<Refit> refit(const RigView& view, const Clouds& clouds, std::size_t s) {
-  const ViewedSensor& sensor = view.sensors[s];
-  if (sensor.is_reference || !sensor.poses.back()) return std::nullopt;
-  Points others;
-  for (std::size_t o = 0; o < view.sensors.size(); ++o) {
-    const ViewedSensor& other = view.sensors[o];
-    if (o == s || !other.is_accepted || !other.poses.back()) continue;
-    const Points moved_points = transformed(clouds[o]->points(), *other.poses.back());
-    others.insert(others.end(), moved_points.begin(), moved_points.end());
-  }
-  const StreamKey key(1);
-  const Cloud target(std::move(others), key), source(sensor.points, key);
-  IcpOptions options;
-  options.max_distances_m = {0.3, 0.15};
-  CorrespondenceRule rule;
-  rule.target_normals = kViewNeighbours;
-  const RigidTransform& T = *sensor.poses.back();
-  try {
-    const Registration registration =
-        iterate_icp(target, source, T, options, rule, point_to_plane_linearisation());
-    const PoseError apart = pose_error(registration.T_target_source, T);
-    const double squares = apart.dof.dot(registration.information * apart.dof);
-    return Refit{apart.rotation_rad, apart.translation_m,
-                 std::sqrt(std::max(0.0, squares) / registration.correspondences)};
-  } catch (const StageError&) {
-    return std::nullopt;  // Too few points correspond.
-  }
-}
-
-}  // namespace
-
-RigView view_of(const std::string& scene, const std::vector<std::string>& states,
-                const std::vector<ViewedCloud>& viewed) {
+/// The view of a scene, with these refits of its sensors.
+RigView view_with(const std::string& scene, const std::vector<std::string>& states,
+                  const std::vector<ViewedCloud>& viewed,
+                  const std::vector<std::optional<Refit>>& refits) {
   RigView view;
   view.scene = scene;
   view.states = states;
@@ -230,6 +198,7 @@ RigView view_of(const std::string& scene, const std::vector<std::string>& states
     sensor.sensor = one.sensor;
     sensor.is_reference = view.sensors.size() == 1;
     sensor.is_accepted = one.is_accepted;
+    sensor.refit = refits[view.sensors.size() - 1];
     sensor.points = evenly_spaced(one.cloud->points(), kMaxViewedPoints);
     for (const std::optional<RigidTransform>& pose : one.poses) {
       sensor.poses.push_back(pose ? std::optional(view.level.T_level_reference * *pose) : pose);
@@ -242,11 +211,21 @@ RigView view_of(const std::string& scene, const std::vector<std::string>& states
   for_each_in_parallel(view.sensors.size(), [&](std::size_t s) {
     if (last > 0) set_distances(view, clouds, s, 0, false);
     distances[s] = set_distances(view, clouds, s, last, true);
-    view.sensors[s].refit = refit(view, clouds, s);
   });
   view.pairs = pair_agreements(view, distances);
   view.close_ups = close_ups(view);
   return view;
+}
+
+}  // namespace
+
+RigView view_of(const std::string& scene, const std::vector<std::string>& states,
+                const std::vector<ViewedCloud>& viewed) {
+  std::vector<FittedCloud> fitted;
+  for (const ViewedCloud& one : viewed) {
+    fitted.push_back({one.cloud, one.poses.back(), one.is_accepted});
+  }
+  return view_with(scene, states, viewed, refits_of(fitted));
 }
 
 RigView rig_view(const CalibratedRig& rig) {
@@ -262,12 +241,14 @@ RigView rig_view(const CalibratedRig& rig) {
   states.emplace_back(kResultState);
   std::vector<ViewedCloud> clouds = {
       {rig.reference, shown.reference, true, {states.size(), RigidTransform()}}};
+  std::vector<std::optional<Refit>> refits = {std::nullopt};
   for (const ShownSensor& one : shown.sensors) {
     const CalibratedSensor& result = calibrated(rig, one.sensor);
     clouds.push_back({one.sensor, one.cloud, result.is_accepted,
                       poses_of(one, result, steps, has_nominal), one.rival});
+    refits.push_back(result.refit);
   }
-  return view_of(shown.scene, states, clouds);
+  return view_with(shown.scene, states, clouds, refits);
 }
 
 }  // namespace croon

@@ -26,19 +26,6 @@ struct Residual {
 /// Distances of the points of a cloud to the nearest surfaces; NaN without a surface nearby.
 using Distances = std::vector<float>;
 
-/// The pose to which a sensor moves from the result if it is registered with the other sensors'
-/// surfaces: an independent check.
-struct Refit {
-  double rotation_rad = 0.0;   ///< From the result.
-  double translation_m = 0.0;  ///< From the result.
-  /// Root mean square of the distances along the normals by which the surfaces move: not affected
-  /// by unobservable directions.
-  double surface_shift_m = 0.0;
-};
-
-/// Surfaces shift by less than this between a right pose and its refit.
-inline constexpr double kMaxSurfaceShift_m = 0.015;
-
 /// One sensor of the scene.
 struct ViewedSensor {
   std::string sensor;
@@ -92,7 +79,7 @@ struct ViewedCloud {
 RigView view_of(const std::string& scene, const std::vector<std::string>& states,
                 const std::vector<ViewedCloud>& clouds);
 
-/// The view of `rig.shown`; without sensors if nothing is shown.
+/// The view of `rig.shown`, with the refits of its sensors; without sensors if nothing is shown.
 RigView rig_view(const CalibratedRig& rig);
 
 }  // namespace croon

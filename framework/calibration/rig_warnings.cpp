@@ -3,6 +3,7 @@
 
 #include "framework/base/angles.hpp"
 #include "framework/base/text.hpp"
+#include "framework/calibration/fit_check.hpp"
 #include "framework/calibration/warnings.hpp"
 #include "framework/geometry/dof.hpp"
 
@@ -151,6 +152,10 @@ std::vector<std::string> warnings_about_rig(const CalibratedRig& rig) {
                          ": was the sensor moved, or the scan distorted? " + scene.reason);
     }
     if (!sensor.is_accepted || !sensor.T_reference_sensor) continue;
+    if (is_doubtful(sensor)) {
+      warnings.push_back("the clouds contradict the pose of " + name + ": " +
+                         refit_text(*sensor.refit) + "; find the reason before you use it");
+    }
     results.push_back({name, *sensor.T_reference_sensor});
     const auto is_accepted_in = [](const SceneEstimate& scene) { return scene.reason.empty(); };
     is_one_scene = is_one_scene ||

@@ -29,7 +29,8 @@ std::vector<std::string> copied_scenes(const std::vector<NamedCloud>& clouds);
 
 /// Warnings about suspicious results: a pose at zero, two sensors with the same pose, a pose that
 /// is far from the nominal one, about half a turn from it or near its inverse, two sensors that
-/// appear swapped, a scene that differs from the others, a single scene.
+/// appear swapped, an accepted pose that the clouds contradict, a scene that differs from the
+/// others, a single scene.
 std::vector<std::string> warnings_about_rig(const CalibratedRig& rig);
 
 }  // namespace croon

@@ -39,6 +39,7 @@ class TextWriter {
     std::string text = "\n";
     for (const Card& card : cards.cards) {
       text += status(card) + printable(card.title) + "\n";
+      if (card.tone == Tone::warning) text += indented(card.status, "  ");
       for (const std::string& line : card.lines) text += indented(line, "  ");
       text += indented(card.details, "  ") + "\n";
     }
@@ -73,11 +74,21 @@ class TextWriter {
  private:
   /// The status in capitals, so that it is visible without colours.
   std::string status(const Card& card) const {
-    if (card.tone != Tone::accepted && card.tone != Tone::rejected) return "";
-    const bool is_accepted = card.tone == Tone::accepted;
-    const std::string word = is_accepted ? "ACCEPTED" : "REJECTED";
-    if (!colours_) return word + "  ";
-    return (is_accepted ? "\033[32m" : "\033[31m") + word + "\033[0m  ";
+    switch (card.tone) {
+      case Tone::accepted:
+        return coloured("ACCEPTED", "32") + "  ";
+      case Tone::rejected:
+        return coloured("REJECTED", "31") + "  ";
+      case Tone::warning:
+        return coloured("WARNING", "33") + "   ";
+      default:
+        return "";
+    }
+  }
+
+  /// `word` in a colour of the terminal.
+  std::string coloured(const std::string& word, const std::string& colour) const {
+    return colours_ ? "\033[" + colour + "m" + word + "\033[0m" : word;
   }
 
   bool colours_;

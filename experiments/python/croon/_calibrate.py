@@ -60,6 +60,9 @@ class CalibratedSensor:
     """What could help; empty if accepted."""
     nominal: Optional[Array]
     """The given nominal pose `T_reference_sensor`, 4×4; or None."""
+    contradicted: bool
+    """Whether the clouds contradict the pose: the fit check, independent of the verdict, moves the surfaces by more than
+    15 mm. Do not use the pose unchecked."""
     scenes: List[SceneEstimate]
     """The estimates in each scene, in the order of the scenes."""
 

@@ -4,6 +4,7 @@
 #include "experiments/report/calibration_document.hpp"
 #include "experiments/report/rig_charts.hpp"
 #include "framework/base/angles.hpp"
+#include "framework/calibration/fit_check.hpp"
 #include "framework/calibration/rig_view.hpp"
 #include "framework/document/renderers.hpp"
 #include "framework/geometry/dof.hpp"
@@ -49,6 +50,7 @@ CalibratedRig street_rig(const Vector6d& offset = Vector6d::Zero(),
   rig.shown = {"0", std::make_shared<const Cloud>(pair.target, StreamKey(1)), {}};
   add_sensor(rig, left, pair.source, moved(kTopLeft, offset), true);
   add_sensor(rig, "right", pair.source, kTopLeft, false);
+  set_refits(rig);
   return rig;
 }
 
@@ -87,6 +89,9 @@ TEST(CalibrationReport, WarnsOfAPoseThatTheCloudsContradict) {
   EXPECT_EQ(card.tone, Tone::warning);
   EXPECT_THAT(card.status, HasSubstr("contradicted by the clouds"));
   EXPECT_THAT(card.lines, Contains(HasSubstr("The clouds contradict this pose")));
+  const std::string text = calibration_text(street_rig(wrong), false);
+  EXPECT_THAT(text, HasSubstr("but the clouds contradict the pose of left"));
+  EXPECT_THAT(text, HasSubstr("WARNING   left"));
 }
 
 TEST(CalibrationReport, WithoutCloudsHasNoView) {

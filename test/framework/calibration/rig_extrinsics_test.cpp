@@ -60,6 +60,7 @@ TEST(CalibratedRig, SaysInJsonWhatIsMissing) {
   EXPECT_TRUE(json["sensors"][2]["T_reference_sensor"].is_null());
   EXPECT_TRUE(json["sensors"][2]["standard_deviation"].is_null());
   EXPECT_TRUE(json["sensors"][2]["from_nominal"].is_null());
+  EXPECT_TRUE(json["sensors"][2]["fit"].is_null());
   EXPECT_EQ(json["sensors"][1]["verdict"], "rejected");
   EXPECT_EQ(json["sensors"][1]["reasons"][0], "yaw is unobservable");
   EXPECT_LT(json["sensors"][0]["from_nominal"]["rotation_deg"], 2.0);

@@ -8,6 +8,7 @@
 #include "framework/base/angles.hpp"
 #include "framework/base/statistics.hpp"
 #include "framework/base/threads.hpp"
+#include "framework/calibration/fit_check.hpp"
 #include "test/support/random_geometry.hpp"
 
 namespace croon::test {
