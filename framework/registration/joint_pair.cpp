@@ -165,26 +165,17 @@ std::vector<JointTerm> terms_of(const JointScene::Source& source, const Deskewed
   return terms;
 }
 
-/// The most plausible ground of a scan.
-std::shared_ptr<const std::optional<Plane>> ground_of(const Cloud& cloud) {
-  constexpr int kForTheGround = 5000;
-  return cloud.once<std::optional<Plane>>("joint_ground", [&] {
-    Rng rng = cloud.rng("vehicles");
-    const auto grounds = ground_candidates(evenly_spaced(cloud.points(), kForTheGround),
-                                           GroundCandidateOptions{}, rng);
-    return std::make_shared<std::optional<Plane>>(
-        grounds.empty() ? std::nullopt : std::optional<Plane>(grounds.front().plane));
-  });
-}
-
 /// Whether each point of a scan belongs to a vehicle-sized object; all false if no ground is found.
 std::shared_ptr<const std::vector<bool>> vehicles_of(const Cloud& cloud) {
+  constexpr int kForTheGround = 5000;
   return cloud.once<std::vector<bool>>("vehicles", [&] {
     const Points& points = cloud.points();
-    const std::optional<Plane> ground = *ground_of(cloud);
+    Rng rng = cloud.rng("vehicles");
+    const auto grounds =
+        ground_candidates(evenly_spaced(points, kForTheGround), GroundCandidateOptions{}, rng);
     return std::make_shared<std::vector<bool>>(
-        ground ? is_vehicle_sized(points, *ground, VehicleSize{})
-               : std::vector<bool>(points.size(), false));
+        grounds.empty() ? std::vector<bool>(points.size(), false)
+                        : is_vehicle_sized(points, grounds.front().plane, VehicleSize{}));
   });
 }
 
@@ -197,29 +188,15 @@ Matrix6d velocity_information(const JointScene& scene, const JointOptions& optio
     const Matrix6d min_covariance = Vector6d::Constant(kMinStd * kMinStd).asDiagonal();
     return width_m * width_m * guarded_inverse<6>(*scene.velocity_covariance + min_covariance);
   }
-  return unknown_velocity_information(scene, options);
+  return unknown_velocity_information(options);
 }
 
-Matrix6d unknown_velocity_information(const JointScene& scene, const JointOptions& options) {
-  const auto information = [&](double std) {
-    const double share = options.kernel_width_m / std;
-    return share * share;
-  };
-  const double along = information(options.velocity_std[0]);
-  const double about = information(options.velocity_std[1]);
-  Matrix6d sum = Matrix6d::Zero();
-  sum.diagonal() << Eigen::Vector3d::Constant(about), Eigen::Vector3d::Constant(along);
-  if (!scene.up) return sum;
-  const Eigen::Matrix3d vertical = *scene.up * scene.up->transpose();
-  const Eigen::Matrix3d level = Eigen::Matrix3d::Identity() - vertical;
-  sum.topLeftCorner<3, 3>() += (information(options.vertical_std[1]) - about) * level;
-  sum.bottomRightCorner<3, 3>() += (information(options.vertical_std[0]) - along) * vertical;
-  return sum;
-}
-
-std::optional<Eigen::Vector3d> up_of(const Cloud& cloud) {
-  const std::optional<Plane> ground = *ground_of(cloud);
-  return ground ? std::optional<Eigen::Vector3d>(ground->normal) : std::nullopt;
+Matrix6d unknown_velocity_information(const JointOptions& options) {
+  const double width_m = options.kernel_width_m;
+  Vector6d shares;
+  shares << Eigen::Vector3d::Constant(width_m / options.velocity_std[1]),
+      Eigen::Vector3d::Constant(width_m / options.velocity_std[0]);
+  return shares.cwiseAbs2().asDiagonal();
 }
 
 JointView last_view(const JointState& state, const Twist& velocity, const JointOptions& options) {

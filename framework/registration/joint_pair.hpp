@@ -69,11 +69,7 @@ using PairMatrix = Eigen::Matrix<double, kPairUnknowns, kPairUnknowns>;
 Matrix6d velocity_information(const JointScene& scene, const JointOptions& options);
 
 /// The same without a velocity from an earlier step.
-Matrix6d unknown_velocity_information(const JointScene& scene, const JointOptions& options);
-
-/// The normal of the most plausible ground of `cloud`, for JointScene::up; std::nullopt if there is
-/// none.
-std::optional<Eigen::Vector3d> up_of(const Cloud& cloud);
+Matrix6d unknown_velocity_information(const JointOptions& options);
 
 /// The state at which the points of a scene are compared, and the conditions for correspondences.
 struct JointView {

@@ -152,10 +152,6 @@ const params::Table<JointOptions>& joint_table() {
             "velocity_std", &JointOptions::velocity_std, {1e-9, 1e6},
             "Prior standard deviations of a velocity about zero: the first in m/s, along each "
             "axis; the second in rad/s, about each axis."),
-        params::numbers(
-            "vertical_std", &JointOptions::vertical_std, {1e-9, 1e6},
-            "The same along the normal of the ground, in m/s, and about the axes in the ground, in "
-            "rad/s, if the reference sees a ground: a vehicle hardly bounces and tilts."),
         params::number("clock_offset_std_s", &JointOptions::clock_offset_std_s, {0.0, 1e6},
                        "Prior standard deviation of the offset of a sensor's clock from the "
                        "target's; at 0 the clocks agree."),
@@ -191,8 +187,6 @@ const params::Table<JointOptions>& joint_table() {
                  "max_distances_m must have a number");
     rows.require([](const JointOptions& o) { return o.velocity_std.size() == 2; },
                  "velocity_std must have two numbers, m/s and rad/s");
-    rows.require([](const JointOptions& o) { return o.vertical_std.size() == 2; },
-                 "vertical_std must have two numbers, m/s and rad/s");
     rows.require([](const JointOptions& o) { return is_clock_std(o.clock_offset_std_s); },
                  kClockStdIs);
     return rows;

@@ -32,8 +32,6 @@ struct JointScene {
   std::optional<Matrix6d> velocity_covariance;
   /// The velocity that an earlier step has removed; the unknown one is added to it.
   Twist removed = {};
-  /// The normal of the target's ground, a unit vector, if it is known: see `vertical_std`.
-  std::optional<Eigen::Vector3d> up = {};
 };
 
 /// The unknowns of a joint registration.
@@ -48,7 +46,6 @@ struct JointState {
 struct JointOptions {
   std::vector<double> max_distances_m = {0.3};
   std::vector<double> velocity_std = {30.0, 1.0};
-  std::vector<double> vertical_std = {0.1, 0.035};
   double clock_offset_std_s = 0.0;
   int max_iterations = 30;
   int points = 3000;

@@ -80,7 +80,7 @@ Matrix6d velocity_covariance(const DeskewedTarget& target, const JointState& sta
   }
   // No velocity is less certain than one without any observations.
   const double width_m = options.kernel_width_m;
-  const Matrix6d of_unknown = unknown_velocity_information(scene, options) / (width_m * width_m);
+  const Matrix6d of_unknown = unknown_velocity_information(options) / (width_m * width_m);
   return guarded_inverse<6>(guarded_inverse<6>(covariance) + of_unknown);
 }
 
@@ -91,9 +91,6 @@ const params::Table<MotionOptions>& motion_table() {
       params::number("min_motion", &MotionOptions::min_motion, {0.0, 1e9},
                      "Minimum squared Mahalanobis distance of a velocity from zero for a scene to "
                      "count as moving; for stationary cars it was 6 to 67 on tuning scenes."),
-      params::number("max_rest", &MotionOptions::max_rest, {0.0, 1e9},
-                     "Up to this squared distance, the scene is certainly at rest: its poses are "
-                     "registered again without a velocity."),
       params::number(
           "max_speed_std_mps", &MotionOptions::max_speed_std_mps, {0.0, 1e6},
           "Maximum standard deviation of a certain speed along x and y of the reference. "
@@ -170,11 +167,10 @@ SceneMotion motion_of(const JointScene& scene, std::size_t s, const JointState& 
     motion.covariance += apart * apart.transpose();
   }
   motion.shift_std_m = shift_std_m(target, motion.covariance, state, options);
-  motion.significance = velocity.dot(guarded_inverse<6>(motion.covariance) * velocity);
   // The error of a prior velocity need not be zero.
-  const bool is_error = scene.velocity_covariance.has_value();
-  motion.is_moving = is_error || motion.significance >= motion_options.min_motion;
-  motion.is_at_rest = !is_error && motion.significance <= motion_options.max_rest;
+  motion.is_moving =
+      scene.velocity_covariance.has_value() ||
+      velocity.dot(guarded_inverse<6>(motion.covariance) * velocity) >= motion_options.min_motion;
   if (motion.is_moving) motion.velocity = state.velocities[s];
   return motion;
 }

@@ -12,7 +12,6 @@ namespace croon {
 /// When a scene is stationary, and when its velocity is certain.
 struct MotionOptions {
   double min_motion = 100.0;
-  double max_rest = 30.0;
   double max_speed_std_mps = 0.05;
   std::vector<double> other_speeds_mps = {-30.0, -20.0, -10.0, 0.0, 10.0, 20.0, 30.0};
   double min_speed_lead = 1.5;
@@ -37,9 +36,6 @@ struct SceneMotion {
   Twist velocity;  ///< Of the target, in its own frame; zero if the scene is stationary.
   Matrix6d covariance = Matrix6d::Zero();  ///< About the axes in rad/s, along them in m/s.
   bool is_moving = false;
-  bool is_at_rest = false;  ///< Certainly at rest, if its velocity was estimated.
-  /// The squared Mahalanobis distance of the estimated velocity from zero.
-  double significance = 0.0;
   /// By source, if the speed is uncertain: the lead, in standard deviations, of the agreement over
   /// other speeds, see leads_over_rivals. std::nullopt if no other speed moves the source.
   std::vector<std::optional<double>> leads;

@@ -12,8 +12,8 @@ namespace croon {
 namespace {
 
 // A mounting may leave a short part of a revolution visible; a LiDAR packet lasts 1 to 2 ms.
-constexpr double kMinScan_s = 5e-3;
-constexpr double kMaxScan_s = 1.0;
+constexpr double kShortestScan_s = 5e-3;
+constexpr double kLongestScan_s = 1.0;
 
 /// A sample of points for checking times, in the order of the cloud.
 struct Sample {
@@ -92,9 +92,9 @@ std::string why_unusable(const PointCloud& cloud) {
   const TimeSpan span = span_of(times);
   const double length_s = span.last_s - span.first_s;
   if (length_s == 0.0) return "all times are equal";
-  if (length_s < kMinScan_s || length_s > kMaxScan_s) {
+  if (length_s < kShortestScan_s || length_s > kLongestScan_s) {
     return "the times span " + plain_number(length_s) + " s, but a scan lasts " +
-           plain_number(kMinScan_s) + " to " + plain_number(kMaxScan_s) +
+           plain_number(kShortestScan_s) + " to " + plain_number(kLongestScan_s) +
            " s: expected seconds, or whole nanoseconds, that do not restart within a scan";
   }
   constexpr std::size_t kMinPoints = 200;
@@ -134,7 +134,7 @@ std::string why_not_one_clock(const std::vector<std::string>& names,
         std::max(span.last_s - span.first_s, reference.last_s - reference.first_s);
     if (std::abs(later_s) <= kMaxApart * scan_s) continue;
     const std::string sensors = names.at(i) + " and " + names.front();
-    if (std::abs(later_s) > kMaxScan_s) {
+    if (std::abs(later_s) > kLongestScan_s) {
       return "the clocks of " + sensors + " have different epochs: their scans are " +
              plain_number(std::round(std::abs(later_s) * 10.0) / 10.0) + " s apart";
     }

@@ -112,23 +112,12 @@ class JointRegistrationStep final : public RigStep {
     for (std::size_t s = 0; s < group.scenes.size(); ++s) {
       SceneMotion motion =
           motion_of(group.scenes[s], s, result.state, state_without_patch_kernel, params_, params_);
-      motion.is_at_rest = motion.is_at_rest && params_.poses == Poses::per_scene;
       if (params_.poses == Poses::per_scene && motion.is_in_doubt(params_)) {
         motion.leads =
             leads_of(group.scenes[s], coarse[s], result.state, motion, state_without_patch_kernel);
       }
-      write_result(group, s, motion.is_at_rest ? registered_at_rest(group, result.state) : result,
-                   motion);
+      write_result(group, s, result, motion);
     }
-  }
-
-  /// The registration of the only scene of `group` again, from the poses of `state` and without
-  /// velocity.
-  JointRegistration registered_at_rest(const Group& group, JointState state) const {
-    std::vector<JointScene> scenes = group.scenes;
-    for (JointScene& scene : scenes) scene.is_moving = false;
-    state.velocities.assign(scenes.size(), Twist());
-    return register_jointly(scenes, std::move(state), params_);
   }
 
   static constexpr int kFewer = 4;
@@ -202,7 +191,6 @@ class JointRegistrationStep final : public RigStep {
     require_near(scene.target.times_s, scene.reference_s);
     scene.sources.push_back({0, timed(estimate.source, params_.motion, scene.reference_s)});
     require_near(scene.sources.front().scan.times_s, scene.reference_s);
-    scene.up = up_of(*estimate.target);
     scene.is_moving = params_.motion && has_times(*estimate.target) && has_times(*estimate.source);
     // An earlier step has already removed this velocity; only its error remains.
     if (const Twist* const removed = estimate.extras.find(kMotion)) scene.removed = *removed;
@@ -281,8 +269,7 @@ class JointRegistrationStep final : public RigStep {
       const std::vector<Diagnostic> stds = velocity_std_diagnostics(covariance);
       diagnostics.insert(diagnostics.end(), stds.begin(), stds.end());
       diagnostics.insert(diagnostics.end(), {{"speed_std_mps", speed_std_mps(covariance)},
-                                             {"speed_shift_std_m", motion.shift_std_m[source]},
-                                             {"motion_significance", motion.significance}});
+                                             {"speed_shift_std_m", motion.shift_std_m[source]}});
     }
     diagnostics.insert(diagnostics.end(), {{"rmse_m", result.rmse_m},
                                            {"iterations", static_cast<double>(result.iterations)},
@@ -301,8 +288,7 @@ class JointRegistrationStep final : public RigStep {
     const Twist* const removed = extras.find(kMotion);
     extras.put(kMotion, removed == nullptr ? motion.velocity
                                            : stepped(*removed, vector_of(motion.velocity)));
-    extras.put(kMotionCovariance,
-               motion.is_at_rest ? Matrix6d(Matrix6d::Zero()) : motion.covariance);
+    extras.put(kMotionCovariance, motion.covariance);
   }
 
   /// The scan as a rig at rest would have measured it, with times in the target's clock.

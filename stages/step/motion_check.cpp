@@ -168,7 +168,6 @@ class MotionCheck final : public RigStep {
     scene.is_moving = true;
     scene.reference_s = 0.5 * params_.period_s;
     scene.target = swept(*estimates.front()->estimate.target);
-    scene.up = up_of(*scene.target.cloud);
     for (std::size_t k = 0; k < estimates.size(); ++k) {
       scene.sources.push_back({k, swept(*estimates[k]->estimate.source)});
     }
