@@ -32,6 +32,13 @@ std::string pose_text(const RigidTransform& T, const std::optional<PoseCovarianc
   return text + "\n";
 }
 
+/// The part of the standard deviations that the data do not show.
+std::string budget_text(const Matrix6d& error_budget) {
+  const PoseCovariance budget = {error_budget, {}};
+  return "std includes systematic errors of LiDARs: " + stds_text(budget, 3, 1e3, 1) + " mm, " +
+         stds_text(budget, 0, deg_from_rad(1.0), 3) + " deg";
+}
+
 /// Adds the degrees of freedom that are weakly constrained or unobservable.
 void add_observability(const std::optional<PoseCovariance>& covariance,
                        std::vector<std::string>& lines) {
@@ -104,6 +111,7 @@ Card sensor_card(const CalibratedSensor& sensor, const std::string& reference) {
   if (!sensor.T_reference_sensor) return card;
   card.details = pose_text(*sensor.T_reference_sensor, sensor.covariance);
   std::vector<std::string> notes;
+  if (sensor.error_budget) notes.push_back(budget_text(*sensor.error_budget));
   if (sensor.is_accepted) {
     add_observability(sensor.covariance, notes);
     if (const std::string scenes = scenes_text(sensor); !scenes.empty()) notes.push_back(scenes);

@@ -11,6 +11,7 @@
 #include "framework/base/text.hpp"
 #include "framework/base/threads.hpp"
 #include "framework/calibration/composition.hpp"
+#include "framework/calibration/error_budget.hpp"
 #include "framework/calibration/fit_check.hpp"
 #include "framework/calibration/ground_pose.hpp"
 #include "framework/calibration/rig_run.hpp"
@@ -318,6 +319,7 @@ CalibratedRig calibrated(const std::vector<Scene>& scenes, const CalibrationOpti
   rig.sensors = std::move(outcome.sensors);
   reject_scan_faults(rig, input.members, outcome.members);
   set_refits(rig);
+  add_error_budget(rig, input.members, outcome.members);
   set_nominal(rig.sensors, scenes);
   set_ground(rig, input, options.seed);
   rig.warnings.insert(rig.warnings.end(), outcome.warnings.begin(), outcome.warnings.end());

@@ -19,10 +19,11 @@ struct SceneEstimate {
   std::string scene;
   /// T_reference_sensor; std::nullopt if a step failed.
   std::optional<RigidTransform> T_reference_sensor;
-  std::optional<PoseCovariance> covariance;
+  std::optional<PoseCovariance> covariance;  ///< With the error budget, as that of a sensor.
   /// Why the pose was rejected or not used, or the step failed; empty if it was used.
   std::string reason;
   bool is_outlier = false;  ///< Accepted, but not used: it differs from that of the other scenes.
+  std::optional<Matrix6d> error_budget = {};  ///< As that of a sensor.
 };
 
 /// The pose to which a sensor moves from the result if it is registered with the other sensors'
@@ -41,11 +42,16 @@ struct CalibratedSensor {
   bool is_accepted = false;
   /// T_reference_sensor; for a rejected sensor the best guess, or std::nullopt if there is none.
   std::optional<RigidTransform> T_reference_sensor;
-  std::optional<PoseCovariance> covariance;  ///< See PoseCovariance for its frame and units.
-  std::vector<std::string> reasons;          ///< Why it was rejected; empty if accepted.
-  std::vector<std::string> advice;           ///< What would help; empty if accepted.
-  std::optional<RigidTransform> nominal;     ///< The nominal T_reference_sensor.
-  std::vector<SceneEstimate> scenes;         ///< By scene, in the order of the recording.
+  /// See PoseCovariance for its frame and units. It includes `error_budget`; the rest is
+  /// statistical: it follows from the scatter of the data.
+  std::optional<PoseCovariance> covariance;
+  std::vector<std::string> reasons;       ///< Why it was rejected; empty if accepted.
+  std::vector<std::string> advice;        ///< What would help; empty if accepted.
+  std::optional<RigidTransform> nominal;  ///< The nominal T_reference_sensor.
+  std::vector<SceneEstimate> scenes;      ///< By scene, in the order of the recording.
+  /// The part of `covariance` that systematic errors of real LiDARs cause (add_error_budget);
+  /// std::nullopt if it is unknown.
+  std::optional<Matrix6d> error_budget = {};
   std::optional<Refit> refit = {};  ///< In the shown scene; std::nullopt without overlap in it.
 };
 

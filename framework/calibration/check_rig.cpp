@@ -18,9 +18,14 @@ constexpr double kNamedDeviations = 3.0;
 constexpr double kMaxDeviation_rad = rad_from_deg(0.5);
 constexpr double kMaxDeviation_m = 0.1;
 
-/// The covariance of the difference between an optimum and the true pose.
-Matrix6d covariance_of_difference(const std::optional<PoseCovariance>& covariance) {
-  Matrix6d sum = covariance ? bounded_covariance(covariance->matrix) : Matrix6d(Matrix6d::Zero());
+/// The covariance of the difference between an optimum and the pose that a perfect calibration of
+/// the same sensors finds: without the error budget, because both poses have the systematic errors.
+Matrix6d covariance_of_difference(const CalibratedSensor& calibrated) {
+  Matrix6d sum = Matrix6d::Zero();
+  if (calibrated.covariance) {
+    sum = calibrated.covariance->matrix - calibrated.error_budget.value_or(sum);
+    sum = bounded_covariance(sum);
+  }
   for (int i = 0; i < 6; ++i) {
     const double scatter = is_rotation(static_cast<Dof>(i)) ? kScatter_rad : kScatter_m;
     sum(i, i) += scatter * scatter;
@@ -30,7 +35,7 @@ Matrix6d covariance_of_difference(const std::optional<PoseCovariance>& covarianc
 
 void set_optimum(CheckedSensor& checked, const CalibratedSensor& calibrated) {
   checked.optimum = calibrated.T_reference_sensor;
-  const Matrix6d covariance = covariance_of_difference(calibrated.covariance);
+  const Matrix6d covariance = covariance_of_difference(calibrated);
   checked.difference = pose_error(*checked.given, *checked.optimum).dof;
   checked.deviations = covariance.diagonal().cwiseSqrt();
   checked.distance =

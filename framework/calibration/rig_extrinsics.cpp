@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "framework/base/angles.hpp"
+#include "framework/base/text.hpp"
+#include "framework/calibration/error_budget.hpp"
 #include "framework/calibration/fit_check.hpp"
 #include "framework/table/renderers.hpp"
 
@@ -40,19 +42,30 @@ RigJson pose_json(const RigidTransform& T) {
 
 RigJson pose_json(const std::optional<RigidTransform>& T) { return T ? pose_json(*T) : RigJson(); }
 
-/// Adds the keys of a covariance, null if there is none.
-void add_uncertainty(RigJson& json, const std::optional<PoseCovariance>& covariance) {
-  for (const char* key : {"standard_deviation", "observability", "covariance"}) json[key] = nullptr;
+RigJson standard_deviation_json(const Matrix6d& covariance) {
+  const Vector6d deviations = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  return {{"roll_pitch_yaw_deg", list_of_numbers(deviations.head<3>() * deg_from_rad(1.0))},
+          {"translation_m", list_of_numbers(deviations.tail<3>())}};
+}
+
+/// Adds the keys of a covariance and of its error budget, null if there is none.
+void add_uncertainty(RigJson& json, const std::optional<PoseCovariance>& covariance,
+                     const std::optional<Matrix6d>& error_budget) {
+  for (const char* key : {"standard_deviation", "observability", "covariance", "error_budget"}) {
+    json[key] = nullptr;
+  }
   if (!covariance) return;
-  const Vector6d deviations = covariance->matrix.diagonal().cwiseMax(0.0).cwiseSqrt();
-  json["standard_deviation"] = {
-      {"roll_pitch_yaw_deg", list_of_numbers(deviations.head<3>() * deg_from_rad(1.0))},
-      {"translation_m", list_of_numbers(deviations.tail<3>())}};
+  json["standard_deviation"] = standard_deviation_json(covariance->matrix);
   json["observability"] = RigJson::object();
   for (std::size_t i = 0; i < kDofNames.size(); ++i) {
     json["observability"][kDofNames.at(i)] = name_of(covariance->dofs.at(i));
   }
   json["covariance"] = matrix_json(covariance->matrix);
+  if (!error_budget) return;
+  const Matrix6d statistical = covariance->matrix - *error_budget;
+  json["error_budget"] = {{"standard_deviation", standard_deviation_json(*error_budget)},
+                          {"statistical_standard_deviation", standard_deviation_json(statistical)},
+                          {"covariance", matrix_json(*error_budget)}};
 }
 
 RigJson scene_json(const SceneEstimate& scene) {
@@ -60,7 +73,7 @@ RigJson scene_json(const SceneEstimate& scene) {
   json["verdict"] = scene.reason.empty() ? "accepted" : "rejected";
   json["reason"] = scene.reason;
   json["T_reference_sensor"] = pose_json(scene.T_reference_sensor);
-  add_uncertainty(json, scene.covariance);
+  add_uncertainty(json, scene.covariance, scene.error_budget);
   return json;
 }
 
@@ -89,7 +102,7 @@ RigJson sensor_json(const CalibratedSensor& sensor) {
   json["reasons"] = sensor.reasons;
   json["advice"] = sensor.advice;
   json["T_reference_sensor"] = pose_json(sensor.T_reference_sensor);
-  add_uncertainty(json, sensor.covariance);
+  add_uncertainty(json, sensor.covariance, sensor.error_budget);
   json["nominal"] = pose_json(sensor.nominal);
   json["from_nominal"] = from_nominal(sensor);
   json["fit"] = fit_json(sensor.refit);
@@ -143,7 +156,14 @@ std::string rig_extrinsics_json(const CalibratedRig& rig) {
       {"roll_pitch_yaw", "R = Rz(yaw) Ry(pitch) Rx(roll)"},
       {"covariance",
        "of the error (roll, pitch, yaw of T_estimate T_truth^-1, t_estimate - t_truth), rad and m, "
-       "in the reference's frame"},
+       "in the reference's frame; it includes error_budget"},
+      {"error_budget",
+       "the part of the covariance that systematic errors of LiDARs cause, assumed to have "
+       "standard "
+       "deviations of " +
+           fixed_number(deg_from_rad(kRealBeamErrors.azimuth_rad), 1) + " deg and " +
+           fixed_number(1e3 * kRealBeamErrors.range_m, 0) +
+           " mm; the statistical rest is computed from the scatter of the data"},
       {"ground", "T_road_reference: rotation Ry(pitch) Rx(roll), translation (0, 0, height)"},
       {"heading", "yaw of the direction of travel in the levelled frame of the reference"},
       {"fit",

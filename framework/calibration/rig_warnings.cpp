@@ -172,7 +172,7 @@ std::vector<std::string> warnings_about_rig(const CalibratedRig& rig) {
   if (is_one_scene) {
     warnings.emplace_back(
         "the poses are from one scene: on real vehicles, yaw usually differs by 0.1 to 0.2° "
-        "between scenes, which the standard deviations do not reflect; more scenes average it out");
+        "between scenes; more scenes average it out");
   }
   return warnings;
 }

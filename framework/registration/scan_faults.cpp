@@ -2,91 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "framework/base/angles.hpp"
 #include "framework/base/statistics.hpp"
 #include "framework/geometry/guarded_inverse.hpp"
-#include "framework/registration/gauss_newton.hpp"
 #include "framework/registration/icp_options.hpp"
-#include "framework/registration/surface_key.hpp"
-#include "framework/spatial/evenly_spaced.hpp"
 
 namespace croon {
 namespace {
 
-constexpr int kNormalNeighbours = 10;
-constexpr std::size_t kComparedPoints = 3000;  ///< Of a sensor, over all scans,
-constexpr std::size_t kMinCompared = 600;      ///< and at least of each scan.
-constexpr std::size_t kMinScanContacts = 60;   ///< Of a scan.
-constexpr float kMaxContact_m = 0.5F;
+constexpr std::size_t kMinScanContacts = 60;  ///< Of a scan.
 /// Widths of the robust kernel by iteration: wide at first, because a fault moves points far.
 constexpr double kContactKernels_m[] = {0.4, 0.2, 0.1, 0.1, 0.1};
-constexpr double kSurfaceSize_m = 4.0;
-
-/// A point on a surface of the target.
-struct Touch {
-  Vector6d by_pose;  ///< The Jacobian of its distance with respect to `moved`.
-  Eigen::Vector3d normal;
-  double distance_m = 0.0;
-  double along_ray = 0.0;  ///< The change of the distance per change of the range.
-  double range_m = 0.0;
-  double azimuth_rad = 0.0;
-  double balance = 0.0;     ///< Weight of its direction.
-  std::size_t surface = 0;  ///< Index of its surface.
-};
-
-/// The points of a scan on surfaces of its target.
-struct Touches {
-  std::vector<Touch> points;
-  std::size_t surfaces = 0;
-};
-
-/// The sampled points of a scan that lie on surfaces of the target.
-Touches touches_of(const ComparedScan& scan, std::size_t max_points) {
-  constexpr double kMinNormalCosine = 0.8;
-  const Points& points = scan.source->points();
-  const Normals& target_normals = scan.target->normals(kNormalNeighbours);
-  const Normals& source_normals = scan.source->normals(kNormalNeighbours);
-  const RigidTransform& T = scan.T_target_source;
-  const std::size_t count = std::min(points.size(), max_points);
-  Touches touches;
-  std::map<SurfaceKey, std::size_t> surfaces;
-  std::vector<int> directions;
-  DirectionCounts counts{};
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t index = evenly_spaced_index(i, points.size(), count);
-    const Eigen::Vector3d point = points[index].cast<double>();
-    const Eigen::Vector3d arm = T.rotation * point;
-    const Eigen::Vector3d in_target = arm + T.translation;
-    const Neighbour nearest =
-        scan.target->kd_tree().nearest(in_target.cast<float>(), kMaxContact_m);
-    if (!nearest || !(point.norm() > 0.0)) continue;
-    const Eigen::Vector3d normal = target_normals.at(nearest.index).normal.cast<double>();
-    const Eigen::Vector3d own =
-        T.rotation * source_normals.at(static_cast<int>(index)).normal.cast<double>();
-    if (!(std::abs(normal.dot(own)) > kMinNormalCosine)) continue;
-    Touch touch;
-    touch.by_pose = plane_jacobian(arm, normal);
-    touch.normal = normal;
-    touch.distance_m = normal.dot(
-        in_target - scan.target->points()[static_cast<std::size_t>(nearest.index)].cast<double>());
-    touch.range_m = point.norm();
-    touch.along_ray = normal.dot(arm) / touch.range_m;
-    touch.azimuth_rad = std::atan2(point.y(), point.x());
-    const SurfaceKey key = surface_key(in_target, normal, kSurfaceSize_m);
-    touch.surface = surfaces.try_emplace(key, surfaces.size()).first->second;
-    directions.push_back(key.second);
-    ++counts.at(static_cast<std::size_t>(key.second));
-    touches.points.push_back(touch);
-  }
-  const auto weights = direction_weights(counts, 0.5);
-  for (std::size_t i = 0; i < touches.points.size(); ++i) {
-    touches.points[i].balance = weights.at(static_cast<std::size_t>(directions[i]));
-  }
-  touches.surfaces = surfaces.size();
-  return touches;
-}
 
 /// Estimates of K sizes of a fault.
 template <int K>
@@ -110,7 +37,7 @@ struct ReducedScan {
 
 /// `by_size(touch)` is the change of the distance of a touch with the sizes.
 template <int K, class BySize>
-ReducedScan<K> reduced_scan(const Touches& touches, const Vector6d& pose,
+ReducedScan<K> reduced_scan(const SurfaceTouches& touches, const Vector6d& pose,
                             const Eigen::Matrix<double, K, 1>& sizes, double kernel_m,
                             const BySize& by_size) {
   using Row = Eigen::Matrix<double, 6 + K, 1>;
@@ -118,7 +45,7 @@ ReducedScan<K> reduced_scan(const Touches& touches, const Vector6d& pose,
   Eigen::Matrix<double, 6 + K, 6 + K> information = Eigen::Matrix<double, 6 + K, 6 + K>::Zero();
   std::vector<Row> surfaces(touches.surfaces, Row::Zero());
   ReducedScan<K> scan;
-  for (const Touch& touch : touches.points) {
+  for (const SurfaceTouch& touch : touches.points) {
     Row J;
     J << touch.by_pose, by_size(touch);
     const double residual_m =
@@ -150,7 +77,8 @@ ReducedScan<K> reduced_scan(const Touches& touches, const Vector6d& pose,
 
 /// Estimates sizes together with the pose in each scan.
 template <int K, class BySize>
-Sizes<K> estimate_sizes(const std::vector<Touches>& scans, double surfaces, const BySize& by_size) {
+Sizes<K> estimate_sizes(const std::vector<SurfaceTouches>& scans, double surfaces,
+                        const BySize& by_size) {
   using Matrix = Eigen::Matrix<double, K, K>;
   Sizes<K> sizes;
   std::vector<Vector6d> poses(scans.size(), Vector6d::Zero());
@@ -180,11 +108,11 @@ Sizes<K> estimate_sizes(const std::vector<Touches>& scans, double surfaces, cons
 }
 
 /// The effective number (equally weighted) of surfaces.
-double effective_surfaces(const std::vector<Touches>& scans) {
+double effective_surfaces(const std::vector<SurfaceTouches>& scans) {
   double sum = 0.0, squares = 0.0;
-  for (const Touches& touches : scans) {
+  for (const SurfaceTouches& touches : scans) {
     std::vector<double> weights(touches.surfaces, 0.0);
-    for (const Touch& touch : touches.points) weights[touch.surface] += touch.balance;
+    for (const SurfaceTouch& touch : touches.points) weights[touch.surface] += touch.balance;
     for (const double weight : weights) {
       sum += weight;
       squares += weight * weight;
@@ -196,33 +124,34 @@ double effective_surfaces(const std::vector<Touches>& scans) {
 }  // namespace
 
 ScanFaults estimate_scan_faults(const std::vector<ComparedScan>& scans) {
-  std::vector<Touches> compared;
+  std::vector<SurfaceTouches> compared;
   std::vector<double> ranges_m;
-  const std::size_t max_points =
-      std::max(kComparedPoints / std::max<std::size_t>(scans.size(), 1), kMinCompared);
+  const std::size_t max_points = touches_per_scan(scans.size());
   for (const ComparedScan& scan : scans) {
-    Touches touches = touches_of(scan, max_points);
+    SurfaceTouches touches = surface_touches(scan, max_points);
     if (touches.points.size() < kMinScanContacts) continue;
-    for (const Touch& touch : touches.points) ranges_m.push_back(touch.range_m);
+    for (const SurfaceTouch& touch : touches.points) ranges_m.push_back(touch.of_source.norm());
     compared.push_back(std::move(touches));
   }
   ScanFaults faults;
   faults.surfaces = effective_surfaces(compared);
   if (compared.empty()) return faults;
-  const Sizes<2> range = estimate_sizes<2>(compared, faults.surfaces, [](const Touch& touch) {
-    return Eigen::Vector2d(touch.along_ray * touch.range_m, touch.along_ray);
-  });
+  const Sizes<2> range =
+      estimate_sizes<2>(compared, faults.surfaces, [](const SurfaceTouch& touch) {
+        return Eigen::Vector2d(touch.by_range * touch.of_source.norm(), touch.by_range);
+      });
   // The correction of the ranges is the negative of their error.
   faults.range = {-range.value(0), -range.value(1), range.covariance, median(ranges_m)};
-  const double cost_of_pose = estimate_sizes<1>(compared, faults.surfaces, [](const Touch&) {
+  const double cost_of_pose = estimate_sizes<1>(compared, faults.surfaces, [](const SurfaceTouch&) {
                                 return Eigen::Matrix<double, 1, 1>::Zero().eval();
                               }).cost;
   constexpr int kSplits = 4;
   for (int split = 0; split < kSplits; ++split) {
     const double azimuth_rad = split * kPi / kSplits;
-    const Sizes<3> half =
-        estimate_sizes<3>(compared, faults.surfaces, [&](const Touch& touch) -> Eigen::Vector3d {
-          const bool is_inside = std::sin(touch.azimuth_rad - azimuth_rad) >= 0.0;
+    const Sizes<3> half = estimate_sizes<3>(
+        compared, faults.surfaces, [&](const SurfaceTouch& touch) -> Eigen::Vector3d {
+          const bool is_inside =
+              std::sin(std::atan2(touch.of_source.y(), touch.of_source.x()) - azimuth_rad) >= 0.0;
           return is_inside ? touch.normal : Eigen::Vector3d::Zero();
         });
     faults.halves.push_back({azimuth_rad, -half.value, half.covariance,

@@ -2,17 +2,9 @@
 
 #include <vector>
 
-#include "framework/geometry/dof.hpp"
-#include "framework/spatial/cloud.hpp"
+#include "framework/registration/surface_touches.hpp"
 
 namespace croon {
-
-/// A scene in which the points of a sensor are compared with the surfaces of a target.
-struct ComparedScan {
-  const Cloud* target = nullptr;
-  const Cloud* source = nullptr;
-  RigidTransform T_target_source;  ///< Within centimetres of the optimum.
-};
 
 /// The ranges of a sensor minus those of the target, `offset_m + scale * range`, and the covariance
 /// of the error of (scale, offset_m).

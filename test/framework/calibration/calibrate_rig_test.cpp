@@ -72,6 +72,11 @@ TEST(CalibrateRig, GivesOnePosePerSensorFromAllScenesForAnyNumberOfThreads) {
   EXPECT_EQ(left.scenes.size(), 2U);
   ASSERT_TRUE(left.T_reference_sensor && left.covariance);
   expect_near(*left.T_reference_sensor, kLeft);
+  ASSERT_TRUE(left.error_budget && left.scenes[0].error_budget);
+  EXPECT_TRUE(is_covariance(*left.error_budget));
+  // The budget does not fall with the number of scenes, and it is a part of the covariance.
+  EXPECT_GT(left.error_budget->trace(), 0.5 * left.scenes[0].error_budget->trace());
+  EXPECT_TRUE(is_covariance(left.covariance->matrix - *left.error_budget));
   EXPECT_EQ(rig.reference, "top");
   EXPECT_EQ(rig.composition, "best");
   EXPECT_NE(rig.composition_reason.find("has no times"), std::string::npos);

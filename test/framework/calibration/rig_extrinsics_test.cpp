@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "test/support/random_geometry.hpp"
@@ -54,11 +55,26 @@ TEST(CalibratedRig, IsReadBackFromExtrinsicsJson) {
   }
 }
 
+TEST(CalibratedRig, SeparatesItsErrorBudgetInJson) {
+  Rng rng = test_rng();
+  CalibratedRig rig = random_rig(rng);
+  CalibratedSensor& left = rig.sensors[0];
+  left.covariance->matrix = 5e-4 * Matrix6d::Identity();
+  left.error_budget = 4e-4 * Matrix6d::Identity();
+  const auto json = nlohmann::json::parse(rig_extrinsics_json(rig)).at("sensors").at(0);
+  const auto& budget = json.at("error_budget");
+  EXPECT_EQ(budget.at("covariance").at(3).at(3), 4e-4);
+  EXPECT_NEAR(budget.at("standard_deviation").at("translation_m").at(0), 0.02, 1e-12);
+  EXPECT_NEAR(budget.at("statistical_standard_deviation").at("translation_m").at(0), 0.01, 1e-12);
+  EXPECT_NEAR(json.at("standard_deviation").at("translation_m").at(0), std::sqrt(5e-4), 1e-12);
+}
+
 TEST(CalibratedRig, SaysInJsonWhatIsMissing) {
   Rng rng = test_rng();
   const auto json = nlohmann::json::parse(rig_extrinsics_json(random_rig(rng)));
   EXPECT_TRUE(json["sensors"][2]["T_reference_sensor"].is_null());
   EXPECT_TRUE(json["sensors"][2]["standard_deviation"].is_null());
+  EXPECT_TRUE(json["sensors"][2]["error_budget"].is_null());
   EXPECT_TRUE(json["sensors"][2]["from_nominal"].is_null());
   EXPECT_TRUE(json["sensors"][2]["fit"].is_null());
   EXPECT_EQ(json["sensors"][1]["verdict"], "rejected");
