@@ -84,7 +84,7 @@ class JointRegistrationStep final : public RigStep {
       flow.add(params.needs_times ? params::needs_channels({kTime})
                                   : params::may_read_channels({kTime}));
     }
-    flow.add(gives(kMotion, kMotionCovariance));
+    flow.add(gives(kMotion, kMotionCovariance, kMotionInDoubt));
     return flow;
   }
 
@@ -120,8 +120,6 @@ class JointRegistrationStep final : public RigStep {
     }
   }
 
-  static constexpr int kFewer = 4;
-
   /// The lead of `state`, by source, over the states to which other speeds converge.
   std::vector<std::optional<double>> leads_of(
       const JointScene& scene, const JointScene& coarse, const JointState& state,
@@ -137,6 +135,7 @@ class JointRegistrationStep final : public RigStep {
     near.max_distances_m = params_.coarse_distances_m;
     if (near.max_distances_m.size() > 1) near.max_distances_m.erase(near.max_distances_m.begin());
     // Few points show to which state a speed leads; all of them then decide.
+    constexpr int kFewer = 4;
     near.points = std::max(kMinJointCorrespondences, params_.points / kFewer);
     return leads_over_rivals(scene, coarse, state, starts, params_, near);
   }
@@ -242,7 +241,10 @@ class JointRegistrationStep final : public RigStep {
       // With common poses, the other scenes determine the velocity of a scene.
       const std::string rejection =
           params_.poses == Poses::common ? "" : motion.rejection(j, params_);
-      if (!rejection.empty()) estimate.rejection = with_reason(estimate.rejection, rejection);
+      if (!rejection.empty()) {
+        estimate.rejection = with_reason(estimate.rejection, rejection);
+        estimate.extras.put(kMotionInDoubt, true);
+      }
       store_motion(estimate.extras, scene.is_moving, motion);
       estimate.diagnostics = diagnostics_of(result, estimate.extras, motion, j, offset_s);
       if (!motion.is_moving && offset_s == 0.0) continue;

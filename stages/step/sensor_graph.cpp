@@ -156,8 +156,11 @@ class SceneGraph {
     return member.failure.empty() && !member.estimate.rejection && member.estimate.covariance;
   }
 
-  /// A moving sensor whose pose was wrong was deskewed wrongly, and cannot be compared.
+  /// A moving sensor whose pose was wrong was deskewed wrongly, and cannot be compared. If the rig
+  /// may have moved, pairs of sensors that see each other's surfaces at different times agree on
+  /// wrong poses.
   static bool is_at_rest(const Estimate& estimate) {
+    if (estimate.extras.find(kMotionInDoubt) != nullptr) return false;
     const Twist* const velocity = estimate.extras.find(kMotion);
     return velocity == nullptr || vector_of(*velocity).isZero(0.0);
   }
