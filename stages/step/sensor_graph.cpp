@@ -39,7 +39,7 @@ params::Table<Params> graph_rows() {
   return {
       params::slots<Step>(
           "pair", &Params::pair,
-          R"([{"step": "global_alignment"}, )"
+          R"([{"step": "global_alignment", "free_space": 2, "hypotheses": 32}, )"
           R"({"step": "registration", "icp": {"type": "nicp", "max_distances_m": [0.5, 0.3]}}, )"
           R"({"step": "registration", "icp": {"type": "gicp", )"
           R"("normal_neighbours": 10, "direction_balance": 0.5, "max_distances_m": [0.3], )"
@@ -294,7 +294,7 @@ StageEntry sensor_graph() {
       "sensor_graph",
       "Processes the whole rig: connects sensors that could not be calibrated to the reference by "
       "way of other sensors, and rejects those that contradict others.",
-      "croon", table());
+      "croon", table(), 2);
 }
 
 }  // namespace croon::stages::step
