@@ -11,7 +11,7 @@ namespace croon {
 namespace {
 
 /// A street seen by the reference "top", by "side", whose pose is known, and by "rear", whose pose
-/// was rejected.
+/// was rejected because "top" sees nothing of what it sees.
 struct StreetRig {
   RigidTransform T_top_side, T_top_rear;
   std::vector<RigEstimate> estimates;
@@ -41,6 +41,7 @@ StreetRig street_rig() {
   }
   rig.side().estimate.T_target_source = rig.T_top_side;
   rig.side().estimate.covariance = small_covariance();
+  rig.rear().estimate.target = cloud(Points(3, {1.0F, 0.0F, 0.0F}), "top");
   rig.rear().estimate.T_target_source.translation = {40.0, 0.0, 0.0};
   rig.rear().estimate.covariance = small_covariance();
   rig.rear().estimate.rejection = "verdict: too little overlap";
@@ -68,6 +69,14 @@ TEST(SensorGraph, ConnectsARejectedSensorByWayOfAnother) {
   connect(rig.estimates);
   expect_connected(rig);
   EXPECT_EQ(rig.side().estimate.T_target_source, rig.T_top_side);
+}
+
+TEST(SensorGraph, ConnectsARejectedSensorToTheReference) {
+  StreetRig rig = street_rig();
+  rig.rear().estimate.target = rig.side().estimate.target;
+  rig.side().estimate.rejection = "verdict: too little overlap";
+  connect(rig.estimates);
+  expect_connected(rig);
 }
 
 TEST(SensorGraph, ConnectsASensorWhoseStepsFailed) {
@@ -106,6 +115,7 @@ TEST(SensorGraph, RejectsSensorsThatContradictEachOther) {
   connect(rig.estimates);
   EXPECT_FALSE(rig.side().estimate.rejection);
   EXPECT_FALSE(rig.rear().estimate.rejection);
+  rig.rear().estimate.target = cloud(Points(3, {1.0F, 0.0F, 0.0F}), "top");
   rig.rear().estimate.T_target_source.translation += Eigen::Vector3d(0.0, 3.0, 0.0);
   connect(rig.estimates);
   ASSERT_TRUE(rig.rear().estimate.rejection);
