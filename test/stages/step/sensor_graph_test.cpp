@@ -41,7 +41,8 @@ StreetRig street_rig() {
   }
   rig.side().estimate.T_target_source = rig.T_top_side;
   rig.side().estimate.covariance = small_covariance();
-  rig.rear().estimate.target = cloud(Points(3, {1.0F, 0.0F, 0.0F}), "top");
+  rig.rear().estimate.target =
+      std::make_shared<const Cloud>(Points(3, {1.0F, 0.0F, 0.0F}), StreamKey(3).with("too few"));
   rig.rear().estimate.T_target_source.translation = {40.0, 0.0, 0.0};
   rig.rear().estimate.covariance = small_covariance();
   rig.rear().estimate.rejection = "verdict: too little overlap";
