@@ -59,6 +59,7 @@ CalibrateOptions with_file(const CalibrateOptions& options) {
   if (all.reference.empty()) all.reference = file.reference;
   if (all.nominal.empty()) all.nominal = file.nominal;
   all.from_scratch = options.from_scratch || file.from_scratch;
+  all.at_rest = options.at_rest || file.at_rest;
   if (!all.nominal_std_deg) all.nominal_std_deg = file.nominal_std_deg;
   if (!all.nominal_std_m) all.nominal_std_m = file.nominal_std_m;
   if (all.base.empty()) all.base = file.base;
@@ -120,6 +121,7 @@ CalibratedRig calibrate_with_progress(const CalibrateOptions& options,
   CalibrationOptions how;
   if (!options.pipeline.empty()) how.pipeline = options.pipeline;
   how.from_scratch = options.from_scratch;
+  how.at_rest = options.at_rest;
   how.nominal_std_deg = options.nominal_std_deg.value_or(how.nominal_std_deg);
   how.nominal_std_m = options.nominal_std_m.value_or(how.nominal_std_m);
   how.seed = options.seed.value_or(how.seed);
@@ -142,6 +144,8 @@ void add_rig_options(CLI::App& command, CalibrateOptions& options) {
   add_number(command, "--max-scenes", o.max_scenes, 1, 1000,
              "Maximum number of scenes, evenly spaced; default 10.");
   add_text(command, "--pipeline", o.pipeline, "best (default), paper, or a file.", "a pipeline");
+  command.add_flag("--at-rest", o.at_rest,
+                   "The vehicle stood: times are not used, and no motion is looked for.");
   add_number(command, "--seed", o.seed, std::uint64_t{0}, std::uint64_t{1} << 53U,
              "Seed of the random numbers; default 1.");
   command.add_flag("--quiet", o.quiet, "Do not show progress.");

@@ -24,6 +24,7 @@ struct RigRequest {
   std::string reference;            ///< Empty: the first sensor.
   std::string nominal;              ///< A file of extrinsics.
   bool from_scratch = false;        ///< Use the nominal poses for comparison only.
+  bool at_rest = false;             ///< The vehicle is known to stand.
   std::optional<double> nominal_std_deg, nominal_std_m;
   std::string base;  ///< Pose of the reference in the vehicle frame, or a file.
   std::optional<double> max_time_gap_s;

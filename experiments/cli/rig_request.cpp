@@ -31,10 +31,12 @@ params::Table<RigRequest> request_table() {
       params::free_text("nominal", &R::nominal, "A file of poses to compare with."),
       params::boolean("from_scratch", &R::from_scratch,
                       "Use the nominal poses for comparison only."),
+      params::boolean("at_rest", &R::at_rest,
+                      "The vehicle stood: times are not used, and no motion is looked for."),
       params::free_text("base", &R::base,
                         "The reference's pose in the vehicle frame: x,y,z,roll,pitch,yaw in m and "
                         "degrees, or a file of extrinsics."),
-      params::free_text("pipeline", &R::pipeline, "best, driving, paper, or a file."),
+      params::free_text("pipeline", &R::pipeline, "best, paper, or a file."),
   };
 }
 
@@ -126,6 +128,7 @@ std::string rig_request_json(const RigRequest& request, const fs::path& folder) 
   add("reference", moved.reference);
   add("nominal", moved.nominal);
   if (moved.from_scratch) json["from_scratch"] = true;
+  if (moved.at_rest) json["at_rest"] = true;
   if (moved.nominal_std_deg) json["nominal_std_deg"] = *moved.nominal_std_deg;
   if (moved.nominal_std_m) json["nominal_std_m"] = *moved.nominal_std_m;
   add("base", moved.base);

@@ -84,6 +84,7 @@ CalibratedRig calibrated(const py::list& list, const py::dict& nominal, const py
   how.pipeline = text_of(options["pipeline"]);
   if (!options["text"].is_none()) how.pipeline_text = text_of(options["text"]);
   how.from_scratch = py::cast<bool>(options["from_scratch"]);
+  how.at_rest = py::cast<bool>(options["at_rest"]);
   how.seed = py::cast<std::uint64_t>(options["seed"]);
   how.jobs = py::cast<int>(options["jobs"]);
   std::vector<std::string> unused;

@@ -59,15 +59,16 @@ PoseBounds nominal_bounds(const CalibrationOptions& options) {
 }
 
 Composition chosen_composition(const CalibrationOptions& options, const Catalogue& catalogue) {
-  const PoseBounds nominal = nominal_bounds(options);
+  const CompositionOptions adapted = {nominal_bounds(options), options.at_rest};
   return options.pipeline_text.empty()
-             ? composition_called(options.pipeline, nominal, catalogue)
-             : composition_in_text(options.pipeline_text, options.pipeline, nominal, catalogue);
+             ? composition_called(options.pipeline, adapted, catalogue)
+             : composition_in_text(options.pipeline_text, options.pipeline, adapted, catalogue);
 }
 
 /// How the steps of `composition` treat motion, if they depend on the times; otherwise empty.
 std::string treatment_of_motion(const Composition& composition,
-                                const std::vector<SceneClouds>& scenes) {
+                                const std::vector<SceneClouds>& scenes, bool at_rest) {
+  if (at_rest) return "the vehicle is said to stand, so no motion is looked for";
   if (composition.channels.count(kTime) == 0 || composition.source_channels.count(kTime) > 0) {
     return "";
   }
@@ -301,7 +302,7 @@ CalibratedRig calibrated(const std::vector<Scene>& scenes, const CalibrationOpti
   const std::vector<std::string> about_clouds = warnings_about_clouds(named_clouds(clouds));
   rig.warnings.insert(rig.warnings.end(), about_clouds.begin(), about_clouds.end());
   rig.composition = composition.name;
-  rig.composition_reason = treatment_of_motion(composition, clouds);
+  rig.composition_reason = treatment_of_motion(composition, clouds, options.at_rest);
   add_notes(composition.from_nothing, rig.notes);
   RigInput input = rig_input(clouds, composition, options.seed, rig.unused);
   require_members(input, rig.unused);

@@ -21,6 +21,9 @@ struct CalibrationOptions {
   std::string pipeline_text = {};
   /// If true, nominal poses are compared with the result, but not used as initial guesses.
   bool from_scratch = false;
+  /// Whether the vehicle is known to stand in all scenes: times are not used, and no motion is
+  /// looked for. Throws InputError if the pipeline has no step time_check.
+  bool at_rest = false;
   /// The standard deviations of the nominal poses: near them, three are searched.
   double nominal_std_deg = 10.0;
   double nominal_std_m = 1.0 / 3.0;

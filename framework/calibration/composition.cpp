@@ -59,8 +59,24 @@ void stay_near_start(nlohmann::json& steps, const PoseBounds& nominal, const Cat
   }
 }
 
+/// Sets `at_rest` of the steps that have this parameter. Throws InputError if none has.
+void set_at_rest(nlohmann::json& steps, const std::string& file, const Catalogue& catalogue) {
+  bool is_any = false;
+  for (nlohmann::json& step : steps) {
+    for (const params::ParameterDoc& doc : parameters_of(step, catalogue)) {
+      if (doc.key != "at_rest") continue;
+      step[doc.key] = true;
+      is_any = true;
+    }
+  }
+  if (!is_any) {
+    throw InputError(file, "",
+                     "expected a step time_check, because the rig is said to stand; found none");
+  }
+}
+
 Composition composition_in(nlohmann::json document, const std::string& name,
-                           const std::string& file, const PoseBounds& nominal,
+                           const std::string& file, const CompositionOptions& options,
                            const Catalogue& catalogue) {
   Composition composition;
   composition.name = name;
@@ -71,8 +87,9 @@ Composition composition_in(nlohmann::json document, const std::string& name,
   // Without steps, this throws the appropriate error.
   if (steps == nullptr || steps->empty()) pipeline_in(document, file, catalogue);
   append_missing_steps(*steps);
+  if (options.at_rest) set_at_rest(*steps, file, catalogue);
   composition.from_nothing = pipeline_in(document, file, catalogue);
-  stay_near_start(*steps, nominal, catalogue);
+  stay_near_start(*steps, options.nominal, catalogue);
   composition.near_nominal = pipeline_in(document, file, catalogue);
   for (const NamedStep& step : composition.from_nothing) {
     const params::DataFlow& flow = step.step.flow();
@@ -97,21 +114,21 @@ const std::string& recommended_pipeline_text(const std::string& name) {
 }
 
 Composition composition_in_text(const std::string& text, const std::string& name,
-                                const PoseBounds& nominal, const Catalogue& catalogue) {
-  return composition_in(params::parse_json(text, name), name, name, nominal, catalogue);
+                                const CompositionOptions& options, const Catalogue& catalogue) {
+  return composition_in(params::parse_json(text, name), name, name, options, catalogue);
 }
 
-Composition composition_called(const std::string& pipeline, const PoseBounds& nominal,
+Composition composition_called(const std::string& pipeline, const CompositionOptions& options,
                                const Catalogue& catalogue) {
   const std::vector<std::string> names = recommended_pipeline_names();
   const bool is_recommended = std::find(names.begin(), names.end(), pipeline) != names.end();
   if (is_recommended) {
-    return composition_in_text(embedded_pipelines().at(pipeline), pipeline, nominal, catalogue);
+    return composition_in_text(embedded_pipelines().at(pipeline), pipeline, options, catalogue);
   }
   const std::filesystem::path file = pipeline;
   const bool is_path = file.has_parent_path() || file.extension() == ".json";
   if (!is_path && !std::filesystem::exists(file)) recommended_pipeline_text(pipeline);
-  return composition_in(params::read_json_file(file), file.filename().string(), pipeline, nominal,
+  return composition_in(params::read_json_file(file), file.filename().string(), pipeline, options,
                         catalogue);
 }
 

@@ -24,12 +24,17 @@ struct Composition {
   std::set<std::string> channels;         ///< All that its steps read.
 };
 
-// `nominal` are the maximum distances from a nominal pose at which its sensor is searched for.
+/// How a pipeline is adapted to a calibration.
+struct CompositionOptions {
+  /// The maximum distances from a nominal pose at which its sensor is searched for.
+  PoseBounds nominal;
+  bool at_rest = false;  ///< Whether the rig is known to stand: sets `at_rest` of steps.
+};
 
 /// The composition of the JSON `text` of a pipeline, named `name`. Throws InputError if it is
 /// invalid.
 Composition composition_in_text(const std::string& text, const std::string& name,
-                                const PoseBounds& nominal, const Catalogue& catalogue);
+                                const CompositionOptions& options, const Catalogue& catalogue);
 
 /// The composition `pipeline`, a recommended name or a file. Throws InputError for an unknown name,
 /// with the nearest one, and for an invalid file.

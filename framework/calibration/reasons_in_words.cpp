@@ -26,7 +26,9 @@ constexpr const char* kOtherPlace =
     "shift, or supply nominal poses.";
 constexpr const char* kMoreScenes =
     "Record several scenes at different places and calibrate from all of them.";
-constexpr const char* kSlower = "Drive more slowly, or record while the vehicle is at rest.";
+constexpr const char* kSayAtRest =
+    "If the vehicle stood, say so with --at-rest; otherwise record it at rest, or with the time of "
+    "each point.";
 
 constexpr Translation kTranslations[] = {
     {"the overlap with agreeing surfaces",
@@ -48,13 +50,13 @@ constexpr Translation kTranslations[] = {
     {"the standard deviation of the speed",
      "The speed during the scan is uncertain, by {1} m/s, and another speed explains the clouds "
      "nearly as well.",
-     kSlower},
+     kSayAtRest},
     {"motion during the scans explains the clouds better",
      "The vehicle moved during the scan, by {1} m and {2} degrees per revolution, and without "
      "usable times this cannot be corrected.",
      kAtRest},
     {"motion during the scans cannot be excluded",
-     "The vehicle may have moved during the scan, which would shift the pose.", kAtRest},
+     "The vehicle may have moved during the scan, which would shift the pose.", kSayAtRest},
     {"the planes of all sensors would move it",
      "It contradicts the other sensors: the planes that all of them see would move it by {1} "
      "degrees and {2} m.",

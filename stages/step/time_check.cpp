@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "framework/spatial/scan_times.hpp"
+#include "framework/stage/motion.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/step.hpp"
 #include "framework/stage/times.hpp"
@@ -12,12 +13,16 @@ namespace {
 
 struct Params {
   bool ignore_times = false;
+  bool at_rest = false;
 };
 
 const params::Table<Params>& table() {
   static const params::Table<Params> table = {
       params::boolean("ignore_times", &Params::ignore_times,
                       "Removes all times, as if the clouds had none."),
+      params::boolean("at_rest", &Params::at_rest,
+                      "The rig is known to stand: removes all times, and no step estimates its "
+                      "motion or looks for it."),
   };
   return table;
 }
@@ -27,13 +32,17 @@ class TimeCheckStep final : public Step {
   explicit TimeCheckStep(const Params& params) : params_(params) {}
 
   static params::DataFlow data_flow(const Params&) {
-    params::DataFlow flow = gives(kTimesInDoubt);
+    params::DataFlow flow = gives(kTimesInDoubt, kMotion, kMotionCovariance);
     flow.add(params::may_read_channels({kTime}));
     return flow;
   }
 
   Estimate advance(Estimate estimate, Rng&) const override {
     const std::optional<TimesInDoubt> doubt = doubt_about(*estimate.target, *estimate.source);
+    if (params_.at_rest) {
+      estimate.extras.put(kMotion, Twist());
+      estimate.extras.put(kMotionCovariance, Matrix6d(Matrix6d::Zero()));
+    }
     if (doubt) {
       estimate.take_clouds(without_times(estimate.target), without_times(estimate.source));
       estimate.extras.put(kTimesInDoubt, *doubt);
@@ -44,7 +53,7 @@ class TimeCheckStep final : public Step {
 
  private:
   std::optional<TimesInDoubt> doubt_about(const Cloud& target, const Cloud& source) const {
-    if (params_.ignore_times) return TimesInDoubt{"times are ignored"};
+    if (params_.ignore_times || params_.at_rest) return TimesInDoubt{"times are ignored"};
     for (const Cloud* const cloud : {&target, &source}) {
       const TimeCheck& check = *cloud->once<TimeCheck>("time_check", [&] {
         return std::make_shared<const TimeCheck>(check_times(cloud->with_channels()));

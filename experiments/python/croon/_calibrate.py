@@ -184,7 +184,7 @@ class Calibration:
 
 def calibrate(clouds: _Clouds, *, reference: str = "", nominal: Optional[Mapping[str, ArrayLike]] = None, pipeline: Json = "best",
               from_scratch: bool = False, columns: Union[None, Sequence[str], Mapping[str, Sequence[str]]] = None, seed: int = 1,
-              jobs: int = 0) -> Calibration:
+              jobs: int = 0, at_rest: bool = False) -> Calibration:
     """Calibrates the LiDARs of a vehicle to each other, as the command `croon calibrate` does.
 
     `clouds` is one scene, a dict of clouds by the sensor's name; or several scenes of the same rig, a list of such dicts
@@ -199,6 +199,7 @@ def calibrate(clouds: _Clouds, *, reference: str = "", nominal: Optional[Mapping
     `nominal` is a dict of known poses `T_reference_sensor` by sensor, 4×4, for comparison, and as initial guesses for
     sensors rejected without one; with `from_scratch` only for comparison. If it includes the reference, all its poses are
     in another frame, such as the vehicle's.
+    With `at_rest` the vehicle is known to stand: times are not used, and no motion is looked for.
     `pipeline` is a name of `pipelines`, the path of a file, or a pipeline as `Pipeline` accepts it. `jobs` is the number
     of threads, 0 for all cores; the result has the same bits for any number. Other Python threads can run meanwhile.
 
@@ -221,7 +222,7 @@ def calibrate(clouds: _Clouds, *, reference: str = "", nominal: Optional[Mapping
         pipeline, "pipeline")
     rig = _core.calibrate_rig(usable, _nominal(nominal, sensors), {
         "reference": reference, "unused": unused,
-        "pipeline": name, "text": text, "from_scratch": bool(from_scratch), "seed": whole(seed, "seed", 0, 2**64 - 1),
+        "pipeline": name, "text": text, "from_scratch": bool(from_scratch), "at_rest": bool(at_rest), "seed": whole(seed, "seed", 0, 2**64 - 1),
         "jobs": whole(jobs, "jobs", 0, _core.MAX_JOBS)})
     return Calibration(rig)
 
