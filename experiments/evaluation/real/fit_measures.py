@@ -23,7 +23,7 @@ def lzf(data, size):
 
 
 def read_pcd(path):
-    """The finite points (n×3, m) of a binary or binary_compressed PCD file, in the sensor's frame."""
+    """The finite points (n×3, m) of a PCD file, in the sensor's frame, without those at zero."""
     content = path.read_bytes()
     end = content.index(b"\n", content.index(b"\nDATA ") + 1) + 1
     header = {line.split()[0]: line.split()[1:] for line in content[:end].decode().splitlines() if line[:1] != "#"}
@@ -32,6 +32,9 @@ def read_pcd(path):
     if header["DATA"] == ["binary"]:
         table = np.frombuffer(content, np.dtype(list(zip(names, types))), count, end)
         points = np.stack([table[name] for name in "xyz"], 1).astype(float)
+    elif header["DATA"] == ["ascii"]:
+        table = np.array(content[end:].split(), float).reshape(count, -1)
+        points = table[:, [names.index(name) for name in "xyz"]]
     else:
         packed, size = np.frombuffer(content, np.uint32, 2, end)
         columns, at, data = {}, 0, lzf(content[end + 8:end + 8 + int(packed)], int(size))

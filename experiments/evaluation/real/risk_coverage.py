@@ -2,7 +2,7 @@
 """Of the poses that a measure accepts, how many are wrong?
 
 risk_coverage.py CROON OUT [OPTIONS OF CROON RUN]: calibrates scenes with best.json in folders of OUT (standing; driving,
-without the times of the points; rows of equal elements), and writes them as clouds. For each pose, accepted or rejected, it
+without the times of the points; periodic, which has equal elements in rows), and writes them as clouds. For each pose, accepted or rejected, it
 computes the measures that other programs offer instead of a verdict, between the sensor's cloud and the reference's, both
 thinned to 10 cm: fitness and inlier RMSE as Open3D's evaluate_registration defines them, and the number of inliers. croon's
 own measure is the least margin of a pose to the bounds of its verdict, as a share of the bound.
@@ -30,7 +30,7 @@ SETS = {  # The dataset and other changes of best.json. No seed is used elsewher
     "standing": ({"mix": "paper", "noise": "real_still", "seed": 9311}, {}),
     "driving, without times": ({"mix": "paper", "noise": "real", "seed": 9312},
                                {"pipeline.time_check.ignore_times": True}),
-    "equal elements": ({"mix": {"periodic": 1}, "noise": "real_still", "seed": 9313}, {}),
+    "periodic": ({"mix": {"periodic": 1}, "noise": "real_still", "seed": 9313}, {}),
 }
 SCENES = 20
 BOUNDS = {  # By step and measure: its bound in best.json, and whether that is a minimum.
