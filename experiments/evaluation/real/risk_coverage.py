@@ -2,10 +2,10 @@
 """Of the poses that a measure accepts, how many are wrong?
 
 risk_coverage.py CROON OUT [OPTIONS OF CROON RUN]: calibrates scenes with best.json in folders of OUT (standing; driving,
-without the times of the points; periodic, which has equal elements in rows), and writes them as clouds. For each pose, accepted or rejected, it
-computes the measures that other programs offer instead of a verdict, between the sensor's cloud and the reference's, both
-thinned to 10 cm: fitness and inlier RMSE as Open3D's evaluate_registration defines them, and the number of inliers. croon's
-own measure is the least margin of a pose to the bounds of its verdict, as a share of the bound.
+without the times of the points; rows of equal elements), and writes them as clouds. For each pose, accepted or rejected,
+it computes the measures that other programs offer instead of a verdict, between the sensor's cloud and the reference's,
+both thinned to 10 cm: fitness and inlier RMSE as Open3D's evaluate_registration defines them, and the number of inliers.
+croon's own measure is the least margin of a pose to the bounds of best.json, as a share of the bound.
 
 A measure accepts the best poses first. The coverage is the share that it accepts, the risk is the share of wrong poses
 among them. Prints a Markdown table, writes OUT/risk_coverage.csv, a row per pose, and draws OUT/risk_coverage.svg. Results
@@ -37,9 +37,10 @@ BOUNDS = {  # By step and measure: its bound in best.json, and whether that is a
     ("verdict", "overlap_ratio"): (0.15, True), ("verdict", "violation_ratio"): (0.05, False),
     ("verdict", "lead"): (6.0, True), ("verdict", "strength"): (0.01, True),
     ("verdict", "halves_rotation_deg"): (0.5, False), ("verdict", "halves_translation_m"): (0.06, False),
-    ("motion_check", "speed_lead"): (1.5, True), ("motion_check", "travel_m"): (0.15, False),
-    ("motion_check", "turn_deg"): (1.0, False), ("motion_check", "shift_m"): (0.05, False),
+    ("motion_check", "travel_m"): (0.15, False), ("motion_check", "turn_deg"): (1.0, False),
+    ("motion_check", "shift_m"): (0.05, False),
 }
+MIN_SPEED_LEAD, CERTAIN_SHIFT_M, PERIOD_S = 1.5, 0.0025, 0.1  # Of joint_registration and motion_check in best.json.
 MEASURES = {  # By column of the CSV file: its name, and whether more is better.
     "margin": ("croon's least margin", True),
     "fitness_30cm": ("fitness, 0.3 m", True),
@@ -50,17 +51,27 @@ MEASURES = {  # By column of the CSV file: its name, and whether more is better.
 COLOURS = ("#0072b2", "#d55e00", "#e69f00", "#cc79a7", "#808080")
 
 
+def margins_of(values):
+    """The margins of one pose, from its values by step and measure."""
+    for key, (bound, is_minimum) in BOUNDS.items():
+        if key in values:
+            value = values[key]
+            if key[1] == "travel_m":  # The bound is for the travel less three standard deviations.
+                value -= 3 * PERIOD_S * values["motion_check", "speed_std_mps"]
+            yield (value - bound) / bound * (1 if is_minimum else -1)
+    for step, shift in (("joint_registration", "speed_shift_std_m"), ("motion_check", "shift_std_m")):
+        if (step, "speed_lead") in values:
+            is_certain = values.get((step, shift), math.inf) <= CERTAIN_SHIFT_M
+            yield (values[step, "speed_lead"] - (0.0 if is_certain else MIN_SPEED_LEAD)) / MIN_SPEED_LEAD
+
+
 def margins(folder):
-    """By scene and sensor, the least margin of a pose to the bounds of its verdict."""
-    least = {}
+    """By scene and sensor, the least margin of a pose to the bounds on it; those on pairs of sensors are left out."""
+    values = {}
     with open(folder / "diagnostics.csv", encoding="utf-8") as file:
         for one in csv.DictReader(file):
-            if (one["step"], one["name"]) in BOUNDS:
-                bound, is_minimum = BOUNDS[one["step"], one["name"]]
-                margin = (float(one["value"]) - bound) / bound * (1 if is_minimum else -1)
-                key = one["scene"], one["sensor"]
-                least[key] = min(margin, least.get(key, math.inf))
-    return least
+            values.setdefault((one["scene"], one["sensor"]), {})[one["step"], one["name"]] = float(one["value"])
+    return {key: min(margins_of(some)) for key, some in values.items()}
 
 
 def fits(clouds, trials):
