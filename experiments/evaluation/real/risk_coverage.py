@@ -71,7 +71,7 @@ def margins(folder):
     with open(folder / "diagnostics.csv", encoding="utf-8") as file:
         for one in csv.DictReader(file):
             values.setdefault((one["scene"], one["sensor"]), {})[one["step"], one["name"]] = float(one["value"])
-    return {key: min(margins_of(some)) for key, some in values.items()}
+    return {key: min(margins_of(some), default=-math.inf) for key, some in values.items()}
 
 
 def fits(clouds, trials):
@@ -144,15 +144,15 @@ def rows_of(name, poses):
             f"{with_bounds_per_sensor(poses, measure):.0f} %")
 
 
-def panel(left, name, poses, top):
+def panel(left, name, poses):
     """The SVG elements of one set: risk over coverage in a square of 230."""
     def at(accepted, wrong):
-        return f"{left + 230 * accepted / len(poses):.1f},{270 - 230 * min(wrong / accepted, top) / top:.1f}"
+        return f"{left + 230 * accepted / len(poses):.1f},{270 - 230 * wrong / accepted:.1f}"
     yield f'<text class="title" x="{left}" y="28">{name} ({len(poses)} poses)</text>'
     for i in range(5):
         y = 270 - 57.5 * i
         yield f'<path class="grid" d="M{left},{y}h230"/>'
-        yield f'<text class="small" text-anchor="end" x="{left - 5}" y="{y + 4}">{25 * top * i:g}</text>'
+        yield f'<text class="small" text-anchor="end" x="{left - 5}" y="{y + 4}">{25 * i}</text>'
         yield f'<text class="small" text-anchor="middle" x="{left + 57.5 * i}" y="286">{25 * i}</text>'
     yield f'<text class="small" text-anchor="middle" x="{left + 115}" y="303">accepted, %</text>'
     for colour, measure in reversed(list(zip(COLOURS, MEASURES))):
@@ -166,8 +166,6 @@ def panel(left, name, poses, top):
 
 def draw(sets, path):
     """Draws the risk over the coverage, a panel per set."""
-    top = max(sum(one["wrong"] for one in poses) / len(poses) for poses in sets.values())
-    top = math.ceil(5 * top + 0.5) / 5
     lines = ['<svg xmlns="http://www.w3.org/2000/svg" width="890" height="345" viewBox="0 0 890 345">',
              "<desc>Share of wrong poses among those accepted over the share accepted, %.</desc>",
              "<style>.title{font:bold 13px sans-serif;fill:#222}.small{font:11px sans-serif;fill:#555}"
@@ -175,12 +173,12 @@ def draw(sets, path):
              '<rect width="890" height="345" fill="#ffffff"/>',
              '<text class="small" transform="rotate(-90)" text-anchor="middle" x="-155" y="14">wrong among them, %</text>']
     for i, (name, poses) in enumerate(sets.items()):
-        lines += panel(50 + 285 * i, name, poses, top)
+        lines += panel(50 + 285 * i, name, poses)
     x = 50
     for colour, (title, _) in zip(COLOURS, MEASURES.values()):
         lines.append(f'<path d="M{x},329h18" stroke="{colour}" stroke-width="3"/>'
                      f'<text class="name" x="{x + 23}" y="333">{title}</text>')
-        x += 43 + 6.2 * len(title)
+        x += 36 + 5.9 * len(title)
     lines.append(f'<circle cx="{x + 6}" cy="329" r="5" fill="#ffffff" stroke="#000000" stroke-width="2"/>'
                  f'<text class="name" x="{x + 16}" y="333">croon\'s verdict</text></svg>')
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
