@@ -64,9 +64,11 @@ class Neighbours:
         self.key, self.points = key[order], points[order]
 
     def cells(self, points):
+        """The indices of the cells (n×3) in which points are."""
         return np.floor((points - self.low) / self.radius_m).astype(np.int64) + 1
 
     def keys(self, cells):
+        """One number per cell; cells one above the other have successive numbers."""
         return (cells[..., 0] * self.shape[1] + cells[..., 1]) * self.shape[2] + cells[..., 2]
 
     def distances_m(self, points):
