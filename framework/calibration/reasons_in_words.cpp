@@ -34,6 +34,10 @@ constexpr Translation kTranslations[] = {
      kMoreSharedView},
     {"the share of points in free space",
      "{1%} of the points lie in the other sensor's free space; at most {2%} is allowed.", kAtRest},
+    {"at the initial pose, the share of points in free space",
+     "At the pose of the search, {1%} of the points lie in the other sensor's free space, so it is "
+     "wrong.",
+     kMoreSharedView},
     {"no surfaces touch", "No surface is seen by both sensors, so nothing constrains the pose.",
      kMoreSharedView},
     {"the rotation between two halves",

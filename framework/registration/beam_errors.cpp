@@ -36,15 +36,18 @@ OfSensor shifts(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
 
 }  // namespace
 
-Matrix6d covariance_of_beam_errors(const std::vector<ComparedScan>& scans,
-                                   const BeamErrors& errors) {
+std::optional<Matrix6d> covariance_of_beam_errors(const std::vector<ComparedScan>& scans,
+                                                  const BeamErrors& errors) {
+  constexpr std::size_t kMinTouches = 60;
   constexpr double kKernel_m = 0.1;
   const RobustKernel kernel(Kernel::geman_mcclure, kKernel_m);
   Matrix6d information = Matrix6d::Zero();
   PoseByTerm coupling = PoseByTerm::Zero();
+  std::size_t count = 0;
   for (const ComparedScan& scan : scans) {
     const Eigen::Matrix3d to_source = scan.T_target_source.rotation.transpose();
     const SurfaceTouches touches = surface_touches(scan, touches_per_scan(scans.size()));
+    count += touches.points.size();
     for (const SurfaceTouch& touch : touches.points) {
       const double weight = touch.balance * kernel.weight(touch.distance_m * touch.distance_m);
       OfPair terms;
@@ -54,6 +57,7 @@ Matrix6d covariance_of_beam_errors(const std::vector<ComparedScan>& scans,
       coupling += weight * (touch.by_pose * terms);
     }
   }
+  if (count < kMinTouches) return std::nullopt;
   const PoseByTerm steps = guarded_inverse<6>(information) * coupling;
   return symmetric<6>(steps * steps.transpose());
 }

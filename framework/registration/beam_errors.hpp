@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "framework/registration/surface_touches.hpp"
@@ -27,8 +28,8 @@ struct BeamErrors {
 /// The covariance of the error of a pose, the same in all `scans`, that `errors` of the sensor and
 /// of the target cause, independently of each other. Each error moves points along the normals of
 /// the surfaces that they touch, and the pose follows by weighted least squares; so the covariance
-/// depends on the surfaces that the scans have in common. Zero without any touches.
-Matrix6d covariance_of_beam_errors(const std::vector<ComparedScan>& scans,
-                                   const BeamErrors& errors);
+/// depends on the surfaces that the scans have in common. std::nullopt if hardly any points touch.
+std::optional<Matrix6d> covariance_of_beam_errors(const std::vector<ComparedScan>& scans,
+                                                  const BeamErrors& errors);
 
 }  // namespace croon

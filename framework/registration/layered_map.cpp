@@ -93,39 +93,63 @@ const params::Table<LayeredMapOptions>& layered_map_table() {
                      "Step between the yaws that are tried."),
       params::integer("max_cells", &LayeredMapOptions::max_cells, {10, 10000},
                       "Maximum number of cells of the sensor's map that are used."),
+      params::number("free_space", &LayeredMapOptions::free_space, {0.0, 4.0},
+                     "Cost of a cell of the sensor's map that the reference shows to be free, "
+                     "relative to the value of one that coincides; 0 ignores free space."),
   };
   return table;
 }
 
-LayeredMap::LayeredMap(const Points& levelled, const LayeredMapOptions& options)
+LayeredMap::LayeredMap(const Points& levelled, double height_m, const LayeredMapOptions& options)
     : options_(options),
       reach_(static_cast<int>(std::ceil(options.max_sensor_distance_m / options.cell_m))),
       side_(2 * (static_cast<int>(std::ceil(options.max_range_m / options.cell_m)) + reach_ + 2)),
       window_(2 * reach_ + 1),
       stride_((window_ + kLane - 1) / kLane * kLane),
       cells_(index(index(options.layers, side_, 0), side_, 0) + index(1, stride_, 0)) {
-  const int middle = side_ / 2;
-  for (const Eigen::Vector3f& p : levelled) {
-    const Eigen::Vector3d point = p.cast<double>();
-    const double layer = layer_of(point, options);
-    const double row = std::floor(point.y() / options.cell_m) + middle;
-    const double column = std::floor(point.x() / options.cell_m) + middle;
-    if (!(layer >= 0.0 && layer < options.layers)) continue;
-    if (!(row >= 0.0 && row < side_ && column >= 0.0 && column < side_)) continue;
-    spread(static_cast<int>(layer), static_cast<int>(row), static_cast<int>(column), kFull);
+  for (const Eigen::Vector3f& point : levelled) {
+    if (const auto cell = cell_of(point.cast<double>())) spread(*cell);
+  }
+  const auto cost = static_cast<std::int8_t>(-std::lround(kFull * options.free_space));
+  if (cost == 0) return;
+  for (const Eigen::Vector3f& point : levelled) {
+    clear_to(point.cast<double>(), {0.0, 0.0, height_m}, cost);
   }
 }
 
-void LayeredMap::spread(int layer, int row, int column, std::uint8_t value) {
+std::optional<std::array<int, 3>> LayeredMap::cell_of(const Eigen::Vector3d& point) const {
+  const double layer = layer_of(point, options_);
+  const double row = std::floor(point.y() / options_.cell_m) + side_ / 2;
+  const double column = std::floor(point.x() / options_.cell_m) + side_ / 2;
+  if (!(layer >= 0.0 && layer < options_.layers)) return std::nullopt;
+  if (!(row >= 0.0 && row < side_ && column >= 0.0 && column < side_)) return std::nullopt;
+  return std::array<int, 3>{static_cast<int>(layer), static_cast<int>(row),
+                            static_cast<int>(column)};
+}
+
+void LayeredMap::spread(const std::array<int, 3>& centre) {
+  const auto& [layer, row, column] = centre;
   for (int l = std::max(0, layer - 1); l <= std::min(options_.layers - 1, layer + 1); ++l) {
     for (int r = std::max(0, row - 1); r <= std::min(side_ - 1, row + 1); ++r) {
       for (int c = std::max(0, column - 1); c <= std::min(side_ - 1, column + 1); ++c) {
         const int away = std::abs(l - layer) + std::abs(r - row) + std::abs(c - column);
-        const auto spread_value = static_cast<std::uint8_t>(std::max(0, value - away));
-        std::uint8_t& cell = cells_[index(index(l, side_, r), side_, c)];
-        cell = std::max(cell, spread_value);
+        std::int8_t& cell = cells_[index(index(l, side_, r), side_, c)];
+        cell = std::max(cell, static_cast<std::int8_t>(kFull - away));
       }
     }
+  }
+}
+
+void LayeredMap::clear_to(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor,
+                          std::int8_t value) {
+  const Eigen::Vector3d ray = point - sensor;
+  const double range_m = ray.norm();
+  const double step_m = 0.5 * options_.cell_m;
+  for (double at_m = step_m; at_m < range_m - options_.cell_m; at_m += step_m) {
+    const auto cell = cell_of(sensor + at_m / range_m * ray);
+    if (!cell) continue;
+    std::int8_t& here = cells_[index(index((*cell)[0], side_, (*cell)[1]), side_, (*cell)[2])];
+    if (here <= 0) here = value;
   }
 }
 
@@ -133,9 +157,9 @@ void LayeredMap::spread(int layer, int row, int column, std::uint8_t value) {
 void LayeredMap::add_window(Sums& sums, int layer, int row, int column) const {
   for (int shift = 0; shift < window_; ++shift) {
     const std::size_t line = index(layer, side_, row - reach_ + shift);
-    const std::uint8_t* const from = &cells_[index(line, side_, column - reach_)];
-    std::uint16_t* const to = &sums[index(shift, stride_, 0)];
-    for (int i = 0; i < stride_; ++i) to[i] = static_cast<std::uint16_t>(to[i] + from[i]);
+    const std::int8_t* const from = &cells_[index(line, side_, column - reach_)];
+    std::int16_t* const to = &sums[index(shift, stride_, 0)];
+    for (int i = 0; i < stride_; ++i) to[i] = static_cast<std::int16_t>(to[i] + from[i]);
   }
 }
 
@@ -144,8 +168,8 @@ std::vector<std::pair<int, int>> LayeredMap::local_maxima(const Sums& sums) cons
   std::vector<std::pair<int, int>> maxima;
   for (int row = 0; row < window_; ++row) {
     for (int column = 0; column < window_; ++column) {
-      const std::uint16_t sum = at(row, column);
-      if (sum == 0) continue;
+      const std::int16_t sum = at(row, column);
+      if (sum <= 0) continue;
       if (row > 0 && at(row - 1, column) > sum) continue;
       if (row + 1 < window_ && at(row + 1, column) > sum) continue;
       if (column > 0 && at(row, column - 1) > sum) continue;

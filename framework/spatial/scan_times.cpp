@@ -16,14 +16,14 @@ constexpr double kShortestScan_s = 5e-3;
 constexpr double kLongestScan_s = 1.0;
 
 /// A sample of points for checking times, in the order of the cloud.
-struct Sample {
+struct TimedDirections {
   std::vector<double> times_s;
   std::vector<Eigen::Vector3d> directions;  ///< Unit vectors from the sensor.
 };
 
-Sample sample_of(const PointCloud& cloud, const std::vector<double>& times) {
+TimedDirections directions_of(const PointCloud& cloud, const std::vector<double>& times) {
   constexpr std::size_t kMaxPoints = 20000;
-  Sample sample;
+  TimedDirections sample;
   const std::size_t count = std::min(cloud.size(), kMaxPoints);
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t i = evenly_spaced_index(n, cloud.size(), count);
@@ -39,7 +39,7 @@ Sample sample_of(const PointCloud& cloud, const std::vector<double>& times) {
 /// The share, 0 to 1, of the variance of the directions that is explained by the times: points
 /// measured at similar times lie in similar directions. About 1/20 or less if times and directions
 /// are unrelated.
-double explained_share(const Sample& sample) {
+double explained_share(const TimedDirections& sample) {
   constexpr std::size_t kMaxBins = 200, kMinPointsPerBin = 20;
   const std::size_t size = sample.times_s.size();
   const std::size_t bins = std::min(kMaxBins, size / kMinPointsPerBin);
@@ -99,7 +99,7 @@ std::string why_unusable(const PointCloud& cloud) {
   }
   constexpr std::size_t kMinPoints = 200;
   constexpr double kMinExplained = 0.25;
-  const Sample sample = sample_of(cloud, times);
+  const TimedDirections sample = directions_of(cloud, times);
   if (sample.times_s.size() < kMinPoints) return "the cloud has too few points to check its times";
   if (explained_share(sample) < kMinExplained) {
     return "the times are unrelated to the directions of the points";

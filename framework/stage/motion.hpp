@@ -14,4 +14,9 @@ inline constexpr Extra<Twist> kMotion{
 inline constexpr Extra<Matrix6d> kMotionCovariance{"motion_covariance",
                                                    "the covariance of that velocity"};
 
+/// Provided with the value true if another velocity explains the clouds nearly as well, so that the
+/// pose is rejected.
+inline constexpr Extra<bool> kMotionInDoubt{
+    "motion_in_doubt", "whether another velocity explains the clouds nearly as well"};
+
 }  // namespace croon

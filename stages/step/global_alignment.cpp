@@ -89,7 +89,8 @@ class GlobalAlignment final : public Step {
     std::vector<Hypothesis> others;
     for (std::size_t k = 0; k < target.size(); ++k) {
       const auto view = cloud.once<LayeredMap>("layered_map", map_key(k), [&] {
-        return std::make_shared<const LayeredMap>(target[k].points, params_);
+        return std::make_shared<const LayeredMap>(target[k].points,
+                                                  target[k].T_level_cloud.translation.z(), params_);
       });
       const RigidTransform T_target_level = target[k].T_level_cloud.inverse();
       for (const Levelled& above : source) {

@@ -3,10 +3,12 @@
 #include <utility>
 
 #include "framework/base/error.hpp"
+#include "framework/base/text.hpp"
 #include "framework/geometry/pose_mean.hpp"
 #include "framework/params/choice.hpp"
 #include "framework/pipeline/shared_view.hpp"
 #include "framework/registration/joint_rivals.hpp"
+#include "framework/registration/pose_evidence.hpp"
 #include "framework/registration/scene_motion.hpp"
 #include "framework/spatial/deskew.hpp"
 #include "framework/stage/motion.hpp"
@@ -26,6 +28,7 @@ struct Params : JointOptions, MotionOptions {
   std::vector<double> coarse_distances_m = {2.0, 1.0, 0.5};
   bool motion = true;
   bool needs_times = true;
+  double max_free_share = 0.3;
 };
 
 const params::Table<Params>& table() {
@@ -47,6 +50,10 @@ const params::Table<Params>& table() {
           params::boolean("needs_times", &Params::needs_times,
                           "Whether motion needs the channel time in all clouds. Otherwise the rig "
                           "is taken to be at rest in scenes with a cloud that lacks it."),
+          params::number("max_free_share", &Params::max_free_share, {0.0, 1e6},
+                         "Maximum ratio of the points in free space to those that agree at the "
+                         "initial pose. With one pose per scene, a sensor beyond it is rejected, "
+                         "so that it does not mislead the velocity."),
       }
           .inherit(joint_table())
           .inherit(motion_table())
@@ -63,6 +70,7 @@ struct Group {
   std::vector<RigGroup> estimates;
   std::vector<std::string> sensors;
   JointState state;
+  RigGroup excluded;  ///< Their initial poses are wrong.
 };
 
 bool has_times(const Cloud& cloud) { return find_channel(cloud.with_channels(), kTime) != nullptr; }
@@ -84,7 +92,7 @@ class JointRegistrationStep final : public RigStep {
       flow.add(params.needs_times ? params::needs_channels({kTime})
                                   : params::may_read_channels({kTime}));
     }
-    flow.add(gives(kMotion, kMotionCovariance));
+    flow.add(gives(kMotion, kMotionCovariance, kMotionInDoubt));
     return flow;
   }
 
@@ -117,10 +125,11 @@ class JointRegistrationStep final : public RigStep {
             leads_of(group.scenes[s], coarse[s], result.state, motion, state_without_patch_kernel);
       }
       write_result(group, s, result, motion);
+      for (RigEstimate* const member : group.excluded) {
+        store_motion(member->estimate.extras, group.scenes[s].is_moving, motion);
+      }
     }
   }
-
-  static constexpr int kFewer = 4;
 
   /// The lead of `state`, by source, over the states to which other speeds converge.
   std::vector<std::optional<double>> leads_of(
@@ -137,6 +146,7 @@ class JointRegistrationStep final : public RigStep {
     near.max_distances_m = params_.coarse_distances_m;
     if (near.max_distances_m.size() > 1) near.max_distances_m.erase(near.max_distances_m.begin());
     // Few points show to which state a speed leads; all of them then decide.
+    constexpr int kFewer = 4;
     near.points = std::max(kMinJointCorrespondences, params_.points / kFewer);
     return leads_over_rivals(scene, coarse, state, starts, params_, near);
   }
@@ -150,7 +160,26 @@ class JointRegistrationStep final : public RigStep {
     return register_jointly(group.scenes, near, options);
   }
 
-  /// Groups the usable estimates and marks the others as failed.
+  /// Rejects `member` if its initial pose contradicts the free space of its clouds, and returns
+  /// whether it does.
+  bool is_rejected(RigEstimate& member) const {
+    Estimate& estimate = member.estimate;
+    const PoseEvidence evidence =
+        pose_evidence(*shared_view(*estimate.target, params_.thinning),
+                      *shared_view(*estimate.source, params_.thinning), estimate.T_target_source);
+    const double free = evidence.violation_ratio(), agreeing = evidence.overlap_ratio();
+    if (free <= params_.max_free_share * agreeing) return false;
+    estimate.diagnostics.clear();
+    estimate.rejection = with_reason(estimate.rejection,
+                                     "at the initial pose, the share of points in free space is " +
+                                         fixed_number(free, 3) + ", above " +
+                                         fixed_number(params_.max_free_share, 2) + " of the " +
+                                         fixed_number(agreeing, 3) + " that agree");
+    return true;
+  }
+
+  /// Groups the usable estimates, excludes those whose poses are wrong, and marks the others as
+  /// failed.
   Group group_of(const RigGroup& estimates) const {
     Group group;
     std::vector<std::string> scene_names;
@@ -158,6 +187,10 @@ class JointRegistrationStep final : public RigStep {
     for (RigEstimate* const member : estimates) {
       try {
         JointScene scene = scene_of(*member);
+        if (scene.is_moving && params_.poses == Poses::per_scene && is_rejected(*member)) {
+          group.excluded.push_back(member);
+          continue;
+        }
         const std::size_t s = index_of(scene_names, member->scene);
         if (s == group.scenes.size()) {
           group.scenes.push_back(scene);
@@ -242,7 +275,10 @@ class JointRegistrationStep final : public RigStep {
       // With common poses, the other scenes determine the velocity of a scene.
       const std::string rejection =
           params_.poses == Poses::common ? "" : motion.rejection(j, params_);
-      if (!rejection.empty()) estimate.rejection = with_reason(estimate.rejection, rejection);
+      if (!rejection.empty()) {
+        estimate.rejection = with_reason(estimate.rejection, rejection);
+        estimate.extras.put(kMotionInDoubt, true);
+      }
       store_motion(estimate.extras, scene.is_moving, motion);
       estimate.diagnostics = diagnostics_of(result, estimate.extras, motion, j, offset_s);
       if (!motion.is_moving && offset_s == 0.0) continue;

@@ -39,12 +39,13 @@ params::Table<Params> graph_rows() {
   return {
       params::slots<Step>(
           "pair", &Params::pair,
-          R"([{"step": "global_alignment"}, )"
+          R"([{"step": "global_alignment", "free_space": 2, "hypotheses": 32}, )"
           R"({"step": "registration", "icp": {"type": "nicp", "max_distances_m": [0.5, 0.3]}}, )"
           R"({"step": "registration", "icp": {"type": "gicp", )"
           R"("normal_neighbours": 10, "direction_balance": 0.5, "max_distances_m": [0.3], )"
           R"("kernel_width_m": 0.05}}, )"
-          R"({"step": "verdict", "max_split_rotation_deg": 1.0}, {"step": "covariance"}])",
+          R"({"step": "verdict", "max_split_rotation_deg": 1.0, "split_overlap": true}, )"
+          R"({"step": "covariance"}])",
           "The steps that calibrate one sensor to another; their last ones must judge the pose and "
           "estimate its covariance."),
       params::slot("thinning", &Params::thinning,
@@ -75,26 +76,32 @@ class SceneGraph {
       : params_(params), key_(key) {
     for (RigEstimate* const member : members) {
       (is_accepted(*member) ? connected_ : pending_).push_back(member);
+      if (member->estimate.extras.find(kMotionInDoubt) != nullptr) may_have_moved_ = true;
     }
   }
 
-  /// Connects sensors by way of others until none is left or none can be connected.
+  /// Connects sensors by way of others until none is left or none can be connected. Nothing, if the
+  /// rig may have moved: sensors that scan the same surfaces at different times agree on wrong
+  /// poses.
   void grow() {
-    std::vector<RigEstimate*> front = connected_;
+    if (may_have_moved_) return;
+    std::vector<const RigEstimate*> front(connected_.begin(), connected_.end());
+    front.push_back(kReference);
     while (!front.empty() && !pending_.empty()) {
       const std::vector<Edge> edges = edges_between(front, pending_);
-      front.clear();
+      std::vector<RigEstimate*> added;
       for (RigEstimate* const sensor : pending_) {
         std::vector<const Edge*> to_sensor;
         for (const Edge& edge : edges) {
           if (edge.to == sensor && edge.is_accepted()) to_sensor.push_back(&edge);
         }
-        if (!to_sensor.empty() && connect(*sensor, to_sensor)) front.push_back(sensor);
+        if (!to_sensor.empty() && connect(*sensor, to_sensor)) added.push_back(sensor);
       }
-      for (RigEstimate* const sensor : front) {
+      for (RigEstimate* const sensor : added) {
         pending_.erase(std::find(pending_.begin(), pending_.end(), sensor));
         connected_.push_back(sensor);
       }
+      front.assign(added.begin(), added.end());
     }
   }
 
@@ -133,9 +140,11 @@ class SceneGraph {
   }
 
  private:
-  /// The pose of a sensor relative to a connected one, by the steps `pair`.
+  static constexpr const RigEstimate* kReference = nullptr;
+
+  /// The pose of a sensor relative to a connected one, or to the reference, by the steps `pair`.
   struct Edge {
-    const RigEstimate* from = nullptr;
+    const RigEstimate* from = kReference;
     const RigEstimate* to = nullptr;
     PipelineResult result = {};
 
@@ -144,12 +153,15 @@ class SceneGraph {
     }
     /// The pose of `to` in the frame of the reference.
     RigidTransform T_reference_to() const {
-      return from->estimate.T_target_source * result.estimate.T_target_source;
+      const RigidTransform& T = result.estimate.T_target_source;
+      return from == kReference ? T : from->estimate.T_target_source * T;
     }
     PoseCovariance covariance() const {
+      if (from == kReference) return *result.estimate.covariance;
       return composed_covariance(from->estimate.T_target_source, *from->estimate.covariance,
                                  result.estimate.T_target_source, *result.estimate.covariance);
     }
+    const std::string& from_name() const { return from == kReference ? to->target : from->source; }
   };
 
   static bool is_accepted(const RigEstimate& member) {
@@ -162,12 +174,13 @@ class SceneGraph {
     return velocity == nullptr || vector_of(*velocity).isZero(0.0);
   }
 
-  std::vector<Edge> edges_between(const std::vector<RigEstimate*>& from,
+  std::vector<Edge> edges_between(const std::vector<const RigEstimate*>& from,
                                   const std::vector<RigEstimate*>& to) const {
     std::vector<Edge> edges;
     for (const RigEstimate* const a : from) {
+      if (a != kReference && !is_at_rest(a->estimate)) continue;
       for (const RigEstimate* const b : to) {
-        if (is_at_rest(a->estimate) && is_at_rest(b->estimate)) edges.push_back({a, b});
+        if (is_at_rest(b->estimate)) edges.push_back({a, b});
       }
     }
     for_each_in_parallel(edges.size(), [&](std::size_t i) { calibrate(edges[i]); });
@@ -175,11 +188,15 @@ class SceneGraph {
   }
 
   void calibrate(Edge& edge) const {
-    const Estimate& from = edge.from->estimate;
     const Estimate& to = edge.to->estimate;
-    edge.result =
-        at_start(from.source, to.source, from.T_target_source.inverse() * to.initial_guess);
-    const StreamKey key = key_.with(edge.from->source).with(edge.to->source);
+    if (edge.from == kReference) {
+      edge.result = at_start(to.target, to.source, to.initial_guess);
+    } else {
+      const Estimate& from = edge.from->estimate;
+      edge.result =
+          at_start(from.source, to.source, from.T_target_source.inverse() * to.initial_guess);
+    }
+    const StreamKey key = key_.with(edge.from_name()).with(edge.to->source);
     for (std::size_t i = 0; i < params_.pair.size(); ++i) {
       advance(edge.result, {params_.pair[i].name() + std::to_string(i), params_.pair[i]}, key);
     }
@@ -215,7 +232,7 @@ class SceneGraph {
   /// Adds the contradiction of two edges to the failure or the rejection of `sensor`.
   static void refuse(RigEstimate& sensor, const Edge& a, const Edge& b) {
     const PoseError apart = pose_error(a.T_reference_to(), b.T_reference_to());
-    const std::string reason = "the poses by way of " + a.from->source + " and " + b.from->source +
+    const std::string reason = "the poses by way of " + a.from_name() + " and " + b.from_name() +
                                " differ by " + fixed_number(deg_from_rad(apart.rotation_rad), 3) +
                                " degrees and " + fixed_number(apart.translation_m, 3) + " m";
     if (sensor.failure.empty()) {
@@ -250,6 +267,7 @@ class SceneGraph {
   const Params& params_;
   StreamKey key_;
   std::vector<RigEstimate*> connected_, pending_;
+  bool may_have_moved_ = false;
 };
 
 class SensorGraph final : public RigStep {
@@ -290,7 +308,7 @@ StageEntry sensor_graph() {
       "sensor_graph",
       "Processes the whole rig: connects sensors that could not be calibrated to the reference by "
       "way of other sensors, and rejects those that contradict others.",
-      "croon", table());
+      "croon", table(), 2);
 }
 
 }  // namespace croon::stages::step

@@ -29,6 +29,7 @@ struct Params {
   double max_split_translation_m = 0.1;
   double split_offset_m = 0.2;
   int split_directions = 2;
+  bool split_overlap = false;
 };
 
 const params::Table<Params>& table() {
@@ -71,6 +72,10 @@ const params::Table<Params>& table() {
       params::integer("split_directions", &Params::split_directions, {1, 6},
                       "Number of such directions, the least constrained first.")
           .formerly("slides"),
+      params::boolean("split_overlap", &Params::split_overlap,
+                      "Whether the halves are of the points near surfaces of the other cloud, "
+                      "instead of the whole cloud. If little overlaps, few of the points of the "
+                      "whole cloud determine the pose."),
   };
   return table;
 }
@@ -159,14 +164,26 @@ class Verdict final : public Step {
                 fixed_number(params_.min_constraint_ratio, 4) + ")");
   }
 
-  /// The points of the sample whose index modulo `halves` is `half`.
-  static std::shared_ptr<const Cloud> part(const SensorView& view, std::size_t half,
-                                           std::size_t halves) {
+  /// The points of the sample whose index modulo `parts` is `part`.
+  static std::shared_ptr<const Cloud> part_of(const Cloud& cloud, const std::vector<int>& sample,
+                                              std::size_t part, std::size_t parts) {
     Points points;
-    for (std::size_t i = half; i < view.sample.size(); i += halves) {
-      points.push_back(view.thinned->points()[view.sample[i]]);
+    for (std::size_t i = part; i < sample.size(); i += parts) {
+      points.push_back(cloud.points()[sample[i]]);
     }
-    return view.thinned->derived_in_trial(std::move(points), "half");
+    return cloud.derived_in_trial(std::move(points), "half");
+  }
+
+  /// The points of `source` near surfaces of `target`.
+  static std::shared_ptr<const Cloud> overlap_of(const SensorView& target, const SensorView& source,
+                                                 const RigidTransform& T) {
+    constexpr float kNear_m = 1.0F;
+    const KdTree& tree = target.thinned->kd_tree();
+    Points near;
+    for (const Eigen::Vector3f& point : source.thinned->points()) {
+      if (tree.nearest((T * point.cast<double>()).cast<float>(), kNear_m)) near.push_back(point);
+    }
+    return source.thinned->derived_in_trial(std::move(near), "overlap");
   }
 
   /// Registers two halves of the points, started on either side of the pose along its least
@@ -175,8 +192,13 @@ class Verdict final : public Step {
                    const std::vector<ConstraintDirection>& held) const {
     constexpr double kNever = 1e3;
     Halves worst;
-    const auto first = part(source, 0, 2);
-    const auto second = part(source, 1, 2);
+    const auto cloud = params_.split_overlap ? overlap_of(target, source, T) : source.thinned;
+    const std::vector<int> sample = params_.split_overlap
+                                        ? balanced_sample(*cloud, source.normal_neighbours,
+                                                          static_cast<int>(source.sample.size()))
+                                        : source.sample;
+    const auto first = part_of(*cloud, sample, 0, 2);
+    const auto second = part_of(*cloud, sample, 1, 2);
     for (int i = 0; i < params_.split_directions && i < static_cast<int>(held.size()); ++i) {
       const Vector6d slide = params_.split_offset_m * held[static_cast<std::size_t>(i)].motion;
       try {
@@ -207,7 +229,7 @@ class Verdict final : public Step {
     // Bounds for rivals; the right pose may be the one that overlaps less.
     constexpr double kMaxViolationRatio = 0.1;
     constexpr double kMaxScoreGap = 0.2;
-    const auto points = part(source, 0, 3);
+    const auto points = part_of(*source.thinned, source.sample, 0, 3);
     std::optional<Rival> best;
     for (const RigidTransform& start :
          rival_poses(target, source, estimate.T_target_source, proposed, params_.max_shift_m)) {

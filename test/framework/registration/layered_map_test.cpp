@@ -22,7 +22,7 @@ TEST(LayeredMap, FindsYawAndShiftOverTheWholeCircle) {
   Rng rng = test::test_rng();
   const LayeredMapOptions options;
   for (std::uint64_t i = 0; i < 8; ++i) {
-    const LayeredMap view(levelled_street(rng, i, 20000), options);
+    const LayeredMap view(levelled_street(rng, i, 20000), 2.0, options);
     const double yaw_rad = rng.uniform(-kPi, kPi);
     const RigidTransform T = {rotation_exp({0.0, 0.0, yaw_rad}),
                               {rng.uniform(-8.0, 8.0), rng.uniform(-8.0, 8.0), 0.0}};
@@ -40,7 +40,7 @@ TEST(LayeredMap, FindsYawAndShiftOverTheWholeCircle) {
 TEST(LayeredMap, PeaksAreApartAndBestFirst) {
   Rng rng = test::test_rng(2);
   const LayeredMapOptions options;
-  const LayeredMap view(levelled_street(rng, 3, 20000), options);
+  const LayeredMap view(levelled_street(rng, 3, 20000), 2.0, options);
   const std::vector<MapPeak> peaks = view.match(levelled_street(rng, 3, 12000), 10);
   ASSERT_EQ(peaks.size(), 10U);
   for (std::size_t i = 0; i < peaks.size(); ++i) {
@@ -61,12 +61,45 @@ TEST(LayeredMap, PeaksAreApartAndBestFirst) {
   }
 }
 
+/// The points of a straight wall, 3 m high.
+void add_wall(Points& points, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  const int columns = static_cast<int>((to - from).norm() / 0.25);
+  for (int i = 0; i <= columns; ++i) {
+    const Eigen::Vector2d at = from + (to - from) * i / columns;
+    for (int k = 0; k < 12; ++k) {
+      points.emplace_back(static_cast<float>(at.x()), static_cast<float>(at.y()),
+                          0.25F * static_cast<float>(k));
+    }
+  }
+}
+
+TEST(LayeredMap, FreeSpaceCountsAgainstWhatIsInFrontOfASurfaceOnly) {
+  Rng rng = test::test_rng(4);
+  for (int i = 0; i < 8; ++i) {
+    const double ahead_m = rng.uniform(10.0, 14.0);
+    Points wall;
+    add_wall(wall, {ahead_m, -8.0}, {ahead_m, 8.0});
+    LayeredMapOptions options;
+    options.max_sensor_distance_m = 0.5;
+    const auto best_score = [&](double object_m, double free_space) {
+      Points seen = wall;
+      add_wall(seen, {object_m, -2.0}, {object_m, 2.0});
+      options.free_space = free_space;
+      return LayeredMap(wall, 1.5, options).match(seen, 1).at(0).score;
+    };
+    const double in_front_m = rng.uniform(4.0, ahead_m - 4.0);
+    EXPECT_LT(best_score(in_front_m, 2.0), best_score(in_front_m, 0.0) - 0.1) << i;
+    const double behind_m = ahead_m + rng.uniform(2.0, 6.0);
+    EXPECT_DOUBLE_EQ(best_score(behind_m, 2.0), best_score(behind_m, 0.0)) << i;
+  }
+}
+
 TEST(LayeredMap, HasNoPeakWhereNothingStandsOnTheGround) {
   Points plain;
   for (int i = 0; i < 1000; ++i) plain.emplace_back(0.1F * static_cast<float>(i % 30), 0.0F, 0.0F);
   Rng rng = test::test_rng(3);
-  EXPECT_TRUE(LayeredMap(levelled_street(rng, 3, 5000), {}).match(plain, 3).empty());
-  EXPECT_TRUE(LayeredMap(plain, {}).match(levelled_street(rng, 3, 5000), 3).empty());
+  EXPECT_TRUE(LayeredMap(levelled_street(rng, 3, 5000), 2.0, {}).match(plain, 3).empty());
+  EXPECT_TRUE(LayeredMap(plain, 2.0, {}).match(levelled_street(rng, 3, 5000), 3).empty());
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace croon {
 namespace {
 
 /// A street seen by the reference "top", by "side", whose pose is known, and by "rear", whose pose
-/// was rejected.
+/// was rejected because "top" sees nothing of what it sees.
 struct StreetRig {
   RigidTransform T_top_side, T_top_rear;
   std::vector<RigEstimate> estimates;
@@ -22,25 +22,32 @@ struct StreetRig {
 
 PoseCovariance small_covariance() { return {1e-6 * Matrix6d::Identity(), {}}; }
 
+std::shared_ptr<const Cloud> named_cloud(const Points& points, const char* name) {
+  return std::make_shared<const Cloud>(points, StreamKey(3).with(name));
+}
+
+/// A cloud that no other one overlaps.
+std::shared_ptr<const Cloud> too_few_points() {
+  return named_cloud(Points(3, {1.0F, 0.0F, 0.0F}), "too few");
+}
+
 StreetRig street_rig() {
   Rng rng = test::test_rng();
   StreetRig rig;
   rig.T_top_side = {rotation_from_rpy(Eigen::Vector3d(0.02, -0.03, 0.9)), {0.5, 0.8, -0.3}};
   rig.T_top_rear = {rotation_from_rpy(Eigen::Vector3d(0.01, 0.04, 2.8)), {-1.5, 0.2, -0.4}};
   constexpr int kPoints = 12000;
-  const auto cloud = [](const Points& points, const char* name) {
-    return std::make_shared<const Cloud>(points, StreamKey(3).with(name));
-  };
   const test::StreetPair side = test::street_pair(rng, 4, rig.T_top_side, kPoints, kPoints, 0.01);
   const test::StreetPair rear = test::street_pair(rng, 4, rig.T_top_rear, kPoints, kPoints, 0.01);
-  const auto top = cloud(side.target, "top");
+  const auto top = named_cloud(side.target, "top");
   for (const auto& [name, pair] : {std::pair("side", side), std::pair("rear", rear)}) {
     rig.estimates.push_back({"0", "top", name, {}});
     rig.estimates.back().estimate.target = top;
-    rig.estimates.back().estimate.source = cloud(pair.source, name);
+    rig.estimates.back().estimate.source = named_cloud(pair.source, name);
   }
   rig.side().estimate.T_target_source = rig.T_top_side;
   rig.side().estimate.covariance = small_covariance();
+  rig.rear().estimate.target = too_few_points();
   rig.rear().estimate.T_target_source.translation = {40.0, 0.0, 0.0};
   rig.rear().estimate.covariance = small_covariance();
   rig.rear().estimate.rejection = "verdict: too little overlap";
@@ -68,6 +75,14 @@ TEST(SensorGraph, ConnectsARejectedSensorByWayOfAnother) {
   connect(rig.estimates);
   expect_connected(rig);
   EXPECT_EQ(rig.side().estimate.T_target_source, rig.T_top_side);
+}
+
+TEST(SensorGraph, ConnectsARejectedSensorToTheReference) {
+  StreetRig rig = street_rig();
+  rig.rear().estimate.target = rig.side().estimate.target;
+  rig.side().estimate.rejection = "verdict: too little overlap";
+  connect(rig.estimates);
+  expect_connected(rig);
 }
 
 TEST(SensorGraph, ConnectsASensorWhoseStepsFailed) {
@@ -106,6 +121,7 @@ TEST(SensorGraph, RejectsSensorsThatContradictEachOther) {
   connect(rig.estimates);
   EXPECT_FALSE(rig.side().estimate.rejection);
   EXPECT_FALSE(rig.rear().estimate.rejection);
+  rig.rear().estimate.target = too_few_points();
   rig.rear().estimate.T_target_source.translation += Eigen::Vector3d(0.0, 3.0, 0.0);
   connect(rig.estimates);
   ASSERT_TRUE(rig.rear().estimate.rejection);

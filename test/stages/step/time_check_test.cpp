@@ -30,7 +30,9 @@ std::shared_ptr<const Cloud> scan(double begin_s, bool is_reversed = false) {
 }
 
 std::shared_ptr<const Cloud> without_times(const std::shared_ptr<const Cloud>& cloud) {
-  return std::make_shared<const Cloud>(PointCloud{cloud->points(), {}}, StreamKey(1));
+  PointCloud untimed;
+  untimed.points = cloud->points();
+  return std::make_shared<const Cloud>(std::move(untimed), StreamKey(1));
 }
 
 Estimate checked(std::shared_ptr<const Cloud> target, std::shared_ptr<const Cloud> source,

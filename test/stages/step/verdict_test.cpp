@@ -38,6 +38,29 @@ TEST(Verdict, AcceptsTheTruth) {
   }
 }
 
+TEST(Verdict, HalvesOfTheOverlapAgreeBetterIfLittleOfTheCloudOverlaps) {
+  Rng rng = test::test_rng(12);
+  const auto split_overlap = test::stage<Step>(R"({"step": "verdict", "split_overlap": true})");
+  const auto distance_m = [&](const params::Slot<Step>& step, const Estimate& estimate) {
+    for (const auto& [name, value] : step->advance(estimate, rng).diagnostics) {
+      if (name == "halves_translation_m") return value;
+    }
+    return -1.0;
+  };
+  for (std::uint64_t i = 0; i < 5; ++i) {
+    Estimate estimate = street_estimate(rng, i);
+    Points source = estimate.source->points();
+    // A block of another scene, out of sight of the target.
+    for (const Eigen::Vector3f& point : test::random_cloud(rng, 60000, 20.0)) {
+      source.push_back(point + Eigen::Vector3f(0.0F, 0.0F, 200.0F));
+    }
+    estimate.source = std::make_shared<const Cloud>(source, StreamKey(1).with("source"));
+    const double of_overlap_m = distance_m(split_overlap, estimate);
+    EXPECT_GE(of_overlap_m, 0.0);
+    EXPECT_LT(of_overlap_m, distance_m(verdict(), estimate)) << "street " << i;
+  }
+}
+
 TEST(Verdict, LeavesThePoseAsItIs) {
   Rng rng = test::test_rng(2);
   const Estimate before = street_estimate(rng, 3);
