@@ -38,7 +38,7 @@ Composition composition_in_text(const std::string& text, const std::string& name
 
 /// The composition `pipeline`, a recommended name or a file. Throws InputError for an unknown name,
 /// with the nearest one, and for an invalid file.
-Composition composition_called(const std::string& pipeline, const PoseBounds& nominal,
+Composition composition_called(const std::string& pipeline, const CompositionOptions& options,
                                const Catalogue& catalogue);
 
 }  // namespace croon

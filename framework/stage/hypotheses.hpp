@@ -31,4 +31,8 @@ struct SearchRegion {
 inline constexpr Extra<SearchRegion> kSearchRegion{
     "search_region", "the region around the initial guess to which a search was restricted"};
 
+/// Present only with the value true, if another pose explains the clouds about as well.
+inline constexpr Extra<bool> kAmbiguous{"ambiguous",
+                                        "whether another pose explains the clouds about as well"};
+
 }  // namespace croon

@@ -75,14 +75,19 @@ class SceneGraph {
   SceneGraph(const Params& params, const RigGroup& members, const StreamKey& key)
       : params_(params), key_(key) {
     for (RigEstimate* const member : members) {
-      (is_accepted(*member) ? connected_ : pending_).push_back(member);
+      if (is_accepted(*member)) {
+        connected_.push_back(member);
+      } else if (member->estimate.extras.find(kAmbiguous) == nullptr) {
+        pending_.push_back(member);
+      }
       if (member->estimate.extras.find(kMotionInDoubt) != nullptr) may_have_moved_ = true;
     }
   }
 
-  /// Connects sensors by way of others until none is left or none can be connected. Nothing, if the
-  /// rig may have moved: sensors that scan the same surfaces at different times agree on wrong
-  /// poses.
+  /// Connects sensors by way of others until none is left or none can be connected; but nothing if
+  /// the rig may have moved, because sensors that scan the same surfaces at different times agree
+  /// on wrong poses. A sensor with two poses that fit about as well stays rejected: in periodic
+  /// surroundings, another sensor sees the same period.
   void grow() {
     if (may_have_moved_) return;
     std::vector<const RigEstimate*> front(connected_.begin(), connected_.end());

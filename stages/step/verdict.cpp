@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "framework/base/angles.hpp"
@@ -125,6 +126,7 @@ class Verdict final : public Step {
     reasons.need_at_most("the distance between two halves of the points, m,", halves.translation_m,
                          params_.max_split_translation_m);
     if (reasons.words) estimate.rejection = reasons.words;
+    if (rival && std::abs(rival->lead) < params_.min_lead) estimate.extras.put(kAmbiguous, true);
     estimate.diagnostics = {{"overlap_ratio", evidence.overlap_ratio()},
                             {"violation_ratio", evidence.violation_ratio()},
                             {"score", evidence.score()},
