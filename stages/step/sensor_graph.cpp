@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -111,7 +112,8 @@ class SceneGraph {
   }
 
   /// Rejects sensors that contradict others: points of one lie in the free space of the other. The
-  /// sensor with the most contradictions first; of two that contradict only each other, both.
+  /// sensor with the most contradictions first, with those that were connected by way of it; of two
+  /// that contradict only each other, both.
   void reject_contradictions() {
     const std::size_t n = connected_.size();
     std::vector<std::vector<double>> violations(n, std::vector<double>(n, 0.0));
@@ -141,10 +143,27 @@ class SceneGraph {
         reject(*connected_[i], *connected_[other],
                violations[std::min(i, other)][std::max(i, other)]);
       }
+      reject_dependents(is_out);
     }
   }
 
  private:
+  /// Rejects sensors that were calibrated by way of one that `is_out`. Connected sensors are after
+  /// those by way of which they were connected.
+  void reject_dependents(std::vector<bool>& is_out) {
+    for (std::size_t i = 0; i < connected_.size(); ++i) {
+      const auto way = way_of_.find(connected_[i]);
+      if (is_out[i] || way == way_of_.end() || way->second == kReference) continue;
+      const auto from = std::find(connected_.begin(), connected_.end(), way->second);
+      if (!is_out[static_cast<std::size_t>(from - connected_.begin())]) continue;
+      is_out[i] = true;
+      Estimate& estimate = connected_[i]->estimate;
+      estimate.rejection =
+          with_reason(estimate.rejection,
+                      "it was calibrated by way of " + way->second->source + ", which is rejected");
+    }
+  }
+
   static constexpr const RigEstimate* kReference = nullptr;
 
   /// The pose of a sensor relative to a connected one, or to the reference, by the steps `pair`.
@@ -212,7 +231,7 @@ class SceneGraph {
 
   /// Sets the pose of `sensor` from the most certain of the `edges` to it. Returns false, and
   /// rejects the sensor, if their poses differ.
-  bool connect(RigEstimate& sensor, const std::vector<const Edge*>& edges) const {
+  bool connect(RigEstimate& sensor, const std::vector<const Edge*>& edges) {
     const PoseBounds bounds = {rad_from_deg(params_.max_rotation_deg), params_.max_translation_m};
     const Edge* best = edges.front();
     for (const Edge* const edge : edges) {
@@ -231,6 +250,7 @@ class SceneGraph {
     estimate.extras.put(kHypotheses, std::vector<Hypothesis>());
     estimate.diagnostics = {{"edges", static_cast<double>(edges.size())}};
     sensor.failure.clear();
+    way_of_[&sensor] = best->from;
     return true;
   }
 
@@ -273,6 +293,8 @@ class SceneGraph {
   StreamKey key_;
   std::vector<RigEstimate*> connected_, pending_;
   bool may_have_moved_ = false;
+  /// By connected sensor: the one, or the reference, by way of which it was connected.
+  std::map<const RigEstimate*, const RigEstimate*> way_of_;
 };
 
 class SensorGraph final : public RigStep {
