@@ -56,7 +56,7 @@ constexpr Mistake kMistakes[] = {
     {"{}/top.pcd {}/left.pcd --refrence top", "did you mean \"--reference\"?"},
     {"{}/top.pcd {}/left.pcd --reference tpo", "did you mean \"top\"?"},
     {"{}/top.pcd {}/left.pcd --reference \"\"", "expected a sensor, found \"\""},
-    {"{}/top.pcd {}/left.pcd --pipeline drivng", "did you mean \"driving\"?"},
+    {"{}/top.pcd {}/left.pcd --pipeline bst", "did you mean \"best\"?"},
     {"{}/top.pcd {}/left.pcd --pipeline {}/none.json", "none.json"},
     {"{}/top.pcd {}/left.pcd --pipeline {}/text.pcd", "text.pcd"},
     {"{}/top.pcd {}/left.pcd --pipeline {}/typo_pipeline.json", "did you mean \"verdict\"?"},
