@@ -11,6 +11,7 @@
 #include "framework/registration/rival_poses.hpp"
 #include "framework/stage/hypotheses.hpp"
 #include "framework/stage/icp.hpp"
+#include "framework/stage/motion.hpp"
 #include "framework/stage/reasons.hpp"
 #include "framework/stage/stage_entry.hpp"
 #include "framework/stage/step.hpp"
@@ -23,6 +24,7 @@ struct Params {
   params::Slot<Icp> icp;
   double min_overlap_ratio = 0.15;
   double max_violation_ratio = 0.05;
+  double max_violation_ratio_at_rest = 0.05;
   double min_lead = 6.0;
   double max_shift_m = 10.0;
   double min_constraint_ratio = 0.01;
@@ -48,6 +50,10 @@ const params::Table<Params>& table() {
                      "Minimum share of agreeing points among those that both sensors should see."),
       params::number("max_violation_ratio", &Params::max_violation_ratio, {0.0, 1.0},
                      "Maximum share of these points that lie in free space of the other sensor."),
+      params::number("max_violation_ratio_at_rest", &Params::max_violation_ratio_at_rest,
+                     {0.0, 1.0},
+                     "The same if the rig is at rest, where less of what it sees moves between the "
+                     "scans."),
       params::number(
           "min_lead", &Params::min_lead, {-1e3, 1e3},
           "Minimum lead of the pose over each of its rivals, in standard deviations, from "
@@ -113,8 +119,9 @@ class Verdict final : public Step {
     Reasons reasons;
     reasons.need_at_least("the overlap with agreeing surfaces", evidence.overlap_ratio(),
                           params_.min_overlap_ratio);
-    reasons.need_at_most("the share of points in free space", evidence.violation_ratio(),
-                         params_.max_violation_ratio);
+    reasons.need_at_most(
+        "the share of points in free space", evidence.violation_ratio(),
+        is_moving(estimate) ? params_.max_violation_ratio : params_.max_violation_ratio_at_rest);
     if (rival) {
       reasons.need_at_least(
           "the lead over a pose " + difference_in_words(rival->T, T) + ", in standard deviations,",
@@ -153,6 +160,11 @@ class Verdict final : public Step {
       add(what + " is " + fixed_number(value, 3) + ", above " + fixed_number(bound, 3));
     }
   };
+
+  static bool is_moving(const Estimate& estimate) {
+    const Twist* const velocity = estimate.extras.find(kMotion);
+    return velocity != nullptr && !vector_of(*velocity).isZero(0.0);
+  }
 
   void add_loose(const std::vector<ConstraintDirection>& held, Reasons& reasons) const {
     if (held.empty()) return reasons.add("no surfaces touch, so nothing is constrained");
@@ -281,7 +293,7 @@ StageEntry verdict() {
       "directions, and agreement between two halves of the points.",
       "croon; directions after Gelfand et al., 3DIM 2003; the lead "
       "after McNemar, Psychometrika 1947",
-      table(), 3);
+      table(), 4);
 }
 
 }  // namespace croon::stages::step
