@@ -153,7 +153,7 @@ TEST(CalibrateRig, NamesWhatTookNoPart) {
 
 TEST(CalibrateRig, RefusesWhatCannotBeCalibrated) {
   std::vector<Scene> scenes = street_scenes(kLeft, 1);
-  EXPECT_NE(input_error([&] { calibrated(scenes, 1, "drivng"); }).find("did you mean \"driving\"?"),
+  EXPECT_NE(input_error([&] { calibrated(scenes, 1, "bst"); }).find("did you mean \"best\"?"),
             std::string::npos);
   scenes.front().sensors = {damaged_scan("left")};
   EXPECT_NE(input_error([&] { calibrated(scenes); }).find("line 3: expected a number"),
