@@ -160,7 +160,7 @@ TEST(JointRegistration, ACloudThatDefeatsItFailsAlone) {
   EXPECT_EQ(rig.estimates[3].failure.rfind("a point at (1e+30, ", 0), 0U);
 }
 
-TEST(JointRegistration, ACloudThatDefeatsItFailsAlone) {
+TEST(JointRegistration, ACloudThatCannotBeThinnedFailsAlone) {
   DrivingRig rig = rig_of(simulation::real_noise(), moving_scenes(2));
   // No step refuses a point at 60 km, but leaves of 0.1 mm do not reach it.
   move_first_point(rig.estimates.front().estimate, 6e4F);
