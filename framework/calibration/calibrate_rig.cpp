@@ -240,17 +240,25 @@ std::optional<RigidTransform> rival_of(const MemberResult& result) {
   return std::nullopt;
 }
 
-/// The scene that reports show, with its clouds after the last step.
+/// The scene that reports show and the fit check uses, with its clouds after the last step: that
+/// with the most accepted poses, because motion may be removed wrongly from the clouds of others;
+/// of several, that with the most sensors.
 ShownScene shown_scene(const RigInput& input, const std::vector<MemberResult>& results) {
   ShownScene shown;
+  std::pair<std::size_t, std::size_t> most;
   for (std::size_t begin = 0; begin < input.members.size();) {
     ShownScene scene{input.members[begin].scene, results[begin].estimate.target, {}};
+    std::size_t accepted = 0;
     for (; begin < input.members.size() && input.members[begin].scene == scene.scene; ++begin) {
       const MemberResult& result = results[begin];
+      accepted += result.is_accepted() ? 1 : 0;
       scene.sensors.push_back(
           {input.members[begin].sensor, result.estimate.source, result.path, rival_of(result)});
     }
-    if (scene.sensors.size() > shown.sensors.size()) shown = std::move(scene);
+    const std::pair<std::size_t, std::size_t> count = {accepted, scene.sensors.size()};
+    if (count <= most) continue;
+    most = count;
+    shown = std::move(scene);
   }
   return shown;
 }
