@@ -5,7 +5,7 @@ CLANG_FORMAT ?= $(shell command -v clang-format-14 || echo clang-format)
 RUN_CLANG_TIDY ?= $(shell command -v run-clang-tidy-14 || echo run-clang-tidy)
 SOURCES = git ls-files --cached --others --exclude-standard -- '*.cpp' '*.hpp'
 
-.PHONY: help packages sanitizer_packages program demo demo_time test benchmark docs site package package-test format lint fuzz sanitize threads clean
+.PHONY: help packages sanitizer_packages release demo demo_time test benchmark docs site package package-test format lint fuzz sanitize threads clean
 
 help:
 	@echo 'make demo       the paper on twelve simulated scenes, and the calibration of a simulated car, with reports'
@@ -25,19 +25,17 @@ help:
 packages:
 	@.ci/install_packages
 
-# The build whose program `demo` and `docs` run.
-PRESET ?= release
-program: packages
-	$(call PRESET_BUILD,$(PRESET))
+release: packages
+	$(call PRESET_BUILD,release)
 
-demo: demo_time program
-	build/$(PRESET)/bin/croon run experiments/demo.json --out results/demo --fresh --png
+demo: demo_time release
+	build/release/bin/croon run experiments/demo.json --out results/demo --fresh --png
 	rm -rf results/demo_car
-	build/$(PRESET)/bin/croon simulate experiments/demo_car.json --out results/demo_car --quiet
-	build/$(PRESET)/bin/croon calibrate results/demo_car/000000/top.pcd results/demo_car/000000/front.pcd \
+	build/release/bin/croon simulate experiments/demo_car.json --out results/demo_car --quiet
+	build/release/bin/croon calibrate results/demo_car/000000/top.pcd results/demo_car/000000/front.pcd \
 	  results/demo_car/000000/back.pcd results/demo_car/000000/left.pcd results/demo_car/000000/right.pcd \
 	  --nominal results/demo_car/truth.json --from-scratch --out results/demo_car/calibration
-	build/$(PRESET)/bin/croon report results/demo
+	build/release/bin/croon report results/demo
 	@echo 'Open the reports in a browser: results/demo/report.html, results/demo_car/calibration/report.html'
 
 test: packages
@@ -50,8 +48,8 @@ benchmark: packages
 	set -e; for program in build/test/bin/bench_*; do "$$program"; done
 	PYTHONPATH=build/test/python /usr/bin/python3 benchmarks/python_call.py
 
-docs: program
-	.ci/generate_docs build/$(PRESET)/bin/croon docs
+docs: release
+	.ci/generate_docs build/release/bin/croon docs
 
 site:
 	.ci/install_packages mkdocs-material
