@@ -119,8 +119,9 @@ LayeredMap::LayeredMap(const Points& levelled, double height_m, const LayeredMap
 
 std::optional<std::array<int, 3>> LayeredMap::cell_of(const Eigen::Vector3d& point) const {
   const double layer = layer_of(point, options_);
-  const double row = std::floor(point.y() / options_.cell_m) + side_ / 2;
-  const double column = std::floor(point.x() / options_.cell_m) + side_ / 2;
+  const int middle = side_ / 2;
+  const double row = std::floor(point.y() / options_.cell_m) + middle;
+  const double column = std::floor(point.x() / options_.cell_m) + middle;
   if (!(layer >= 0.0 && layer < options_.layers)) return std::nullopt;
   if (!(row >= 0.0 && row < side_ && column >= 0.0 && column < side_)) return std::nullopt;
   return std::array<int, 3>{static_cast<int>(layer), static_cast<int>(row),
