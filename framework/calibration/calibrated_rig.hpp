@@ -106,7 +106,8 @@ struct CalibratedRig {
   std::vector<CalibratedSensor> sensors;  ///< In the order of the recording.
   /// Name of the pipeline that was used: "best", a file name.
   std::string composition;
-  std::string composition_reason;     ///< How it treats motion; empty if it does not by itself.
+  std::string
+      composition_reason;  ///< How it treats motion; empty if that does not depend on the times.
   std::vector<std::string> warnings;  ///< One sentence each.
   std::vector<Fault> notes;           ///< Former names of keys in the pipeline, each once.
   std::vector<std::string> unused;    ///< Scenes and clouds that were not used, with the reasons.

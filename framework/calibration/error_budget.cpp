@@ -51,8 +51,12 @@ class Budgets {
     }
     for (CalibratedSensor& sensor : rig_.sensors) {
       if (sensor.error_budget) sensor.covariance->matrix += *sensor.error_budget;
+      const Scenes used = used_scenes(sensor);
       for (SceneEstimate& scene : sensor.scenes) {
-        if (scene.covariance) scene.error_budget = budget_in({scene.scene}, sensor);
+        const Scenes alone = {scene.scene};
+        if (scene.covariance) {
+          scene.error_budget = alone == used ? sensor.error_budget : budget_in(alone, sensor);
+        }
         if (scene.error_budget) scene.covariance->matrix += *scene.error_budget;
       }
     }

@@ -159,8 +159,7 @@ std::string rig_extrinsics_json(const CalibratedRig& rig) {
        "in the reference's frame; it includes error_budget"},
       {"error_budget",
        "the part of the covariance that systematic errors of LiDARs cause, assumed to have "
-       "standard "
-       "deviations of " +
+       "standard deviations of " +
            fixed_number(deg_from_rad(kRealBeamErrors.azimuth_rad), 1) + " deg and " +
            fixed_number(1e3 * kRealBeamErrors.range_m, 0) +
            " mm; the statistical rest is computed from the scatter of the data"},

@@ -14,6 +14,12 @@ inline constexpr Extra<Twist> kMotion{
 inline constexpr Extra<Matrix6d> kMotionCovariance{"motion_covariance",
                                                    "the covariance of that velocity"};
 
+/// Whether no motion was removed from the clouds: none was looked for, or the rig was at rest.
+inline bool is_at_rest(const Extras& extras) {
+  const Twist* const velocity = extras.find(kMotion);
+  return velocity == nullptr || vector_of(*velocity).isZero(0.0);
+}
+
 /// Provided with the value true if another velocity explains the clouds nearly as well, so that the
 /// pose is rejected.
 inline constexpr Extra<bool> kMotionInDoubt{

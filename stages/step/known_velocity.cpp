@@ -139,8 +139,7 @@ class KnownVelocityStep final : public GivenMotionStep {
   /// Moves the points of both clouds to where they were half-way through the target's scan. The
   /// sensor's velocity follows from its pose, which should therefore be nearly correct.
   void correct(const std::string& scene, Estimate& estimate) const {
-    const Twist* const removed = estimate.extras.find(kMotion);
-    if (removed != nullptr && !vector_of(*removed).isZero(0.0)) {
+    if (!is_at_rest(estimate.extras)) {
       throw StageError("an earlier step has already corrected the clouds for a velocity");
     }
     if (estimate.target->empty() || estimate.source->empty()) {

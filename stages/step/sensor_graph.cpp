@@ -192,19 +192,15 @@ class SceneGraph {
     return member.failure.empty() && !member.estimate.rejection && member.estimate.covariance;
   }
 
-  /// A moving sensor whose pose was wrong was deskewed wrongly, and cannot be compared.
-  static bool is_at_rest(const Estimate& estimate) {
-    const Twist* const velocity = estimate.extras.find(kMotion);
-    return velocity == nullptr || vector_of(*velocity).isZero(0.0);
-  }
-
+  /// Edges between sensors at rest: a moving sensor whose pose was wrong was deskewed wrongly, and
+  /// cannot be compared.
   std::vector<Edge> edges_between(const std::vector<const RigEstimate*>& from,
                                   const std::vector<RigEstimate*>& to) const {
     std::vector<Edge> edges;
     for (const RigEstimate* const a : from) {
-      if (a != kReference && !is_at_rest(a->estimate)) continue;
+      if (a != kReference && !is_at_rest(a->estimate.extras)) continue;
       for (const RigEstimate* const b : to) {
-        if (is_at_rest(b->estimate)) edges.push_back({a, b});
+        if (is_at_rest(b->estimate.extras)) edges.push_back({a, b});
       }
     }
     for_each_in_parallel(edges.size(), [&](std::size_t i) { calibrate(edges[i]); });

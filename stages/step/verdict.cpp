@@ -119,9 +119,9 @@ class Verdict final : public Step {
     Reasons reasons;
     reasons.need_at_least("the overlap with agreeing surfaces", evidence.overlap_ratio(),
                           params_.min_overlap_ratio);
-    reasons.need_at_most(
-        "the share of points in free space", evidence.violation_ratio(),
-        is_moving(estimate) ? params_.max_violation_ratio : params_.max_violation_ratio_at_rest);
+    reasons.need_at_most("the share of points in free space", evidence.violation_ratio(),
+                         is_at_rest(estimate.extras) ? params_.max_violation_ratio_at_rest
+                                                     : params_.max_violation_ratio);
     if (rival) {
       reasons.need_at_least(
           "the lead over a pose " + difference_in_words(rival->T, T) + ", in standard deviations,",
@@ -160,11 +160,6 @@ class Verdict final : public Step {
       add(what + " is " + fixed_number(value, 3) + ", above " + fixed_number(bound, 3));
     }
   };
-
-  static bool is_moving(const Estimate& estimate) {
-    const Twist* const velocity = estimate.extras.find(kMotion);
-    return velocity != nullptr && !vector_of(*velocity).isZero(0.0);
-  }
 
   void add_loose(const std::vector<ConstraintDirection>& held, Reasons& reasons) const {
     if (held.empty()) return reasons.add("no surfaces touch, so nothing is constrained");
