@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <tuple>
 
@@ -106,14 +107,14 @@ LayeredMap::LayeredMap(const Points& levelled, double height_m, const LayeredMap
       side_(2 * (static_cast<int>(std::ceil(options.max_range_m / options.cell_m)) + reach_ + 2)),
       window_(2 * reach_ + 1),
       stride_((window_ + kLane - 1) / kLane * kLane),
+      free_value_(-static_cast<int>(std::lround(kFull * options.free_space))),
       cells_(index(index(options.layers, side_, 0), side_, 0) + index(1, stride_, 0)) {
   for (const Eigen::Vector3f& point : levelled) {
     if (const auto cell = cell_of(point.cast<double>())) spread(*cell);
   }
-  const auto cost = static_cast<std::int8_t>(-std::lround(kFull * options.free_space));
-  if (cost == 0) return;
+  if (free_value_ == 0) return;
   for (const Eigen::Vector3f& point : levelled) {
-    clear_to(point.cast<double>(), {0.0, 0.0, height_m}, cost);
+    clear_to(point.cast<double>(), {0.0, 0.0, height_m});
   }
 }
 
@@ -141,8 +142,7 @@ void LayeredMap::spread(const std::array<int, 3>& centre) {
   }
 }
 
-void LayeredMap::clear_to(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor,
-                          std::int8_t value) {
+void LayeredMap::clear_to(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor) {
   const Eigen::Vector3d ray = point - sensor;
   const double range_m = ray.norm();
   const double step_m = 0.5 * options_.cell_m;
@@ -150,18 +150,46 @@ void LayeredMap::clear_to(const Eigen::Vector3d& point, const Eigen::Vector3d& s
     const auto cell = cell_of(sensor + at_m / range_m * ray);
     if (!cell) continue;
     std::int8_t& here = cells_[index(index((*cell)[0], side_, (*cell)[1]), side_, (*cell)[2])];
-    if (here <= 0) here = value;
+    if (here <= 0) here = static_cast<std::int8_t>(free_value_);
   }
 }
 
 /// Adds the cells around (row, column), one per shift.
-void LayeredMap::add_window(Sums& sums, int layer, int row, int column) const {
+void LayeredMap::add_window(FewSums& sums, int layer, int row, int column) const {
   for (int shift = 0; shift < window_; ++shift) {
     const std::size_t line = index(layer, side_, row - reach_ + shift);
     const std::int8_t* const from = &cells_[index(line, side_, column - reach_)];
-    std::int16_t* const to = &sums[index(shift, stride_, 0)];
-    for (int i = 0; i < stride_; ++i) to[i] = static_cast<std::int16_t>(to[i] + from[i]);
+    // Bytes may alias anything, which would keep the compiler from using vectors.
+    std::int8_t* const __restrict to = &sums[index(shift, stride_, 0)];
+    const int count = stride_;
+    for (int i = 0; i < count; ++i) to[i] = static_cast<std::int8_t>(to[i] + from[i]);
   }
+}
+
+/// The sums at each shift of the cells around the points `centres`, turned by `yaw_rad`.
+LayeredMap::Sums LayeredMap::sums_at(const std::vector<Eigen::Vector3d>& centres,
+                                     double yaw_rad) const {
+  const double cosine = std::cos(yaw_rad);
+  const double sine = std::sin(yaw_rad);
+  Sums sums(index(window_, stride_, 0));
+  // Eight bits hold the sums of a few cells, and twice as many of them fit into a register.
+  const int few = std::numeric_limits<std::int8_t>::max() / std::max(kFull, -free_value_);
+  FewSums of_few(sums.size());
+  for (std::size_t begin = 0; begin < centres.size(); begin += static_cast<std::size_t>(few)) {
+    const std::size_t end = std::min(centres.size(), begin + static_cast<std::size_t>(few));
+    std::fill(of_few.begin(), of_few.end(), std::int8_t{0});
+    for (std::size_t i = begin; i < end; ++i) {
+      const Eigen::Vector3d& p = centres[i];
+      const double x = (cosine * p.x() - sine * p.y()) / options_.cell_m;
+      const double y = (sine * p.x() + cosine * p.y()) / options_.cell_m;
+      add_window(of_few, static_cast<int>(p.z()), static_cast<int>(std::floor(y)) + side_ / 2,
+                 static_cast<int>(std::floor(x)) + side_ / 2);
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      sums[i] = static_cast<std::int16_t>(sums[i] + of_few[i]);
+    }
+  }
+  return sums;
 }
 
 std::vector<std::pair<int, int>> LayeredMap::local_maxima(const Sums& sums) const {
@@ -189,15 +217,7 @@ std::vector<MapPeak> LayeredMap::match(const Points& levelled_source, int count)
   const int yaws = std::max(1, static_cast<int>(std::lround(360.0 / options_.yaw_step_deg)));
   for (int k = 0; k < yaws; ++k) {
     const double yaw_rad = 2.0 * kPi * k / yaws;
-    const double cosine = std::cos(yaw_rad);
-    const double sine = std::sin(yaw_rad);
-    Sums sums(index(window_, stride_, 0));
-    for (const Eigen::Vector3d& p : centres) {
-      const double x = (cosine * p.x() - sine * p.y()) / options_.cell_m;
-      const double y = (sine * p.x() + cosine * p.y()) / options_.cell_m;
-      add_window(sums, static_cast<int>(p.z()), static_cast<int>(std::floor(y)) + side_ / 2,
-                 static_cast<int>(std::floor(x)) + side_ / 2);
-    }
+    const Sums sums = sums_at(centres, yaw_rad);
     std::vector<MapPeak> of_yaw;
     for (const auto& [row, column] : local_maxima(sums)) {
       of_yaw.push_back(

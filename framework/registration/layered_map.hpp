@@ -49,20 +49,23 @@ class LayeredMap {
 
  private:
   using Sums = std::vector<std::int16_t>;
+  using FewSums = std::vector<std::int8_t>;
   /// The index of the cell of a point; std::nullopt outside the map.
   std::optional<std::array<int, 3>> cell_of(const Eigen::Vector3d& point) const;
   void spread(const std::array<int, 3>& cell);
   /// Marks the cells between the sensor and a point, as far as they are not occupied.
-  void clear_to(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor, std::int8_t value);
+  void clear_to(const Eigen::Vector3d& point, const Eigen::Vector3d& sensor);
   /// The shifts (row, column) whose sums are not below those of their four neighbours.
   std::vector<std::pair<int, int>> local_maxima(const Sums& sums) const;
-  void add_window(Sums& sums, int layer, int row, int column) const;
+  void add_window(FewSums& sums, int layer, int row, int column) const;
+  Sums sums_at(const std::vector<Eigen::Vector3d>& centres, double yaw_rad) const;
 
   LayeredMapOptions options_;
-  int reach_;   ///< Cells.
-  int side_;    ///< Cells along x and y; the origin is in the middle.
-  int window_;  ///< Shifts along one axis, 2 reach + 1.
-  int stride_;  ///< The window, rounded up to whole vectors.
+  int reach_;       ///< Cells.
+  int side_;        ///< Cells along x and y; the origin is in the middle.
+  int window_;      ///< Shifts along one axis, 2 reach + 1.
+  int stride_;      ///< The window, rounded up to whole vectors.
+  int free_value_;  ///< Of a cell in free space; at most 0.
   std::vector<std::int8_t> cells_;
 };
 
